@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The kinds of failure that come from outside the program. Our own mistakes are asserts; what may
-// well happen is a return value. Every message is one or two plain sentences: what, where, what to do.
+// well happen is a return value. Every message is one or two plain sentences: what, where, what to
+// do.
 #pragma once
 
 #include <stdexcept>

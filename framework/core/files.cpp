@@ -63,8 +63,8 @@ void writeFileWhole(const fs::path& path, const std::function<void(const fs::pat
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
     fs::create_directories(folder, error);
     if (error) {
-        throw IoError(fmt::format("The folder {} cannot be made: {}.", folder.string(),
-                                  error.message()));
+        throw IoError(
+            fmt::format("The folder {} cannot be made: {}.", folder.string(), error.message()));
     }
     const fs::path temporary = folder / fmt::format(".{}.{}.part{}", path.stem().string(),
                                                     ::getpid(), path.extension().string());

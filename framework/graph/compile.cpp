@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: MIT
+// From declared passes to steps: bypass what is disabled, cull what nothing asks for, and share
+// memory between resources whose lifetimes do not overlap.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+
+#include "framework/core/error.h"
+#include "framework/core/names.h"
+#include "framework/graph/graph.h"
+
+namespace kaustik::graph {
+namespace {
+constexpr std::size_t kNoSlot = std::numeric_limits<std::size_t>::max();
+}  // namespace
+
+struct Graph::Plan {
+    std::vector<std::string> problems;
+    std::vector<bool> bypassed;  // by pass
+    std::vector<bool> needed;    // by pass
+    // (resource, version) → resource that holds it once bypasses are followed.
+    std::vector<std::vector<std::uint32_t>> home;
+};
+
+std::size_t Compiled::slotOf(const ResourceRef& handle) const {
+    if (!handle.valid() || handle.index >= home_.size()) return kNoSlot;
+    return slotOfResource[home_[handle.index][handle.version]];
+}
+
+// A disabled pass needs a bypass for every output; forwarded outputs then live in their input.
+void Graph::planBypasses(Plan& plan) const {
+    plan.home.resize(resources_.size());
+    for (std::size_t r = 0; r < resources_.size(); ++r) {
+        plan.home[r].assign(resources_[r].writers.size(), static_cast<std::uint32_t>(r));
+    }
+    const std::vector<std::string> names = passNames();
+    for (const std::string& name : disabled_) {
+        if (std::find(names.begin(), names.end(), name) == names.end()) {
+            plan.problems.push_back(
+                fmt::format("there is no pass '{}' to disable{}", name, didYouMean(name, names)));
+        }
+    }
+    for (std::size_t p = 0; p < passes_.size(); ++p) {
+        const Pass& pass = passes_[p];
+        if (pass.isLeftOut || !disabled_.contains(pass.info.name)) {
+            // A pass that runs must not write into memory that stands in for two resources.
+            for (const ResourceRef& output : pass.outputs) {
+                if (output.version == 0) continue;
+                const std::uint32_t home = plan.home[output.index][output.version - 1];
+                plan.home[output.index][output.version] = home;
+                if (home != output.index) {
+                    plan.problems.push_back(fmt::format(
+                        "pass '{}' writes '{}', which stands for '{}' while a pass is disabled",
+                        pass.info.name, resources_[output.index].name, resources_[home].name));
+                }
+            }
+            continue;
+        }
+        plan.bypassed[p] = true;
+        for (const ResourceRef& output : pass.outputs) {
+            const auto bypass = std::find_if(pass.bypasses.begin(), pass.bypasses.end(),
+                                             [&](const Bypass& b) { return b.output == output; });
+            if (bypass == pass.bypasses.end()) {
+                plan.problems.push_back(
+                    fmt::format("pass '{}' cannot be disabled: nothing stands in for its output "
+                                "'{}'",
+                                pass.info.name, resources_[output.index].name));
+            } else if (bypass->input.valid()) {
+                plan.home[output.index][output.version] =
+                    plan.home[bypass->input.index][bypass->input.version];
+            }
+        }
+    }
+}
+
+// Walks back from what is asked for; insertion order is a topological order.
+void Graph::planRequired(Plan& plan) const {
+    const auto need = [&](const ResourceRef& handle) {
+        plan.needed[resources_[handle.index].writers[handle.version]] = true;
+    };
+    for (const ResourceRef& handle : requested_)
+        need(handle);
+    for (std::size_t p = passes_.size(); p-- > 0;) {
+        const Pass& pass = passes_[p];
+        if (pass.hasSideEffect && !plan.bypassed[p]) plan.needed[p] = true;
+        if (!plan.needed[p]) continue;
+        if (plan.bypassed[p]) {
+            for (const Bypass& bypass : pass.bypasses) {
+                if (bypass.input.valid()) need(bypass.input);
+            }
+        } else {
+            for (const ResourceRef& handle : pass.reads)
+                need(handle);
+        }
+    }
+}
+
+Graph::Plan Graph::plan() const {
+    Plan plan;
+    plan.problems = problems_;
+    plan.bypassed.assign(passes_.size(), false);
+    plan.needed.assign(passes_.size(), false);
+    planBypasses(plan);
+    planRequired(plan);
+    return plan;
+}
+
+void Graph::fillRecords(const Plan& plan, Compiled& compiled) const {
+    std::map<std::string, std::size_t> recordOf;
+    for (std::size_t p = 0; p < passes_.size(); ++p) {
+        const Pass& pass = passes_[p];
+        const auto known = recordOf.find(pass.info.name);
+        if (known != recordOf.end()) {
+            PassRecord& record = compiled.records[known->second];
+            ++record.repeats;
+            if (record.state == PassState::culled && plan.needed[p]) {
+                record.state = PassState::ran;
+                record.why = pass.info.why;
+            }
+            continue;
+        }
+        PassRecord record{pass.info.name, PassState::ran, pass.info.why, 1};
+        if (pass.isLeftOut) {
+            record.state = PassState::leftOut;
+        } else if (plan.bypassed[p]) {
+            record.state = PassState::bypassed;
+            record.why = "disabled";
+            for (const Bypass& bypass : pass.bypasses) {
+                record.why += bypass.input.valid()
+                                  ? fmt::format("; '{}' is '{}' unchanged", nameOf(bypass.output),
+                                                nameOf(bypass.input))
+                                  : fmt::format("; '{}' is {:g} everywhere", nameOf(bypass.output),
+                                                bypass.value[0]);
+            }
+        } else if (!plan.needed[p]) {
+            record.state = PassState::culled;
+            std::vector<std::string> outputs;
+            for (const ResourceRef& output : pass.outputs)
+                outputs.push_back(nameOf(output));
+            record.why = fmt::format("nothing asks for {}", joinNames(outputs));
+        }
+        recordOf[pass.info.name] = compiled.records.size();
+        compiled.records.push_back(std::move(record));
+    }
+}
+
+void Graph::assignSlots(const Plan& plan, Compiled& compiled) const {
+    struct Life {
+        std::size_t first = kNoSlot;
+        std::size_t last = 0;
+    };
+    std::vector<Life> lives(resources_.size());
+    const auto touch = [&](const ResourceRef& handle, std::size_t step) {
+        Life& life = lives[plan.home[handle.index][handle.version]];
+        life.first = std::min(life.first, step);
+        life.last = std::max(life.last, step);
+    };
+
+    std::vector<std::size_t> passOfStep;
+    for (std::size_t p = 0; p < passes_.size(); ++p) {
+        const Pass& pass = passes_[p];
+        if (pass.isLeftOut || !plan.needed[p]) continue;
+        const std::size_t step = passOfStep.size();
+        if (!plan.bypassed[p]) {
+            for (const ResourceRef& handle : pass.reads)
+                touch(handle, step);
+            for (const ResourceRef& handle : pass.outputs)
+                touch(handle, step);
+            passOfStep.push_back(p);
+            continue;
+        }
+        bool clears = false;
+        for (const Bypass& bypass : pass.bypasses) {
+            if (bypass.input.valid()) continue;
+            touch(bypass.output, step);
+            clears = true;
+        }
+        if (clears) passOfStep.push_back(p);
+    }
+    for (const ResourceRef& handle : requested_)
+        touch(handle, passOfStep.size());
+    if (keepAll_) {
+        for (Life& life : lives) {
+            if (life.first != kNoSlot) life.last = passOfStep.size();
+        }
+    }
+
+    compiled.slotOfResource.assign(resources_.size(), kNoSlot);
+    std::vector<std::size_t> freeAfter;  // by slot: last step of its tenant
+    for (std::size_t step = 0; step < passOfStep.size(); ++step) {
+        const Pass& pass = passes_[passOfStep[step]];
+        Step compiledStep;
+        compiledStep.name = pass.info.name;
+        const bool bypassed = plan.bypassed[passOfStep[step]];
+        if (!bypassed) compiledStep.execute = pass.execute;
+
+        std::size_t alive = 0;
+        for (std::size_t r = 0; r < resources_.size(); ++r) {
+            if (lives[r].first > step || lives[r].last < step) continue;
+            alive += bytesOf(resources_[r].desc);
+            if (lives[r].first != step) continue;
+            std::size_t slot = kNoSlot;
+            for (std::size_t s = 0; s < compiled.slots.size() && slot == kNoSlot; ++s) {
+                const bool isFree = freeAfter[s] < step;
+                if (isFree && compiled.slots[s].desc == resources_[r].desc) slot = s;
+            }
+            if (slot == kNoSlot) {
+                slot = compiled.slots.size();
+                compiled.slots.push_back({resources_[r].desc, resources_[r].name});
+                freeAfter.push_back(0);
+            }
+            freeAfter[slot] = lives[r].last;
+            compiled.slotOfResource[r] = slot;
+            compiledStep.births.push_back(slot);
+        }
+        compiled.peakBytes = std::max(compiled.peakBytes, alive);
+        if (bypassed) {
+            for (const Bypass& bypass : pass.bypasses) {
+                if (bypass.input.valid()) continue;
+                compiledStep.clears.push_back(
+                    {compiled.slotOfResource[bypass.output.index], bypass.value});
+            }
+        }
+        compiled.steps.push_back(std::move(compiledStep));
+    }
+
+    for (const Slot& slot : compiled.slots) {
+        const std::size_t bytes = bytesOf(slot.desc);
+        compiled.allocatedBytes += bytes;
+        (std::holds_alternative<TextureDesc>(slot.desc) ? compiled.textureBytes
+                                                        : compiled.bufferBytes) += bytes;
+    }
+    for (std::uint32_t r = 0; r < resources_.size(); ++r) {
+        const bool aliveAtEnd = lives[r].first != kNoSlot && lives[r].last == passOfStep.size();
+        if (!aliveAtEnd) continue;
+        const auto newest = static_cast<std::uint32_t>(resources_[r].writers.size() - 1);
+        compiled.resources.push_back(
+            {resources_[r].name, {r, newest}, resources_[r].desc, compiled.slotOfResource[r]});
+    }
+}
+
+Compiled Graph::compile() const {
+    const Plan plan = this->plan();
+    if (!plan.problems.empty()) {
+        throw GraphError(
+            fmt::format("The graph cannot run:\n  {}", fmt::join(plan.problems, "\n  ")));
+    }
+    Compiled compiled;
+    compiled.home_ = plan.home;
+    fillRecords(plan, compiled);
+    assignSlots(plan, compiled);
+    return compiled;
+}
+
+std::string Graph::toDot() const {
+    const Plan plan = this->plan();
+    std::string dot = "digraph kaustik {\n  rankdir=LR;\n  node [fontname=\"sans-serif\"];\n";
+    for (std::size_t p = 0; p < passes_.size(); ++p) {
+        if (passes_[p].isLeftOut) continue;
+        const char* style = plan.bypassed[p] ? ", style=dashed"
+                            : plan.needed[p] ? ""
+                                             : ", color=gray, fontcolor=gray";
+        dot += fmt::format("  p{} [shape=box, label=\"{}\"{}];\n", p, passes_[p].info.name, style);
+    }
+    const auto describe = [](const ResourceDesc& desc) {
+        if (const auto* texture = std::get_if<TextureDesc>(&desc)) {
+            const std::string layers =
+                texture->layers > 0 ? fmt::format("x{}", texture->layers) : "";
+            return fmt::format("{}x{}{} {}", texture->width, texture->height, layers,
+                               formatName(texture->format));
+        }
+        return fmt::format("{} B", bytesOf(desc));
+    };
+    for (std::size_t r = 0; r < resources_.size(); ++r) {
+        for (std::size_t v = 0; v < resources_[r].writers.size(); ++v) {
+            dot += fmt::format("  r{}_{} [shape=ellipse, label=\"{}{}\\n{}\"];\n", r, v,
+                               resources_[r].name, v == 0 ? "" : fmt::format(" v{}", v),
+                               describe(resources_[r].desc));
+            dot += fmt::format("  p{} -> r{}_{};\n", resources_[r].writers[v], r, v);
+        }
+    }
+    for (std::size_t p = 0; p < passes_.size(); ++p) {
+        for (const ResourceRef& handle : passes_[p].reads) {
+            dot += fmt::format("  r{}_{} -> p{};\n", handle.index, handle.version, p);
+        }
+    }
+    return dot + "}\n";
+}
+
+}  // namespace kaustik::graph

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+// Declaring passes and resources; compile.cpp turns them into steps.
+#include "framework/graph/graph.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+
+namespace kaustik::graph {
+
+ResourceRef PassSetup::createResource(const std::string& name, ResourceDesc desc) {
+    for (const Graph::Resource& other : graph_.resources_) {
+        if (other.name == name) {
+            graph_.problems_.push_back(
+                fmt::format("pass '{}' creates '{}', which pass '{}' has created already",
+                            graph_.passes_[pass_].info.name, name,
+                            graph_.passes_[other.writers.front()].info.name));
+        }
+    }
+    if (bytesOf(desc) == 0) {
+        graph_.problems_.push_back(fmt::format("pass '{}' creates '{}' with no bytes",
+                                               graph_.passes_[pass_].info.name, name));
+    }
+    graph_.resources_.push_back({name, desc, {pass_}});
+    const ResourceRef handle{static_cast<std::uint32_t>(graph_.resources_.size() - 1), 0};
+    graph_.passes_[pass_].outputs.push_back(handle);
+    return handle;
+}
+
+void PassSetup::readResource(const ResourceRef& handle) {
+    if (graph_.check(handle, pass_, "reads")) graph_.passes_[pass_].reads.push_back(handle);
+}
+
+ResourceRef PassSetup::writeResource(const ResourceRef& handle) {
+    if (!graph_.check(handle, pass_, "writes")) return handle;
+    graph_.passes_[pass_].reads.push_back(handle);
+    Graph::Resource& resource = graph_.resources_[handle.index];
+    resource.writers.push_back(pass_);
+    const ResourceRef next{handle.index, handle.version + 1};
+    graph_.passes_[pass_].outputs.push_back(next);
+    return next;
+}
+
+void PassSetup::bypassForward(const ResourceRef& output, const ResourceRef& input) {
+    if (!graph_.check(input, pass_, "forwards") && input.index != output.index) return;
+    Graph::Pass& pass = graph_.passes_[pass_];
+    if (graph_.resources_[output.index].desc != graph_.resources_[input.index].desc) {
+        graph_.problems_.push_back(
+            fmt::format("pass '{}' forwards '{}' as '{}', which is of another size or format",
+                        pass.info.name, graph_.nameOf(input), graph_.nameOf(output)));
+    }
+    pass.reads.push_back(input);
+    pass.bypasses.push_back({output, input, {}});
+}
+
+void PassSetup::bypass(const ResourceRef& output, ClearValue value) {
+    graph_.passes_[pass_].bypasses.push_back({output, {}, value});
+}
+
+void PassSetup::sideEffect() {
+    graph_.passes_[pass_].hasSideEffect = true;
+}
+
+std::size_t Graph::beginPass(PassInfo info) {
+    passes_.push_back({});
+    passes_.back().info = std::move(info);
+    return passes_.size() - 1;
+}
+
+void Graph::setExecute(std::size_t pass, std::function<void(ExecuteContext&)> execute) {
+    passes_[pass].execute = std::move(execute);
+}
+
+bool Graph::check(const ResourceRef& handle, std::size_t pass, const char* verb) {
+    const std::string& passName = passes_[pass].info.name;
+    if (!handle.valid() || handle.index >= resources_.size()) {
+        problems_.push_back(
+            fmt::format("pass '{}' {} a handle that no pass has made", passName, verb));
+        return false;
+    }
+    const Resource& resource = resources_[handle.index];
+    const std::size_t newest = resource.writers.size() - 1;
+    // A pass that writes may still name, in its bypass, the version that it replaced.
+    const bool replacedByThisPass =
+        handle.version + 1 == newest && resource.writers[newest] == pass;
+    if (handle.version == newest || replacedByThisPass) return true;
+    problems_.push_back(fmt::format(
+        "pass '{}' {} version {} of '{}', which is stale: pass '{}' has written version {}",
+        passName, verb, handle.version, resource.name, passes_[resource.writers[newest]].info.name,
+        newest));
+    return false;
+}
+
+void Graph::leaveOut(std::string name, std::string why) {
+    passes_.push_back({});
+    passes_.back().info = {std::move(name), std::move(why)};
+    passes_.back().isLeftOut = true;
+}
+
+void Graph::request(const ResourceRef& handle) {
+    if (!handle.valid() || handle.index >= resources_.size()) {
+        problems_.push_back("a resource is asked for that no pass has made");
+        return;
+    }
+    requested_.push_back(handle);
+}
+
+const std::string& Graph::nameOf(const ResourceRef& handle) const {
+    assert(handle.valid() && handle.index < resources_.size());
+    return resources_[handle.index].name;
+}
+
+std::vector<std::string> Graph::resourceNames() const {
+    std::vector<std::string> names;
+    for (const Resource& resource : resources_)
+        names.push_back(resource.name);
+    return names;
+}
+
+ResourceRef Graph::find(const std::string& name) const {
+    for (std::uint32_t i = 0; i < resources_.size(); ++i) {
+        if (resources_[i].name == name) {
+            return {i, static_cast<std::uint32_t>(resources_[i].writers.size() - 1)};
+        }
+    }
+    return {};
+}
+
+std::vector<std::string> Graph::passNames() const {
+    std::vector<std::string> names;
+    for (const Pass& pass : passes_) {
+        const bool isNew = std::find(names.begin(), names.end(), pass.info.name) == names.end();
+        if (!pass.isLeftOut && isNew) names.push_back(pass.info.name);
+    }
+    return names;
+}
+
+}  // namespace kaustik::graph

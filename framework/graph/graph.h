@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+// The pass graph. A pass is a setup, which declares what it reads, writes and creates, and an
+// execute, which only issues commands. Handles are typed and versioned, so passes can be added only
+// in an order that works; compile() then culls, bypasses, assigns memory by lifetime and reports
+// every problem at once. The graph knows no OpenGL: an executor walks the compiled steps.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "framework/graph/resource.h"
+
+namespace kaustik::graph {
+
+// Base of what execute functions are handed; the executor derives its own.
+class ExecuteContext {
+  public:
+    virtual ~ExecuteContext() = default;
+};
+
+struct PassInfo {
+    std::string name;  // "stage.node", unique but for repeats (batches) of one node
+    std::string why;   // why it runs, for `explain`
+};
+
+enum class PassState { ran, bypassed, culled, leftOut };
+
+// One line of `explain` and of the report.
+struct PassRecord {
+    std::string name;
+    PassState state = PassState::ran;
+    std::string why;
+    std::size_t repeats = 1;  // passes of this name
+};
+
+class Graph;
+
+// What a setup function is handed: the declarations of one pass.
+class PassSetup {
+  public:
+    // A new transient texture or buffer, written first by this pass. `name` is the full name by
+    // which it can be saved and viewed ("layers.depth").
+    template <class Content>
+    [[nodiscard]] Texture<Content> create(const std::string& name, int width, int height,
+                                          int layers = 0) {
+        Texture<Content> handle;
+        static_cast<ResourceRef&>(handle) =
+            createResource(name, TextureDesc{width, height, Content::format, layers});
+        return handle;
+    }
+    template <class Content>
+    [[nodiscard]] Buffer<Content> createBuffer(const std::string& name, std::size_t count) {
+        Buffer<Content> handle;
+        static_cast<ResourceRef&>(handle) =
+            createResource(name, BufferDesc{count * sizeof(Content)});
+        return handle;
+    }
+    template <class Handle>
+    Handle read(const Handle& handle) {
+        readResource(handle);
+        return handle;
+    }
+    // Gives the new version. The old contents are kept: this orders the pass after their writer.
+    template <class Handle>
+    [[nodiscard]] Handle write(const Handle& handle) {
+        Handle next = handle;
+        static_cast<ResourceRef&>(next) = writeResource(handle);
+        return next;
+    }
+    // When this pass is disabled, readers of `output` get `input` instead, or `value` everywhere.
+    // A pass that leaves an output without either is required.
+    template <class Handle>
+    void bypass(const Handle& output, const Handle& input) {
+        bypassForward(output, input);
+    }
+    void bypass(const ResourceRef& output, ClearValue value);
+
+    // Keeps the pass although nobody reads its outputs.
+    void sideEffect();
+
+  private:
+    friend class Graph;
+    PassSetup(Graph& graph, std::size_t pass) : graph_(graph), pass_(pass) {}
+    ResourceRef createResource(const std::string& name, ResourceDesc desc);
+    void readResource(const ResourceRef& handle);
+    ResourceRef writeResource(const ResourceRef& handle);
+    void bypassForward(const ResourceRef& output, const ResourceRef& input);
+
+    Graph& graph_;
+    std::size_t pass_;
+};
+
+// A physical texture or buffer that resources with disjoint lifetimes share.
+struct Slot {
+    ResourceDesc desc;
+    std::string firstName;  // of the resource that lives in it first, for debug labels
+};
+
+struct Step {
+    std::string name;
+    std::function<void(ExecuteContext&)> execute;  // empty: only clears
+    struct Clear {
+        std::size_t slot;
+        ClearValue value;
+    };
+    std::vector<Clear> clears;        // neutral outputs of a bypassed pass
+    std::vector<std::size_t> births;  // slots whose contents are undefined before this step
+};
+
+struct Compiled {
+    std::vector<Step> steps;
+    std::vector<Slot> slots;
+    std::vector<PassRecord> records;  // in graph order, left-out ones where they were declared
+    std::size_t allocatedBytes = 0;   // all slots
+    std::size_t peakBytes = 0;        // most that is alive during one step
+    std::size_t textureBytes = 0;
+    std::size_t bufferBytes = 0;
+    // resource index → slot; SIZE_MAX where it is not allocated.
+    std::vector<std::size_t> slotOfResource;
+    struct Named {
+        std::string name;
+        ResourceRef handle;  // newest version
+        ResourceDesc desc;
+        std::size_t slot;
+    };
+    std::vector<Named> resources;  // everything that is alive at the end or was kept by name
+    // (resource, version) → resource whose memory holds it, through bypasses.
+    [[nodiscard]] std::size_t slotOf(const ResourceRef& handle) const;
+
+  private:
+    friend class Graph;
+    std::vector<std::vector<std::uint32_t>> home_;
+};
+
+class Graph {
+  public:
+    // Adds a pass; Data holds the handles that `execute` needs. Context is the executor's.
+    //   setup(PassSetup&, Data&)      execute(const Data&, Context&)
+    template <class Data, class Context, class Setup, class Execute>
+    const Data& addPass(PassInfo info, Setup&& setup, Execute&& execute) {
+        auto data = std::make_shared<Data>();
+        const std::size_t pass = beginPass(std::move(info));
+        PassSetup declarations(*this, pass);
+        setup(declarations, *data);
+        setExecute(pass, [data, run = std::forward<Execute>(execute)](ExecuteContext& context) {
+            run(*data, static_cast<Context&>(context));
+        });
+        return *data;
+    }
+
+    // Records a node that the scene does not need, with the reason, for `explain`.
+    void leaveOut(std::string name, std::string why);
+
+    // Asks for a resource: it and all that leads to it runs, and it lives until the end.
+    void request(const ResourceRef& handle);
+    // Keeps every resource alive until the end (to view or scan), without asking for its passes.
+    void keepAll() { keepAll_ = true; }
+
+    // The named passes do not run; their bypasses stand in.
+    void disable(const std::string& passName) { disabled_.insert(passName); }
+
+    // Throws GraphError with every problem found, one a line.
+    [[nodiscard]] Compiled compile() const;
+
+    // The name of a resource, and all names.
+    [[nodiscard]] const std::string& nameOf(const ResourceRef& handle) const;
+    [[nodiscard]] std::vector<std::string> resourceNames() const;
+    // The newest version of the named resource; invalid if there is none.
+    [[nodiscard]] ResourceRef find(const std::string& name) const;
+    [[nodiscard]] std::vector<std::string> passNames() const;
+
+    // Graphviz; culled passes are grey, bypassed ones dashed.
+    [[nodiscard]] std::string toDot() const;
+
+  private:
+    friend class PassSetup;
+
+    struct Bypass {
+        ResourceRef output;
+        ResourceRef input;  // invalid: `value`
+        ClearValue value{};
+    };
+    struct Pass {
+        PassInfo info;
+        std::vector<ResourceRef> reads;
+        std::vector<ResourceRef> outputs;  // created (version 0) or written (version + 1)
+        std::vector<Bypass> bypasses;
+        bool hasSideEffect = false;
+        bool isLeftOut = false;
+        std::function<void(ExecuteContext&)> execute;
+    };
+    struct Resource {
+        std::string name;
+        ResourceDesc desc;
+        std::vector<std::size_t> writers;  // pass of each version
+    };
+    struct Plan;
+
+    std::size_t beginPass(PassInfo info);
+    void setExecute(std::size_t pass, std::function<void(ExecuteContext&)> execute);
+    bool check(const ResourceRef& handle, std::size_t pass, const char* verb);
+    [[nodiscard]] Plan plan() const;
+    void planRequired(Plan& plan) const;
+    void planBypasses(Plan& plan) const;
+    void fillRecords(const Plan& plan, Compiled& compiled) const;
+    void assignSlots(const Plan& plan, Compiled& compiled) const;
+
+    std::vector<Pass> passes_;
+    std::vector<Resource> resources_;
+    std::vector<ResourceRef> requested_;
+    std::set<std::string> disabled_;
+    std::vector<std::string> problems_;
+    bool keepAll_ = false;
+};
+
+}  // namespace kaustik::graph

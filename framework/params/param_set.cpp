@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+#include "framework/params/param_set.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <nlohmann/json.hpp>
+
+#include "framework/core/error.h"
+#include "framework/core/names.h"
+
+namespace kaustik::params {
+namespace {
+
+std::string fullNameOf(const std::string& scope, const Field& field) {
+    return field.name.empty() ? scope : scope + "." + field.name;
+}
+
+std::vector<std::string_view> splitAtDots(std::string_view name) {
+    std::vector<std::string_view> parts;
+    for (std::size_t begin = 0; begin <= name.size();) {
+        const std::size_t dot = std::min(name.find('.', begin), name.size());
+        parts.push_back(name.substr(begin, dot - begin));
+        begin = dot + 1;
+    }
+    return parts;
+}
+
+// Whether `shortened`'s parts occur in `full`'s in order, the last one last.
+bool abbreviates(std::string_view shortened, std::string_view full) {
+    const auto wanted = splitAtDots(shortened);
+    const auto parts = splitAtDots(full);
+    if (wanted.back() != parts.back()) return false;
+    std::size_t matched = 0;
+    for (const std::string_view part : parts) {
+        if (matched < wanted.size() && part == wanted[matched]) ++matched;
+    }
+    return matched == wanted.size();
+}
+
+}  // namespace
+
+ParamSet::ParamSet(const ParamSet& other)
+    : defaults_(other.defaults_), setByUser_(other.setByUser_) {
+    for (const auto& [scope, value] : other.scopes_)
+        scopes_[scope] = value->clone();
+}
+
+ParamSet& ParamSet::operator=(const ParamSet& other) {
+    if (this != &other) *this = ParamSet(other);
+    return *this;
+}
+
+void ParamSet::add(const std::string& scope, std::unique_ptr<HeldBase> value) {
+    for (const Field& field : value->fields()) {
+        const std::string fullName = fullNameOf(scope, field);
+        [[maybe_unused]] const bool isNew = defaults_.emplace(fullName, field.text()).second;
+        assert(isNew && "a parameter is declared once");
+    }
+    // A stage's choice and its shared parameters live side by side under the same name.
+    const std::string key = value->type() == typeid(NodeChoice) ? scope + "=" : scope;
+    scopes_[key] = std::move(value);
+}
+
+void ParamSet::declareChoice(const std::string& name, std::string sentence,
+                             std::vector<std::string> options, const std::string& initial) {
+    const auto found = std::find(options.begin(), options.end(), initial);
+    assert(found != options.end() && "the initial choice is one of the options");
+    const int index = static_cast<int>(found - options.begin());
+    declare(name, NodeChoice{std::move(sentence), std::move(options), index});
+}
+
+ParamSet::HeldBase& ParamSet::held(const std::string& scope, const std::type_info& type) const {
+    const auto found = scopes_.find(scope);
+    assert(found != scopes_.end() && "the scope was declared");
+    assert(found->second->type() == type && "the scope was declared with this type");
+    static_cast<void>(type);
+    return *found->second;
+}
+
+std::string ParamSet::choice(const std::string& name) const {
+    return find(name).text();
+}
+
+Field ParamSet::find(const std::string& fullName) const {
+    for (const auto& [key, value] : scopes_) {
+        const std::string scope = key.back() == '=' ? key.substr(0, key.size() - 1) : key;
+        if (fullName.compare(0, scope.size(), scope) != 0) continue;
+        for (const Field& field : value->fields()) {
+            if (fullNameOf(scope, field) == fullName) return field;
+        }
+    }
+    throw ConfigError(fmt::format("There is no parameter '{}'.", fullName));
+}
+
+std::string ParamSet::resolve(std::string_view name, std::string_view where) const {
+    std::vector<std::string> names;
+    std::vector<std::string> matches;
+    for (const auto& [fullName, text] : defaults_) {
+        if (fullName == name) return fullName;
+        names.push_back(fullName);
+        if (abbreviates(name, fullName)) matches.push_back(fullName);
+    }
+    if (matches.size() == 1) return matches.front();
+    if (matches.empty()) {
+        throw ConfigError(
+            fmt::format("{}: there is no parameter '{}'{} ('kaustik list params' "
+                        "prints them all).",
+                        where, name, didYouMean(name, names)));
+    }
+    throw ConfigError(
+        fmt::format("{}: '{}' could be {}; write out which.", where, name, joinNames(matches)));
+}
+
+void ParamSet::set(std::string_view name, std::string_view value, std::string_view where) {
+    const std::string fullName = resolve(name, where);
+    find(fullName).set(value, fullName, where);
+    setByUser_.insert(fullName);
+}
+
+void ParamSet::setAssignment(std::string_view assignment, std::string_view where) {
+    const auto equals = assignment.find('=');
+    if (equals == std::string_view::npos || equals == 0) {
+        throw ConfigError(
+            fmt::format("{}: '{}' is not of the form name=value.", where, assignment));
+    }
+    set(assignment.substr(0, equals), assignment.substr(equals + 1), where);
+}
+
+void ParamSet::setDefault(std::string_view name, std::string_view value) {
+    const std::string fullName = resolve(name, "a technique's default");
+    const Field field = find(fullName);
+    field.set(value, fullName, "a technique's default");
+    defaults_[fullName] = field.text();
+}
+
+bool ParamSet::isSetByUser(const std::string& fullName) const {
+    return setByUser_.contains(fullName);
+}
+
+std::vector<NamedField> ParamSet::all() const {
+    std::vector<NamedField> result;
+    for (const auto& [fullName, defaultText] : defaults_) {
+        result.push_back({fullName, find(fullName), defaultText});
+    }
+    return result;
+}
+
+nlohmann::json ParamSet::json() const {
+    nlohmann::json result = nlohmann::json::object();
+    for (const NamedField& named : all())
+        result[named.fullName] = named.field.json();
+    return result;
+}
+
+}  // namespace kaustik::params

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "framework/core/error.h"
+#include "framework/core/files.h"
+#include "framework/core/names.h"
+
+namespace kaustik {
+namespace {
+namespace fs = std::filesystem;
+
+TEST(Names, SuggestsWhatWasMeantAndNothingFarFetched) {
+    const std::vector<std::string> names = {"trace.epsilon", "trace.lines.width", "emit.photons"};
+    EXPECT_EQ(nearestName("trace.epsilom", names), "trace.epsilon");
+    EXPECT_EQ(nearestName("epislon", names), "trace.epsilon");
+    EXPECT_EQ(nearestName("photon", names), "emit.photons");
+    EXPECT_EQ(nearestName("zzzzzz", names), "");
+    EXPECT_EQ(didYouMean("zzzzzz", names), "");
+    EXPECT_EQ(nearestName("x", {}), "");
+}
+
+class Files : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        folder_ =
+            fs::temp_directory_path() /
+            ("kaustik-files-" + std::to_string(::testing::UnitTest::GetInstance()->random_seed()) +
+             std::to_string(::getpid()));
+        fs::create_directories(folder_);
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+    std::size_t fileCount() const {
+        return static_cast<std::size_t>(
+            std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+    }
+    fs::path folder_;
+};
+
+TEST_F(Files, AppearWholeUnderTheirNameAndLeaveNothingElse) {
+    writeFileWhole(folder_ / "deep/er/a.txt", "hello");
+    EXPECT_EQ(readFile(folder_ / "deep/er/a.txt"), "hello");
+    EXPECT_EQ(fileCount(), 1u);
+}
+
+TEST_F(Files, AFailedWriteKeepsTheOldFileAndLeavesNoTemporary) {
+    writeFileWhole(folder_ / "a.txt", "old");
+    const auto failing = [](const fs::path& temporary) {
+        std::ofstream(temporary) << "half";
+        throw IoError("disk full");
+    };
+    EXPECT_THROW(writeFileWhole(folder_ / "a.txt", failing), IoError);
+    EXPECT_EQ(readFile(folder_ / "a.txt"), "old");
+    EXPECT_EQ(fileCount(), 1u);
+}
+
+TEST_F(Files, ErrorsNameTheFile) {
+    const auto messageOf = [](const auto& action) {
+        try {
+            action();
+        } catch (const IoError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    EXPECT_NE(messageOf([&] { static_cast<void>(readFile(folder_)); }).find("is a directory"),
+              std::string::npos);
+    EXPECT_NE(messageOf([&] { static_cast<void>(readFile(folder_ / "none")); }).find("none"),
+              std::string::npos);
+    writeFileWhole(folder_ / "file", "x");
+    EXPECT_NE(messageOf([&] { writeFileWhole(folder_ / "file/below.txt", "x"); }).find("file"),
+              std::string::npos);
+}
+
+}  // namespace
+}  // namespace kaustik

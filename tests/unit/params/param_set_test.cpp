@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+#include "framework/params/param_set.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "framework/core/error.h"
+
+namespace kaustik::params {
+namespace {
+
+enum class Kernel : int { linear, gaussian };
+
+struct TraceParams {
+    float epsilonMeters = 0.01f;
+    template <class R>
+    void reflect(R& r) {
+        r.field(epsilonMeters, "epsilon", "Largest distance that counts as a hit", "m",
+                range(1e-6f, 1.0f));
+    }
+};
+
+struct LinesParams {
+    int width = 1024;
+    bool blur = false;
+    template <class R>
+    void reflect(R& r) {
+        r.field(width, "width", "Texels in a row", "texels", range(1, 4096));
+        r.field(blur, "blur", "Whether to blur");
+    }
+};
+
+struct SpritesParams {
+    int width = 3;
+    Kernel kernel = Kernel::linear;
+    Extent grid{256, 256};
+    template <class R>
+    void reflect(R& r) {
+        r.field(width, "width", "Width of a sprite", "px", range(1, 99));
+        r.choice(kernel, "kernel", "Shape of the splat", {"linear", "gaussian"});
+        r.field(grid, "grid", "Size of the grid", "", range(1, 2048));
+    }
+};
+
+ParamSet makeSet() {
+    ParamSet set;
+    set.declareChoice("trace", "Which tracer", {"lines", "march"}, "lines");
+    set.declare<TraceParams>("trace");
+    set.declare<LinesParams>("trace.lines");
+    set.declare<SpritesParams>("reconstruct.sprites");
+    return set;
+}
+
+std::string messageOf(ParamSet& set, const std::string& assignment) {
+    try {
+        set.setAssignment(assignment, "--set");
+    } catch (const ConfigError& error) {
+        EXPECT_EQ(error.exitCode(), kExitBadRequest);
+        return error.what();
+    }
+    return "";
+}
+
+TEST(ParamSet, TakesFullNamesAndShorterOnesThatAreUnique) {
+    ParamSet set = makeSet();
+    set.setAssignment("trace.epsilon=0.5", "--set");
+    EXPECT_EQ(set.get<TraceParams>("trace").epsilonMeters, 0.5f);
+    set.setAssignment("epsilon=0.25", "--set");
+    EXPECT_EQ(set.get<TraceParams>("trace").epsilonMeters, 0.25f);
+    set.setAssignment("lines.width=7", "--set");
+    EXPECT_EQ(set.get<LinesParams>("trace.lines").width, 7);
+    set.setAssignment("trace.width=9", "--set");
+    EXPECT_EQ(set.get<LinesParams>("trace.lines").width, 9);
+    set.setAssignment("grid=64x32", "--set");
+    EXPECT_EQ(set.get<SpritesParams>("reconstruct.sprites").grid, (Extent{64, 32}));
+}
+
+TEST(ParamSet, RefusesAnAmbiguousNameAndSaysWhatItCouldBe) {
+    ParamSet set = makeSet();
+    const std::string message = messageOf(set, "width=7");
+    EXPECT_NE(message.find("reconstruct.sprites.width and trace.lines.width"), std::string::npos);
+    EXPECT_EQ(set.get<LinesParams>("trace.lines").width, 1024);
+}
+
+TEST(ParamSet, NamesTheNearestParameterWhenOneIsUnknown) {
+    ParamSet set = makeSet();
+    EXPECT_NE(messageOf(set, "trace.epsilom=1").find("did you mean 'trace.epsilon'"),
+              std::string::npos);
+    EXPECT_NE(messageOf(set, "epsilon").find("name=value"), std::string::npos);
+}
+
+TEST(ParamSet, EnforcesRangesAndTypesAndLeavesTheValueAlone) {
+    ParamSet set = makeSet();
+    for (const char* bad :
+         {"epsilon=0", "epsilon=1.5", "epsilon=nan", "epsilon=inf", "epsilon=1e99", "epsilon=0.1m",
+          "epsilon=", "lines.width=0", "lines.width=4097", "lines.width=3.5",
+          "lines.width=99999999999", "blur=maybe", "kernel=cubic", "grid=0x4", "grid=64",
+          "grid=64x", "grid=9999x64"}) {
+        EXPECT_NE(messageOf(set, bad), "") << bad;
+    }
+    EXPECT_EQ(set.json(), makeSet().json());
+    EXPECT_TRUE(set.setByUser().empty());
+}
+
+TEST(ParamSet, AcceptsBothEndsOfARange) {
+    ParamSet set = makeSet();
+    EXPECT_EQ(messageOf(set, "epsilon=1e-6"), "");
+    EXPECT_EQ(messageOf(set, "epsilon=1"), "");
+    EXPECT_EQ(messageOf(set, "lines.width=4096"), "");
+}
+
+TEST(ParamSet, AStageIsSetLikeAParameter) {
+    ParamSet set = makeSet();
+    EXPECT_EQ(set.choice("trace"), "lines");
+    set.setAssignment("trace=march", "--set");
+    EXPECT_EQ(set.choice("trace"), "march");
+    const std::string message = messageOf(set, "trace=marsh");
+    EXPECT_NE(message.find("did you mean 'march'"), std::string::npos);
+}
+
+TEST(ParamSet, WritesFullNamesAndNumbersThatReadBackAsTheSameFloat) {
+    ParamSet set = makeSet();
+    const nlohmann::json json = set.json();
+    EXPECT_EQ(json.at("trace"), "lines");
+    EXPECT_EQ(json.at("trace.epsilon").dump(), "0.01");
+    EXPECT_EQ(json.at("reconstruct.sprites.grid"), "256x256");
+    EXPECT_EQ(json.at("reconstruct.sprites.kernel"), "linear");
+    EXPECT_EQ(json.size(), 7u);
+}
+
+TEST(ParamSet, ATechniquesDefaultIsNotCountedAsTheUsers) {
+    ParamSet set = makeSet();
+    set.setDefault("trace", "march");
+    EXPECT_EQ(set.choice("trace"), "march");
+    EXPECT_FALSE(set.isSetByUser("trace"));
+    set.setAssignment("trace=lines", "--set");
+    EXPECT_TRUE(set.isSetByUser("trace"));
+}
+
+TEST(ParamSet, ACopyHasValuesOfItsOwn) {
+    ParamSet set = makeSet();
+    ParamSet copy = set;
+    copy.setAssignment("lines.width=5", "--set");
+    EXPECT_EQ(set.get<LinesParams>("trace.lines").width, 1024);
+    EXPECT_EQ(copy.get<LinesParams>("trace.lines").width, 5);
+}
+
+}  // namespace
+}  // namespace kaustik::params
