@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: MIT
+#include "framework/gl/command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <glm/gtc/type_ptr.hpp>
+
+#include "framework/gl/executor.h"
+
+namespace kaustik::gl {
+namespace {
+
+void setUniform(GLuint program, GLint location, const Command::Value& value) {
+    struct Setter {
+        GLuint program;
+        GLint at;
+        void operator()(int v) const { glProgramUniform1i(program, at, v); }
+        void operator()(unsigned v) const { glProgramUniform1ui(program, at, v); }
+        void operator()(float v) const { glProgramUniform1f(program, at, v); }
+        void operator()(const glm::vec2& v) const { glProgramUniform2f(program, at, v.x, v.y); }
+        void operator()(const glm::vec3& v) const {
+            glProgramUniform3f(program, at, v.x, v.y, v.z);
+        }
+        void operator()(const glm::vec4& v) const {
+            glProgramUniform4f(program, at, v.x, v.y, v.z, v.w);
+        }
+        void operator()(const glm::ivec2& v) const { glProgramUniform2i(program, at, v.x, v.y); }
+        void operator()(const glm::mat3& v) const {
+            glProgramUniformMatrix3fv(program, at, 1, GL_FALSE, glm::value_ptr(v));
+        }
+        void operator()(const glm::mat4& v) const {
+            glProgramUniformMatrix4fv(program, at, 1, GL_FALSE, glm::value_ptr(v));
+        }
+    };
+    std::visit(Setter{program, location}, value);
+}
+
+int groups(int count, int local) {
+    return (count + local - 1) / local;
+}
+
+std::string shaderName(std::string scopedName) {
+    std::replace(scopedName.begin(), scopedName.end(), '.', '_');
+    return scopedName;
+}
+
+}  // namespace
+
+Command::Command(PassContext& context, std::vector<std::string> files) : context_(context) {
+    key_.files = std::move(files);
+}
+
+Command& Command::texture(const std::string& name, const graph::ResourceRef& handle) {
+    textures_.push_back({name, context_.texture(handle).id()});
+    return *this;
+}
+
+Command& Command::texture(const std::string& name, const Texture& texture) {
+    textures_.push_back({name, texture.id()});
+    return *this;
+}
+
+Command& Command::image(const std::string& name, const graph::ResourceRef& handle) {
+    images_.push_back({name, &context_.texture(handle)});
+    return *this;
+}
+
+Command& Command::storage(const std::string& block, const graph::ResourceRef& handle) {
+    storage_.push_back({block, context_.buffer(handle).id()});
+    return *this;
+}
+
+Command& Command::storage(const std::string& block, const Buffer& buffer) {
+    storage_.push_back({block, buffer.id()});
+    return *this;
+}
+
+Command& Command::uniforms(const std::string& block, const Buffer& buffer) {
+    uniformBlocks_.push_back({block, buffer.id()});
+    return *this;
+}
+
+Command& Command::set(const std::string& name, Value value) {
+    uniforms_.push_back({name, value});
+    return *this;
+}
+
+Command& Command::fields(const std::string& scope, const std::vector<params::Field>& fields) {
+    for (const params::Field& field : fields) {
+        const std::string name = shaderName(scope + "." + field.name);
+        const std::string declared = [&] {
+            struct TypeName {
+                const char* operator()(const bool*) const { return "bool"; }
+                const char* operator()(const int*) const { return "int"; }
+                const char* operator()(const float*) const { return "float"; }
+                const char* operator()(const params::Extent*) const { return "ivec2"; }
+                const char* operator()(params::ChoiceRef) const { return "int"; }
+            };
+            return fmt::format("uniform {} {};\n", std::visit(TypeName{}, field.target), name);
+        }();
+        key_.declarations += declared;
+        for (std::size_t i = 0; i < field.choices.size(); ++i) {
+            key_.declarations +=
+                fmt::format("const int {}_{} = {};\n", name, shaderName(field.choices[i]), i);
+        }
+        struct ToValue {
+            Value operator()(const bool* v) const { return *v ? 1 : 0; }
+            Value operator()(const int* v) const { return *v; }
+            Value operator()(const float* v) const { return *v; }
+            Value operator()(const params::Extent* v) const {
+                return glm::ivec2(v->width, v->height);
+            }
+            Value operator()(params::ChoiceRef v) const { return *v.index; }
+        };
+        uniforms_.push_back({name, std::visit(ToValue{}, field.target)});
+    }
+    return *this;
+}
+
+Command& Command::define(const std::string& name) {
+    key_.declarations += "#define " + name + "\n";
+    return *this;
+}
+
+Command& Command::target(const graph::ResourceRef& handle, int layer) {
+    targets_.push_back({&context_.texture(handle), layer, false, {}});
+    lastIsDepth_ = false;
+    return *this;
+}
+
+Command& Command::depth(const graph::ResourceRef& handle, DepthTest test) {
+    depth_ = {&context_.texture(handle), 0, false, {}};
+    depthTest_ = test;
+    lastIsDepth_ = true;
+    return *this;
+}
+
+Command& Command::clear(graph::ClearValue value) {
+    Target& last = lastIsDepth_ ? depth_ : targets_.back();
+    last.clear = true;
+    last.value = value;
+    return *this;
+}
+
+Command& Command::blend(Blend blend) {
+    blend_ = blend;
+    return *this;
+}
+
+Command& Command::viewport(int x, int y, int width, int height) {
+    viewport_ = {x, y, width, height};
+    return *this;
+}
+
+Program& Command::bind() {
+    Program& program = context_.programs().get(key_);
+    glUseProgram(program.id());
+    for (const Uniform& uniform : uniforms_) {
+        const GLint location = program.uniform(uniform.name);
+        if (location >= 0) setUniform(program.id(), location, uniform.value);
+    }
+    for (std::size_t unit = 0; unit < textures_.size(); ++unit) {
+        const GLint location = program.uniform(textures_[unit].name);
+        glBindTextureUnit(static_cast<GLuint>(unit), textures_[unit].id);
+        if (location >= 0) {
+            glProgramUniform1i(program.id(), location, static_cast<GLint>(unit));
+        }
+    }
+    for (std::size_t unit = 0; unit < images_.size(); ++unit) {
+        const GLint location = program.uniform(images_[unit].name);
+        const Texture& texture = *images_[unit].texture;
+        glBindImageTexture(static_cast<GLuint>(unit), texture.id(), 0, GL_TRUE, 0, GL_READ_WRITE,
+                           formatInfo(texture.desc().format).internalFormat);
+        if (location >= 0) {
+            glProgramUniform1i(program.id(), location, static_cast<GLint>(unit));
+        }
+    }
+    for (std::size_t i = 0; i < storage_.size(); ++i) {
+        const auto binding = static_cast<GLuint>(i);
+        const GLuint index = program.storageBlock(storage_[i].name);
+        if (index == GL_INVALID_INDEX) continue;
+        glShaderStorageBlockBinding(program.id(), index, binding);
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, storage_[i].id);
+    }
+    for (std::size_t i = 0; i < uniformBlocks_.size(); ++i) {
+        const auto binding = static_cast<GLuint>(i);
+        const GLuint index = program.uniformBlock(uniformBlocks_[i].name);
+        if (index == GL_INVALID_INDEX) continue;
+        glUniformBlockBinding(program.id(), index, binding);
+        glBindBufferBase(GL_UNIFORM_BUFFER, binding, uniformBlocks_[i].id);
+    }
+    return program;
+}
+
+void Command::bindTargets() {
+    std::vector<Attachment> attachments;
+    for (const Target& target : targets_) {
+        attachments.push_back({target.texture, target.layer, false});
+    }
+    if (depth_.texture != nullptr) attachments.push_back({depth_.texture, 0, true});
+    assert(!attachments.empty() && "a draw needs a target");
+    const GLuint framebuffer = context_.framebuffer(attachments);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    for (std::size_t i = 0; i < targets_.size(); ++i) {
+        if (!targets_[i].clear) continue;
+        glDisable(GL_SCISSOR_TEST);
+        glClearNamedFramebufferfv(framebuffer, GL_COLOR, static_cast<GLint>(i),
+                                  targets_[i].value.data());
+    }
+    if (depth_.clear) {
+        glDepthMask(GL_TRUE);
+        glClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, depth_.value.data());
+    }
+    if (viewport_.z < 0) {
+        const graph::TextureDesc& desc = attachments.front().texture->desc();
+        viewport_ = {0, 0, desc.width, desc.height};
+    }
+    glViewport(viewport_.x, viewport_.y, viewport_.z, viewport_.w);
+}
+
+void Command::bindState() {
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_SCISSOR_TEST);
+    if (depthTest_ == DepthTest::none) {
+        glDisable(GL_DEPTH_TEST);
+    } else {
+        glEnable(GL_DEPTH_TEST);
+        glDepthMask(GL_TRUE);
+        glDepthFunc(depthTest_ == DepthTest::nearer ? GL_LESS : GL_GREATER);
+    }
+    if (blend_ == Blend::none) {
+        glDisable(GL_BLEND);
+    } else {
+        glEnable(GL_BLEND);
+        glBlendEquation(GL_FUNC_ADD);
+        glBlendFunc(GL_ONE, GL_ONE);
+    }
+}
+
+void Command::finish() {
+    if (!images_.empty() || !storage_.empty()) glMemoryBarrier(GL_ALL_BARRIER_BITS);
+}
+
+void Command::draw() {
+    key_.files.insert(key_.files.begin(), "common/fullscreen.vert");
+    drawArrays(GL_TRIANGLES, 3);
+}
+
+void Command::drawArrays(GLenum mode, int count, int instances) {
+    bind();
+    bindTargets();
+    bindState();
+    glBindVertexArray(context_.emptyVertexArray());
+    glDrawArraysInstanced(mode, 0, count, instances);
+    finish();
+}
+
+void Command::drawIndexedIndirect(GLuint vertexArray, const Buffer& commands, std::size_t first,
+                                  std::size_t count) {
+    bind();
+    bindTargets();
+    bindState();
+    if (count > 0) {
+        constexpr std::size_t kCommandBytes = 5 * sizeof(GLuint);
+        glBindVertexArray(vertexArray);
+        glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands.id());
+        glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT,
+                                    reinterpret_cast<const void*>(first * kCommandBytes),
+                                    static_cast<GLsizei>(count), 0);
+    }
+    finish();
+}
+
+void Command::dispatch(int groupsX, int groupsY, int groupsZ) {
+    bind();
+    if (groupsX > 0 && groupsY > 0 && groupsZ > 0) {
+        glDispatchCompute(static_cast<GLuint>(groupsX), static_cast<GLuint>(groupsY),
+                          static_cast<GLuint>(groupsZ));
+    }
+    glMemoryBarrier(GL_ALL_BARRIER_BITS);
+}
+
+void Command::dispatchOver(int countX, int localX, int countY, int localY) {
+    dispatch(groups(countX, localX), groups(countY, localY));
+}
+
+}  // namespace kaustik::gl

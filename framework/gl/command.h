@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+// One draw or dispatch, put together by name and issued by its last call:
+//
+//     context.fullscreen("techniques/x/halve.frag")
+//         .texture("source", data.rows)
+//         .set("sourceWidth", width)
+//         .target(data.halved)
+//         .draw();
+//
+// A command sets all the state it depends on and leaves none behind.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "framework/gl/program.h"
+#include "framework/params/field.h"
+
+namespace kaustik::gl {
+
+class PassContext;
+
+enum class Blend { none, add };
+// nearer: the smaller value wins (distances); nearerReversed: the larger one (reversed z).
+enum class DepthTest { none, nearer, nearerReversed };
+
+class Command {
+  public:
+    Command(PassContext& context, std::vector<std::string> files);
+
+    // Inputs. Texture samplers, images and blocks are named as in the shader.
+    Command& texture(const std::string& name, const graph::ResourceRef& handle);
+    Command& texture(const std::string& name, const Texture& texture);
+    Command& image(const std::string& name, const graph::ResourceRef& handle);  // read and write
+    Command& storage(const std::string& block, const graph::ResourceRef& handle);
+    Command& storage(const std::string& block, const Buffer& buffer);
+    Command& uniforms(const std::string& block, const Buffer& buffer);
+
+    using Value = std::variant<int, unsigned, float, glm::vec2, glm::vec3, glm::vec4, glm::ivec2,
+                               glm::mat3, glm::mat4>;
+    Command& set(const std::string& name, Value value);
+    // Every field of a parameter struct as a uniform: scope "trace.lines", field "width" is
+    // `trace_lines_width`; a choice also declares a constant a name: `trace_test_epsilon`.
+    template <class Params>
+    Command& params(const std::string& scope, Params value) {
+        return fields(scope, params::fieldsOf(value));
+    }
+    // `#define NAME` for variants.
+    Command& define(const std::string& name);
+
+    // Outputs, in the order of the fragment shader's locations; `layer` of an array texture.
+    Command& target(const graph::ResourceRef& handle, int layer = 0);
+    Command& depth(const graph::ResourceRef& handle, DepthTest test);
+    // Clears the last target (or depth) before drawing.
+    Command& clear(graph::ClearValue value = {0.0f, 0.0f, 0.0f, 0.0f});
+    Command& blend(Blend blend);
+    // Default: the whole of the first target.
+    Command& viewport(int x, int y, int width, int height);
+
+    // The last calls.
+    void draw();  // fullscreen
+    void drawArrays(GLenum mode, int count, int instances = 1);
+    // Indexed triangles with the vertex array bound by the caller-supplied function.
+    void drawIndexedIndirect(GLuint vertexArray, const Buffer& commands, std::size_t first,
+                             std::size_t count);
+    void dispatch(int groupsX, int groupsY = 1, int groupsZ = 1);
+    // Workgroups of `local` threads that cover `count`.
+    void dispatchOver(int countX, int localX, int countY = 1, int localY = 1);
+
+  private:
+    struct Bound {
+        std::string name;
+        GLuint id;
+    };
+    struct BoundImage {
+        std::string name;
+        const Texture* texture;
+    };
+    struct Target {
+        const Texture* texture;
+        int layer;
+        bool clear;
+        graph::ClearValue value;
+    };
+    struct Uniform {
+        std::string name;
+        Value value;
+    };
+    Command& fields(const std::string& scope, const std::vector<params::Field>& fields);
+    Program& bind();
+    void bindTargets();
+    void bindState();
+    void finish();
+
+    PassContext& context_;
+    ProgramKey key_;
+    std::vector<Bound> textures_;
+    std::vector<BoundImage> images_;
+    std::vector<Bound> storage_;
+    std::vector<Bound> uniformBlocks_;
+    std::vector<Uniform> uniforms_;
+    std::vector<Target> targets_;
+    Target depth_{nullptr, 0, false, {}};
+    DepthTest depthTest_ = DepthTest::none;
+    Blend blend_ = Blend::none;
+    glm::ivec4 viewport_{0, 0, -1, -1};
+    bool lastIsDepth_ = false;
+};
+
+}  // namespace kaustik::gl

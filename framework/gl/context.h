@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// An OpenGL 4.5 core context without a window or a display: EGL surfaceless, else the device
+// platform. Debug output is on: an OpenGL error is remembered and fails the run by the name of the
+// pass in which it was raised. The context is robust: a lost device is a DeviceError.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace kaustik::gl {
+
+struct DeviceInfo {
+    std::string renderer;
+    std::string vendor;
+    std::string version;
+    std::string platform;  // which EGL platform gave the context
+    int maxTextureSize = 0;
+    int maxViewport = 0;
+    int maxTextureLayers = 0;
+    long long maxStorageBlockBytes = 0;
+    bool robust = false;
+    std::vector<std::string> missing;  // what the project needs and the device lacks
+};
+
+class Context {
+  public:
+    // Makes the context current on this thread. Throws DeviceError (exit code 1) that says what was
+    // tried when there is no EGL, no OpenGL 4.5, or something that every node needs is missing.
+    [[nodiscard]] static std::unique_ptr<Context> createHeadless();
+    ~Context();
+    Context(const Context&) = delete;
+    Context& operator=(const Context&) = delete;
+
+    [[nodiscard]] const DeviceInfo& info() const { return info_; }
+
+    // What the error messages will name: the pass that issues commands from now on.
+    void setScope(std::string name) { scope_ = std::move(name); }
+
+    // Throws if an OpenGL error was raised since the last call, or the device was lost:
+    // out of memory and a reset are exit code 3, every other error 1.
+    void check();
+
+    // Waits until the device is idle.
+    void finish();
+
+  private:
+    struct Egl;
+    explicit Context(std::unique_ptr<Egl> egl);
+    void readInfo();
+    void enableDebugOutput();
+
+    std::unique_ptr<Egl> egl_;
+    DeviceInfo info_;
+    std::string scope_ = "start-up";
+    std::string firstError_;
+    bool outOfMemory_ = false;
+};
+
+}  // namespace kaustik::gl

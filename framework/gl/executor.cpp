@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+#include "framework/gl/executor.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstdint>
+#include <limits>
+#include <utility>
+
+#include "framework/core/error.h"
+
+namespace kaustik::gl {
+
+Command PassContext::fullscreen(const std::string& fragmentShader) {
+    return {*this, {fragmentShader}};
+}
+
+Command PassContext::compute(const std::string& computeShader) {
+    return {*this, {computeShader}};
+}
+
+Command PassContext::shaders(std::vector<std::string> files) {
+    return {*this, std::move(files)};
+}
+
+const Texture& PassContext::texture(const graph::ResourceRef& handle) const {
+    return executor_.texture(handle);
+}
+
+const Buffer& PassContext::buffer(const graph::ResourceRef& handle) const {
+    return executor_.buffer(handle);
+}
+
+ProgramCache& PassContext::programs() {
+    return executor_.programs_;
+}
+
+GLuint PassContext::framebuffer(const std::vector<Attachment>& attachments) {
+    return executor_.framebuffer(attachments);
+}
+
+GLuint PassContext::emptyVertexArray() const {
+    return executor_.emptyVertexArray_.id();
+}
+
+Executor::Executor(Context& context, ProgramCache& programs)
+    : context_(context), programs_(programs), emptyVertexArray_(makeVertexArray()) {
+    // Depth runs from 0 to 1 everywhere, so that reversed z keeps the precision of its floats.
+    glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    glDisable(GL_DITHER);
+}
+
+void Executor::prepare(graph::Compiled compiled) {
+    compiled_ = std::move(compiled);
+    framebuffers_.clear();
+    std::vector<Physical> old = std::exchange(slots_, {});
+    for (const graph::Slot& slot : compiled_.slots) {
+        const auto kept = std::find_if(old.begin(), old.end(),
+                                       [&](const Physical& p) { return p.desc == slot.desc; });
+        if (kept != old.end()) {
+            slots_.push_back(std::move(*kept));
+            old.erase(kept);
+            continue;
+        }
+        context_.setScope("allocating '" + slot.firstName + "'");
+        Physical physical;
+        physical.desc = slot.desc;
+        if (const auto* texture = std::get_if<graph::TextureDesc>(&slot.desc)) {
+            const DeviceInfo& info = context_.info();
+            if (texture->width > info.maxTextureSize || texture->height > info.maxTextureSize ||
+                texture->layers > info.maxTextureLayers) {
+                throw ConfigError("The texture '" + slot.firstName + "' would be " +
+                                  std::to_string(texture->width) + "x" +
+                                  std::to_string(texture->height) + "x" +
+                                  std::to_string(std::max(texture->layers, 1)) +
+                                  " texels, more than this device allows ('kaustik check' prints "
+                                  "its limits).");
+            }
+            physical.texture = Texture(*texture, slot.firstName);
+        } else {
+            physical.buffer = Buffer(graph::bytesOf(slot.desc), nullptr, slot.firstName);
+        }
+        context_.check();
+        slots_.push_back(std::move(physical));
+    }
+}
+
+const Texture& Executor::texture(const graph::ResourceRef& handle) const {
+    const std::size_t slot = compiled_.slotOf(handle);
+    assert(slot < slots_.size() && slots_[slot].texture.id() != 0);
+    return slots_[slot].texture;
+}
+
+const Buffer& Executor::buffer(const graph::ResourceRef& handle) const {
+    const std::size_t slot = compiled_.slotOf(handle);
+    assert(slot < slots_.size() && slots_[slot].buffer.id() != 0);
+    return slots_[slot].buffer;
+}
+
+void Executor::clearSlot(std::size_t slot, const graph::ClearValue& value) const {
+    if (std::holds_alternative<graph::TextureDesc>(slots_[slot].desc)) {
+        slots_[slot].texture.clear(value);
+    } else {
+        slots_[slot].buffer.clear();
+    }
+}
+
+void Executor::runFrame(PassTimer& timer) {
+    PassContext context(*this);
+    timer.beginFrame(compiled_.steps.size());
+    for (std::size_t i = 0; i < compiled_.steps.size(); ++i) {
+        const graph::Step& step = compiled_.steps[i];
+        context_.setScope(step.name);
+        glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, static_cast<GLuint>(i),
+                         static_cast<GLsizei>(step.name.size()), step.name.c_str());
+        if (poison_) {
+            const float nan = std::numeric_limits<float>::quiet_NaN();
+            const std::uint32_t ones = ~0u;
+            for (const std::size_t slot : step.births) {
+                if (slots_[slot].texture.id() != 0) {
+                    const bool isDepth =
+                        slots_[slot].texture.desc().format == graph::Format::depth32f;
+                    slots_[slot].texture.clear(isDepth ? graph::ClearValue{}
+                                                       : graph::ClearValue{nan, nan, nan, nan});
+                } else {
+                    glClearNamedBufferData(slots_[slot].buffer.id(), GL_R32UI, GL_RED_INTEGER,
+                                           GL_UNSIGNED_INT, &ones);
+                }
+            }
+        }
+        timer.beginPass(i);
+        for (const graph::Step::Clear& clear : step.clears)
+            clearSlot(clear.slot, clear.value);
+        if (step.execute) step.execute(context);
+        timer.endPass(i);
+        glPopDebugGroup();
+        context_.check();
+    }
+    timer.endFrame();
+}
+
+GLuint Executor::framebuffer(const std::vector<Attachment>& attachments) {
+    std::vector<std::tuple<GLuint, int, bool>> key;
+    for (const Attachment& attachment : attachments) {
+        key.emplace_back(attachment.texture->id(), attachment.layer, attachment.isDepth);
+    }
+    const auto known = framebuffers_.find(key);
+    if (known != framebuffers_.end()) return known->second.id();
+
+    FramebufferObject framebuffer = makeFramebuffer();
+    std::vector<GLenum> drawBuffers;
+    for (const Attachment& attachment : attachments) {
+        GLenum point = GL_DEPTH_ATTACHMENT;
+        if (!attachment.isDepth) {
+            point = GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(drawBuffers.size());
+            drawBuffers.push_back(point);
+        }
+        if (attachment.texture->desc().layers > 0) {
+            glNamedFramebufferTextureLayer(framebuffer.id(), point, attachment.texture->id(), 0,
+                                           attachment.layer);
+        } else {
+            glNamedFramebufferTexture(framebuffer.id(), point, attachment.texture->id(), 0);
+        }
+    }
+    glNamedFramebufferDrawBuffers(framebuffer.id(), static_cast<GLsizei>(drawBuffers.size()),
+                                  drawBuffers.data());
+    const GLenum status = glCheckNamedFramebufferStatus(framebuffer.id(), GL_FRAMEBUFFER);
+    if (status != GL_FRAMEBUFFER_COMPLETE) {
+        throw DeviceError("The device cannot render into this combination of textures (status " +
+                              std::to_string(status) + ").",
+                          kExitFailed);
+    }
+    return framebuffers_.emplace(std::move(key), std::move(framebuffer)).first->second.id();
+}
+
+}  // namespace kaustik::gl

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#include "framework/gl/objects.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+namespace kaustik::gl {
+namespace detail {
+void deleteTexture(GLuint id) {
+    glDeleteTextures(1, &id);
+}
+void deleteBuffer(GLuint id) {
+    glDeleteBuffers(1, &id);
+}
+void deleteFramebuffer(GLuint id) {
+    glDeleteFramebuffers(1, &id);
+}
+void deleteVertexArray(GLuint id) {
+    glDeleteVertexArrays(1, &id);
+}
+void deleteProgram(GLuint id) {
+    glDeleteProgram(id);
+}
+void deleteShader(GLuint id) {
+    glDeleteShader(id);
+}
+void deleteQuery(GLuint id) {
+    glDeleteQueries(1, &id);
+}
+}  // namespace detail
+
+FormatInfo formatInfo(graph::Format format) {
+    using graph::Format;
+    switch (format) {
+        case Format::r32f:
+            return {GL_R32F, GL_RED, GL_FLOAT, 1, false};
+        case Format::rg32f:
+            return {GL_RG32F, GL_RG, GL_FLOAT, 2, false};
+        case Format::rgba32f:
+            return {GL_RGBA32F, GL_RGBA, GL_FLOAT, 4, false};
+        case Format::rgba16f:
+            return {GL_RGBA16F, GL_RGBA, GL_FLOAT, 4, false};
+        case Format::rgba8:
+            return {GL_RGBA8, GL_RGBA, GL_FLOAT, 4, false};
+        case Format::r32ui:
+            return {GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 1, true};
+        case Format::depth32f:
+            return {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 1, false};
+    }
+    return {};
+}
+
+namespace {
+GLuint createTexture(GLenum target) {
+    GLuint id = 0;
+    glCreateTextures(target, 1, &id);
+    return id;
+}
+GLuint createBuffer() {
+    GLuint id = 0;
+    glCreateBuffers(1, &id);
+    return id;
+}
+}  // namespace
+
+Texture::Texture(const graph::TextureDesc& desc, const std::string& label)
+    : object_(createTexture(desc.layers > 0 ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D)), desc_(desc) {
+    const FormatInfo info = formatInfo(desc.format);
+    if (desc.layers > 0) {
+        glTextureStorage3D(id(), 1, info.internalFormat, desc.width, desc.height, desc.layers);
+    } else {
+        glTextureStorage2D(id(), 1, info.internalFormat, desc.width, desc.height);
+    }
+    glTextureParameteri(id(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTextureParameteri(id(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glTextureParameteri(id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTextureParameteri(id(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glObjectLabel(GL_TEXTURE, id(), static_cast<GLsizei>(label.size()), label.c_str());
+}
+
+void Texture::clear(const graph::ClearValue& value) const {
+    const FormatInfo info = formatInfo(desc_.format);
+    if (info.isInteger) {
+        const auto integer = static_cast<std::uint32_t>(value[0]);
+        glClearTexImage(id(), 0, info.format, info.type, &integer);
+    } else {
+        glClearTexImage(id(), 0, info.format, info.type, value.data());
+    }
+}
+
+std::vector<float> Texture::read() const {
+    const FormatInfo info = formatInfo(desc_.format);
+    const std::size_t texels = static_cast<std::size_t>(desc_.width) *
+                               static_cast<std::size_t>(desc_.height) *
+                               static_cast<std::size_t>(std::max(desc_.layers, 1));
+    const std::size_t count = texels * static_cast<std::size_t>(info.channels);
+    glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
+    glPixelStorei(GL_PACK_ALIGNMENT, 4);
+    std::vector<float> values(count);
+    if (info.isInteger) {
+        std::vector<std::uint32_t> integers(count);
+        glGetTextureImage(id(), 0, info.format, info.type,
+                          static_cast<GLsizei>(count * sizeof(std::uint32_t)), integers.data());
+        std::transform(integers.begin(), integers.end(), values.begin(),
+                       [](std::uint32_t v) { return static_cast<float>(v); });
+    } else {
+        glGetTextureImage(id(), 0, info.format, info.type,
+                          static_cast<GLsizei>(count * sizeof(float)), values.data());
+    }
+    return values;
+}
+
+Buffer::Buffer(std::size_t bytes, const void* data, const std::string& label)
+    : object_(createBuffer()), bytes_(bytes) {
+    // A buffer of no bytes is an OpenGL error; an empty scene has empty lists.
+    const std::size_t stored = std::max<std::size_t>(bytes, 16);
+    glNamedBufferStorage(id(), static_cast<GLsizeiptr>(stored), bytes == 0 ? nullptr : data,
+                         GL_DYNAMIC_STORAGE_BIT);
+    glObjectLabel(GL_BUFFER, id(), static_cast<GLsizei>(label.size()), label.c_str());
+}
+
+void Buffer::upload(std::size_t offset, std::size_t byteCount, const void* data) const {
+    glNamedBufferSubData(id(), static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(byteCount),
+                         data);
+}
+
+void Buffer::clear() const {
+    const std::uint32_t zero = 0;
+    glClearNamedBufferData(id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
+}
+
+void Buffer::readBytes(void* destination) const {
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    if (bytes_ > 0) {
+        glGetNamedBufferSubData(id(), 0, static_cast<GLsizeiptr>(bytes_), destination);
+    }
+}
+
+FramebufferObject makeFramebuffer() {
+    GLuint id = 0;
+    glCreateFramebuffers(1, &id);
+    return FramebufferObject(id);
+}
+
+VertexArrayObject makeVertexArray() {
+    GLuint id = 0;
+    glCreateVertexArrays(1, &id);
+    return VertexArrayObject(id);
+}
+
+QueryObject makeTimestampQuery() {
+    GLuint id = 0;
+    glCreateQueries(GL_TIMESTAMP, 1, &id);
+    return QueryObject(id);
+}
+
+}  // namespace kaustik::gl

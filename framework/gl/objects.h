@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// OpenGL objects that delete themselves; moved, never copied. Direct state access throughout.
+#pragma once
+
+#include <epoxy/gl.h>
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "framework/graph/resource.h"
+
+namespace kaustik::gl {
+
+// A name and the function that deletes it.
+template <void (*Delete)(GLuint)>
+class Object {
+  public:
+    Object() = default;
+    explicit Object(GLuint id) : id_(id) {}
+    Object(Object&& other) noexcept : id_(std::exchange(other.id_, 0)) {}
+    Object& operator=(Object&& other) noexcept {
+        std::swap(id_, other.id_);
+        return *this;
+    }
+    ~Object() {
+        if (id_ != 0) Delete(id_);
+    }
+    [[nodiscard]] GLuint id() const { return id_; }
+    [[nodiscard]] bool valid() const { return id_ != 0; }
+
+  private:
+    GLuint id_ = 0;
+};
+
+namespace detail {
+void deleteTexture(GLuint id);
+void deleteBuffer(GLuint id);
+void deleteFramebuffer(GLuint id);
+void deleteVertexArray(GLuint id);
+void deleteProgram(GLuint id);
+void deleteShader(GLuint id);
+void deleteQuery(GLuint id);
+}  // namespace detail
+
+using FramebufferObject = Object<detail::deleteFramebuffer>;
+using VertexArrayObject = Object<detail::deleteVertexArray>;
+using ProgramObject = Object<detail::deleteProgram>;
+using ShaderObject = Object<detail::deleteShader>;
+using QueryObject = Object<detail::deleteQuery>;
+
+// The OpenGL names of a graph format.
+struct FormatInfo {
+    GLenum internalFormat;
+    GLenum format;
+    GLenum type;
+    int channels;
+    bool isInteger;
+};
+[[nodiscard]] FormatInfo formatInfo(graph::Format format);
+
+// A texture of a graph description; nearest sampling, clamped to the edge.
+class Texture {
+  public:
+    Texture() = default;
+    Texture(const graph::TextureDesc& desc, const std::string& label);
+    [[nodiscard]] GLuint id() const { return object_.id(); }
+    [[nodiscard]] const graph::TextureDesc& desc() const { return desc_; }
+    void clear(const graph::ClearValue& value) const;
+    // All layers as floats (integers are converted), channels interleaved, bottom row first.
+    // Waits for the device.
+    [[nodiscard]] std::vector<float> read() const;
+
+  private:
+    Object<detail::deleteTexture> object_;
+    graph::TextureDesc desc_;
+};
+
+class Buffer {
+  public:
+    Buffer() = default;
+    Buffer(std::size_t bytes, const void* data, const std::string& label);
+    template <class T>
+    Buffer(const std::vector<T>& values, const std::string& label)
+        : Buffer(values.size() * sizeof(T), values.data(), label) {}
+    [[nodiscard]] GLuint id() const { return object_.id(); }
+    [[nodiscard]] std::size_t bytes() const { return bytes_; }
+    void upload(std::size_t offset, std::size_t byteCount, const void* data) const;
+    void clear() const;
+    // Waits for the device.
+    template <class T>
+    [[nodiscard]] std::vector<T> read() const {
+        std::vector<T> values(bytes_ / sizeof(T));
+        readBytes(values.data());
+        return values;
+    }
+
+  private:
+    void readBytes(void* destination) const;
+    Object<detail::deleteBuffer> object_;
+    std::size_t bytes_ = 0;
+};
+
+[[nodiscard]] FramebufferObject makeFramebuffer();
+[[nodiscard]] VertexArrayObject makeVertexArray();
+[[nodiscard]] QueryObject makeTimestampQuery();
+
+}  // namespace kaustik::gl

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MIT
+#include "framework/gl/program.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <regex>
+#include <sstream>
+
+#include "framework/core/error.h"
+#include "framework/core/files.h"
+
+namespace kaustik::gl {
+namespace {
+namespace fs = std::filesystem;
+
+fs::path findShader(const std::string& file) {
+    for (const fs::path& folder : {projectRoot() / "shaders", projectRoot()}) {
+        const fs::path path = folder / file;
+        if (fs::is_regular_file(path)) return path;
+    }
+    return {};
+}
+
+class Expander {
+  public:
+    ShaderText run(const std::string& file, const std::string& declarations) {
+        result_.text = "#version 450 core\n" + declarations;
+        // The declarations are file 0, so that an error in them is told from one in a file.
+        result_.files.push_back("parameter declarations of " + file);
+        expand(file, "");
+        return std::move(result_);
+    }
+
+  private:
+    void expand(const std::string& file, const std::string& includedFrom) {
+        if (std::find(stack_.begin(), stack_.end(), file) != stack_.end()) {
+            throw ShaderError(fmt::format("{} includes itself by way of {}.", file, includedFrom));
+        }
+        if (std::find(done_.begin(), done_.end(), file) != done_.end()) return;
+        const fs::path path = findShader(file);
+        if (path.empty()) {
+            throw ShaderError(
+                fmt::format("The shader file '{}'{} does not exist below {}.", file,
+                            includedFrom.empty() ? "" : " included at " + includedFrom,
+                            (projectRoot() / "shaders").string()));
+        }
+        stack_.push_back(file);
+        const std::size_t index = result_.files.size();
+        result_.files.push_back(fs::relative(path, projectRoot()).string());
+        std::istringstream lines(readFile(path));
+        appendLine(1, index);
+        static const std::regex include(R"rx(^\s*#\s*include\s+"([^"]+)"\s*(//.*)?$)rx");
+        static const std::regex skipped(R"rx(^\s*#\s*(version|pragma\s+once).*)rx");
+        std::string line;
+        for (int number = 1; std::getline(lines, line); ++number) {
+            std::smatch match;
+            if (line.find('#') == std::string::npos) {
+                result_.text += line + "\n";
+            } else if (std::regex_match(line, match, include)) {
+                expand(match[1].str(), fmt::format("{}:{}", result_.files[index], number));
+                appendLine(number + 1, index);
+            } else if (std::regex_match(line, skipped)) {
+                result_.text += "\n";
+            } else {
+                result_.text += line + "\n";
+            }
+        }
+        stack_.pop_back();
+        done_.push_back(file);
+    }
+
+    void appendLine(int number, std::size_t file) {
+        result_.text += fmt::format("#line {} {}\n", number, file);
+    }
+
+    ShaderText result_;
+    std::vector<std::string> stack_;
+    std::vector<std::string> done_;  // each file is included once
+};
+
+GLenum stageOf(const std::string& file) {
+    const std::string extension = fs::path(file).extension().string();
+    if (extension == ".vert") return GL_VERTEX_SHADER;
+    if (extension == ".geom") return GL_GEOMETRY_SHADER;
+    if (extension == ".frag") return GL_FRAGMENT_SHADER;
+    if (extension == ".comp") return GL_COMPUTE_SHADER;
+    throw ShaderError(fmt::format(
+        "'{}' is no shader file: its name ends in none of .vert .geom .frag .comp.", file));
+}
+
+template <class Get>
+std::string infoLog(GLuint id, GLint length, Get get) {
+    std::string log(static_cast<std::size_t>(std::max(length, 1)), '\0');
+    get(id, length, nullptr, log.data());
+    log.resize(std::min(log.size(), log.find('\0')));
+    return log;
+}
+
+ShaderObject compile(const std::string& file, const ShaderText& source) {
+    ShaderObject shader(glCreateShader(stageOf(file)));
+    const char* text = source.text.c_str();
+    glShaderSource(shader.id(), 1, &text, nullptr);
+    glCompileShader(shader.id());
+    GLint compiled = GL_FALSE;
+    glGetShaderiv(shader.id(), GL_COMPILE_STATUS, &compiled);
+    if (compiled == GL_TRUE) return shader;
+    GLint length = 0;
+    glGetShaderiv(shader.id(), GL_INFO_LOG_LENGTH, &length);
+    throw ShaderError(fmt::format(
+        "{} does not compile:\n{}", source.files[1],
+        readableShaderLog(infoLog(shader.id(), length, glGetShaderInfoLog), source.files)));
+}
+
+// Every identifier of `text`, to tell a misspelt uniform from one that was optimised away.
+void insertWords(const std::string& text, std::set<std::string>& words) {
+    const auto isWord = [](char c) {
+        return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
+    };
+    for (auto at = text.begin(); at != text.end();) {
+        const auto begin = std::find_if(at, text.end(), isWord);
+        at = std::find_if_not(begin, text.end(), isWord);
+        if (begin != at) words.emplace(begin, at);
+    }
+}
+
+}  // namespace
+
+ShaderText loadShaderText(const std::string& file, const std::string& declarations) {
+    return Expander().run(file, declarations);
+}
+
+std::string readableShaderLog(const std::string& log, const std::vector<std::string>& files) {
+    // Mesa: "2:17(5): error: …"; NVIDIA: "2(17) : error …"; AMD and Intel: "ERROR: 2:17: …".
+    static const std::regex place(
+        R"rx(^(?:(?:ERROR|WARNING):\s*)?(\d+)(?::(\d+)(?:\(\d+\))?|\((\d+)\))\s*:\s*(.*)$)rx");
+    std::istringstream lines(log);
+    std::string readable;
+    std::string line;
+    while (std::getline(lines, line)) {
+        if (line.empty()) continue;
+        std::smatch match;
+        if (std::regex_match(line, match, place)) {
+            const std::size_t index = std::stoul(match[1].str());
+            const std::string number = match[2].matched ? match[2].str() : match[3].str();
+            const std::string file = index < files.size() ? files[index] : match[1].str();
+            line = fmt::format("{}:{}: {}", file, number, match[4].str());
+        }
+        readable += (readable.empty() ? "  " : "\n  ") + line;
+    }
+    return readable;
+}
+
+Program::Program(const ProgramKey& key) : object_(glCreateProgram()) {
+    std::vector<ShaderObject> shaders;
+    for (const std::string& file : key.files) {
+        name_ += (name_.empty() ? "" : " + ") + file;
+        const ShaderText source = loadShaderText(file, key.declarations);
+        insertWords(source.text, words_);
+        shaders.push_back(compile(file, source));
+        glAttachShader(id(), shaders.back().id());
+    }
+    glLinkProgram(id());
+    for (const ShaderObject& shader : shaders)
+        glDetachShader(id(), shader.id());
+    GLint linked = GL_FALSE;
+    glGetProgramiv(id(), GL_LINK_STATUS, &linked);
+    if (linked != GL_TRUE) {
+        GLint length = 0;
+        glGetProgramiv(id(), GL_INFO_LOG_LENGTH, &length);
+        throw ShaderError(fmt::format("{} does not link:\n  {}", name_,
+                                      infoLog(id(), length, glGetProgramInfoLog)));
+    }
+    glObjectLabel(GL_PROGRAM, id(), static_cast<GLsizei>(name_.size()), name_.c_str());
+}
+
+void Program::requireDeclared(const std::string& name, const char* kind) const {
+    const std::string word = name.substr(0, name.find_first_of("[."));
+    if (!words_.contains(word)) {
+        throw ShaderError(fmt::format("{} has no {} '{}'.", name_, kind, name));
+    }
+}
+
+GLint Program::uniform(const std::string& name) {
+    const auto known = uniforms_.find(name);
+    if (known != uniforms_.end()) return known->second;
+    requireDeclared(name, "uniform");
+    return uniforms_[name] = glGetUniformLocation(id(), name.c_str());
+}
+
+GLuint Program::storageBlock(const std::string& name) {
+    const auto known = storageBlocks_.find(name);
+    if (known != storageBlocks_.end()) return known->second;
+    requireDeclared(name, "storage block");
+    return storageBlocks_[name] =
+               glGetProgramResourceIndex(id(), GL_SHADER_STORAGE_BLOCK, name.c_str());
+}
+
+GLuint Program::uniformBlock(const std::string& name) {
+    const auto known = uniformBlocks_.find(name);
+    if (known != uniformBlocks_.end()) return known->second;
+    requireDeclared(name, "uniform block");
+    return uniformBlocks_[name] = glGetUniformBlockIndex(id(), name.c_str());
+}
+
+Program& ProgramCache::get(const ProgramKey& key) {
+    const auto known = programs_.find(key);
+    if (known != programs_.end()) return known->second;
+    return programs_.emplace(key, Program(key)).first->second;
+}
+
+}  // namespace kaustik::gl

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// Shader programs from files with includes. `#include "path"` is looked up in shaders/, then from
+// the project's root (for the headers that C++ and GLSL share). A compile error names the file and
+// line as written. Programs are cached by their files and declarations.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "framework/gl/objects.h"
+
+namespace kaustik::gl {
+
+// One stage is one file; the kind follows the extension: .vert .geom .frag .comp.
+struct ProgramKey {
+    std::vector<std::string> files;  // relative to shaders/
+    std::string declarations;        // GLSL text put after #version: constants and parameters
+    friend auto operator<=>(const ProgramKey&, const ProgramKey&) = default;
+};
+
+// A shader file with its includes expanded.
+struct ShaderText {
+    std::string text;
+    std::vector<std::string> files;  // by the index that #line carries
+};
+// Throws ShaderError when a file is missing or includes itself, naming the file and line.
+[[nodiscard]] ShaderText loadShaderText(const std::string& file, const std::string& declarations);
+
+// "file:line: message" from a driver's log, whatever its format.
+[[nodiscard]] std::string readableShaderLog(const std::string& log,
+                                            const std::vector<std::string>& files);
+
+class Program {
+  public:
+    explicit Program(const ProgramKey& key);
+    [[nodiscard]] GLuint id() const { return object_.id(); }
+    // The location of a uniform, -1 where the compiler has removed it. A name that the source does
+    // not declare throws ShaderError: it is a mistake.
+    [[nodiscard]] GLint uniform(const std::string& name);
+    // The index of a storage block, GL_INVALID_INDEX where removed; unknown names throw.
+    [[nodiscard]] GLuint storageBlock(const std::string& name);
+    [[nodiscard]] GLuint uniformBlock(const std::string& name);
+
+  private:
+    void requireDeclared(const std::string& name, const char* kind) const;
+
+    ProgramObject object_;
+    std::string name_;
+    std::set<std::string> words_;  // every identifier of the sources
+    std::map<std::string, GLint> uniforms_;
+    std::map<std::string, GLuint> storageBlocks_;
+    std::map<std::string, GLuint> uniformBlocks_;
+};
+
+class ProgramCache {
+  public:
+    // Compiles at first use. Throws ShaderError.
+    [[nodiscard]] Program& get(const ProgramKey& key);
+
+  private:
+    std::map<ProgramKey, Program> programs_;
+};
+
+}  // namespace kaustik::gl

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "framework/gl/timers.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace kaustik::gl {
+namespace {
+double milliseconds(std::chrono::steady_clock::duration duration) {
+    return std::chrono::duration<double, std::milli>(duration).count();
+}
+}  // namespace
+
+void PassTimer::beginFrame(std::size_t passCount) {
+    Slot& slot = ring_[frame_ % kFramesInFlight];
+    if (slot.pending && !collect(slot, false)) {
+        ++dropped_;
+        slot.pending = false;
+    }
+    slot.time = FrameTime{frame_, 0.0, 0.0, std::vector<PassTime>(passCount)};
+    slot.begins.resize(passCount);
+    if (mode_ == TimerMode::timestamps) {
+        while (slot.queries.size() < 2 * passCount)
+            slot.queries.push_back(makeTimestampQuery());
+    } else {
+        glFinish();
+    }
+    slot.frameBegin = Clock::now();
+}
+
+void PassTimer::beginPass(std::size_t pass) {
+    Slot& slot = ring_[frame_ % kFramesInFlight];
+    slot.begins[pass] = Clock::now();
+    if (mode_ == TimerMode::timestamps) glQueryCounter(slot.queries[2 * pass].id(), GL_TIMESTAMP);
+}
+
+void PassTimer::endPass(std::size_t pass) {
+    Slot& slot = ring_[frame_ % kFramesInFlight];
+    PassTime& time = slot.time.passes[pass];
+    time.cpuMs = milliseconds(Clock::now() - slot.begins[pass]);
+    if (mode_ == TimerMode::timestamps) {
+        glQueryCounter(slot.queries[2 * pass + 1].id(), GL_TIMESTAMP);
+        return;
+    }
+    glFinish();
+    time.gpuMs = milliseconds(Clock::now() - slot.begins[pass]);
+    time.startMs = milliseconds(slot.begins[pass] - slot.frameBegin);
+}
+
+void PassTimer::endFrame() {
+    Slot& slot = ring_[frame_ % kFramesInFlight];
+    double inPasses = 0.0;
+    for (const PassTime& pass : slot.time.passes) {
+        inPasses += mode_ == TimerMode::finish ? pass.gpuMs : pass.cpuMs;
+    }
+    const double total = milliseconds(Clock::now() - slot.frameBegin);
+    slot.time.bookkeepingMs = std::max(0.0, total - inPasses);
+    slot.time.frameMs = total;
+    slot.pending = true;
+    ++frame_;
+}
+
+bool PassTimer::collect(Slot& slot, bool wait) {
+    FrameTime& time = slot.time;
+    if (mode_ == TimerMode::timestamps && !time.passes.empty()) {
+        GLint available = GL_FALSE;
+        glGetQueryObjectiv(slot.queries[2 * time.passes.size() - 1].id(), GL_QUERY_RESULT_AVAILABLE,
+                           &available);
+        if (available != GL_TRUE && !wait) return false;
+        const auto nanoseconds = [&](std::size_t query) {
+            GLuint64 value = 0;
+            glGetQueryObjectui64v(slot.queries[query].id(), GL_QUERY_RESULT, &value);
+            return value;
+        };
+        const GLuint64 frameBegin = nanoseconds(0);
+        GLuint64 frameEnd = frameBegin;
+        for (std::size_t pass = 0; pass < time.passes.size(); ++pass) {
+            const GLuint64 begin = nanoseconds(2 * pass);
+            // Clocks of different queues may disagree by a tick: never below zero.
+            const GLuint64 end = std::max(nanoseconds(2 * pass + 1), begin);
+            frameEnd = std::max(frameEnd, end);
+            time.passes[pass].gpuMs = static_cast<double>(end - begin) * 1e-6;
+            time.passes[pass].startMs =
+                static_cast<double>(std::max(begin, frameBegin) - frameBegin) * 1e-6;
+        }
+        time.frameMs = static_cast<double>(frameEnd - frameBegin) * 1e-6;
+    }
+    finished_.push_back(time);
+    slot.pending = false;
+    return true;
+}
+
+std::vector<FrameTime> PassTimer::takeFinished(bool wait) {
+    for (std::size_t i = 0; i < kFramesInFlight; ++i) {
+        Slot& slot = ring_[(frame_ + i) % kFramesInFlight];
+        if (slot.pending && !collect(slot, wait)) break;
+    }
+    return std::exchange(finished_, {});
+}
+
+}  // namespace kaustik::gl

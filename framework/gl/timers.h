@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// How long each pass takes: a pair of timestamp queries around it, in a ring of frames that is read
+// only once the device is done with it (never waiting), or, for software rasterisers, wall time
+// with the device finished around each pass.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "framework/gl/objects.h"
+
+namespace kaustik::gl {
+
+enum class TimerMode { timestamps, finish };
+
+struct PassTime {
+    double gpuMs = 0.0;
+    double cpuMs = 0.0;
+    double startMs = 0.0;  // since the start of its frame
+};
+
+struct FrameTime {
+    std::size_t frame = 0;         // as counted by beginFrame
+    double frameMs = 0.0;          // on the device, first pass begun to last pass ended
+    double bookkeepingMs = 0.0;    // CPU time of the frame outside of the passes
+    std::vector<PassTime> passes;  // in step order
+};
+
+class PassTimer {
+  public:
+    static constexpr std::size_t kFramesInFlight = 4;
+
+    explicit PassTimer(TimerMode mode) : mode_(mode) {}
+    [[nodiscard]] TimerMode mode() const { return mode_; }
+
+    void beginFrame(std::size_t passCount);
+    void beginPass(std::size_t pass);
+    void endPass(std::size_t pass);
+    void endFrame();
+
+    // Frames whose times are known by now, in order; each is given once. `wait` waits for all.
+    [[nodiscard]] std::vector<FrameTime> takeFinished(bool wait = false);
+    // Frames whose ring slot was needed before the device had finished them: their times are lost.
+    [[nodiscard]] std::size_t droppedFrames() const { return dropped_; }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    struct Slot {
+        bool pending = false;
+        FrameTime time;
+        std::vector<QueryObject> queries;  // two a pass
+        std::vector<Clock::time_point> begins;
+        Clock::time_point frameBegin;
+    };
+    [[nodiscard]] bool collect(Slot& slot, bool wait);
+
+    TimerMode mode_;
+    std::vector<Slot> ring_{kFramesInFlight};
+    std::size_t frame_ = 0;
+    std::size_t dropped_ = 0;
+    std::vector<FrameTime> finished_;
+};
+
+}  // namespace kaustik::gl
