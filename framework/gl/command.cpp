@@ -208,10 +208,12 @@ void Command::bindTargets() {
         glDisable(GL_SCISSOR_TEST);
         glClearNamedFramebufferfv(framebuffer, GL_COLOR, static_cast<GLint>(i),
                                   targets_[i].value.data());
+        targets_[i].clear = false;  // a command may draw more than once
     }
     if (depth_.clear) {
         glDepthMask(GL_TRUE);
         glClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, depth_.value.data());
+        depth_.clear = false;
     }
     if (viewport_.z < 0) {
         const graph::TextureDesc& desc = attachments.front().texture->desc();

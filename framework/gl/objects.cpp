@@ -2,7 +2,7 @@
 #include "framework/gl/objects.h"
 
 #include <algorithm>
-#include <array>
+#include <bit>
 #include <cstdint>
 
 namespace kaustik::gl {
@@ -64,18 +64,21 @@ GLuint createBuffer() {
 }
 }  // namespace
 
-Texture::Texture(const graph::TextureDesc& desc, const std::string& label)
+Texture::Texture(const graph::TextureDesc& desc, const std::string& label, bool isImage)
     : object_(createTexture(desc.layers > 0 ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D)), desc_(desc) {
     const FormatInfo info = formatInfo(desc.format);
+    const auto side = static_cast<unsigned>(std::max(desc.width, desc.height));
+    const auto levels = isImage ? static_cast<GLsizei>(std::bit_width(side)) : 1;
     if (desc.layers > 0) {
-        glTextureStorage3D(id(), 1, info.internalFormat, desc.width, desc.height, desc.layers);
+        glTextureStorage3D(id(), levels, info.internalFormat, desc.width, desc.height, desc.layers);
     } else {
-        glTextureStorage2D(id(), 1, info.internalFormat, desc.width, desc.height);
+        glTextureStorage2D(id(), levels, info.internalFormat, desc.width, desc.height);
     }
-    glTextureParameteri(id(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    glTextureParameteri(id(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    glTextureParameteri(id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    glTextureParameteri(id(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glTextureParameteri(id(), GL_TEXTURE_MIN_FILTER,
+                        isImage ? GL_LINEAR_MIPMAP_LINEAR : GL_NEAREST);
+    glTextureParameteri(id(), GL_TEXTURE_MAG_FILTER, isImage ? GL_LINEAR : GL_NEAREST);
+    glTextureParameteri(id(), GL_TEXTURE_WRAP_S, isImage ? GL_REPEAT : GL_CLAMP_TO_EDGE);
+    glTextureParameteri(id(), GL_TEXTURE_WRAP_T, isImage ? GL_REPEAT : GL_CLAMP_TO_EDGE);
     glObjectLabel(GL_TEXTURE, id(), static_cast<GLsizei>(label.size()), label.c_str());
 }
 
@@ -87,6 +90,15 @@ void Texture::clear(const graph::ClearValue& value) const {
     } else {
         glClearTexImage(id(), 0, info.format, info.type, value.data());
     }
+}
+
+void Texture::upload(int layer, const std::vector<float>& rgba) const {
+    glTextureSubImage3D(id(), 0, 0, 0, layer, desc_.width, desc_.height, 1, GL_RGBA, GL_FLOAT,
+                        rgba.data());
+}
+
+void Texture::generateMipmaps() const {
+    glGenerateTextureMipmap(id());
 }
 
 std::vector<float> Texture::read() const {

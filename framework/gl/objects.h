@@ -60,14 +60,18 @@ struct FormatInfo {
 };
 [[nodiscard]] FormatInfo formatInfo(graph::Format format);
 
-// A texture of a graph description; nearest sampling, clamped to the edge.
+// A texture of a graph description; nearest sampling, clamped to the edge. An image texture has
+// mip levels instead, and is sampled trilinearly and repeated.
 class Texture {
   public:
     Texture() = default;
-    Texture(const graph::TextureDesc& desc, const std::string& label);
+    Texture(const graph::TextureDesc& desc, const std::string& label, bool isImage = false);
     [[nodiscard]] GLuint id() const { return object_.id(); }
     [[nodiscard]] const graph::TextureDesc& desc() const { return desc_; }
     void clear(const graph::ClearValue& value) const;
+    // Replaces one layer of an RGBA array texture; bottom row first.
+    void upload(int layer, const std::vector<float>& rgba) const;
+    void generateMipmaps() const;
     // All layers as floats (integers are converted), channels interleaved, bottom row first.
     // Waits for the device.
     [[nodiscard]] std::vector<float> read() const;

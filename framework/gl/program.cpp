@@ -26,14 +26,22 @@ fs::path findShader(const std::string& file) {
 class Expander {
   public:
     ShaderText run(const std::string& file, const std::string& declarations) {
-        result_.text = "#version 450 core\n" + declarations;
-        // The declarations are file 0, so that an error in them is told from one in a file.
-        result_.files.push_back("parameter declarations of " + file);
+        append("#version 450 core", {"(start of " + file + ")", 1});
+        std::istringstream lines(declarations);
+        std::string line;
+        for (int number = 1; std::getline(lines, line); ++number) {
+            append(line, {"(parameters of " + file + ")", number});
+        }
         expand(file, "");
         return std::move(result_);
     }
 
   private:
+    void append(const std::string& line, SourceLine where) {
+        result_.text += line + "\n";
+        result_.lines.push_back(std::move(where));
+    }
+
     void expand(const std::string& file, const std::string& includedFrom) {
         if (std::find(stack_.begin(), stack_.end(), file) != stack_.end()) {
             throw ShaderError(fmt::format("{} includes itself by way of {}.", file, includedFrom));
@@ -47,32 +55,22 @@ class Expander {
                             (projectRoot() / "shaders").string()));
         }
         stack_.push_back(file);
-        const std::size_t index = result_.files.size();
-        result_.files.push_back(fs::relative(path, projectRoot()).string());
+        const std::string name = fs::relative(path, projectRoot()).string();
         std::istringstream lines(readFile(path));
-        appendLine(1, index);
         static const std::regex include(R"rx(^\s*#\s*include\s+"([^"]+)"\s*(//.*)?$)rx");
         static const std::regex skipped(R"rx(^\s*#\s*(version|pragma\s+once).*)rx");
         std::string line;
         for (int number = 1; std::getline(lines, line); ++number) {
             std::smatch match;
-            if (line.find('#') == std::string::npos) {
-                result_.text += line + "\n";
-            } else if (std::regex_match(line, match, include)) {
-                expand(match[1].str(), fmt::format("{}:{}", result_.files[index], number));
-                appendLine(number + 1, index);
-            } else if (std::regex_match(line, skipped)) {
-                result_.text += "\n";
-            } else {
-                result_.text += line + "\n";
+            const bool isDirective = line.find('#') != std::string::npos;
+            if (isDirective && std::regex_match(line, match, include)) {
+                expand(match[1].str(), fmt::format("{}:{}", name, number));
+            } else if (!isDirective || !std::regex_match(line, skipped)) {
+                append(line, {name, number});
             }
         }
         stack_.pop_back();
         done_.push_back(file);
-    }
-
-    void appendLine(int number, std::size_t file) {
-        result_.text += fmt::format("#line {} {}\n", number, file);
     }
 
     ShaderText result_;
@@ -109,8 +107,8 @@ ShaderObject compile(const std::string& file, const ShaderText& source) {
     GLint length = 0;
     glGetShaderiv(shader.id(), GL_INFO_LOG_LENGTH, &length);
     throw ShaderError(fmt::format(
-        "{} does not compile:\n{}", source.files[1],
-        readableShaderLog(infoLog(shader.id(), length, glGetShaderInfoLog), source.files)));
+        "{} does not compile:\n{}", file,
+        readableShaderLog(infoLog(shader.id(), length, glGetShaderInfoLog), source.lines)));
 }
 
 // Every identifier of `text`, to tell a misspelt uniform from one that was optimised away.
@@ -131,10 +129,10 @@ ShaderText loadShaderText(const std::string& file, const std::string& declaratio
     return Expander().run(file, declarations);
 }
 
-std::string readableShaderLog(const std::string& log, const std::vector<std::string>& files) {
-    // Mesa: "2:17(5): error: …"; NVIDIA: "2(17) : error …"; AMD and Intel: "ERROR: 2:17: …".
+std::string readableShaderLog(const std::string& log, const std::vector<SourceLine>& sourceLines) {
+    // Mesa: "0:17(5): error: …"; NVIDIA: "0(17) : error …"; AMD and Intel: "ERROR: 0:17: …".
     static const std::regex place(
-        R"rx(^(?:(?:ERROR|WARNING):\s*)?(\d+)(?::(\d+)(?:\(\d+\))?|\((\d+)\))\s*:\s*(.*)$)rx");
+        R"rx(^(?:(?:ERROR|WARNING):\s*)?\d+(?::(\d+)(?:\(\d+\))?|\((\d+)\))\s*:\s*(.*)$)rx");
     std::istringstream lines(log);
     std::string readable;
     std::string line;
@@ -142,10 +140,12 @@ std::string readableShaderLog(const std::string& log, const std::vector<std::str
         if (line.empty()) continue;
         std::smatch match;
         if (std::regex_match(line, match, place)) {
-            const std::size_t index = std::stoul(match[1].str());
-            const std::string number = match[2].matched ? match[2].str() : match[3].str();
-            const std::string file = index < files.size() ? files[index] : match[1].str();
-            line = fmt::format("{}:{}: {}", file, number, match[4].str());
+            const std::size_t number =
+                std::stoul(match[1].matched ? match[1].str() : match[2].str());
+            if (number >= 1 && number <= sourceLines.size()) {
+                const SourceLine& source = sourceLines[number - 1];
+                line = fmt::format("{}:{}: {}", source.file, source.number, match[3].str());
+            }
         }
         readable += (readable.empty() ? "  " : "\n  ") + line;
     }

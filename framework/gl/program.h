@@ -21,17 +21,24 @@ struct ProgramKey {
     friend auto operator<=>(const ProgramKey&, const ProgramKey&) = default;
 };
 
-// A shader file with its includes expanded.
+// Where a line of an expanded text was written.
+struct SourceLine {
+    std::string file;
+    int number = 0;
+};
+
+// A shader file with its includes expanded. #line is not used: Mesa forgets its file for errors
+// of meaning, so lines are looked up here instead.
 struct ShaderText {
     std::string text;
-    std::vector<std::string> files;  // by the index that #line carries
+    std::vector<SourceLine> lines;  // of `text`, from its first
 };
 // Throws ShaderError when a file is missing or includes itself, naming the file and line.
 [[nodiscard]] ShaderText loadShaderText(const std::string& file, const std::string& declarations);
 
 // "file:line: message" from a driver's log, whatever its format.
 [[nodiscard]] std::string readableShaderLog(const std::string& log,
-                                            const std::vector<std::string>& files);
+                                            const std::vector<SourceLine>& lines);
 
 class Program {
   public:

@@ -111,6 +111,11 @@ const std::string& Graph::nameOf(const ResourceRef& handle) const {
     return resources_[handle.index].name;
 }
 
+const ResourceDesc& Graph::descOf(const ResourceRef& handle) const {
+    assert(handle.valid() && handle.index < resources_.size());
+    return resources_[handle.index].desc;
+}
+
 std::vector<std::string> Graph::resourceNames() const {
     std::vector<std::string> names;
     for (const Resource& resource : resources_)

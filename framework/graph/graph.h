@@ -169,6 +169,7 @@ class Graph {
     // The name of a resource, and all names.
     [[nodiscard]] const std::string& nameOf(const ResourceRef& handle) const;
     [[nodiscard]] std::vector<std::string> resourceNames() const;
+    [[nodiscard]] const ResourceDesc& descOf(const ResourceRef& handle) const;
     // The newest version of the named resource; invalid if there is none.
     [[nodiscard]] ResourceRef find(const std::string& name) const;
     [[nodiscard]] std::vector<std::string> passNames() const;

@@ -138,4 +138,9 @@ struct Bounds {
 [[nodiscard]] Bounds sceneBounds(const Scene& scene);
 [[nodiscard]] std::size_t triangleCount(const Scene& scene);
 
+// The share of a spot's intensity that it sends at `cosine` from its direction: 1 inside the inner
+// cone, 0 outside the outer one, between them the squared linear ramp in the cosine that
+// KHR_lights_punctual recommends. Its flux is I 2π ((1 - cos inner) + (cos inner - cos outer)/3).
+[[nodiscard]] double spotFalloff(const Light& light, double cosine);
+
 }  // namespace kaustik::scene

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// The subcommands. Each throws kaustik::Error for whatever goes wrong; main turns that into a
+// message and an exit code.
+#pragma once
+
+#include "framework/app/options.h"
+#include "framework/pipeline/registry.h"
+#include "framework/pipeline/renderer.h"
+
+namespace kaustik::app {
+
+void runCommand(const RunOptions& options, const Registry& registry);
+void listCommand(const ListOptions& options, const Registry& registry);
+void explainCommand(const ExplainOptions& options, const Registry& registry);
+void checkCommand();
+
+// The whole command line: parses, runs, prints errors; gives the exit code. A program that adds
+// techniques of its own passes its registry.
+[[nodiscard]] int runCommandLine(int argc, const char* const* argv, const Registry& registry);
+
+// Checks everything that the options name, before any device is asked for.
+[[nodiscard]] RenderSettings makeSettings(const SceneOptions& options, const Registry& registry);
+[[nodiscard]] scene::Scene loadRequestedScene(const SceneOptions& options);
+
+}  // namespace kaustik::app

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// What the command line asks for (design, section 7).
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace kaustik::app {
+
+// What `run` and `explain` share.
+struct SceneOptions {
+    std::string scene = "pool";
+    std::string technique = "screen_space_photons";
+    std::vector<std::string> assignments;  // --set name=value
+    std::vector<std::string> disabled;
+    std::string size = "800x600";
+    std::string time;  // seconds; "" for the scene's own
+};
+
+struct RunOptions {
+    SceneOptions scene;
+    int frames = 8;
+    int warmup = 1;
+    long long seed = 1;
+    bool precise = false;
+    std::string reference = "none";
+    std::vector<std::string> saved;  // resources
+    std::string out;                 // "" for results/runs/<scene>-<technique>
+};
+
+struct ListOptions {
+    std::string what = "scenes";
+    std::string technique;
+    bool json = false;
+};
+
+struct ExplainOptions {
+    SceneOptions scene;
+    std::string dotFile;
+};
+
+}  // namespace kaustik::app

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "framework/app/output.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+
+#include "framework/core/error.h"
+#include "framework/gl/objects.h"
+
+namespace kaustik::app {
+namespace fs = std::filesystem;
+namespace {
+
+// PFM holds one or three channels; what does not fit is written beside it.
+std::vector<fs::path> writeAnyChannels(const fs::path& path, const Image& image) {
+    if (path.extension() != ".pfm" || image.channels == 1 || image.channels == 3) {
+        writeImage(path, image);
+        return {path};
+    }
+    std::vector<fs::path> files;
+    for (int channel = 0; channel < image.channels; ++channel) {
+        Image single(image.width, image.height, 1);
+        for (int y = 0; y < image.height; ++y) {
+            for (int x = 0; x < image.width; ++x)
+                single.at(x, y, 0) = image.at(x, y, channel);
+        }
+        fs::path file = path;
+        file.replace_extension(fmt::format("{}.pfm", "xyzw"[channel]));
+        writeImage(file, single);
+        files.push_back(file);
+    }
+    return files;
+}
+
+}  // namespace
+
+void requireWritable(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error) {
+        throw IoError(fmt::format("--out: the folder {} cannot be made: {}.", folder.string(),
+                                  error.message()));
+    }
+    if (!fs::is_directory(folder)) {
+        throw IoError(fmt::format("--out: {} is not a folder.", folder.string()));
+    }
+    if (::access(folder.c_str(), W_OK | X_OK) != 0) {
+        throw IoError(fmt::format("--out: nothing can be written into {}: {}.", folder.string(),
+                                  std::strerror(errno)));
+    }
+}
+
+Image readTexture(const gl::Texture& texture, int layer, int channels) {
+    const graph::TextureDesc& desc = texture.desc();
+    const auto stored = static_cast<std::size_t>(gl::formatInfo(desc.format).channels);
+    const std::vector<float> values = texture.read();
+    Image image(desc.width, desc.height, channels);
+    const auto width = static_cast<std::size_t>(desc.width);
+    const auto height = static_cast<std::size_t>(desc.height);
+    for (std::size_t y = 0; y < height; ++y) {
+        const std::size_t row = static_cast<std::size_t>(layer) * height + (height - 1 - y);
+        for (std::size_t x = 0; x < width; ++x) {
+            for (int c = 0; c < channels; ++c) {
+                image.at(static_cast<int>(x), static_cast<int>(y), c) =
+                    values[(row * width + x) * stored + static_cast<std::size_t>(c)];
+            }
+        }
+    }
+    return image;
+}
+
+std::vector<fs::path> writePictures(const fs::path& folder, const Renderer& renderer,
+                                    const std::vector<std::string>& saved) {
+    std::vector<fs::path> files;
+    const auto write = [&](const std::string& name, const std::string& extension,
+                           const Image& image) {
+        for (const fs::path& file : writeAnyChannels(folder / (name + extension), image)) {
+            files.push_back(file);
+        }
+    };
+    const FrameOutputs& outputs = renderer.outputs();
+    write("beauty", displayImageExtension(),
+          readTexture(renderer.texture(outputs.picture.display), 0, 3));
+    write("beauty", floatImageExtension(),
+          readTexture(renderer.texture(outputs.picture.radiance), 0, 3));
+    write("caustic", floatImageExtension(),
+          readTexture(renderer.texture(outputs.caustic.irradiance), 0, 3));
+    for (const std::string& name : saved) {
+        const graph::ResourceRef handle = renderer.graph().find(name);
+        const gl::Texture& texture = renderer.texture(handle);
+        const int channels = gl::formatInfo(texture.desc().format).channels;
+        const int layers = texture.desc().layers;
+        for (int layer = 0; layer < std::max(layers, 1); ++layer) {
+            write(layers > 0 ? fmt::format("{}.{}", name, layer) : name, floatImageExtension(),
+                  readTexture(texture, layer, channels));
+        }
+    }
+    return files;
+}
+
+std::vector<std::string> unusedSettings(const Renderer& renderer) {
+    std::vector<std::string> unused;
+    const params::ParamSet& params = renderer.settings().params;
+    for (const std::string& name : params.setByUser()) {
+        const auto dot = name.find('.');
+        const auto secondDot = name.find('.', dot + 1);
+        if (dot == std::string::npos || secondDot == std::string::npos) continue;
+        const std::string node = name.substr(dot + 1, secondDot - dot - 1);
+        if (params.choice(name.substr(0, dot)) != node) unused.push_back(name);
+    }
+    return unused;
+}
+
+}  // namespace kaustik::app

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// What `run` leaves behind.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "framework/image/image.h"
+#include "framework/pipeline/renderer.h"
+
+namespace kaustik::app {
+
+// Makes the folder and throws IoError if nothing can be written there, before any work is done.
+void requireWritable(const std::filesystem::path& folder);
+
+// One layer of a texture, top row first, with its first `channels` channels.
+[[nodiscard]] Image readTexture(const gl::Texture& texture, int layer, int channels);
+
+// beauty (display and radiance), caustic, and the saved resources by name, one file a layer.
+std::vector<std::filesystem::path> writePictures(const std::filesystem::path& folder,
+                                                 const Renderer& renderer,
+                                                 const std::vector<std::string>& saved);
+
+// Parameters that the user has set and that belong to nodes which the run did not choose.
+[[nodiscard]] std::vector<std::string> unusedSettings(const Renderer& renderer);
+
+}  // namespace kaustik::app

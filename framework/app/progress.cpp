@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "framework/app/progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+
+#include "framework/core/error.h"
+
+namespace kaustik::app {
+namespace {
+volatile std::sig_atomic_t interrupted = 0;
+
+constexpr double kSecondsBetweenPlainLines = 5.0;
+}  // namespace
+
+Progress::Progress(std::string what, int total)
+    : what_(std::move(what)),
+      total_(total),
+      isTerminal_(::isatty(STDERR_FILENO) == 1),
+      begin_(Clock::now()),
+      last_(begin_) {}
+
+Progress::~Progress() {
+    if (isTerminal_ && written_) fmt::print(stderr, "\r\033[K");
+}
+
+void Progress::update(int done) {
+    const Clock::time_point now = Clock::now();
+    const double elapsed = std::chrono::duration<double>(now - begin_).count();
+    const double sinceLast = std::chrono::duration<double>(now - last_).count();
+    if (done <= 0 || done > total_) return;
+    if (!isTerminal_ && (sinceLast < kSecondsBetweenPlainLines || done == total_)) return;
+    const double left = elapsed / done * (total_ - done);
+    const std::string text =
+        fmt::format("{} {}/{}, about {:.0f} s left", what_, done, total_, left);
+    if (isTerminal_) {
+        fmt::print(stderr, "\r\033[K{}", text);
+        std::fflush(stderr);
+    } else {
+        fmt::print(stderr, "{}\n", text);
+    }
+    written_ = true;
+    last_ = now;
+}
+
+void catchInterrupts() {
+    const auto note = [](int) { interrupted = 1; };
+    std::signal(SIGINT, note);
+    std::signal(SIGTERM, note);
+}
+
+void throwIfInterrupted() {
+    if (interrupted != 0) throw Error("Interrupted; nothing was written.", kExitFailed);
+}
+
+}  // namespace kaustik::app

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// How far long work has come, on standard error: one line that is written over on a terminal, plain
+// lines now and then otherwise. And whether the user has asked to stop.
+#pragma once
+
+#include <chrono>
+#include <string>
+
+namespace kaustik::app {
+
+class Progress {
+  public:
+    Progress(std::string what, int total);
+    ~Progress();
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+    // `done` of the total are finished.
+    void update(int done);
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    std::string what_;
+    int total_;
+    bool isTerminal_;
+    bool written_ = false;
+    Clock::time_point begin_;
+    Clock::time_point last_;
+};
+
+// From now on Ctrl-C and SIGTERM are noted instead of ending the program.
+void catchInterrupts();
+// Throws Error when one was noted.
+void throwIfInterrupted();
+
+}  // namespace kaustik::app

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+
+#include "framework/app/commands.h"
+#include "framework/core/error.h"
+#include "framework/scene/height_field.h"
+#include "framework/scene/scene_file.h"
+
+namespace kaustik::app {
+
+RenderSettings makeSettings(const SceneOptions& options, const Registry& registry) {
+    RenderSettings settings;
+    settings.technique = registry.findTechnique(options.technique);
+    settings.params = registry.makeParams(settings.technique);
+    for (const std::string& assignment : options.assignments) {
+        settings.params.setAssignment(assignment, "--set");
+    }
+    params::Extent size;
+    const params::Field sizeField{"size", "", "px", &size, 1.0, 16384.0, {}};
+    sizeField.set(options.size, "size", "--size");
+    settings.width = size.width;
+    settings.height = size.height;
+    settings.disabledPasses.insert(options.disabled.begin(), options.disabled.end());
+    return settings;
+}
+
+scene::Scene loadRequestedScene(const SceneOptions& options) {
+    scene::Scene scene = scene::loadScene(options.scene);
+    if (!options.time.empty()) {
+        double seconds = 0.0;
+        const char* end = options.time.data() + options.time.size();
+        const auto [parsed, error] = std::from_chars(options.time.data(), end, seconds);
+        if (error != std::errc() || parsed != end || !std::isfinite(seconds)) {
+            throw ConfigError(
+                fmt::format("--time: '{}' is not a number of seconds.", options.time));
+        }
+        scene::setTime(scene, seconds);
+    }
+    return scene;
+}
+
+}  // namespace kaustik::app

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+// The module kaustik_openimageio.so: every image format that OpenImageIO 2.4 knows, behind the C
+// boundary of openimageio_interface.h. Values come and go as stored: no premultiplication by alpha,
+// no colour conversion; 8- and 16-bit integers are read as [0,1].
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <exception>
+#include <memory>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "framework/image/image_limits.h"
+#include "framework/image/openimageio_interface.h"
+
+namespace {
+
+using kaustik::imageSizeProblem;
+
+// Runs `body` behind the C boundary: whatever it throws goes to the sink as a message.
+template <class Body>
+bool guarded(const KaustikImageSink* sink, Body body) noexcept {
+    try {
+        body();
+        return true;
+    } catch (const std::bad_alloc&) {
+        sink->fail(sink->context, "out of memory");
+    } catch (const std::exception& exception) {
+        sink->fail(sink->context, exception.what());
+    } catch (...) {
+        sink->fail(sink->context, "OpenImageIO failed without a reason");
+    }
+    return false;
+}
+
+// OpenImageIO's messages may have several lines, and end in a period or not.
+std::string oneLine(std::string message, const char* fallback) {
+    std::replace(message.begin(), message.end(), '\n', ' ');
+    while (!message.empty() && (message.back() == '.' || message.back() == ' '))
+        message.pop_back();
+    return message.empty() ? fallback : message;
+}
+
+// Reads the first image of the file, through `proxy` where there is one.
+void readThrough(const std::string& name, OIIO::Filesystem::IOProxy* proxy,
+                 const KaustikImageSink* sink) {
+    OIIO::ImageSpec hints;
+    hints["oiio:UnassociatedAlpha"] = 1;
+    // Some readers take the proxy from the argument of open, others only from the hints.
+    if (proxy != nullptr) hints.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
+    auto input = OIIO::ImageInput::open(name, &hints, proxy);
+    if (!input) {
+        throw std::runtime_error("it is damaged or no image (" +
+                                 oneLine(OIIO::geterror(), "unknown kind of file") + ")");
+    }
+    const OIIO::ImageSpec spec = input->spec();
+    const std::string problem = imageSizeProblem(spec.width, spec.height, spec.nchannels);
+    if (!problem.empty()) throw std::runtime_error("it " + problem);
+    if (spec.depth > 1) throw std::runtime_error("it is a volume, not an image");
+    float* const values = sink->allocate(sink->context, spec.width, spec.height, spec.nchannels);
+    if (values == nullptr) throw std::bad_alloc();
+    const bool complete = input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values);
+    // A JPEG that is cut off reads "well", with grey where the rest was, and leaves a message.
+    if (!complete || input->has_error()) {
+        throw std::runtime_error("it is damaged or cut off (" +
+                                 oneLine(input->geterror(), "its pixels end early") + ")");
+    }
+}
+
+// OpenImageIO picks the reader by the file's name; bytes in memory have none, but all formats that
+// a texture may come in begin with a signature.
+const char* extensionOf(std::string_view bytes) {
+    using namespace std::string_view_literals;
+    struct Signature {
+        std::string_view start;
+        const char* extension;
+    };
+    static constexpr std::array kSignatures{
+        Signature{"\x89PNG"sv, "png"},
+        Signature{"\xff\xd8\xff"sv, "jpg"},
+        Signature{"\x76\x2f\x31\x01"sv, "exr"},
+        Signature{"#?"sv, "hdr"},
+        Signature{"BM"sv, "bmp"},
+        Signature{"GIF8"sv, "gif"},
+        Signature{"II*\0"sv, "tif"},
+        Signature{"MM\0*"sv, "tif"},
+        Signature{"RIFF"sv, "webp"},
+        Signature{"DDS "sv, "dds"},
+    };
+    for (const Signature& signature : kSignatures) {
+        if (bytes.starts_with(signature.start)) return signature.extension;
+    }
+    return nullptr;
+}
+
+void encode(const char* extension, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
+            const void* values, const KaustikImageSink* sink) {
+    std::string name = fmt::format("memory.{}", extension);
+    auto output = OIIO::ImageOutput::create(name);
+    if (!output) throw std::runtime_error(oneLine(OIIO::geterror(), "no writer for it"));
+    OIIO::Filesystem::IOVecOutput proxy;
+    if (!output->set_ioproxy(&proxy)) throw std::runtime_error("it cannot be made in memory");
+    if (!output->open(name, spec) || !output->write_image(type, values) || !output->close()) {
+        throw std::runtime_error(oneLine(output->geterror(), "OpenImageIO gives no reason"));
+    }
+    output.reset();
+    if (!sink->append(sink->context, proxy.buffer().data(), proxy.buffer().size())) {
+        throw std::bad_alloc();
+    }
+}
+
+bool readFile(const char* path, const KaustikImageSink* sink) {
+    return guarded(sink, [&] { readThrough(path, nullptr, sink); });
+}
+
+bool readMemory(const unsigned char* bytes, std::size_t count, const KaustikImageSink* sink) {
+    return guarded(sink, [&] {
+        const char* const extension =
+            extensionOf(std::string_view(reinterpret_cast<const char*>(bytes), count));
+        if (extension == nullptr) {
+            throw std::runtime_error(
+                "it is damaged or no image (its first bytes are those of no "
+                "known format; PNG and JPEG are always right)");
+        }
+        OIIO::Filesystem::IOMemReader proxy(bytes, count);
+        readThrough(fmt::format("memory.{}", extension), &proxy, sink);
+    });
+}
+
+bool encodeExr(const float* values, int width, int height, int channels,
+               const KaustikImageSink* sink) {
+    return guarded(sink, [&] {
+        OIIO::ImageSpec spec(width, height, channels, OIIO::TypeDesc::FLOAT);
+        spec["compression"] = "zip";
+        spec["oiio:ColorSpace"] = "Linear";
+        encode("exr", spec, OIIO::TypeDesc::FLOAT, values, sink);
+    });
+}
+
+bool encodePng(const unsigned char* values, int width, int height, int channels,
+               const KaustikImageSink* sink) {
+    return guarded(sink, [&] {
+        OIIO::ImageSpec spec(width, height, channels, OIIO::TypeDesc::UINT8);
+        spec["oiio:UnassociatedAlpha"] = 1;
+        spec["oiio:ColorSpace"] = "sRGB";
+        encode("png", spec, OIIO::TypeDesc::UINT8, values, sink);
+    });
+}
+
+constexpr KaustikOpenImageIoFunctions kFunctions{kKaustikOpenImageIoVersion, readFile, readMemory,
+                                                 encodeExr, encodePng};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const KaustikOpenImageIoFunctions*
+kaustikOpenImageIoFunctions() {
+    return &kFunctions;
+}

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// The C boundary between the program and its OpenImageIO module, kaustik_openimageio.so. No memory
+// changes owner across it and no exception crosses it: results and messages go back through calls.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+extern "C" {
+
+// Raised with every change of the structs below, so that a stale module is refused.
+inline constexpr std::uint32_t kKaustikOpenImageIoVersion = 1;
+inline constexpr const char* kKaustikOpenImageIoSymbol = "kaustikOpenImageIoFunctions";
+
+// Where the module puts what it made. `context` is handed back to every call.
+struct KaustikImageSink {
+    void* context;
+    // Room for width * height * channels floats (all at least 1), or null when there is none.
+    float* (*allocate)(void* context, int width, int height, int channels);
+    // The next bytes of an encoded file. False when they could not be kept.
+    bool (*append)(void* context, const unsigned char* bytes, std::size_t count);
+    // What went wrong, without the name of the file.
+    void (*fail)(void* context, const char* message);
+};
+
+// All functions return true when they succeeded; otherwise `fail` was called once.
+struct KaustikOpenImageIoFunctions {
+    std::uint32_t version;
+    // Reads an image file of any format that OpenImageIO knows.
+    bool (*readFile)(const char* path, const KaustikImageSink* sink);
+    // The same for an image file that is held in memory.
+    bool (*readMemory)(const unsigned char* bytes, std::size_t count, const KaustikImageSink* sink);
+    // An image as the bytes of an OpenEXR file: 32-bit float, ZIP compression, linear.
+    bool (*encodeExr)(const float* values, int width, int height, int channels,
+                      const KaustikImageSink* sink);
+    // An image as the bytes of a PNG file: 8 bits, already display-encoded.
+    bool (*encodePng)(const unsigned char* values, int width, int height, int channels,
+                      const KaustikImageSink* sink);
+};
+
+// The one symbol that the module exports.
+using KaustikOpenImageIoEntry = const KaustikOpenImageIoFunctions* (*)();
+}

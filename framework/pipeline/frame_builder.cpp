@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#include "framework/pipeline/frame_builder.h"
+
+#include <algorithm>
+
+#include "framework/pipeline/stage_params.h"
+
+namespace kaustik {
+
+const Registry::Node& FrameBuilder::chosenNode(const std::string& stage) {
+    stagesRun_.push_back(stage);
+    return inputs_.registry.findNode(stage, inputs_.params.choice(stage));
+}
+
+int FrameBuilder::runsOf(const std::string& stage) const {
+    return static_cast<int>(std::count(stagesRun_.begin(), stagesRun_.end(), stage));
+}
+
+gl::Command& FrameInputs::bindView(gl::Command& command) const {
+    return command.uniforms("View", viewBlock);
+}
+
+gl::Command& FrameInputs::bindLedger(gl::Command& command, const Ledger& ledger) const {
+    return command.storage("LedgerEntries", ledger)
+        .set("ledgerUnitsPerWatt", 1.0f / ledgerQuantumWatts);
+}
+
+namespace {
+
+// A path through water alone meets it once. Mirrors and closed dielectrics can send a photon back
+// and forth without end; there the limit decides, and the ledger says what it cost.
+int interactionCount(FrameBuilder& frame) {
+    const scene::SceneNeeds& needs = frame.needs();
+    const int limit = frame.params<SpecularParams>("specular").bounces;
+    const bool canRepeat = needs.reflectors > 0 || needs.specularInterfaces > needs.refractors;
+    return std::max(1, canRepeat ? limit : std::min(needs.specularInterfaces, limit));
+}
+
+}  // namespace
+
+FrameOutputs buildFrame(FrameBuilder& frame) {
+    const Geometry geometry = frame.run<GeometryStage>();
+    const EyeBuffer eye = frame.run<EyeStage>(geometry);
+    const LayeredDepth layers = frame.run<LayersStage>(geometry);
+    Hits hits = frame.run<EmitStage>(geometry);
+    const int interactions = interactionCount(frame);
+    for (int i = 0; i < interactions; ++i) {
+        hits.incoming = frame.run<SpecularStage>(hits);
+        hits = frame.run<TraceStage>(hits.incoming, layers, hits);
+    }
+    const IrradianceMap caustic = frame.run<ReconstructStage>(hits, eye);
+    const Picture picture = frame.run<ComposeStage>(geometry, eye, caustic);
+    return {picture, caustic, eye, layers, hits, caustic.ledger};
+}
+
+}  // namespace kaustik

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+// What a node is handed when it declares its passes: the graph, the parameters, the scene and its
+// needs, and the view.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "framework/gl/executor.h"
+#include "framework/graph/graph.h"
+#include "framework/pipeline/registry.h"
+#include "framework/render/gpu_scene.h"
+#include "framework/scene/needs.h"
+
+namespace kaustik {
+
+// What a frame is made of, owned by the renderer; all of it outlives the graph.
+struct FrameInputs {
+    const Registry& registry;
+    const params::ParamSet& params;
+    const render::GpuScene& gpuScene;
+    const scene::SceneNeeds& needs;
+    const render::EyeView& view;
+    const gl::Buffer& viewBlock;             // transport::ViewData
+    const render::ViewInstances& instances;  // as the eye sees them
+    const gl::Buffer& lights;                // transport::LightData
+    // Watts that one unit of the ledger stands for, a power of two.
+    float ledgerQuantumWatts;
+
+    // Bind what common/view.glsl and common/ledger.glsl declare.
+    gl::Command& bindView(gl::Command& command) const;
+    gl::Command& bindLedger(gl::Command& command, const Ledger& ledger) const;
+};
+
+class FrameBuilder {
+  public:
+    FrameBuilder(graph::Graph& graph, const FrameInputs& inputs) : graph_(graph), inputs_(inputs) {}
+
+    // Runs the node that the settings choose for a stage.
+    template <class Stage, class... In>
+    typename Stage::Output run(In... in) {
+        const Registry::Node& node = chosenNode(Stage::name);
+        const auto& build = *static_cast<const typename Stage::Build*>(node.build.get());
+        return build(*this, std::move(in)...);
+    }
+    [[nodiscard]] const Registry::Node& chosenNode(const std::string& stage);
+
+    // Adds a pass; see graph::Graph::addPass. `why` is what `explain` prints.
+    template <class Data, class Setup, class Execute>
+    const Data& pass(const std::string& name, const std::string& why, Setup&& setup,
+                     Execute&& execute) {
+        return graph_.addPass<Data, gl::PassContext>({name, why}, std::forward<Setup>(setup),
+                                                     std::forward<Execute>(execute));
+    }
+    void leaveOut(const std::string& name, const std::string& why) { graph_.leaveOut(name, why); }
+
+    // The parameters of a node ("trace.lines") or those that a stage shares ("trace").
+    template <class Params>
+    [[nodiscard]] const Params& params(const std::string& scope) const {
+        return inputs_.params.get<Params>(scope);
+    }
+
+    [[nodiscard]] const scene::Scene& scene() const { return inputs_.gpuScene.scene(); }
+    [[nodiscard]] const render::GpuScene& gpuScene() const { return inputs_.gpuScene; }
+    [[nodiscard]] const scene::SceneNeeds& needs() const { return inputs_.needs; }
+    [[nodiscard]] const render::EyeView& view() const { return inputs_.view; }
+    [[nodiscard]] int width() const { return inputs_.view.width; }
+    [[nodiscard]] int height() const { return inputs_.view.height; }
+    // Outlives the graph: what execute functions capture, by reference.
+    [[nodiscard]] const FrameInputs& inputs() const { return inputs_; }
+
+    // Keeps `object` (a buffer of a node's own, say) alive as long as the frame.
+    template <class T>
+    const T& keep(T&& object) {
+        auto owner = std::make_shared<std::decay_t<T>>(std::forward<T>(object));
+        const auto& reference = *owner;
+        kept_.push_back(std::move(owner));
+        return reference;
+    }
+    [[nodiscard]] std::vector<std::shared_ptr<void>> takeKept() { return std::move(kept_); }
+    // For the report.
+    void warn(std::string warning) { warnings_.push_back(std::move(warning)); }
+    [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
+    // How often a stage has been run so far, the running one included.
+    [[nodiscard]] int runsOf(const std::string& stage) const;
+
+  private:
+    graph::Graph& graph_;
+    const FrameInputs& inputs_;
+    std::vector<std::shared_ptr<void>> kept_;
+    std::vector<std::string> warnings_;
+    std::vector<std::string> stagesRun_;
+};
+
+// The usual order of the stages, from which a technique differs only if it must.
+[[nodiscard]] FrameOutputs buildFrame(FrameBuilder& frame);
+
+template <class Params>
+const Params& Registry::paramsOf(FrameBuilder& frame, const std::string& scope) {
+    return frame.params<Params>(scope);
+}
+
+}  // namespace kaustik

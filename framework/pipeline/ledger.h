@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// The energy ledger of a frame (design, section 5): every account summed on its own, none as a
+// remainder.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "framework/pipeline/frame_builder.h"
+
+namespace kaustik {
+
+struct EnergyLedger {
+    // Watts of the three channels together, and how many additions made them; by kAccount….
+    std::array<double, transport::kAccountCount> watts{};
+    std::array<std::uint64_t, transport::kAccountCount> events{};
+
+    // (emitted - all the other accounts) / emitted; 0 where nothing was emitted.
+    [[nodiscard]] double balance() const;
+    [[nodiscard]] double lostWatts() const;
+};
+
+// The causes of loss with the names that the report gives them.
+[[nodiscard]] const std::vector<std::pair<unsigned, std::string>>& lossCauses();
+
+// Watts that one unit of the ledger stands for: a power of two so small that the flux of all lights
+// fits into 2^50 units.
+[[nodiscard]] float ledgerQuantum(const scene::Scene& scene);
+
+// Adds the pass that sums what was deposited and what was still on its way; gives the final ledger.
+[[nodiscard]] Ledger closeLedger(FrameBuilder& frame, const FrameOutputs& outputs);
+
+// Waits for the device.
+[[nodiscard]] EnergyLedger readLedger(const gl::Buffer& buffer, float quantumWatts);
+
+}  // namespace kaustik

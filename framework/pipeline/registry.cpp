@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "framework/pipeline/registry.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+
+#include "framework/core/error.h"
+#include "framework/core/names.h"
+
+namespace kaustik {
+
+void Registry::addNode(Node node) {
+    assert(std::none_of(nodes_.begin(), nodes_.end(),
+                        [&](const Node& other) {
+                            return other.stage == node.stage && other.name == node.name;
+                        }) &&
+           "a node is registered once");
+    nodes_.push_back(std::move(node));
+}
+
+void Registry::technique(Technique technique) {
+    techniques_.push_back(std::move(technique));
+}
+
+const Technique& Registry::findTechnique(const std::string& name) const {
+    std::vector<std::string> names;
+    for (const Technique& technique : techniques_) {
+        if (technique.name == name) return technique;
+        names.push_back(technique.name);
+    }
+    throw ConfigError(fmt::format("There is no technique '{}'{}; there is {}.", name,
+                                  didYouMean(name, names), joinNames(names)));
+}
+
+const Registry::Node& Registry::findNode(const std::string& stage, const std::string& name) const {
+    const auto found = std::find_if(nodes_.begin(), nodes_.end(), [&](const Node& node) {
+        return node.stage == stage && node.name == name;
+    });
+    assert(found != nodes_.end() && "the choice of a stage is one of its nodes");
+    return *found;
+}
+
+params::ParamSet Registry::makeParams(const Technique& technique) const {
+    params::ParamSet set;
+    std::vector<std::string> done;
+    for (const Node& node : nodes_) {
+        if (std::find(done.begin(), done.end(), node.stage) != done.end()) continue;
+        done.push_back(node.stage);
+        std::vector<std::string> options;
+        for (const Node& other : nodes_) {
+            if (other.stage == node.stage) options.push_back(other.name);
+        }
+        set.declareChoice(node.stage, node.question, options, options.front());
+    }
+    for (const auto& declare : declarations_)
+        declare(set);
+    for (const auto& [name, value] : technique.defaults)
+        set.setDefault(name, value);
+    return set;
+}
+
+}  // namespace kaustik

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// What there is to choose from: stages, the nodes that answer them, and techniques, which are rows
+// of answers. Built explicitly by techniques/register_all.cpp; a technique of one's own is added
+// the same way, from anywhere:
+//
+//     registry.node<TraceStage>("mine", {"What it does.", "Paper, section"}, &traceMine);
+//     registry.technique({"mine", "What it shows.", "Paper", {{"trace", "mine"}}});
+//
+// where `Hits traceMine(FrameBuilder&, const MineParams&, Photons, LayeredDepth, Hits)` declares
+// its passes. MineParams then appear as trace.mine.*.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "framework/params/param_set.h"
+#include "framework/transport/stages.h"
+
+namespace kaustik {
+
+class FrameBuilder;
+
+struct NodeDescription {
+    std::string sentence;
+    std::string source;  // paper, section, equation; "" for our own
+};
+
+// What a technique hands to the report, besides the picture.
+struct FrameOutputs {
+    Picture picture;
+    IrradianceMap caustic;
+    EyeBuffer eye;
+    LayeredDepth layers;  // invalid handles where a technique has none
+    Hits hits;
+    Ledger ledger;  // with everything but what was deposited
+};
+
+using BuildFrame = std::function<FrameOutputs(FrameBuilder&)>;
+
+struct Technique {
+    std::string name;
+    std::string sentence;
+    std::string source;
+    // Its answers and other defaults: {"trace", "lines"}, {"emit.photons", "256x256"}.
+    std::vector<std::pair<std::string, std::string>> defaults;
+    // How its stages are put together; empty: the usual order (buildFrame in frame_builder.h).
+    BuildFrame build;
+};
+
+class Registry {
+  public:
+    // Declares the parameters that all nodes of a stage share.
+    template <class Stage, class Params>
+    void sharedParams() {
+        declarations_.push_back([](params::ParamSet& set) { set.declare<Params>(Stage::name); });
+    }
+
+    // Adds a node that answers a stage. The first one added is the stage's default.
+    template <class Stage, class Params, class... In>
+    void node(const std::string& name, NodeDescription description,
+              typename Stage::Output (*build)(FrameBuilder&, const Params&, In...)) {
+        using Build = typename Stage::Build;
+        static_assert(
+            std::is_same_v<Build, std::function<typename Stage::Output(FrameBuilder&, In...)>>,
+            "a node takes and gives what its stage says");
+        const std::string scope = std::string(Stage::name) + "." + name;
+        auto bound = std::make_shared<Build>([scope, build](FrameBuilder& frame, In... in) {
+            return build(frame, paramsOf<Params>(frame, scope), std::move(in)...);
+        });
+        addNode({Stage::name, Stage::question, name, std::move(description), std::move(bound)});
+        declarations_.push_back([scope](params::ParamSet& set) { set.declare<Params>(scope); });
+    }
+
+    void technique(Technique technique);
+
+    struct Node {
+        std::string stage;
+        std::string question;
+        std::string name;
+        NodeDescription description;
+        std::shared_ptr<void> build;  // of the stage's own signature
+    };
+    [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
+    [[nodiscard]] const std::vector<Technique>& techniques() const { return techniques_; }
+
+    // Throws ConfigError with the nearest name.
+    [[nodiscard]] const Technique& findTechnique(const std::string& name) const;
+    [[nodiscard]] const Node& findNode(const std::string& stage, const std::string& name) const;
+
+    // Every parameter with its default, then the technique's own defaults.
+    [[nodiscard]] params::ParamSet makeParams(const Technique& technique) const;
+
+  private:
+    template <class Params>
+    static const Params& paramsOf(FrameBuilder& frame, const std::string& scope);
+    void addNode(Node node);
+
+    std::vector<Node> nodes_;
+    std::vector<Technique> techniques_;
+    std::vector<std::function<void(params::ParamSet&)>> declarations_;
+};
+
+}  // namespace kaustik
+
+#include "framework/pipeline/frame_builder.h"

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include "framework/pipeline/renderer.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+
+#include "framework/core/error.h"
+#include "framework/core/names.h"
+
+namespace kaustik {
+namespace {
+
+gl::Buffer makeViewBlock(const scene::Scene& scene, const render::EyeView& view) {
+    const transport::ViewData data = viewData(scene, view);
+    return {sizeof(data), &data, "view"};
+}
+
+gl::Buffer makeLights(const scene::Scene& scene, const render::EyeView& view) {
+    std::vector<transport::LightData> lights;
+    for (const scene::Light& light : scene.lights)
+        lights.push_back(lightData(light, view));
+    lights.push_back({});  // a scene without lights still binds a block
+    return {lights, "lights"};
+}
+
+}  // namespace
+
+Renderer::Renderer(gl::Context& context, const Registry& registry, const scene::Scene& scene,
+                   RenderSettings settings)
+    : context_(context),
+      registry_(registry),
+      scene_(scene),
+      settings_(std::move(settings)),
+      view_(render::makeEyeView(scene.camera, settings_.width, settings_.height)),
+      gpuScene_(scene),
+      viewBlock_(makeViewBlock(scene, view_)),
+      lights_(makeLights(scene, view_)),
+      instances_(gpuScene_.makeInstances(view_.worldToView)),
+      needs_(sceneNeeds(scene)),
+      ledgerQuantumWatts_(ledgerQuantum(scene)),
+      inputs_{registry_,  settings_.params, gpuScene_,          needs_, view_, viewBlock_,
+              instances_, lights_,          ledgerQuantumWatts_},
+      executor_(context, programs_) {
+    context_.check();
+}
+
+FrameBuilder Renderer::declareFrame() {
+    graph_ = std::make_unique<graph::Graph>();
+    FrameBuilder frame(*graph_, inputs_);
+    outputs_ = settings_.technique.build ? settings_.technique.build(frame) : buildFrame(frame);
+    return frame;
+}
+
+void Renderer::build(Purpose purpose, const std::vector<std::string>& resources) {
+    const auto begin = std::chrono::steady_clock::now();
+    FrameBuilder frame = declareFrame();
+    if (purpose == Purpose::measurement) closedLedger_ = closeLedger(frame, outputs_);
+    graph_->request(outputs_.picture.radiance);
+    graph_->request(outputs_.picture.display);
+    graph_->request(outputs_.caustic.irradiance);
+    if (purpose == Purpose::measurement) {
+        graph_->request(closedLedger_);
+        if (outputs_.layers.statistics.valid()) graph_->request(outputs_.layers.statistics);
+    }
+    for (const std::string& name : resources) {
+        const graph::ResourceRef handle = graph_->find(name);
+        if (!handle.valid()) {
+            throw ConfigError(
+                fmt::format("There is no resource '{}'{}; 'kaustik explain' prints them all.", name,
+                            didYouMean(name, graph_->resourceNames())));
+        }
+        graph_->request(handle);
+    }
+    for (const std::string& pass : settings_.disabledPasses)
+        graph_->disable(pass);
+    graph::Compiled compiled = graph_->compile();
+    buildMilliseconds_ =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+    kept_ = frame.takeKept();
+    warnings_ = frame.warnings();
+    executor_.prepare(std::move(compiled));
+}
+
+void Renderer::renderFrame(gl::PassTimer& timer) {
+    executor_.runFrame(timer);
+}
+
+EnergyLedger Renderer::ledger() const {
+    return readLedger(executor_.buffer(closedLedger_), ledgerQuantumWatts_);
+}
+
+transport::LayerStatistics Renderer::layerStatistics() const {
+    if (!outputs_.layers.statistics.valid()) return {};
+    return executor_.buffer(outputs_.layers.statistics).read<transport::LayerStatistics>().front();
+}
+
+const gl::Texture& Renderer::texture(const graph::ResourceRef& handle) const {
+    return executor_.texture(handle);
+}
+
+const gl::Buffer& Renderer::buffer(const graph::ResourceRef& handle) const {
+    return executor_.buffer(handle);
+}
+
+void Renderer::measureDepthComplexity() {
+    const FrameBuilder frame = declareFrame();
+    if (!outputs_.layers.statistics.valid()) return;
+    graph_->request(outputs_.layers.statistics);
+    executor_.prepare(graph_->compile());
+    gl::PassTimer timer(gl::TimerMode::finish);
+    executor_.runFrame(timer);
+    needs_.measuredDepthComplexity = static_cast<int>(layerStatistics().complexity);
+}
+
+}  // namespace kaustik

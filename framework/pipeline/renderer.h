@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// A scene, a technique and settings, ready to render frames. The command line, the GUI and the
+// tests are thin users of this.
+#pragma once
+
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "framework/gl/executor.h"
+#include "framework/graph/graph.h"
+#include "framework/pipeline/frame_builder.h"
+#include "framework/pipeline/ledger.h"
+#include "framework/scene/needs.h"
+
+namespace kaustik {
+
+struct RenderSettings {
+    Technique technique;
+    params::ParamSet params;
+    std::set<std::string> disabledPasses;
+    int width = 800;
+    int height = 600;
+};
+
+// What a frame is asked for.
+enum class Purpose {
+    picture,     // what a user of the technique wants: this is what is timed
+    measurement  // also the ledger, the layer statistics and every resource kept by name
+};
+
+class Renderer {
+  public:
+    // Uploads the scene. `scene` and `registry` must outlive the renderer.
+    Renderer(gl::Context& context, const Registry& registry, const scene::Scene& scene,
+             RenderSettings settings);
+
+    // Builds and compiles the graph, and allocates its memory. `resources` are kept until the
+    // frame's end so that they can be saved: those that nothing asks for are asked for; an unknown
+    // name is a ConfigError with the nearest one. Throws GraphError, ConfigError and DeviceError.
+    void build(Purpose purpose, const std::vector<std::string>& resources = {});
+    void renderFrame(gl::PassTimer& timer);
+
+    // Of the last build.
+    [[nodiscard]] const graph::Graph& graph() const { return *graph_; }
+    [[nodiscard]] const graph::Compiled& compiled() const { return executor_.compiled(); }
+    [[nodiscard]] const FrameOutputs& outputs() const { return outputs_; }
+    [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
+    [[nodiscard]] double buildMilliseconds() const { return buildMilliseconds_; }
+
+    // What was rendered; these wait for the device. The first two need Purpose::measurement.
+    [[nodiscard]] EnergyLedger ledger() const;
+    [[nodiscard]] transport::LayerStatistics layerStatistics() const;
+    [[nodiscard]] const gl::Texture& texture(const graph::ResourceRef& handle) const;
+    [[nodiscard]] const gl::Buffer& buffer(const graph::ResourceRef& handle) const;
+
+    // Renders only what counts the fragments of each pixel and notes the result in needs().
+    void measureDepthComplexity();
+    [[nodiscard]] const scene::SceneNeeds& needs() const { return needs_; }
+    [[nodiscard]] const scene::Scene& scene() const { return scene_; }
+    [[nodiscard]] const render::GpuScene& gpuScene() const { return gpuScene_; }
+    [[nodiscard]] const RenderSettings& settings() const { return settings_; }
+    [[nodiscard]] gl::Executor& executor() { return executor_; }
+
+  private:
+    [[nodiscard]] FrameBuilder declareFrame();
+
+    gl::Context& context_;
+    const Registry& registry_;
+    const scene::Scene& scene_;
+    RenderSettings settings_;
+    render::EyeView view_;
+    render::GpuScene gpuScene_;
+    gl::Buffer viewBlock_;
+    gl::Buffer lights_;
+    render::ViewInstances instances_;
+    scene::SceneNeeds needs_;
+    float ledgerQuantumWatts_;
+    FrameInputs inputs_;
+    gl::ProgramCache programs_;
+    gl::Executor executor_;
+
+    std::unique_ptr<graph::Graph> graph_;
+    std::vector<std::shared_ptr<void>> kept_;  // what nodes keep alive for their frame
+    FrameOutputs outputs_;
+    Ledger closedLedger_;
+    std::vector<std::string> warnings_;
+    double buildMilliseconds_ = 0.0;
+};
+
+}  // namespace kaustik

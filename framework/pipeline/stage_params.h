@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// Parameters that all nodes of a stage share (`stage.param`).
+#pragma once
+
+#include "framework/params/field.h"
+
+namespace kaustik {
+
+struct LayersParams {
+    int count = 8;
+    template <class R>
+    void reflect(R& r) {
+        r.field(count, "count",
+                "Most depth layers that are peeled; deeper fragments are counted and left out", "",
+                params::range(1, 64));
+    }
+};
+
+struct EmitParams {
+    params::Extent photons{256, 256};
+    template <class R>
+    void reflect(R& r) {
+        r.field(photons, "photons", "Photons along each side of a light's grid", "",
+                params::range(1, 4096));
+    }
+};
+
+struct SpecularParams {
+    int bounces = 4;
+    template <class R>
+    void reflect(R& r) {
+        r.field(bounces, "bounces",
+                "Most specular interactions along a photon's path, where a scene lets them repeat",
+                "", params::range(1, 32));
+    }
+};
+
+// How a tracer decides that a ray meets a layer.
+enum class HitTest : int { crossing, epsilon };
+
+struct TraceParams {
+    HitTest test = HitTest::crossing;
+    float epsilonMeters = 0.01f;
+    template <class R>
+    void reflect(R& r) {
+        r.choice(test, "test",
+                 "crossing: the ray crosses the tangent plane of a layer within the pixel's "
+                 "footprint, whatever the scene's scale; epsilon: the paper's absolute distance",
+                 {"crossing", "epsilon"});
+        r.field(epsilonMeters, "epsilon",
+                "Largest difference of depth between ray and layer that counts as a hit, for the "
+                "epsilon test",
+                "m", params::range(1e-6f, 1e6f));
+    }
+};
+
+}  // namespace kaustik

@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: MIT
+#include "framework/render/gpu_scene.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "framework/image/image.h"
+
+namespace kaustik::render {
+namespace {
+
+using transport::InstanceData;
+using transport::MaterialData;
+using transport::VertexData;
+
+constexpr int kMaxImageSide = 1024;
+
+struct DrawCommand {
+    GLuint indexCount;
+    GLuint instanceCount;
+    GLuint firstIndex;
+    GLint baseVertex;
+    GLuint baseInstance;  // selects the object, through an attribute with a divisor
+};
+
+// Lambertian first, then mirrors, then dielectrics.
+std::size_t drawOrder(scene::MaterialKind kind) {
+    switch (kind) {
+        case scene::MaterialKind::lambertian:
+            return 0;
+        case scene::MaterialKind::mirror:
+            return 1;
+        case scene::MaterialKind::dielectric:
+            return 2;
+    }
+    return 0;
+}
+
+float srgbToLinear(float value) {
+    return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
+}
+
+// `image` as RGBA in linear light, resampled bilinearly to side x side (repeating at the edges),
+// bottom row first.
+std::vector<float> resample(const Image& image, int side, bool srgb) {
+    std::vector<float> texels(static_cast<std::size_t>(side) * static_cast<std::size_t>(side) * 4,
+                              1.0f);
+    const auto wrapped = [](int i, int n) { return (i % n + n) % n; };
+    for (int y = 0; y < side; ++y) {
+        for (int x = 0; x < side; ++x) {
+            const float u = (static_cast<float>(x) + 0.5f) / static_cast<float>(side) *
+                                static_cast<float>(image.width) -
+                            0.5f;
+            const float v = (static_cast<float>(side - 1 - y) + 0.5f) / static_cast<float>(side) *
+                                static_cast<float>(image.height) -
+                            0.5f;
+            const int x0 = static_cast<int>(std::floor(u));
+            const int y0 = static_cast<int>(std::floor(v));
+            const float fx = u - static_cast<float>(x0);
+            const float fy = v - static_cast<float>(y0);
+            for (int c = 0; c < 3; ++c) {
+                const int channel = image.channels >= 3 ? c : 0;
+                const auto at = [&](int i, int j) {
+                    const float value =
+                        image.at(wrapped(i, image.width), wrapped(j, image.height), channel);
+                    return srgb ? srgbToLinear(value) : value;
+                };
+                const float low = at(x0, y0) * (1 - fx) + at(x0 + 1, y0) * fx;
+                const float high = at(x0, y0 + 1) * (1 - fx) + at(x0 + 1, y0 + 1) * fx;
+                texels[(static_cast<std::size_t>(y) * static_cast<std::size_t>(side) +
+                        static_cast<std::size_t>(x)) *
+                           4 +
+                       static_cast<std::size_t>(c)] = low * (1 - fy) + high * fy;
+            }
+        }
+    }
+    return texels;
+}
+
+}  // namespace
+
+GpuScene::GpuScene(const scene::Scene& scene) : scene_(scene) {
+    uploadMeshes();
+    uploadMaterials();
+    uploadImages();
+}
+
+void GpuScene::uploadMeshes() {
+    std::vector<VertexData> vertices;
+    std::vector<GLuint> indices;
+    struct MeshRange {
+        std::size_t firstVertex;
+        std::size_t firstIndex;
+    };
+    std::vector<MeshRange> ranges;
+    for (std::size_t m = 0; m < scene_.meshes.size(); ++m) {
+        const scene::Mesh& mesh = scene_.meshes[m];
+        const bool isHeightField = mesh.heightField.has_value();
+        ranges.push_back(
+            {isHeightField ? heightFieldVertexCount_ : vertices.size(), indices.size()});
+        if (isHeightField) {
+            heightFields_.push_back({m, heightFieldVertexCount_});
+            heightFieldVertexCount_ += mesh.positions.size();
+        } else {
+            for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+                vertices.push_back(
+                    {mesh.positions[v], mesh.uvs[v].x, mesh.normals[v], mesh.uvs[v].y});
+            }
+        }
+        for (const glm::uvec3& t : mesh.triangles)
+            indices.insert(indices.end(), {t.x, t.y, t.z});
+    }
+
+    std::vector<GLuint> order(scene_.objects.size());
+    for (GLuint i = 0; i < order.size(); ++i)
+        order[i] = i;
+    const auto orderOf = [&](GLuint object) {
+        const scene::Object& o = scene_.objects[object];
+        const bool isHeightField = scene_.meshes[o.mesh].heightField.has_value();
+        return (isHeightField ? 3u : 0u) + drawOrder(scene_.materials[o.material].kind);
+    };
+    std::stable_sort(order.begin(), order.end(),
+                     [&](GLuint a, GLuint b) { return orderOf(a) < orderOf(b); });
+    std::vector<DrawCommand> commands;
+    for (const GLuint object : order) {
+        const std::size_t mesh = scene_.objects[object].mesh;
+        commands.push_back({static_cast<GLuint>(3 * scene_.meshes[mesh].triangles.size()), 1,
+                            static_cast<GLuint>(ranges[mesh].firstIndex),
+                            static_cast<GLint>(ranges[mesh].firstVertex), object});
+    }
+    commandCount_ = commands.size();
+    const auto firstOfOrder = [&](std::size_t wanted) {
+        return static_cast<std::size_t>(
+            std::find_if(order.begin(), order.end(),
+                         [&](GLuint object) { return orderOf(object) >= wanted; }) -
+            order.begin());
+    };
+    for (std::size_t kind = 0; kind < 4; ++kind) {
+        staticGroup_.kindBegin[kind] = firstOfOrder(kind);
+        heightFieldGroup_.kindBegin[kind] = firstOfOrder(3 + kind);
+    }
+
+    vertices_ = gl::Buffer(vertices, "scene vertices");
+    indices_ = gl::Buffer(indices, "scene indices");
+    commands_ = gl::Buffer(commands, "scene commands");
+    std::vector<GLuint> iota(std::max<std::size_t>(scene_.objects.size(), 1));
+    for (GLuint i = 0; i < iota.size(); ++i)
+        iota[i] = i;
+    objectIndices_ = gl::Buffer(iota, "object indices");
+
+    for (gl::VertexArrayObject* array : {&staticVertexArray_, &heightFieldVertexArray_}) {
+        *array = gl::makeVertexArray();
+        const GLuint id = array->id();
+        const auto attribute = [&](GLuint index, GLint size, std::size_t offset) {
+            glEnableVertexArrayAttrib(id, index);
+            glVertexArrayAttribFormat(id, index, size, GL_FLOAT, GL_FALSE,
+                                      static_cast<GLuint>(offset));
+            glVertexArrayAttribBinding(id, index, 0);
+        };
+        attribute(0, 3, offsetof(VertexData, position));
+        attribute(1, 3, offsetof(VertexData, normal));
+        attribute(2, 1, offsetof(VertexData, u));
+        attribute(3, 1, offsetof(VertexData, v));
+        glEnableVertexArrayAttrib(id, 4);
+        glVertexArrayAttribIFormat(id, 4, 1, GL_UNSIGNED_INT, 0);
+        glVertexArrayAttribBinding(id, 4, 1);
+        glVertexArrayVertexBuffer(id, 1, objectIndices_.id(), 0, sizeof(GLuint));
+        glVertexArrayBindingDivisor(id, 1, 1);
+        glVertexArrayElementBuffer(id, indices_.id());
+    }
+    glVertexArrayVertexBuffer(staticVertexArray_.id(), 0, vertices_.id(), 0, sizeof(VertexData));
+}
+
+void GpuScene::uploadMaterials() {
+    std::vector<MaterialData> materials;
+    for (std::size_t m = 0; m < scene_.materials.size(); ++m) {
+        const scene::Material& material = scene_.materials[m];
+        const bool isOpen = std::any_of(
+            scene_.objects.begin(), scene_.objects.end(), [&](const scene::Object& object) {
+                return object.material == m && !scene_.meshes[object.mesh].closed;
+            });
+        MaterialData data{};
+        data.albedo = glm::vec4(material.albedo, static_cast<float>(material.kind));
+        data.patternAlbedo =
+            glm::vec4(material.patternAlbedo, static_cast<float>(material.pattern));
+        data.absorption = glm::vec4(material.absorptionPerMeter, material.ior);
+        data.uv =
+            glm::vec4(material.uvScale, static_cast<float>(material.image), isOpen ? 1.0f : 0.0f);
+        materials.push_back(data);
+    }
+    materials.push_back({});  // an empty scene still binds a block
+    materials_ = gl::Buffer(materials, "materials");
+}
+
+void GpuScene::uploadImages() {
+    int side = 1;
+    std::vector<Image> images;
+    for (const scene::TextureImage& texture : scene_.images) {
+        images.push_back(texture.file.empty() ? decodeImage(texture.bytes, texture.name)
+                                              : readImage(texture.file));
+        side = std::max({side, images.back().width, images.back().height});
+    }
+    side = std::min(side, kMaxImageSide);
+    const int layers = std::max(static_cast<int>(images.size()), 1);
+    images_ = gl::Texture({side, side, graph::Format::rgba16f, layers}, "scene images", true);
+    for (std::size_t i = 0; i < images.size(); ++i) {
+        images_.upload(static_cast<int>(i), resample(images[i], side, scene_.images[i].srgb));
+    }
+    if (!images.empty()) images_.generateMipmaps();
+}
+
+ViewInstances GpuScene::makeInstances(const glm::dmat4& worldToView) const {
+    std::vector<InstanceData> instances;
+    for (const scene::Object& object : scene_.objects) {
+        // The mesh's own origin joins here, in double, so that a scene far from the world's origin
+        // loses nothing: what is left is small.
+        const glm::dmat4 modelToView =
+            worldToView * object.toWorld *
+            glm::translate(glm::dmat4(1.0), scene_.meshes[object.mesh].origin);
+        InstanceData data{};
+        data.modelToView = glm::mat4(modelToView);
+        data.normalToView =
+            glm::mat4(glm::dmat4(glm::transpose(glm::inverse(glm::dmat3(modelToView)))));
+        data.material = glm::uvec4(object.material, 0, 0, 0);
+        instances.push_back(data);
+    }
+    instances.push_back({});
+    return {gl::Buffer(instances, "instances")};
+}
+
+std::pair<std::size_t, std::size_t> GpuScene::runOf(const Group& group, DrawSet set) {
+    const auto run = [&](std::size_t first, std::size_t end) {
+        return std::pair(group.kindBegin[first], group.kindBegin[end] - group.kindBegin[first]);
+    };
+    switch (set) {
+        case DrawSet::all:
+            return run(0, 3);
+        case DrawSet::lambertian:
+            return run(0, 1);
+        case DrawSet::specular:
+            return run(1, 3);
+        case DrawSet::dielectrics:
+            return run(2, 3);
+        case DrawSet::nonDielectrics:
+            return run(0, 2);
+    }
+    return {0, 0};
+}
+
+void GpuScene::draw(gl::Command& command, const gl::PassContext& context, const Geometry& geometry,
+                    const ViewInstances& view, DrawSet set, const gl::Buffer* commands,
+                    std::size_t firstCommand) const {
+    command.storage("Instances", view.instances);
+    const gl::Buffer& list = commands != nullptr ? *commands : commands_;
+    const auto [first, count] = runOf(staticGroup_, set);
+    command.drawIndexedIndirect(staticVertexArray_.id(), list, firstCommand + first, count);
+    const auto [fieldFirst, fieldCount] = runOf(heightFieldGroup_, set);
+    if (fieldCount == 0 || !geometry.heightFields.valid()) return;
+    glVertexArrayVertexBuffer(heightFieldVertexArray_.id(), 0,
+                              context.buffer(geometry.heightFields).id(), 0, sizeof(VertexData));
+    command.drawIndexedIndirect(heightFieldVertexArray_.id(), list, firstCommand + fieldFirst,
+                                fieldCount);
+}
+
+void GpuScene::bindMaterials(gl::Command& command) const {
+    command.storage("Materials", materials_).texture("sceneImages", images_);
+}
+
+std::size_t GpuScene::bytes() const {
+    return vertices_.bytes() + indices_.bytes() + commands_.bytes() + materials_.bytes() +
+           images_.desc().bytes();
+}
+
+}  // namespace kaustik::render

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+#include "framework/report/run_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "framework/core/files.h"
+#include "framework/report/statistics.h"
+
+namespace kaustik::report {
+namespace {
+
+using nlohmann::json;
+using namespace transport;
+
+std::string processorName() {
+    std::ifstream file("/proc/cpuinfo");
+    for (std::string line; std::getline(file, line);) {
+        if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
+    }
+    return "unknown";
+}
+
+json needsJson(const scene::SceneNeeds& needs, const LayerStatistics& layers) {
+    return {{"specular_interfaces", needs.specularInterfaces},
+            {"reflectors", needs.reflectors},
+            {"refractors", needs.refractors},
+            {"medium", needs.medium},
+            {"glossy_receivers", needs.glossyReceivers},
+            {"animated", needs.animated},
+            {"lights", needs.lights},
+            {"receivers", needs.receivers},
+            {"depth_complexity", layers.complexity}};
+}
+
+json energyJson(const EnergyLedger& ledger) {
+    json lost = json::object();
+    for (const auto& [account, name] : lossCauses()) {
+        if (ledger.watts[account] > 0.0) lost[name] = ledger.watts[account];
+    }
+    return {{"emitted_w", ledger.watts[kAccountEmitted]},
+            {"deposited_w", ledger.watts[kAccountDeposited]},
+            {"absorbed_w", ledger.watts[kAccountAbsorbed]},
+            {"left_scene_w", ledger.watts[kAccountLeftScene]},
+            {"lost_w", lost},
+            {"balance", ledger.balance()}};
+}
+
+json photonsJson(const EnergyLedger& ledger) {
+    const std::uint64_t emitted = ledger.events[kAccountEmitted];
+    const std::uint64_t hit = ledger.events[kAccountArrived];
+    const std::uint64_t nan = ledger.events[kAccountNotANumber];
+    const std::uint64_t stillFlying = ledger.events[kAccountBounceLimit];
+    const std::uint64_t rest = hit + nan + stillFlying;
+    return {{"emitted", emitted},
+            {"specular", emitted},
+            {"hit", hit},
+            {"missed", emitted > rest ? emitted - rest : 0},
+            {"nan", nan}};
+}
+
+json passesJson(const RunRecord& record) {
+    std::map<std::string, const PassTimes*> timesOf;
+    const std::vector<PassTimes> times = timesByPass(record);
+    for (const PassTimes& pass : times)
+        timesOf[pass.name] = &pass;
+    json passes = json::array();
+    for (const graph::PassRecord& pass : record.passes) {
+        json entry = {{"name", pass.name},
+                      {"stage", pass.name.substr(0, pass.name.find('.'))},
+                      {"ran", pass.state == graph::PassState::ran},
+                      {"why", pass.why}};
+        const auto found = timesOf.find(pass.name);
+        if (pass.state == graph::PassState::ran && found != timesOf.end()) {
+            entry["repeats"] = pass.repeats;
+            entry["gpu_ms"] = toJson(summarize(found->second->gpuMilliseconds));
+            entry["cpu_ms"] = toJson(summarize(found->second->cpuMilliseconds));
+        }
+        passes.push_back(std::move(entry));
+    }
+    return passes;
+}
+
+std::vector<double> frameSamples(const RunRecord& record) {
+    std::vector<double> samples;
+    for (const gl::FrameTime& frame : record.frames)
+        samples.push_back(frame.frameMs);
+    return samples;
+}
+
+std::vector<double> bookkeepingSamples(const RunRecord& record) {
+    std::vector<double> samples;
+    for (const gl::FrameTime& frame : record.frames)
+        samples.push_back(frame.bookkeepingMs);
+    return samples;
+}
+
+}  // namespace
+
+std::vector<PassTimes> timesByPass(const RunRecord& record) {
+    std::vector<PassTimes> times;
+    std::map<std::string, std::size_t> indexOf;
+    for (const std::string& name : record.stepNames) {
+        if (indexOf.emplace(name, times.size()).second) times.push_back({name, {}, {}});
+    }
+    for (const gl::FrameTime& frame : record.frames) {
+        for (PassTimes& pass : times) {
+            pass.gpuMilliseconds.push_back(0.0);
+            pass.cpuMilliseconds.push_back(0.0);
+        }
+        for (std::size_t step = 0; step < frame.passes.size(); ++step) {
+            PassTimes& pass = times[indexOf[record.stepNames[step]]];
+            pass.gpuMilliseconds.back() += frame.passes[step].gpuMs;
+            pass.cpuMilliseconds.back() += frame.passes[step].cpuMs;
+        }
+    }
+    return times;
+}
+
+json makeReport(const RunRecord& record, const Renderer& renderer, const gl::DeviceInfo& device) {
+    const RenderSettings& settings = renderer.settings();
+    json report = {
+        {"schema", "kaustik.report/1"},
+        {"version", versionString()},
+        {"device",
+         {{"renderer", device.renderer},
+          {"vendor", device.vendor},
+          {"gl", device.version},
+          {"cpu", processorName()},
+          {"threads", std::thread::hardware_concurrency()}}},
+        {"scene",
+         {{"name", renderer.scene().name},
+          {"triangles", triangleCount(renderer.scene())},
+          {"needs", needsJson(renderer.needs(), record.layers)}}},
+        {"technique", settings.technique.name},
+        {"parameters", settings.params.json()},
+        {"disabled", settings.disabledPasses},
+        {"time_s", renderer.scene().timeSeconds},
+        {"seed", record.seed},
+        {"size", {settings.width, settings.height}},
+        {"frames", record.frames.size()},
+        {"warmup", record.warmup},
+        {"timer", record.timer == gl::TimerMode::timestamps ? "gpu" : "finish"},
+        {"frame_ms", toJson(summarize(frameSamples(record)))},
+        {"bookkeeping_ms", toJson(summarize(bookkeepingSamples(record)))},
+        {"graph_build_ms", record.graphBuildMilliseconds},
+        {"startup_ms", record.startupMilliseconds},
+        {"passes", passesJson(record)},
+        {"photons", photonsJson(record.ledger)},
+        {"layers",
+         {{"allowed", record.layersAllowed},
+          {"complexity", record.layers.complexity},
+          {"peeled", std::min<std::uint64_t>(record.layers.complexity,
+                                             static_cast<std::uint64_t>(record.layersAllowed))},
+          {"fragments", record.layers.fragments},
+          {"fragments_left_out", record.layers.leftOut},
+          {"pixels_left_out", record.layers.pixelsLeftOut}}},
+        {"energy", energyJson(record.ledger)},
+        {"memory",
+         {{"texture_bytes", record.textureBytes},
+          {"buffer_bytes", record.bufferBytes},
+          {"scene_bytes", renderer.gpuScene().bytes()},
+          {"peak_bytes", record.peakBytes}}},
+        {"warnings", record.warnings}};
+    return report;
+}
+
+std::string makeTable(const RunRecord& record) {
+    const double frame = summarize(frameSamples(record)).median;
+    std::string table =
+        fmt::format("{:<22}{:>10}{:>9}{:>10}{:>8}\n", "pass", "ms", "±", "CPU ms", "share");
+    double sum = 0.0;
+    const std::vector<PassTimes> times = timesByPass(record);
+    for (const PassTimes& pass : times) {
+        const Summary gpu = summarize(pass.gpuMilliseconds);
+        sum += gpu.median;
+        table += fmt::format("{:<22}{:>10.3f}{:>9.3f}{:>10.3f}{:>7.1f}%\n", pass.name, gpu.median,
+                             gpu.standardDeviation, summarize(pass.cpuMilliseconds).median,
+                             frame > 0.0 ? 100.0 * gpu.median / frame : 0.0);
+    }
+    table += fmt::format("{:<22}{:>10.3f}\n", "all passes", sum);
+    table += fmt::format("{:<22}{:>10.3f}{:>9.3f}   median of {}, bookkeeping {:.3f} ms\n", "frame",
+                         frame, summarize(frameSamples(record)).standardDeviation,
+                         record.frames.size(), summarize(bookkeepingSamples(record)).median);
+    for (const graph::PassRecord& pass : record.passes) {
+        if (pass.state == graph::PassState::ran) continue;
+        const char* state = pass.state == graph::PassState::bypassed ? "bypassed" : "left out";
+        table += fmt::format("{:<22}{:>10}   {}\n", pass.name, state, pass.why);
+    }
+    const EnergyLedger& ledger = record.ledger;
+    const double emitted = ledger.watts[kAccountEmitted];
+    if (emitted > 0.0) {
+        const auto share = [&](double watts) { return 100.0 * watts / emitted; };
+        table += fmt::format(
+            "energy                emitted {:.4g} W: deposited {:.2f}%, absorbed {:.2f}%", emitted,
+            share(ledger.watts[kAccountDeposited]), share(ledger.watts[kAccountAbsorbed]));
+        for (const auto& [account, name] : lossCauses()) {
+            if (ledger.watts[account] > 0.0) {
+                table += fmt::format(", {} {:.2f}%", name, share(ledger.watts[account]));
+            }
+        }
+        table += fmt::format("; balance {:.1e}\n", ledger.balance());
+    }
+    return table;
+}
+
+json makeChromeTrace(const RunRecord& record) {
+    json events = json::array();
+    double frameBegin = 0.0;
+    const auto add = [&](const std::string& name, double startMs, double durationMs, int thread) {
+        events.push_back({{"name", name},
+                          {"ph", "X"},
+                          {"pid", 1},
+                          {"tid", thread},
+                          {"ts", startMs * 1e3},
+                          {"dur", durationMs * 1e3}});
+    };
+    for (const gl::FrameTime& frame : record.frames) {
+        add(fmt::format("frame {}", frame.frame), frameBegin, frame.frameMs, 0);
+        for (std::size_t step = 0; step < frame.passes.size(); ++step) {
+            add(record.stepNames[step], frameBegin + frame.passes[step].startMs,
+                frame.passes[step].gpuMs, 1);
+        }
+        frameBegin += frame.frameMs;
+    }
+    return {{"traceEvents", events}, {"displayTimeUnit", "ms"}};
+}
+
+}  // namespace kaustik::report

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// What a run found out, as report.json (schema kaustik.report/1; design, section 7), as a table for
+// people, and as Chrome trace events.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "framework/gl/context.h"
+#include "framework/gl/timers.h"
+#include "framework/pipeline/renderer.h"
+
+namespace kaustik::report {
+
+// Everything but the times and the ledger is read from the renderer.
+struct RunRecord {
+    gl::TimerMode timer = gl::TimerMode::timestamps;
+    std::vector<std::string> stepNames;     // of the timed graph
+    std::vector<graph::PassRecord> passes;  // of the timed graph
+    std::vector<gl::FrameTime> frames;      // timed ones only
+    int warmup = 0;
+    long long seed = 1;
+    double startupMilliseconds = 0.0;
+    double graphBuildMilliseconds = 0.0;
+    EnergyLedger ledger;
+    transport::LayerStatistics layers;
+    int layersAllowed = 0;
+    std::size_t textureBytes = 0;
+    std::size_t bufferBytes = 0;
+    std::size_t peakBytes = 0;
+    std::vector<std::string> warnings;
+};
+
+// The times of one pass, its repeats in a frame added up.
+struct PassTimes {
+    std::string name;
+    std::vector<double> gpuMilliseconds;  // by frame
+    std::vector<double> cpuMilliseconds;
+};
+[[nodiscard]] std::vector<PassTimes> timesByPass(const RunRecord& record);
+
+[[nodiscard]] nlohmann::json makeReport(const RunRecord& record, const Renderer& renderer,
+                                        const gl::DeviceInfo& device);
+
+// Median per pass, share of the frame, what was left out and why, and the ledger.
+[[nodiscard]] std::string makeTable(const RunRecord& record);
+
+// Complete events of every pass and frame, for chrome://tracing and Perfetto.
+[[nodiscard]] nlohmann::json makeChromeTrace(const RunRecord& record);
+
+}  // namespace kaustik::report

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// What a scene makes a technique model, so that nothing else is built (design, section 3).
+#pragma once
+
+#include "framework/scene/scene.h"
+
+namespace kaustik::scene {
+
+struct SceneNeeds {
+    // How many specular interfaces one path can meet when it crosses every dielectric once: a
+    // closed one counts 2 (in and out), an open one such as a water surface 1, and all mirrors
+    // together 1. Repeated reflections, between mirrors or inside a dielectric, are not counted;
+    // a technique's own bounce limit says how many it follows.
+    int specularInterfaces = 0;
+    int reflectors = 0;            // objects that are mirrors
+    int refractors = 0;            // objects that are dielectrics
+    bool medium = false;           // one that scatters or absorbs
+    bool glossyReceivers = false;  // no material is glossy yet
+    bool animated = false;         // a height field has a wave that moves
+    int lights = 0;
+    bool receivers = false;            // something Lambertian that light can land on
+    int measuredDepthComplexity = -1;  // most layers behind one pixel; -1 until a renderer counts
+};
+
+[[nodiscard]] SceneNeeds sceneNeeds(const Scene& scene);
+
+}  // namespace kaustik::scene

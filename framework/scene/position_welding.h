@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// Which vertices of a mesh lie at exactly the same position.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+namespace kaustik::scene {
+
+// For each position the index of the first equal one. Exact, so that it does not depend on the size
+// of the mesh; -0 equals 0.
+[[nodiscard]] std::vector<std::uint32_t> weldPositions(const std::vector<glm::vec3>& positions);
+
+}  // namespace kaustik::scene

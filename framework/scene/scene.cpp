@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "framework/scene/scene.h"
+
+#include <array>
+#include <cmath>
+
+namespace kaustik::scene {
+namespace {
+
+// The box that a height field stays in at every time: no wave rises above the sum of amplitudes.
+Bounds heightFieldBounds(const HeightField& field) {
+    double amplitude = 0.0;
+    for (const Wave& wave : field.waves)
+        amplitude += std::abs(double(wave.amplitudeMeters));
+    const glm::dvec2 half = 0.5 * glm::dvec2(field.sizeMeters);
+    Bounds bounds;
+    bounds.include({-half.x, -amplitude, -half.y});
+    bounds.include({half.x, amplitude, half.y});
+    return bounds;
+}
+
+}  // namespace
+
+void Bounds::include(const glm::dvec3& point) {
+    minimum = empty ? point : glm::min(minimum, point);
+    maximum = empty ? point : glm::max(maximum, point);
+    empty = false;
+}
+
+Bounds objectBounds(const Scene& scene, const Object& object) {
+    const Mesh& mesh = scene.meshes[object.mesh];
+    const auto toWorld = [&](const glm::dvec3& position) {
+        return glm::dvec3(object.toWorld * glm::dvec4(mesh.origin + position, 1.0));
+    };
+    Bounds bounds;
+    if (mesh.heightField) {
+        const Bounds local = heightFieldBounds(*mesh.heightField);
+        for (int corner = 0; corner < 8; ++corner) {
+            bounds.include(toWorld({(corner & 1) ? local.maximum.x : local.minimum.x,
+                                    (corner & 2) ? local.maximum.y : local.minimum.y,
+                                    (corner & 4) ? local.maximum.z : local.minimum.z}));
+        }
+        return bounds;
+    }
+    for (const glm::vec3& position : mesh.positions)
+        bounds.include(toWorld(position));
+    return bounds;
+}
+
+Bounds sceneBounds(const Scene& scene) {
+    Bounds bounds;
+    for (const Object& object : scene.objects) {
+        const Bounds part = objectBounds(scene, object);
+        if (part.empty) continue;
+        bounds.include(part.minimum);
+        bounds.include(part.maximum);
+    }
+    return bounds;
+}
+
+std::size_t triangleCount(const Scene& scene) {
+    std::size_t count = 0;
+    for (const Object& object : scene.objects)
+        count += scene.meshes[object.mesh].triangles.size();
+    return count;
+}
+
+double spotFalloff(const Light& light, double cosine) {
+    const double inner = std::cos(double(light.innerConeRadians));
+    const double outer = std::cos(double(light.outerConeRadians));
+    if (cosine >= inner) return 1.0;
+    if (cosine <= outer) return 0.0;
+    const double ramp = (cosine - outer) / (inner - outer);
+    return ramp * ramp;
+}
+
+}  // namespace kaustik::scene

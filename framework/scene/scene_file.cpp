@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include "framework/scene/scene_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <system_error>
+
+#include "framework/core/error.h"
+#include "framework/core/files.h"
+#include "framework/core/names.h"
+#include "framework/scene/gltf_import.h"
+#include "framework/scene/scene_file_parts.h"
+
+namespace kaustik::scene {
+namespace {
+namespace fs = std::filesystem;
+
+toml::table parseToml(const fs::path& path) {
+    const std::string text = readFile(path);
+    try {
+        return toml::parse(text, path.string());
+    } catch (const toml::parse_error& error) {
+        throw ConfigError(fmt::format("{}:{}: This is not valid TOML: {}.", path.string(),
+                                      unsigned(error.source().begin.line), error.description()));
+    }
+}
+
+template <class Named>
+void requireNewName(const std::vector<Named>& others, const std::string& name,
+                    const TableReader& reader) {
+    for (const Named& other : others) {
+        if (other.name == name) reader.fail("name", "this name is used twice; names are unique");
+    }
+}
+
+fs::path sceneFolder() {
+    return projectRoot() / "experiments" / "scenes";
+}
+
+std::string lowerExtension(const fs::path& path) {
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+    return extension;
+}
+
+}  // namespace
+
+Scene loadSceneFile(const fs::path& path) {
+    const toml::table document = parseToml(path);
+    TableReader top(document, path, "");
+    Scene scene;
+    scene.file = path;
+    scene.name = top.text("name", path.stem().string());
+    scene.description = top.text("description", "");
+    scene.backgroundRadiance =
+        top.uniformOrVector3("background_radiance", kNotNegative, glm::dvec3(0.0));
+    scene.ambientIrradiance =
+        top.uniformOrVector3("ambient_irradiance", kNotNegative, glm::dvec3(0.0));
+    scene.timeSeconds = top.number("time", kAnyNumber, 0.0);
+    std::optional<TableReader> camera = top.table("camera");
+    std::optional<TableReader> medium = top.table("medium");
+    std::vector<TableReader> lights = top.tables("light");
+    std::vector<TableReader> materials = top.tables("material");
+    std::vector<TableReader> objects = top.tables("object");
+    // Before the tables: a misspelt [[materials]] is not a missing material.
+    top.finish();
+
+    if (camera) scene.camera = readCamera(*camera);
+    if (medium) scene.medium = readMedium(*medium);
+    for (TableReader& reader : lights) {
+        Light light = readLight(reader);
+        requireNewName(scene.lights, light.name, reader);
+        scene.lights.push_back(std::move(light));
+    }
+    for (TableReader& reader : materials) {
+        Material material = readMaterial(reader, scene);
+        requireNewName(scene.materials, material.name, reader);
+        scene.materials.push_back(std::move(material));
+    }
+    for (TableReader& reader : objects) {
+        Object object = readObject(reader, scene);
+        requireNewName(scene.objects, object.name, reader);
+        scene.objects.push_back(std::move(object));
+    }
+    return scene;
+}
+
+Scene loadScene(const std::string& nameOrPath) {
+    const std::string extension = lowerExtension(nameOrPath);
+    if (extension == ".toml") return loadSceneFile(nameOrPath);
+    if (extension == ".gltf" || extension == ".glb") return importGltf(nameOrPath);
+    std::vector<std::string> names;
+    for (const SceneListing& listing : listScenes()) {
+        if (listing.name == nameOrPath) return loadSceneFile(listing.file);
+        names.push_back(listing.name);
+    }
+    if (names.empty()) {
+        throw ConfigError(fmt::format("There is no scene '{}': {} has no scene files.", nameOrPath,
+                                      sceneFolder().string()));
+    }
+    const std::string suggestion = didYouMean(nameOrPath, names);
+    throw ConfigError(fmt::format(
+        "There is no scene '{}'{} The scenes are {}; a path to a .toml, .gltf or .glb file will do "
+        "as well.",
+        nameOrPath, suggestion.empty() ? "." : suggestion, joinNames(names)));
+}
+
+std::vector<SceneListing> listScenes() {
+    std::vector<SceneListing> listings;
+    std::error_code error;
+    for (const fs::directory_entry& entry : fs::directory_iterator(sceneFolder(), error)) {
+        const fs::path file = entry.path();
+        if (file.extension() != ".toml" || file.filename().string().starts_with('.')) continue;
+        SceneListing listing{file.stem().string(), "", file};
+        try {
+            listing.description = parseToml(file)["description"].value_or(std::string());
+        } catch (const Error& problem) {
+            listing.description = problem.what();
+        }
+        listings.push_back(std::move(listing));
+    }
+    std::sort(listings.begin(), listings.end(),
+              [](const SceneListing& a, const SceneListing& b) { return a.name < b.name; });
+    return listings;
+}
+
+}  // namespace kaustik::scene

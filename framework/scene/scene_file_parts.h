@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// The tables of a scene file, one reader each; `scene_file.h` describes their keys.
+#pragma once
+
+#include "framework/scene/scene.h"
+#include "framework/scene/table_reader.h"
+
+namespace kaustik::scene {
+
+[[nodiscard]] Camera readCamera(TableReader& reader);
+[[nodiscard]] Medium readMedium(TableReader& reader);
+[[nodiscard]] Light readLight(TableReader& reader);
+
+// Adds the texture, if there is one, to the scene's images.
+[[nodiscard]] Material readMaterial(TableReader& reader, Scene& scene);
+
+// Adds the object's mesh to the scene; objects of the same mesh file share it. The materials must
+// have been read.
+[[nodiscard]] Object readObject(TableReader& reader, Scene& scene);
+
+// The mesh of a `shape = …` object at the scene's time.
+[[nodiscard]] Mesh readShape(TableReader& reader, double timeSeconds);
+
+}  // namespace kaustik::scene

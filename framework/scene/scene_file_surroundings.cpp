@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+// The tables [camera], [medium], [[light]] and [[material]] of a scene file.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+
+#include "framework/core/error.h"
+#include "framework/scene/scene_file_parts.h"
+
+namespace kaustik::scene {
+namespace {
+
+constexpr NumberRange kAlbedo = kUnitInterval;
+constexpr NumberRange kFieldOfView{0.0, 180.0, true, true};
+constexpr NumberRange kAnisotropy{-1.0, 1.0, true, true};
+constexpr NumberRange kIor{1.0, 10.0, false, false};
+constexpr NumberRange kInnerCone{0.0, 90.0, false, false};
+constexpr NumberRange kOuterCone{0.0, 90.0, true, false};
+
+// Intensity inside the inner cone over the flux of the whole light.
+double intensityPerWatt(const Light& light) {
+    if (light.kind == LightKind::point) return 1.0 / (4.0 * glm::pi<double>());
+    const double inner = std::cos(double(light.innerConeRadians));
+    const double outer = std::cos(double(light.outerConeRadians));
+    // The integral of `spotFalloff` over the sphere.
+    return 1.0 / (2.0 * glm::pi<double>() * ((1.0 - inner) + (inner - outer) / 3.0));
+}
+
+void readCone(TableReader& reader, Light& light) {
+    const double inner = reader.number("inner_cone_degrees", kInnerCone, 0.0);
+    const double outer = reader.number("outer_cone_degrees", kOuterCone, 45.0);
+    if (inner > outer) {
+        reader.fail(
+            "inner_cone_degrees",
+            fmt::format("inner_cone_degrees must be at most outer_cone_degrees ({}), not {}", outer,
+                        inner));
+    }
+    light.innerConeRadians = static_cast<float>(glm::radians(inner));
+    light.outerConeRadians = static_cast<float>(glm::radians(outer));
+}
+
+int readTexture(TableReader& reader, Scene& scene) {
+    const std::filesystem::path name = reader.text("texture");
+    const std::filesystem::path file = reader.file().parent_path() / name;
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error)) {
+        throw IoError(fmt::format("{}: {}: the texture {} was not found.", reader.place("texture"),
+                                  reader.subject(), file.string()));
+    }
+    for (std::size_t i = 0; i < scene.images.size(); ++i) {
+        if (scene.images[i].file == file) return static_cast<int>(i);
+    }
+    scene.images.push_back({name.string(), file, "", true});
+    return static_cast<int>(scene.images.size() - 1);
+}
+
+}  // namespace
+
+Camera readCamera(TableReader& reader) {
+    Camera camera;
+    camera.position = reader.vector3("position", kAnyNumber);
+    camera.target = reader.vector3("target", kAnyNumber, glm::dvec3(0.0));
+    if (reader.has("up")) camera.up = reader.direction("up");
+    camera.verticalFovDegrees = reader.number("vertical_fov_degrees", kFieldOfView, 45.0);
+    camera.nearMeters = reader.number("near", kPositive, 0.01);
+    reader.finish();
+    const glm::dvec3 forward = camera.target - camera.position;
+    if (glm::length(forward) < kSmallestLength) {
+        reader.fail("target", "target must differ from position");
+    }
+    if (glm::length(glm::cross(glm::normalize(forward), camera.up)) < 1e-6) {
+        reader.fail("up", "up must not be parallel to the view from position to target");
+    }
+    return camera;
+}
+
+Medium readMedium(TableReader& reader) {
+    Medium medium;
+    medium.scatteringPerMeter =
+        reader.uniformOrVector3("scattering_per_meter", kNotNegative, glm::dvec3(0.0));
+    medium.absorptionPerMeter =
+        reader.uniformOrVector3("absorption_per_meter", kNotNegative, glm::dvec3(0.0));
+    medium.anisotropy = reader.numberAsFloat("anisotropy", kAnisotropy, 0.0);
+    reader.finish();
+    return medium;
+}
+
+Light readLight(TableReader& reader) {
+    Light light;
+    light.name = reader.name();
+    light.kind = reader.choice<LightKind>("type", {{"directional", LightKind::directional},
+                                                   {"point", LightKind::point},
+                                                   {"spot", LightKind::spot}});
+    const glm::dvec3 color = reader.uniformOrVector3("color", kNotNegative, glm::dvec3(1.0));
+    double power = 0.0;
+    if (light.kind != LightKind::point) light.direction = reader.direction("direction");
+    if (light.kind == LightKind::spot) readCone(reader, light);
+    if (light.kind == LightKind::directional) {
+        power = reader.number("irradiance", kNotNegative);
+    } else {
+        light.position = reader.vector3("position", kAnyNumber);
+        light.rangeMeters = reader.numberAsFloat("range", kNotNegative, 0.0);
+        if (reader.has("power_watts") && reader.has("intensity")) {
+            reader.fail("power_watts", "either intensity or power_watts is given, not both");
+        }
+        power = reader.has("power_watts")
+                    ? reader.number("power_watts", kNotNegative) * intensityPerWatt(light)
+                    : reader.number("intensity", kNotNegative);
+    }
+    reader.finish();
+    light.power = glm::vec3(power * color);
+    return light;
+}
+
+Material readMaterial(TableReader& reader, Scene& scene) {
+    Material material;
+    material.name = reader.name();
+    material.kind = reader.choice<MaterialKind>("type", {{"lambertian", MaterialKind::lambertian},
+                                                         {"dielectric", MaterialKind::dielectric},
+                                                         {"mirror", MaterialKind::mirror}});
+    switch (material.kind) {
+        case MaterialKind::lambertian:
+            material.albedo = reader.uniformOrVector3("albedo", kAlbedo);
+            material.pattern = reader.choice<Pattern>(
+                "pattern",
+                {{"none", Pattern::none}, {"checker", Pattern::checker}, {"tiles", Pattern::tiles}},
+                Pattern::none);
+            material.patternAlbedo =
+                reader.uniformOrVector3("pattern_albedo", kAlbedo, glm::dvec3(0.25));
+            material.uvScale = reader.uniformOrVector2("uv_scale", kPositive, glm::dvec2(1.0));
+            if (reader.has("texture")) material.image = readTexture(reader, scene);
+            break;
+        case MaterialKind::dielectric:
+            material.albedo = glm::vec3(0.0f);
+            material.ior = reader.numberAsFloat("ior", kIor);
+            material.absorptionPerMeter =
+                reader.uniformOrVector3("absorption_per_meter", kNotNegative, glm::dvec3(0.0));
+            break;
+        case MaterialKind::mirror:
+            material.albedo = reader.uniformOrVector3("reflectance", kAlbedo, glm::dvec3(1.0));
+            break;
+    }
+    reader.finish();
+    return material;
+}
+
+}  // namespace kaustik::scene

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+// The stages of every technique as types: what each takes and gives (design, section 1). A node is
+// one answer to a stage; handles are the only thing that connects two nodes.
+#pragma once
+
+#include <functional>
+
+#include "framework/graph/resource.h"
+#include "framework/transport/types.h"
+
+namespace kaustik {
+
+using graph::Format;
+
+// What one texel means. Textures are read by texelFetch; (0, 0) is the lower left.
+struct ViewDepth {  // x: view depth in m, 0 none; y: half of its extent over the pixel, m
+    static constexpr Format format = Format::rg32f;
+};
+struct SurfaceTexel {  // xyz: outward shading normal in view space; w: material + 1, 0 none
+    static constexpr Format format = Format::rgba32f;
+};
+struct ReceiverTexel {  // x: view depth in m, 0 none; y: area of the surface that the pixel sees,
+                        // m²
+    static constexpr Format format = Format::rg32f;
+};
+struct AlbedoTexel {  // rgb: reflectance
+    static constexpr Format format = Format::rgba16f;
+};
+struct DepthBuffer {
+    static constexpr Format format = Format::depth32f;
+};
+struct PhotonPosition {  // xyz: view space, m; w: footprint, m
+    static constexpr Format format = Format::rgba32f;
+};
+struct PhotonDirection {  // xyz: unit, view space; w: fate
+    static constexpr Format format = Format::rgba32f;
+};
+struct PhotonFlux {  // rgb: W; w: media
+    static constexpr Format format = Format::rgba32f;
+};
+struct HitPosition {  // xyz: view space, m; w: distance travelled, m
+    static constexpr Format format = Format::rgba32f;
+};
+struct HitSurface {  // xyz: outward normal; w: material + 1
+    static constexpr Format format = Format::rgba32f;
+};
+struct HitFlux {  // rgb: W that arrive; w: fate
+    static constexpr Format format = Format::rgba32f;
+};
+struct IrradianceTexel {  // rgb: W/m²
+    static constexpr Format format = Format::rgba32f;
+};
+struct RadianceTexel {  // rgb: W/m²/sr
+    static constexpr Format format = Format::rgba32f;
+};
+struct DisplayTexel {  // rgb: display-encoded (sRGB), [0,1]
+    static constexpr Format format = Format::rgba8;
+};
+
+using Ledger = graph::Buffer<transport::LedgerEntry>;
+
+// Vertices that are made on the GPU each frame; invalid where the scene has none.
+struct Geometry {
+    graph::Buffer<transport::VertexData> heightFields;
+};
+
+// What the eye sees. The receiver is the first diffuse surface on the straight eye ray, dielectrics
+// being invisible to it (design, section 1); a pixel that ends on a mirror has none.
+struct EyeBuffer {
+    graph::Texture<ReceiverTexel> receiver;
+    graph::Texture<SurfaceTexel> receiverSurface;
+    graph::Texture<AlbedoTexel> receiverAlbedo;
+    // The first specular surface before the receiver; invalid where the scene has none.
+    graph::Texture<ViewDepth> interface;
+    graph::Texture<SurfaceTexel> interfaceSurface;
+};
+
+// All surfaces along each pixel's ray, front to back (K06, section 2.2).
+struct LayeredDepth {
+    graph::Texture<ViewDepth> depth;       // array, one layer a surface
+    graph::Texture<SurfaceTexel> surface;  // array
+    graph::Buffer<transport::LayerStatistics> statistics;
+    int layers = 0;
+};
+
+// The transfer map, with the account of what its photons have lost so far.
+struct Photons {
+    graph::Texture<PhotonPosition> position;
+    graph::Texture<PhotonDirection> direction;
+    graph::Texture<PhotonFlux> flux;
+    Ledger ledger;
+    int width = 0;
+    int height = 0;
+    [[nodiscard]] int count() const { return width * height; }
+};
+
+struct Hits {
+    graph::Texture<HitPosition> position;
+    graph::Texture<HitSurface> surface;
+    graph::Texture<HitFlux> flux;
+    Photons incoming;  // the photons that made them, by the same texel
+};
+
+// In screen space, at the eye buffer's receivers.
+struct IrradianceMap {
+    graph::Texture<IrradianceTexel> irradiance;
+    Ledger ledger;
+};
+
+struct Radiance {
+    graph::Texture<RadianceTexel> radiance;
+};
+
+struct Picture {
+    graph::Texture<RadianceTexel> radiance;
+    graph::Texture<DisplayTexel> display;
+};
+
+class FrameBuilder;
+
+// A stage is its name and its signature.
+template <class Signature>
+struct Stage;
+template <class Out, class... In>
+struct Stage<Out(In...)> {
+    using Output = Out;
+    using Build = std::function<Out(FrameBuilder&, In...)>;
+};
+
+struct GeometryStage : Stage<Geometry()> {
+    static constexpr const char* name = "geometry";
+    static constexpr const char* question = "Which vertices are made on the GPU?";
+};
+struct EyeStage : Stage<EyeBuffer(Geometry)> {
+    static constexpr const char* name = "eye";
+    static constexpr const char* question = "What does the eye see first?";
+};
+struct LayersStage : Stage<LayeredDepth(Geometry)> {
+    static constexpr const char* name = "layers";
+    static constexpr const char* question = "Which surfaces lie along each eye ray?";
+};
+struct EmitStage : Stage<Hits(Geometry)> {
+    static constexpr const char* name = "emit";
+    static constexpr const char* question = "Where does light first meet a specular surface?";
+};
+struct SpecularStage : Stage<Photons(Hits)> {
+    static constexpr const char* name = "specular";
+    static constexpr const char* question = "Where do photons go from a specular surface?";
+};
+struct TraceStage : Stage<Hits(Photons, LayeredDepth, Hits)> {
+    static constexpr const char* name = "trace";
+    static constexpr const char* question = "Which surface does each photon reach first?";
+};
+struct ReconstructStage : Stage<IrradianceMap(Hits, EyeBuffer)> {
+    static constexpr const char* name = "reconstruct";
+    static constexpr const char* question = "How does flux at points become irradiance?";
+};
+struct ViewStage : Stage<Radiance(EyeBuffer, Radiance)> {
+    static constexpr const char* name = "view";
+    static constexpr const char* question = "What does the eye see through specular surfaces?";
+};
+struct ComposeStage : Stage<Picture(Geometry, EyeBuffer, IrradianceMap)> {
+    static constexpr const char* name = "compose";
+    static constexpr const char* question = "How do all parts become a picture?";
+};
+
+}  // namespace kaustik

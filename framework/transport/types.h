@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+// The types that flow between stages, defined once: C++ and GLSL both read this file. SI units,
+// linear Rec.709, view space of the eye (right-handed, the eye looks down -Z, camera-relative);
+// depth is planar view depth, -z, in metres.
+#pragma once
+
+#ifdef __cplusplus
+#include <glm/glm.hpp>
+namespace kaustik::transport {
+using glm::mat4;
+using glm::uvec4;
+using glm::vec2;
+using glm::vec3;
+using glm::vec4;
+using uint = unsigned int;
+#endif
+
+// The view of the eye, as a uniform block (std140).
+struct ViewData {
+    vec4 tangents;     // tan of half the field of view in x and y; near plane in m; metres that a
+                       // pixel covers at a depth of 1 m
+    vec4 sizePixels;   // width, height, 1/width, 1/height
+    mat4 viewToWorld;  // rotation only
+    vec4 boundsCenterVs;    // of the scene's world-axis bounding box, m
+    vec4 boundsHalfExtent;  // along the world's axes, m
+    vec4 background;        // radiance that comes from outside of the scene, W/m²/sr
+    vec4 ambient;           // constant fill light for the picture, W/m²
+};
+
+// One placed mesh, for one view (std430).
+struct InstanceData {
+    mat4 modelToView;
+    mat4 normalToView;  // inverse transpose, upper 3x3
+    uvec4 material;     // x: index into the materials
+};
+
+const uint kMaterialLambertian = 0u;
+const uint kMaterialDielectric = 1u;
+const uint kMaterialMirror = 2u;
+
+// One material (std430).
+struct MaterialData {
+    vec4 albedo;         // rgb: reflectance; w: kind
+    vec4 patternAlbedo;  // rgb: second colour; w: pattern (0 none, 1 checker, 2 tiles)
+    vec4 absorption;     // rgb: 1/m inside; w: index of refraction
+    vec4 uv;  // xy: scale; z: image layer, -1 none; w: 1 where the surface is open (water)
+};
+
+// One light, in the view space of the eye (std430).
+const uint kLightDirectional = 0u;
+const uint kLightPoint = 1u;
+const uint kLightSpot = 2u;
+struct LightData {
+    vec4 positionVs;   // w: kind
+    vec4 directionVs;  // unit, from the light outwards; w: range in m, 0 unlimited
+    vec4 power;        // rgb: W/m² (directional) or W/sr; w: unused
+    vec4 cone;         // x: cos of the inner half-angle, y: of the outer
+};
+
+// One vertex (std430); also a vertex buffer.
+struct VertexData {
+    vec3 position;
+    float u;
+    vec3 normal;
+    float v;
+};
+
+// What has become of a photon.
+const uint kFateNone = 0u;      // there is no photon: its texel met no specular surface
+const uint kFateInFlight = 1u;  // it is to be traced
+const uint kFateReceiver = 2u;  // it has reached a receiver
+const uint kFateSpecular = 3u;  // it has reached a specular surface and will interact there
+const uint kFateEnded = 4u;     // its flux is in the ledger
+
+// A photon after its last specular interaction: one texel of the transfer map (K06, section 2),
+// three RGBA32F textures.
+struct Photon {
+    vec3 positionVs;
+    float footprintMeters;  // side of the square that its beam covers, at right angles to it
+    vec3 directionVs;       // unit
+    uint fate;
+    vec3 fluxWatts;
+    // The dielectrics around it, innermost and the one around that: material index + 1 each, packed
+    // as inner + 4096 * outer; 0 is vacuum.
+    uint media;
+};
+
+// Where a photon arrived: three RGBA32F textures of the transfer map's size.
+struct Hit {
+    vec3 positionVs;
+    float distanceMeters;  // travelled since the last interaction
+    vec3 normalVs;         // shading normal, outward
+    uint material;         // index + 1; 0: no surface
+    vec3 fluxWatts;        // that arrives
+    uint fate;
+};
+
+// Accounts of the energy ledger (design, section 5). Watts are summed over the three channels.
+const uint kAccountEmitted = 0u;
+const uint kAccountDeposited = 1u;
+const uint kAccountAbsorbed = 2u;
+const uint kAccountLeftScene = 3u;
+const uint kAccountUntracedBranch = 4u;
+const uint kAccountEmissionSampling = 5u;
+const uint kAccountOffScreen = 6u;
+const uint kAccountBehindEye = 7u;
+const uint kAccountBeyondLastLayer = 8u;
+const uint kAccountEdgeOn = 9u;
+const uint kAccountMissedByTracer = 10u;
+const uint kAccountInternalReflectionLimit = 11u;
+const uint kAccountBounceLimit = 12u;
+const uint kAccountBatchLimit = 13u;
+const uint kAccountOccludedSplat = 14u;
+const uint kAccountNotANumber = 15u;
+const uint kAccountUnresolved = 16u;
+// Not part of the balance: what arrived at receivers before it was reconstructed.
+const uint kAccountArrived = 17u;
+const uint kAccountCount = 18u;
+
+// A sum of watts in 64-bit fixed point, so that it neither drifts nor depends on the order:
+// watts = (high * 2^32 + low) * quantum. `events` counts the additions.
+struct LedgerEntry {
+    uint low;
+    uint high;
+    uint events;
+    uint unused;
+};
+
+// Counts over the pixels of the layered depth (K06, section 2.2).
+struct LayerStatistics {
+    uint complexity;     // most fragments in a pixel
+    uint fragments;      // in all pixels
+    uint leftOut;        // fragments beyond the last layer
+    uint pixelsLeftOut;  // pixels that have such fragments
+};
+
+#ifdef __cplusplus
+}  // namespace kaustik::transport
+#endif

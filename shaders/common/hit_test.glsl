@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+// Whether a step of a photon's ray meets a surface of the layered depth. All tracers ask here.
+#include "common/ray_segment.glsl"
+#include "common/surface_data.glsl"
+#include "common/transfer_map.glsl"
+
+uniform sampler2DArray layerDepths;
+uniform sampler2DArray layerSurfaces;
+uniform int layerCount;
+
+struct TracedRay {
+    vec3 origin;
+    vec3 direction;
+    uint media;
+};
+
+// A photon inside a dielectric can meet that dielectric only from within, any other surface that it
+// passes only from outside. So a ray never meets the surface that it has just left, at any scale
+// (hard case 10); receivers end it from either side.
+bool isFacing(TracedRay ray, uint material, vec3 normal) {
+    uint kind = materialKind(material - 1u);
+    if (kind == kMaterialLambertian) return true;
+    bool isInside = kind == kMaterialDielectric && innerMedium(ray.media) == material;
+    return (dot(ray.direction, normal) > 0.0) == isInside;
+}
+
+struct LayerHit {
+    float t;    // ray parameter, m; 0: none
+    int layer;
+};
+
+// Tests the step [i, i + 1] of `n` against every layer of the pixel in its middle; the nearest hit
+// along the ray (hard case 11).
+LayerHit testStep(RaySegment segment, TracedRay ray, int i, int n) {
+    float middle = float(i) + 0.5;
+    float count = float(n);
+    vec2 pixel = (segment.nearPixel * (count - middle) + segment.farPixel * middle) / count;
+    ivec2 texel = clamp(ivec2(floor(pixel)), ivec2(0), ivec2(view.sizePixels.xy) - 1);
+    float zBegin = depthAtIndex(segment, float(i), count);
+    float zEnd = depthAtIndex(segment, float(i) + 1.0, count);
+    float zLow = min(zBegin, zEnd);
+    float zHigh = max(zBegin, zEnd);
+    LayerHit best = LayerHit(0.0, -1);
+    for (int layer = 0; layer < layerCount; ++layer) {
+        vec2 surfaceDepth = texelFetch(layerDepths, ivec3(texel, layer), 0).xy;
+        float depth = surfaceDepth.x;
+        if (depth <= 0.0) break;
+        float t;
+        if (trace_test == trace_test_epsilon) {
+            // The paper's: a layer is met where it lies within a distance of the fragment's depth.
+            float zMiddle = depthAtIndex(segment, middle, count);
+            if (abs(depth - zMiddle) > trace_epsilon) continue;
+            t = parameterAtIndex(segment, middle, count);
+        } else {
+            // The depths that the surface and the ray have over this pixel must overlap …
+            float margin = surfaceDepth.y + pixelFootprint(depth);
+            if (depth + margin < zLow || depth - margin > zHigh) continue;
+            // … and the ray must cross the tangent plane within this step, or half a step beside it:
+            // two neighbours' planes may leave a gap between them.
+            vec3 normal = texelFetch(layerSurfaces, ivec3(texel, layer), 0).xyz;
+            vec3 onSurface = viewRay(vec2(texel) + 0.5) * depth;
+            float closing = dot(normal, ray.direction);
+            if (abs(closing) < 1e-6) continue;
+            t = dot(normal, onSurface - ray.origin) / closing;
+            float tBegin = parameterAtIndex(segment, float(i), count);
+            float tEnd = parameterAtIndex(segment, float(i) + 1.0, count);
+            float slack = 0.5 * (tEnd - tBegin) + 1e-6 * depth;
+            if (t < tBegin - slack || t > tEnd + slack) continue;
+        }
+        if (t <= 0.0 || (best.layer >= 0 && t >= best.t)) continue;
+        vec4 surface = texelFetch(layerSurfaces, ivec3(texel, layer), 0);
+        if (!isFacing(ray, uint(surface.w), surface.xyz)) continue;
+        best = LayerHit(t, layer);
+    }
+    return best;
+}
+
+ivec2 texelOfStep(RaySegment segment, int i, int n) {
+    float middle = float(i) + 0.5;
+    vec2 pixel =
+        (segment.nearPixel * (float(n) - middle) + segment.farPixel * middle) / float(n);
+    return clamp(ivec2(floor(pixel)), ivec2(0), ivec2(view.sizePixels.xy) - 1);
+}

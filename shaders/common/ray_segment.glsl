@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// A photon's ray as every screen-space tracer sees it: clipped in view space, before anything is
+// divided, to the part that is inside the scene's bounds, before the near plane and on the screen;
+// then projected. Along it 1/z interpolates linearly in screen space, by index.
+#include "common/view.glsl"
+
+struct RaySegment {
+    bool visible;      // some part is on the screen
+    uint cause;        // ledger account if nothing is hit, kAccount…
+    float nearT;       // ray parameters of the ends, m
+    float farT;
+    vec2 nearPixel;    // pixel positions of the ends
+    vec2 farPixel;
+    float nearInverseZ;  // 1 / view depth at the ends
+    float farInverseZ;
+};
+
+// Cuts [low, high] to where a + b t >= 0; returns whether the far end was cut.
+bool cutHalfSpace(float a, float b, inout float low, inout float high) {
+    if (b > 0.0) {
+        low = max(low, -a / b);
+        return false;
+    }
+    if (b < 0.0) {
+        float t = -a / b;
+        if (t < high) {
+            high = t;
+            return true;
+        }
+        return false;
+    }
+    if (a < 0.0) high = low - 1.0;  // parallel and outside
+    return a < 0.0;
+}
+
+// The part of the ray inside the scene's bounding box.
+void cutToBounds(vec3 origin, vec3 direction, inout float low, inout float high) {
+    mat3 toWorld = mat3(view.viewToWorld);
+    vec3 o = toWorld * (origin - view.boundsCenterVs.xyz);
+    vec3 d = toWorld * direction;
+    for (int axis = 0; axis < 3; ++axis) {
+        cutHalfSpace(view.boundsHalfExtent[axis] + o[axis], d[axis], low, high);
+        cutHalfSpace(view.boundsHalfExtent[axis] - o[axis], -d[axis], low, high);
+    }
+}
+
+RaySegment clipRay(vec3 origin, vec3 direction) {
+    RaySegment segment;
+    float low = 0.0;
+    float high = 3.0e38;
+    cutToBounds(origin, direction, low, high);
+    // Where the ray goes matters more than where it ends: without a hit, a ray that left through a
+    // side of the screen is off screen, one that the near plane cut is behind the eye, and one that
+    // crossed all of the scene on the screen stays unresolved.
+    segment.cause = kAccountUnresolved;
+    bool behind = cutHalfSpace(-origin.z - view.tangents.z, -direction.z, low, high);
+    if (behind || low > high) segment.cause = kAccountBehindEye;
+    if (low <= high) {
+        bool off = false;
+        for (int axis = 0; axis < 2; ++axis) {
+            float slope = view.tangents[axis];
+            off = cutHalfSpace(-origin.z * slope - origin[axis], -direction.z * slope - direction[axis],
+                               low, high) || off;
+            off = cutHalfSpace(-origin.z * slope + origin[axis], -direction.z * slope + direction[axis],
+                               low, high) || off;
+        }
+        if (off || low > high) segment.cause = kAccountOffScreen;
+    }
+    segment.visible = low <= high;
+    if (!segment.visible) return segment;
+    segment.nearT = low;
+    segment.farT = high;
+    vec3 a = origin + low * direction;
+    vec3 b = origin + high * direction;
+    // Rounding may leave an end a little before the near plane.
+    a.z = min(a.z, -view.tangents.z);
+    b.z = min(b.z, -view.tangents.z);
+    segment.nearPixel = pixelOf(a);
+    segment.farPixel = pixelOf(b);
+    segment.nearInverseZ = -1.0 / a.z;
+    segment.farInverseZ = -1.0 / b.z;
+    return segment;
+}
+
+// Steps so that none exceeds a pixel along the longer axis.
+int stepCount(RaySegment segment, int minimum, int maximum) {
+    vec2 extent = abs(segment.farPixel - segment.nearPixel);
+    return clamp(int(ceil(max(extent.x, extent.y))), max(minimum, 1), max(maximum, 1));
+}
+
+// The ray at index position `i` of `n` (any real number from 0 to n): depth, and ray parameter.
+// Written so that both ends come out exactly and the error stays at a few units of the last place
+// over any length (hard case 5).
+float depthAtIndex(RaySegment segment, float i, float n) {
+    float inverse = (segment.nearInverseZ * (n - i) + segment.farInverseZ * i) / n;
+    return 1.0 / inverse;
+}
+float parameterAtIndex(RaySegment segment, float i, float n) {
+    float a = segment.nearInverseZ * (n - i);
+    float b = segment.farInverseZ * i;
+    return (segment.nearT * a + segment.farT * b) / (a + b);
+}

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Materials for shaders that are no fragments (common/surface.glsl needs derivatives).
+#include "framework/transport/types.h"
+
+layout(std430) readonly buffer Materials {
+    MaterialData materials[];
+};
+
+uint materialKind(uint material) {
+    return uint(materials[material].albedo.w);
+}
+
+// Index of refraction of a medium: material index + 1, or 0 for vacuum.
+float mediumIndex(uint medium) {
+    return medium == 0u ? 1.0 : materials[medium - 1u].absorption.w;
+}
+
+// Share of the flux that is left after a way through a medium (Beer-Lambert). Zero length or zero
+// absorption leave all of it.
+vec3 mediumTransmittance(uint medium, float distanceMeters) {
+    if (medium == 0u) return vec3(1.0);
+    return exp(-materials[medium - 1u].absorption.rgb * distanceMeters);
+}

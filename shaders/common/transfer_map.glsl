@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// Photons and hits as the texels of the transfer map (K06, section 2). Users declare the samplers.
+#include "framework/transport/types.h"
+
+Photon unpackPhoton(vec4 position, vec4 direction, vec4 flux) {
+    return Photon(position.xyz, position.w, direction.xyz, uint(direction.w), flux.rgb,
+                  uint(flux.w));
+}
+
+Hit unpackHit(vec4 position, vec4 surface, vec4 flux) {
+    return Hit(position.xyz, position.w, surface.xyz, uint(surface.w), flux.rgb, uint(flux.w));
+}
+
+vec4 photonPositionTexel(Photon p) { return vec4(p.positionVs, p.footprintMeters); }
+vec4 photonDirectionTexel(Photon p) { return vec4(p.directionVs, float(p.fate)); }
+vec4 photonFluxTexel(Photon p) { return vec4(p.fluxWatts, float(p.media)); }
+vec4 hitPositionTexel(Hit h) { return vec4(h.positionVs, h.distanceMeters); }
+vec4 hitSurfaceTexel(Hit h) { return vec4(h.normalVs, float(h.material)); }
+vec4 hitFluxTexel(Hit h) { return vec4(h.fluxWatts, float(h.fate)); }
+
+// The stack of dielectrics around a photon, two deep: material index + 1, 0 for vacuum.
+uint innerMedium(uint media) { return media % 4096u; }
+uint outerMedium(uint media) { return media / 4096u; }
+uint enterMedium(uint media, uint medium) { return medium + 4096u * innerMedium(media); }
+uint leaveMedium(uint media) { return outerMedium(media); }

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// The eye's view: between view space (m) and pixels (continuous, pixel centres at .5, lower left 0).
+#include "framework/transport/types.h"
+
+layout(std140) uniform View {
+    ViewData view;
+};
+
+// The direction through a pixel position, at a depth of 1 m: multiply by depth for the point.
+vec3 viewRay(vec2 pixel) {
+    vec2 ndc = pixel * view.sizePixels.zw * 2.0 - 1.0;
+    return vec3(ndc * view.tangents.xy, -1.0);
+}
+
+vec2 pixelOf(vec3 positionVs) {
+    vec2 ndc = positionVs.xy / (-positionVs.z * view.tangents.xy);
+    return (ndc * 0.5 + 0.5) * view.sizePixels.xy;
+}
+
+// Metres that one pixel covers at this depth.
+float pixelFootprint(float depth) {
+    return view.tangents.w * depth;
+}
+
+// The area that a pixel sees of a plane with unit normal `normalVs` at this depth: exact for a pixel
+// so small that its rays spread evenly. Bounded where the plane is seen edge-on.
+float pixelArea(vec3 ray, float depth, vec3 normalVs) {
+    float side = pixelFootprint(depth);
+    return side * side / max(abs(dot(normalVs, ray)), 1e-4);
+}

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// One step of a photon's ray: looks the layers up at its pixel and keeps a hit's place on the ray.
+#include "common/hit_test.glsl"
+#include "screen_space_photons/row_texel.glsl"
+
+flat in vec4 endPixels;
+flat in vec4 ends;
+flat in vec3 rayOrigin;
+flat in vec3 rayDirection;
+flat in int steps;
+flat in int photonIndex;
+
+uniform sampler2D photonFlux;
+
+layout(location = 0) out vec4 rowTexel;
+
+void main() {
+    int i = int(gl_FragCoord.x);
+    if (i >= steps) discard;
+    RaySegment segment;
+    segment.nearPixel = endPixels.xy;
+    segment.farPixel = endPixels.zw;
+    segment.nearInverseZ = ends.x;
+    segment.farInverseZ = ends.y;
+    segment.nearT = ends.z;
+    segment.farT = ends.w;
+    ivec2 mapSize = textureSize(photonFlux, 0);
+    ivec2 texel = ivec2(photonIndex % mapSize.x, photonIndex / mapSize.x);
+    uint media = uint(texelFetch(photonFlux, texel, 0).w);
+    LayerHit hit = testStep(segment, TracedRay(rayOrigin, rayDirection, media), i, steps);
+    if (hit.layer < 0) discard;
+    rowTexel = packRowTexel(hit, i);
+}

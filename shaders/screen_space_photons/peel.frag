@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// One depth layer: the nearest surface behind the layer before (Everitt 2001). The depth buffer
+// holds view depth itself, scaled by a power of two and so without rounding: layers are told apart
+// down to what 32-bit view depth can (hard cases 12, 13).
+#include "common/scene_fragment.glsl"
+#include "common/surface.glsl"
+
+layout(location = 0) out vec4 layerDepth;
+layout(location = 1) out vec4 layerSurface;
+
+uniform sampler2DArray layerDepths;
+uniform int layer;
+
+const float kDepthScale = 1.0 / 1048576.0;
+
+void main() {
+    float depth = -positionVs.z;
+    float extent = fwidth(depth);
+    vec3 geometric = geometricNormal(positionVs, -positionVs);
+    if (layer > 0) {
+        float before = texelFetch(layerDepths, ivec3(gl_FragCoord.xy, layer - 1), 0).x;
+        if (before <= 0.0 || depth <= before) discard;
+    }
+    gl_FragDepth = min(depth * kDepthScale, 1.0 - 1.0 / 16777216.0);
+    layerDepth = vec4(depth, 0.5 * extent, 0.0, 0.0);
+    layerSurface = vec4(shadingNormal(normalVs, geometric), float(material + 1u));
+}

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// The scene's indirect draws once a layer; those of layers beyond the measured depth complexity draw
+// nothing, so that the processor need not wait for the measurement.
+#include "framework/transport/types.h"
+
+layout(local_size_x = 64) in;
+
+struct DrawCommand {
+    uint indexCount;
+    uint instanceCount;
+    uint firstIndex;
+    int baseVertex;
+    uint baseInstance;
+};
+layout(std430) readonly buffer SceneCommands {
+    DrawCommand sceneCommands[];
+};
+layout(std430) writeonly buffer LayerCommands {
+    DrawCommand layerCommands[];
+};
+layout(std430) readonly buffer Statistics {
+    LayerStatistics statistics;
+};
+uniform int commandCount;
+uniform int layerCount;
+
+void main() {
+    int index = int(gl_GlobalInvocationID.x);
+    if (index >= commandCount * layerCount) return;
+    DrawCommand command = sceneCommands[index % commandCount];
+    if (uint(index / commandCount) >= statistics.complexity) command.instanceCount = 0u;
+    layerCommands[index] = command;
+}

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// What each splat's weights sum to over the pixels' areas, so that exactly the photon's flux is
+// deposited at every orientation, size and distance (METHODS.md, section 7: sampled at pixel centres
+// a kernel of few pixels does not sum to 1). The part hidden from the eye or off the screen goes to
+// the ledger; the part that hangs off the surface's edge is redistributed on it. One thread a photon.
+#include "common/ledger.glsl"
+#include "screen_space_photons/sprite.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(rgba32f) writeonly uniform image2D spriteWeights;
+uniform sampler2D photonPosition;
+uniform sampler2D hitPosition;
+uniform sampler2D hitSurface;
+uniform sampler2D hitFlux;
+
+void main() {
+    ivec2 mapSize = textureSize(hitFlux, 0);
+    int index = int(gl_GlobalInvocationID.x);
+    if (index >= mapSize.x * mapSize.y) return;
+    ivec2 texel = ivec2(index % mapSize.x, index / mapSize.x);
+    vec4 flux = texelFetch(hitFlux, texel, 0);
+    if (uint(flux.w) != kFateReceiver) {
+        imageStore(spriteWeights, texel, vec4(0.0));
+        return;
+    }
+    Sprite sprite;
+    sprite.center = texelFetch(hitPosition, texel, 0).xyz;
+    sprite.normal = texelFetch(hitSurface, texel, 0).xyz;
+    float wanted = reconstruct_sprites_radius > 0.0
+                       ? reconstruct_sprites_radius
+                       : reconstruct_sprites_footprints * texelFetch(photonPosition, texel, 0).w;
+    float pixel = pixelFootprint(-sprite.center.z);
+    sprite.radius = clamp(wanted, pixel, float(reconstruct_sprites_maximum) * pixel);
+
+    float on = 0.0;
+    float occluded = 0.0;
+    float offScreen = 0.0;
+    int reach = spriteReach(sprite);
+    ivec2 middle = ivec2(floor(pixelOf(sprite.center)));
+    for (int y = -reach; y <= reach; ++y) {
+        for (int x = -reach; x <= reach; ++x) {
+            SpritePixel part = spriteAt(sprite, middle + ivec2(x, y));
+            float amount = part.weight * part.area;
+            if (part.where == kSpriteOn) on += amount;
+            if (part.where == kSpriteOccluded) occluded += amount;
+            if (part.where == kSpriteOffScreen) offScreen += amount;
+        }
+    }
+    float total = on + occluded + offScreen;
+    vec4 weights = vec4(0.0);
+    if (total > 0.0) {
+        weights = vec4(1.0 / total, sprite.radius, on / total, 0.0);
+        ledgerAdd(kAccountOccludedSplat, flux.rgb * (occluded / total));
+        ledgerAdd(kAccountOffScreen, flux.rgb * (offScreen / total));
+    } else {
+        // No pixel centre falls on the disc: the surface is seen edge-on.
+        ledgerAdd(kAccountEdgeOn, flux.rgb);
+    }
+    imageStore(spriteWeights, texel, weights);
+}

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// Radiance as a picture: exposure, a shoulder above which highlights are compressed (luminance only,
+// so that hues stay), sRGB.
+layout(location = 0) out vec4 display;
+
+uniform sampler2D radiance;
+uniform float exposure;
+
+void main() {
+    vec3 color = max(texelFetch(radiance, ivec2(gl_FragCoord.xy), 0).rgb * exposure, vec3(0.0));
+    float luminance = dot(color, vec3(0.2126, 0.7152, 0.0722));
+    const float shoulder = 0.7;
+    if (luminance > shoulder) {
+        float over = luminance - shoulder;
+        float compressed = shoulder + (1.0 - shoulder) * over / (over + 1.0 - shoulder);
+        color *= compressed / luminance;
+    }
+    vec3 low = color * 12.92;
+    vec3 high = 1.055 * pow(max(color, vec3(1e-8)), vec3(1.0 / 2.4)) - 0.055;
+    display = vec4(clamp(mix(high, low, lessThanEqual(color, vec3(0.0031308))), 0.0, 1.0), 1.0);
+}

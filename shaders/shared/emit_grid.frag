@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// One photon a texel of the light's grid, where the first surface is specular: its flux is what the
+// light sends through the texel, by its area (directional) or its solid angle (cos³; METHODS.md,
+// section 7). An opaque surface nearer to the light leaves the texel empty.
+#include "common/scene_fragment.glsl"
+#include "common/surface.glsl"
+#include "common/lights.glsl"
+
+layout(location = 0) out vec4 photonPosition;
+layout(location = 1) out vec4 photonDirection;
+layout(location = 2) out vec4 photonFlux;
+layout(location = 3) out vec4 hitPosition;
+layout(location = 4) out vec4 hitSurface;
+layout(location = 5) out vec4 hitFlux;
+
+uniform int lightIndex;
+uniform vec2 halfExtent;    // m, or tangents of the half-angles
+uniform vec2 gridSize;      // texels
+uniform float gridBottom;   // first row of this light's part of the transfer map
+
+void main() {
+    LightData light = lights[lightIndex];
+    vec2 texel = 2.0 * halfExtent / gridSize;
+    vec3 direction = lightDirection(light, positionVs);
+    vec3 flux;
+    float footprint;
+    if (uint(light.positionVs.w) == kLightDirectional) {
+        flux = light.power.rgb * (texel.x * texel.y);
+        footprint = sqrt(texel.x * texel.y);
+    } else {
+        vec2 onPlane = ((gl_FragCoord.xy - vec2(0.0, gridBottom)) * 2.0 / gridSize - 1.0) * halfExtent;
+        float cosine = inversesqrt(1.0 + dot(onPlane, onPlane));
+        float solidAngle = texel.x * texel.y * cosine * cosine * cosine;
+        float distance = length(positionVs - light.positionVs.xyz);
+        flux = lightIntensity(light, positionVs) * solidAngle;
+        footprint = sqrt(solidAngle) * distance;
+    }
+    bool isPhoton = materialKind(material) != kMaterialLambertian && flux.r + flux.g + flux.b > 0.0;
+    vec3 normal = shadingNormal(normalVs, geometricNormal(positionVs, -direction));
+    float fate = float(isPhoton ? kFateSpecular : kFateNone);
+    vec4 on = vec4(isPhoton ? 1.0 : 0.0);
+    photonPosition = vec4(positionVs, footprint) * on;
+    photonDirection = vec4(direction * on.xyz, fate);
+    photonFlux = vec4(flux, 0.0) * on;
+    hitPosition = vec4(positionVs, 0.0) * on;
+    hitSurface = vec4(normal, float(material + 1u)) * on;
+    hitFlux = vec4(flux * on.xyz, fate);
+}

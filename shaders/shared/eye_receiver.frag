@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// The receiver of each pixel: depth, the area seen, normal, material, reflectance. A mirror hides
+// what is behind it and is no receiver.
+#include "common/scene_fragment.glsl"
+#include "common/surface.glsl"
+#include "common/view.glsl"
+
+layout(location = 0) out vec4 receiver;
+layout(location = 1) out vec4 receiverSurface;
+layout(location = 2) out vec4 receiverAlbedo;
+
+void main() {
+    float depth = -positionVs.z;
+    vec3 geometric = geometricNormal(positionVs, -positionVs);
+    vec3 albedo = surfaceAlbedo(material, uv);
+    bool isReceiver = materialKind(material) == kMaterialLambertian;
+    vec3 ray = viewRay(gl_FragCoord.xy);
+    receiver = isReceiver ? vec4(depth, pixelArea(ray, depth, geometric), 0.0, 0.0) : vec4(0.0);
+    receiverSurface =
+        isReceiver ? vec4(shadingNormal(normalVs, geometric), float(material + 1u)) : vec4(0.0);
+    receiverAlbedo = isReceiver ? vec4(albedo, 1.0) : vec4(0.0);
+}

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// What photons do where they have met a specular surface: one thread a photon.
+#include "common/fresnel.glsl"
+#include "common/ledger.glsl"
+#include "common/surface_data.glsl"
+#include "common/transfer_map.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(rgba32f) uniform image2D photonPosition;
+layout(rgba32f) uniform image2D photonDirection;
+layout(rgba32f) uniform image2D photonFlux;
+uniform sampler2D hitPosition;
+uniform sampler2D hitSurface;
+uniform sampler2D hitFlux;
+uniform int isFirst;  // the photons come straight from the light
+
+void store(ivec2 texel, Photon photon) {
+    imageStore(photonPosition, texel, photonPositionTexel(photon));
+    imageStore(photonDirection, texel, photonDirectionTexel(photon));
+    imageStore(photonFlux, texel, photonFluxTexel(photon));
+}
+
+void main() {
+    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(texel, textureSize(hitFlux, 0)))) return;
+    Photon photon = unpackPhoton(imageLoad(photonPosition, texel), imageLoad(photonDirection, texel),
+                                 imageLoad(photonFlux, texel));
+    Hit hit = unpackHit(texelFetch(hitPosition, texel, 0), texelFetch(hitSurface, texel, 0),
+                        texelFetch(hitFlux, texel, 0));
+    if (hit.fate != kFateSpecular) {
+        if (photon.fate == kFateInFlight) {
+            photon.fate = kFateEnded;
+            store(texel, photon);
+        }
+        return;
+    }
+    if (isFirst != 0) ledgerAdd(kAccountEmitted, hit.fluxWatts);
+
+    uint surface = hit.material - 1u;
+    MaterialData data = materials[surface];
+    photon.positionVs = hit.positionVs;
+    photon.fluxWatts = hit.fluxWatts;
+    photon.fate = kFateInFlight;
+    float facing = dot(photon.directionVs, hit.normalVs);
+    if (uint(data.albedo.w) == kMaterialMirror) {
+        photon.directionVs = normalize(reflect(photon.directionVs, hit.normalVs));
+        ledgerAdd(kAccountAbsorbed, photon.fluxWatts * (1.0 - data.albedo.rgb));
+        photon.fluxWatts *= data.albedo.rgb;
+    } else {
+        bool enters = facing < 0.0;
+        uint outside = enters ? innerMedium(photon.media) : outerMedium(photon.media);
+        float outsideIndex = mediumIndex(outside);
+        float from = enters ? outsideIndex : data.absorption.w;
+        float to = enters ? data.absorption.w : outsideIndex;
+        Interface meeting = interactAt(photon.directionVs, hit.normalVs, from, to);
+        if (meeting.reflectance >= 1.0) {
+            photon.directionVs = meeting.reflected;
+        } else {
+            photon.directionVs = meeting.refracted;
+            photon.media = enters ? enterMedium(photon.media, hit.material)
+                                  : leaveMedium(photon.media);
+            ledgerAdd(kAccountUntracedBranch, photon.fluxWatts * meeting.reflectance);
+            photon.fluxWatts *= 1.0 - meeting.reflectance;
+        }
+    }
+    store(texel, photon);
+}

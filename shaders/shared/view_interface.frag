@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// What the eye sees in the first specular surface of a pixel: one refraction and one reflection.
+// The refracted ray is taken as far as the receiver lies straight behind the surface, and what the
+// picture shows there is looked up; the reflected one sees the background. Radiance changes by T/n²
+// where it leaves the medium that the receiver lies in (hard case 28a).
+#include "common/fresnel.glsl"
+#include "common/surface_data.glsl"
+#include "common/view.glsl"
+
+layout(location = 0) out vec4 radiance;
+
+uniform sampler2D interfaceDepth;
+uniform sampler2D interfaceSurface;
+uniform sampler2D receiver;
+uniform sampler2D receiverRadiance;
+
+// Where the refracted ray meets the receivers, as a pixel.
+ivec2 lookThrough(vec3 entry, vec3 direction, float distanceBehind, ivec2 pixel) {
+    if (view_interface_refract == false) return pixel;
+    vec3 there = entry + direction * distanceBehind;
+    if (there.z > -view.tangents.z) return pixel;
+    ivec2 found = ivec2(floor(pixelOf(there)));
+    if (any(lessThan(found, ivec2(0))) || any(greaterThanEqual(found, ivec2(view.sizePixels.xy)))) {
+        return pixel;
+    }
+    // What lies before the surface there is not behind it.
+    float depth = texelFetch(receiver, found, 0).x;
+    float surface = texelFetch(interfaceDepth, found, 0).x;
+    return depth > 0.0 && surface > 0.0 && depth > surface ? found : pixel;
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    radiance = texelFetch(receiverRadiance, pixel, 0);
+    float depth = texelFetch(interfaceDepth, pixel, 0).x;
+    if (depth <= 0.0) return;
+    vec4 surface = texelFetch(interfaceSurface, pixel, 0);
+    uint material = uint(surface.w) - 1u;
+    MaterialData data = materials[material];
+    vec3 ray = viewRay(gl_FragCoord.xy);
+    vec3 direction = normalize(ray);
+    if (uint(data.albedo.w) == kMaterialMirror) {
+        radiance = vec4(data.albedo.rgb * view.background.rgb, 1.0);
+        return;
+    }
+    float index = data.absorption.w;
+    bool enters = dot(direction, surface.xyz) < 0.0;
+    Interface meeting = interactAt(direction, surface.xyz, enters ? 1.0 : index, enters ? index : 1.0);
+    vec3 entry = ray * depth;
+    float receiverDepth = texelFetch(receiver, pixel, 0).x;
+    vec3 through = vec3(0.0);
+    if (meeting.reflectance < 1.0) {
+        float behind = receiverDepth > depth ? (receiverDepth - depth) * length(ray) : 0.0;
+        ivec2 found = lookThrough(entry, meeting.refracted, behind, pixel);
+        bool isOpen = data.uv.w > 0.0;
+        // Behind an open surface the receiver lies inside the medium; a closed object is left again.
+        float transmittance = 1.0 - meeting.reflectance;
+        float factor = isOpen ? (enters ? transmittance / (index * index)
+                                        : transmittance * index * index)
+                              : transmittance * transmittance;
+        through = factor * texelFetch(receiverRadiance, found, 0).rgb;
+        if (isOpen && enters) through *= mediumTransmittance(material + 1u, behind);
+    }
+    radiance = vec4(through + meeting.reflectance * view.background.rgb, 1.0);
+}

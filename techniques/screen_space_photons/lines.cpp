@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+// trace.lines: each photon's ray as a line into a row of a texture, one fragment a step, every
+// layer looked up; trace.reduce: log2(width) halvings of the rows leave a column of first hits
+// (K06, section 2.1). Photons that do not fit into the row texture follow in batches; the result
+// does not depend on their size. The line's vertices come from their number instead of a vertex
+// array. In: photons and layered depth in eye view space, m; out: hits, W that arrive after
+// absorption.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "framework/pipeline/frame_builder.h"
+#include "techniques/screen_space_photons/nodes.h"
+
+namespace kaustik {
+namespace {
+
+struct RowTexel {  // x: ray parameter of a hit, m, 0 none; y: step and layer
+    static constexpr Format format = Format::rg32f;
+};
+
+struct RowTextures {
+    graph::Texture<RowTexel> rows;
+    // The reduce goes back and forth between these; either may be the one that ends up one wide.
+    graph::Texture<RowTexel> half;
+    graph::Texture<RowTexel> quarter;
+};
+
+int halved(int width) {
+    return (width + 1) / 2;
+}
+
+struct Layout {
+    int width;
+    int rows;
+    int batches;
+};
+
+Layout makeLayout(const FrameBuilder& frame, const LinesParams& params, int photonCount) {
+    const int deviceLimit = 16384;
+    const int width = params.width > 0 ? params.width
+                                       : std::clamp(std::max(frame.width(), frame.height()),
+                                                    params.minimum, deviceLimit);
+    const auto bytesPerRow =
+        static_cast<std::size_t>(width + halved(width) + halved(halved(width))) *
+        graph::bytesPerTexel(RowTexel::format);
+    const std::size_t memory = static_cast<std::size_t>(params.memoryMebibytes) << 20;
+    const auto affordable =
+        static_cast<int>(std::clamp<std::size_t>(memory / bytesPerRow, 1, deviceLimit));
+    const int wanted = params.rows > 0 ? params.rows : photonCount;
+    const int rows = std::clamp(std::min(wanted, photonCount), 1, affordable);
+    return {width, rows, (photonCount + rows - 1) / rows};
+}
+
+// `run` counts the tracings of a frame: after each specular interaction there is one.
+RowTextures createRows(graph::PassSetup& setup, const Layout& layout, int run) {
+    const std::string suffix = run == 1 ? "" : fmt::format("_{}", run);
+    const int half = halved(layout.width);
+    RowTextures textures;
+    textures.rows = setup.create<RowTexel>("trace.rows" + suffix, layout.width, layout.rows);
+    textures.half = setup.create<RowTexel>("trace.rows_half" + suffix, half, layout.rows);
+    textures.quarter =
+        setup.create<RowTexel>("trace.rows_quarter" + suffix, halved(half), layout.rows);
+    return textures;
+}
+
+RowTextures rasterizeLines(FrameBuilder& frame, const LinesParams& params, const Photons& photons,
+                           const LayeredDepth& layers, const Layout& layout, RowTextures textures,
+                           int batch) {
+    struct Data {
+        RowTextures textures;
+        Photons photons;
+        LayeredDepth layers;
+    };
+    const auto trace = frame.params<TraceParams>("trace");
+    const int run = frame.runsOf(TraceStage::name);
+    return frame
+        .pass<Data>(
+            "trace.lines",
+            fmt::format("{} rows of {} texels, {} batch{}", layout.rows, layout.width,
+                        layout.batches, layout.batches == 1 ? "" : "es"),
+            [&](graph::PassSetup& setup, Data& data) {
+                data.photons = photons;
+                data.layers = layers;
+                setup.read(photons.position);
+                setup.read(photons.direction);
+                setup.read(photons.flux);
+                setup.read(layers.depth);
+                setup.read(layers.surface);
+                data.textures = batch == 0 ? createRows(setup, layout, run) : textures;
+                if (batch > 0) data.textures.rows = setup.write(textures.rows);
+            },
+            [&inputs = frame.inputs(), params, trace, layout, batch](const Data& data,
+                                                                     gl::PassContext& context) {
+                gl::Command command = context.shaders(
+                    {"screen_space_photons/lines.vert", "screen_space_photons/lines.frag"});
+                inputs.bindView(command)
+                    .params("trace", trace)
+                    .params("trace.lines", params)
+                    .storage("Materials", inputs.gpuScene.materials())
+                    .texture("photonPosition", data.photons.position)
+                    .texture("photonDirection", data.photons.direction)
+                    .texture("photonFlux", data.photons.flux)
+                    .texture("layerDepths", data.layers.depth)
+                    .texture("layerSurfaces", data.layers.surface)
+                    .set("layerCount", data.layers.layers)
+                    .set("firstPhoton", batch * layout.rows)
+                    .set("rowsSize", glm::ivec2(layout.width, layout.rows))
+                    .target(data.textures.rows)
+                    .clear()
+                    .drawArrays(GL_LINES, 2 * layout.rows);
+            })
+        .textures;
+}
+
+struct Reduced {
+    RowTextures textures;
+    Hits hits;
+};
+
+Reduced reduceRows(FrameBuilder& frame, const LinesParams& params, const LayeredDepth& layers,
+                   const Layout& layout, RowTextures textures, const Hits& hits, int batch) {
+    struct Data : Reduced {
+        LayeredDepth layers;
+    };
+    const auto trace = frame.params<TraceParams>("trace");
+    return frame.pass<Data>(
+        "trace.reduce", "the first hit of each row",
+        [&](graph::PassSetup& setup, Data& data) {
+            data.layers = layers;
+            setup.read(layers.depth);
+            setup.read(layers.surface);
+            data.textures.rows = setup.read(textures.rows);
+            data.textures.half = setup.write(textures.half);
+            data.textures.quarter = setup.write(textures.quarter);
+            data.hits.incoming = hits.incoming;
+            setup.read(hits.incoming.position);
+            setup.read(hits.incoming.direction);
+            setup.read(hits.incoming.flux);
+            data.hits.position = setup.write(hits.position);
+            data.hits.surface = setup.write(hits.surface);
+            data.hits.flux = setup.write(hits.flux);
+            data.hits.incoming.ledger = setup.write(hits.incoming.ledger);
+        },
+        [&inputs = frame.inputs(), params, trace, layout, batch](const Data& data,
+                                                                 gl::PassContext& context) {
+            graph::ResourceRef source = data.textures.rows;
+            graph::ResourceRef target = data.textures.half;
+            graph::ResourceRef spare = data.textures.quarter;
+            for (int width = layout.width; width > 1; width = halved(width)) {
+                context.fullscreen("screen_space_photons/reduce.frag")
+                    .texture("source", source)
+                    .set("sourceWidth", width)
+                    .target(target)
+                    .viewport(0, 0, halved(width), layout.rows)
+                    .draw();
+                source = target;
+                std::swap(target, spare);
+            }
+            const Photons& photons = data.hits.incoming;
+            gl::Command command = context.compute("screen_space_photons/resolve.comp");
+            inputs.bindView(command);
+            inputs.bindLedger(command, photons.ledger)
+                .params("trace", trace)
+                .params("trace.lines", params)
+                .storage("Materials", inputs.gpuScene.materials())
+                .texture("column", source)
+                .texture("photonPosition", photons.position)
+                .texture("photonDirection", photons.direction)
+                .texture("photonFlux", photons.flux)
+                .texture("layerDepths", data.layers.depth)
+                .texture("layerSurfaces", data.layers.surface)
+                .image("hitPosition", data.hits.position)
+                .image("hitSurface", data.hits.surface)
+                .image("hitFlux", data.hits.flux)
+                .set("layerCount", data.layers.layers)
+                .set("firstPhoton", batch * layout.rows)
+                .set("photonCount", photons.count())
+                .set("rowsWidth", layout.width)
+                .dispatchOver(layout.rows, 64);
+        });
+}
+
+}  // namespace
+
+Hits traceLines(FrameBuilder& frame, const LinesParams& params, Photons photons,
+                LayeredDepth layers, Hits previous) {
+    const Layout layout = makeLayout(frame, params, photons.count());
+    const int longestSide = std::max(frame.width(), frame.height());
+    if (layout.width < longestSide) {
+        frame.warn(
+            fmt::format("trace.lines.width of {} is below the picture's longer side of {}: "
+                        "long rays skip pixels.",
+                        layout.width, longestSide));
+    }
+    RowTextures textures;
+    Hits hits = previous;
+    hits.incoming = photons;
+    for (int batch = 0; batch < layout.batches; ++batch) {
+        textures = rasterizeLines(frame, params, photons, layers, layout, textures, batch);
+        const Reduced reduced = reduceRows(frame, params, layers, layout, textures, hits, batch);
+        textures = reduced.textures;
+        hits = reduced.hits;
+        photons.ledger = hits.incoming.ledger;
+    }
+    return hits;
+}
+
+}  // namespace kaustik

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#include "techniques/screen_space_photons/nodes.h"
+
+namespace kaustik {
+
+void registerScreenSpacePhotons(Registry& registry) {
+    registry.node<LayersStage>("peel",
+                               {"Depth peeling into a layered depth image, no deeper than the "
+                                "picture's measured depth complexity.",
+                                "K06, section 2.2"},
+                               &peelLayers);
+    registry.node<TraceStage>("lines",
+                              {"Rasterises each photon's ray as a line into a row of a texture and "
+                               "reduces the row to its first hit.",
+                               "K06, section 2.1"},
+                              &traceLines);
+    registry.node<ReconstructStage>("sprites",
+                                    {"Splats each photon as a disc in its receiver's tangent "
+                                     "plane, ray-cast per pixel; the flux is kept exactly.",
+                                     "K06, section 3.1, Eq. 1"},
+                                    &splatSprites);
+    registry.technique({"screen_space_photons",
+                        "Photon rays traced through a layered depth image as rasterised lines.",
+                        "Krüger, Bürger, Westermann 2006",
+                        {{"layers", "peel"}, {"trace", "lines"}, {"reconstruct", "sprites"}},
+                        {}});
+}
+
+}  // namespace kaustik

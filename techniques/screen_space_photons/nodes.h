@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// Screen-space photon tracing: Krüger, Bürger, Westermann 2006, "Interactive Screen-Space Accurate
+// Photon Tracing on GPUs" (K06).
+#pragma once
+
+#include "framework/pipeline/registry.h"
+#include "framework/pipeline/stage_params.h"
+
+namespace kaustik {
+
+void registerScreenSpacePhotons(Registry& registry);
+
+LayeredDepth peelLayers(FrameBuilder& frame, const params::NoParams&, Geometry geometry);
+
+struct LinesParams {
+    int width = 0;
+    int rows = 0;
+    int memoryMebibytes = 64;
+    int minimum = 4;
+    template <class R>
+    void reflect(R& r) {
+        r.field(width, "width",
+                "Most fragments of a photon's line; 0: as many as the longer side of the picture "
+                "has pixels, so that no step skips one",
+                "texels", params::range(0, 16384));
+        r.field(rows, "rows", "Photons in a batch, one row each; 0: as many as the memory allows",
+                "", params::range(0, 16384));
+        r.field(memoryMebibytes, "memory",
+                "Most memory for the row texture and its reductions; fewer rows mean more batches",
+                "MiB", params::range(1, 8192));
+        r.field(minimum, "minimum",
+                "Fewest fragments of a line, for rays almost parallel to the view direction",
+                "texels", params::range(1, 64));
+    }
+};
+Hits traceLines(FrameBuilder& frame, const LinesParams& params, Photons photons,
+                LayeredDepth layers, Hits previous);
+
+struct SpritesParams {
+    float radiusMeters = 0.0f;
+    float footprints = 2.5f;
+    int maximumPixels = 64;
+    template <class R>
+    void reflect(R& r) {
+        r.field(radiusMeters, "radius",
+                "Radius of a photon's splat on the receiver; 0: follows the photon's footprint",
+                "m", params::range(0.0f, 1e6f));
+        r.field(footprints, "footprints",
+                "Radius of a splat in widths of its photon's beam, when no radius is set", "",
+                params::range(0.1f, 100.0f));
+        r.field(maximumPixels, "maximum", "Largest radius on the screen; splats shrink to it", "px",
+                params::range(1, 1024));
+    }
+};
+IrradianceMap splatSprites(FrameBuilder& frame, const SpritesParams& params, Hits hits,
+                           EyeBuffer eye);
+
+}  // namespace kaustik

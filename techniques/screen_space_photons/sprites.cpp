@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+// reconstruct.sprites: oriented, ray-cast sprites (K06, section 3.1, Eq. 1). Each photon lights a
+// disc in the tangent plane of its receiver, falling linearly to the edge. `reconstruct.weights`
+// first sums each splat's weights over the receivers that the pixels see, so that the flux
+// deposited is the photon's flux. In: hits (eye view space, W) and the eye buffer; out: irradiance,
+// W/m².
+#include "framework/pipeline/frame_builder.h"
+#include "techniques/screen_space_photons/nodes.h"
+
+namespace kaustik {
+namespace {
+
+struct SpriteWeight {  // x: 1 / weighted area, 1/m²; y: radius, m; z: share that is seen
+    static constexpr Format format = Format::rgba32f;
+};
+
+struct Weights {
+    graph::Texture<SpriteWeight> weights;
+    Hits hits;
+    EyeBuffer eye;
+    Ledger ledger;
+};
+
+Weights sumWeights(FrameBuilder& frame, const SpritesParams& params, Hits hits, EyeBuffer eye) {
+    return frame.pass<Weights>(
+        "reconstruct.weights", "splats keep their photons' flux",
+        [&](graph::PassSetup& setup, Weights& data) {
+            data.hits = hits;
+            data.eye = eye;
+            setup.read(hits.position);
+            setup.read(hits.surface);
+            setup.read(hits.flux);
+            setup.read(hits.incoming.position);
+            setup.read(eye.receiver);
+            setup.read(eye.receiverSurface);
+            data.ledger = setup.write(hits.incoming.ledger);
+            data.weights = setup.create<SpriteWeight>("reconstruct.weights", hits.incoming.width,
+                                                      hits.incoming.height);
+        },
+        [&inputs = frame.inputs(), params](const Weights& data, gl::PassContext& context) {
+            gl::Command command = context.compute("screen_space_photons/sprite_weights.comp");
+            inputs.bindView(command);
+            inputs.bindLedger(command, data.ledger)
+                .params("reconstruct.sprites", params)
+                .image("spriteWeights", data.weights)
+                .texture("receiver", data.eye.receiver)
+                .texture("receiverSurface", data.eye.receiverSurface)
+                .texture("photonPosition", data.hits.incoming.position)
+                .texture("hitPosition", data.hits.position)
+                .texture("hitSurface", data.hits.surface)
+                .texture("hitFlux", data.hits.flux)
+                .dispatchOver(data.hits.incoming.count(), 64);
+        });
+}
+
+}  // namespace
+
+IrradianceMap splatSprites(FrameBuilder& frame, const SpritesParams& params, Hits hits,
+                           EyeBuffer eye) {
+    const Weights weights = sumWeights(frame, params, hits, eye);
+    struct Data : Weights {
+        IrradianceMap map;
+    };
+    return frame
+        .pass<Data>(
+            "reconstruct.sprites", "photons become irradiance at the receivers",
+            [&](graph::PassSetup& setup, Data& data) {
+                static_cast<Weights&>(data) = weights;
+                setup.read(weights.weights);
+                setup.read(hits.position);
+                setup.read(hits.surface);
+                setup.read(hits.flux);
+                setup.read(eye.receiver);
+                setup.read(eye.receiverSurface);
+                data.map.irradiance = setup.create<IrradianceTexel>("caustic.irradiance",
+                                                                    frame.width(), frame.height());
+                data.map.ledger = setup.read(weights.ledger);
+                setup.bypass(data.map.irradiance, {0, 0, 0, 0});
+            },
+            [&inputs = frame.inputs()](const Data& data, gl::PassContext& context) {
+                gl::Command command = context.shaders(
+                    {"screen_space_photons/sprites.vert", "screen_space_photons/sprites.frag"});
+                inputs.bindView(command)
+                    .texture("spriteWeights", data.weights)
+                    .texture("receiver", data.eye.receiver)
+                    .texture("receiverSurface", data.eye.receiverSurface)
+                    .texture("hitPosition", data.hits.position)
+                    .texture("hitSurface", data.hits.surface)
+                    .texture("hitFlux", data.hits.flux)
+                    .target(data.map.irradiance)
+                    .clear()
+                    .blend(gl::Blend::add)
+                    .drawArrays(GL_TRIANGLE_STRIP, 4, data.hits.incoming.count());
+            })
+        .map;
+}
+
+}  // namespace kaustik

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+// emit.grid: photons on a regular grid of each light's view (K06, section 1.1; the
+// render-to-vertex- buffer caustics of the time), where they first meet a specular surface. The
+// grid is the tightest rectangle around the specular objects; one grid a light, stacked in the
+// transfer map. Out: photons that arrive (flux in W) and the hits that they make; eye view space,
+// m.
+#include <fmt/format.h>
+
+#include "framework/pipeline/frame_builder.h"
+#include "techniques/shared/nodes.h"
+
+namespace kaustik {
+namespace {
+
+struct LightGrid {
+    glm::mat4 projection;
+    glm::vec2 halfExtent;
+    const render::ViewInstances* instances;
+};
+
+scene::Bounds specularBounds(const scene::Scene& scene) {
+    scene::Bounds bounds;
+    for (const scene::Object& object : scene.objects) {
+        if (scene.materials[object.material].kind == scene::MaterialKind::lambertian) continue;
+        const scene::Bounds objects = objectBounds(scene, object);
+        bounds.include(objects.minimum);
+        bounds.include(objects.maximum);
+    }
+    return bounds;
+}
+
+std::vector<LightGrid> makeGrids(FrameBuilder& frame) {
+    const scene::Bounds target = specularBounds(frame.scene());
+    std::vector<LightGrid> grids;
+    if (target.empty) return grids;
+    for (const scene::Light& light : frame.scene().lights) {
+        const render::LightView view = render::makeLightView(light, target, sceneBounds(frame.scene()));
+        if (view.isClipped) {
+            frame.warn(fmt::format(
+                "Light '{}' sees the specular objects wider than 160 degrees; photons outside of "
+                "that are not emitted and are in no account.",
+                light.name));
+        }
+        const render::ViewInstances& instances =
+            frame.keep(frame.gpuScene().makeInstances(view.worldToLight));
+        grids.push_back({view.projection(), glm::vec2(view.halfExtent), &instances});
+    }
+    return grids;
+}
+
+}  // namespace
+
+Hits emitGrid(FrameBuilder& frame, const params::NoParams&, Geometry geometry) {
+    const params::Extent grid = frame.params<EmitParams>("emit").photons;
+    const std::vector<LightGrid> grids = makeGrids(frame);
+    struct Data {
+        Hits hits;
+        graph::Texture<DepthBuffer> depth;
+        Geometry geometry;
+    };
+    const int rows = grid.height * std::max<int>(static_cast<int>(grids.size()), 1);
+    const std::string why =
+        grids.empty() ? "keeps the transfer map empty: no light, or nothing specular"
+                      : fmt::format("{} photons a light, {} light{}", grid.width * grid.height,
+                                    grids.size(), grids.size() == 1 ? "" : "s");
+    return frame
+        .pass<Data>(
+            "emit.grid", why,
+            [&](graph::PassSetup& setup, Data& data) {
+                data.geometry = geometry;
+                if (geometry.heightFields.valid()) setup.read(geometry.heightFields);
+                const int w = grid.width;
+                data.hits.position = setup.create<HitPosition>("hits.position", w, rows);
+                data.hits.surface = setup.create<HitSurface>("hits.surface", w, rows);
+                data.hits.flux = setup.create<HitFlux>("hits.flux", w, rows);
+                Photons& photons = data.hits.incoming;
+                photons.position = setup.create<PhotonPosition>("photons.position", w, rows);
+                photons.direction = setup.create<PhotonDirection>("photons.direction", w, rows);
+                photons.flux = setup.create<PhotonFlux>("photons.flux", w, rows);
+                photons.ledger =
+                    setup.createBuffer<transport::LedgerEntry>("ledger", transport::kAccountCount);
+                photons.width = w;
+                photons.height = rows;
+                data.depth = setup.create<DepthBuffer>("emit.depth_buffer", w, rows);
+            },
+            [&inputs = frame.inputs(), grids, grid](const Data& data, gl::PassContext& context) {
+                const Photons& photons = data.hits.incoming;
+                context.buffer(photons.ledger).clear();
+                const auto addTargets = [&](gl::Command& command, bool clear) {
+                    const auto add = [&](const graph::ResourceRef& handle) {
+                        command.target(handle);
+                        if (clear) command.clear();
+                    };
+                    add(photons.position);
+                    add(photons.direction);
+                    add(photons.flux);
+                    add(data.hits.position);
+                    add(data.hits.surface);
+                    add(data.hits.flux);
+                    command.depth(data.depth, gl::DepthTest::nearerReversed);
+                    if (clear) command.clear();
+                };
+                if (grids.empty()) {
+                    for (const graph::ResourceRef& handle :
+                         std::initializer_list<graph::ResourceRef>{
+                             photons.position, photons.direction, photons.flux, data.hits.position,
+                             data.hits.surface, data.hits.flux}) {
+                        context.texture(handle).clear({0, 0, 0, 0});
+                    }
+                }
+                for (std::size_t light = 0; light < grids.size(); ++light) {
+                    const int bottom = static_cast<int>(light) * grid.height;
+                    gl::Command command =
+                        context.shaders({"shared/emit_grid.vert", "shared/emit_grid.frag"});
+                    inputs.gpuScene.bindMaterials(command);
+                    addTargets(command, light == 0);
+                    command.viewport(0, bottom, grid.width, grid.height)
+                        .storage("LightInstances", grids[light].instances->instances)
+                        .storage("Lights", inputs.lights)
+                        .set("projection", grids[light].projection)
+                        .set("lightIndex", static_cast<int>(light))
+                        .set("halfExtent", grids[light].halfExtent)
+                        .set("gridSize", glm::vec2(grid.width, grid.height))
+                        .set("gridBottom", static_cast<float>(bottom));
+                    inputs.gpuScene.draw(command, context, data.geometry, inputs.instances,
+                                         render::DrawSet::all);
+                }
+            })
+        .hits;
+}
+
+}  // namespace kaustik

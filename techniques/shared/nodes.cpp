@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#include "techniques/shared/nodes.h"
+
+namespace kaustik {
+
+void registerSharedNodes(Registry& registry) {
+    registry.sharedParams<LayersStage, LayersParams>();
+    registry.sharedParams<EmitStage, EmitParams>();
+    registry.sharedParams<SpecularStage, SpecularParams>();
+    registry.sharedParams<TraceStage, TraceParams>();
+
+    registry.node<GeometryStage>(
+        "height_field", {"Makes the vertices of wavy water on the GPU.", ""}, &makeHeightFields);
+    registry.node<EyeStage>("surfaces",
+                            {"Rasterises the first receiver and the first specular surface of "
+                             "every pixel.",
+                             ""},
+                            &renderEye);
+    registry.node<EmitStage>("grid",
+                             {"Rasterises the specular surfaces from each light, one photon a "
+                              "texel.",
+                              "K06, section 1.1"},
+                             &emitGrid);
+    registry.node<SpecularStage>("interface",
+                                 {"Refracts, or reflects totally or at a mirror; the other Fresnel "
+                                  "branch goes to the ledger.",
+                                  "K06, section 2.3"},
+                                 &interactAtInterface);
+    registry.node<ViewStage>("interface",
+                             {"Looks through the first specular surface with one refraction, at "
+                              "the distance of the receiver straight behind it.",
+                              ""},
+                             &viewThroughInterface);
+    registry.node<ComposeStage>("picture",
+                                {"Direct light with shadow maps, the caustic, and what the eye "
+                                 "sees through specular surfaces.",
+                                 ""},
+                                &composePicture);
+}
+
+}  // namespace kaustik

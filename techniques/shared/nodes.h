@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// Nodes that every technique may use.
+#pragma once
+
+#include "framework/pipeline/registry.h"
+#include "framework/pipeline/stage_params.h"
+
+namespace kaustik {
+
+void registerSharedNodes(Registry& registry);
+
+Geometry makeHeightFields(FrameBuilder& frame, const params::NoParams&);
+
+EyeBuffer renderEye(FrameBuilder& frame, const params::NoParams&, Geometry geometry);
+
+Hits emitGrid(FrameBuilder& frame, const params::NoParams&, Geometry geometry);
+
+Photons interactAtInterface(FrameBuilder& frame, const params::NoParams&, Hits hits);
+
+struct InterfaceViewParams {
+    bool refract = true;
+    template <class R>
+    void reflect(R& r) {
+        r.field(refract, "refract",
+                "Bend the eye's ray at the surface; off: look straight through");
+    }
+};
+Radiance viewThroughInterface(FrameBuilder& frame, const InterfaceViewParams& params, EyeBuffer eye,
+                              Radiance receivers);
+
+struct PictureParams {
+    int shadowSize = 1024;
+    float exposure = 0.0f;
+    template <class R>
+    void reflect(R& r) {
+        r.field(shadowSize, "shadow_size", "Side of a light's shadow map", "texels",
+                params::range(16, 8192));
+        r.field(
+            exposure, "exposure",
+            "Brightness of the display image; 0: from the irradiance at the middle of the scene",
+            "1/(W/m²/sr)", params::range(0.0f, 1e6f));
+    }
+};
+Picture composePicture(FrameBuilder& frame, const PictureParams& params, Geometry geometry,
+                       EyeBuffer eye, IrradianceMap caustic);
+
+}  // namespace kaustik

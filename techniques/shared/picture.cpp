@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+// compose.picture: shadow maps and direct light of all lights, the radiance of the receivers with
+// the caustic on them, what the eye sees through specular surfaces (stage `view`), and the display
+// image. Irradiance in W/m², radiance in W/m²/sr.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "framework/pipeline/frame_builder.h"
+#include "techniques/shared/nodes.h"
+
+namespace kaustik {
+namespace {
+
+struct LightDepth {  // x: planar depth from the light, m, 0 none; y: its extent over the texel, m
+    static constexpr Format format = Format::rg32f;
+};
+
+struct ShadowView {
+    glm::mat4 projection;
+    std::vector<glm::mat4> eyeToLight;                    // by face
+    std::vector<const render::ViewInstances*> instances;  // by face
+    int firstLayer = 0;
+};
+
+// One face for a light with a direction, six around a point light.
+std::vector<ShadowView> makeShadowViews(FrameBuilder& frame) {
+    std::vector<ShadowView> views;
+    const scene::Bounds bounds = sceneBounds(frame.scene());
+    int layer = 0;
+    for (const scene::Light& light : frame.scene().lights) {
+        ShadowView shadow;
+        shadow.firstLayer = layer;
+        const int faces = light.kind == scene::LightKind::directional ? 1 : 6;
+        for (int face = 0; face < faces; ++face) {
+            const render::LightView view =
+                faces == 1 ? render::makeLightView(light, bounds, bounds) : render::makeCubeFaceView(light, face);
+            shadow.projection = view.projection();
+            shadow.eyeToLight.push_back(render::eyeToLight(view, frame.view()));
+            shadow.instances.push_back(
+                &frame.keep(frame.gpuScene().makeInstances(view.worldToLight)));
+        }
+        layer += faces;
+        views.push_back(std::move(shadow));
+    }
+    return views;
+}
+
+// What makes a half-reflecting receiver in the middle of the scene a middle grey.
+float automaticExposure(const scene::Scene& scene) {
+    const scene::Bounds bounds = sceneBounds(scene);
+    const glm::dvec3 middle = 0.5 * (bounds.minimum + bounds.maximum);
+    double irradiance = static_cast<double>(scene.ambientIrradiance.g);
+    for (const scene::Light& light : scene.lights) {
+        const glm::dvec3 offset = middle - light.position;
+        const double spread = light.kind == scene::LightKind::directional
+                                  ? 1.0
+                                  : std::max(glm::dot(offset, offset), 1e-6);
+        irradiance +=
+            static_cast<double>(std::max({light.power.r, light.power.g, light.power.b})) / spread;
+    }
+    return irradiance > 0.0 ? static_cast<float>(0.45 * 3.14159265 / (0.5 * irradiance)) : 1.0f;
+}
+
+struct Shadows {
+    graph::Texture<LightDepth> map;
+    graph::Texture<DepthBuffer> depth;
+    Geometry geometry;
+};
+
+Shadows renderShadows(FrameBuilder& frame, const PictureParams& params,
+                      const std::vector<ShadowView>& views, Geometry geometry) {
+    const int layers = views.back().firstLayer + static_cast<int>(views.back().eyeToLight.size());
+    return frame.pass<Shadows>(
+        "compose.shadow", fmt::format("{} light{}", views.size(), views.size() == 1 ? "" : "s"),
+        [&](graph::PassSetup& setup, Shadows& data) {
+            data.geometry = geometry;
+            if (geometry.heightFields.valid()) setup.read(geometry.heightFields);
+            const int side = params.shadowSize;
+            data.map = setup.create<LightDepth>("compose.shadow_map", side, side, layers);
+            data.depth = setup.create<DepthBuffer>("compose.shadow_depth_buffer", side, side);
+            setup.bypass(data.map, {0, 0, 0, 0});
+            setup.bypass(data.depth, {0, 0, 0, 0});
+        },
+        [&inputs = frame.inputs(), views](const Shadows& data, gl::PassContext& context) {
+            for (const ShadowView& view : views) {
+                for (std::size_t face = 0; face < view.eyeToLight.size(); ++face) {
+                    gl::Command command =
+                        context.shaders({"shared/eye.vert", "shared/shadow.frag"});
+                    command.set("projection", view.projection)
+                        .target(data.map, view.firstLayer + static_cast<int>(face))
+                        .clear()
+                        .depth(data.depth, gl::DepthTest::nearerReversed)
+                        .clear();
+                    inputs.gpuScene.draw(command, context, data.geometry, *view.instances[face],
+                                         render::DrawSet::all);
+                }
+            }
+        });
+}
+
+graph::Texture<IrradianceTexel> lightDirectly(FrameBuilder& frame,
+                                              const std::vector<ShadowView>& views,
+                                              const Shadows& shadows, EyeBuffer eye) {
+    struct Data {
+        graph::Texture<IrradianceTexel> irradiance;
+        Shadows shadows;
+        EyeBuffer eye;
+    };
+    return frame
+        .pass<Data>(
+            "compose.direct", "receivers are lit directly too",
+            [&](graph::PassSetup& setup, Data& data) {
+                data.shadows = shadows;
+                data.eye = eye;
+                if (!views.empty()) setup.read(shadows.map);
+                setup.read(eye.receiver);
+                setup.read(eye.receiverSurface);
+                data.irradiance = setup.create<IrradianceTexel>("direct.irradiance", frame.width(),
+                                                                frame.height());
+                setup.bypass(data.irradiance, {0, 0, 0, 0});
+            },
+            [&inputs = frame.inputs(), views](const Data& data, gl::PassContext& context) {
+                context.texture(data.irradiance).clear({0, 0, 0, 0});
+                for (std::size_t light = 0; light < views.size(); ++light) {
+                    gl::Command command = context.fullscreen("shared/direct.frag");
+                    inputs.bindView(command)
+                        .storage("Lights", inputs.lights)
+                        .texture("receiver", data.eye.receiver)
+                        .texture("receiverSurface", data.eye.receiverSurface)
+                        .texture("shadowMap", data.shadows.map)
+                        .set("lightIndex", static_cast<int>(light))
+                        .set("firstLayer", views[light].firstLayer)
+                        .set("faceCount", static_cast<int>(views[light].eyeToLight.size()))
+                        .set("projection", views[light].projection);
+                    for (std::size_t face = 0; face < views[light].eyeToLight.size(); ++face) {
+                        command.set(fmt::format("eyeToLight[{}]", face),
+                                    views[light].eyeToLight[face]);
+                    }
+                    command.target(data.irradiance).blend(gl::Blend::add).draw();
+                }
+            })
+        .irradiance;
+}
+
+Radiance shadeReceivers(FrameBuilder& frame, EyeBuffer eye, graph::Texture<IrradianceTexel> direct,
+                        const IrradianceMap& caustic) {
+    struct Data {
+        Radiance out;
+        EyeBuffer eye;
+        graph::Texture<IrradianceTexel> direct;
+        graph::Texture<IrradianceTexel> caustic;
+    };
+    return frame
+        .pass<Data>(
+            "compose.radiance", "the picture shows the receivers",
+            [&](graph::PassSetup& setup, Data& data) {
+                data.eye = eye;
+                data.direct = setup.read(direct);
+                data.caustic = setup.read(caustic.irradiance);
+                setup.read(eye.receiver);
+                setup.read(eye.receiverAlbedo);
+                data.out.radiance = setup.create<RadianceTexel>("compose.receiver_radiance",
+                                                                frame.width(), frame.height());
+            },
+            [&inputs = frame.inputs()](const Data& data, gl::PassContext& context) {
+                gl::Command command = context.fullscreen("shared/radiance.frag");
+                inputs.bindView(command)
+                    .texture("receiver", data.eye.receiver)
+                    .texture("receiverAlbedo", data.eye.receiverAlbedo)
+                    .texture("directIrradiance", data.direct)
+                    .texture("causticIrradiance", data.caustic)
+                    .target(data.out.radiance)
+                    .draw();
+            })
+        .out;
+}
+
+}  // namespace
+
+Picture composePicture(FrameBuilder& frame, const PictureParams& params, Geometry geometry,
+                       EyeBuffer eye, IrradianceMap caustic) {
+    const std::vector<ShadowView> views = makeShadowViews(frame);
+    Shadows shadows;
+    if (views.empty()) {
+        frame.leaveOut("compose.shadow", "the scene has no light");
+    } else {
+        shadows = renderShadows(frame, params, views, geometry);
+    }
+    const auto direct = lightDirectly(frame, views, shadows, eye);
+    const Radiance receivers = shadeReceivers(frame, eye, direct, caustic);
+    const Radiance seen = frame.run<ViewStage>(eye, receivers);
+    const float exposure =
+        params.exposure > 0.0f ? params.exposure : automaticExposure(frame.scene());
+    return frame.pass<Picture>(
+        "compose.display", "the display image is an output",
+        [&](graph::PassSetup& setup, Picture& data) {
+            data.radiance = setup.read(seen.radiance);
+            data.display = setup.create<DisplayTexel>("display", frame.width(), frame.height());
+        },
+        [exposure](const Picture& data, gl::PassContext& context) {
+            context.fullscreen("shared/display.frag")
+                .texture("radiance", data.radiance)
+                .set("exposure", exposure)
+                .target(data.display)
+                .draw();
+        });
+}
+
+}  // namespace kaustik
