@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A photon's splat: a disc in the receiver's tangent plane, seen through each pixel (K06, section
-// 3.1, Eq. 1 with D = N·C). The weight falls linearly from the centre to the radius.
+// A photon's splat in the receiver's tangent plane, seen through each pixel (K06, section 3.1, Eq. 1
+// with D = N·C). The weight falls linearly with the distance: from the centre, as in the paper, or
+// from the photon's path, so that light that grazes a wall leaves no gaps between its splats.
 #include "common/transfer_map.glsl"
 #include "common/view.glsl"
 
@@ -10,8 +11,33 @@ uniform sampler2D receiverSurface;
 struct Sprite {
     vec3 center;
     vec3 normal;
-    float radius;  // m
+    vec3 direction;  // of the photon
+    float radius;    // m
 };
+
+// A beam that grazes is taken as if it came at this sine at least, which bounds its splat.
+const float kLeastSlant = 0.1;
+
+// The photon's direction, turned away from the surface where it would graze too much.
+vec3 boundedDirection(vec3 direction, vec3 normal) {
+    float slant = dot(direction, normal);
+    if (abs(slant) >= kLeastSlant) return direction;
+    vec3 along = direction - slant * normal;
+    float size = max(length(along), 1e-12);
+    return (slant < 0.0 ? -1.0 : 1.0) * kLeastSlant * normal +
+           along * (sqrt(1.0 - kLeastSlant * kLeastSlant) / size);
+}
+
+float splatDistance(Sprite sprite, vec3 offset) {
+    if (reconstruct_sprites_shape == reconstruct_sprites_shape_disc) return length(offset);
+    return length(cross(offset, boundedDirection(sprite.direction, sprite.normal)));
+}
+
+// The farthest that the splat reaches from its centre, m.
+float splatExtent(Sprite sprite) {
+    if (reconstruct_sprites_shape == reconstruct_sprites_shape_disc) return sprite.radius;
+    return sprite.radius / max(abs(dot(sprite.direction, sprite.normal)), kLeastSlant);
+}
 
 const int kSpriteOn = 0;        // the pixel sees the plane
 const int kSpriteOccluded = 1;  // something nearer is in front of it
@@ -31,7 +57,7 @@ SpritePixel spriteAt(Sprite sprite, ivec2 pixel) {
     if (abs(facing) < 1e-5) return result;
     float depth = dot(sprite.normal, sprite.center) / facing;
     if (!(depth > view.tangents.z)) return result;
-    float distance = length(depth * ray - sprite.center);
+    float distance = splatDistance(sprite, depth * ray - sprite.center);
     if (distance >= sprite.radius) return result;
     result.weight = 1.0 - distance / sprite.radius;
     result.area = pixelArea(ray, depth, sprite.normal);
@@ -56,8 +82,26 @@ SpritePixel spriteAt(Sprite sprite, ivec2 pixel) {
     return result;
 }
 
-// The pixels that a disc can cover: a square around its centre's pixel.
-int spriteReach(Sprite sprite) {
-    float depth = max(-sprite.center.z - sprite.radius, 0.25 * -sprite.center.z);
-    return int(ceil(sprite.radius / pixelFootprint(depth))) + 1;
+// Half the sides of the pixel rectangle around the centre's pixel that the splat can cover.
+ivec2 spriteReach(Sprite sprite) {
+    vec3 along = vec3(0.0);
+    if (reconstruct_sprites_shape == reconstruct_sprites_shape_beam) {
+        vec3 direction = boundedDirection(sprite.direction, sprite.normal);
+        along = direction - dot(direction, sprite.normal) * sprite.normal;
+        float size = length(along);
+        along = size > 1e-6 ? along / size : vec3(0.0);
+    }
+    // Half-extents of the ellipse along x and y: a disc of the radius, stretched along `along`.
+    float stretch = splatExtent(sprite);
+    vec3 across = cross(sprite.normal, along);
+    bool isRound = along == vec3(0.0);
+    vec3 n2 = sprite.normal * sprite.normal;
+    vec3 extent = isRound ? sprite.radius * sqrt(max(1.0 - n2, 0.0))
+                          : sqrt(stretch * stretch * along * along +
+                                 sprite.radius * sprite.radius * across * across);
+    // The nearest part of the ellipse is the largest on the screen; x and y shift with depth too.
+    float centerDepth = -sprite.center.z;
+    float depth = max(centerDepth - extent.z, 0.25 * centerDepth);
+    vec2 shift = abs(sprite.center.xy) / centerDepth * extent.z;
+    return ivec2(ceil((extent.xy + shift) / pixelFootprint(depth))) + 1;
 }

@@ -10,6 +10,7 @@ layout(local_size_x = 64) in;
 
 layout(rgba32f) writeonly uniform image2D spriteWeights;
 uniform sampler2D photonPosition;
+uniform sampler2D photonDirection;
 uniform sampler2D hitPosition;
 uniform sampler2D hitSurface;
 uniform sampler2D hitFlux;
@@ -27,6 +28,7 @@ void main() {
     Sprite sprite;
     sprite.center = texelFetch(hitPosition, texel, 0).xyz;
     sprite.normal = texelFetch(hitSurface, texel, 0).xyz;
+    sprite.direction = texelFetch(photonDirection, texel, 0).xyz;
     float wanted = reconstruct_sprites_radius > 0.0
                        ? reconstruct_sprites_radius
                        : reconstruct_sprites_footprints * texelFetch(photonPosition, texel, 0).w;
@@ -36,10 +38,10 @@ void main() {
     float on = 0.0;
     float occluded = 0.0;
     float offScreen = 0.0;
-    int reach = spriteReach(sprite);
+    ivec2 reach = spriteReach(sprite);
     ivec2 middle = ivec2(floor(pixelOf(sprite.center)));
-    for (int y = -reach; y <= reach; ++y) {
-        for (int x = -reach; x <= reach; ++x) {
+    for (int y = -reach.y; y <= reach.y; ++y) {
+        for (int x = -reach.x; x <= reach.x; ++x) {
             SpritePixel part = spriteAt(sprite, middle + ivec2(x, y));
             float amount = part.weight * part.area;
             if (part.where == kSpriteOn) on += amount;
@@ -51,8 +53,8 @@ void main() {
     vec4 weights = vec4(0.0);
     if (total > 0.0) {
         weights = vec4(1.0 / total, sprite.radius, on / total, 0.0);
-        ledgerAdd(kAccountOccludedSplat, flux.rgb * (occluded / total));
-        ledgerAdd(kAccountOffScreen, flux.rgb * (offScreen / total));
+        if (occluded > 0.0) ledgerAdd(kAccountOccludedSplat, flux.rgb * (occluded / total));
+        if (offScreen > 0.0) ledgerAdd(kAccountOffScreen, flux.rgb * (offScreen / total));
     } else {
         // No pixel centre falls on the disc: the surface is seen edge-on.
         ledgerAdd(kAccountEdgeOn, flux.rgb);

@@ -4,14 +4,15 @@
 
 flat in vec3 spriteCenter;
 flat in vec3 spriteNormal;
+flat in vec3 spriteDirection;
 flat in float spriteRadius;
 flat in vec3 spritePower;
 
 layout(location = 0) out vec4 irradiance;
 
 void main() {
-    SpritePixel part =
-        spriteAt(Sprite(spriteCenter, spriteNormal, spriteRadius), ivec2(gl_FragCoord.xy));
+    SpritePixel part = spriteAt(Sprite(spriteCenter, spriteNormal, spriteDirection, spriteRadius),
+                                ivec2(gl_FragCoord.xy));
     if (part.where != kSpriteOn) discard;
     irradiance = vec4(spritePower * part.weight, 0.0);
 }

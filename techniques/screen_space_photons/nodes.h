@@ -36,15 +36,23 @@ struct LinesParams {
 Hits traceLines(FrameBuilder& frame, const LinesParams& params, Photons photons,
                 LayeredDepth layers, Hits previous);
 
+// What a splat covers of its receiver's tangent plane.
+enum class SpriteShape : int { beam, disc };
+
 struct SpritesParams {
+    SpriteShape shape = SpriteShape::beam;
     float radiusMeters = 0.0f;
     float footprints = 2.5f;
     int maximumPixels = 64;
     template <class R>
     void reflect(R& r) {
+        r.choice(shape, "shape",
+                 "beam: what a round beam along the photon's path cuts out of the tangent plane, "
+                 "longer where light grazes; disc: the paper's circle in that plane",
+                 {"beam", "disc"});
         r.field(radiusMeters, "radius",
-                "Radius of a photon's splat on the receiver; 0: follows the photon's footprint",
-                "m", params::range(0.0f, 1e6f));
+                "Radius of a photon's splat; 0: follows the photon's footprint", "m",
+                params::range(0.0f, 1e6f));
         r.field(footprints, "footprints",
                 "Radius of a splat in widths of its photon's beam, when no radius is set", "",
                 params::range(0.1f, 100.0f));

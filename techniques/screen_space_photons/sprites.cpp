@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // reconstruct.sprites: oriented, ray-cast sprites (K06, section 3.1, Eq. 1). Each photon lights a
-// disc in the tangent plane of its receiver, falling linearly to the edge. `reconstruct.weights`
-// first sums each splat's weights over the receivers that the pixels see, so that the flux
-// deposited is the photon's flux. In: hits (eye view space, W) and the eye buffer; out: irradiance,
-// W/m².
+// disc in the tangent plane of its receiver, or what its beam cuts out of it, falling linearly to
+// the edge. `reconstruct.weights` first sums each splat's weights over the receivers that the
+// pixels see, so that the flux deposited is the photon's flux. In: hits (eye view space, W) and the
+// eye buffer; out: irradiance, W/m².
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/screen_space_photons/nodes.h"
 
@@ -31,6 +31,7 @@ Weights sumWeights(FrameBuilder& frame, const SpritesParams& params, Hits hits, 
             setup.read(hits.surface);
             setup.read(hits.flux);
             setup.read(hits.incoming.position);
+            setup.read(hits.incoming.direction);
             setup.read(eye.receiver);
             setup.read(eye.receiverSurface);
             data.ledger = setup.write(hits.incoming.ledger);
@@ -46,6 +47,7 @@ Weights sumWeights(FrameBuilder& frame, const SpritesParams& params, Hits hits, 
                 .texture("receiver", data.eye.receiver)
                 .texture("receiverSurface", data.eye.receiverSurface)
                 .texture("photonPosition", data.hits.incoming.position)
+                .texture("photonDirection", data.hits.incoming.direction)
                 .texture("hitPosition", data.hits.position)
                 .texture("hitSurface", data.hits.surface)
                 .texture("hitFlux", data.hits.flux)
@@ -70,6 +72,7 @@ IrradianceMap splatSprites(FrameBuilder& frame, const SpritesParams& params, Hit
                 setup.read(hits.position);
                 setup.read(hits.surface);
                 setup.read(hits.flux);
+                setup.read(hits.incoming.direction);
                 setup.read(eye.receiver);
                 setup.read(eye.receiverSurface);
                 data.map.irradiance = setup.create<IrradianceTexel>("caustic.irradiance",
@@ -77,10 +80,12 @@ IrradianceMap splatSprites(FrameBuilder& frame, const SpritesParams& params, Hit
                 data.map.ledger = setup.read(weights.ledger);
                 setup.bypass(data.map.irradiance, {0, 0, 0, 0});
             },
-            [&inputs = frame.inputs()](const Data& data, gl::PassContext& context) {
+            [&inputs = frame.inputs(), params](const Data& data, gl::PassContext& context) {
                 gl::Command command = context.shaders(
                     {"screen_space_photons/sprites.vert", "screen_space_photons/sprites.frag"});
                 inputs.bindView(command)
+                    .params("reconstruct.sprites", params)
+                    .texture("photonDirection", data.hits.incoming.direction)
                     .texture("spriteWeights", data.weights)
                     .texture("receiver", data.eye.receiver)
                     .texture("receiverSurface", data.eye.receiverSurface)
