@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A photon's splat in the receiver's tangent plane, seen through each pixel (K06, section 3.1, Eq. 1
-// with D = N·C). The weight falls linearly with the distance: from the centre, as in the paper, or
-// from the photon's path, so that light that grazes a wall leaves no gaps between its splats.
+// with D = N·C). The weight falls with the distance: from the centre, as in the paper, or from the
+// photon's path, so that light that grazes a wall leaves no gaps between its splats.
 #include "common/transfer_map.glsl"
 #include "common/view.glsl"
 
@@ -26,6 +26,15 @@ vec3 boundedDirection(vec3 direction, vec3 normal) {
     float size = max(length(along), 1e-12);
     return (slant < 0.0 ? -1.0 : 1.0) * kLeastSlant * normal +
            along * (sqrt(1.0 - kLeastSlant * kLeastSlant) / size);
+}
+
+// Weight at a share of the radius, [0, 1); normalised elsewhere, by its sum over the pixels.
+float splatKernel(float share) {
+    if (reconstruct_sprites_kernel == reconstruct_sprites_kernel_linear) return 1.0 - share;
+    if (reconstruct_sprites_kernel == reconstruct_sprites_kernel_epanechnikov) {
+        return 1.0 - share * share;
+    }
+    return exp(-4.5 * share * share);
 }
 
 float splatDistance(Sprite sprite, vec3 offset) {
@@ -59,7 +68,7 @@ SpritePixel spriteAt(Sprite sprite, ivec2 pixel) {
     if (!(depth > view.tangents.z)) return result;
     float distance = splatDistance(sprite, depth * ray - sprite.center);
     if (distance >= sprite.radius) return result;
-    result.weight = 1.0 - distance / sprite.radius;
+    result.weight = splatKernel(distance / sprite.radius);
     result.area = pixelArea(ray, depth, sprite.normal);
     if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, ivec2(view.sizePixels.xy)))) {
         result.where = kSpriteOffScreen;

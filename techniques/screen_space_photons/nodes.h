@@ -39,8 +39,12 @@ Hits traceLines(FrameBuilder& frame, const LinesParams& params, Photons photons,
 // What a splat covers of its receiver's tangent plane.
 enum class SpriteShape : int { beam, disc };
 
+// How a splat falls off from its middle to its radius.
+enum class SpriteKernel : int { gaussian, linear, epanechnikov };
+
 struct SpritesParams {
     SpriteShape shape = SpriteShape::beam;
+    SpriteKernel kernel = SpriteKernel::gaussian;
     float radiusMeters = 0.0f;
     float footprints = 2.5f;
     int maximumPixels = 64;
@@ -50,6 +54,10 @@ struct SpritesParams {
                  "beam: what a round beam along the photon's path cuts out of the tangent plane, "
                  "longer where light grazes; disc: the paper's circle in that plane",
                  {"beam", "disc"});
+        r.choice(kernel, "kernel",
+                 "gaussian: cut off at 3 sigma, evens out the photons' grid best; linear: the "
+                 "paper's; epanechnikov: a parabola",
+                 {"gaussian", "linear", "epanechnikov"});
         r.field(radiusMeters, "radius",
                 "Radius of a photon's splat; 0: follows the photon's footprint", "m",
                 params::range(0.0f, 1e6f));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // reconstruct.sprites: oriented, ray-cast sprites (K06, section 3.1, Eq. 1). Each photon lights a
-// disc in the tangent plane of its receiver, or what its beam cuts out of it, falling linearly to
+// disc in the tangent plane of its receiver, or what its beam cuts out of it, falling off to
 // the edge. `reconstruct.weights` first sums each splat's weights over the receivers that the
 // pixels see, so that the flux deposited is the photon's flux. In: hits (eye view space, W) and the
 // eye buffer; out: irradiance, W/m².
