@@ -81,3 +81,33 @@ ivec2 texelOfStep(RaySegment segment, int i, int n) {
         (segment.nearPixel * (float(n) - middle) + segment.farPixel * middle) / float(n);
     return clamp(ivec2(floor(pixel)), ivec2(0), ivec2(view.sizePixels.xy) - 1);
 }
+
+// The surface's normal where the ray meets it: bilinear between the pixels around the hit, each with
+// the layer that continues the surface; the normal of one pixel alone would send all photons that
+// meet it the same way. `surface` and `depth` are those of the hit's own pixel and layer.
+vec3 normalAtHit(vec3 hitVs, vec4 surface, vec2 depthAndExtent) {
+    vec2 corner = pixelOf(hitVs) - 0.5;
+    ivec2 first = ivec2(floor(corner));
+    vec2 f = corner - vec2(first);
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < 4; ++i) {
+        ivec2 step = ivec2(i & 1, i >> 1);
+        ivec2 texel = clamp(first + step, ivec2(0), ivec2(view.sizePixels.xy) - 1);
+        vec2 axis = mix(1.0 - f, f, vec2(step));
+        vec3 ray = viewRay(vec2(texel) + 0.5);
+        for (int layer = 0; layer < layerCount; ++layer) {
+            float depth = texelFetch(layerDepths, ivec3(texel, layer), 0).x;
+            if (depth <= 0.0) break;
+            // The same surface lies within a pixel's extent of the hit's own depth.
+            float reach = 2.0 * depthAndExtent.y + 2.0 * pixelFootprint(depth);
+            if (abs(depth - depthAndExtent.x) > reach) continue;
+            vec4 other = texelFetch(layerSurfaces, ivec3(texel, layer), 0);
+            // A crease of more than 60 degrees is an edge, not a curve.
+            if (other.w != surface.w || dot(other.xyz, surface.xyz) < 0.5) continue;
+            sum += axis.x * axis.y * other.xyz;
+            break;
+        }
+    }
+    float size = length(sum);
+    return size > 1e-3 ? sum / size : surface.xyz;
+}

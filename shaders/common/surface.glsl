@@ -18,7 +18,9 @@ float filteredStep(float x, float edge, float w) {
 vec3 surfaceAlbedo(uint material, vec2 uv) {
     MaterialData data = materials[material];
     vec2 p = uv * data.uv.xy;
-    vec2 width = fwidth(p);
+    // Derivatives of what was interpolated only: where a triangle covers a part of a 2x2 block, the
+    // other pixels' reads from buffers may give nothing.
+    vec2 width = fwidth(uv) * abs(data.uv.xy);
     vec3 albedo = data.albedo.rgb;
     uint pattern = uint(data.patternAlbedo.w);
     if (pattern == 1u) {

@@ -5,6 +5,7 @@
 // ends of lines (hard case 6).
 #include "common/ray_segment.glsl"
 #include "common/transfer_map.glsl"
+#include "screen_space_photons/row_extent.glsl"
 
 uniform sampler2D photonPosition;
 uniform sampler2D photonDirection;
@@ -33,6 +34,7 @@ void main() {
     RaySegment segment = clipRay(rayOrigin, rayDirection);
     if (!segment.visible) return;
     steps = stepCount(segment, trace_lines_minimum, rowsSize.x);
+    atomicMax(rowExtents[batch], uint(steps));
     endPixels = vec4(segment.nearPixel, segment.farPixel);
     ends = vec4(segment.nearInverseZ, segment.farInverseZ, segment.nearT, segment.farT);
     float column = isEnd ? float(steps) + 0.5 : -0.5;

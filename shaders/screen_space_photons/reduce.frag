@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // One step of the horizontal reduce: of two neighbours in a row, the nearer hit (K06, section 2.1).
 uniform sampler2D source;
-uniform int sourceWidth;
+
+flat in int sourceWidth;
 
 layout(location = 0) out vec4 nearer;
 

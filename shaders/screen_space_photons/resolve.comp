@@ -3,6 +3,7 @@
 // photon that met nothing, an entry in the ledger. One thread a row.
 #include "common/hit_test.glsl"
 #include "common/ledger.glsl"
+#include "screen_space_photons/row_extent.glsl"
 #include "screen_space_photons/row_texel.glsl"
 
 layout(local_size_x = 64) in;
@@ -36,7 +37,8 @@ void main() {
     Hit hit = Hit(vec3(0.0), 0.0, vec3(0.0), 0u, vec3(0.0), kFateEnded);
     LayerHit first;
     int stepIndex;
-    unpackRowTexel(texelFetch(column, ivec2(0, row), 0).xy, first, stepIndex);
+    vec2 found = rowExtents[batch] > 0u ? texelFetch(column, ivec2(0, row), 0).xy : vec2(0.0);
+    unpackRowTexel(found, first, stepIndex);
     bool isNumber = isFinite(photon.positionVs) && isFinite(photon.directionVs) &&
                     isFinite(photon.fluxWatts);
     if (!isNumber) {
@@ -50,7 +52,8 @@ void main() {
         vec4 surface = texelFetch(layerSurfaces, ivec3(pixel, first.layer), 0);
         hit.positionVs = photon.positionVs + first.t * photon.directionVs;
         hit.distanceMeters = first.t;
-        hit.normalVs = surface.xyz;
+        vec2 depth = texelFetch(layerDepths, ivec3(pixel, first.layer), 0).xy;
+        hit.normalVs = normalAtHit(hit.positionVs, surface, depth);
         hit.material = uint(surface.w);
         vec3 left = mediumTransmittance(innerMedium(photon.media), first.t);
         hit.fluxWatts = photon.fluxWatts * left;

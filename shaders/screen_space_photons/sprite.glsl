@@ -78,13 +78,15 @@ SpritePixel spriteAt(Sprite sprite, ivec2 pixel) {
     // Only visible receivers are lit. How far a curved surface may leave its tangent plane follows
     // from the disc, and never falls below what a pixel resolves.
     float tolerance = 0.5 * sprite.radius + pixelFootprint(depth);
-    bool facesAway = dot(texelFetch(receiverSurface, pixel, 0).xyz, sprite.normal) <= 0.0;
-    if (seen.x <= 0.0 || seen.x > depth + tolerance || facesAway) {
-        bool hidden = seen.x > 0.0 && seen.x < depth - tolerance;
-        result.where = hidden ? kSpriteOccluded : kSpriteBeside;
-    } else if (seen.x < depth - tolerance) {
+    bool isMirror = seen.x < 0.0;
+    float seenDepth = abs(seen.x);
+    if (seenDepth > 0.0 && seenDepth < depth - tolerance) {
         result.where = kSpriteOccluded;
-    } else {
+        return result;
+    }
+    vec3 seenNormal = texelFetch(receiverSurface, pixel, 0).xyz;
+    bool isOther = isMirror || seenDepth > depth + tolerance || dot(seenNormal, sprite.normal) <= 0.0;
+    if (seenDepth > 0.0 && !isOther) {
         result.area = seen.y;
         result.where = kSpriteOn;
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The receiver of each pixel: depth, the area seen, normal, material, reflectance. A mirror hides
-// what is behind it and is no receiver.
+// The receiver of each pixel: depth, the area seen, normal, material, reflectance. A mirror is none
+// but hides what is behind it: its depth is negative.
 #include "common/scene_fragment.glsl"
 #include "common/surface.glsl"
 #include "common/view.glsl"
@@ -15,7 +15,8 @@ void main() {
     vec3 albedo = surfaceAlbedo(material, uv);
     bool isReceiver = materialKind(material) == kMaterialLambertian;
     vec3 ray = viewRay(gl_FragCoord.xy);
-    receiver = isReceiver ? vec4(depth, pixelArea(ray, depth, geometric), 0.0, 0.0) : vec4(0.0);
+    receiver = isReceiver ? vec4(depth, pixelArea(ray, depth, geometric), 0.0, 0.0)
+                          : vec4(-depth, 0.0, 0.0, 0.0);
     receiverSurface =
         isReceiver ? vec4(shadingNormal(normalVs, geometric), float(material + 1u)) : vec4(0.0);
     receiverAlbedo = isReceiver ? vec4(albedo, 1.0) : vec4(0.0);

@@ -19,8 +19,13 @@ struct RowTexel {  // x: ray parameter of a hit, m, 0 none; y: step and layer
     static constexpr Format format = Format::rg32f;
 };
 
+struct RowExtent {  // fragments of a batch's longest line
+    std::uint32_t fragments;
+};
+
 struct RowTextures {
     graph::Texture<RowTexel> rows;
+    graph::Buffer<RowExtent> extents;  // by batch
     // The reduce goes back and forth between these; either may be the one that ends up one wide.
     graph::Texture<RowTexel> half;
     graph::Texture<RowTexel> quarter;
@@ -61,6 +66,8 @@ RowTextures createRows(graph::PassSetup& setup, const Layout& layout, int run) {
     textures.half = setup.create<RowTexel>("trace.rows_half" + suffix, half, layout.rows);
     textures.quarter =
         setup.create<RowTexel>("trace.rows_quarter" + suffix, halved(half), layout.rows);
+    textures.extents = setup.createBuffer<RowExtent>("trace.row_extents" + suffix,
+                                                     static_cast<std::size_t>(layout.batches));
     return textures;
 }
 
@@ -88,10 +95,14 @@ RowTextures rasterizeLines(FrameBuilder& frame, const LinesParams& params, const
                 setup.read(layers.depth);
                 setup.read(layers.surface);
                 data.textures = batch == 0 ? createRows(setup, layout, run) : textures;
-                if (batch > 0) data.textures.rows = setup.write(textures.rows);
+                if (batch > 0) {
+                    data.textures.rows = setup.write(textures.rows);
+                    data.textures.extents = setup.write(textures.extents);
+                }
             },
             [&inputs = frame.inputs(), params, trace, layout, batch](const Data& data,
                                                                      gl::PassContext& context) {
+                if (batch == 0) context.buffer(data.textures.extents).clear();
                 gl::Command command = context.shaders(
                     {"screen_space_photons/lines.vert", "screen_space_photons/lines.frag"});
                 inputs.bindView(command)
@@ -104,6 +115,8 @@ RowTextures rasterizeLines(FrameBuilder& frame, const LinesParams& params, const
                     .texture("layerDepths", data.layers.depth)
                     .texture("layerSurfaces", data.layers.surface)
                     .set("layerCount", data.layers.layers)
+                    .storage("RowExtents", data.textures.extents)
+                    .set("batch", batch)
                     .set("firstPhoton", batch * layout.rows)
                     .set("rowsSize", glm::ivec2(layout.width, layout.rows))
                     .target(data.textures.rows)
@@ -131,6 +144,7 @@ Reduced reduceRows(FrameBuilder& frame, const LinesParams& params, const Layered
             setup.read(layers.depth);
             setup.read(layers.surface);
             data.textures.rows = setup.read(textures.rows);
+            data.textures.extents = setup.read(textures.extents);
             data.textures.half = setup.write(textures.half);
             data.textures.quarter = setup.write(textures.quarter);
             data.hits.incoming = hits.incoming;
@@ -147,13 +161,20 @@ Reduced reduceRows(FrameBuilder& frame, const LinesParams& params, const Layered
             graph::ResourceRef source = data.textures.rows;
             graph::ResourceRef target = data.textures.half;
             graph::ResourceRef spare = data.textures.quarter;
+            int halvings = 0;
             for (int width = layout.width; width > 1; width = halved(width)) {
-                context.fullscreen("screen_space_photons/reduce.frag")
+                ++halvings;
+                context
+                    .shaders(
+                        {"screen_space_photons/reduce.vert", "screen_space_photons/reduce.frag"})
+                    .storage("RowExtents", data.textures.extents)
                     .texture("source", source)
-                    .set("sourceWidth", width)
+                    .set("batch", batch)
+                    .set("halvings", halvings)
+                    .set("targetSize", glm::ivec2(halved(width), layout.rows))
                     .target(target)
                     .viewport(0, 0, halved(width), layout.rows)
-                    .draw();
+                    .drawArrays(GL_TRIANGLE_STRIP, 4);
                 source = target;
                 std::swap(target, spare);
             }
@@ -164,6 +185,8 @@ Reduced reduceRows(FrameBuilder& frame, const LinesParams& params, const Layered
                 .params("trace", trace)
                 .params("trace.lines", params)
                 .storage("Materials", inputs.gpuScene.materials())
+                .storage("RowExtents", data.textures.extents)
+                .set("batch", batch)
                 .texture("column", source)
                 .texture("photonPosition", photons.position)
                 .texture("photonDirection", photons.direction)
