@@ -14,8 +14,8 @@
 
 #include "framework/core/error.h"
 #include "framework/core/files.h"
-#include "framework/scene/triangle_soup.h"
 #include "framework/scene/mesh_file_checks.h"
+#include "framework/scene/triangle_soup.h"
 
 // After the project's own headers: Assimp's define macros of common names.
 #include <assimp/postprocess.h>
