@@ -179,6 +179,9 @@ void Context::enableDebugOutput() {
     glDebugMessageControl(GL_DONT_CARE, GL_DEBUG_TYPE_ERROR, GL_DONT_CARE, 0, nullptr, GL_TRUE);
     glDebugMessageControl(GL_DONT_CARE, GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR, GL_DONT_CARE, 0, nullptr,
                           GL_TRUE);
+    // What a compiler says arrives as a ShaderError with its place in the source.
+    glDebugMessageControl(GL_DEBUG_SOURCE_SHADER_COMPILER, GL_DONT_CARE, GL_DONT_CARE, 0, nullptr,
+                          GL_FALSE);
     glDebugMessageCallback(
         [](GLenum, GLenum, GLuint, GLenum, GLsizei, const GLchar* message, const void* user) {
             auto* self = static_cast<Context*>(const_cast<void*>(user));

@@ -40,6 +40,9 @@ class Renderer {
     // frame's end so that they can be saved: those that nothing asks for are asked for; an unknown
     // name is a ConfigError with the nearest one. Throws GraphError, ConfigError and DeviceError.
     void build(Purpose purpose, const std::vector<std::string>& resources = {});
+    // Only declares and compiles: what a frame would take is known before any memory is taken.
+    [[nodiscard]] graph::Compiled compile(Purpose purpose,
+                                          const std::vector<std::string>& resources = {});
     void renderFrame(gl::PassTimer& timer);
 
     // Of the last build.

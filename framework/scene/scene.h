@@ -87,7 +87,7 @@ struct Mesh {
     glm::dvec3 origin{0.0};
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;     // unit; made from the faces where the file has none
-    std::vector<glm::vec2> uvs;         // 0 where the file has none
+    std::vector<glm::vec2> uvs;  // (0, 0) is an image's lower left; 0 where the file has none
     std::vector<glm::uvec3> triangles;
     bool closed = false;                // every edge is shared by two triangles: bounds a volume
     std::optional<HeightField> heightField;  // present: positions are those at Scene::timeSeconds

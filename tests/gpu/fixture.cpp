@@ -30,7 +30,8 @@ Frame::Frame(const scene::Scene& scene, int width, int height, const Settings& s
     RenderSettings render;
     render.technique = registry_.findTechnique(technique);
     render.params = registry_.makeParams(render.technique);
-    for (const auto& [name, value] : settings) render.params.set(name, value, "test");
+    for (const auto& [name, value] : settings)
+        render.params.set(name, value, "test");
     render.width = width;
     render.height = height;
     gl::Context& gl = context();

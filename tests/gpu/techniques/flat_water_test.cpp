@@ -61,9 +61,9 @@ TEST(FlatWater, LedgerBalances) {
     // edge are 4.04 m / 256 wide, hence the tolerance.
     EXPECT_NEAR(ledger.watts[transport::kAccountEmitted], 3 * 12000.0, 3 * 12000.0 * 0.005);
     EXPECT_LT(std::abs(ledger.balance()), 1e-3);
-    EXPECT_NEAR(ledger.watts[transport::kAccountUntracedBranch] /
-                    ledger.watts[transport::kAccountEmitted],
-                1.0 - kFloorIrradiance / 1000.0, 1e-6);
+    EXPECT_NEAR(
+        ledger.watts[transport::kAccountUntracedBranch] / ledger.watts[transport::kAccountEmitted],
+        1.0 - kFloorIrradiance / 1000.0, 1e-6);
 }
 
 }  // namespace

@@ -204,10 +204,11 @@ TEST_F(GltfImport, UvsAreReadAsFloatsAndAsNormalisedIntegers) {
     const Mesh bytes = import(document, tetrahedronBytes() + uvs).meshes.at(0);
     ASSERT_EQ(bytes.uvs.size(), 4u);
     // Vertices are kept in the order in which the triangles meet them: 0, 2, 1, 3.
-    EXPECT_EQ(bytes.uvs[0], glm::vec2(0.0f, 1.0f));
+    // glTF's v runs down the image, the scene's up.
+    EXPECT_EQ(bytes.uvs[0], glm::vec2(0.0f, 0.0f));
     EXPECT_FLOAT_EQ(bytes.uvs[2].x, 0.2f);
-    EXPECT_FLOAT_EQ(bytes.uvs[2].y, 0.4f);
-    EXPECT_EQ(bytes.uvs[3], glm::vec2(1.0f, 1.0f));
+    EXPECT_FLOAT_EQ(bytes.uvs[2].y, 0.6f);
+    EXPECT_EQ(bytes.uvs[3], glm::vec2(1.0f, 0.0f));
 
     document["accessors"][2] = {
         {"bufferView", 2}, {"componentType", 5126}, {"count", 4}, {"type", "VEC2"}};
@@ -215,7 +216,7 @@ TEST_F(GltfImport, UvsAreReadAsFloatsAndAsNormalisedIntegers) {
     document["buffers"][0]["byteLength"] = 104;
     const Mesh floats =
         import(document, tetrahedronBytes() + floatBytes({0, 1, 2, 3, 4, 5, 6, 7})).meshes.at(0);
-    EXPECT_EQ(floats.uvs[2], glm::vec2(2.0f, 3.0f));
+    EXPECT_EQ(floats.uvs[2], glm::vec2(2.0f, -2.0f));
 }
 
 TEST_F(GltfImport, ATextFileWithABufferBesideItOrInItIsRead) {

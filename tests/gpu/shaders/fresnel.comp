@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// interactAt for a list of cases: direction and index before, normal and index after.
+#include "common/fresnel.glsl"
+
+layout(local_size_x = 64) in;
+layout(std430) readonly buffer Inputs {
+    vec4 inputs[];
+};
+layout(std430) writeonly buffer Outputs {
+    vec4 outputs[];
+};
+uniform int caseCount;
+
+void main() {
+    int i = int(gl_GlobalInvocationID.x);
+    if (i >= caseCount) return;
+    vec4 a = inputs[2 * i];
+    vec4 b = inputs[2 * i + 1];
+    Interface meeting = interactAt(a.xyz, b.xyz, a.w, b.w);
+    outputs[2 * i] = vec4(meeting.refracted, meeting.reflectance);
+    outputs[2 * i + 1] = vec4(meeting.reflected, 0.0);
+}

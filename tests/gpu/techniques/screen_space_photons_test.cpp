@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: MIT
+// The technique as a whole: what must not change its result, what it may take, and that nothing in
+// it is not a number.
+#include <fmt/format.h>
+#include <cmath>
+
+#include "framework/scene/scene_file.h"
+#include "tests/gpu/fixture.h"
+
+namespace kaustik::test {
+namespace {
+
+// A basin with waves, a ball on its floor and a glass ball above: two interfaces, hidden receivers,
+// no mesh file.
+scene::Scene wavyBasin() {
+    return sceneFromText(R"(
+name = "basin"
+[camera]
+position = [0.4, 2.6, 2.4]
+target = [0, -0.4, 0]
+vertical_fov_degrees = 45
+[[light]]
+name = "sun"
+type = "directional"
+direction = [0.2, -1, -0.1]
+irradiance = 1000
+[[material]]
+name = "tiles"
+type = "lambertian"
+albedo = 0.7
+pattern = "tiles"
+[[material]]
+name = "water"
+type = "dielectric"
+ior = 1.333
+absorption_per_meter = [0.3, 0.1, 0.05]
+[[material]]
+name = "glass"
+type = "dielectric"
+ior = 1.5
+[[object]]
+name = "basin"
+shape = "box"
+material = "tiles"
+size = [2, 1.2, 2]
+position = [0, -0.5, 0]
+inward = true
+open = ["+y"]
+[[object]]
+name = "stone"
+shape = "sphere"
+material = "tiles"
+radius = 0.25
+segments = 48
+position = [0.3, -0.85, 0.1]
+[[object]]
+name = "ball"
+shape = "sphere"
+material = "glass"
+radius = 0.2
+segments = 48
+position = [-0.5, 0.5, 0]
+[[object]]
+name = "water"
+shape = "water"
+material = "water"
+size = [2, 2]
+cells = [48, 48]
+waves = [{amplitude = 0.015, wavelength = 0.7, direction_degrees = 20},
+         {amplitude = 0.01, wavelength = 0.45, direction_degrees = 100, phase = 1}]
+)");
+}
+
+const Frame::Settings kSmall = {{"emit.photons", "64x64"}};
+
+void expectBitEqual(const Texels& a, const Texels& b) {
+    ASSERT_EQ(a.values.size(), b.values.size());
+    std::size_t different = 0;
+    for (std::size_t i = 0; i < a.values.size(); ++i)
+        different += a.values[i] != b.values[i];
+    EXPECT_EQ(different, 0u);
+}
+
+bool isLit(const Texels& texels) {
+    return std::any_of(texels.values.begin(), texels.values.end(),
+                       [](float value) { return value > 0.0f; });
+}
+
+TEST(ScreenSpacePhotons, TheResultDoesNotDependOnTheRowsOfABatch) {
+    const scene::Scene scene = wavyBasin();
+    const Frame whole(scene, 160, 120, kSmall, {"hits.position", "hits.flux"});
+    ASSERT_TRUE(isLit(whole.causticIrradiance()));
+    for (const char* rows : {"1000", "257", "64"}) {
+        Frame::Settings settings = kSmall;
+        settings.emplace_back("trace.lines.rows", rows);
+        const Frame batched(scene, 160, 120, settings, {"hits.position", "hits.flux"});
+        expectBitEqual(whole.read("hits.position"), batched.read("hits.position"));
+        expectBitEqual(whole.read("hits.flux"), batched.read("hits.flux"));
+        expectBitEqual(whole.causticIrradiance(), batched.causticIrradiance());
+        EXPECT_EQ(whole.renderer().ledger().watts, batched.renderer().ledger().watts);
+    }
+}
+
+TEST(ScreenSpacePhotons, TwoRunsAreBitEqual) {
+    const scene::Scene scene = wavyBasin();
+    const Frame first(scene, 160, 120, kSmall, {"display", "view.radiance"});
+    const Frame second(scene, 160, 120, kSmall, {"display", "view.radiance"});
+    expectBitEqual(first.causticIrradiance(), second.causticIrradiance());
+    expectBitEqual(first.read("view.radiance"), second.read("view.radiance"));
+    expectBitEqual(first.read("display"), second.read("display"));
+    EXPECT_EQ(first.renderer().ledger().watts, second.renderer().ledger().watts);
+    EXPECT_EQ(first.renderer().ledger().events, second.renderer().ledger().events);
+}
+
+TEST(ScreenSpacePhotons, EveryWattIsAccountedFor) {
+    for (const char* name : {"flat-water", "glass-sphere", "ring"}) {
+        const scene::Scene scene = scene::loadScene(name);
+        Frame frame(scene, 200, 150, kSmall);
+        const EnergyLedger ledger = frame.renderer().ledger();
+        EXPECT_GT(ledger.watts[transport::kAccountEmitted], 0.0) << name;
+        EXPECT_GT(ledger.watts[transport::kAccountDeposited], 0.0) << name;
+        EXPECT_LT(std::abs(ledger.balance()), 1e-4) << name;
+        EXPECT_EQ(ledger.events[transport::kAccountNotANumber], 0u) << name;
+    }
+    Frame frame(wavyBasin(), 160, 120, kSmall);
+    EXPECT_LT(std::abs(frame.renderer().ledger().balance()), 1e-4);
+    EXPECT_GT(frame.renderer().ledger().watts[transport::kAccountAbsorbed], 0.0);
+}
+
+TEST(ScreenSpacePhotons, NoTextureHoldsWhatIsNotANumberAndNoneIsReadBeforeItIsWritten) {
+    // Memory starts as NaN, so that whoever reads what nobody wrote shows.
+    const scene::Scene scene = wavyBasin();
+    std::vector<std::string> all;
+    {
+        const Frame frame(scene, 96, 72, kSmall);
+        for (const std::string& name : frame.renderer().graph().resourceNames()) {
+            const graph::ResourceDesc desc =
+                frame.renderer().graph().descOf(frame.renderer().graph().find(name));
+            if (std::holds_alternative<graph::TextureDesc>(desc)) all.push_back(name);
+        }
+    }
+    const Frame clean(scene, 96, 72, kSmall, all);
+    const Frame poisoned(scene, 96, 72, kSmall, all, true);
+    for (const std::string& name : all) {
+        // What the reduce leaves right of the longest line is memory that nothing reads.
+        if (name.rfind("trace.rows_", 0) == 0) continue;
+        const gl::Texture& texture =
+            poisoned.renderer().texture(poisoned.renderer().graph().find(name));
+        std::size_t bad = 0;
+        for (const float value : texture.read())
+            bad += std::isfinite(value) ? 0 : 1;
+        EXPECT_EQ(bad, 0u) << name;
+    }
+    expectBitEqual(clean.causticIrradiance(), poisoned.causticIrradiance());
+    expectBitEqual(clean.read("display"), poisoned.read("display"));
+}
+
+TEST(ScreenSpacePhotons, RowMemoryStaysWithinItsParameterFrom64To2048PhotonsASide) {
+    const scene::Scene scene = scene::loadScene("flat-water");
+    const Registry registry = registerAll();
+    for (const int side : {64, 256, 1024, 2048}) {
+        for (const int mebibytes : {8, 64}) {
+            RenderSettings settings;
+            settings.technique = registry.findTechnique("screen_space_photons");
+            settings.params = registry.makeParams(settings.technique);
+            settings.params.set("emit.photons", fmt::format("{0}x{0}", side), "test");
+            settings.params.set("trace.lines.memory", std::to_string(mebibytes), "test");
+            Renderer renderer(context(), registry, scene, settings);
+            // Only compiled: what memory it would take is known before any is taken.
+            const graph::Compiled compiled = renderer.compile(Purpose::picture);
+            std::size_t bytes = 0;
+            for (const graph::Slot& slot : compiled.slots) {
+                if (slot.firstName.rfind("trace.rows", 0) == 0) bytes += graph::bytesOf(slot.desc);
+            }
+            EXPECT_GT(bytes, 0u);
+            EXPECT_LE(bytes, static_cast<std::size_t>(mebibytes) << 20) << side;
+        }
+    }
+}
+
+TEST(ScreenSpacePhotons, AHitOfThePaperEpsilonLiesWithinEpsilonOfTheSurface) {
+    const scene::Scene scene = scene::loadScene("flat-water");
+    // At this size a pixel's step changes the depth of these steep rays by several centimetres: the
+    // paper's 0.01 m would let nearly all of them step through the floor.
+    const Frame frame(
+        scene, 200, 150,
+        {{"emit.photons", "64x64"}, {"trace.test", "epsilon"}, {"trace.epsilon", "0.05"}},
+        {"hits.position", "hits.flux", "hits.surface"});
+    const Texels positions = frame.read("hits.position");
+    const Texels fluxes = frame.read("hits.flux");
+    int hits = 0;
+    for (int y = 0; y < positions.height; ++y) {
+        for (int x = 0; x < positions.width; ++x) {
+            if (fluxes.at(x, y, 3) != static_cast<float>(transport::kFateReceiver)) continue;
+            ++hits;
+            const double height = frame.toWorld(positions.rgb(x, y)).y;
+            // Along the view axis, which meets the floor at more than 45 degrees here.
+            const bool isNearFloor = std::abs(height + 1.2) < 0.05 * 1.42;
+            const glm::dvec3 world = frame.toWorld(positions.rgb(x, y));
+            const bool isNearWall = std::abs(world.x) > 1.95 || std::abs(world.z) > 1.45;
+            EXPECT_TRUE(isNearFloor || isNearWall) << height;
+        }
+    }
+    EXPECT_GT(hits, 1000);
+}
+
+TEST(ScreenSpacePhotons, TheResultIsTheSameFarFromTheOriginAndAtAnotherScale) {
+    const auto sceneAt = [](double shift, double scale) {
+        const auto number = [&](double v) { return fmt::format("{:.12g}", v); };
+        const auto at = [&](double x, double y, double z) {
+            return fmt::format("[{}, {}, {}]", number(shift + scale * x), number(scale * y),
+                               number(scale * z));
+        };
+        return sceneFromText(fmt::format(
+            R"(
+name = "s"
+[camera]
+position = {}
+target = {}
+near = {}
+[[light]]
+name = "sun"
+type = "directional"
+direction = [0.2, -1, -0.1]
+irradiance = 1000
+[[material]]
+name = "grey"
+type = "lambertian"
+albedo = 0.7
+[[material]]
+name = "water"
+type = "dielectric"
+ior = 1.333
+[[object]]
+name = "floor"
+shape = "plane"
+material = "grey"
+size = [{}, {}]
+position = {}
+[[object]]
+name = "water"
+shape = "water"
+material = "water"
+size = [{}, {}]
+cells = [48, 48]
+position = {}
+waves = [{{amplitude = {}, wavelength = {}, direction_degrees = 20}}]
+)",
+            at(0.4, 2.6, 2.4), at(0, -0.4, 0), number(0.01 * scale), number(3 * scale),
+            number(3 * scale), at(0, -1, 0), number(2 * scale), number(2 * scale), at(0, 0, 0),
+            number(0.015 * scale), number(0.7 * scale)));
+    };
+    const Frame::Settings settings = {{"emit.photons", "128x128"}};
+    const Frame here(sceneAt(0.0, 1.0), 160, 120, settings);
+    const Texels expected = here.causticIrradiance();
+    double total = 0.0;
+    for (int i = 0; i < 160 * 120; ++i)
+        total += expected.rgb(i % 160, i / 160).g;
+    struct Variant {
+        double shift, scale;
+    };
+    for (const Variant& variant : {Variant{1e5, 1.0}, Variant{0.0, 1e4}, Variant{0.0, 1e-4}}) {
+        const Frame there(sceneAt(variant.shift, variant.scale), 160, 120, settings);
+        const Texels found = there.causticIrradiance();
+        double difference = 0.0;
+        for (int i = 0; i < 160 * 120; ++i) {
+            difference +=
+                std::abs(found.rgb(i % 160, i / 160).g - expected.rgb(i % 160, i / 160).g);
+        }
+        // Irradiance does not depend on the scale. Rounding moves single photons across pixel
+        // edges; together they are less than 0.1 % of the light.
+        EXPECT_LT(difference, 1e-3 * total) << variant.shift << " " << variant.scale;
+    }
+}
+
+}  // namespace
+}  // namespace kaustik::test
