@@ -36,11 +36,46 @@ int interactionCount(FrameBuilder& frame) {
     return std::max(1, canRepeat ? limit : std::min(needs.specularInterfaces, limit));
 }
 
+// Why the scene has no caustic; "" if it may have one.
+std::string whyNoCaustic(const scene::SceneNeeds& needs) {
+    if (needs.lights == 0) return "the scene has no light";
+    if (needs.specularInterfaces == 0) return "the scene has no specular surface";
+    if (!needs.receivers) return "the scene has no receiver";
+    return "";
+}
+
+// Irradiance of zero and an empty ledger, in place of all that follows photons.
+IrradianceMap leaveOutCaustic(FrameBuilder& frame, const std::string& why) {
+    for (const char* stage : {LayersStage::name, EmitStage::name, SpecularStage::name,
+                              TraceStage::name, ReconstructStage::name}) {
+        const std::string node = frame.chosenNode(stage).name;
+        frame.leaveOut(std::string(stage) + "." + node, why);
+    }
+    return frame.pass<IrradianceMap>(
+        "reconstruct.nothing", "stands for a caustic that cannot be: " + why,
+        [&](graph::PassSetup& setup, IrradianceMap& data) {
+            data.irradiance =
+                setup.create<IrradianceTexel>("caustic.irradiance", frame.width(), frame.height());
+            data.ledger =
+                setup.createBuffer<transport::LedgerEntry>("ledger", transport::kAccountCount);
+        },
+        [](const IrradianceMap& data, gl::PassContext& context) {
+            context.texture(data.irradiance).clear({0, 0, 0, 0});
+            context.buffer(data.ledger).clear();
+        });
+}
+
 }  // namespace
 
 FrameOutputs buildFrame(FrameBuilder& frame) {
     const Geometry geometry = frame.run<GeometryStage>();
     const EyeBuffer eye = frame.run<EyeStage>(geometry);
+    const std::string whyNot = whyNoCaustic(frame.needs());
+    if (!whyNot.empty()) {
+        const IrradianceMap caustic = leaveOutCaustic(frame, whyNot);
+        const Picture picture = frame.run<ComposeStage>(geometry, eye, caustic);
+        return {picture, caustic, eye, {}, {}, caustic.ledger};
+    }
     const LayeredDepth layers = frame.run<LayersStage>(geometry);
     Hits hits = frame.run<EmitStage>(geometry);
     const int interactions = interactionCount(frame);

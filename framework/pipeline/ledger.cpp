@@ -57,6 +57,7 @@ float ledgerQuantum(const scene::Scene& scene) {
 }
 
 Ledger closeLedger(FrameBuilder& frame, const FrameOutputs& outputs) {
+    if (!outputs.hits.flux.valid()) return outputs.ledger;  // no photon was ever on its way
     struct Data {
         FrameOutputs outputs;
         Ledger ledger;

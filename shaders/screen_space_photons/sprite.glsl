@@ -93,6 +93,11 @@ SpritePixel spriteAt(Sprite sprite, ivec2 pixel) {
     return result;
 }
 
+// A splat ends here however far perspective or grazing light stretch it: its cost is bounded, and so
+// is its loop (Mesa's software rasteriser silently ends a shader's loops after 65,535 turns). The
+// weights are summed and drawn over the same pixels, so that no flux is lost.
+const int kMostReach = 120;
+
 // Half the sides of the pixel rectangle around the centre's pixel that the splat can cover.
 ivec2 spriteReach(Sprite sprite) {
     vec3 along = vec3(0.0);
@@ -114,5 +119,5 @@ ivec2 spriteReach(Sprite sprite) {
     float centerDepth = -sprite.center.z;
     float depth = max(centerDepth - extent.z, 0.25 * centerDepth);
     vec2 shift = abs(sprite.center.xy) / centerDepth * extent.z;
-    return ivec2(ceil((extent.xy + shift) / pixelFootprint(depth))) + 1;
+    return min(ivec2(ceil((extent.xy + shift) / pixelFootprint(depth))) + 1, ivec2(kMostReach));
 }

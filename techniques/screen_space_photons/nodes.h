@@ -65,7 +65,7 @@ struct SpritesParams {
                 "Radius of a splat in widths of its photon's beam, when no radius is set", "",
                 params::range(0.1f, 100.0f));
         r.field(maximumPixels, "maximum", "Largest radius on the screen; splats shrink to it", "px",
-                params::range(1, 1024));
+                params::range(1, 100));
     }
 };
 IrradianceMap splatSprites(FrameBuilder& frame, const SpritesParams& params, Hits hits,

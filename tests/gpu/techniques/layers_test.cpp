@@ -9,7 +9,8 @@
 namespace kaustik::test {
 namespace {
 
-// Objects in front of a camera at the origin that looks down -Z.
+// Objects in front of a camera at the origin that looks down -Z. The water behind it gives the scene
+// a need for layers.
 scene::Scene sceneOf(const std::string& objects) {
     return sceneFromText(R"(
 name = "layers"
@@ -26,6 +27,16 @@ irradiance = 1
 name = "grey"
 type = "lambertian"
 albedo = 0.5
+[[material]]
+name = "water"
+type = "dielectric"
+ior = 1.333
+[[object]]
+name = "water"
+shape = "plane"
+material = "water"
+size = [1, 1]
+position = [0, 0, 9]
 )" + objects);
 }
 
