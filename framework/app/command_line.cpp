@@ -3,8 +3,12 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
+#include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <new>
+#include <system_error>
 
 #include "framework/app/commands.h"
 #include "framework/core/error.h"
@@ -33,27 +37,57 @@ void addSceneOptions(CLI::App& command, SceneOptions& options) {
     command.add_option("--time", options.time, "Time of the animation in seconds");
 }
 
-// CLI11 says of a misspelt subcommand or option only that it was not expected.
-std::string suggestion(const CLI::App& app, int argc, const char* const* argv) {
-    if (argc < 2) return "";
+std::string unknown(const char* what, const std::string& word,
+                    const std::vector<std::string>& names) {
+    const std::string suggestion = didYouMean(word, names);
+    return fmt::format("There is no {} '{}'{}", what, word, suggestion.empty() ? "." : suggestion);
+}
+
+std::vector<std::string> longOptions(const CLI::App& app) {
+    std::vector<std::string> options;
+    for (const CLI::Option* option : app.get_options()) {
+        for (const std::string& name : option->get_lnames())
+            options.push_back(fmt::format("--{}", name));
+    }
+    return options;
+}
+
+// CLI11 says of a misspelt subcommand only that one is required, and of a misspelt option that it
+// was not expected.
+std::string parseProblem(const CLI::App& app, const CLI::ParseError& error, int argc,
+                         const char* const* argv) {
+    const std::string text = error.what();
+    if (dynamic_cast<const CLI::ConversionError*>(&error) != nullptr) {
+        return fmt::format("This is not a whole number{}.", text.substr(text.find(':')));
+    }
     std::vector<std::string> commands;
     for (const CLI::App* command : app.get_subcommands({}))
         commands.push_back(command->get_name());
-    const std::string first = argv[1];
-    if (std::find(commands.begin(), commands.end(), first) == commands.end()) {
-        return first.rfind('-', 0) == 0 ? "" : didYouMean(first, commands);
+    const std::string first = argc > 1 ? argv[1] : "";
+    const bool isCommand = std::find(commands.begin(), commands.end(), first) != commands.end();
+    if (!first.empty() && !isCommand) {
+        if (first[0] == '-') return unknown("option", first, longOptions(app));
+        return unknown("subcommand", first, commands);
     }
-    std::vector<std::string> options;
-    for (const CLI::Option* option : app.get_subcommand(first)->get_options()) {
-        for (const std::string& name : option->get_lnames())
-            options.push_back("--" + name);
-    }
-    for (int i = 2; i < argc; ++i) {
+    for (int i = 2; i < argc && isCommand; ++i) {
         const std::string word = std::string(argv[i]).substr(0, std::string(argv[i]).find('='));
+        const std::vector<std::string> options = longOptions(*app.get_subcommand(first));
         const bool isKnown = std::find(options.begin(), options.end(), word) != options.end();
-        if (word.rfind("--", 0) == 0 && !isKnown) return didYouMean(word, options);
+        if (word.rfind("--", 0) == 0 && !isKnown) {
+            return unknown("option", word, options);
+        }
     }
-    return "";
+    return text + ".";
+}
+
+std::string unprintable(int errorNumber) {
+    return fmt::format("Standard output cannot be written: {}.", std::strerror(errorNumber));
+}
+
+// A full disk may show only when the last of what was printed is written.
+void requirePrinted() {
+    errno = 0;
+    if (std::fflush(stdout) != 0) throw IoError(unprintable(errno));
 }
 
 int fail(const std::string& message, int exitCode) {
@@ -64,6 +98,8 @@ int fail(const std::string& message, int exitCode) {
 }  // namespace
 
 int runCommandLine(int argc, const char* const* argv, const Registry& registry) {
+    // A file that grows past the shell's limit is then an error of the write, as a full disk is.
+    std::signal(SIGXFSZ, SIG_IGN);
     CLI::App app("Real-time caustics by screen-space and image-space photon tracing.", "kaustik");
     app.set_version_flag("--version", versionString());
     app.require_subcommand(1);
@@ -97,6 +133,28 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry) 
     addSceneOptions(*explainApp, explain.scene);
     explainApp->add_option("--dot", explain.dotFile, "Writes the graph as Graphviz");
 
+    CompareOptions compare;
+    CLI::App* compareApp =
+        app.add_subcommand("compare", "Prints how wrong an image is against a reference");
+    compareApp->add_option("image", compare.image, "An .exr, .pfm or .png")->required();
+    compareApp->add_option("reference", compare.reference, "The truth, of the same size")
+        ->required();
+    compareApp->add_flag("--json", compare.json, "As JSON, with formulas");
+    compareApp->add_option("--heatmap", compare.heatMapFile, "Writes where it is wrong, as .png");
+    compareApp->add_option("--stderr", compare.standardErrorFile,
+                           "The reference's standard error, an image of the same kind");
+    compareApp->add_option("--mask", compare.maskFile, "An image that is 0 where not to compare");
+
+    ExperimentOptions experiment;
+    CLI::App* experimentApp =
+        app.add_subcommand("experiment", "Does all runs of a study, or draws what they found");
+    experimentApp->add_option("action", experiment.action, "run or report")->required();
+    experimentApp
+        ->add_option("target", experiment.target, "run: the study, a .toml; report: its results")
+        ->required();
+    experimentApp->add_option("--out", experiment.out, "Folder for the results of run");
+    experimentApp->add_flag("--resume", experiment.resume, "Leaves finished runs alone");
+
     CLI::App* checkApp = app.add_subcommand("check", "Prints what this device offers");
 
     try {
@@ -104,22 +162,28 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry) 
     } catch (const CLI::ParseError& error) {
         // --help and --version arrive here too, with exit code 0.
         if (error.get_exit_code() == 0) return app.exit(error);
-        return fail(fmt::format("{}{} ('kaustik --help' prints what there is).", error.what(),
-                                suggestion(app, argc, argv)),
+        return fail(parseProblem(app, error, argc, argv) +
+                        " 'kaustik --help' and 'kaustik run --help' print what there is.",
                     kExitBadRequest);
     }
     try {
         if (runApp->parsed()) runCommand(run, registry);
         if (listApp->parsed()) listCommand(list, registry);
         if (explainApp->parsed()) explainCommand(explain, registry);
+        if (compareApp->parsed()) compareCommand(compare);
+        if (experimentApp->parsed()) experimentCommand(experiment, registry);
         if (checkApp->parsed()) checkCommand();
+        requirePrinted();
         return kExitDone;
     } catch (const Error& error) {
         return fail(error.what(), error.exitCode());
     } catch (const std::bad_alloc&) {
         return fail("out of memory; use fewer photons, layers or pixels.", kExitDeviceLost);
+    } catch (const std::system_error& error) {
+        if (std::ferror(stdout) != 0) return fail(unprintable(error.code().value()), kExitFailed);
+        return fail(fmt::format("unexpected: {}.", error.what()), kExitFailed);
     } catch (const std::exception& error) {
-        return fail(fmt::format("unexpected: {}", error.what()), kExitFailed);
+        return fail(fmt::format("unexpected: {}.", error.what()), kExitFailed);
     }
 }
 

@@ -12,6 +12,8 @@ namespace kaustik::app {
 void runCommand(const RunOptions& options, const Registry& registry);
 void listCommand(const ListOptions& options, const Registry& registry);
 void explainCommand(const ExplainOptions& options, const Registry& registry);
+void compareCommand(const CompareOptions& options);
+void experimentCommand(const ExperimentOptions& options, const Registry& registry);
 void checkCommand();
 
 // The whole command line: parses, runs, prints errors; gives the exit code. A program that adds

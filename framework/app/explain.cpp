@@ -58,22 +58,20 @@ void explainCommand(const ExplainOptions& options, const Registry& registry) {
     Renderer renderer(*context, registry, scene, std::move(settings));
     renderer.measureDepthComplexity();
     renderer.build(Purpose::picture);
+    if (!options.dotFile.empty()) writeFileWhole(options.dotFile, renderer.graph().toDot());
     printNeeds(scene, renderer.needs());
     fmt::print("technique {}\n", renderer.settings().technique.name);
     for (const graph::PassRecord& pass : renderer.compiled().records) {
         fmt::print("  {:<22}{:<10}{}\n", pass.name, stateName(pass.state), pass.why);
     }
-    fmt::print("resources (for --save)\n");
+    fmt::print("resources (--save takes the textures)\n");
     for (const std::string& name : renderer.graph().resourceNames()) {
         fmt::print("  {:<30}{}\n", name,
                    describe(renderer.graph().descOf(renderer.graph().find(name))));
     }
     for (const std::string& warning : renderer.warnings())
         fmt::print("warning: {}\n", warning);
-    if (!options.dotFile.empty()) {
-        writeFileWhole(options.dotFile, renderer.graph().toDot());
-        fmt::print("wrote {}\n", options.dotFile);
-    }
+    if (!options.dotFile.empty()) fmt::print("wrote {}\n", options.dotFile);
 }
 
 void checkCommand() {
@@ -92,6 +90,9 @@ void checkCommand() {
                device.maxTextureLayers);
     fmt::print("largest viewport  {0}x{0}\n", device.maxViewport);
     fmt::print("storage block     {} MiB\n", device.maxStorageBlockBytes >> 20);
+    if (device.availableBytes > 0) {
+        fmt::print("free memory       {} MiB\n", device.availableBytes >> 20);
+    }
     fmt::print("robust context    {}\n",
                device.robust ? "yes" : "no: a lost device may go unnoticed");
     fmt::print("Everything that Kaustik needs is there.\n");

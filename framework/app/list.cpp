@@ -83,9 +83,10 @@ void print(const json& entry) {
     if (entry.contains("range")) {
         const json& value = entry.at("default");
         const std::string unit = entry.at("unit").get<std::string>();
-        fmt::print("{} = {}{}\n    {}. [{}]\n", entry.at("name").get<std::string>(),
+        const std::string sentence = entry.at("description").get<std::string>();
+        fmt::print("{} = {}{}\n    {}{} [{}]\n", entry.at("name").get<std::string>(),
                    value.is_string() ? value.get<std::string>() : value.dump(),
-                   unit.empty() ? "" : " " + unit, entry.at("description").get<std::string>(),
+                   unit.empty() ? "" : " " + unit, sentence, sentence.ends_with('?') ? "" : ".",
                    entry.at("range").get<std::string>());
         return;
     }
@@ -112,8 +113,9 @@ void listCommand(const ListOptions& options, const Registry& registry) {
     } else if (options.what == "params") {
         entries = listParams(registry, options.technique);
     } else {
-        throw ConfigError(fmt::format("list: there is nothing called '{}'{}; there is {}.",
-                                      options.what, didYouMean(options.what, kinds),
+        const std::string suggestion = didYouMean(options.what, kinds);
+        throw ConfigError(fmt::format("list: there is nothing called '{}'{} There is {}.",
+                                      options.what, suggestion.empty() ? "." : suggestion,
                                       joinNames(kinds)));
     }
     if (options.json) {

@@ -39,4 +39,20 @@ struct ExplainOptions {
     std::string dotFile;
 };
 
+struct CompareOptions {
+    std::string image;
+    std::string reference;
+    std::string maskFile;           // "" for none, as are the next two
+    std::string standardErrorFile;  // of the reference
+    std::string heatMapFile;
+    bool json = false;
+};
+
+struct ExperimentOptions {
+    std::string action;  // run or report
+    std::string target;  // the TOML file, or the folder of results
+    std::string out;     // "" for results/runs/experiments/<name>
+    bool resume = false;
+};
+
 }  // namespace kaustik::app

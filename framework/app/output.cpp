@@ -46,12 +46,26 @@ void requireWritable(const fs::path& folder) {
         throw IoError(fmt::format("--out: the folder {} cannot be made: {}.", folder.string(),
                                   error.message()));
     }
-    if (!fs::is_directory(folder)) {
-        throw IoError(fmt::format("--out: {} is not a folder.", folder.string()));
-    }
-    if (::access(folder.c_str(), W_OK | X_OK) != 0) {
+    // Only a file that is made proves it: permissions say nothing of a full or odd file system.
+    std::string probe = (folder / ".kaustik-XXXXXX").string();
+    const int descriptor = ::mkstemp(probe.data());
+    if (descriptor < 0) {
         throw IoError(fmt::format("--out: nothing can be written into {}: {}.", folder.string(),
                                   std::strerror(errno)));
+    }
+    ::close(descriptor);
+    ::unlink(probe.c_str());
+}
+
+void requireTextures(const Renderer& renderer, const std::vector<std::string>& saved) {
+    for (const std::string& name : saved) {
+        const graph::ResourceDesc& desc = renderer.graph().descOf(renderer.graph().find(name));
+        if (!std::holds_alternative<graph::TextureDesc>(desc)) {
+            throw ConfigError(
+                fmt::format("--save: '{}' is a buffer, and only textures can be saved "
+                            "('kaustik explain' prints which those are).",
+                            name));
+        }
     }
 }
 

@@ -11,8 +11,11 @@
 
 namespace kaustik::app {
 
-// Makes the folder and throws IoError if nothing can be written there, before any work is done.
+// Makes the folder and throws IoError if nothing can be written there, before the long work.
 void requireWritable(const std::filesystem::path& folder);
+
+// Throws ConfigError for a resource that is not a texture and hence no picture.
+void requireTextures(const Renderer& renderer, const std::vector<std::string>& saved);
 
 // One layer of a texture, top row first, with its first `channels` channels.
 [[nodiscard]] Image readTexture(const gl::Texture& texture, int layer, int channels);

@@ -47,9 +47,16 @@ void Progress::update(int done) {
 }
 
 void catchInterrupts() {
-    const auto note = [](int) { interrupted = 1; };
+    const auto note = [](int signal) {
+        interrupted = 1;
+        std::signal(signal, SIG_DFL);
+    };
     std::signal(SIGINT, note);
     std::signal(SIGTERM, note);
+}
+
+bool isInterrupted() {
+    return interrupted != 0;
 }
 
 void throwIfInterrupted() {

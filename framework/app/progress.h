@@ -27,8 +27,9 @@ class Progress {
     Clock::time_point last_;
 };
 
-// From now on Ctrl-C and SIGTERM are noted instead of ending the program.
+// From now on Ctrl-C and SIGTERM are noted instead of ending the program; a second one ends it.
 void catchInterrupts();
+[[nodiscard]] bool isInterrupted();
 // Throws Error when one was noted.
 void throwIfInterrupted();
 

@@ -70,12 +70,13 @@ void runCommand(const RunOptions& options, const Registry& registry) {
         options.out.empty()
             ? fs::path("results/runs") / fmt::format("{}-{}", scene.name, settings.technique.name)
             : fs::path(options.out);
-    requireWritable(folder);
 
     const std::unique_ptr<gl::Context> context = gl::Context::createHeadless();
     Renderer renderer(*context, registry, scene, std::move(settings));
     renderer.build(Purpose::measurement, options.saved);  // finds every mistake before the work
+    requireTextures(renderer, options.saved);
     renderer.build(Purpose::picture);
+    requireWritable(folder);
     catchInterrupts();
 
     report::RunRecord record;
@@ -118,6 +119,7 @@ void runCommand(const RunOptions& options, const Registry& registry) {
     throwIfInterrupted();
     const std::vector<fs::path> files = writePictures(folder, renderer, options.saved);
     writeFileWhole(folder / "trace.json", report::makeChromeTrace(record).dump());
+    writeFileWhole(folder / "samples.json", report::makeSamples(record).dump());
     const nlohmann::json report = report::makeReport(record, renderer, context->info());
     writeFileWhole(folder / "report.json", report.dump(2) + "\n");
 
@@ -128,8 +130,8 @@ void runCommand(const RunOptions& options, const Registry& registry) {
         fmt::print("warning: {}\n", warning);
     for (const fs::path& file : files)
         fmt::print("wrote {}\n", file.string());
-    fmt::print("wrote {}\nwrote {}\n", (folder / "trace.json").string(),
-               (folder / "report.json").string());
+    for (const char* name : {"trace.json", "samples.json", "report.json"})
+        fmt::print("wrote {}\n", (folder / name).string());
 }
 
 }  // namespace kaustik::app

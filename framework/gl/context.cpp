@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <utility>
 
 #include "framework/core/error.h"
@@ -18,6 +19,27 @@ namespace {
 
 std::string eglErrorText() {
     return fmt::format("EGL error 0x{:x}", static_cast<unsigned>(eglGetError()));
+}
+
+// Bytes of the machine's memory that are free or can be freed; 0 where the system does not say.
+long long availableSystemBytes() {
+    std::ifstream file("/proc/meminfo");
+    for (std::string name; file >> name;) {
+        long long kibibytes = 0;
+        if (name == "MemAvailable:" && file >> kibibytes) return kibibytes * 1024;
+        file.ignore(256, '\n');
+    }
+    return 0;
+}
+
+long long availableDeviceBytes(const std::string& renderer) {
+    for (const char* software : {"llvmpipe", "softpipe", "SWR"}) {
+        if (renderer.find(software) != std::string::npos) return availableSystemBytes();
+    }
+    if (!epoxy_has_gl_extension("GL_NVX_gpu_memory_info")) return 0;
+    GLint kibibytes = 0;
+    glGetIntegerv(GL_GPU_MEMORY_INFO_CURRENT_AVAILABLE_VIDMEM_NVX, &kibibytes);
+    return static_cast<long long>(kibibytes) * 1024;
 }
 
 struct Candidate {
@@ -155,6 +177,7 @@ void Context::readInfo() {
     info_.version = text(GL_VERSION);
     info_.platform = egl_->platform;
     info_.robust = egl_->robust;
+    info_.availableBytes = availableDeviceBytes(info_.renderer);
     info_.maxTextureSize = integer(GL_MAX_TEXTURE_SIZE);
     info_.maxTextureLayers = integer(GL_MAX_ARRAY_TEXTURE_LAYERS);
     std::array<GLint, 2> viewport{};

@@ -51,6 +51,12 @@ Executor::Executor(Context& context, ProgramCache& programs)
 }
 
 void Executor::prepare(graph::Compiled compiled) {
+    const auto available = static_cast<std::size_t>(context_.info().availableBytes);
+    if (available > 0 && compiled.allocatedBytes > available) {
+        throw DeviceError("The graph needs " + std::to_string(compiled.allocatedBytes >> 20) +
+                          " MiB and the device has " + std::to_string(available >> 20) +
+                          " MiB free. Use fewer photons, layers or pixels.");
+    }
     compiled_ = std::move(compiled);
     framebuffers_.clear();
     std::vector<Physical> old = std::exchange(slots_, {});

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 
 #include "framework/core/error.h"
@@ -22,6 +23,58 @@ gl::Buffer makeLights(const scene::Scene& scene, const render::EyeView& view) {
         lights.push_back(lightData(light, view));
     lights.push_back({});  // a scene without lights still binds a block
     return {lights, "lights"};
+}
+
+// The pass that a user means by `name`: its full name, or the end of just one after a dot.
+// Throws ConfigError with the nearest name.
+std::string fullPassName(const std::string& name, const std::vector<std::string>& passes) {
+    std::vector<std::string> matches;
+    for (const std::string& pass : passes) {
+        if (pass == name) return pass;
+        if (pass.ends_with("." + name)) matches.push_back(pass);
+    }
+    if (matches.size() == 1) return matches.front();
+    if (matches.empty()) {
+        throw ConfigError(
+            fmt::format("--disable: there is no pass '{}'{} ('kaustik explain' prints them all).",
+                        name, didYouMean(name, passes)));
+    }
+    throw ConfigError(
+        fmt::format("--disable: '{}' could be {}; write out which.", name, joinNames(matches)));
+}
+
+bool compiles(const graph::Graph& graph) {
+    try {
+        static_cast<void>(graph.compile());
+        return true;
+    } catch (const GraphError&) {
+        return false;
+    }
+}
+
+// Compiles the graph without the passes that `disabled` names, and puts their full names there.
+// Throws ConfigError for a name that does not exist and for a pass that is required.
+graph::Compiled compileWithout(graph::Graph& graph, std::set<std::string>& disabled) {
+    const graph::Compiled whole = graph.compile();  // what fails here is not the user's mistake
+    std::vector<std::string> passes;
+    for (const graph::PassRecord& pass : whole.records)
+        passes.push_back(pass.name);
+    std::set<std::string> fullNames;
+    for (const std::string& name : disabled)
+        fullNames.insert(fullPassName(name, passes));
+    disabled = std::move(fullNames);
+
+    const std::vector<std::string> declared = graph.passNames();
+    for (const std::string& name : disabled) {
+        // One that this scene does not need is left out anyway.
+        if (std::find(declared.begin(), declared.end(), name) == declared.end()) continue;
+        graph.disable(name);
+        if (!compiles(graph)) {
+            throw ConfigError(fmt::format(
+                "--disable: pass '{}' is required; nothing stands in for what it makes.", name));
+        }
+    }
+    return graph.compile();
 }
 
 }  // namespace
@@ -52,7 +105,7 @@ FrameBuilder Renderer::declareFrame() {
     return frame;
 }
 
-void Renderer::build(Purpose purpose, const std::vector<std::string>& resources) {
+graph::Compiled Renderer::compile(Purpose purpose, const std::vector<std::string>& resources) {
     const auto begin = std::chrono::steady_clock::now();
     FrameBuilder frame = declareFrame();
     if (purpose == Purpose::measurement) closedLedger_ = closeLedger(frame, outputs_);
@@ -72,14 +125,18 @@ void Renderer::build(Purpose purpose, const std::vector<std::string>& resources)
         }
         graph_->request(handle);
     }
-    for (const std::string& pass : settings_.disabledPasses)
-        graph_->disable(pass);
-    graph::Compiled compiled = graph_->compile();
+    graph::Compiled compiled = settings_.disabledPasses.empty()
+                                   ? graph_->compile()
+                                   : compileWithout(*graph_, settings_.disabledPasses);
     buildMilliseconds_ =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
     kept_ = frame.takeKept();
     warnings_ = frame.warnings();
-    executor_.prepare(std::move(compiled));
+    return compiled;
+}
+
+void Renderer::build(Purpose purpose, const std::vector<std::string>& resources) {
+    executor_.prepare(compile(purpose, resources));
 }
 
 void Renderer::renderFrame(gl::PassTimer& timer) {

@@ -209,6 +209,19 @@ std::string makeTable(const RunRecord& record) {
     return table;
 }
 
+json makeSamples(const RunRecord& record) {
+    json passes = json::array();
+    for (const PassTimes& pass : timesByPass(record)) {
+        passes.push_back({{"name", pass.name},
+                          {"gpu_ms", pass.gpuMilliseconds},
+                          {"cpu_ms", pass.cpuMilliseconds}});
+    }
+    return {{"schema", "kaustik.samples/1"},
+            {"frame_samples_ms", frameSamples(record)},
+            {"bookkeeping_samples_ms", bookkeepingSamples(record)},
+            {"passes", passes}};
+}
+
 json makeChromeTrace(const RunRecord& record) {
     json events = json::array();
     double frameBegin = 0.0;

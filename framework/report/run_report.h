@@ -46,6 +46,9 @@ struct PassTimes {
 // Median per pass, share of the frame, what was left out and why, and the ledger.
 [[nodiscard]] std::string makeTable(const RunRecord& record);
 
+// Every time behind the report's statistics (schema kaustik.samples/1).
+[[nodiscard]] nlohmann::json makeSamples(const RunRecord& record);
+
 // Complete events of every pass and frame, for chrome://tracing and Perfetto.
 [[nodiscard]] nlohmann::json makeChromeTrace(const RunRecord& record);
 

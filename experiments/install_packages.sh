@@ -1,0 +1,52 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Installs the Debian 12 packages that Kaustik is built, run and tested with: those that are
+# missing, and only those. Answers at once when nothing is. Needs root or sudo only to install.
+set -euo pipefail
+
+packages=(
+    # Tools
+    g++ cmake ninja-build pkg-config
+    # OpenGL 4.5 without a display; Mesa's drivers render on the processor where there is no GPU.
+    libepoxy-dev libegl-dev libegl-mesa0 libgl1-mesa-dri
+    # Libraries
+    libglm-dev libfmt-dev nlohmann-json3-dev libtomlplusplus-dev libcli11-dev
+    libassimp-dev libtinygltf-dev zlib1g-dev libopenimageio-dev
+    # The ray-traced reference
+    libembree-dev libtbb-dev
+    # Tests
+    libgtest-dev libgmock-dev
+)
+
+if ! command -v dpkg-query > /dev/null || ! command -v apt-get > /dev/null; then
+    echo "packages: this is not Debian, so install these or their like yourself: ${packages[*]}" >&2
+    exit 0
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+    status=$(dpkg-query --show --showformat='${db:Status-Status}\n' "$package" 2> /dev/null || true)
+    grep -qx installed <<< "$status" || missing+=("$package")
+done
+if ((${#missing[@]} == 0)); then
+    echo "packages: all ${#packages[@]} are installed"
+    exit 0
+fi
+
+as_root=()
+if ((EUID != 0)); then
+    if ! command -v sudo > /dev/null; then
+        echo "packages: neither root nor sudo, so have an administrator install: ${missing[*]}" >&2
+        exit 1
+    fi
+    as_root=(sudo)
+fi
+apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive
+    apt-get --quiet --option DPkg::Lock::Timeout=300)
+
+echo "packages: installing ${missing[*]}"
+"${apt[@]}" update || echo "packages: apt-get update failed; trying with the lists at hand" >&2
+if ! "${apt[@]}" install --yes --no-install-recommends "${missing[@]}"; then
+    echo "packages: apt-get could not install them; its own message is above" >&2
+    exit 1
+fi

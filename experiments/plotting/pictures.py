@@ -1,0 +1,224 @@
+# SPDX-License-Identifier: MIT
+"""Pictures of the runs: read, brought to one exposure, and set beside the truth."""
+
+import base64
+import io
+import json
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.figure import Figure
+
+from study import Configuration, evenly
+
+LUMINANCE = np.array([0.2126, 0.7152, 0.0722])  # Rec. 709
+MOST_ROWS = 6  # of pictures beside each other
+MOST_PIXELS_WIDE = 1280  # of a picture on the page
+
+
+def read_netpbm(path: Path) -> np.ndarray:
+    """PFM (little- or big-endian) and binary PPM."""
+    data = path.read_bytes()
+    header = re.match(rb"(P[Ff6])\s+(\d+)\s+(\d+)\s+(\S+)\s", data)
+    if header is None:
+        raise ValueError(f"{path} is neither PFM nor PPM")
+    kind, width, height, scale = header[1], int(header[2]), int(header[3]), float(header[4])
+    channels = 1 if kind == b"Pf" else 3
+    dtype = np.uint8 if kind == b"P6" else np.dtype("<f4" if scale < 0 else ">f4")
+    values = np.frombuffer(data, dtype, width * height * channels, header.end())
+    image = values.reshape(height, width, channels)
+    return image / scale if kind == b"P6" else image[::-1].astype(np.float32)
+
+
+def read_image(path: Path) -> np.ndarray:
+    """Height x width x 3, top row first."""
+    if path.suffix in (".pfm", ".ppm"):
+        image = read_netpbm(path)
+    elif path.suffix == ".png":
+        image = plt.imread(path)
+    else:
+        import OpenImageIO as oiio
+
+        source = oiio.ImageInput.open(str(path))
+        if source is None:
+            raise ValueError(f"{path} cannot be read: {oiio.geterror()}")
+        image = np.asarray(source.read_image(oiio.FLOAT))
+        source.close()
+    if image.ndim == 2:
+        image = image[:, :, np.newaxis]
+    return np.repeat(image, 3, axis=2) if image.shape[2] == 1 else image[:, :, :3]
+
+
+def find_image(folder: Path, name: str, suffixes: tuple[str, ...]) -> Path | None:
+    return next((p for s in suffixes if (p := folder / f"{name}{s}").is_file()), None)
+
+
+def find_truth(configuration: Configuration) -> Path | None:
+    """The reference picture of a configuration: beside its report, or where that says it is."""
+    for folder in configuration.folders:
+        beside = find_image(folder, "reference", (".exr", ".pfm"))
+        if beside:
+            return beside
+        try:
+            report = json.loads((folder / "report.json").read_text(encoding="utf-8"))
+        except (OSError, ValueError):
+            continue
+        named = report.get("error", {}).get("reference")
+        if isinstance(named, str) and Path(named).suffix in (".exr", ".pfm"):
+            for path in (folder / named, Path(named)):
+                if path.is_file():
+                    return path
+    return None
+
+
+@dataclass
+class Picture:
+    label: str
+    kind: str  # what it shows, for the page: "caustic irradiance", …
+    pixels: np.ndarray  # for a display: height x width x 3 in [0, 1]
+
+
+def displayed(image: np.ndarray, white: float) -> np.ndarray:
+    """Linear light to sRGB with `white` as the brightest; what is not a number shows magenta."""
+    wrong = ~np.isfinite(image).all(axis=2)
+    linear = np.clip(np.nan_to_num(image) / white, 0.0, 1.0)
+    encoded = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
+    encoded[wrong] = (1.0, 0.0, 1.0)
+    return encoded
+
+
+def white_of(image: np.ndarray) -> float:
+    bright = np.nan_to_num(image).max(axis=2)
+    lit = bright[bright > 0.0]
+    return float(np.percentile(lit, 99.0)) if lit.size else 1.0
+
+
+class Pictures:
+    """The caustics of some configurations and their truths, at one exposure."""
+
+    def __init__(self, configurations: list[Configuration]):
+        self.caustics: list[tuple[Configuration, np.ndarray]] = []
+        self.truths: dict[str, np.ndarray] = {}  # by configuration
+        self.problems: list[str] = []
+        self.beauties: list[Picture] = []
+        for configuration in configurations:
+            try:
+                self._read(configuration)
+            except ImportError:
+                self.problems.append(
+                    "OpenEXR pictures need the package python3-openimageio, so none are shown."
+                )
+                return
+            except (OSError, ValueError) as error:
+                self.problems.append(f"{error}.")
+        truths = list(self.truths.values())
+        linear = truths or [image for _, image in self.caustics]
+        self.white = max((white_of(image) for image in linear), default=1.0)
+
+    def _read(self, configuration: Configuration) -> None:
+        folder = configuration.folders[0]
+        beauty = find_image(folder, "beauty", (".png", ".ppm"))
+        if beauty:
+            self.beauties.append(Picture(configuration.label, "picture", read_image(beauty)))
+        caustic = find_image(folder, "caustic", (".exr", ".pfm"))
+        if not caustic:
+            return
+        image = read_image(caustic)
+        self.caustics.append((configuration, image))
+        truth = find_truth(configuration)
+        if truth:
+            true_image = read_image(truth)
+            if true_image.shape == image.shape:
+                self.truths[configuration.hash] = true_image
+            else:
+                self.problems.append(f"{truth} is of another size than {caustic}.")
+
+    def for_page(self) -> list[Picture]:
+        """The truths first, each once."""
+        pictures: list[Picture] = []
+        seen: list[np.ndarray] = []
+        for configuration, _ in self.caustics:
+            truth = self.truths.get(configuration.hash)
+            if truth is None or any(truth.shape == s.shape and (truth == s).all() for s in seen):
+                continue
+            seen.append(truth)
+            label = "truth" if len(seen) == 1 else f"truth of {configuration.label}"
+            pictures.append(Picture(label, "caustic irradiance", displayed(truth, self.white)))
+        for configuration, image in self.caustics:
+            pictures.append(
+                Picture(configuration.label, "caustic irradiance", displayed(image, self.white))
+            )
+        return pictures + self.beauties
+
+
+def side_by_side(pictures: Pictures) -> Figure | None:
+    """One row a configuration: the truth, the technique and where it is wrong."""
+    shown = [(c, image) for c, image in pictures.caustics if c.hash in pictures.truths]
+    if not shown:
+        return None
+    height, width = shown[0][1].shape[:2]
+    shown = evenly(shown, MOST_ROWS)
+    errors = []
+    for configuration, image in shown:
+        difference = np.abs(image - pictures.truths[configuration.hash])
+        errors.append(np.nan_to_num(difference, nan=np.inf) @ LUMINANCE)
+    finite = np.concatenate([e[np.isfinite(e)] for e in errors])
+    largest = float(np.percentile(finite, 99.0)) if finite.size else 1.0
+    figure, rows = plt.subplots(
+        len(shown),
+        3,
+        squeeze=False,
+        figsize=(9.0, 0.5 + (2.8 * height / width + 0.25) * len(shown)),
+        layout="constrained",
+    )
+    for (configuration, image), error, row in zip(shown, errors, rows):
+        row[0].imshow(displayed(pictures.truths[configuration.hash], pictures.white))
+        row[1].imshow(displayed(image, pictures.white))
+        shade = row[2].imshow(error, cmap="cividis", vmin=0.0, vmax=largest or 1.0)
+        row[1].set_title(configuration.label, fontsize=8)
+        for axes in row:
+            axes.set_xticks([])
+            axes.set_yticks([])
+            axes.grid(False)
+    rows[0][0].set_title("truth", fontsize=8)
+    rows[0][2].set_title("error", fontsize=8)
+    figure.colorbar(
+        shade, ax=rows[:, 2].tolist(), label="|difference| of caustic irradiance (W/m²)"
+    )
+    return figure
+
+
+def gallery(pictures: Pictures) -> Figure | None:
+    """The caustics alone, where there is no truth to set them beside."""
+    if not pictures.caustics or pictures.truths:
+        return None
+    count = len(pictures.caustics)
+    across = min(count, 3)
+    down = -(-count // across)
+    height, width = pictures.caustics[0][1].shape[:2]
+    figure, rows = plt.subplots(
+        down,
+        across,
+        squeeze=False,
+        figsize=(3.0 * across, (3.0 * height / width + 0.3) * down),
+        layout="constrained",
+    )
+    for axes in rows.flat:
+        axes.axis("off")
+    for axes, (configuration, image) in zip(rows.flat, pictures.caustics):
+        axes.imshow(displayed(image, pictures.white))
+        axes.set_title(configuration.label, fontsize=8)
+    return figure
+
+
+def as_data_uri(pixels: np.ndarray) -> str:
+    step = -(-pixels.shape[1] // MOST_PIXELS_WIDE)
+    buffer = io.BytesIO()
+    plt.imsave(buffer, np.ascontiguousarray(pixels[::step, ::step]), format="png")
+    return "data:image/png;base64," + base64.b64encode(buffer.getvalue()).decode("ascii")

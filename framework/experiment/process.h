@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Another program, started and waited for.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace kaustik::experiment {
+
+struct ProcessOutcome {
+    int exitCode = -1;         // -1 where a signal ended it
+    std::string messages;      // what it wrote to standard error
+    bool interrupted = false;  // it was ended because `isInterrupted` said so
+    std::string signal;        // the name of the signal that ended it, or ""
+
+    // What went wrong, in one sentence or two; "" for exit code 0.
+    [[nodiscard]] std::string problem() const;
+};
+
+enum class StandardOutput { dropped, shared };
+
+// Runs `program words[1] …` to its end; words[0] is what the program sees as its name. It ends when
+// this program does, however that ends. A key pressed at the terminal reaches only this program,
+// which then decides. Throws IoError when it cannot be started.
+[[nodiscard]] ProcessOutcome runProcess(const std::filesystem::path& program,
+                                        const std::vector<std::string>& words,
+                                        StandardOutput output,
+                                        const std::function<bool()>& isInterrupted);
+
+}  // namespace kaustik::experiment

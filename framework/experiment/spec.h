@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// An experiment as its TOML file states it, before anything is resolved:
+//
+//   name = "epsilon"              names the folder of results: letters, digits, '-' and '_'
+//   description = ""              for the report
+//   repeats = 1                   each a process of its own, so that their spread is real
+//   [base]                        what all runs share; see plan.h for the keys
+//   scene = "pool"
+//   "trace.lines.width" = 512     a dotted name in quotes, or as a table: trace.epsilon = 0.01
+//   [permute]                     every combination of one value from each key
+//   trace = ["lines", "march"]
+//   "trace.epsilon" = {from = 0.001, to = 0.1, factor = 10}
+//
+// A range is written in one line, ends included: {from, to, factor} multiplies, {from, to, step}
+// adds, {from, to, steps} gives that many values at equal distances. Where there are several
+// [[permute]] tables each is a cross product of its own; what two of them share is run once.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace kaustik::experiment {
+
+// A key with one value (text, whole number, number, true or false, or a list of texts).
+struct Setting {
+    std::string key;  // as written, dotted
+    nlohmann::json value;
+    std::string place;  // "file:line"
+};
+
+// A key with all the values that it is to take, in order; at least one.
+struct Axis {
+    std::string key;
+    std::vector<Setting> values;
+    std::string place;
+};
+
+// One cross product: the last axis varies fastest.
+using Product = std::vector<Axis>;
+
+struct Spec {
+    std::filesystem::path file;
+    std::string name;
+    std::string description;
+    int repeats = 1;
+    std::vector<Setting> base;
+    std::vector<Product> products;  // at least one; without axes it is the base alone
+};
+
+inline constexpr int kMostRepeats = 1000;
+
+// Throws ConfigError "file:line: …" for whatever makes no sense, and IoError for a file that cannot
+// be read.
+[[nodiscard]] Spec readSpec(const std::filesystem::path& file);
+
+}  // namespace kaustik::experiment

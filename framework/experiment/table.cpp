@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include "framework/experiment/table.h"
+
+#include <algorithm>
+#include <map>
+
+#include "framework/experiment/run_folder.h"
+
+namespace kaustik::experiment {
+namespace {
+
+using nlohmann::json;
+
+// The numbers below `value`, by dotted name.
+void addNumbers(Row& row, const std::string& name, const json& value) {
+    if (value.is_number()) row.emplace_back(name, value);
+    if (!value.is_object()) return;
+    for (const auto& [key, inner] : value.items())
+        addNumbers(row, name + "." + key, inner);
+}
+
+std::string cell(const json& value) {
+    if (value.is_null()) return "";
+    const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+    std::string quoted = "\"";
+    for (const char c : text) {
+        if (c == '"') quoted += '"';
+        quoted += c;
+    }
+    return quoted + "\"";
+}
+
+std::vector<std::string> columnsOf(const std::vector<Row>& rows) {
+    std::vector<std::string> columns;
+    for (const Row& row : rows) {
+        auto position = columns.begin();
+        for (const auto& [name, value] : row) {
+            const auto known = std::find(columns.begin(), columns.end(), name);
+            position = known != columns.end() ? known : columns.insert(position, name);
+            ++position;
+        }
+    }
+    return columns;
+}
+
+}  // namespace
+
+Row identityColumns(const PlannedRun& run, int repeat, const std::string& message) {
+    Row row = {{"folder", folderName(run, repeat)},
+               {"hash", run.hash},
+               {"repeat", repeat},
+               {"status", message.empty() ? "done" : "failed"},
+               {"message", message}};
+    for (const auto& [key, value] : run.axes.items())
+        row.emplace_back(key, value);
+    return row;
+}
+
+Row resultColumns(const json& report) {
+    Row row;
+    addNumbers(row, "frame_ms", report.value("frame_ms", json()));
+    addNumbers(row, "startup_ms", report.value("startup_ms", json()));
+    for (const json& pass : report.value("passes", json::array())) {
+        if (!pass.value("ran", false) || !pass.contains("gpu_ms")) continue;
+        row.emplace_back("pass:" + pass.at("name").get<std::string>(),
+                         pass.at("gpu_ms").at("median"));
+    }
+    for (const char* part : {"photons", "layers", "hits", "error", "energy", "memory"})
+        addNumbers(row, part, report.value(part, json()));
+    row.emplace_back("warnings", report.value("warnings", json::array()).size());
+    row.emplace_back("device", report.value("device", json::object()).value("renderer", ""));
+    row.emplace_back("version", report.value("version", ""));
+    return row;
+}
+
+std::string toCsv(const std::vector<Row>& rows) {
+    const std::vector<std::string> columns = columnsOf(rows);
+    std::string csv;
+    const auto addLine = [&](const auto& textOf) {
+        for (std::size_t i = 0; i < columns.size(); ++i) {
+            if (i > 0) csv += ',';
+            csv += textOf(columns[i]);
+        }
+        csv += '\n';
+    };
+    addLine([](const std::string& column) { return cell(column); });
+    for (const Row& row : rows) {
+        const std::map<std::string, json> values(row.begin(), row.end());
+        addLine([&](const std::string& column) {
+            const auto value = values.find(column);
+            return value == values.end() ? std::string() : cell(value->second);
+        });
+    }
+    return csv;
+}
+
+}  // namespace kaustik::experiment

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// Runs independent batches on several threads and takes their results in the order of their
+// numbers, so that neither the result nor where it stops depends on the threads.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "framework/reference/pixel_sums.h"
+
+namespace kaustik::reference {
+
+// When to stop; what is met first counts. At least one of them must be given.
+struct StopWhen {
+    std::optional<std::uint64_t> batches;  // in all, those of earlier runs included
+    std::optional<std::uint64_t> photons;  // in all, rounded up to whole batches
+    std::optional<double> seconds;         // of this run
+    std::optional<double> relativeError;   // PixelSums::relativeStandardError of layer 0
+    std::uint64_t minimumBatches = 8;      // before the error is believed
+};
+
+struct Progress {
+    std::uint64_t batches = 0;        // in the sums
+    std::uint64_t batchesWanted = 0;  // 0: not known
+    std::uint64_t photons = 0;
+    std::uint64_t photonsWanted = 0;  // 0: not known
+    double seconds = 0.0;
+    double relativeError = 0.0;  // infinite until known
+};
+
+struct RunOptions {
+    StopWhen stop;
+    BatchRange shard{0, UINT64_MAX};  // only these batches
+    int threads = 0;                  // 0: all
+    // Called after each batch, in order; false ends the run with what it has.
+    std::function<bool(const Progress&)> progress;
+    // Called with the sums after a batch when at least `saveEverySeconds` have passed, and at the
+    // end.
+    std::function<void(const PixelSums&)> save;
+    double saveEverySeconds = 30.0;
+};
+
+// `compute` fills a cleared result for a batch and is called on several threads; batches that the
+// sums hold already are skipped. Throws ConfigError when nothing says where to stop.
+void runBatches(PixelSums& sums, const RunOptions& options,
+                const std::function<void(std::uint64_t batch, BatchResult& result)>& compute);
+
+}  // namespace kaustik::reference

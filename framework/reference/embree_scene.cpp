@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: MIT
+#include "framework/reference/embree_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <glm/gtc/matrix_transform.hpp>
+#include <limits>
+#include <utility>
+
+#include "framework/core/error.h"
+
+namespace kaustik::reference {
+namespace {
+
+using scene::MaterialKind;
+
+// Embree hands the context to the filters: what the ray may not meet.
+struct FilterContext {
+    RTCIntersectContext embree;
+    TriangleId start;
+    std::uint32_t innerMedium;
+    SideRule sides;
+};
+
+bool isStart(const FilterContext& context, const RTCHit& hit) {
+    return hit.primID == context.start.triangle && hit.geomID == context.start.object;
+}
+
+// For specular objects in the scene of all surfaces.
+void rejectWrongSide(const RTCFilterFunctionNArguments* arguments) {
+    const auto& context = *reinterpret_cast<const FilterContext*>(arguments->context);
+    const auto& info = *static_cast<const EmbreeScene::ObjectInfo*>(arguments->geometryUserPtr);
+    const auto& hit = *reinterpret_cast<const RTCHit*>(arguments->hit);
+    const auto& ray = *reinterpret_cast<const RTCRay*>(arguments->ray);
+    if (isStart(context, hit)) {
+        arguments->valid[0] = 0;
+        return;
+    }
+    if (context.sides == SideRule::any) return;
+    const bool isDielectric = info.kind == MaterialKind::dielectric;
+    const bool oneSided = isDielectric || info.closed || context.sides == SideRule::screenSpace;
+    const bool isInside = isDielectric && context.innerMedium == info.material + 1;
+    const bool leaves = ray.dir_x * hit.Ng_x + ray.dir_y * hit.Ng_y + ray.dir_z * hit.Ng_z > 0.0f;
+    if (oneSided && leaves != isInside) arguments->valid[0] = 0;
+}
+
+// For receivers and mirrors between a point and the eye.
+void rejectStart(const RTCFilterFunctionNArguments* arguments) {
+    const auto& context = *reinterpret_cast<const FilterContext*>(arguments->context);
+    const auto& hit = *reinterpret_cast<const RTCHit*>(arguments->hit);
+    if (isStart(context, hit)) arguments->valid[0] = 0;
+}
+
+FilterContext makeContext(const TriangleId& start, std::uint32_t innerMedium, SideRule sides) {
+    FilterContext context;
+    rtcInitIntersectContext(&context.embree);
+    context.start = start;
+    context.innerMedium = innerMedium;
+    context.sides = sides;
+    return context;
+}
+
+void setRay(RTCRay& ray, const glm::dvec3& origin, const glm::dvec3& direction) {
+    ray.org_x = static_cast<float>(origin.x);
+    ray.org_y = static_cast<float>(origin.y);
+    ray.org_z = static_cast<float>(origin.z);
+    ray.dir_x = static_cast<float>(direction.x);
+    ray.dir_y = static_cast<float>(direction.y);
+    ray.dir_z = static_cast<float>(direction.z);
+    ray.tnear = 0.0f;
+    ray.tfar = std::numeric_limits<float>::infinity();
+    ray.time = 0.0f;
+    ray.mask = 0xffffffffu;
+    ray.id = 0;
+    ray.flags = 0;
+}
+
+void checkDevice(RTCDevice device) {
+    const RTCError error = rtcGetDeviceError(device);
+    if (error == RTC_ERROR_NONE) return;
+    throw DeviceError(fmt::format(
+        "Embree could not build the scene ({}); it may be too large for this machine's memory.",
+        error == RTC_ERROR_OUT_OF_MEMORY ? "out of memory"
+                                         : fmt::format("error {}", static_cast<int>(error))));
+}
+
+}  // namespace
+
+EmbreeScene::EmbreeScene(const scene::Scene& scene, Filters filters) : scene_(scene) {
+    const scene::Bounds world = sceneBounds(scene);
+    if (!world.empty) center_ = 0.5 * (world.minimum + world.maximum);
+    device_ = rtcNewDevice(nullptr);
+    if (device_ == nullptr) throw DeviceError("Embree could not be started.");
+    try {
+        for (const scene::Object& object : scene.objects)
+            addObject(object);
+        attach(filters);
+    } catch (...) {
+        rtcReleaseScene(everything_);
+        rtcReleaseScene(opaque_);
+        rtcReleaseDevice(device_);
+        throw;
+    }
+}
+
+EmbreeScene::~EmbreeScene() {
+    rtcReleaseScene(everything_);
+    rtcReleaseScene(opaque_);
+    rtcReleaseDevice(device_);
+}
+
+void EmbreeScene::addObject(const scene::Object& object) {
+    const scene::Mesh& mesh = scene_.meshes[object.mesh];
+    auto placed = std::make_unique<ObjectMesh>();
+    placed->info = {scene_.materials[object.material].kind, object.material, mesh.closed};
+    placed->triangles = &mesh.triangles;
+    // In double up to here, so that what is left is small.
+    const glm::dmat4 toLocal = glm::translate(glm::dmat4(1.0), -center_) * object.toWorld *
+                               glm::translate(glm::dmat4(1.0), mesh.origin);
+    const glm::dmat3 normalToLocal = glm::transpose(glm::inverse(glm::dmat3(toLocal)));
+    const bool isSpecular = placed->info.kind != MaterialKind::lambertian;
+    placed->vertices.reserve(mesh.positions.size());
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        const glm::vec3 position(toLocal * glm::dvec4(mesh.positions[i], 1.0));
+        const glm::vec3 normal(normalToLocal * glm::dvec3(mesh.normals[i]));
+        placed->vertices.push_back({position, mesh.uvs[i].x, normal, mesh.uvs[i].y});
+        bounds_.include(position);
+        if (isSpecular) specularVertices_.emplace_back(position);
+    }
+    objects_.push_back(std::move(placed));
+}
+
+void EmbreeScene::attach(Filters filters) {
+    for (RTCScene* target : {&everything_, &opaque_}) {
+        *target = rtcNewScene(device_);
+        rtcSetSceneFlags(*target, RTC_SCENE_FLAG_ROBUST);
+        rtcSetSceneBuildQuality(*target, RTC_BUILD_QUALITY_HIGH);
+    }
+    for (std::size_t i = 0; i < objects_.size(); ++i) {
+        ObjectMesh& mesh = *objects_[i];
+        if (mesh.triangles->empty()) continue;
+        RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+        rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                   mesh.vertices.data(), offsetof(transport::VertexData, position),
+                                   sizeof(transport::VertexData), mesh.vertices.size());
+        rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                   mesh.triangles->data(), 0, sizeof(glm::uvec3),
+                                   mesh.triangles->size());
+        rtcSetGeometryUserData(geometry, &mesh.info);
+        // A photon's way ends at receivers, so only specular surfaces can be met again.
+        if (filters == Filters::sideRules) {
+            if (mesh.info.kind != MaterialKind::lambertian)
+                rtcSetGeometryIntersectFilterFunction(geometry, rejectWrongSide);
+            rtcSetGeometryOccludedFilterFunction(geometry, rejectStart);
+        }
+        rtcCommitGeometry(geometry);
+        const auto id = static_cast<unsigned>(i);
+        rtcAttachGeometryByID(everything_, geometry, id);
+        if (mesh.info.kind != MaterialKind::dielectric)
+            rtcAttachGeometryByID(opaque_, geometry, id);
+        rtcReleaseGeometry(geometry);
+    }
+    rtcCommitScene(everything_);
+    rtcCommitScene(opaque_);
+    checkDevice(device_);
+}
+
+// Only the triangle is Embree's word; the point on it is computed again in double.
+void EmbreeScene::refine(const glm::dvec3& origin, const glm::dvec3& direction, const RTCHit& found,
+                         float t, SurfaceHit& hit) const {
+    const ObjectMesh& mesh = *objects_[found.geomID];
+    const glm::uvec3 corners = (*mesh.triangles)[found.primID];
+    const transport::VertexData& cornerA = mesh.vertices[corners.x];
+    const transport::VertexData& cornerB = mesh.vertices[corners.y];
+    const transport::VertexData& cornerC = mesh.vertices[corners.z];
+    const glm::dvec3 a = cornerA.position;
+    const glm::dvec3 ab = glm::dvec3(cornerB.position) - a;
+    const glm::dvec3 ac = glm::dvec3(cornerC.position) - a;
+    const glm::dvec3 area = glm::cross(ab, ac);
+    const glm::dvec3 toA = a - origin;
+    const double closing = glm::dot(direction, area);
+    const glm::dvec3 across = glm::cross(direction, toA);
+    const double inverse = 1.0 / closing;
+    double distance = glm::dot(toA, area) * inverse;
+    double u = -glm::dot(ac, across) * inverse;
+    double v = glm::dot(ab, across) * inverse;
+    // Seen edge-on the division means nothing: then Embree's word is as good as any.
+    const double margin = 1e-3;
+    if (!(u > -margin && v > -margin && u + v < 1.0 + margin)) {
+        u = static_cast<double>(found.u);
+        v = static_cast<double>(found.v);
+        distance = static_cast<double>(t);
+    }
+    hit.distance = std::max(distance, 0.0);
+    hit.position = origin + hit.distance * direction;
+    hit.geometricNormal = area * (1.0 / std::sqrt(glm::dot(area, area)));
+    const double w = 1.0 - u - v;
+    const glm::dvec3 normal = w * glm::dvec3(cornerA.normal) + u * glm::dvec3(cornerB.normal) +
+                              v * glm::dvec3(cornerC.normal);
+    const double size2 = glm::dot(normal, normal);
+    if (size2 > 1e-24) {
+        hit.shadingNormal = normal * (1.0 / std::sqrt(size2));
+        const double side = glm::dot(hit.shadingNormal, hit.geometricNormal);
+        if (!(side > 0.0)) {
+            hit.shadingNormal =
+                glm::normalize(hit.shadingNormal + (1e-3 - side) * hit.geometricNormal);
+        }
+    } else {
+        hit.shadingNormal = hit.geometricNormal;
+    }
+    hit.uv = {w * static_cast<double>(cornerA.u) + u * static_cast<double>(cornerB.u) +
+                  v * static_cast<double>(cornerC.u),
+              w * static_cast<double>(cornerA.v) + u * static_cast<double>(cornerB.v) +
+                  v * static_cast<double>(cornerC.v)};
+    hit.material = mesh.info.material;
+    hit.triangle = {found.geomID, found.primID};
+}
+
+bool EmbreeScene::intersect(const Ray& ray, SurfaceHit& hit) const {
+    FilterContext context = makeContext(ray.start, ray.innerMedium, ray.sides);
+    RTCRayHit query;
+    setRay(query.ray, ray.origin, ray.direction);
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(everything_, &context.embree, &query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
+    refine(ray.origin, ray.direction, query.hit, query.ray.tfar, hit);
+    return true;
+}
+
+bool EmbreeScene::intersectStraight(const glm::dvec3& origin, const glm::dvec3& direction,
+                                    SurfaceHit& hit) const {
+    FilterContext context = makeContext({}, 0, SideRule::any);
+    RTCRayHit query;
+    setRay(query.ray, origin, direction);
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(opaque_, &context.embree, &query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
+    refine(origin, direction, query.hit, query.ray.tfar, hit);
+    return true;
+}
+
+bool EmbreeScene::isVisible(const glm::dvec3& from, const TriangleId& start, const glm::dvec3& to,
+                            double ignoredEnd) const {
+    FilterContext context = makeContext(start, 0, SideRule::any);
+    RTCRay ray;
+    setRay(ray, from, to - from);
+    // Neighbours of the triangle may lie before `from` by the rounding of coordinates, no farther.
+    const glm::dvec3 size = glm::abs(from);
+    const double rounding = 4.0 * static_cast<double>(std::numeric_limits<float>::epsilon()) *
+                            std::max({size.x, size.y, size.z});
+    ray.tnear = static_cast<float>(rounding / glm::length(to - from));
+    ray.tfar = static_cast<float>(1.0 - ignoredEnd);
+    rtcOccluded1(opaque_, &context.embree, &ray);
+    return ray.tfar >= 0.0f;
+}
+
+}  // namespace kaustik::reference

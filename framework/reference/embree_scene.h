@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+// The scene as Embree sees it, and exact hits in double precision.
+//
+// Space: "local" coordinates are the world's, in metres, less `center()`, the middle of the scene:
+// 32-bit floats then lose nothing for a scene far from the world's origin. Positions of the
+// vertices are floats (as on the GPU); a hit is refined in double on the plane of its triangle.
+//
+// No ray needs an epsilon to leave a surface. A ray names the triangle that it starts on, which it
+// cannot meet again, and the dielectric that it is inside of: that one it meets only from within,
+// any other only from outside (shaders/common/hit_test.glsl, `isFacing`), so rounding at the seam
+// to a neighbouring triangle does no harm either.
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
+#include <vector>
+
+#include "framework/scene/scene.h"
+#include "framework/transport/types.h"
+
+namespace kaustik::reference {
+
+// A triangle of an object; none where a ray starts in the open.
+struct TriangleId {
+    std::uint32_t object = RTC_INVALID_GEOMETRY_ID;
+    std::uint32_t triangle = RTC_INVALID_GEOMETRY_ID;
+};
+
+// Which sides of specular surfaces count.
+enum class SideRule : std::uint32_t {
+    any,        // from a light: every surface from both sides
+    transport,  // dielectrics by the medium, closed mirrors from outside, open ones from both sides
+    screenSpace,  // `isFacing` to the letter: every mirror from outside only
+};
+
+struct Ray {
+    glm::dvec3 origin{0.0};     // local
+    glm::dvec3 direction{0.0};  // unit
+    TriangleId start;
+    std::uint32_t innerMedium = 0;  // material index + 1; 0: vacuum
+    SideRule sides = SideRule::transport;
+};
+
+struct SurfaceHit {
+    double distance = 0.0;            // m
+    glm::dvec3 position{0.0};         // local
+    glm::dvec3 geometricNormal{0.0};  // unit, towards the side that the winding calls the outside
+    glm::dvec3 shadingNormal{0.0};    // unit, never on the other side than the geometric one
+    glm::dvec2 uv{0.0};
+    std::uint32_t material = 0;  // index
+    TriangleId triangle;
+};
+
+class EmbreeScene {
+  public:
+    // Builds the acceleration structures; height fields are those of Scene::timeSeconds. `scene`
+    // must outlive this. Throws DeviceError when Embree has no memory. `Filters::none` is for
+    // measuring what the side rules cost: every surface counts from every side.
+    enum class Filters { sideRules, none };
+    explicit EmbreeScene(const scene::Scene& scene, Filters filters = Filters::sideRules);
+    ~EmbreeScene();
+    EmbreeScene(const EmbreeScene&) = delete;
+    EmbreeScene& operator=(const EmbreeScene&) = delete;
+
+    // The first surface that the ray meets by its side rule; false: none.
+    [[nodiscard]] bool intersect(const Ray& ray, SurfaceHit& hit) const;
+
+    // The first receiver or mirror on the eye's straight ray, dielectrics being invisible to it.
+    [[nodiscard]] bool intersectStraight(const glm::dvec3& origin, const glm::dvec3& direction,
+                                         SurfaceHit& hit) const;
+
+    // True when no receiver or mirror lies between `from`, a point of the triangle `start`, and
+    // `to`, where the share `ignoredEnd` of the way before `to` does not count.
+    [[nodiscard]] bool isVisible(const glm::dvec3& from, const TriangleId& start,
+                                 const glm::dvec3& to, double ignoredEnd) const;
+
+    [[nodiscard]] const scene::Scene& scene() const { return scene_; }
+    [[nodiscard]] const glm::dvec3& center() const { return center_; }
+    // Local bounds of all meshes as they are now.
+    [[nodiscard]] const scene::Bounds& bounds() const { return bounds_; }
+    // Corners of all specular triangles, local: what emission aims at.
+    [[nodiscard]] const std::vector<glm::dvec3>& specularVertices() const {
+        return specularVertices_;
+    }
+    [[nodiscard]] RTCScene everything() const { return everything_; }
+
+    // What Embree's filters see of an object.
+    struct ObjectInfo {
+        scene::MaterialKind kind = scene::MaterialKind::lambertian;
+        std::uint32_t material = 0;  // index
+        bool closed = false;
+    };
+
+  private:
+    struct ObjectMesh {
+        ObjectInfo info;
+        // Local; normals by the inverse transpose, not unit, as on the GPU.
+        std::vector<transport::VertexData> vertices;
+        const std::vector<glm::uvec3>* triangles = nullptr;
+    };
+    void addObject(const scene::Object& object);
+    void attach(Filters filters);
+    void refine(const glm::dvec3& origin, const glm::dvec3& direction, const RTCHit& found, float t,
+                SurfaceHit& hit) const;
+
+    const scene::Scene& scene_;
+    glm::dvec3 center_{0.0};
+    scene::Bounds bounds_;
+    std::vector<std::unique_ptr<ObjectMesh>> objects_;  // addresses stay: Embree reads them
+    std::vector<glm::dvec3> specularVertices_;
+    RTCDevice device_ = nullptr;
+    RTCScene everything_ = nullptr;
+    RTCScene opaque_ = nullptr;  // receivers and mirrors
+};
+
+}  // namespace kaustik::reference

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// Photons from the lights towards everything specular, in independent batches. Directional lights
+// are sampled evenly over the smallest rectangle around the specular surfaces, point and spot
+// lights evenly over the solid angle of the narrowest cone around them (all directions when they
+// lie around the light): the flux is exact. Within a batch the samples of a light are jittered in
+// the cells of a grid, one each, so that a batch is far less noisy than as many independent
+// photons.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "framework/reference/embree_scene.h"
+#include "framework/reference/light_transport.h"
+#include "framework/reference/random.h"
+
+namespace kaustik::reference {
+
+struct EmittedPhoton {
+    glm::dvec3 origin{0.0};     // local
+    glm::dvec3 direction{0.0};  // unit
+    glm::dvec3 fluxWatts{0.0};  // such that a whole batch is the light's flux
+    double rangeMeters = 0.0;   // beyond it there is no light
+};
+
+[[nodiscard]] inline PhotonState stateOf(const EmittedPhoton& emitted) {
+    PhotonState photon;
+    photon.origin = emitted.origin;
+    photon.direction = emitted.direction;
+    photon.fluxWatts = emitted.fluxWatts;
+    return photon;
+}
+
+class LightSampler {
+  public:
+    // Divides about `photonsPerBatch` photons among the lights by their flux.
+    LightSampler(const EmbreeScene& scene, std::uint64_t photonsPerBatch);
+
+    // What `photonsPerBatch` has become; 0 without a light or a specular surface.
+    [[nodiscard]] std::uint64_t photonsPerBatch() const { return photonCount_; }
+    // Flux that the photons of one batch carry, W, all channels; not all of it meets a surface.
+    [[nodiscard]] double fluxWatts() const { return fluxWatts_; }
+    // The photon `index` of a batch.
+    [[nodiscard]] EmittedPhoton sample(std::uint64_t index, Random& random) const;
+
+  private:
+    struct Share {
+        const scene::Light* light = nullptr;
+        std::uint64_t first = 0;  // photon of the batch
+        std::uint64_t columns = 0;
+        std::uint64_t rows = 0;
+        // Directional: corner and sides of the rectangle before everything. Else: an orthonormal
+        // basis with the cone's axis as `along`, and the light's position as `corner`.
+        glm::dvec3 corner{0.0};
+        glm::dvec3 sideA{0.0};
+        glm::dvec3 sideB{0.0};
+        glm::dvec3 along{0.0};
+        double cosine = -1.0;  // of the cone's half-angle
+        double measure = 0.0;  // m² or sr
+    };
+    [[nodiscard]] static Share aimDirectional(const scene::Light& light, const EmbreeScene& scene);
+    [[nodiscard]] static Share aimCone(const scene::Light& light, const EmbreeScene& scene);
+
+    std::vector<Share> shares_;
+    std::uint64_t photonCount_ = 0;
+    double fluxWatts_ = 0.0;
+};
+
+}  // namespace kaustik::reference

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+#include "framework/reference/light_tracing.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "framework/core/error.h"
+#include "framework/reference/eye.h"
+#include "framework/reference/light_sampling.h"
+
+namespace kaustik::reference {
+namespace {
+
+// The Henyey-Greenstein phase function, 1/sr; `cosine` between the ways before and after.
+double phase(double g, double cosine) {
+    const double denominator = 1.0 + g * g - 2.0 * g * cosine;
+    return (1.0 - g * g) / (4.0 * std::numbers::pi * denominator * std::sqrt(denominator));
+}
+
+bool scatters(const scene::Scene& scene) {
+    return scene.medium && scene.medium->scatteringPerMeter != glm::vec3(0.0f);
+}
+
+// Turns the events of a photon's way into values of pixels.
+class Camera {
+  public:
+    Camera(const EmbreeScene& scene, const Eye& eye, BatchResult& result)
+        : scene_(scene), eye_(eye), result_(result) {
+        if (!scatters(scene.scene())) return;
+        const scene::Medium& medium = *scene.scene().medium;
+        scattering_ = glm::dvec3(medium.scatteringPerMeter);
+        fog_ = scattering_ + glm::dvec3(medium.absorptionPerMeter);
+        anisotropy_ = static_cast<double>(medium.anisotropy);
+        inScattered_ = static_cast<std::size_t>(eye.width()) *
+                       static_cast<std::size_t>(eye.height()) * 3 * kInScatteredLayer;
+    }
+
+    void emitted(const glm::dvec3& flux) { result_.energy.add(transport::kAccountEmitted, flux); }
+    void absorbed(const glm::dvec3& flux) { result_.energy.add(transport::kAccountAbsorbed, flux); }
+    void lost(unsigned account, const glm::dvec3& flux) { result_.energy.add(account, flux); }
+    void leftScene(const PhotonState& photon) {
+        ++result_.rays;
+        result_.energy.add(transport::kAccountLeftScene, photon.fluxWatts);
+    }
+    void met(const SurfaceHit&, const PhotonState&) { ++result_.rays; }
+
+    void arrived(const SurfaceHit& hit, const PhotonState& photon) {
+        ++result_.rays;
+        const glm::dvec3& flux = photon.fluxWatts;
+        if (!std::isfinite(flux.x + flux.y + flux.z + hit.distance)) {
+            result_.energy.watts[transport::kAccountNotANumber] += 1.0;
+            return;
+        }
+        result_.energy.add(transport::kAccountDeposited, flux);
+        const Projection at = eye_.project(hit.position);
+        if (!at.onScreen || !eye_.seesSide(hit.position, hit.geometricNormal, photon.direction))
+            return;
+        ++result_.rays;
+        if (!eye_.isVisible(scene_, hit.position, hit.triangle, at.depth)) return;
+        result_.energy.visibleWatts += flux.x + flux.y + flux.z;
+        splat(at.pixel * std::size_t{3},
+              flux * eye_.coverage(hit.position, hit.geometricNormal, at.depth));
+    }
+
+    // One point of the way, chosen by its angle from the eye (Kulla and Fajardo 2012, section 4):
+    // light that passes close by the eye is no noisier than light far from it.
+    void passed(const PhotonState& photon, double distance, const glm::dvec3& extinction,
+                Random& random) {
+        if (inScattered_ == 0) return;
+        const double end = std::min(distance, wayInsideBounds(photon));
+        if (!(end > 0.0)) return;
+        const glm::dvec3 toEye = eye_.position() - photon.origin;
+        const double nearest = glm::dot(toEye, photon.direction);
+        const double miss = std::max(glm::length(toEye - nearest * photon.direction), 1e-9);
+        const double low = std::atan(-nearest / miss);
+        const double high = std::atan((end - nearest) / miss);
+        const double offset = miss * std::tan(low + (high - low) * random.uniform());
+        const double way = std::clamp(nearest + offset, 0.0, end);
+        const double perDensity = (high - low) * (miss * miss + offset * offset) / miss;
+        const glm::dvec3 point = photon.origin + way * photon.direction;
+        const Projection at = eye_.project(point);
+        if (!at.onScreen || !eye_.isVisible(scene_, point, {}, at.depth)) return;
+        const glm::dvec3 ray = eye_.position() - point;
+        const double eyeDistance = glm::length(ray);
+        const double scattered = phase(anisotropy_, glm::dot(photon.direction, ray) / eyeDistance);
+        const glm::dvec3 arriving =
+            photon.fluxWatts * glm::exp(-extinction * way - fog_ * eyeDistance);
+        splat(inScattered_ + at.pixel * std::size_t{3},
+              arriving * scattering_ *
+                  (scattered * perDensity * eye_.coverageOfPoint(point, at.depth)));
+    }
+
+  private:
+    void splat(std::size_t first, const glm::dvec3& value) {
+        double* pixel = result_.values.data() + first;
+        pixel[0] += value.x;
+        pixel[1] += value.y;
+        pixel[2] += value.z;
+    }
+
+    [[nodiscard]] double wayInsideBounds(const PhotonState& photon) const {
+        const scene::Bounds& bounds = scene_.bounds();
+        double end = std::numeric_limits<double>::infinity();
+        for (int axis = 0; axis < 3; ++axis) {
+            const double step = photon.direction[axis];
+            if (step == 0.0) continue;
+            const double side = step > 0.0 ? bounds.maximum[axis] : bounds.minimum[axis];
+            end = std::min(end, (side - photon.origin[axis]) / step);
+        }
+        return end;
+    }
+
+    const EmbreeScene& scene_;
+    const Eye& eye_;
+    BatchResult& result_;
+    glm::dvec3 scattering_{0.0};
+    glm::dvec3 fog_{0.0};
+    double anisotropy_ = 0.0;
+    std::size_t inScattered_ = 0;  // first value of the layer; 0: none
+};
+
+void traceBatch(const EmbreeScene& scene, const Eye& eye, const LightSampler& sampler,
+                const LightTraceSettings& settings, std::uint64_t batch, BatchResult& result) {
+    const LightTransport transport(scene, settings.filter);
+    Camera camera(scene, eye, result);
+    for (std::uint64_t i = 0; i < sampler.photonsPerBatch(); ++i) {
+        Random random(settings.seed, batch, i);
+        const EmittedPhoton emitted = sampler.sample(i, random);
+        ++result.rays;
+        transport.follow(stateOf(emitted), emitted.rangeMeters, random, camera);
+    }
+    result.photons = sampler.photonsPerBatch();
+}
+
+// Irradiance that the lights make at the scene's middle: a scale for the sums, no more.
+double irradianceScale(const EmbreeScene& scene) {
+    double scale = 0.0;
+    const scene::Bounds& bounds = scene.bounds();
+    const double size = bounds.empty ? 1.0 : glm::length(bounds.maximum - bounds.minimum);
+    for (const scene::Light& light : scene.scene().lights) {
+        const auto power =
+            static_cast<double>(std::max({light.power.r, light.power.g, light.power.b}));
+        scale += light.kind == scene::LightKind::directional ? power : power / (size * size);
+    }
+    return scale;
+}
+
+}  // namespace
+
+PixelSums makeEstimatorSums(const EmbreeScene& scene, const LightTraceSettings& settings,
+                            int layers) {
+    if (settings.width < 1 || settings.height < 1 || settings.width > 16384 ||
+        settings.height > 16384) {
+        throw ConfigError(fmt::format("A picture of {}x{} is not within 1x1 to 16384x16384.",
+                                      settings.width, settings.height));
+    }
+    if (settings.photonsPerBatch < 1) throw ConfigError("A batch needs at least one photon.");
+    if (settings.filter.maximumInteractions < 1)
+        throw ConfigError("At least one specular interaction must be allowed.");
+    if (settings.filter.splitInteractions < 0 ||
+        settings.filter.splitInteractions > kMaximumSplits) {
+        throw ConfigError(
+            fmt::format("Photons may split at 0 to {} interactions.", kMaximumSplits));
+    }
+    const LightSampler sampler(scene, settings.photonsPerBatch);
+    return {settings.width, settings.height, layers, irradianceScale(scene), sampler.fluxWatts()};
+}
+
+PixelSums makeLightTraceSums(const EmbreeScene& scene, const LightTraceSettings& settings) {
+    return makeEstimatorSums(scene, settings, scatters(scene.scene()) ? 2 : 1);
+}
+
+void lightTrace(const EmbreeScene& scene, const LightTraceSettings& settings,
+                const RunOptions& options, PixelSums& sums) {
+    const LightSampler sampler(scene, settings.photonsPerBatch);
+    const Eye eye(scene, settings.width, settings.height);
+    runBatches(sums, options, [&](std::uint64_t batch, BatchResult& result) {
+        traceBatch(scene, eye, sampler, settings, batch, result);
+    });
+}
+
+void lightTraceBatch(const EmbreeScene& scene, const LightTraceSettings& settings,
+                     std::uint64_t batch, BatchResult& result) {
+    const LightSampler sampler(scene, settings.photonsPerBatch);
+    const Eye eye(scene, settings.width, settings.height);
+    traceBatch(scene, eye, sampler, settings, batch, result);
+}
+
+}  // namespace kaustik::reference

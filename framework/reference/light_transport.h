@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: MIT
+// One photon from a light through every specular surface to where it ends (L S+ D). All estimators
+// and checks of the reference follow photons here and differ only in what they do with the events.
+//
+// At a dielectric the photon splits into its reflected and its refracted part, each with its share
+// of the flux by Fresnel; after `PathFilter::splitInteractions` of them, one part is chosen with
+// the probability of its share and takes all of the flux. Both leave the mean as it is, and in both
+// every watt stays accounted for. Local coordinates, m, W.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <limits>
+
+#include "framework/reference/embree_scene.h"
+#include "framework/reference/optics.h"
+#include "framework/reference/random.h"
+#include "framework/transport/types.h"
+
+namespace kaustik::reference {
+
+// Which paths count: all, or only those that a technique claims to model.
+struct PathFilter {
+    // Only the refracted branch at dielectrics; reflection at mirrors and when it is total.
+    bool transmissionOnly = false;
+    int maximumInteractions = 64;  // >= 1; what meets one more is lost to the bounce limit
+    int splitInteractions = 1;     // 0 to kMaximumSplits; changes the noise, not the mean
+};
+inline constexpr int kMaximumSplits = 8;
+
+// The dielectrics around a photon, the innermost last.
+class MediaStack {
+  public:
+    [[nodiscard]] std::uint32_t inner() const { return size_ > 0 ? media_[size_ - 1] : 0; }
+    [[nodiscard]] std::uint32_t outer() const { return size_ > 1 ? media_[size_ - 2] : 0; }
+    // Deeper nesting than this forgets the outermost.
+    void enter(std::uint32_t medium) {
+        if (size_ == media_.size()) {
+            for (std::size_t i = 1; i < media_.size(); ++i)
+                media_[i - 1] = media_[i];
+            --size_;
+        }
+        media_[size_++] = static_cast<std::uint16_t>(medium);
+    }
+    void leave() {
+        if (size_ > 0) --size_;
+    }
+
+  private:
+    std::array<std::uint16_t, 7> media_{};  // material index + 1
+    std::uint16_t size_ = 0;
+};
+
+struct PhotonState {
+    glm::dvec3 origin{0.0};
+    glm::dvec3 direction{0.0};  // unit
+    glm::dvec3 fluxWatts{0.0};
+    TriangleId start;
+    MediaStack media;
+    int interactions = 0;
+    bool reflectedInside = false;  // by the last interaction, inside a dielectric
+};
+
+// What the events are told. A sink has all of these; flux in W.
+struct NullSink {
+    void emitted(const glm::dvec3&) {}
+    void absorbed(const glm::dvec3&) {}
+    void lost(unsigned /*account*/, const glm::dvec3&) {}
+    // After at least one interaction: the photon's way through the scene's medium to `distance`
+    // (infinite when it meets nothing), with the flux that it starts with and the extinction, 1/m.
+    void passed(const PhotonState&, double /*distance*/, const glm::dvec3& /*extinction*/,
+                Random&) {}
+    void leftScene(const PhotonState&) {}
+    void arrived(const SurfaceHit&, const PhotonState&) {}
+    // Every interaction, before it happens.
+    void met(const SurfaceHit&, const PhotonState&) {}
+};
+
+// Where a photon may go from a specular surface.
+struct Branches {
+    double reflectance = 1.0;
+    glm::dvec3 reflected{0.0};
+    glm::dvec3 refracted{0.0};
+};
+
+// The shading normal bends the light as the smooth surface would. Where it would send light to the
+// wrong side of the triangle, the triangle's own normal does: nothing leaks through a surface.
+// `from` and `to`: indices of refraction, of no use at a mirror.
+[[nodiscard]] inline Branches branchesAt(const SurfaceHit& hit, const glm::dvec3& direction,
+                                         double from, double to, bool isMirror) {
+    const double side = glm::dot(direction, hit.geometricNormal) < 0.0 ? 1.0 : -1.0;
+    const glm::dvec3 geometric = side * hit.geometricNormal;
+    glm::dvec3 normal = side * hit.shadingNormal;
+    for (int attempt = 0; attempt < 2; ++attempt, normal = geometric) {
+        if (attempt == 0 && !(glm::dot(direction, normal) < 0.0)) continue;
+        if (isMirror) {
+            const glm::dvec3 reflected = direction - 2.0 * glm::dot(direction, normal) * normal;
+            if (attempt == 1 || glm::dot(reflected, geometric) > 0.0)
+                return {1.0, reflected, glm::dvec3(0.0)};
+            continue;
+        }
+        const Interface meeting = interactAt(direction, normal, from, to);
+        const bool isRight =
+            glm::dot(meeting.reflected, geometric) > 0.0 &&
+            (meeting.reflectance >= 1.0 || glm::dot(meeting.refracted, geometric) < 0.0);
+        if (attempt == 1 || isRight)
+            return {meeting.reflectance, meeting.reflected, meeting.refracted};
+    }
+    return {};
+}
+
+class LightTransport {
+  public:
+    LightTransport(const EmbreeScene& scene, const PathFilter& filter)
+        : scene_(scene), filter_(filter) {
+        const auto& medium = scene.scene().medium;
+        if (medium) {
+            fog_ = glm::dvec3(medium->scatteringPerMeter) + glm::dvec3(medium->absorptionPerMeter);
+        }
+        hasFog_ = fog_ != glm::dvec3(0.0);
+        for (const scene::Material& material : scene.scene().materials) {
+            hasAbsorption_ = hasAbsorption_ || material.absorptionPerMeter != glm::vec3(0.0f);
+        }
+    }
+
+    // Follows a photon that leaves a light. A photon whose first surface is not specular, or lies
+    // beyond `rangeMeters`, is nobody's: no event tells of it.
+    template <class Sink>
+    void follow(PhotonState photon, double rangeMeters, Random& random, Sink& sink) const {
+        Ray ray{photon.origin, photon.direction, {}, 0, SideRule::any};
+        SurfaceHit hit;
+        if (!scene_.intersect(ray, hit) || hit.distance > rangeMeters) return;
+        const scene::Material& material = scene_.scene().materials[hit.material];
+        if (material.kind == scene::MaterialKind::lambertian) return;
+        // A light whose rays first meet a dielectric from within is inside of it.
+        if (material.kind == scene::MaterialKind::dielectric &&
+            glm::dot(photon.direction, hit.geometricNormal) > 0.0) {
+            photon.media.enter(hit.material + 1);
+            photon.fluxWatts *= transmittance(material, hit.distance);
+        }
+        photon.origin = hit.position;
+        sink.emitted(photon.fluxWatts);
+        finish(photon, &hit, random, sink);
+    }
+
+    // Follows a photon that is on its way between surfaces. `hit`: the specular surface that it
+    // has just met, or null.
+    template <class Sink>
+    void finish(PhotonState photon, const SurfaceHit* hit, Random& random, Sink& sink) const {
+        std::array<PhotonState, kMaximumSplits> waiting;
+        std::size_t waitingCount = 0;
+        SurfaceHit found;
+        for (;;) {
+            bool isOver = false;
+            if (hit == nullptr) {
+                isOver = !advance(photon, found, random, sink);
+                hit = &found;
+            }
+            if (!isOver) isOver = !interact(photon, *hit, waiting, waitingCount, random, sink);
+            hit = nullptr;
+            if (!isOver) continue;
+            if (waitingCount == 0) return;
+            photon = waiting[--waitingCount];
+        }
+    }
+
+  private:
+    static glm::dvec3 decay(const glm::dvec3& perMeter, double distance) {
+        if (perMeter.x == perMeter.y && perMeter.y == perMeter.z)
+            return glm::dvec3(std::exp(-perMeter.x * distance));
+        return glm::exp(-perMeter * distance);
+    }
+    static glm::dvec3 transmittance(const scene::Material& material, double distance) {
+        if (material.absorptionPerMeter == glm::vec3(0.0f)) return glm::dvec3(1.0);
+        return decay(glm::dvec3(material.absorptionPerMeter), distance);
+    }
+
+    // To the next specular surface; false when the photon has ended before.
+    template <class Sink>
+    bool advance(PhotonState& photon, SurfaceHit& hit, Random& random, Sink& sink) const {
+        const std::uint32_t inner = photon.media.inner();
+        const Ray ray{photon.origin, photon.direction, photon.start, inner, SideRule::transport};
+        const bool isHit = scene_.intersect(ray, hit);
+        const double distance = isHit ? hit.distance : std::numeric_limits<double>::infinity();
+        if (hasAbsorption_ || hasFog_) {
+            glm::dvec3 extinction = fog_;
+            if (inner != 0)
+                extinction += glm::dvec3(scene_.scene().materials[inner - 1].absorptionPerMeter);
+            if (hasFog_) sink.passed(photon, distance, extinction, random);
+            if (isHit && extinction != glm::dvec3(0.0)) {
+                const glm::dvec3 arriving = photon.fluxWatts * decay(extinction, distance);
+                sink.absorbed(photon.fluxWatts - arriving);
+                photon.fluxWatts = arriving;
+            }
+        }
+        if (!isHit) {
+            sink.leftScene(photon);
+            return false;
+        }
+        if (scene_.scene().materials[hit.material].kind == scene::MaterialKind::lambertian) {
+            sink.arrived(hit, photon);
+            return false;
+        }
+        if (photon.interactions >= filter_.maximumInteractions) {
+            sink.lost(photon.reflectedInside ? transport::kAccountInternalReflectionLimit
+                                             : transport::kAccountBounceLimit,
+                      photon.fluxWatts);
+            return false;
+        }
+        return true;
+    }
+
+    // At a specular surface; false when nothing goes on.
+    template <class Sink>
+    bool interact(PhotonState& photon, const SurfaceHit& hit,
+                  std::array<PhotonState, kMaximumSplits>& waiting, std::size_t& waitingCount,
+                  Random& random, Sink& sink) const {
+        sink.met(hit, photon);
+        const scene::Material& material = scene_.scene().materials[hit.material];
+        const bool isMirror = material.kind == scene::MaterialKind::mirror;
+        const bool enters = glm::dot(photon.direction, hit.geometricNormal) < 0.0;
+        const std::uint32_t outside = enters ? photon.media.inner() : photon.media.outer();
+        const double inside = static_cast<double>(material.ior);
+        const double around =
+            outside == 0 ? 1.0 : static_cast<double>(scene_.scene().materials[outside - 1].ior);
+        const Branches branches = branchesAt(hit, photon.direction, enters ? around : inside,
+                                             enters ? inside : around, isMirror);
+        photon.origin = hit.position;
+        photon.start = hit.triangle;
+        ++photon.interactions;
+        if (isMirror) {
+            photon.direction = branches.reflected;
+            photon.reflectedInside = photon.media.inner() != 0;
+            const glm::dvec3 kept = photon.fluxWatts * glm::dvec3(material.albedo);
+            sink.absorbed(photon.fluxWatts - kept);
+            photon.fluxWatts = kept;
+            return kept != glm::dvec3(0.0);
+        }
+        PhotonState reflected = photon;
+        reflected.direction = branches.reflected;
+        reflected.reflectedInside = !enters;
+        if (branches.reflectance >= 1.0) {
+            photon = reflected;
+            return true;
+        }
+        photon.direction = branches.refracted;
+        photon.reflectedInside = false;
+        if (enters) {
+            photon.media.enter(hit.material + 1);
+        } else {
+            photon.media.leave();
+        }
+        if (filter_.transmissionOnly) {
+            sink.lost(transport::kAccountUntracedBranch, photon.fluxWatts * branches.reflectance);
+            photon.fluxWatts *= 1.0 - branches.reflectance;
+            return true;
+        }
+        if (branches.reflectance <= 0.0) return true;
+        if (photon.interactions <= filter_.splitInteractions && waitingCount < waiting.size()) {
+            reflected.fluxWatts *= branches.reflectance;
+            photon.fluxWatts -= reflected.fluxWatts;
+            waiting[waitingCount++] = reflected;
+            return true;
+        }
+        if (random.uniform() < branches.reflectance) photon = reflected;
+        return true;
+    }
+
+    const EmbreeScene& scene_;
+    PathFilter filter_;
+    glm::dvec3 fog_{0.0};  // extinction of the scene's medium, 1/m
+    bool hasFog_ = false;
+    bool hasAbsorption_ = false;
+};
+
+}  // namespace kaustik::reference

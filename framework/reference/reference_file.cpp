@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+// References in files: float images and a JSON sidecar (schema kaustik.reference/1).
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "framework/core/error.h"
+#include "framework/core/files.h"
+#include "framework/reference/content_hash.h"
+#include "framework/reference/reference.h"
+
+namespace kaustik::reference {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr const char* kSchema = "kaustik.reference/1";
+
+struct Part {
+    const char* name;    // in the sidecar
+    const char* suffix;  // of the file
+    Image Reference::*image;
+};
+constexpr std::array<Part, 4> kParts = {{
+    {"irradiance", "", &Reference::irradiance},
+    {"irradiance_stderr", ".stderr", &Reference::irradianceError},
+    {"in_scattered", ".in_scattered", &Reference::inScattered},
+    {"in_scattered_stderr", ".in_scattered.stderr", &Reference::inScatteredError},
+}};
+
+fs::path partPath(const fs::path& path, const Part& part) {
+    return path.parent_path() / (path.stem().string() + part.suffix + path.extension().string());
+}
+
+fs::path sidecarPath(const fs::path& path) {
+    return fs::path(path).replace_extension(".json");
+}
+
+std::string fingerprint(const Image& image) {
+    return ContentHash()
+        .add(image.width)
+        .add(image.height)
+        .add(image.channels)
+        .addAll(image.values)
+        .hex();
+}
+
+bool isFinite(const Image& image) {
+    for (const float value : image.values) {
+        if (!std::isfinite(value)) return false;
+    }
+    return true;
+}
+
+// JSON has no infinity.
+json number(double value) {
+    return std::isfinite(value) ? json(value) : json(nullptr);
+}
+
+json requestToJson(const ReferenceRequest& request) {
+    json result = {{"estimator", request.estimator == Estimator::light ? "light" : "sppm"},
+                   {"size", {request.width, request.height}},
+                   {"seed", request.seed},
+                   {"photons_per_batch", request.photonsPerBatch},
+                   {"transmission_only", request.filter.transmissionOnly},
+                   {"maximum_interactions", request.filter.maximumInteractions},
+                   {"split_interactions", request.filter.splitInteractions}};
+    if (request.estimator == Estimator::sppm) {
+        result["initial_radius_px"] = request.initialRadiusPixels;
+        result["alpha"] = request.alpha;
+    }
+    return result;
+}
+
+ReferenceRequest requestFromJson(const json& from) {
+    ReferenceRequest request;
+    request.estimator = from.at("estimator") == "sppm" ? Estimator::sppm : Estimator::light;
+    request.width = from.at("size").at(0);
+    request.height = from.at("size").at(1);
+    request.seed = from.at("seed");
+    request.photonsPerBatch = from.at("photons_per_batch");
+    request.filter.transmissionOnly = from.at("transmission_only");
+    request.filter.maximumInteractions = from.at("maximum_interactions");
+    request.filter.splitInteractions = from.at("split_interactions");
+    request.initialRadiusPixels = from.value("initial_radius_px", request.initialRadiusPixels);
+    request.alpha = from.value("alpha", request.alpha);
+    return request;
+}
+
+Energy energyFromJson(const json& from) {
+    using namespace transport;
+    Energy energy;
+    energy.watts[kAccountEmitted] = from.at("emitted_w");
+    energy.watts[kAccountDeposited] = from.at("deposited_w");
+    energy.watts[kAccountAbsorbed] = from.at("absorbed_w");
+    energy.watts[kAccountLeftScene] = from.at("left_scene_w");
+    const json& lost = from.at("lost_w");
+    energy.watts[kAccountUntracedBranch] = lost.at("untraced_branch");
+    energy.watts[kAccountInternalReflectionLimit] = lost.at("internal_reflection_limit");
+    energy.watts[kAccountBounceLimit] = lost.at("bounce_limit");
+    energy.watts[kAccountNotANumber] = lost.at("not_a_number");
+    energy.visibleWatts = from.at("visible_w");
+    return energy;
+}
+
+}  // namespace
+
+void writeReference(const fs::path& path, const Reference& reference) {
+    json images = json::object();
+    for (const Part& part : kParts) {
+        const Image& image = reference.*part.image;
+        if (image.values.empty()) continue;
+        if (!isFinite(image))
+            throw IoError(fmt::format("{} would hold values that are no numbers.",
+                                      partPath(path, part).string()));
+        writeImage(partPath(path, part), image);
+        images[part.name] = {{"file", partPath(path, part).filename().string()},
+                             {"fingerprint", fingerprint(image)}};
+    }
+    const json sidecar = {{"schema", kSchema},
+                          {"version", versionString()},
+                          {"key", reference.key},
+                          {"scene", reference.scene},
+                          {"request", requestToJson(reference.request)},
+                          {"images", images},
+                          {"photons", reference.photons},
+                          {"batches", reference.batches},
+                          {"rejected_values", reference.rejectedValues},
+                          {"relative_stderr", number(reference.relativeError)},
+                          {"compute_s", reference.seconds},
+                          {"energy", toJson(reference.energy)}};
+    writeFileWhole(sidecarPath(path), sidecar.dump(2) + "\n");
+}
+
+Reference readReference(const fs::path& path, const std::string& expectedKey) {
+    const fs::path sidecar = sidecarPath(path);
+    Reference reference;
+    json images;
+    try {
+        const json from = json::parse(readFile(sidecar));
+        if (from.at("schema") != kSchema)
+            throw IoError(fmt::format("{} is not a reference of this version.", sidecar.string()));
+        reference.key = from.at("key");
+        reference.scene = from.at("scene");
+        reference.request = requestFromJson(from.at("request"));
+        reference.photons = from.at("photons");
+        reference.batches = from.at("batches");
+        reference.rejectedValues = from.at("rejected_values");
+        const json& error = from.at("relative_stderr");
+        reference.relativeError = error.is_null() ? HUGE_VAL : error.get<double>();
+        reference.seconds = from.at("compute_s");
+        reference.energy = energyFromJson(from.at("energy"));
+        images = from.at("images");
+        if (!expectedKey.empty() && reference.key != expectedKey) {
+            throw ConfigError(fmt::format(
+                "{} is the reference of another scene, view or setting (scene '{}', {}x{}).",
+                path.string(), reference.scene, reference.request.width, reference.request.height));
+        }
+        for (const Part& part : kParts) {
+            if (!images.contains(part.name)) continue;
+            const fs::path file = partPath(path, part);
+            Image& image = reference.*part.image;
+            image = readImage(file);
+            if (fingerprint(image) != images.at(part.name).at("fingerprint")) {
+                throw IoError(fmt::format("{} does not belong to {}, or it is damaged.",
+                                          file.string(), sidecar.string()));
+            }
+            if (!isFinite(image))
+                throw IoError(fmt::format("{} holds values that are no numbers.", file.string()));
+        }
+    } catch (const json::exception& error) {
+        throw IoError(fmt::format("{} is damaged: {}.", sidecar.string(), error.what()));
+    }
+    if (reference.irradiance.values.empty() ||
+        reference.irradiance.width != reference.request.width ||
+        reference.irradiance.height != reference.request.height ||
+        reference.irradianceError.values.size() != reference.irradiance.values.size()) {
+        throw IoError(fmt::format("{} does not hold the images that it names.", sidecar.string()));
+    }
+    return reference;
+}
+
+}  // namespace kaustik::reference

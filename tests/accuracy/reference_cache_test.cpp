@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+// References in files and in the cache: whole, of the right scene, or made again.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "framework/core/error.h"
+#include "framework/core/files.h"
+#include "framework/reference/reference.h"
+#include "framework/scene/scene_file.h"
+#include "tests/unit/temporary_folder.h"
+
+namespace kaustik::reference {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ReferenceCache : public testing::Test {
+  protected:
+    ReferenceCache() {
+        request_.width = 24;
+        request_.height = 18;
+        request_.photonsPerBatch = 2000;
+        options_.stop.batches = 4;
+    }
+    Reference load() {
+        messages_.clear();
+        return loadOrCompute(embree_, request_, folder_, options_,
+                             [this](const std::string& message) { messages_.push_back(message); });
+    }
+    [[nodiscard]] fs::path entry(const std::string& ending) const {
+        return folder_ / (referenceKey(scene_, request_) + ending);
+    }
+
+    scene::Scene scene_ = scene::loadScene("ring");
+    EmbreeScene embree_{scene_};
+    test::TemporaryFolder temporary_;
+    fs::path folder_ = temporary_ / "cache";
+    ReferenceRequest request_;
+    RunOptions options_;
+    std::vector<std::string> messages_;
+};
+
+TEST_F(ReferenceCache, SecondLoadComputesNothingAndGivesTheSame) {
+    const Reference made = load();
+    options_.progress = [](const Progress&) -> bool {
+        ADD_FAILURE() << "computed again";
+        return false;
+    };
+    const Reference cached = load();
+    EXPECT_EQ(cached.irradiance.values, made.irradiance.values);
+    EXPECT_EQ(cached.irradianceError.values, made.irradianceError.values);
+    EXPECT_EQ(cached.batches, 4u);
+    EXPECT_EQ(cached.energy.watts[0], made.energy.watts[0]);
+    EXPECT_TRUE(messages_.empty());
+}
+
+TEST_F(ReferenceCache, MoreBatchesGoOnFromTheOnesThatAreThere) {
+    options_.stop.batches = 9;
+    request_.seed = 5;
+    const Reference whole = load();
+    fs::remove_all(folder_);
+    options_.stop.batches = 4;
+    (void)load();
+    options_.stop.batches = 9;
+    std::uint64_t computed = 0;
+    options_.progress = [&](const Progress&) {
+        ++computed;
+        return true;
+    };
+    EXPECT_EQ(load().irradiance.values, whole.irradiance.values);
+    EXPECT_EQ(computed, 5u);
+}
+
+TEST_F(ReferenceCache, DamagedEntriesAreReportedAndMadeAgain) {
+    const Reference made = load();
+    const std::string image = floatImageExtension();
+    for (const std::string& ending : {image, ".stderr" + image, std::string(".json")}) {
+        const fs::path file = entry(ending);
+        const std::string bytes = readFile(file);
+        writeFileWhole(file, std::string_view(bytes).substr(0, bytes.size() / 2));
+        const Reference again = load();
+        EXPECT_EQ(again.irradiance.values, made.irradiance.values) << ending;
+        ASSERT_EQ(messages_.size(), 1u) << ending;
+        EXPECT_NE(messages_[0].find("damaged"), std::string::npos) << messages_[0];
+        EXPECT_EQ(readFile(file).size(), bytes.size()) << ending;
+    }
+    fs::remove(entry(image));
+    EXPECT_EQ(load().irradiance.values, made.irradiance.values);
+    EXPECT_EQ(messages_.size(), 1u);
+}
+
+TEST_F(ReferenceCache, DamagedSumsAreReportedAndBegunAgain) {
+    const Reference made = load();
+    std::string sums = readFile(entry(".sums"));
+    sums[sums.size() / 2] = static_cast<char>(sums[sums.size() / 2] ^ 1);
+    writeFileWhole(entry(".sums"), sums);
+    fs::remove(entry(".json"));
+    EXPECT_EQ(load().irradiance.values, made.irradiance.values);
+    ASSERT_EQ(messages_.size(), 1u);
+    EXPECT_NE(messages_[0].find("checksum"), std::string::npos) << messages_[0];
+    // Cut off at any place.
+    for (std::size_t size = 0; size < sums.size(); size += 1 + sums.size() / 97) {
+        EXPECT_THROW((void)PixelSums::fromBytes(std::string_view(sums).substr(0, size),
+                                                referenceKey(scene_, request_), "cut"),
+                     IoError);
+    }
+}
+
+TEST_F(ReferenceCache, ValuesThatAreNoNumbersAreNeverWrittenNorBelieved) {
+    Reference bad = load();
+    bad.irradiance.values[7] = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_THROW(writeReference(folder_ / ("bad" + floatImageExtension()), bad), IoError);
+    EXPECT_FALSE(fs::exists(folder_ / "bad.json"));
+    writeImage(entry(floatImageExtension()), bad.irradiance);
+    (void)load();
+    EXPECT_EQ(messages_.size(), 1u);
+}
+
+TEST_F(ReferenceCache, KeyDependsOnEverythingThatMatters) {
+    const std::string key = referenceKey(scene_, request_);
+    const auto differs = [&](auto change) {
+        scene::Scene scene = scene_;
+        ReferenceRequest request = request_;
+        change(scene, request);
+        return referenceKey(scene, request) != key;
+    };
+    using S = scene::Scene;
+    using R = ReferenceRequest;
+    EXPECT_TRUE(differs([](S& s, R&) { s.camera.position.x += 1e-9; }));
+    EXPECT_TRUE(differs([](S& s, R&) { s.lights[0].power.g += 1e-3f; }));
+    EXPECT_TRUE(differs([](S& s, R&) { s.materials[1].albedo.r = 0.94f; }));
+    EXPECT_TRUE(differs([](S& s, R&) { s.meshes[1].positions[5].y += 1e-6f; }));
+    EXPECT_TRUE(differs(
+        [](S& s, R&) { std::swap(s.meshes[1].triangles[0].x, s.meshes[1].triangles[0].y); }));
+    EXPECT_TRUE(differs([](S& s, R&) { s.objects[1].toWorld[3].x += 1e-9; }));
+    EXPECT_TRUE(differs([](S& s, R&) { s.medium = scene::Medium{}; }));
+    EXPECT_TRUE(differs([](S&, R& r) { r.width = 25; }));
+    EXPECT_TRUE(differs([](S&, R& r) { r.seed = 2; }));
+    EXPECT_TRUE(differs([](S&, R& r) { r.estimator = Estimator::sppm; }));
+    EXPECT_TRUE(differs([](S&, R& r) { r.filter.transmissionOnly = true; }));
+    EXPECT_TRUE(differs([](S&, R& r) { r.filter.maximumInteractions = 2; }));
+    EXPECT_FALSE(differs([](S& s, R&) { s.description = "another"; }));
+}
+
+TEST_F(ReferenceCache, ReferenceOfAnotherSettingIsRefused) {
+    const Reference made = load();
+    const fs::path path = temporary_ / ("mine" + floatImageExtension());
+    writeReference(path, made);
+    EXPECT_EQ(readReference(path).irradiance.values, made.irradiance.values);
+    EXPECT_EQ(readReference(path, made.key).key, made.key);
+    EXPECT_THROW((void)readReference(path, "another"), ConfigError);
+    EXPECT_THROW((void)readReference(temporary_ / "none.exr"), IoError);
+}
+
+}  // namespace
+}  // namespace kaustik::reference

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// Runs the program as a user does, in a process of its own, and keeps what it prints.
+#pragma once
+
+#include <sys/resource.h>
+#include <sys/types.h>
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tests/unit/temporary_folder.h"
+
+namespace kaustik::test {
+
+struct Outcome {
+    int exitCode = -1;  // minus the signal that ended it
+    std::string out;    // standard output
+    std::string err;    // standard error
+};
+
+struct Conditions {
+    std::filesystem::path folder = ".";              // where it is started
+    std::map<std::string, std::string> environment;  // besides the test's own
+    std::optional<rlim_t> largestFileBytes;          // that it may write
+    std::filesystem::path standardOutput;            // instead of Outcome::out
+};
+
+class Program {
+  public:
+    // Starts `kaustik arguments…`.
+    explicit Program(const std::vector<std::string>& arguments, const Conditions& conditions = {});
+    ~Program();  // ends it if it still runs
+    Program(const Program&) = delete;
+    Program& operator=(const Program&) = delete;
+
+    // Returns once it handles `signal` by itself, or has ended.
+    void waitUntilItHandles(int signal) const;
+    void send(int signal) const;
+    [[nodiscard]] Outcome wait();
+
+  private:
+    TemporaryFolder captured_;
+    pid_t process_ = -1;
+};
+
+// Runs to the end.
+[[nodiscard]] Outcome runKaustik(const std::vector<std::string>& arguments,
+                                 const Conditions& conditions = {});
+
+// `kaustik run` with next to nothing to render, then `more`.
+[[nodiscard]] std::vector<std::string> smallRun(const std::string& scene,
+                                                const std::vector<std::string>& more = {});
+
+}  // namespace kaustik::test

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+// report.json, schema kaustik.report/1 (design, section 7), and how --set and --disable show in it.
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "framework/image/image.h"
+#include "tests/cli/fixture.h"
+
+namespace kaustik::test {
+namespace {
+
+using nlohmann::json;
+using Report = CommandLine;
+using Set = CommandLine;
+using Disable = CommandLine;
+
+std::set<std::string> keysOf(const json& object) {
+    std::set<std::string> keys;
+    for (const auto& [key, value] : object.items())
+        keys.insert(key);
+    return keys;
+}
+
+using Keys = std::set<std::string>;
+const Keys kStatistics = {"median", "mean", "min", "max", "p95", "stdev"};
+
+// A number that is not finite is written as null.
+void expectNoNull(const json& value, const std::string& path) {
+    EXPECT_FALSE(value.is_null()) << path;
+    if (!value.is_structured()) return;
+    for (const auto& [key, child] : value.items())
+        expectNoNull(child, path + "/" + key);
+}
+
+const json& passNamed(const json& report, const std::string& name) {
+    const json& passes = report.at("passes");
+    const auto found = std::find_if(passes.begin(), passes.end(),
+                                    [&](const json& pass) { return pass.at("name") == name; });
+    if (found == passes.end()) throw std::runtime_error("the report has no pass " + name);
+    return *found;
+}
+
+bool isBlack(const Image& image) {
+    return std::all_of(image.values.begin(), image.values.end(),
+                       [](float value) { return value == 0.0f; });
+}
+
+TEST_F(Report, HasTheKeysOfTheSchema) {
+    static_cast<void>(renderWater());
+    const json report = this->report();
+    EXPECT_EQ(report.at("schema"), "kaustik.report/1");
+    EXPECT_EQ(keysOf(report),
+              (Keys{"schema", "version", "device", "scene", "technique", "parameters", "seed",
+                    "size", "frames", "warmup", "timer", "frame_ms", "startup_ms", "passes",
+                    "photons", "energy", "memory", "warnings",
+                    // Ours, besides.
+                    "disabled", "time_s", "bookkeeping_ms", "graph_build_ms", "layers"}));
+    EXPECT_EQ(keysOf(report.at("device")), (Keys{"renderer", "vendor", "gl", "cpu", "threads"}));
+    EXPECT_EQ(keysOf(report.at("scene")), (Keys{"name", "triangles", "needs"}));
+    EXPECT_EQ(keysOf(report.at("photons")), (Keys{"emitted", "specular", "hit", "missed", "nan"}));
+    EXPECT_EQ(keysOf(report.at("energy")), (Keys{"emitted_w", "deposited_w", "absorbed_w",
+                                                 "left_scene_w", "lost_w", "balance"}));
+    EXPECT_EQ(keysOf(report.at("memory")),
+              (Keys{"texture_bytes", "buffer_bytes", "scene_bytes", "peak_bytes"}));
+    for (const char* times : {"frame_ms", "bookkeeping_ms"}) {
+        EXPECT_EQ(keysOf(report.at(times)), kStatistics) << times;
+    }
+    for (const json& pass : report.at("passes")) {
+        Keys expected = {"name", "stage", "ran", "why"};
+        if (pass.at("ran").get<bool>()) expected.merge(Keys{"gpu_ms", "cpu_ms", "repeats"});
+        EXPECT_EQ(keysOf(pass), expected) << pass;
+        if (!pass.at("ran").get<bool>()) continue;
+        EXPECT_EQ(keysOf(pass.at("gpu_ms")), kStatistics) << pass;
+        EXPECT_EQ(keysOf(pass.at("cpu_ms")), kStatistics) << pass;
+    }
+}
+
+TEST_F(Report, SaysWhatWasAskedFor) {
+    static_cast<void>(renderWater({"--seed", "42", "--time", "0.5"}));
+    const json report = this->report();
+    EXPECT_EQ(report.at("scene").at("name"), "wavy");
+    EXPECT_EQ(report.at("scene").at("triangles"), 2 + 2 * 16 * 16);
+    EXPECT_EQ(report.at("technique"), "screen_space_photons");
+    EXPECT_EQ(report.at("size"), json({64, 48}));
+    EXPECT_EQ(report.at("frames"), 1);
+    EXPECT_EQ(report.at("warmup"), 0);
+    EXPECT_EQ(report.at("seed"), 42);
+    EXPECT_EQ(report.at("time_s"), 0.5);
+    EXPECT_EQ(report.at("timer"), "gpu");
+    EXPECT_EQ(report.at("warnings"), json::array());
+    EXPECT_EQ(report.at("disabled"), json::array());
+}
+
+TEST_F(Report, HoldsFiniteNumbersOnly) {
+    static_cast<void>(renderWater());
+    expectNoNull(report(), "");
+}
+
+TEST_F(Report, CountsPhotonsAndEnergyThatAddUp) {
+    static_cast<void>(renderWater());
+    const json photons = report().at("photons");
+    EXPECT_GT(photons.at("emitted"), 100);
+    EXPECT_LE(photons.at("emitted"), 32 * 32);
+    EXPECT_EQ(photons.at("nan"), 0);
+    EXPECT_EQ(photons.at("emitted").get<int>(),
+              photons.at("hit").get<int>() + photons.at("missed").get<int>());
+    const json energy = report().at("energy");
+    // Of each of the three colours, what falls on the square metre of water; the grid's texels
+    // cover it to within one row and column at either side.
+    const double expected = 3.0 * 1000.0;
+    EXPECT_NEAR(energy.at("emitted_w").get<double>(), expected, expected * 4.0 / 32.0);
+    // Each account is rounded to the ledger's quantum, a part in a million or less of the whole.
+    EXPECT_LT(std::abs(energy.at("balance").get<double>()), 1e-5);
+}
+
+TEST_F(Report, PassesAddUpToTheFrameWhereTheDeviceIsFinishedAroundEach) {
+    // Large enough that passes take the time, not what lies between them.
+    static_cast<void>(folder.file("wavy.toml", kWavyWater));
+    ASSERT_EQ(run({"run", "wavy.toml", "--precise", "--size", "160x120", "--frames", "5", "--set",
+                   "photons=64x64", "--out", "out"})
+                  .exitCode,
+              0);
+    const json report = this->report();
+    EXPECT_EQ(report.at("timer"), "finish");
+    double inPasses = 0.0;
+    for (const json& pass : report.at("passes")) {
+        // Means, since unlike medians those of the parts add up to that of the whole.
+        if (pass.at("ran").get<bool>()) inPasses += pass.at("gpu_ms").at("mean").get<double>();
+    }
+    const double frame = report.at("frame_ms").at("mean");
+    EXPECT_NEAR(inPasses, frame, 0.1 * frame);
+    EXPECT_LT(report.at("bookkeeping_ms").at("median").get<double>(), 1.0);
+}
+
+TEST_F(Report, KeepsTimedFramesOnlyAndWarmsUpBefore) {
+    static_cast<void>(folder.file("wavy.toml", kWavyWater));
+    ASSERT_EQ(run({"run", "wavy.toml", "--size", "32x24", "--set", "photons=8x8", "--frames", "3",
+                   "--warmup", "2", "--out", "out"})
+                  .exitCode,
+              0);
+    EXPECT_EQ(report().at("frames"), 3);
+    EXPECT_EQ(report().at("warmup"), 2);
+    std::set<std::string> frames;
+    const json trace = json::parse(contents("out/trace.json"));
+    for (const json& event : trace.at("traceEvents")) {
+        const std::string name = event.at("name");
+        if (name.starts_with("frame ")) frames.insert(name);
+    }
+    EXPECT_EQ(frames, (Keys{"frame 2", "frame 3", "frame 4"}));
+}
+
+TEST_F(Report, WarnsOfLayersThatWereLeftOut) {
+    static_cast<void>(renderWater({"--set", "layers.count=1"}));
+    const json report = this->report();
+    ASSERT_EQ(report.at("warnings").size(), 1u) << report.at("warnings");
+    EXPECT_NE(report.at("warnings")[0].get<std::string>().find("layers.count"), std::string::npos);
+    EXPECT_EQ(report.at("layers").at("allowed"), 1);
+    EXPECT_GT(report.at("layers").at("fragments_left_out"), 0);
+}
+
+TEST_F(Set, TakesAnyUniqueShortFormAndReportsTheFullName) {
+    static_cast<void>(renderWater({"--set", "trace=lines", "--set", "lines.width=32"}));
+    const json report = this->report();
+    const json& parameters = report.at("parameters");
+    EXPECT_EQ(parameters.at("trace"), "lines");
+    EXPECT_EQ(parameters.at("trace.lines.width"), 32);
+    EXPECT_EQ(parameters.at("emit.photons"), "32x32");  // smallRun says photons=32x32
+    EXPECT_FALSE(parameters.contains("lines.width"));
+    EXPECT_FALSE(parameters.contains("photons"));
+}
+
+TEST_F(Set, ReportsEveryParameterThatIsListed) {
+    static_cast<void>(renderWater());
+    const json listed = json::parse(run({"list", "params", "--json"}).out);
+    const json parameters = report().at("parameters");
+    EXPECT_EQ(parameters.size(), listed.size());
+    for (const json& entry : listed) {
+        EXPECT_TRUE(parameters.contains(entry.at("name").get<std::string>())) << entry;
+    }
+}
+
+TEST_F(Set, TheLastOfTwoValuesCounts) {
+    static_cast<void>(renderWater({"--set", "layers.count=2", "--set", "layers.count=5"}));
+    EXPECT_EQ(report().at("parameters").at("layers.count"), 5);
+}
+
+TEST_F(Disable, OfTheSpritesLeavesNoCaustic) {
+    static_cast<void>(renderWater({"--disable", "reconstruct.sprites"}));
+    const json report = this->report();
+    EXPECT_EQ(report.at("disabled"), json({"reconstruct.sprites"}));
+    const json& pass = passNamed(report, "reconstruct.sprites");
+    EXPECT_EQ(pass.at("ran"), false);
+    EXPECT_NE(pass.at("why").get<std::string>().find("disabled"), std::string::npos) << pass;
+    EXPECT_TRUE(isBlack(readImage(folder / "out/caustic.exr")));
+}
+
+TEST_F(Disable, OfTheShadowsLightsWhatTheyDarkened) {
+    static_cast<void>(renderWater({}, "shadows"));
+    static_cast<void>(renderWater({"--disable", "compose.shadow"}));
+    const json withShadows = report("shadows");
+    const json withoutShadows = report();
+    EXPECT_EQ(passNamed(withShadows, "compose.shadow").at("ran"), true);
+    EXPECT_EQ(passNamed(withoutShadows, "compose.shadow").at("ran"), false);
+    // Water blocks direct light, so without the shadow map the floor below it is brighter.
+    double brighter = 0.0;
+    const Image with = readImage(folder / "shadows/beauty.exr");
+    const Image without = readImage(folder / "out/beauty.exr");
+    ASSERT_EQ(with.values.size(), without.values.size());
+    for (std::size_t i = 0; i < with.values.size(); ++i)
+        brighter += static_cast<double>(without.values[i]) - static_cast<double>(with.values[i]);
+    EXPECT_GT(brighter, 0.0);
+}
+
+TEST_F(Disable, TakesAUniqueShortFormAndReportsTheFullName) {
+    static_cast<void>(renderWater({"--disable", "sprites", "--disable", "shadow"}));
+    EXPECT_EQ(report().at("disabled"), json({"compose.shadow", "reconstruct.sprites"}));
+    EXPECT_TRUE(isBlack(readImage(folder / "out/caustic.exr")));
+}
+
+}  // namespace
+}  // namespace kaustik::test

@@ -1,0 +1,35 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Installs what is missing, fetches the meshes, builds, and runs all tests. Safe to run again: only
+# what has changed is installed, fetched and built again.
+#   run.sh [--asan] [-- options of ctest...]
+set -euo pipefail
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+preset=release
+while (($# > 0)); do
+    case $1 in
+        -h | --help)
+            echo "usage: run.sh [--asan] [-- options of ctest...]"
+            echo "Installs, builds and runs all tests; --asan does it with the address and"
+            echo "undefined-behaviour sanitizers. For one test: run.sh -- -R NAME"
+            exit 0
+            ;;
+        --asan) preset=asan ;;
+        --)
+            shift
+            break
+            ;;
+        *)
+            echo "run.sh: there is no option '$1'; options of ctest go after '--'" >&2
+            exit 2
+            ;;
+    esac
+    shift
+done
+
+"$root/experiments/set_up.sh" "$preset" all
+cd "$root"
+# Two at a time at most: on a software rasteriser each test already uses several cores.
+jobs=$(nproc)
+ctest --preset "$preset" --output-on-failure --parallel $((jobs < 2 ? jobs : 2)) "$@"
