@@ -121,7 +121,9 @@ def speed_against_error(study: Study, measure: Measure) -> Figure | None:
             label=f"{axis.key} = {value}" if axis else None,
         )
     front = pareto_front(points)
-    axes.step(*zip(*front), where="post", color="#555555", linewidth=1, label="Pareto front", zorder=1)
+    axes.step(
+        *zip(*front), where="post", color="#555555", linewidth=1, label="Pareto front", zorder=1
+    )
     noise = [n for c in shown for n in c.numbers("error.reference_stderr")]
     if noise and measure.column.endswith(".rmse"):
         axes.axhline(max(noise), color="#555555", linestyle=":", label="the truth's standard error")
@@ -252,7 +254,7 @@ def lines_along(study: Study, axis: Axis) -> dict[str, list[Configuration]]:
 def sweep(study: Study, axis: Axis) -> Figure | None:
     """Time, and error where it is known, along one setting."""
     measures = error_measures(study)
-    panels: list[Measure] = [Measure(FRAME, "time of a frame (ms)")]
+    panels: list[Measure] = [Measure(FRAME, "frame time (ms)")]
     panels += [m for m in measures if m.column.endswith("caustic_irradiance.rel_mse")][:1]
     panels += [m for m in measures if m.column == "hits.agreement_visible"]
     figure, rows = plt.subplots(

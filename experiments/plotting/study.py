@@ -135,7 +135,9 @@ def short_names(keys: list[str]) -> dict[str, str]:
 def label_all(configurations: list[Configuration], axes: list[Axis]) -> None:
     """Names every configuration by what sets it apart."""
     varied = [
-        axis.key for axis in axes if len({as_text(c.axes.get(axis.key)) for c in configurations}) > 1
+        axis.key
+        for axis in axes
+        if len({as_text(c.axes.get(axis.key)) for c in configurations}) > 1
     ]
     names = short_names(varied)
     for configuration in configurations:

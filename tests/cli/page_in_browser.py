@@ -30,7 +30,10 @@ class Browser:
 
     def __init__(self, profile: str):
         self.driver = subprocess.Popen(
-            ["chromedriver", "--port=0"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
+            ["chromedriver", "--port=0"],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            text=True,
         )
         port = None
         for line in self.driver.stdout:
@@ -49,7 +52,8 @@ class Browser:
             "--window-size=1280,1600",
         ]
         options = {"goog:chromeOptions": {"args": flags}, "goog:loggingPrefs": {"browser": "ALL"}}
-        self.url += "/" + self.ask("POST", "", {"capabilities": {"alwaysMatch": options}})["sessionId"]
+        session = self.ask("POST", "", {"capabilities": {"alwaysMatch": options}})
+        self.url += "/" + session["sessionId"]
 
     def ask(self, method: str, path: str, body: dict | None = None):
         data = None if body is None else json.dumps(body).encode()
