@@ -4,11 +4,13 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
-#include <sstream>
+#include <memory>
 #include <system_error>
 
 #include "framework/core/error.h"
@@ -45,17 +47,20 @@ std::string readFile(const fs::path& path) {
     if (fs::is_directory(path, error)) {
         throw IoError(fmt::format("{} is a directory, not a file.", path.string()));
     }
-    errno = 0;
-    std::ifstream stream(path, std::ios::binary);
-    if (!stream) {
+    const auto fail = [&] {
         throw IoError(fmt::format("{} cannot be read: {}.", path.string(), std::strerror(errno)));
+    };
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
+                                                               &std::fclose);
+    if (file == nullptr) fail();
+    std::string bytes;
+    std::array<char, 65536> block{};
+    // A stream would take an error at the first byte for an empty file.
+    while (const std::size_t count = std::fread(block.data(), 1, block.size(), file.get())) {
+        bytes.append(block.data(), count);
     }
-    std::ostringstream bytes;
-    bytes << stream.rdbuf();
-    if (stream.bad()) {
-        throw IoError(fmt::format("{} cannot be read: {}.", path.string(), std::strerror(errno)));
-    }
-    return std::move(bytes).str();
+    if (std::ferror(file.get()) != 0) fail();
+    return bytes;
 }
 
 void writeFileWhole(const fs::path& path, const std::function<void(const fs::path&)>& write) {

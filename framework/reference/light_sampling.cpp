@@ -42,6 +42,21 @@ Rectangle extentOf(const std::vector<glm::dvec3>& points, const Basis& basis) {
     return extent;
 }
 
+struct Cell {
+    std::uint64_t column = 0;
+    std::uint64_t row = 0;
+};
+
+// Cells in strips of several rows, so that one photon goes much the same way as the ones before it:
+// they meet the same triangles and pixels while a cache holds them.
+Cell cellOf(std::uint64_t index, std::uint64_t columns, std::uint64_t rows) {
+    constexpr std::uint64_t kStripRows = 16;
+    const std::uint64_t firstRow = index / (columns * kStripRows) * kStripRows;
+    const std::uint64_t rowsHere = std::min(kStripRows, rows - firstRow);
+    const std::uint64_t within = index - firstRow * columns;
+    return {within / rowsHere, firstRow + within % rowsHere};
+}
+
 double total(const glm::vec3& power) {
     return static_cast<double>(power.r) + static_cast<double>(power.g) +
            static_cast<double>(power.b);
@@ -148,11 +163,11 @@ EmittedPhoton LightSampler::sample(std::uint64_t index, Random& random) const {
     while (shares_[s].first > index)
         --s;
     const Share& share = shares_[s];
-    const std::uint64_t cell = index - share.first;
-    const double u = (static_cast<double>(cell % share.columns) + random.uniform()) /
-                     static_cast<double>(share.columns);
-    const double v = (static_cast<double>(cell / share.columns) + random.uniform()) /
-                     static_cast<double>(share.rows);
+    const Cell cell = cellOf(index - share.first, share.columns, share.rows);
+    const double u =
+        (static_cast<double>(cell.column) + random.uniform()) / static_cast<double>(share.columns);
+    const double v =
+        (static_cast<double>(cell.row) + random.uniform()) / static_cast<double>(share.rows);
     const double weight = share.measure / static_cast<double>(share.columns * share.rows);
     const scene::Light& light = *share.light;
     EmittedPhoton photon;

@@ -9,8 +9,8 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstddef>
+#include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <limits>
@@ -150,20 +150,9 @@ class LightTransport {
     // has just met, or null.
     template <class Sink>
     void finish(PhotonState photon, const SurfaceHit* hit, Random& random, Sink& sink) const {
-        std::array<PhotonState, kMaximumSplits> waiting;
-        std::size_t waitingCount = 0;
         SurfaceHit found;
-        for (;;) {
-            bool isOver = false;
-            if (hit == nullptr) {
-                isOver = !advance(photon, found, random, sink);
-                hit = &found;
-            }
-            if (!isOver) isOver = !interact(photon, *hit, waiting, waitingCount, random, sink);
-            hit = nullptr;
-            if (!isOver) continue;
-            if (waitingCount == 0) return;
-            photon = waiting[--waitingCount];
+        if (hit != nullptr && !interact(photon, *hit, random, sink)) return;
+        while (advance(photon, found, random, sink) && interact(photon, found, random, sink)) {
         }
     }
 
@@ -215,9 +204,7 @@ class LightTransport {
 
     // At a specular surface; false when nothing goes on.
     template <class Sink>
-    bool interact(PhotonState& photon, const SurfaceHit& hit,
-                  std::array<PhotonState, kMaximumSplits>& waiting, std::size_t& waitingCount,
-                  Random& random, Sink& sink) const {
+    bool interact(PhotonState& photon, const SurfaceHit& hit, Random& random, Sink& sink) const {
         sink.met(hit, photon);
         const scene::Material& material = scene_.scene().materials[hit.material];
         const bool isMirror = material.kind == scene::MaterialKind::mirror;
@@ -259,10 +246,10 @@ class LightTransport {
             return true;
         }
         if (branches.reflectance <= 0.0) return true;
-        if (photon.interactions <= filter_.splitInteractions && waitingCount < waiting.size()) {
+        if (photon.interactions <= filter_.splitInteractions) {
             reflected.fluxWatts *= branches.reflectance;
             photon.fluxWatts -= reflected.fluxWatts;
-            waiting[waitingCount++] = reflected;
+            finish(reflected, nullptr, random, sink);
             return true;
         }
         if (random.uniform() < branches.reflectance) photon = reflected;

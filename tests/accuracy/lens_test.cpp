@@ -141,6 +141,23 @@ TEST(Lens, WaterWaveFocusesFirstBelowItsCrest) {
     EXPECT_NEAR(depth, index / ((index - 1.0) * amplitude * k * k), 2e-3 * depth);
 }
 
+TEST(Lens, GlassInsideWaterBendsByBothIndices) {
+    scene::Scene scene = sceneOf(makeBox({.size = {4.0, 1.0, 4.0}}), glass(1.333));
+    addObject(scene, makeBox({.size = {2.0, 0.4, 2.0}}), glass(kIndex));
+    const EmbreeScene embree(scene);
+    const glm::dvec3 direction = glm::normalize(glm::dvec3(0.3, -1.0, 0.1));
+    const double sine = std::hypot(direction.x, direction.z);
+    const auto sineAfter = [&](int interactions) {
+        const Way way = wayAfter(embree, interactions, {-0.2, 2.0, 0.0}, direction);
+        return std::hypot(way.direction.x, way.direction.z);
+    };
+    // Flat faces with exact normals: only the index is a float, 1e-7.
+    EXPECT_NEAR(sineAfter(1), sine / 1.333, 1e-7);
+    EXPECT_NEAR(sineAfter(2), sine / kIndex, 1e-7);
+    EXPECT_NEAR(sineAfter(3), sine / 1.333, 1e-7);
+    EXPECT_NEAR(sineAfter(4), sine, 1e-12);
+}
+
 TEST(Lens, PrismDeviatesLeastWhereItsFormulaSays) {
     scene::PrismShape shape;
     const scene::Scene scene = sceneOf(makePrism(shape), glass(kIndex));

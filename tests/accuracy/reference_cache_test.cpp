@@ -87,7 +87,7 @@ TEST_F(ReferenceCache, DamagedEntriesAreReportedAndMadeAgain) {
         EXPECT_EQ(again.irradiance.values, made.irradiance.values) << ending;
         ASSERT_EQ(messages_.size(), 1u) << ending;
         EXPECT_NE(messages_[0].find("damaged"), std::string::npos) << messages_[0];
-        EXPECT_EQ(readFile(file).size(), bytes.size()) << ending;
+        EXPECT_NO_THROW((void)readReference(entry(image))) << ending;
     }
     fs::remove(entry(image));
     EXPECT_EQ(load().irradiance.values, made.irradiance.values);

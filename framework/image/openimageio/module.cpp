@@ -137,6 +137,8 @@ bool encodeExr(const float* values, int width, int height, int channels,
     return guarded(sink, [&] {
         OIIO::ImageSpec spec(width, height, channels, OIIO::TypeDesc::FLOAT);
         spec["compression"] = "zip";
+        // Else the time of writing goes in, and two equal pictures make different files.
+        spec["DateTime"] = "1970:01:01 00:00:00";
         spec["oiio:ColorSpace"] = "Linear";
         encode("exr", spec, OIIO::TypeDesc::FLOAT, values, sink);
     });
