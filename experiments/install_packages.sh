@@ -14,6 +14,8 @@ packages=(
     libassimp-dev libtinygltf-dev zlib1g-dev libopenimageio-dev
     # The ray-traced reference
     libembree-dev libtbb-dev
+    # Figures of a study
+    python3 python3-matplotlib
     # Tests
     libgtest-dev libgmock-dev
 )

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "framework/gl/context.h"
 
+#include <dlfcn.h>
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 #include <fmt/format.h>
@@ -108,9 +109,35 @@ struct Context::Egl {
     }
 };
 
+namespace {
+
+// libepoxy ends the program when it finds no library to load; look first.
+void requireLibraries() {
+    const auto canLoad = [](const char* name) {
+        void* library = dlopen(name, RTLD_LAZY | RTLD_LOCAL);
+        if (library != nullptr) dlclose(library);
+        return library != nullptr;
+    };
+    if (!canLoad("libEGL.so.1")) {
+        throw DeviceError(
+            "The EGL library (libEGL.so.1) cannot be loaded. Install it: on Debian, libegl1, and "
+            "libegl-mesa0 for a driver that needs no GPU.",
+            kExitFailed);
+    }
+    if (!canLoad("libOpenGL.so.0") && !canLoad("libGL.so.1")) {
+        throw DeviceError(
+            "The OpenGL library (libGL.so.1) cannot be loaded. Install it: on Debian, libgl1, and "
+            "libgl1-mesa-dri for a driver that needs no GPU.",
+            kExitFailed);
+    }
+}
+
+}  // namespace
+
 std::unique_ptr<Context> Context::createHeadless() {
     // Mesa says "DISPLAY" things on standard error when it is asked about drivers; keep it quiet.
     ::setenv("EGL_LOG_LEVEL", "fatal", 0);
+    requireLibraries();
     std::vector<std::string> tried;
     for (const Candidate& candidate : candidateDisplays(tried)) {
         if (candidate.display == EGL_NO_DISPLAY) continue;

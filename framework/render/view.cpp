@@ -118,12 +118,14 @@ LightView makeLightView(const scene::Light& light, const scene::Bounds& target,
                 farthest = std::max(farthest, depth);
             }
         }
+        // The plane that depth counts from lies before everything, so that no depth is negative.
         const double margin = 1e-3 * diagonal(blockers);
-        view.nearMeters = nearest - margin;
-        view.farMeters = farthest + margin;
+        view.nearMeters = margin;
+        view.farMeters = farthest - nearest + 3.0 * margin;
         const glm::dvec2 middle = 0.5 * (low + high);
         view.worldToLight =
-            glm::translate(glm::dmat4(1.0), glm::dvec3(-middle, 0.0)) * view.worldToLight;
+            glm::translate(glm::dmat4(1.0), glm::dvec3(-middle, nearest - 2.0 * margin)) *
+            view.worldToLight;
         // No margin at the sides: what the grid covers is what the surface receives.
         view.halfExtent = glm::max(0.5 * (high - low), glm::dvec2(1e-9));
         return view;

@@ -142,8 +142,8 @@ TEST(Lens, WaterWaveFocusesFirstBelowItsCrest) {
 }
 
 TEST(Lens, GlassInsideWaterBendsByBothIndices) {
-    scene::Scene scene = sceneOf(makeBox({.size = {4.0, 1.0, 4.0}}), glass(1.333));
-    addObject(scene, makeBox({.size = {2.0, 0.4, 2.0}}), glass(kIndex));
+    scene::Scene scene = sceneOf(scene::makeBox({.size = {4.0, 1.0, 4.0}}), glass(1.333));
+    addObject(scene, scene::makeBox({.size = {2.0, 0.4, 2.0}}), glass(kIndex));
     const EmbreeScene embree(scene);
     const glm::dvec3 direction = glm::normalize(glm::dvec3(0.3, -1.0, 0.1));
     const double sine = std::hypot(direction.x, direction.z);

@@ -53,6 +53,32 @@ TEST(FlatWater, FloorIrradianceIsTheClosedFormInEveryPixelAwayFromTheEdges) {
     EXPECT_LT(worst, 1e-2);
 }
 
+TEST(FlatWater, BlocksDirectLightSoThatNothingCountsTwice) {
+    const scene::Scene scene = scene::loadScene("flat-water");
+    const Frame frame(scene, 400, 300, {{"emit.photons", "64x64"}}, {"direct.irradiance"});
+    const Texels receiver = frame.read("eye.receiver");
+    const Texels direct = frame.read("direct.irradiance");
+    int floorPixels = 0;
+    int deckPixels = 0;
+    for (int y = 0; y < receiver.height; ++y) {
+        for (int x = 0; x < receiver.width; ++x) {
+            const glm::dvec3 world = frame.worldAt(x, y, static_cast<double>(receiver.at(x, y, 0)));
+            const bool isInside = std::abs(world.x) < 1.9 && std::abs(world.z) < 1.4;
+            if (isInside && world.y < -1.1) {
+                ++floorPixels;
+                EXPECT_EQ(direct.at(x, y, 1), 0.0f);
+            }
+            const bool isOnDeck = std::abs(world.x) > 2.1 || std::abs(world.z) > 1.6;
+            if (isOnDeck && world.y > 0.2) {
+                ++deckPixels;
+                EXPECT_NEAR(direct.at(x, y, 1), 1000.0f, 1e-2f);
+            }
+        }
+    }
+    EXPECT_GT(floorPixels, 10000);
+    EXPECT_GT(deckPixels, 1000);
+}
+
 TEST(FlatWater, LedgerBalances) {
     const scene::Scene scene = scene::loadScene("flat-water");
     Frame frame(scene, 400, 300);
