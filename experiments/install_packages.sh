@@ -14,10 +14,10 @@ packages=(
     libassimp-dev libtinygltf-dev zlib1g-dev libopenimageio-dev
     # The ray-traced reference
     libembree-dev libtbb-dev
-    # Figures of a study
-    python3 python3-matplotlib
-    # Tests
-    libgtest-dev libgmock-dev
+    # Figures and pages of a study; OpenImageIO reads EXR there
+    python3 python3-matplotlib python3-openimageio
+    # Tests; the page of a study is opened in a browser
+    libgtest-dev libgmock-dev chromium chromium-driver
 )
 
 if ! command -v dpkg-query > /dev/null || ! command -v apt-get > /dev/null; then
