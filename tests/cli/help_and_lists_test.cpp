@@ -157,8 +157,10 @@ TEST_F(Explain, DrawsEveryPassAndResourceAsGraphviz) {
     for (std::sregex_iterator match(dot.begin(), dot.end(), arrow), end; match != end; ++match) {
         ++arrows;
         for (const std::size_t side : {1u, 2u}) {
-            EXPECT_NE(dot.find(" " + match->str(side) + " [shape="), std::string::npos)
-                << match->str(side);
+            const std::string node = match->str(side);
+            EXPECT_NE(dot.find(std::string(1, ' ').append(node).append(" [shape=")),
+                      std::string::npos)
+                << node;
         }
     }
     EXPECT_GT(arrows, 20u);
