@@ -118,7 +118,8 @@ class PrimitiveReader {
         return value;
     }
 
-    // Floats, or unsigned integers for [0,1]; v is turned, since glTF counts it from the image's top.
+    // Floats, or unsigned integers for [0,1]; v is turned, since glTF counts it from the image's
+    // top.
     void readUvs(TriangleSoup& soup, const std::string& name) const {
         soup.uvs.assign(soup.positions.size(), glm::vec2(0.0f));
         const std::optional<int> index = attributeIndex(name);
@@ -144,7 +145,8 @@ class PrimitiveReader {
                 }
             }
         }
-        for (glm::vec2& uv : soup.uvs) uv.y = 1.0f - uv.y;
+        for (glm::vec2& uv : soup.uvs)
+            uv.y = 1.0f - uv.y;
     }
 
     std::vector<std::uint32_t> readIndices(std::size_t vertexCount) const {

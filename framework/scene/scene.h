@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The scene as plain data on the CPU: what a scene file or a glTF file says, validated, in SI units.
-// Right-handed, +Y up; linear Rec.709. World coordinates are doubles, so that a scene 1e5 m from the
-// origin loses nothing: meshes hold 32-bit positions relative to an origin of their own.
+// The scene as plain data on the CPU: what a scene file or a glTF file says, validated, in SI
+// units. Right-handed, +Y up; linear Rec.709. World coordinates are doubles, so that a scene 1e5 m
+// from the origin loses nothing: meshes hold 32-bit positions relative to an origin of their own.
 #pragma once
 
 #include <cstdint>
@@ -26,14 +26,14 @@ enum class LightKind { directional, point, spot };
 struct Light {
     std::string name;
     LightKind kind = LightKind::directional;
-    glm::dvec3 position{0.0};               // point and spot
-    glm::dvec3 direction{0.0, -1.0, 0.0};   // unit, from the light outwards: directional and spot
+    glm::dvec3 position{0.0};              // point and spot
+    glm::dvec3 direction{0.0, -1.0, 0.0};  // unit, from the light outwards: directional and spot
     // Directional: irradiance on a surface that faces the light, W/m². Point and spot: radiant
     // intensity inside the inner cone, W/sr.
     glm::vec3 power{1.0f};
-    float innerConeRadians = 0.0f;          // spot: full intensity inside this half-angle
-    float outerConeRadians = 0.7853982f;    // spot: none outside; smooth between
-    float rangeMeters = 0.0f;               // 0: unlimited (KHR_lights_punctual)
+    float innerConeRadians = 0.0f;        // spot: full intensity inside this half-angle
+    float outerConeRadians = 0.7853982f;  // spot: none outside; smooth between
+    float rangeMeters = 0.0f;             // 0: unlimited (KHR_lights_punctual)
 };
 
 enum class MaterialKind : std::uint32_t { lambertian = 0, dielectric = 1, mirror = 2 };
@@ -44,28 +44,29 @@ enum class Pattern : std::uint32_t { none = 0, checker = 1, tiles = 2 };
 struct Material {
     std::string name;
     MaterialKind kind = MaterialKind::lambertian;
-    glm::vec3 albedo{0.5f};                 // [0,1]; for a mirror: its reflectance
+    glm::vec3 albedo{0.5f};  // [0,1]; for a mirror: its reflectance
     Pattern pattern = Pattern::none;
-    glm::vec3 patternAlbedo{0.25f};         // the second colour of the pattern (tiles: the joints)
+    glm::vec3 patternAlbedo{0.25f};  // the second colour of the pattern (tiles: the joints)
     glm::vec2 uvScale{1.0f};
-    int image = -1;                         // index into Scene::images, multiplies albedo; -1: none
-    float ior = 1.5f;                       // dielectric, relative to vacuum, >= 1
-    glm::vec3 absorptionPerMeter{0.0f};     // dielectric: Beer-Lambert coefficient inside, 1/m, >= 0
+    int image = -1;                      // index into Scene::images, multiplies albedo; -1: none
+    float ior = 1.5f;                    // dielectric, relative to vacuum, >= 1
+    glm::vec3 absorptionPerMeter{0.0f};  // dielectric: Beer-Lambert coefficient inside, 1/m, >= 0
 };
 
 // An image used as a texture: an encoded file in memory or on disk, decoded later through image/.
 struct TextureImage {
-    std::string name;                   // for messages
-    std::filesystem::path file;         // empty when `bytes` is used
-    std::string bytes;                  // encoded image (embedded glTF)
+    std::string name;            // for messages
+    std::filesystem::path file;  // empty when `bytes` is used
+    std::string bytes;           // encoded image (embedded glTF)
     bool srgb = true;
 };
 
-// One wave of a height field: amplitude * cos(k·x - omega t + phase), k = 2π/wavelength · direction.
+// One wave of a height field: amplitude * cos(k·x - omega t + phase), k = 2π/wavelength ·
+// direction.
 struct Wave {
     float amplitudeMeters = 0.01f;
-    float wavelengthMeters = 0.5f;      // > 0
-    float directionDegrees = 0.0f;      // in the xz-plane, from +x towards +z
+    float wavelengthMeters = 0.5f;  // > 0
+    float directionDegrees = 0.0f;  // in the xz-plane, from +x towards +z
     float phaseRadians = 0.0f;
     // Angular frequency in rad/s; < 0: the deep-water dispersion sqrt(g k).
     float omegaRadiansPerSecond = -1.0f;
@@ -75,8 +76,8 @@ struct Wave {
 // normals are exact derivatives. The vertices are made on the GPU each frame, and by
 // `evaluateHeightField` on the CPU for the reference.
 struct HeightField {
-    glm::vec2 sizeMeters{1.0f};         // extent along x and z
-    glm::uvec2 cells{128, 128};         // grid cells along x and z, >= 1
+    glm::vec2 sizeMeters{1.0f};  // extent along x and z
+    glm::uvec2 cells{128, 128};  // grid cells along x and z, >= 1
     std::vector<Wave> waves;
 };
 
@@ -86,10 +87,10 @@ struct Mesh {
     std::string name;
     glm::dvec3 origin{0.0};
     std::vector<glm::vec3> positions;
-    std::vector<glm::vec3> normals;     // unit; made from the faces where the file has none
-    std::vector<glm::vec2> uvs;  // (0, 0) is an image's lower left; 0 where the file has none
+    std::vector<glm::vec3> normals;  // unit; made from the faces where the file has none
+    std::vector<glm::vec2> uvs;      // (0, 0) is an image's lower left; 0 where the file has none
     std::vector<glm::uvec3> triangles;
-    bool closed = false;                // every edge is shared by two triangles: bounds a volume
+    bool closed = false;  // every edge is shared by two triangles: bounds a volume
     std::optional<HeightField> heightField;  // present: positions are those at Scene::timeSeconds
 };
 
@@ -105,7 +106,7 @@ struct Object {
 struct Medium {
     glm::vec3 scatteringPerMeter{0.0f};
     glm::vec3 absorptionPerMeter{0.0f};
-    float anisotropy = 0.0f;            // Henyey-Greenstein g in (-1, 1)
+    float anisotropy = 0.0f;  // Henyey-Greenstein g in (-1, 1)
 };
 
 struct Scene {
@@ -120,9 +121,10 @@ struct Scene {
     std::vector<Object> objects;
     std::optional<Medium> medium;
     glm::vec3 backgroundRadiance{0.0f};  // W/m²/sr, from every direction that leaves the scene
-    glm::vec3 ambientIrradiance{0.0f};   // W/m², a constant fill light for the picture; not in errors
+    glm::vec3 ambientIrradiance{
+        0.0f};  // W/m², a constant fill light for the picture; not in errors
     double timeSeconds = 0.0;
-    std::vector<std::string> warnings;   // what was imported with a change, for the report
+    std::vector<std::string> warnings;  // what was imported with a change, for the report
 };
 
 struct Bounds {
@@ -132,8 +134,8 @@ struct Bounds {
     void include(const glm::dvec3& point);
 };
 
-// World-space bounds of one object, or of all. Height fields count with the sum of their amplitudes,
-// so that the bounds hold at every time.
+// World-space bounds of one object, or of all. Height fields count with the sum of their
+// amplitudes, so that the bounds hold at every time.
 [[nodiscard]] Bounds objectBounds(const Scene& scene, const Object& object);
 [[nodiscard]] Bounds sceneBounds(const Scene& scene);
 [[nodiscard]] std::size_t triangleCount(const Scene& scene);

@@ -34,7 +34,8 @@ std::vector<LightGrid> makeGrids(FrameBuilder& frame) {
     std::vector<LightGrid> grids;
     if (target.empty) return grids;
     for (const scene::Light& light : frame.scene().lights) {
-        const render::LightView view = render::makeLightView(light, target, sceneBounds(frame.scene()));
+        const render::LightView view =
+            render::makeLightView(light, target, sceneBounds(frame.scene()));
         if (view.isClipped) {
             frame.warn(fmt::format(
                 "Light '{}' sees the specular objects wider than 160 degrees; photons outside of "

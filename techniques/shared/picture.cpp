@@ -33,8 +33,8 @@ std::vector<ShadowView> makeShadowViews(FrameBuilder& frame) {
         shadow.firstLayer = layer;
         const int faces = light.kind == scene::LightKind::directional ? 1 : 6;
         for (int face = 0; face < faces; ++face) {
-            const render::LightView view =
-                faces == 1 ? render::makeLightView(light, bounds, bounds) : render::makeCubeFaceView(light, face);
+            const render::LightView view = faces == 1 ? render::makeLightView(light, bounds, bounds)
+                                                      : render::makeCubeFaceView(light, face);
             shadow.projection = view.projection();
             shadow.eyeToLight.push_back(render::eyeToLight(view, frame.view()));
             shadow.instances.push_back(

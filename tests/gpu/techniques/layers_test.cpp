@@ -9,8 +9,8 @@
 namespace kaustik::test {
 namespace {
 
-// Objects in front of a camera at the origin that looks down -Z. The water behind it gives the scene
-// a need for layers.
+// Objects in front of a camera at the origin that looks down -Z. The water behind it gives the
+// scene a need for layers.
 scene::Scene sceneOf(const std::string& objects) {
     return sceneFromText(R"(
 name = "layers"
