@@ -121,7 +121,7 @@ void EmbreeScene::addObject(const scene::Object& object) {
     const glm::dmat4 toLocal = glm::translate(glm::dmat4(1.0), -center_) * object.toWorld *
                                glm::translate(glm::dmat4(1.0), mesh.origin);
     const glm::dmat3 normalToLocal = glm::transpose(glm::inverse(glm::dmat3(toLocal)));
-    const bool isSpecular = placed->info.kind != MaterialKind::lambertian;
+    const bool isSpecular = !isReceiver(placed->info.kind);
     placed->vertices.reserve(mesh.positions.size());
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         const glm::vec3 position(toLocal * glm::dvec4(mesh.positions[i], 1.0));
@@ -152,7 +152,7 @@ void EmbreeScene::attach(Filters filters) {
         rtcSetGeometryUserData(geometry, &mesh.info);
         // A photon's way ends at receivers, so only specular surfaces can be met again.
         if (filters == Filters::sideRules) {
-            if (mesh.info.kind != MaterialKind::lambertian)
+            if (!isReceiver(mesh.info.kind))
                 rtcSetGeometryIntersectFilterFunction(geometry, rejectWrongSide);
             rtcSetGeometryOccludedFilterFunction(geometry, rejectStart);
         }

@@ -134,7 +134,7 @@ class LightTransport {
         SurfaceHit hit;
         if (!scene_.intersect(ray, hit) || hit.distance > rangeMeters) return;
         const scene::Material& material = scene_.scene().materials[hit.material];
-        if (material.kind == scene::MaterialKind::lambertian) return;
+        if (isReceiver(material.kind)) return;
         // A light whose rays first meet a dielectric from within is inside of it.
         if (material.kind == scene::MaterialKind::dielectric &&
             glm::dot(photon.direction, hit.geometricNormal) > 0.0) {
@@ -189,7 +189,7 @@ class LightTransport {
             sink.leftScene(photon);
             return false;
         }
-        if (scene_.scene().materials[hit.material].kind == scene::MaterialKind::lambertian) {
+        if (isReceiver(scene_.scene().materials[hit.material].kind)) {
             sink.arrived(hit, photon);
             return false;
         }

@@ -45,7 +45,7 @@ std::vector<VisiblePoint> findVisiblePoints(const EmbreeScene& scene, const Eye&
                                      hit)) {
             continue;
         }
-        if (scene.scene().materials[hit.material].kind != scene::MaterialKind::lambertian) continue;
+        if (!isReceiver(scene.scene().materials[hit.material].kind)) continue;
         const double depth = glm::length(hit.position - eye.position()) / glm::length(ray);
         const bool isFront = glm::dot(hit.geometricNormal, eye.position() - hit.position) > 0.0;
         const double radiusMeters = radius * eye.footprintPerMeter() * depth;

@@ -26,10 +26,11 @@ struct DrawCommand {
     GLuint baseInstance;  // selects the object, through an attribute with a divisor
 };
 
-// Lambertian first, then mirrors, then dielectrics.
+// Receivers first, then mirrors, then dielectrics.
 std::size_t drawOrder(scene::MaterialKind kind) {
     switch (kind) {
         case scene::MaterialKind::lambertian:
+        case scene::MaterialKind::glossy:
             return 0;
         case scene::MaterialKind::mirror:
             return 1;
@@ -189,6 +190,7 @@ void GpuScene::uploadMaterials() {
         data.absorption = glm::vec4(material.absorptionPerMeter, material.ior);
         data.uv =
             glm::vec4(material.uvScale, static_cast<float>(material.image), isOpen ? 1.0f : 0.0f);
+        data.specular = glm::vec4(material.specular, material.exponent);
         materials.push_back(data);
     }
     materials.push_back({});  // an empty scene still binds a block
@@ -238,7 +240,7 @@ std::pair<std::size_t, std::size_t> GpuScene::runOf(const Group& group, DrawSet 
     switch (set) {
         case DrawSet::all:
             return run(0, 3);
-        case DrawSet::lambertian:
+        case DrawSet::receivers:
             return run(0, 1);
         case DrawSet::specular:
             return run(1, 3);

@@ -14,7 +14,7 @@
 namespace kaustik::render {
 
 // Which surfaces a pass draws.
-enum class DrawSet { all, lambertian, specular, dielectrics, nonDielectrics };
+enum class DrawSet { all, receivers, specular, dielectrics, nonDielectrics };
 
 // Placed meshes as one view sees them.
 struct ViewInstances {
@@ -57,7 +57,7 @@ class GpuScene {
   private:
     // Commands are sorted by kind; a set is a run of them.
     struct Group {
-        std::size_t kindBegin[4] = {0, 0, 0, 0};  // lambertian, mirror, dielectric, end
+        std::size_t kindBegin[4] = {0, 0, 0, 0};  // receivers, mirrors, dielectrics, end
     };
     void uploadMeshes();
     void uploadMaterials();

@@ -176,7 +176,12 @@ transport::LightData lightData(const scene::Light& light, const EyeView& eye) {
     data.directionVs = glm::vec4(eye.worldToView * glm::dvec4(light.direction, 0.0));
     data.directionVs.w = light.rangeMeters;
     data.power = glm::vec4(light.power, 0.0f);
-    data.cone = glm::vec4(std::cos(light.innerConeRadians), std::cos(light.outerConeRadians), 0, 0);
+    data.cone = glm::vec4(std::cos(light.innerConeRadians), std::cos(light.outerConeRadians),
+                          std::tan(light.outerConeRadians), 0.0f);
+    const glm::dmat3 toView(eye.worldToView);
+    data.rightVs = glm::vec4(glm::vec3(toView * glm::cross(light.direction, light.up)),
+                             static_cast<float>(light.image));
+    data.upVs = glm::vec4(glm::vec3(toView * light.up), 0.0f);
     return data;
 }
 

@@ -25,6 +25,9 @@ SceneNeeds sceneNeeds(const Scene& scene) {
         if (mesh.triangles.empty()) continue;
         needs.animated = needs.animated || moves(mesh);
         switch (scene.materials[object.material].kind) {
+            case MaterialKind::glossy:
+                needs.glossyReceivers = true;
+                [[fallthrough]];
             case MaterialKind::lambertian:
                 needs.receivers = true;
                 break;

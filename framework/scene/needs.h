@@ -15,10 +15,10 @@ struct SceneNeeds {
     int reflectors = 0;            // objects that are mirrors
     int refractors = 0;            // objects that are dielectrics
     bool medium = false;           // one that scatters or absorbs
-    bool glossyReceivers = false;  // no material is glossy yet
+    bool glossyReceivers = false;  // a receiver is not Lambertian alone
     bool animated = false;         // a height field has a wave that moves
     int lights = 0;
-    bool receivers = false;            // something Lambertian that light can land on
+    bool receivers = false;            // a diffuse or glossy surface that light ends on
     int measuredDepthComplexity = -1;  // most layers behind one pixel; -1 until a renderer counts
 };
 

@@ -74,4 +74,12 @@ double spotFalloff(const Light& light, double cosine) {
     return ramp * ramp;
 }
 
+glm::dvec2 spotImagePosition(const Light& light, const glm::dvec3& direction) {
+    const double edge = std::tan(double(light.outerConeRadians));
+    const double along = glm::dot(direction, light.direction) * edge;
+    const glm::dvec3 right = glm::cross(light.direction, light.up);
+    return 0.5 +
+           0.5 * glm::dvec2(glm::dot(direction, right), glm::dot(direction, light.up)) / along;
+}
+
 }  // namespace kaustik::scene

@@ -34,9 +34,19 @@ struct Light {
     float innerConeRadians = 0.0f;        // spot: full intensity inside this half-angle
     float outerConeRadians = 0.7853982f;  // spot: none outside; smooth between
     float rangeMeters = 0.0f;             // 0: unlimited (KHR_lights_punctual)
+    // Spot: index into Scene::images, whose linear RGB multiplies the intensity; -1: none. The
+    // image lies in the tangent plane, its middle on the axis and the middles of its sides at the
+    // outer half-angle (`spotImagePosition`).
+    int image = -1;
+    glm::dvec3 up{0.0, 0.0, -1.0};  // unit, at right angles to `direction`: the image's top
 };
 
-enum class MaterialKind : std::uint32_t { lambertian = 0, dielectric = 1, mirror = 2 };
+enum class MaterialKind : std::uint32_t { lambertian = 0, dielectric = 1, mirror = 2, glossy = 3 };
+
+// Light ends on a receiver; it goes on from every other surface.
+[[nodiscard]] inline bool isReceiver(MaterialKind kind) {
+    return kind == MaterialKind::lambertian || kind == MaterialKind::glossy;
+}
 
 // Patterns are computed in the shader from the surface's uv, so that no image file is needed.
 enum class Pattern : std::uint32_t { none = 0, checker = 1, tiles = 2 };
@@ -44,13 +54,16 @@ enum class Pattern : std::uint32_t { none = 0, checker = 1, tiles = 2 };
 struct Material {
     std::string name;
     MaterialKind kind = MaterialKind::lambertian;
-    glm::vec3 albedo{0.5f};  // [0,1]; for a mirror: its reflectance
+    glm::vec3 albedo{0.5f};  // [0,1]; for a mirror: its reflectance; glossy: of the diffuse part
     Pattern pattern = Pattern::none;
     glm::vec3 patternAlbedo{0.25f};  // the second colour of the pattern (tiles: the joints)
     glm::vec2 uvScale{1.0f};
     int image = -1;                      // index into Scene::images, multiplies albedo; -1: none
     float ior = 1.5f;                    // dielectric, relative to vacuum, >= 1
     glm::vec3 absorptionPerMeter{0.0f};  // dielectric: Beer-Lambert coefficient inside, 1/m, >= 0
+    // Glossy: the lobe of transport/brdf.h; albedo + specular <= 1.
+    glm::vec3 specular{0.0f};  // its reflectance at normal incidence, [0,1]
+    float exponent = 50.0f;    // of the cosine to the mirror direction, >= 1
 };
 
 // An image used as a texture: an encoded file in memory or on disk, decoded later through image/.
@@ -144,5 +157,10 @@ struct Bounds {
 // cone, 0 outside the outer one, between them the squared linear ramp in the cosine that
 // KHR_lights_punctual recommends. Its flux is I 2π ((1 - cos inner) + (cos inner - cos outer)/3).
 [[nodiscard]] double spotFalloff(const Light& light, double cosine);
+
+// Where in its image a spot shines in `direction` (unit, from the light, less than 90 degrees from
+// its own): (0, 0) is the lower left, (1, 1) the upper right as someone sees the lit wall who
+// stands behind the light.
+[[nodiscard]] glm::dvec2 spotImagePosition(const Light& light, const glm::dvec3& direction);
 
 }  // namespace kaustik::scene

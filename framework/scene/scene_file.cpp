@@ -38,14 +38,14 @@ fs::path sceneFolder() {
     return projectRoot() / "experiments" / "scenes";
 }
 
+}  // namespace
+
 std::string lowerExtension(const fs::path& path) {
     std::string extension = path.extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
     return extension;
 }
-
-}  // namespace
 
 Scene loadSceneFile(const fs::path& path) {
     const toml::table document = parseToml(path);
@@ -70,7 +70,7 @@ Scene loadSceneFile(const fs::path& path) {
     if (camera) scene.camera = readCamera(*camera);
     if (medium) scene.medium = readMedium(*medium);
     for (TableReader& reader : lights) {
-        Light light = readLight(reader);
+        Light light = readLight(reader, scene);
         requireNewName(scene.lights, light.name, reader);
         scene.lights.push_back(std::move(light));
     }

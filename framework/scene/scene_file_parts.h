@@ -2,6 +2,9 @@
 // The tables of a scene file, one reader each; `scene_file.h` describes their keys.
 #pragma once
 
+#include <filesystem>
+#include <string>
+
 #include "framework/scene/scene.h"
 #include "framework/scene/table_reader.h"
 
@@ -9,9 +12,9 @@ namespace kaustik::scene {
 
 [[nodiscard]] Camera readCamera(TableReader& reader);
 [[nodiscard]] Medium readMedium(TableReader& reader);
-[[nodiscard]] Light readLight(TableReader& reader);
 
-// Adds the texture, if there is one, to the scene's images.
+// These add the texture, if there is one, to the scene's images.
+[[nodiscard]] Light readLight(TableReader& reader, Scene& scene);
 [[nodiscard]] Material readMaterial(TableReader& reader, Scene& scene);
 
 // Adds the object's mesh to the scene; objects of the same mesh file share it. The materials must
@@ -20,5 +23,8 @@ namespace kaustik::scene {
 
 // The mesh of a `shape = …` object at the scene's time.
 [[nodiscard]] Mesh readShape(TableReader& reader, double timeSeconds);
+
+// ".pfm" of "a/B.PFM".
+[[nodiscard]] std::string lowerExtension(const std::filesystem::path& path);
 
 }  // namespace kaustik::scene

@@ -18,6 +18,10 @@ constexpr NumberRange kAnisotropy{-1.0, 1.0, true, true};
 constexpr NumberRange kIor{1.0, 10.0, false, false};
 constexpr NumberRange kInnerCone{0.0, 90.0, false, false};
 constexpr NumberRange kOuterCone{0.0, 90.0, true, false};
+// Towards 90 degrees an image in the tangent plane has no edge.
+constexpr float kWidestImageDegrees = 89.0f;
+// Narrower lobes, below a degree, are beyond what 32 bits tell apart on the device.
+constexpr NumberRange kExponent{1.0, 10000.0, false, false};
 
 // Intensity inside the inner cone over the flux of the whole light.
 double intensityPerWatt(const Light& light) {
@@ -41,6 +45,12 @@ void readCone(TableReader& reader, Light& light) {
     light.outerConeRadians = static_cast<float>(glm::radians(outer));
 }
 
+// Files of float images hold linear light; others are display-encoded.
+bool isEncoded(const std::filesystem::path& file) {
+    const std::string extension = lowerExtension(file);
+    return extension != ".pfm" && extension != ".exr" && extension != ".hdr";
+}
+
 int readTexture(TableReader& reader, Scene& scene) {
     const std::filesystem::path name = reader.text("texture");
     const std::filesystem::path file = reader.file().parent_path() / name;
@@ -52,8 +62,38 @@ int readTexture(TableReader& reader, Scene& scene) {
     for (std::size_t i = 0; i < scene.images.size(); ++i) {
         if (scene.images[i].file == file) return static_cast<int>(i);
     }
-    scene.images.push_back({name.string(), file, "", true});
+    scene.images.push_back({name.string(), file, "", isEncoded(file)});
     return static_cast<int>(scene.images.size() - 1);
+}
+
+void readSpotImage(TableReader& reader, Light& light, Scene& scene) {
+    if (!reader.has("texture")) return;
+    light.image = readTexture(reader, scene);
+    if (light.outerConeRadians > glm::radians(kWidestImageDegrees)) {
+        reader.fail("texture",
+                    fmt::format("a light with a texture has an outer_cone_degrees of at "
+                                "most {}, not {}",
+                                kWidestImageDegrees, glm::degrees(light.outerConeRadians)));
+    }
+    const bool isVertical = std::abs(light.direction.y) > 1.0 - 1e-9;
+    glm::dvec3 up = isVertical ? glm::dvec3(0, 0, -1) : glm::dvec3(0, 1, 0);
+    if (reader.has("up")) up = reader.direction("up");
+    up -= glm::dot(up, light.direction) * light.direction;
+    if (glm::length(up) < 1e-6) reader.fail("up", "up must not be parallel to direction");
+    light.up = glm::normalize(up);
+}
+
+// A surface that reflects more than it receives is a slip.
+void requireNoGain(TableReader& reader, const Material& material) {
+    const auto check = [&](const glm::vec3& albedo, const char* key) {
+        const glm::vec3 sum = albedo + material.specular;
+        const float most = std::max({sum.r, sum.g, sum.b});
+        if (most <= 1.0f + 1e-6f) return;
+        reader.fail("specular",
+                    fmt::format("{} and specular must add up to at most 1, not {}", key, most));
+    };
+    check(material.albedo, "albedo");
+    if (material.pattern != Pattern::none) check(material.patternAlbedo, "pattern_albedo");
 }
 
 }  // namespace
@@ -87,7 +127,7 @@ Medium readMedium(TableReader& reader) {
     return medium;
 }
 
-Light readLight(TableReader& reader) {
+Light readLight(TableReader& reader, Scene& scene) {
     Light light;
     light.name = reader.name();
     light.kind = reader.choice<LightKind>("type", {{"directional", LightKind::directional},
@@ -96,7 +136,10 @@ Light readLight(TableReader& reader) {
     const glm::dvec3 color = reader.uniformOrVector3("color", kNotNegative, glm::dvec3(1.0));
     double power = 0.0;
     if (light.kind != LightKind::point) light.direction = reader.direction("direction");
-    if (light.kind == LightKind::spot) readCone(reader, light);
+    if (light.kind == LightKind::spot) {
+        readCone(reader, light);
+        readSpotImage(reader, light, scene);
+    }
     if (light.kind == LightKind::directional) {
         power = reader.number("irradiance", kNotNegative);
     } else {
@@ -119,9 +162,11 @@ Material readMaterial(TableReader& reader, Scene& scene) {
     material.name = reader.name();
     material.kind = reader.choice<MaterialKind>("type", {{"lambertian", MaterialKind::lambertian},
                                                          {"dielectric", MaterialKind::dielectric},
-                                                         {"mirror", MaterialKind::mirror}});
+                                                         {"mirror", MaterialKind::mirror},
+                                                         {"glossy", MaterialKind::glossy}});
     switch (material.kind) {
         case MaterialKind::lambertian:
+        case MaterialKind::glossy:
             material.albedo = reader.uniformOrVector3("albedo", kAlbedo);
             material.pattern = reader.choice<Pattern>(
                 "pattern",
@@ -131,6 +176,10 @@ Material readMaterial(TableReader& reader, Scene& scene) {
                 reader.uniformOrVector3("pattern_albedo", kAlbedo, glm::dvec3(0.25));
             material.uvScale = reader.uniformOrVector2("uv_scale", kPositive, glm::dvec2(1.0));
             if (reader.has("texture")) material.image = readTexture(reader, scene);
+            if (material.kind == MaterialKind::lambertian) break;
+            material.specular = reader.uniformOrVector3("specular", kAlbedo);
+            material.exponent = reader.numberAsFloat("exponent", kExponent, 50.0);
+            requireNoGain(reader, material);
             break;
         case MaterialKind::dielectric:
             material.albedo = glm::vec3(0.0f);

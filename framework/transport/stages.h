@@ -105,6 +105,8 @@ struct Hits {
 struct IrradianceMap {
     graph::Texture<IrradianceTexel> irradiance;
     Ledger ledger;
+    // The same light toward the eye (transport/brdf.h); invalid where no receiver is glossy.
+    graph::Texture<RadianceTexel> radiance;
 };
 
 struct Radiance {

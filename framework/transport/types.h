@@ -37,13 +37,15 @@ struct InstanceData {
 const uint kMaterialLambertian = 0u;
 const uint kMaterialDielectric = 1u;
 const uint kMaterialMirror = 2u;
+const uint kMaterialGlossy = 3u;
 
 // One material (std430).
 struct MaterialData {
     vec4 albedo;         // rgb: reflectance; w: kind
     vec4 patternAlbedo;  // rgb: second colour; w: pattern (0 none, 1 checker, 2 tiles)
     vec4 absorption;     // rgb: 1/m inside; w: index of refraction
-    vec4 uv;  // xy: scale; z: image layer, -1 none; w: 1 where the surface is open (water)
+    vec4 uv;        // xy: scale; z: image layer, -1 none; w: 1 where the surface is open (water)
+    vec4 specular;  // glossy, the lobe of brdf.h: rgb its reflectance; w: exponent
 };
 
 // One light, in the view space of the eye (std430).
@@ -54,7 +56,10 @@ struct LightData {
     vec4 positionVs;   // w: kind
     vec4 directionVs;  // unit, from the light outwards; w: range in m, 0 unlimited
     vec4 power;        // rgb: W/m² (directional) or W/sr; w: unused
-    vec4 cone;         // x: cos of the inner half-angle, y: of the outer
+    vec4 cone;         // x: cos of the inner half-angle, y: of the outer; z: tan of the outer
+    vec4 rightVs;  // spot, the image that multiplies its power: unit, to its right; w: layer, -1
+                   // none
+    vec4 upVs;     // unit, to its top
 };
 
 // One vertex (std430); also a vertex buffer.

@@ -19,7 +19,7 @@ struct TracedRay {
 // (hard case 10); receivers end it from either side.
 bool isFacing(TracedRay ray, uint material, vec3 normal) {
     uint kind = materialKind(material - 1u);
-    if (kind == kMaterialLambertian) return true;
+    if (isReceiver(kind)) return true;
     bool isInside = kind == kMaterialDielectric && innerMedium(ray.media) == material;
     return (dot(ray.direction, normal) > 0.0) == isInside;
 }

@@ -10,6 +10,11 @@ uint materialKind(uint material) {
     return uint(materials[material].albedo.w);
 }
 
+// Light ends on a receiver; it goes on from every other surface.
+bool isReceiver(uint kind) {
+    return kind == kMaterialLambertian || kind == kMaterialGlossy;
+}
+
 // Index of refraction of a medium: material index + 1, or 0 for vacuum.
 float mediumIndex(uint medium) {
     return medium == 0u ? 1.0 : materials[medium - 1u].absorption.w;

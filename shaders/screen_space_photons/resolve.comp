@@ -58,9 +58,9 @@ void main() {
         vec3 left = mediumTransmittance(innerMedium(photon.media), first.t);
         hit.fluxWatts = photon.fluxWatts * left;
         ledgerAdd(kAccountAbsorbed, photon.fluxWatts * (1.0 - left));
-        bool isReceiver = materialKind(hit.material - 1u) == kMaterialLambertian;
-        hit.fate = isReceiver ? kFateReceiver : kFateSpecular;
-        if (isReceiver) ledgerAdd(kAccountArrived, hit.fluxWatts);
+        bool arrives = isReceiver(materialKind(hit.material - 1u));
+        hit.fate = arrives ? kFateReceiver : kFateSpecular;
+        if (arrives) ledgerAdd(kAccountArrived, hit.fluxWatts);
     }
     imageStore(hitPosition, texel, hitPositionTexel(hit));
     imageStore(hitSurface, texel, hitSurfaceTexel(hit));

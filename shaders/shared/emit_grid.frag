@@ -35,7 +35,7 @@ void main() {
         flux = lightIntensity(light, positionVs) * solidAngle;
         footprint = sqrt(solidAngle) * distance;
     }
-    bool isPhoton = materialKind(material) != kMaterialLambertian && flux.r + flux.g + flux.b > 0.0;
+    bool isPhoton = !isReceiver(materialKind(material)) && flux.r + flux.g + flux.b > 0.0;
     vec3 normal = shadingNormal(normalVs, geometricNormal(positionVs, -direction));
     float fate = float(isPhoton ? kFateSpecular : kFateNone);
     vec4 on = vec4(isPhoton ? 1.0 : 0.0);

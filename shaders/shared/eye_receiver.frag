@@ -13,11 +13,11 @@ void main() {
     float depth = -positionVs.z;
     vec3 geometric = geometricNormal(positionVs, -positionVs);
     vec3 albedo = surfaceAlbedo(material, uv);
-    bool isReceiver = materialKind(material) == kMaterialLambertian;
+    bool isLit = isReceiver(materialKind(material));
     vec3 ray = viewRay(gl_FragCoord.xy);
-    receiver = isReceiver ? vec4(depth, pixelArea(ray, depth, geometric), 0.0, 0.0)
-                          : vec4(-depth, 0.0, 0.0, 0.0);
+    receiver = isLit ? vec4(depth, pixelArea(ray, depth, geometric), 0.0, 0.0)
+                     : vec4(-depth, 0.0, 0.0, 0.0);
     receiverSurface =
-        isReceiver ? vec4(shadingNormal(normalVs, geometric), float(material + 1u)) : vec4(0.0);
-    receiverAlbedo = isReceiver ? vec4(albedo, 1.0) : vec4(0.0);
+        isLit ? vec4(shadingNormal(normalVs, geometric), float(material + 1u)) : vec4(0.0);
+    receiverAlbedo = isLit ? vec4(albedo, 1.0) : vec4(0.0);
 }

@@ -21,7 +21,7 @@ struct LightGrid {
 scene::Bounds specularBounds(const scene::Scene& scene) {
     scene::Bounds bounds;
     for (const scene::Object& object : scene.objects) {
-        if (scene.materials[object.material].kind == scene::MaterialKind::lambertian) continue;
+        if (isReceiver(scene.materials[object.material].kind)) continue;
         const scene::Bounds objects = objectBounds(scene, object);
         bounds.include(objects.minimum);
         bounds.include(objects.maximum);
