@@ -112,7 +112,10 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry) 
     runApp->add_option("--seed", run.seed, "Seed of everything random")->capture_default_str();
     runApp->add_flag("--precise", run.precise,
                      "Times each pass with the device finished around it (software rasterisers)");
-    runApp->add_option("--reference", run.reference, "Compare with the truth: none")
+    runApp
+        ->add_option("--reference", run.reference,
+                     "Compare with the truth: none, auto (computed once and kept) or a file of "
+                     "'kaustik reference'")
         ->capture_default_str();
     runApp->add_option("--save", run.saved, "A resource to save, by a name from 'explain'")
         ->take_all()
@@ -132,6 +135,33 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry) 
         app.add_subcommand("explain", "Prints every pass and why it runs or was left out");
     addSceneOptions(*explainApp, explain.scene);
     explainApp->add_option("--dot", explain.dotFile, "Writes the graph as Graphviz");
+
+    ReferenceOptions reference;
+    CLI::App* referenceApp =
+        app.add_subcommand("reference", "Computes the ray-traced truth of a scene");
+    referenceApp
+        ->add_option("scene", reference.scene, "A name from 'list scenes', a .toml, .gltf or .glb")
+        ->required();
+    referenceApp->add_option("--photons", reference.photons, "Stops at this number of photons");
+    referenceApp->add_option("--seconds", reference.seconds, "Stops after this time");
+    referenceApp->add_option("--error", reference.standardError,
+                             "Stops at this standard error, as a share of a lit pixel's mean");
+    referenceApp->add_option("--estimator", reference.estimator, "light or sppm")
+        ->capture_default_str();
+    referenceApp->add_option("--size", reference.size, "Picture size, WIDTHxHEIGHT")
+        ->capture_default_str();
+    referenceApp->add_option("--time", reference.time, "Time of the animation in seconds");
+    referenceApp->add_option("--seed", reference.seed, "Seed of everything random")
+        ->capture_default_str();
+    referenceApp->add_option("--threads", reference.threads, "Threads; 0: all; changes no value")
+        ->capture_default_str();
+    referenceApp->add_flag("--transmission-only", reference.transmissionOnly,
+                           "At dielectrics only the refracted branch, unless all is reflected");
+    referenceApp
+        ->add_option("--interactions", reference.interactions,
+                     "Most specular interactions of a photon")
+        ->capture_default_str();
+    referenceApp->add_option("--out", reference.out, "The .exr that is written");
 
     CompareOptions compare;
     CLI::App* compareApp =
@@ -170,6 +200,7 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry) 
         if (runApp->parsed()) runCommand(run, registry);
         if (listApp->parsed()) listCommand(list, registry);
         if (explainApp->parsed()) explainCommand(explain, registry);
+        if (referenceApp->parsed()) referenceCommand(reference);
         if (compareApp->parsed()) compareCommand(compare);
         if (experimentApp->parsed()) experimentCommand(experiment, registry);
         if (checkApp->parsed()) checkCommand();

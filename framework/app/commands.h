@@ -12,6 +12,7 @@ namespace kaustik::app {
 void runCommand(const RunOptions& options, const Registry& registry);
 void listCommand(const ListOptions& options, const Registry& registry);
 void explainCommand(const ExplainOptions& options, const Registry& registry);
+void referenceCommand(const ReferenceOptions& options);
 void compareCommand(const CompareOptions& options);
 void experimentCommand(const ExperimentOptions& options, const Registry& registry);
 void checkCommand();
@@ -22,6 +23,9 @@ void checkCommand();
 
 // Checks everything that the options name, before any device is asked for.
 [[nodiscard]] RenderSettings makeSettings(const SceneOptions& options, const Registry& registry);
-[[nodiscard]] scene::Scene loadRequestedScene(const SceneOptions& options);
+// `time`: seconds, or "" for the scene's own.
+[[nodiscard]] scene::Scene loadRequestedScene(const std::string& name, const std::string& time);
+// WIDTHxHEIGHT of --size.
+[[nodiscard]] params::Extent parseSize(const std::string& text);
 
 }  // namespace kaustik::app

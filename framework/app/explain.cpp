@@ -52,7 +52,7 @@ std::string describe(const graph::ResourceDesc& desc) {
 }  // namespace
 
 void explainCommand(const ExplainOptions& options, const Registry& registry) {
-    const scene::Scene scene = loadRequestedScene(options.scene);
+    const scene::Scene scene = loadRequestedScene(options.scene.scene, options.scene.time);
     RenderSettings settings = makeSettings(options.scene, registry);
     const std::unique_ptr<gl::Context> context = gl::Context::createHeadless();
     Renderer renderer(*context, registry, scene, std::move(settings));

@@ -2,6 +2,7 @@
 // What the command line asks for (design, section 7).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,21 @@ struct RunOptions {
     std::string reference = "none";
     std::vector<std::string> saved;  // resources
     std::string out;                 // "" for results/runs/<scene>-<technique>
+};
+
+struct ReferenceOptions {
+    std::string scene;
+    std::string time;  // seconds; "" for the scene's own
+    std::string size = "800x600";
+    std::string estimator = "light";
+    std::optional<long long> photons;     // where to stop: what is met first
+    std::optional<double> seconds;        //
+    std::optional<double> standardError;  // relative
+    long long seed = 1;
+    int threads = 0;  // 0: all
+    bool transmissionOnly = false;
+    int interactions = 64;
+    std::string out;  // "" for results/references/<scene>-<estimator>-<size>.exr
 };
 
 struct ListOptions {

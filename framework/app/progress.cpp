@@ -28,14 +28,21 @@ Progress::~Progress() {
 }
 
 void Progress::update(int done) {
+    if (done <= 0 || done > total_) return;
+    print(static_cast<double>(done) / total_, fmt::format("{}/{}", done, total_));
+}
+
+void Progress::updateShare(double share, const std::string& reached) {
+    if (share > 0.0 && share <= 1.0) print(share, reached);
+}
+
+void Progress::print(double share, const std::string& reached) {
     const Clock::time_point now = Clock::now();
     const double elapsed = std::chrono::duration<double>(now - begin_).count();
     const double sinceLast = std::chrono::duration<double>(now - last_).count();
-    if (done <= 0 || done > total_) return;
-    if (!isTerminal_ && (sinceLast < kSecondsBetweenPlainLines || done == total_)) return;
-    const double left = elapsed / done * (total_ - done);
+    if (!isTerminal_ && (sinceLast < kSecondsBetweenPlainLines || share >= 1.0)) return;
     const std::string text =
-        fmt::format("{} {}/{}, about {:.0f} s left", what_, done, total_, left);
+        fmt::format("{} {}, about {:.0f} s left", what_, reached, elapsed / share * (1.0 - share));
     if (isTerminal_) {
         fmt::print(stderr, "\r\033[K{}", text);
         std::fflush(stderr);

@@ -10,15 +10,19 @@ namespace kaustik::app {
 
 class Progress {
   public:
-    Progress(std::string what, int total);
+    explicit Progress(std::string what, int total = 0);
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
     // `done` of the total are finished.
     void update(int done);
+    // The same for work that is not counted: a share in [0,1], and what has been reached.
+    void updateShare(double share, const std::string& reached);
 
   private:
     using Clock = std::chrono::steady_clock;
+    void print(double share, const std::string& reached);
+
     std::string what_;
     int total_;
     bool isTerminal_;

@@ -9,6 +9,7 @@
 #include "framework/app/commands.h"
 #include "framework/app/output.h"
 #include "framework/app/progress.h"
+#include "framework/app/truth.h"
 #include "framework/core/error.h"
 #include "framework/core/files.h"
 #include "framework/pipeline/stage_params.h"
@@ -24,12 +25,6 @@ void checkOptions(const RunOptions& options) {
     }
     if (options.warmup < 0 || options.warmup > 1000000) {
         throw ConfigError(fmt::format("--warmup: {} is not from 0 to 1000000.", options.warmup));
-    }
-    if (options.reference != "none") {
-        throw ConfigError(fmt::format(
-            "--reference: '{}' cannot be had, since this version has no ray-traced reference yet; "
-            "leave the option out.",
-            options.reference));
     }
 }
 
@@ -64,7 +59,7 @@ void runCommand(const RunOptions& options, const Registry& registry) {
     using Clock = std::chrono::steady_clock;
     const Clock::time_point begin = Clock::now();
     checkOptions(options);
-    const scene::Scene scene = loadRequestedScene(options.scene);
+    const scene::Scene scene = loadRequestedScene(options.scene.scene, options.scene.time);
     RenderSettings settings = makeSettings(options.scene, registry);
     const fs::path folder =
         options.out.empty()
@@ -94,10 +89,11 @@ void runCommand(const RunOptions& options, const Registry& registry) {
     gl::PassTimer timer(record.timer);
     record.startupMilliseconds =
         std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+    const Truth truth(options.reference, renderer);  // before the frames: it may be refused
     record.frames = renderTimedFrames(renderer, timer, options);
 
     // The pictures come from one more frame, which also fills the ledger; it is not timed.
-    renderer.build(Purpose::measurement, options.saved);
+    renderer.build(truth.purpose(), options.saved);
     gl::PassTimer untimed(gl::TimerMode::finish);
     renderer.renderFrame(untimed);
     record.ledger = renderer.ledger();
@@ -117,7 +113,9 @@ void runCommand(const RunOptions& options, const Registry& registry) {
     }
 
     throwIfInterrupted();
-    const std::vector<fs::path> files = writePictures(folder, renderer, options.saved);
+    std::vector<fs::path> files = writePictures(folder, renderer, options.saved);
+    const std::vector<fs::path> judged = truth.judge(renderer, folder, record);
+    files.insert(files.end(), judged.begin(), judged.end());
     writeFileWhole(folder / "trace.json", report::makeChromeTrace(record).dump());
     writeFileWhole(folder / "samples.json", report::makeSamples(record).dump());
     const nlohmann::json report = report::makeReport(record, renderer, context->info());

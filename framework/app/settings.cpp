@@ -18,24 +18,28 @@ RenderSettings makeSettings(const SceneOptions& options, const Registry& registr
     for (const std::string& assignment : options.assignments) {
         settings.params.setAssignment(assignment, "--set");
     }
-    params::Extent size;
-    const params::Field sizeField{"size", "", "px", &size, 1.0, 16384.0, {}};
-    sizeField.set(options.size, "size", "--size");
+    const params::Extent size = parseSize(options.size);
     settings.width = size.width;
     settings.height = size.height;
     settings.disabledPasses.insert(options.disabled.begin(), options.disabled.end());
     return settings;
 }
 
-scene::Scene loadRequestedScene(const SceneOptions& options) {
-    scene::Scene scene = scene::loadScene(options.scene);
-    if (!options.time.empty()) {
+params::Extent parseSize(const std::string& text) {
+    params::Extent size;
+    const params::Field field{"size", "", "px", &size, 1.0, 16384.0, {}};
+    field.set(text, "size", "--size");
+    return size;
+}
+
+scene::Scene loadRequestedScene(const std::string& name, const std::string& time) {
+    scene::Scene scene = scene::loadScene(name);
+    if (!time.empty()) {
         double seconds = 0.0;
-        const char* end = options.time.data() + options.time.size();
-        const auto [parsed, error] = std::from_chars(options.time.data(), end, seconds);
+        const char* end = time.data() + time.size();
+        const auto [parsed, error] = std::from_chars(time.data(), end, seconds);
         if (error != std::errc() || parsed != end || !std::isfinite(seconds)) {
-            throw ConfigError(
-                fmt::format("--time: '{}' is not a number of seconds.", options.time));
+            throw ConfigError(fmt::format("--time: '{}' is not a number of seconds.", time));
         }
         scene::setTime(scene, seconds);
     }

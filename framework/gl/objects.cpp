@@ -101,6 +101,13 @@ void Texture::generateMipmaps() const {
     glGenerateTextureMipmap(id());
 }
 
+void Texture::copyTo(const Texture& target) const {
+    const GLenum kind = desc_.layers > 0 ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D;
+    glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
+    glCopyImageSubData(id(), kind, 0, 0, 0, 0, target.id(), kind, 0, 0, 0, 0, desc_.width,
+                       desc_.height, std::max(desc_.layers, 1));
+}
+
 std::vector<float> Texture::read() const {
     const FormatInfo info = formatInfo(desc_.format);
     const std::size_t texels = static_cast<std::size_t>(desc_.width) *
@@ -140,6 +147,11 @@ void Buffer::upload(std::size_t offset, std::size_t byteCount, const void* data)
 void Buffer::clear() const {
     const std::uint32_t zero = 0;
     glClearNamedBufferData(id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
+}
+
+void Buffer::copyTo(const Buffer& target) const {
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    glCopyNamedBufferSubData(id(), target.id(), 0, 0, static_cast<GLsizeiptr>(bytes_));
 }
 
 void Buffer::readBytes(void* destination) const {

@@ -72,6 +72,8 @@ class Texture {
     // Replaces one layer of an RGBA array texture; bottom row first.
     void upload(int layer, const std::vector<float>& rgba) const;
     void generateMipmaps() const;
+    // Copies all layers to a texture of the same description.
+    void copyTo(const Texture& target) const;
     // All layers as floats (integers are converted), channels interleaved, bottom row first.
     // Waits for the device.
     [[nodiscard]] std::vector<float> read() const;
@@ -92,6 +94,8 @@ class Buffer {
     [[nodiscard]] std::size_t bytes() const { return bytes_; }
     void upload(std::size_t offset, std::size_t byteCount, const void* data) const;
     void clear() const;
+    // Copies everything to a buffer that is at least as large.
+    void copyTo(const Buffer& target) const;
     // Waits for the device.
     template <class T>
     [[nodiscard]] std::vector<T> read() const {

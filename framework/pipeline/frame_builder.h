@@ -11,6 +11,7 @@
 #include "framework/gl/executor.h"
 #include "framework/graph/graph.h"
 #include "framework/pipeline/registry.h"
+#include "framework/pipeline/trace_record.h"
 #include "framework/render/gpu_scene.h"
 #include "framework/scene/needs.h"
 
@@ -36,14 +37,20 @@ struct FrameInputs {
 
 class FrameBuilder {
   public:
-    FrameBuilder(graph::Graph& graph, const FrameInputs& inputs) : graph_(graph), inputs_(inputs) {}
+    // `recordsTraces`: keeps what each tracing was given and what it found (for the photon audit).
+    FrameBuilder(graph::Graph& graph, const FrameInputs& inputs, bool recordsTraces = false)
+        : graph_(graph), inputs_(inputs), recordsTraces_(recordsTraces) {}
 
     // Runs the node that the settings choose for a stage.
     template <class Stage, class... In>
     typename Stage::Output run(In... in) {
         const Registry::Node& node = chosenNode(Stage::name);
         const auto& build = *static_cast<const typename Stage::Build*>(node.build.get());
-        return build(*this, std::move(in)...);
+        typename Stage::Output output = build(*this, std::move(in)...);
+        if constexpr (std::is_same_v<Stage, TraceStage>) {
+            if (recordsTraces_) traces_.push_back(recordTrace(*this, output));
+        }
+        return output;
     }
     [[nodiscard]] const Registry::Node& chosenNode(const std::string& stage);
 
@@ -80,6 +87,7 @@ class FrameBuilder {
         return reference;
     }
     [[nodiscard]] std::vector<std::shared_ptr<void>> takeKept() { return std::move(kept_); }
+    [[nodiscard]] const std::vector<TraceRecord>& traces() const { return traces_; }
     // For the report.
     void warn(std::string warning) { warnings_.push_back(std::move(warning)); }
     [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
@@ -92,6 +100,8 @@ class FrameBuilder {
     std::vector<std::shared_ptr<void>> kept_;
     std::vector<std::string> warnings_;
     std::vector<std::string> stagesRun_;
+    bool recordsTraces_ = false;
+    std::vector<TraceRecord> traces_;
 };
 
 // The usual order of the stages, from which a technique differs only if it must.

@@ -98,24 +98,26 @@ Renderer::Renderer(gl::Context& context, const Registry& registry, const scene::
     context_.check();
 }
 
-FrameBuilder Renderer::declareFrame() {
+FrameBuilder Renderer::declareFrame(bool recordsTraces) {
     graph_ = std::make_unique<graph::Graph>();
-    FrameBuilder frame(*graph_, inputs_);
+    FrameBuilder frame(*graph_, inputs_, recordsTraces);
     outputs_ = settings_.technique.build ? settings_.technique.build(frame) : buildFrame(frame);
     return frame;
 }
 
 graph::Compiled Renderer::compile(Purpose purpose, const std::vector<std::string>& resources) {
     const auto begin = std::chrono::steady_clock::now();
-    FrameBuilder frame = declareFrame();
-    if (purpose == Purpose::measurement) closedLedger_ = closeLedger(frame, outputs_);
+    FrameBuilder frame = declareFrame(purpose == Purpose::audit);
+    if (purpose != Purpose::picture) closedLedger_ = closeLedger(frame, outputs_);
     graph_->request(outputs_.picture.radiance);
     graph_->request(outputs_.picture.display);
     graph_->request(outputs_.caustic.irradiance);
-    if (purpose == Purpose::measurement) {
+    if (purpose != Purpose::picture) {
         graph_->request(closedLedger_);
         if (outputs_.layers.statistics.valid()) graph_->request(outputs_.layers.statistics);
     }
+    traces_ = frame.traces();
+    if (purpose == Purpose::audit) requestForAudit();
     for (const std::string& name : resources) {
         const graph::ResourceRef handle = graph_->find(name);
         if (!handle.valid()) {
@@ -135,6 +137,23 @@ graph::Compiled Renderer::compile(Purpose purpose, const std::vector<std::string
     return compiled;
 }
 
+void Renderer::requestForAudit() {
+    const auto request = [this](const graph::ResourceRef& handle) {
+        if (handle.valid()) graph_->request(handle);
+    };
+    for (const TraceRecord& trace : traces_) {
+        const Hits& hits = trace.hits;
+        const Photons& photons = hits.incoming;
+        for (const graph::ResourceRef& handle : std::initializer_list<graph::ResourceRef>{
+                 hits.position, hits.surface, hits.flux, photons.position, photons.direction,
+                 photons.flux, photons.ledger}) {
+            request(handle);
+        }
+    }
+    request(outputs_.layers.depth);
+    request(outputs_.eye.receiver);
+}
+
 void Renderer::build(Purpose purpose, const std::vector<std::string>& resources) {
     executor_.prepare(compile(purpose, resources));
 }
@@ -144,7 +163,11 @@ void Renderer::renderFrame(gl::PassTimer& timer) {
 }
 
 EnergyLedger Renderer::ledger() const {
-    return readLedger(executor_.buffer(closedLedger_), ledgerQuantumWatts_);
+    return ledger(closedLedger_);
+}
+
+EnergyLedger Renderer::ledger(const Ledger& handle) const {
+    return readLedger(executor_.buffer(handle), ledgerQuantumWatts_);
 }
 
 transport::LayerStatistics Renderer::layerStatistics() const {

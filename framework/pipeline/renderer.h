@@ -26,8 +26,9 @@ struct RenderSettings {
 
 // What a frame is asked for.
 enum class Purpose {
-    picture,     // what a user of the technique wants: this is what is timed
-    measurement  // also the ledger, the layer statistics and every resource kept by name
+    picture,      // what a user of the technique wants: this is what is timed
+    measurement,  // also the ledger, the layer statistics and every resource kept by name
+    audit         // also what every tracing was given and what it found, the layers, the receivers
 };
 
 class Renderer {
@@ -52,8 +53,13 @@ class Renderer {
     [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
     [[nodiscard]] double buildMilliseconds() const { return buildMilliseconds_; }
 
+    // Of the last build for Purpose::audit.
+    [[nodiscard]] const std::vector<TraceRecord>& traces() const { return traces_; }
+
     // What was rendered; these wait for the device. The first two need Purpose::measurement.
     [[nodiscard]] EnergyLedger ledger() const;
+    // A ledger as it stood where the handle was written.
+    [[nodiscard]] EnergyLedger ledger(const Ledger& handle) const;
     [[nodiscard]] transport::LayerStatistics layerStatistics() const;
     [[nodiscard]] const gl::Texture& texture(const graph::ResourceRef& handle) const;
     [[nodiscard]] const gl::Buffer& buffer(const graph::ResourceRef& handle) const;
@@ -62,12 +68,15 @@ class Renderer {
     void measureDepthComplexity();
     [[nodiscard]] const scene::SceneNeeds& needs() const { return needs_; }
     [[nodiscard]] const scene::Scene& scene() const { return scene_; }
+    [[nodiscard]] const render::EyeView& view() const { return view_; }
     [[nodiscard]] const render::GpuScene& gpuScene() const { return gpuScene_; }
     [[nodiscard]] const RenderSettings& settings() const { return settings_; }
     [[nodiscard]] gl::Executor& executor() { return executor_; }
 
   private:
-    [[nodiscard]] FrameBuilder declareFrame();
+    [[nodiscard]] FrameBuilder declareFrame(bool recordsTraces = false);
+
+    void requestForAudit();
 
     gl::Context& context_;
     const Registry& registry_;
@@ -88,6 +97,7 @@ class Renderer {
     std::vector<std::shared_ptr<void>> kept_;  // what nodes keep alive for their frame
     FrameOutputs outputs_;
     Ledger closedLedger_;
+    std::vector<TraceRecord> traces_;
     std::vector<std::string> warnings_;
     double buildMilliseconds_ = 0.0;
 };

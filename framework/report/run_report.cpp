@@ -41,7 +41,7 @@ json needsJson(const scene::SceneNeeds& needs, const LayerStatistics& layers) {
 json energyJson(const EnergyLedger& ledger) {
     json lost = json::object();
     for (const auto& [account, name] : lossCauses()) {
-        if (ledger.watts[account] > 0.0) lost[name] = ledger.watts[account];
+        if (ledger.watts[account] != 0.0) lost[name] = ledger.watts[account];
     }
     return {{"emitted_w", ledger.watts[kAccountEmitted]},
             {"deposited_w", ledger.watts[kAccountDeposited]},
@@ -98,6 +98,48 @@ std::vector<double> bookkeepingSamples(const RunRecord& record) {
     for (const gl::FrameTime& frame : record.frames)
         samples.push_back(frame.bookkeepingMs);
     return samples;
+}
+
+// One line for each of hits and error.
+std::string truthTable(const RunRecord& record) {
+    std::string table;
+    if (!record.hits.is_null()) {
+        table += fmt::format("{:<22}agreement {:.2f}%, of visible {:.2f}%; ", "hits",
+                             100.0 * record.hits.at("agreement").get<double>(),
+                             100.0 * record.hits.at("agreement_visible").get<double>());
+        for (const char* kind : {"missed", "false_hits"}) {
+            std::string causes;
+            for (const auto& [cause, count] : record.hits.at(kind).items()) {
+                if (count == 0) continue;
+                causes += fmt::format(" {} {},", cause, count.get<std::uint64_t>());
+            }
+            if (!causes.empty()) causes.back() = ';';
+            table += fmt::format("{}{} ", kind, causes.empty() ? " none;" : causes);
+        }
+        table += fmt::format("distance median {:.3g} px, 99% {:.3g} px\n",
+                             record.hits.at("median_px").get<double>(),
+                             record.hits.at("p99_px").get<double>());
+    }
+    const auto errorLine = [&](const char* name, const json& error) {
+        const json& caustic = error.at("caustic_irradiance");
+        if (caustic.is_null()) return;
+        const auto value = [&](const char* key) {
+            const json& number = caustic.at(key);
+            return number.is_null() ? std::string("none")
+                                    : fmt::format("{:.4g}", number.get<double>());
+        };
+        table += fmt::format(
+            "{:<22}RMSE {} W/m² (the truth's own {:.2g}), relMSE {}, SSIM {}, FLIP {}, energy "
+            "ratio {}\n",
+            name, value("rmse"), error.at("reference_stderr").get<double>(), value("rel_mse"),
+            value("ssim"), value("flip_ldr"), value("energy_ratio"));
+    };
+    if (!record.error.is_null()) {
+        errorLine("error", record.error);
+        if (record.error.contains("modelled_paths"))
+            errorLine("  of modelled paths", record.error.at("modelled_paths"));
+    }
+    return table;
 }
 
 }  // namespace
@@ -167,6 +209,8 @@ json makeReport(const RunRecord& record, const Renderer& renderer, const gl::Dev
           {"scene_bytes", renderer.gpuScene().bytes()},
           {"peak_bytes", record.peakBytes}}},
         {"warnings", record.warnings}};
+    if (!record.hits.is_null()) report["hits"] = record.hits;
+    if (!record.error.is_null()) report["error"] = record.error;
     return report;
 }
 
@@ -200,12 +244,13 @@ std::string makeTable(const RunRecord& record) {
             "energy                emitted {:.4g} W: deposited {:.2f}%, absorbed {:.2f}%", emitted,
             share(ledger.watts[kAccountDeposited]), share(ledger.watts[kAccountAbsorbed]));
         for (const auto& [account, name] : lossCauses()) {
-            if (ledger.watts[account] > 0.0) {
+            if (ledger.watts[account] != 0.0) {
                 table += fmt::format(", {} {:.2f}%", name, share(ledger.watts[account]));
             }
         }
         table += fmt::format("; balance {:.1e}\n", ledger.balance());
     }
+    table += truthTable(record);
     return table;
 }
 

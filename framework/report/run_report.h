@@ -3,7 +3,7 @@
 // people, and as Chrome trace events.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -29,6 +29,8 @@ struct RunRecord {
     std::size_t textureBytes = 0;
     std::size_t bufferBytes = 0;
     std::size_t peakBytes = 0;
+    nlohmann::json hits;   // null where no reference was asked for, as is the next
+    nlohmann::json error;  //
     std::vector<std::string> warnings;
 };
 

@@ -83,12 +83,20 @@ struct LayeredDepth {
     int layers = 0;
 };
 
+// The paths that photons stand for, of all that light takes: what a technique claims to model. The
+// reference can be restricted to the same.
+struct ModelledPaths {
+    bool transmissionOnly = false;  // at dielectrics the refracted branch, unless all is reflected
+    int interactions = 0;           // most specular interactions of a photon
+};
+
 // The transfer map, with the account of what its photons have lost so far.
 struct Photons {
     graph::Texture<PhotonPosition> position;
     graph::Texture<PhotonDirection> direction;
     graph::Texture<PhotonFlux> flux;
     Ledger ledger;
+    ModelledPaths paths;
     int width = 0;
     int height = 0;
     [[nodiscard]] int count() const { return width * height; }

@@ -27,6 +27,8 @@ Photons interactAtInterface(FrameBuilder& frame, const params::NoParams&, Hits h
                 data.photons.direction = setup.write(hits.incoming.direction);
                 data.photons.flux = setup.write(hits.incoming.flux);
                 data.photons.ledger = setup.write(hits.incoming.ledger);
+                data.photons.paths.transmissionOnly = true;
+                ++data.photons.paths.interactions;
             },
             [&inputs = frame.inputs(), isFirst](const Data& data, gl::PassContext& context) {
                 gl::Command command = context.compute("shared/specular_interface.comp");

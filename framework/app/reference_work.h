@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// References as the commands make them: cached, with progress, stopped by Ctrl-C without loss.
+#pragma once
+
+#include <filesystem>
+
+#include "framework/reference/reference.h"
+
+namespace kaustik::app {
+
+// Photons of `--reference auto`, and of `kaustik reference` when nothing says where to stop.
+inline constexpr std::uint64_t kDefaultReferencePhotons = 1u << 26;
+
+// $KAUSTIK_CACHE, else $XDG_CACHE_HOME/kaustik, else ~/.cache/kaustik. Throws IoError where there
+// is none of them.
+[[nodiscard]] std::filesystem::path cacheFolder();
+
+// From the cache, or computed with its progress on standard error and cached. Throws Error when
+// interrupted; the next call goes on from there.
+[[nodiscard]] reference::Reference obtainReference(const reference::EmbreeScene& scene,
+                                                   const reference::ReferenceRequest& request,
+                                                   reference::RunOptions options);
+
+}  // namespace kaustik::app

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// The ray-traced truth of a run (`--reference`): where it comes from, and what a rendered frame is
+// found to be worth beside it. `none` needs no Embree; the rest is a ConfigError without it.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "framework/pipeline/renderer.h"
+#include "framework/report/run_report.h"
+
+namespace kaustik::app {
+
+class Truth {
+  public:
+    // `wanted`: none, auto or the file of a reference. Reads or computes what there is to compare
+    // with, for the renderer's scene and size, as of its last build. Throws ConfigError for a
+    // reference of another scene or size, IoError for a damaged one.
+    Truth(const std::string& wanted, const Renderer& renderer);
+    ~Truth();
+    Truth(const Truth&) = delete;
+    Truth& operator=(const Truth&) = delete;
+
+    // What the frame must be built for.
+    [[nodiscard]] Purpose purpose() const;
+
+    // Judges the frame that was rendered for purpose(): fills the record's hits and error, and the
+    // causes in its ledger. Writes pictures into `folder` and gives their names.
+    std::vector<std::filesystem::path> judge(const Renderer& renderer,
+                                             const std::filesystem::path& folder,
+                                             report::RunRecord& record) const;
+
+  private:
+    struct Loaded;
+    std::unique_ptr<Loaded> loaded_;
+};
+
+}  // namespace kaustik::app

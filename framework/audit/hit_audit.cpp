@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: MIT
+#include "framework/audit/hit_audit.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kaustik::audit {
+namespace {
+
+using namespace transport;
+
+struct TracedPhoton {
+    reference::AuditPhoton photon;
+    glm::dvec3 fluxWatts{0.0};
+    std::optional<glm::dvec3> found;
+};
+
+glm::dvec3 xyz(const std::vector<float>& texels, std::size_t texel) {
+    return {texels[4 * texel], texels[4 * texel + 1], texels[4 * texel + 2]};
+}
+
+bool isFinite(const glm::dvec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+std::vector<TracedPhoton> readTrace(const Renderer& renderer, const TraceRecord& trace,
+                                    std::uint64_t& notANumber) {
+    const Photons& photons = trace.hits.incoming;
+    const std::vector<float> position = renderer.texture(photons.position).read();
+    const std::vector<float> direction = renderer.texture(photons.direction).read();
+    const std::vector<float> flux = renderer.texture(photons.flux).read();
+    const std::vector<float> hitPosition = renderer.texture(trace.hits.position).read();
+    const std::vector<float> hitFlux = renderer.texture(trace.hits.flux).read();
+    const auto fateOf = [](const std::vector<float>& texels, std::size_t i) {
+        return static_cast<unsigned>(texels[4 * i + 3]);
+    };
+    std::vector<TracedPhoton> traced;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(photons.count()); ++i) {
+        if (fateOf(direction, i) != kFateInFlight) continue;
+        TracedPhoton one;
+        one.photon.position = xyz(position, i);
+        one.photon.direction = xyz(direction, i);
+        one.photon.media = static_cast<std::uint32_t>(flux[4 * i + 3]);
+        one.fluxWatts = xyz(flux, i);
+        if (fateOf(hitFlux, i) == kFateReceiver || fateOf(hitFlux, i) == kFateSpecular)
+            one.found = xyz(hitPosition, i);
+        const bool isNumber = isFinite(one.photon.position) && isFinite(one.photon.direction) &&
+                              isFinite(one.fluxWatts) && (!one.found || isFinite(*one.found));
+        if (!isNumber) {
+            ++notANumber;
+            continue;
+        }
+        traced.push_back(one);
+    }
+    return traced;
+}
+
+// The account of a photon that got no hit.
+unsigned accountOf(Sight sight) {
+    switch (sight) {
+        case Sight::none:
+            return kAccountLeftScene;
+        case Sight::shown:
+            return kAccountMissedByTracer;
+        case Sight::offScreen:
+            return kAccountOffScreen;
+        case Sight::behindEye:
+            return kAccountBehindEye;
+        case Sight::beyondLayers:
+            return kAccountBeyondLastLayer;
+        case Sight::edgeOn:
+            return kAccountEdgeOn;
+    }
+    return kAccountUnresolved;
+}
+
+const char* nameOf(Sight sight) {
+    switch (sight) {
+        case Sight::none:
+            return "no_surface";
+        case Sight::shown:
+            return "tracer";
+        case Sight::offScreen:
+            return "off_screen";
+        case Sight::behindEye:
+            return "behind_eye";
+        case Sight::beyondLayers:
+            return "beyond_layers";
+        case Sight::edgeOn:
+            return "edge_on";
+    }
+    return "";
+}
+
+const char* falseHitName(const PhotonFate& fate) {
+    if (fate.verdict == Verdict::displaced) return "displaced";
+    if (fate.verdict == Verdict::tooNear) return "too_near";
+    return nameOf(fate.sight);  // no surface at all, or why the exact hit was passed
+}
+
+class Counter {
+  public:
+    Counter(HitAudit& audit, const render::EyeView& view) : audit_(audit), view_(view) {
+        for (const Sight sight : {Sight::offScreen, Sight::behindEye, Sight::beyondLayers,
+                                  Sight::edgeOn, Sight::shown}) {
+            audit_.missed[nameOf(sight)] = 0;
+            audit_.falseHits[nameOf(sight)] = 0;
+        }
+        for (const char* cause : {"no_surface", "displaced", "too_near"})
+            audit_.falseHits[cause] = 0;
+    }
+
+    void add(const TracedPhoton& traced, const reference::FirstHit& exact, const PhotonFate& fate) {
+        const bool isRight = fate.verdict == Verdict::right;
+        ++audit_.photons;
+        if (exact.exists()) ++audit_.exactHits;
+        if (fate.isVisible()) ++audit_.visible;
+        if (isRight) ++audit_.right;
+        if (isRight && fate.isVisible()) ++audit_.rightVisible;
+        if (fate.distanceMeters) meters_.push_back(*fate.distanceMeters);
+        if (fate.distancePixels) pixels_.push_back(*fate.distancePixels);
+        if (fate.distanceMeters && !fate.distancePixels) ++audit_.unplaced;
+        if (!traced.found) {
+            const unsigned account = accountOf(fate.sight);
+            audit_.missedWatts[account] +=
+                traced.fluxWatts.x + traced.fluxWatts.y + traced.fluxWatts.z;
+            ++audit_.missedPhotons[account];
+        }
+        if (isRight) return;
+        if (fate.verdict == Verdict::missed) {
+            ++audit_.missed[nameOf(fate.sight)];
+        } else {
+            ++audit_.falseHits[falseHitName(fate)];
+        }
+        const auto pixel = pixelOf(view_, traced.found ? *traced.found : exact.position);
+        if (pixel) audit_.wrong.push_back({*pixel, fate.verdict});
+    }
+
+    void finish() {
+        audit_.meters = quantilesOf(std::move(meters_));
+        audit_.pixels = quantilesOf(std::move(pixels_));
+    }
+
+  private:
+    HitAudit& audit_;
+    const render::EyeView& view_;
+    std::vector<double> meters_;
+    std::vector<double> pixels_;
+};
+
+Layers readLayers(const Renderer& renderer) {
+    const LayeredDepth& layers = renderer.outputs().layers;
+    if (!layers.depth.valid()) return {};
+    const gl::Texture& texture = renderer.texture(layers.depth);
+    return {texture.desc().width, texture.desc().height, layers.layers, texture.read()};
+}
+
+double share(std::uint64_t part, std::uint64_t whole) {
+    return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 1.0;
+}
+
+}  // namespace
+
+Quantiles quantilesOf(std::vector<double> samples) {
+    if (samples.empty()) return {};
+    std::sort(samples.begin(), samples.end());
+    const auto rank = [&](double share) {
+        const double index = std::ceil(share * static_cast<double>(samples.size()));
+        return samples[static_cast<std::size_t>(std::max(index, 1.0)) - 1];
+    };
+    return {rank(0.5), rank(0.95), rank(0.99), samples.back()};
+}
+
+double HitAudit::agreement() const {
+    return share(right, photons);
+}
+
+double HitAudit::agreementVisible() const {
+    return share(rightVisible, visible);
+}
+
+HitAudit auditHits(const Renderer& renderer, const reference::EmbreeScene& scene, int threads) {
+    HitAudit audit;
+    const render::EyeView& view = renderer.view();
+    const Layers layers = readLayers(renderer);
+    const glm::dmat4 viewToWorld = glm::inverse(view.worldToView);
+    Counter counter(audit, view);
+    for (const TraceRecord& trace : renderer.traces()) {
+        const std::vector<TracedPhoton> traced = readTrace(renderer, trace, audit.notANumber);
+        std::vector<reference::AuditPhoton> photons;
+        photons.reserve(traced.size());
+        for (const TracedPhoton& one : traced)
+            photons.push_back(one.photon);
+        const std::vector<reference::FirstHit> exact =
+            reference::exactFirstHits(scene, photons, viewToWorld, threads);
+        for (std::size_t i = 0; i < traced.size(); ++i) {
+            counter.add(
+                traced[i], exact[i],
+                judgeFate(view, layers, traced[i].photon.position, traced[i].found, exact[i]));
+        }
+    }
+    counter.finish();
+    return audit;
+}
+
+EnergyLedger resolveLedger(const Renderer& renderer, const HitAudit& audit, double emittedWatts) {
+    EnergyLedger ledger = renderer.ledger();
+    if (renderer.traces().empty()) return ledger;
+    // What stood in these accounts right after the last tracing came from tracers; what came later,
+    // from a reconstruction that also loses light off the screen, stays.
+    const EnergyLedger traced = renderer.ledger(renderer.traces().back().hits.incoming.ledger);
+    for (const unsigned account :
+         {kAccountLeftScene, kAccountOffScreen, kAccountBehindEye, kAccountBeyondLastLayer,
+          kAccountEdgeOn, kAccountMissedByTracer, kAccountUnresolved}) {
+        ledger.watts[account] += audit.missedWatts[account] - traced.watts[account];
+        ledger.events[account] += audit.missedPhotons[account] - traced.events[account];
+        // Both are sums of the same photons, one in fixed point: what is left is its rounding.
+        if (audit.missedPhotons[account] == 0 && ledger.events[account] == 0)
+            ledger.watts[account] = 0.0;
+    }
+    ledger.watts[kAccountEmissionSampling] += emittedWatts - ledger.watts[kAccountEmitted];
+    ledger.watts[kAccountEmitted] = emittedWatts;
+    return ledger;
+}
+
+}  // namespace kaustik::audit
