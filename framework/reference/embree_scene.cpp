@@ -89,7 +89,8 @@ void checkDevice(RTCDevice device) {
 
 }  // namespace
 
-EmbreeScene::EmbreeScene(const scene::Scene& scene, Filters filters) : scene_(scene) {
+EmbreeScene::EmbreeScene(const scene::Scene& scene, Filters filters)
+    : scene_(scene), appearance_(scene) {
     const scene::Bounds world = sceneBounds(scene);
     if (!world.empty) center_ = 0.5 * (world.minimum + world.maximum);
     device_ = rtcNewDevice(nullptr);

@@ -19,6 +19,7 @@
 #include <memory>
 #include <vector>
 
+#include "framework/reference/appearance.h"
 #include "framework/scene/scene.h"
 #include "framework/transport/types.h"
 
@@ -58,7 +59,7 @@ struct SurfaceHit {
 class EmbreeScene {
   public:
     // Builds the acceleration structures; height fields are those of Scene::timeSeconds. `scene`
-    // must outlive this. Throws DeviceError when Embree has no memory. `Filters::none` is for
+    // must outlive this. Throws DeviceError when Embree has no memory, IoError for an image. `Filters::none` is for
     // measuring what the side rules cost: every surface counts from every side.
     enum class Filters { sideRules, none };
     explicit EmbreeScene(const scene::Scene& scene, Filters filters = Filters::sideRules);
@@ -79,6 +80,7 @@ class EmbreeScene {
                                  const glm::dvec3& to, double ignoredEnd) const;
 
     [[nodiscard]] const scene::Scene& scene() const { return scene_; }
+    [[nodiscard]] const Appearance& appearance() const { return appearance_; }
     [[nodiscard]] const glm::dvec3& center() const { return center_; }
     // Local bounds of all meshes as they are now.
     [[nodiscard]] const scene::Bounds& bounds() const { return bounds_; }
@@ -108,6 +110,7 @@ class EmbreeScene {
                 SurfaceHit& hit) const;
 
     const scene::Scene& scene_;
+    Appearance appearance_;
     glm::dvec3 center_{0.0};
     scene::Bounds bounds_;
     std::vector<std::unique_ptr<ObjectMesh>> objects_;  // addresses stay: Embree reads them

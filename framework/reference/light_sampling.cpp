@@ -133,7 +133,8 @@ LightSampler::Share LightSampler::aimCone(const scene::Light& light, const Embre
     return share;
 }
 
-LightSampler::LightSampler(const EmbreeScene& scene, std::uint64_t photonsPerBatch) {
+LightSampler::LightSampler(const EmbreeScene& scene, std::uint64_t photonsPerBatch)
+    : appearance_(&scene.appearance()) {
     if (scene.specularVertices().empty()) return;
     for (const scene::Light& light : scene.scene().lights) {
         if (total(light.power) <= 0.0) continue;
@@ -186,8 +187,11 @@ EmittedPhoton LightSampler::sample(std::uint64_t index, Random& random) const {
                                       sine * std::sin(turn) * share.sideB);
     photon.fluxWatts = weight * glm::dvec3(light.power);
     if (light.kind == scene::LightKind::spot) {
-        photon.fluxWatts *=
+        const double falloff =
             spotFalloff(light, glm::dot(photon.direction, glm::normalize(light.direction)));
+        photon.fluxWatts *= falloff > 0.0
+                                ? falloff * appearance_->spotColor(light, photon.direction)
+                                : glm::dvec3(0.0);
     }
     if (light.rangeMeters > 0.0f) photon.rangeMeters = static_cast<double>(light.rangeMeters);
     return photon;

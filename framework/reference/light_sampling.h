@@ -62,6 +62,7 @@ class LightSampler {
     [[nodiscard]] static Share aimDirectional(const scene::Light& light, const EmbreeScene& scene);
     [[nodiscard]] static Share aimCone(const scene::Light& light, const EmbreeScene& scene);
 
+    const Appearance* appearance_;
     std::vector<Share> shares_;
     std::uint64_t photonCount_ = 0;
     double fluxWatts_ = 0.0;

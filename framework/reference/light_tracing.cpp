@@ -11,6 +11,7 @@
 #include "framework/core/error.h"
 #include "framework/reference/eye.h"
 #include "framework/reference/light_sampling.h"
+#include "framework/scene/needs.h"
 
 namespace kaustik::reference {
 namespace {
@@ -30,13 +31,16 @@ class Camera {
   public:
     Camera(const EmbreeScene& scene, const Eye& eye, BatchResult& result)
         : scene_(scene), eye_(eye), result_(result) {
+        const std::size_t layerSize =
+            static_cast<std::size_t>(eye.width()) * static_cast<std::size_t>(eye.height()) * 3;
+        const int radianceLayer = causticRadianceLayer(scene.scene());
+        if (radianceLayer > 0) radiance_ = layerSize * static_cast<std::size_t>(radianceLayer);
         if (!scatters(scene.scene())) return;
         const scene::Medium& medium = *scene.scene().medium;
         scattering_ = glm::dvec3(medium.scatteringPerMeter);
         fog_ = scattering_ + glm::dvec3(medium.absorptionPerMeter);
         anisotropy_ = static_cast<double>(medium.anisotropy);
-        inScattered_ = static_cast<std::size_t>(eye.width()) *
-                       static_cast<std::size_t>(eye.height()) * 3 * kInScatteredLayer;
+        inScattered_ = layerSize * kInScatteredLayer;
     }
 
     void emitted(const glm::dvec3& flux) { result_.energy.add(transport::kAccountEmitted, flux); }
@@ -62,8 +66,15 @@ class Camera {
         ++result_.rays;
         if (!eye_.isVisible(scene_, hit.position, hit.triangle, at.depth)) return;
         result_.energy.visibleWatts += flux.x + flux.y + flux.z;
-        splat(at.pixel * std::size_t{3},
-              flux * eye_.coverage(hit.position, hit.geometricNormal, at.depth));
+        const glm::dvec3 irradiance =
+            flux * eye_.coverage(hit.position, hit.geometricNormal, at.depth);
+        splat(at.pixel * std::size_t{3}, irradiance);
+        if (radiance_ == 0) return;
+        const glm::dvec3 toEye = glm::normalize(eye_.position() - hit.position);
+        const double side = glm::dot(hit.geometricNormal, toEye) > 0.0 ? 1.0 : -1.0;
+        splat(radiance_ + at.pixel * std::size_t{3},
+              irradiance * scene_.appearance().brdf(hit.material, hit.uv, side * hit.shadingNormal,
+                                                    -photon.direction, toEye));
     }
 
     // One point of the way, chosen by its angle from the eye (Kulla and Fajardo 2012, section 4):
@@ -121,6 +132,7 @@ class Camera {
     glm::dvec3 fog_{0.0};
     double anisotropy_ = 0.0;
     std::size_t inScattered_ = 0;  // first value of the layer; 0: none
+    std::size_t radiance_ = 0;     // the same
 };
 
 void traceBatch(const EmbreeScene& scene, const Eye& eye, const LightSampler& sampler,
@@ -170,8 +182,15 @@ PixelSums makeEstimatorSums(const EmbreeScene& scene, const LightTraceSettings& 
     return {settings.width, settings.height, layers, irradianceScale(scene), sampler.fluxWatts()};
 }
 
+int causticRadianceLayer(const scene::Scene& scene) {
+    if (!sceneNeeds(scene).glossyReceivers) return -1;
+    return (scatters(scene) ? kInScatteredLayer : kIrradianceLayer) + 1;
+}
+
 PixelSums makeLightTraceSums(const EmbreeScene& scene, const LightTraceSettings& settings) {
-    return makeEstimatorSums(scene, settings, scatters(scene.scene()) ? 2 : 1);
+    const int layers = scatters(scene.scene()) ? 2 : 1;
+    return makeEstimatorSums(scene, settings,
+                             std::max(layers, causticRadianceLayer(scene.scene()) + 1));
 }
 
 void lightTrace(const EmbreeScene& scene, const LightTraceSettings& settings,

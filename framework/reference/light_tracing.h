@@ -3,7 +3,9 @@
 // least one specular surface is joined to the camera's pinhole by a straight ray to which
 // dielectrics are invisible. Unbiased for the caustic irradiance of a pixel, the mean over the
 // pixel's area; and, where the scene has a medium, for the caustic light that it scatters once
-// towards the eye (Henyey-Greenstein), with the transmittance to the eye. Out: W/m² and W/m²/sr.
+// towards the eye (Henyey-Greenstein), with the transmittance to the eye. Where it has a glossy
+// receiver, also for caustic radiance: the same light through the receiver's BRDF towards the eye
+// (transport/brdf.h), as it leaves the surface. Out: W/m² and W/m²/sr.
 //
 // The medium fills the scene's bounding box for photons; the straight ray to the eye loses light to
 // it all the way. Directional light is as strong as the scene file says where it meets the first
@@ -30,6 +32,8 @@ struct LightTraceSettings {
 // Layers of the sums.
 inline constexpr int kIrradianceLayer = 0;
 inline constexpr int kInScatteredLayer = 1;  // only where the scene has a medium that scatters
+// After the others; -1 where no receiver is glossy.
+[[nodiscard]] int causticRadianceLayer(const scene::Scene& scene);
 
 // Empty sums that fit the scene and the settings; what an earlier run saved fits in their place.
 // Throws ConfigError for settings out of range.

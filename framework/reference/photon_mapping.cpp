@@ -14,6 +14,7 @@
 #include "framework/reference/eye.h"
 #include "framework/reference/light_sampling.h"
 #include "framework/reference/light_tracing.h"
+#include "framework/scene/needs.h"
 
 namespace kaustik::reference {
 namespace {
@@ -28,10 +29,21 @@ struct VisiblePoint {
     double radiusSquared = -1.0;  // m²; negative: no receiver
 };
 
+// How that point reflects.
+struct Reflector {
+    std::uint32_t material = 0;
+    glm::dvec2 uv{0.0};
+    glm::dvec3 shadingNormal{0.0};  // on the eye's side
+    glm::dvec3 toEye{0.0};          // unit
+};
+
+// `reflectors`: one a point, where asked for.
 std::vector<VisiblePoint> findVisiblePoints(const EmbreeScene& scene, const Eye& eye,
-                                            std::uint64_t seed, std::uint64_t pass, double radius) {
+                                            std::uint64_t seed, std::uint64_t pass, double radius,
+                                            std::vector<Reflector>* reflectors) {
     std::vector<VisiblePoint> points(static_cast<std::size_t>(eye.width()) *
                                      static_cast<std::size_t>(eye.height()));
+    if (reflectors != nullptr) reflectors->resize(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
         // Not the photons' stream of numbers.
         Random random(~seed, pass, i);
@@ -51,6 +63,9 @@ std::vector<VisiblePoint> findVisiblePoints(const EmbreeScene& scene, const Eye&
         const double radiusMeters = radius * eye.footprintPerMeter() * depth;
         points[i] = {hit.position, isFront ? hit.geometricNormal : -hit.geometricNormal,
                      radiusMeters * radiusMeters};
+        if (reflectors == nullptr) continue;
+        (*reflectors)[i] = {hit.material, hit.uv, isFront ? hit.shadingNormal : -hit.shadingNormal,
+                            -glm::normalize(ray)};
     }
     return points;
 }
@@ -60,8 +75,11 @@ class Gatherer {
   public:
     Gatherer(const EmbreeScene& scene, const Eye& eye, const PhotonMappingSettings& settings,
              std::uint64_t pass, BatchResult& result)
-        : eye_(eye),
-          points_(findVisiblePoints(scene, eye, settings.seed, pass, radiusPixels(settings, pass))),
+        : scene_(scene),
+          eye_(eye),
+          hasRadiance_(sceneNeeds(scene.scene()).glossyReceivers),
+          points_(findVisiblePoints(scene, eye, settings.seed, pass, radiusPixels(settings, pass),
+                                    hasRadiance_ ? &reflectors_ : nullptr)),
           result_(result) {
         // How far apart on the screen two points can be that are one radius apart: rays at the
         // picture's corner spread radial distances the most.
@@ -70,6 +88,7 @@ class Gatherer {
         const double nearer = 1.0 - radius * eye.footprintPerMeter();
         reach_ = radius * glm::length(corner) / std::max(nearer, 0.1);
         within_ = points_.size() * 3 * kWithinRadiusLayer;
+        radiance_ = points_.size() * 3 * kMappedRadianceLayer;
     }
 
     void emitted(const glm::dvec3& flux) { result_.energy.add(transport::kAccountEmitted, flux); }
@@ -106,19 +125,19 @@ class Gatherer {
             for (int column = left; column <= right; ++column)
                 add(static_cast<std::size_t>(row) * static_cast<std::size_t>(eye_.width()) +
                         static_cast<std::size_t>(column),
-                    hit.position, lit, flux);
+                    hit.position, lit, photon);
         }
     }
 
   private:
     void add(std::size_t pixel, const glm::dvec3& position, const glm::dvec3& lit,
-             const glm::dvec3& flux) {
+             const PhotonState& photon) {
         const VisiblePoint& point = points_[pixel];
         const glm::dvec3 offset = position - point.position;
         const double distanceSquared = glm::dot(offset, offset);
         if (distanceSquared > point.radiusSquared || glm::dot(lit, point.normal) < kLeastCosine)
             return;
-        const glm::dvec3 within = flux / (std::numbers::pi * point.radiusSquared);
+        const glm::dvec3 within = photon.fluxWatts / (std::numbers::pi * point.radiusSquared);
         // Twice the density within half of the area, less that within all of it.
         const double inner = distanceSquared <= 0.5 * point.radiusSquared ? 4.0 : 0.0;
         double* extrapolated = result_.values.data() + 3 * pixel;
@@ -127,13 +146,25 @@ class Gatherer {
             extrapolated[channel] += within[channel] * (inner - 1.0);
             plain[channel] += within[channel];
         }
+        if (!hasRadiance_) return;
+        const Reflector& at = reflectors_[pixel];
+        const glm::dvec3 reflected = within * (inner - 1.0) *
+                                     scene_.appearance().brdf(at.material, at.uv, at.shadingNormal,
+                                                              -photon.direction, at.toEye);
+        for (int channel = 0; channel < 3; ++channel)
+            result_.values[radiance_ + 3 * pixel + static_cast<std::size_t>(channel)] +=
+                reflected[channel];
     }
 
+    const EmbreeScene& scene_;
     const Eye& eye_;
+    bool hasRadiance_;
+    std::vector<Reflector> reflectors_;  // before `points_`, which fills it
     std::vector<VisiblePoint> points_;
     BatchResult& result_;
-    double reach_ = 0.0;  // pixels
-    std::size_t within_ = 0;
+    double reach_ = 0.0;        // pixels
+    std::size_t within_ = 0;    // first value of the layer
+    std::size_t radiance_ = 0;  // the same
 };
 
 LightTraceSettings lightSettings(const PhotonMappingSettings& settings) {
@@ -158,7 +189,8 @@ PixelSums makePhotonMappingSums(const EmbreeScene& scene, const PhotonMappingSet
         throw ConfigError("The initial radius must be above 0 and at most 16 pixels.");
     if (!(settings.alpha > 0.0 && settings.alpha < 1.0))
         throw ConfigError("alpha must lie between 0 and 1.");
-    return makeEstimatorSums(scene, lightSettings(settings), 2);
+    const bool hasRadiance = sceneNeeds(scene.scene()).glossyReceivers;
+    return makeEstimatorSums(scene, lightSettings(settings), hasRadiance ? 3 : 2);
 }
 
 void photonMapping(const EmbreeScene& scene, const PhotonMappingSettings& settings,

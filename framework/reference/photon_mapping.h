@@ -34,6 +34,8 @@ struct PhotonMappingSettings {
 // truth.
 inline constexpr int kExtrapolatedLayer = 0;
 inline constexpr int kWithinRadiusLayer = 1;
+// Caustic radiance towards the eye, extrapolated; only where a receiver is glossy.
+inline constexpr int kMappedRadianceLayer = 2;
 
 // Throws ConfigError for settings out of range.
 [[nodiscard]] PixelSums makePhotonMappingSums(const EmbreeScene& scene,

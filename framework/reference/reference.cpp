@@ -32,12 +32,14 @@ void addScene(ContentHash& hash, const scene::Scene& scene) {
     for (const scene::Light& light : scene.lights) {
         hash.add(light.kind).add(light.position).add(light.direction).add(light.power);
         hash.add(light.innerConeRadians).add(light.outerConeRadians).add(light.rangeMeters);
+        hash.add(light.image).add(light.up);
     }
     hash.add(scene.materials.size());
     for (const scene::Material& material : scene.materials) {
         hash.add(material.kind).add(material.albedo).add(material.pattern);
         hash.add(material.patternAlbedo).add(material.uvScale).add(material.image);
         hash.add(material.ior).add(material.absorptionPerMeter);
+        hash.add(material.specular).add(material.exponent);
     }
     hash.add(scene.images.size());
     for (const scene::TextureImage& image : scene.images) {
@@ -104,6 +106,12 @@ Reference makeReference(const scene::Scene& scene, const ReferenceRequest& reque
     if (request.estimator == Estimator::light && sums.layers() > kInScatteredLayer) {
         reference.inScattered = sums.meanImage(kInScatteredLayer);
         reference.inScatteredError = sums.standardErrorImage(kInScatteredLayer);
+    }
+    const int radianceLayer =
+        request.estimator == Estimator::light ? causticRadianceLayer(scene) : kMappedRadianceLayer;
+    if (radianceLayer > 0 && sums.layers() > radianceLayer) {
+        reference.causticRadiance = sums.meanImage(radianceLayer);
+        reference.causticRadianceError = sums.standardErrorImage(radianceLayer);
     }
     reference.energy = sums.energy();
     reference.photons = sums.photons();

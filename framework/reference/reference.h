@@ -37,7 +37,9 @@ struct Reference {
     ReferenceRequest request;
     Image irradiance;
     Image irradianceError;  // standard error, the same unit
-    Image inScattered;      // empty without a medium that scatters, and for sppm
+    Image causticRadiance;  // empty where no receiver is glossy
+    Image causticRadianceError;
+    Image inScattered;  // empty without a medium that scatters, and for sppm
     Image inScatteredError;
     Energy energy;
     std::uint64_t photons = 0;
@@ -61,7 +63,8 @@ void addBatches(const EmbreeScene& scene, const ReferenceRequest& request,
 [[nodiscard]] Reference makeReference(const scene::Scene& scene, const ReferenceRequest& request,
                                       const PixelSums& sums, double seconds);
 
-// NAME.exr (or .pfm) is the irradiance; beside it NAME.stderr.exr, NAME.in_scattered.exr and
+// NAME.exr (or .pfm) is the irradiance; beside it NAME.stderr.exr, NAME.caustic_radiance.exr and
+// NAME.caustic_radiance.stderr.exr where a receiver is glossy, NAME.in_scattered.exr and
 // NAME.in_scattered.stderr.exr where there is a medium, and NAME.json, which is written last and
 // holds fingerprints of the others: a reference is there whole or not at all.
 void writeReference(const std::filesystem::path& path, const Reference& reference);

@@ -24,9 +24,11 @@ struct Part {
     const char* suffix;  // of the file
     Image Reference::*image;
 };
-constexpr std::array<Part, 4> kParts = {{
+constexpr std::array<Part, 6> kParts = {{
     {"irradiance", "", &Reference::irradiance},
     {"irradiance_stderr", ".stderr", &Reference::irradianceError},
+    {"caustic_radiance", ".caustic_radiance", &Reference::causticRadiance},
+    {"caustic_radiance_stderr", ".caustic_radiance.stderr", &Reference::causticRadianceError},
     {"in_scattered", ".in_scattered", &Reference::inScattered},
     {"in_scattered_stderr", ".in_scattered.stderr", &Reference::inScatteredError},
 }};

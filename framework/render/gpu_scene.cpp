@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "framework/image/image.h"
+#include "framework/scene/texture.h"
 
 namespace kaustik::render {
 namespace {
@@ -40,16 +40,14 @@ std::size_t drawOrder(scene::MaterialKind kind) {
     return 0;
 }
 
-float srgbToLinear(float value) {
-    return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
-}
-
-// `image` as RGBA in linear light, resampled bilinearly to side x side (repeating at the edges),
-// bottom row first.
-std::vector<float> resample(const Image& image, int side, bool srgb) {
+// `image` as RGBA, resampled bilinearly to side x side, bottom row first. Beyond its edges the
+// image goes on with itself, or with its outermost texels where `clamps`.
+std::vector<float> resample(const Image& image, int side, bool clamps) {
     std::vector<float> texels(static_cast<std::size_t>(side) * static_cast<std::size_t>(side) * 4,
                               1.0f);
-    const auto wrapped = [](int i, int n) { return (i % n + n) % n; };
+    const auto inside = [&](int i, int n) {
+        return clamps ? std::clamp(i, 0, n - 1) : (i % n + n) % n;
+    };
     for (int y = 0; y < side; ++y) {
         for (int x = 0; x < side; ++x) {
             const float u = (static_cast<float>(x) + 0.5f) / static_cast<float>(side) *
@@ -63,11 +61,8 @@ std::vector<float> resample(const Image& image, int side, bool srgb) {
             const float fx = u - static_cast<float>(x0);
             const float fy = v - static_cast<float>(y0);
             for (int c = 0; c < 3; ++c) {
-                const int channel = image.channels >= 3 ? c : 0;
                 const auto at = [&](int i, int j) {
-                    const float value =
-                        image.at(wrapped(i, image.width), wrapped(j, image.height), channel);
-                    return srgb ? srgbToLinear(value) : value;
+                    return image.at(inside(i, image.width), inside(j, image.height), c);
                 };
                 const float low = at(x0, y0) * (1 - fx) + at(x0 + 1, y0) * fx;
                 const float high = at(x0, y0 + 1) * (1 - fx) + at(x0 + 1, y0 + 1) * fx;
@@ -201,15 +196,18 @@ void GpuScene::uploadImages() {
     int side = 1;
     std::vector<Image> images;
     for (const scene::TextureImage& texture : scene_.images) {
-        images.push_back(texture.file.empty() ? decodeImage(texture.bytes, texture.name)
-                                              : readImage(texture.file));
+        images.push_back(scene::decodeTexture(texture));
         side = std::max({side, images.back().width, images.back().height});
     }
     side = std::min(side, kMaxImageSide);
     const int layers = std::max(static_cast<int>(images.size()), 1);
     images_ = gl::Texture({side, side, graph::Format::rgba16f, layers}, "scene images", true);
     for (std::size_t i = 0; i < images.size(); ++i) {
-        images_.upload(static_cast<int>(i), resample(images[i], side, scene_.images[i].srgb));
+        const int index = static_cast<int>(i);
+        const bool isProjected =
+            std::any_of(scene_.lights.begin(), scene_.lights.end(),
+                        [&](const scene::Light& light) { return light.image == index; });
+        images_.upload(index, resample(images[i], side, isProjected));
     }
     if (!images.empty()) images_.generateMipmaps();
 }
