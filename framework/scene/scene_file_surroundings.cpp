@@ -179,7 +179,7 @@ Material readMaterial(TableReader& reader, Scene& scene) {
             if (material.kind == MaterialKind::lambertian) break;
             material.specular = reader.uniformOrVector3("specular", kAlbedo);
             material.exponent = reader.numberAsFloat("exponent", kExponent, 50.0);
-            requireNoGain(reader, material);
+            if (reader.has("specular")) requireNoGain(reader, material);
             break;
         case MaterialKind::dielectric:
             material.albedo = glm::vec3(0.0f);

@@ -54,6 +54,16 @@ TEST(SceneNeeds, AllMirrorsTogetherCountOnce) {
     add(scene, makePlane({}), MaterialKind::lambertian);
     EXPECT_EQ(sceneNeeds(scene).specularInterfaces, 1);
     EXPECT_TRUE(sceneNeeds(scene).receivers);
+    EXPECT_FALSE(sceneNeeds(scene).glossyReceivers);
+}
+
+TEST(SceneNeeds, AGlossyReceiverIsAReceiverAndNoMirror) {
+    Scene scene;
+    add(scene, makePlane({}), MaterialKind::glossy);
+    EXPECT_TRUE(sceneNeeds(scene).receivers);
+    EXPECT_TRUE(sceneNeeds(scene).glossyReceivers);
+    EXPECT_EQ(sceneNeeds(scene).specularInterfaces, 0);
+    EXPECT_EQ(sceneNeeds(scene).reflectors, 0);
 }
 
 TEST(SceneNeeds, OnlyAWaveThatMovesAnimatesTheScene) {

@@ -110,6 +110,12 @@ TEST_F(SceneFileMistakes, InALight) {
         {spot + "outer_cone_degrees = 0", 7, {"outer_cone_degrees", "greater than 0"}},
         {spot + "outer_cone_degrees = 91", 7, {"outer_cone_degrees", "at most 90"}},
         {spot + "inner_cone_degrees = 50", 7, {"at most outer_cone_degrees (45), not 50"}},
+        {lamp + "intensity = 1\ntexture = 'scene.toml'", 6, {"'texture' is not a key"}},
+        {spot + "up = [0, 0, 1]", 7, {"'up' is not a key"}},
+        {spot + "texture = 'scene.toml'\nup = [0, 1, 0]", 8, {"up must not be parallel"}},
+        {spot + "texture = 'scene.toml'\nouter_cone_degrees = 90",
+         7,
+         {"outer_cone_degrees of at most 89, not 90"}},
         {lamp + "intensity = 1\n" + lamp + "intensity = 2", 7, {"light 'lamp'", "used twice"}},
     });
 }
@@ -117,7 +123,9 @@ TEST_F(SceneFileMistakes, InALight) {
 TEST_F(SceneFileMistakes, InAMaterial) {
     const std::string head = "[[material]]\nname = 'm'\n";
     expect({
-        {head + "type = 'glossy'\nalbedo = 1", 3, {"lambertian, dielectric and mirror"}},
+        {head + "type = 'glassy'\nalbedo = 1",
+         3,
+         {"lambertian, dielectric, mirror and glossy", "did you mean 'glossy'?"}},
         {head + "type = 'lambertian'", 1, {"material 'm': 'albedo' is missing"}},
         {head + "type = 'lambertian'\nalbedo = 1.5",
          4,
@@ -128,6 +136,18 @@ TEST_F(SceneFileMistakes, InAMaterial) {
         {head + "type = 'lambertian'\nalbedo = 1\nuv_scale = 0", 5, {"uv_scale", "not 0"}},
         {head + "type = 'lambertian'\nalbedo = 1\nuv_scale = [1,2,3]", 5, {"a list of 3"}},
         {head + "type = 'lambertian'\nalbedo = 1\nior = 1.5", 5, {"'ior' is not a key"}},
+        {head + "type = 'lambertian'\nalbedo = 1\nspecular = 0", 5, {"'specular' is not a key"}},
+        {head + "type = 'glossy'\nalbedo = 1", 1, {"'specular' is missing"}},
+        {head + "type = 'glossy'\nalbedo = 0.5\nspecular = 1.5", 5, {"specular", "at most 1"}},
+        {head + "type = 'glossy'\nalbedo = [0.2, 0.75, 0]\nspecular = 0.5",
+         5,
+         {"albedo and specular must add up to at most 1, not 1.25"}},
+        {head + "type = 'glossy'\nalbedo = 0\nspecular = 0.8\npattern = 'tiles'",
+         5,
+         {"pattern_albedo and specular must add up to at most 1, not 1.05"}},
+        {head + "type = 'glossy'\nalbedo = 0\nspecular = 0\nexponent = 0.5",
+         6,
+         {"exponent must be at least 1", "not 0.5"}},
         {head + "type = 'dielectric'", 1, {"'ior' is missing"}},
         {head + "type = 'dielectric'\nior = 0", 4, {"ior must be at least 1", "not 0"}},
         {head + "type = 'dielectric'\nior = -2", 4, {"ior must be at least 1"}},

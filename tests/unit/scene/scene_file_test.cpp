@@ -132,6 +132,44 @@ TEST_F(SceneFile, GivesASpotThePowerThatItsConeSendsOut) {
     EXPECT_EQ(spotFalloff(spot, -1.0), 0.0);
 }
 
+TEST_F(SceneFile, AimsASpotsTextureAsItsFileSays) {
+    write("slide.PFM", "never opened here");
+    const std::string spot =
+        "[[light]]\nname='s'\ntype='spot'\nposition=[0,3,0]\nintensity=1\ntexture='slide.PFM'\n"
+        "outer_cone_degrees = 45\n";
+    const Scene down = load(spot + "direction = [0, -2, 0]\n");
+    ASSERT_EQ(down.images.size(), 1u);
+    EXPECT_FALSE(down.images[0].srgb);  // a float image holds linear light
+    EXPECT_EQ(down.lights[0].image, 0);
+    EXPECT_EQ(down.lights[0].up, glm::dvec3(0, 0, -1));
+    const Scene tilted = load(spot + "direction = [1, 0, 0]\nup = [5, 0, 3]\n");
+    const Light& light = tilted.lights[0];
+    EXPECT_LT(glm::length(light.up - glm::dvec3(0, 0, 1)), 1e-15);
+    const auto at = [&](const glm::dvec3& direction) {
+        return spotImagePosition(light, glm::normalize(direction));
+    };
+    // The middle on the axis; the side's middle at 45 degrees; the right is seen from behind the
+    // light: with +x ahead and +z up that is -y. Doubles, but for the half-angle: 1e-7.
+    EXPECT_LT(glm::length(at({1, 0, 0}) - glm::dvec2(0.5, 0.5)), 1e-15);
+    EXPECT_LT(glm::length(at({1, 0, 1}) - glm::dvec2(0.5, 1.0)), 1e-7);
+    EXPECT_LT(glm::length(at({1, -1, 0}) - glm::dvec2(1.0, 0.5)), 1e-7);
+    EXPECT_LT(glm::length(at({4, 2, -1}) - glm::dvec2(0.25, 0.375)), 1e-7);
+}
+
+TEST_F(SceneFile, ReadsGlossyReceivers) {
+    const Scene scene = load(
+        "[[material]]\nname = 'm'\ntype = 'glossy'\nalbedo = 0.7\nspecular = [0.1, 0.2, 0.3]\n"
+        "exponent = 80\npattern = 'checker'\nuv_scale = 3\n");
+    const Material& material = scene.materials.at(0);
+    EXPECT_EQ(material.kind, MaterialKind::glossy);
+    EXPECT_TRUE(isReceiver(material.kind));
+    EXPECT_EQ(material.albedo, glm::vec3(0.7f));
+    EXPECT_EQ(material.specular, glm::vec3(0.1f, 0.2f, 0.3f));
+    EXPECT_EQ(material.exponent, 80.0f);
+    EXPECT_EQ(material.pattern, Pattern::checker);
+    EXPECT_EQ(material.uvScale, glm::vec2(3.0f));
+}
+
 TEST_F(SceneFile, ReadsMaterials) {
     write("wood.png", "not read here");
     const Scene scene = load(R"(
