@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "framework/app/commands.h"
+#include "framework/app/numerics.h"
 #include "framework/app/progress.h"
 #include "framework/core/error.h"
 #include "framework/core/files.h"
@@ -39,10 +40,14 @@ RunDefaults runDefaults() {
 }
 
 void runStudy(const ExperimentOptions& options, const Registry& registry) {
-    const Plan plan =
-        makePlan(readSpec(options.target), runDefaults(), [&](const std::string& technique) {
-            return registry.makeParams(registry.findTechnique(technique));
-        });
+    const Spec spec = readSpec(options.target);
+    if (!spec.suite.empty()) {
+        runSuite(options, spec, registry);
+        return;
+    }
+    const Plan plan = makePlan(spec, runDefaults(), [&](const std::string& technique) {
+        return registry.makeParams(registry.findTechnique(technique));
+    });
     const fs::path out = options.out.empty() ? fs::path("results/runs/experiments") / plan.spec.name
                                              : fs::path(options.out);
     catchInterrupts();

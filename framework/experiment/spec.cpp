@@ -145,6 +145,15 @@ void checkName(scene::TableReader& top, const std::string& name) {
     }
 }
 
+// A suite says itself what it renders.
+void readSuite(scene::TableReader& top, Spec& spec) {
+    spec.suite = top.choice<std::string>("suite", {{"numerics", "numerics"}});
+    spec.cases = top.texts("cases");
+    spec.casesPlace = top.place("cases");
+    top.finish();
+    checkName(top, spec.name);
+}
+
 }  // namespace
 
 Spec readSpec(const fs::path& file) {
@@ -154,6 +163,10 @@ Spec readSpec(const fs::path& file) {
     spec.file = file;
     spec.name = top.text("name");
     spec.description = top.text("description", "");
+    if (top.has("suite")) {
+        readSuite(top, spec);
+        return spec;
+    }
     spec.repeats = static_cast<int>(top.count("repeats", 1, kMostRepeats, 1));
     static_cast<void>(top.table("base"));
     const toml::node* permute = document.get("permute");

@@ -14,6 +14,11 @@
 // A range is written in one line, ends included: {from, to, factor} multiplies, {from, to, step}
 // adds, {from, to, steps} gives that many values at equal distances. Where there are several
 // [[permute]] tables each is a cross product of its own; what two of them share is run once.
+//
+// Instead of repeats, [base] and [permute] there may be
+//
+//   suite = "numerics"            the hard cases (framework/numerics), measured in one process
+//   cases = ["A*", "B13"]         only these; all without the key
 #pragma once
 
 #include <filesystem>
@@ -44,6 +49,9 @@ struct Spec {
     std::filesystem::path file;
     std::string name;
     std::string description;
+    std::string suite;               // "" or "numerics"
+    std::vector<std::string> cases;  // of the suite; empty: all
+    std::string casesPlace;          // "file:line"
     int repeats = 1;
     std::vector<Setting> base;
     std::vector<Product> products;  // at least one; without axes it is the base alone

@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "tests/gpu/compute_probe.h"
+#include "framework/numerics/probe.h"
 
 #include "framework/gl/executor.h"
-#include "tests/gpu/fixture.h"
 
-namespace kaustik::test {
+namespace kaustik::numerics {
 
-std::vector<glm::vec4> probe(const std::string& shader, const std::vector<glm::vec4>& inputs,
-                             int caseCount, int outputsPerCase,
-                             const std::function<void(gl::Command&)>& bind) {
+std::vector<glm::vec4> probe(gl::Context& context, const std::string& shader,
+                             const std::vector<glm::vec4>& inputs, int caseCount,
+                             int outputsPerCase, const std::function<void(gl::Command&)>& bind) {
     struct Data {
         graph::Buffer<glm::vec4> outputs;
     };
     graph::Graph graph;
-    gl::Context& gl = context();
     const gl::Buffer inputBuffer(inputs, "inputs");
     const Data& data = graph.addPass<Data, gl::PassContext>(
         {"probe", ""},
@@ -31,11 +29,11 @@ std::vector<glm::vec4> probe(const std::string& shader, const std::vector<glm::v
         });
     graph.request(data.outputs);
     gl::ProgramCache programs;
-    gl::Executor executor(gl, programs);
+    gl::Executor executor(context, programs);
     executor.prepare(graph.compile());
     gl::PassTimer timer(gl::TimerMode::finish);
     executor.runFrame(timer);
     return executor.buffer(data.outputs).read<glm::vec4>();
 }
 
-}  // namespace kaustik::test
+}  // namespace kaustik::numerics

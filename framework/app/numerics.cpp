@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// A study that is the suite of hard cases: measures in this process, headless, and writes one
+// table.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "framework/app/commands.h"
+#include "framework/app/numerics.h"
+#include "framework/app/progress.h"
+#include "framework/core/error.h"
+#include "framework/core/files.h"
+#include "framework/numerics/lab.h"
+#include "framework/numerics/table.h"
+
+namespace kaustik::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<numerics::Case> chosenCases(const numerics::Suite& suite,
+                                        const experiment::Spec& spec) {
+    try {
+        return numerics::selectCases(suite, spec.cases);
+    } catch (const ConfigError& error) {
+        throw ConfigError(fmt::format("{}: {}", spec.casesPlace, error.what()));
+    }
+}
+
+}  // namespace
+
+void runSuite(const ExperimentOptions& options, const experiment::Spec& spec,
+              const Registry& registry) {
+    if (options.resume) {
+        throw ConfigError("--resume: a suite is measured as a whole; leave the option out.");
+    }
+    const numerics::Suite suite = numerics::makeSuite(registry);
+    numerics::Table table;
+    table.cases = chosenCases(suite, spec);
+    const fs::path out = options.out.empty() ? fs::path("results/runs/experiments") / spec.name
+                                             : fs::path(options.out);
+    const std::unique_ptr<gl::Context> context = gl::Context::createHeadless();
+    table.device = context->info().renderer;
+    numerics::Lab lab(*context, registry, suite);
+    catchInterrupts();
+    {
+        Progress progress("case", static_cast<int>(table.cases.size()));
+        int done = 0;
+        for (const numerics::Case& hardCase : table.cases) {
+            throwIfInterrupted();
+            for (numerics::Row& row : lab.run(hardCase))
+                table.rows.push_back(std::move(row));
+            progress.update(++done);
+        }
+    }
+    throwIfInterrupted();
+    writeFileWhole(out / "numerics.csv", numerics::makeCsv(table));
+    writeFileWhole(out / "numerics.json", numerics::makeJson(table).dump(2) + "\n");
+    writeFileWhole(out / "numerics.md", numerics::makeMarkdown(table));
+    fmt::print("{}", numerics::makeText(table));
+    for (const char* name : {"numerics.csv", "numerics.json", "numerics.md"})
+        fmt::print("wrote {}\n", (out / name).string());
+    if (numerics::countFailures(table) > 0) {
+        const numerics::Row& first = *std::find_if(table.rows.begin(), table.rows.end(),
+                                                   [](const auto& row) { return !row.passes(); });
+        throw Error(fmt::format("{} of {} rows fail, the first is {}, {}: {} should be {:.7g} and "
+                                "is {:.7g}.",
+                                numerics::countFailures(table), table.rows.size(), first.caseId,
+                                first.subject, first.what, first.expected, first.measured),
+                    kExitFailed);
+    }
+}
+
+}  // namespace kaustik::app
