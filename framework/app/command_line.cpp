@@ -117,6 +117,10 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry) 
                      "Compare with the truth: none, auto (computed once and kept) or a file of "
                      "'kaustik reference'")
         ->capture_default_str();
+    runApp
+        ->add_option("--reference-photons", run.referencePhotons,
+                     "Photons that the reference of auto has at least")
+        ->capture_default_str();
     runApp->add_option("--save", run.saved, "A resource to save, by a name from 'explain'")
         ->take_all()
         ->expected(1)

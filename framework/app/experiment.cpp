@@ -28,7 +28,7 @@ RunDefaults runDefaults() {
     const RunOptions options;
     return {options.scene.scene, options.scene.technique, options.scene.size,
             options.frames,      options.warmup,          options.seed,
-            options.reference};
+            options.reference,   options.referencePhotons};
 }
 
 [[noreturn]] void failInterrupted(const ExperimentOptions& options, int finished, int planned) {

@@ -25,6 +25,7 @@ struct RunOptions {
     long long seed = 1;
     bool precise = false;
     std::string reference = "none";
+    long long referencePhotons = 1LL << 26;  // of auto, at least
     std::vector<std::string> saved;  // resources
     std::string out;                 // "" for results/runs/<scene>-<technique>
 };

@@ -49,7 +49,7 @@ StopWhen stopOf(const ReferenceOptions& options) {
         stop.relativeError = options.standardError;
     }
     if (!stop.photons && !stop.seconds && !stop.relativeError)
-        stop.photons = kDefaultReferencePhotons;
+        stop.photons = static_cast<std::uint64_t>(app::RunOptions().referencePhotons);
     return stop;
 }
 

@@ -8,9 +8,6 @@
 
 namespace kaustik::app {
 
-// Photons of `--reference auto`, and of `kaustik reference` when nothing says where to stop.
-inline constexpr std::uint64_t kDefaultReferencePhotons = 1u << 26;
-
 // $KAUSTIK_CACHE, else $XDG_CACHE_HOME/kaustik, else ~/.cache/kaustik. Throws IoError where there
 // is none of them.
 [[nodiscard]] std::filesystem::path cacheFolder();

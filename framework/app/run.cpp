@@ -26,6 +26,10 @@ void checkOptions(const RunOptions& options) {
     if (options.warmup < 0 || options.warmup > 1000000) {
         throw ConfigError(fmt::format("--warmup: {} is not from 0 to 1000000.", options.warmup));
     }
+    if (options.referencePhotons < 1) {
+        throw ConfigError(
+            fmt::format("--reference-photons: {} is not above 0.", options.referencePhotons));
+    }
 }
 
 // The frames that are timed; warm-up frames run first and are not kept.
@@ -89,7 +93,8 @@ void runCommand(const RunOptions& options, const Registry& registry) {
     gl::PassTimer timer(record.timer);
     record.startupMilliseconds =
         std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-    const Truth truth(options.reference, renderer);  // before the frames: it may be refused
+    const Truth truth(options.reference, static_cast<std::uint64_t>(options.referencePhotons),
+                      renderer);  // before the frames: it may be refused
     record.frames = renderTimedFrames(renderer, timer, options);
 
     // The pictures come from one more frame, which also fills the ledger; it is not timed.

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 #ifndef KAUSTIK_HAS_EMBREE
 
 struct Truth::Loaded {};
-Truth::Truth(const std::string& wanted, const Renderer&) {
+Truth::Truth(const std::string& wanted, std::uint64_t, const Renderer&) {
     if (wanted != "none") {
         throw ConfigError("--reference: this program was built without Embree and knows no truth.");
     }
@@ -127,7 +127,7 @@ struct Truth::Loaded {
     ModelledPaths paths;
 };
 
-Truth::Truth(const std::string& wanted, const Renderer& renderer) {
+Truth::Truth(const std::string& wanted, std::uint64_t photons, const Renderer& renderer) {
     if (wanted == "none") return;
     std::optional<Reference> fromFile;
     if (wanted != "auto") fromFile = readFor(wanted, renderer);
@@ -138,7 +138,7 @@ Truth::Truth(const std::string& wanted, const Renderer& renderer) {
         return;
     }
     reference::RunOptions options;
-    options.stop.photons = kDefaultReferencePhotons;
+    options.stop.photons = photons;
     ReferenceRequest request = requestFor(renderer);
     loaded_->whole = obtainReference(loaded_->scene, request, options);
     loaded_->paths = renderer.outputs().hits.incoming.paths;

@@ -4,7 +4,8 @@
 //
 // Keys of [base] and [permute]: scene (a name or a file beside the experiment), technique, size
 // ("WIDTHxHEIGHT"), frames, warmup, seed, precise, time (seconds), reference (none, auto or a
-// file), disable (a list of passes), and every parameter by its name or a unique shorter form.
+// file), reference_photons (of auto, at least), disable (a list of passes), and every parameter by
+// its name or a unique shorter form.
 #pragma once
 
 #include <functional>
@@ -19,8 +20,9 @@ namespace kaustik::experiment {
 
 // One way to run the program. Runs with equal settings are the same run.
 struct PlannedRun {
-    // Everything that decides the result, kaustik.settings/1: scene and its file's fingerprint,
-    // technique, all parameters by full name, size, frames, ...; free of paths of this machine.
+    // Everything that decides the result, kaustik.settings/1: the program's version, scene with
+    // fingerprints of its file and of what that names, technique, all parameters by full name,
+    // size, frames, ...; free of paths of this machine.
     nlohmann::json settings;
     std::string hash;                         // fingerprint of the settings' canonical JSON
     std::vector<std::string> sceneArguments;  // SCENE --technique …, as `run` and `explain` take
@@ -56,7 +58,9 @@ struct RunDefaults {
     int warmup = 0;
     long long seed = 0;
     std::string reference;
+    long long referencePhotons = 0;
 };
+inline constexpr long long kMostReferencePhotons = 1'000'000'000'000'000;
 
 // The parameters of a technique with their defaults; throws ConfigError for an unknown one.
 using MakeParams = std::function<params::ParamSet(const std::string& technique)>;

@@ -20,9 +20,9 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 const std::vector<std::string>& runKeys() {
-    static const std::vector<std::string> keys = {"scene",     "technique", "size",    "frames",
-                                                  "warmup",    "seed",      "precise", "time",
-                                                  "reference", "disable"};
+    static const std::vector<std::string> keys = {
+        "scene",     "technique",         "size",   "frames", "warmup", "seed", "precise", "time",
+        "reference", "reference_photons", "disable"};
     return keys;
 }
 
@@ -114,6 +114,24 @@ std::vector<std::string> fullKeysOf(const std::vector<Setting>& settings,
     return keys;
 }
 
+template <class T>
+std::string_view bytesOf(const std::vector<T>& values) {
+    return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
+}
+
+// What a scene's file only names: meshes and images.
+std::string contentsOf(const scene::Scene& scene) {
+    std::string parts;
+    for (const scene::Mesh& mesh : scene.meshes) {
+        if (mesh.heightField) continue;  // made from the scene's file
+        parts += fingerprint(bytesOf(mesh.positions)) + fingerprint(bytesOf(mesh.normals)) +
+                 fingerprint(bytesOf(mesh.uvs)) + fingerprint(bytesOf(mesh.triangles));
+    }
+    for (const scene::TextureImage& image : scene.images)
+        parts += fingerprint(image.file.empty() ? image.bytes : readFile(image.file));
+    return fingerprint(parts);
+}
+
 }  // namespace
 
 Resolver::Resolver(fs::path specFile, RunDefaults defaults, MakeParams makeParams)
@@ -138,7 +156,8 @@ const Resolver::KnownScene& Resolver::scene(const Setting& setting) {
         const scene::Scene loaded = scene::loadScene(known.argument);
         known.timeSeconds = loaded.timeSeconds;
         known.identity = {{"name", fs::path(name).filename().string()},
-                          {"fingerprint", fingerprint(readFile(loaded.file))}};
+                          {"fingerprint", fingerprint(readFile(loaded.file))},
+                          {"contents", contentsOf(loaded)}};
     } catch (const ConfigError& error) {
         fail(setting, error.what());
     } catch (const IoError& error) {
@@ -176,6 +195,7 @@ Resolver::Resolved Resolver::resolve(const std::vector<Setting>& base,
     preset("seed", defaults_.seed);
     preset("precise", false);
     preset("reference", defaults_.reference);
+    preset("reference_photons", defaults_.referencePhotons);
     preset("disable", json::array());
 
     // Which parameters there are may depend on the technique, so it comes first.
@@ -208,18 +228,21 @@ Resolver::Resolved Resolver::resolve(const std::vector<Setting>& base,
     }
     const bool precise = values["precise"].value.get<bool>();
     const auto [reference, referenceArgument] = this->reference(values["reference"]);
-    result.settings = {{"schema", "kaustik.settings/1"},
-                       {"scene", scene.identity},
-                       {"technique", technique},
-                       {"parameters", result.params.json()},
-                       {"disable", requireTexts(values["disable"])},
-                       {"size", requireSize(values["size"])},
-                       {"frames", requireWhole(values["frames"], 1, 1000000)},
-                       {"warmup", requireWhole(values["warmup"], 0, 1000000)},
-                       {"seed", requireWhole(values["seed"], INT64_MIN, INT64_MAX)},
-                       {"precise", precise},
-                       {"time_s", time},
-                       {"reference", reference}};
+    result.settings = {
+        {"schema", "kaustik.settings/1"},
+        {"scene", scene.identity},
+        {"technique", technique},
+        {"parameters", result.params.json()},
+        {"disable", requireTexts(values["disable"])},
+        {"size", requireSize(values["size"])},
+        {"frames", requireWhole(values["frames"], 1, 1000000)},
+        {"warmup", requireWhole(values["warmup"], 0, 1000000)},
+        {"seed", requireWhole(values["seed"], INT64_MIN, INT64_MAX)},
+        {"precise", precise},
+        {"time_s", time},
+        {"reference", reference},
+        {"reference_photons", requireWhole(values["reference_photons"], 1, kMostReferencePhotons)},
+        {"version", versionString()}};
 
     const json& settings = result.settings;
     result.disablePlace = values["disable"].place;
@@ -239,6 +262,10 @@ Resolver::Resolved Resolver::resolve(const std::vector<Setting>& base,
     result.runArguments = {
         option("frames", settings["frames"].dump()), option("warmup", settings["warmup"].dump()),
         option("seed", settings["seed"].dump()), option("reference", referenceArgument)};
+    if (reference == "auto") {
+        result.runArguments.push_back(
+            option("reference-photons", settings["reference_photons"].dump()));
+    }
     if (precise) result.runArguments.emplace_back("--precise");
     return result;
 }

@@ -55,7 +55,7 @@ class Experiment : public testing::Test {
     // Every experiment here runs the empty scene beside it, unless it says otherwise.
     [[nodiscard]] Plan plan(const std::string& text) const {
         const std::filesystem::path file = folder.file("study.toml", text);
-        return makePlan(readSpec(file), {"empty.toml", "screen", "64x48", 8, 1, 1, "none"},
+        return makePlan(readSpec(file), {"empty.toml", "screen", "64x48", 8, 1, 1, "none", 1000},
                         makeParams);
     }
 

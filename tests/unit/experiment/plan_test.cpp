@@ -167,8 +167,9 @@ TEST_F(Hash, ChangesWithEverySetting) {
     const std::string hash = plan("name = 'x'\n").runs[0].hash;
     for (const char* setting :
          {"technique = 'cube'", "size = '64x49'", "frames = 9", "warmup = 2", "seed = 2",
-          "precise = true", "time = 0.25", "reference = 'auto'", "disable = ['sprites']",
-          "trace = 'march'", "epsilon = 0.02", "width = 1", "photons = '256x255'"}) {
+          "precise = true", "time = 0.25", "reference = 'auto'", "reference_photons = 1001",
+          "disable = ['sprites']", "trace = 'march'", "epsilon = 0.02", "width = 1",
+          "photons = '256x255'"}) {
         EXPECT_NE(plan(std::string("name = 'x'\n[base]\n") + setting + "\n").runs[0].hash, hash)
             << setting;
     }
