@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+// The photon audit on frames of which the fates are known: still water under a sun straight above,
+// tracers that err on purpose, views that cannot see everything.
+#include "framework/audit/hit_audit.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "framework/pipeline/frame_builder.h"
+#include "framework/scene/scene_file.h"
+#include "tests/gpu/fixture.h"
+
+namespace kaustik::test {
+namespace {
+
+using audit::HitAudit;
+
+// A tracer that asks the line tracer and then moves or drops what it found.
+struct SpoiledParams {
+    glm::vec2 shiftPixels{0.0f};
+    bool dropped = false;
+};
+SpoiledParams spoiled;
+
+Hits traceSpoiled(FrameBuilder& frame, const params::NoParams&, Photons photons,
+                  LayeredDepth layers, Hits previous) {
+    const auto& lines = *static_cast<const TraceStage::Build*>(
+        frame.inputs().registry.findNode("trace", "lines").build.get());
+    const Hits hits = lines(frame, photons, layers, previous);
+    struct Data {
+        Hits hits;
+    };
+    return frame
+        .pass<Data>(
+            "trace.spoiled", "a test",
+            [&](graph::PassSetup& setup, Data& data) {
+                data.hits = hits;
+                data.hits.position = setup.write(hits.position);
+                data.hits.flux = setup.write(hits.flux);
+            },
+            [&inputs = frame.inputs()](const Data& data, gl::PassContext& context) {
+                gl::Command command = context.compute("tests/audit/shaders/spoil_hits.comp");
+                inputs.bindView(command)
+                    .image("hitPosition", data.hits.position)
+                    .image("hitFlux", data.hits.flux)
+                    .set("shiftPixels", spoiled.shiftPixels)
+                    .set("dropped", spoiled.dropped ? 1 : 0)
+                    .dispatchOver(data.hits.incoming.width, 8, data.hits.incoming.height, 8);
+            })
+        .hits;
+}
+
+class Audited {
+  public:
+    explicit Audited(const scene::Scene& scene, const Frame::Settings& settings = {})
+        : registry_(registerAll()), embree_(scene) {
+        registry_.node<TraceStage>("spoiled", {"Errs on purpose.", "a test"}, &traceSpoiled);
+        RenderSettings render;
+        render.technique = registry_.findTechnique("screen_space_photons");
+        render.params = registry_.makeParams(render.technique);
+        render.params.set("emit.photons", "64x64", "test");
+        for (const auto& [name, value] : settings)
+            render.params.set(name, value, "test");
+        render.width = 200;
+        render.height = 150;
+        renderer_ = std::make_unique<Renderer>(context(), registry_, scene, std::move(render));
+        renderer_->build(Purpose::audit);
+        gl::PassTimer timer(gl::TimerMode::finish);
+        renderer_->renderFrame(timer);
+        hits = audit::auditHits(*renderer_, embree_);
+        ledger = audit::resolveLedger(*renderer_, hits,
+                                      renderer_->ledger().watts[transport::kAccountEmitted]);
+    }
+    HitAudit hits;
+    EnergyLedger ledger;
+
+  private:
+    Registry registry_;
+    reference::EmbreeScene embree_;
+    std::unique_ptr<Renderer> renderer_;
+};
+
+// A photon for a photon: fates add up, and so does their energy.
+void expectAccounted(const Audited& audited) {
+    const HitAudit& hits = audited.hits;
+    std::uint64_t wrong = 0;
+    for (const auto& [cause, count] : hits.missed)
+        wrong += count;
+    for (const auto& [cause, count] : hits.falseHits)
+        wrong += count;
+    EXPECT_EQ(hits.right + wrong, hits.photons);
+    EXPECT_LE(hits.visible, hits.exactHits);
+    EXPECT_LT(std::abs(audited.ledger.balance()), 1e-6);  // 32-bit flux, rounded to the quantum
+    EXPECT_EQ(audited.ledger.watts[transport::kAccountUnresolved], 0.0);
+}
+
+TEST(HitAudit, FindsEveryPhotonOfStillWaterInItsPlace) {
+    const Audited audited(scene::loadScene("flat-water"));
+    expectAccounted(audited);
+    EXPECT_GT(audited.hits.photons, 3000u);
+    EXPECT_EQ(audited.hits.exactHits, audited.hits.photons);
+    EXPECT_EQ(audited.hits.right, audited.hits.photons);
+    // The tangent plane of a flat floor is the floor: 32-bit rounding at some metres' distance.
+    EXPECT_LT(audited.hits.meters.maximum, 1e-4);
+}
+
+TEST(HitAudit, TellsByHowMuchATracerErrs) {
+    // Hits are moved at right angles to the view by so many pixels of their own depth.
+    const scene::Scene scene = scene::loadScene("flat-water");
+    spoiled = {{3.0f, 0.0f}, false};
+    const Audited far(scene, {{"trace", "spoiled"}});
+    expectAccounted(far);
+    EXPECT_EQ(far.hits.right, 0u);
+    EXPECT_EQ(far.hits.falseHits.at("displaced"), far.hits.photons);
+    EXPECT_NEAR(far.hits.pixels.median, 3.0, 1e-3);  // 32-bit positions at 150 px
+    spoiled = {{0.9f, 0.0f}, false};
+    const Audited near(scene, {{"trace", "spoiled"}});
+    EXPECT_EQ(near.hits.right, near.hits.photons);
+    EXPECT_NEAR(near.hits.pixels.median, 0.9, 1e-3);
+}
+
+TEST(HitAudit, GivesWhatTheTracerDropsToTheTracer) {
+    spoiled = {{0.0f, 0.0f}, true};
+    const Audited audited(scene::loadScene("flat-water"), {{"trace", "spoiled"}});
+    EXPECT_EQ(audited.hits.missed.at("tracer"), audited.hits.photons);
+    EXPECT_EQ(audited.hits.agreementVisible(), 0.0);
+    EXPECT_GT(audited.hits.missedWatts[transport::kAccountMissedByTracer], 0.0);
+}
+
+TEST(HitAudit, TellsApartWhatTheScreenCannotShow) {
+    scene::Scene scene = scene::loadScene("flat-water");
+    // One layer: the water hides the floor from the tracer, wherever the eye sees water.
+    const Audited oneLayer(scene, {{"layers.count", "1"}});
+    expectAccounted(oneLayer);
+    EXPECT_GT(oneLayer.hits.missed.at("beyond_layers"), oneLayer.hits.photons / 2);
+    EXPECT_GT(oneLayer.ledger.watts[transport::kAccountBeyondLastLayer], 0.0);
+
+    // An eye that looks past the pool.
+    scene.camera.target.x += 3.0;
+    const Audited aside(scene);
+    expectAccounted(aside);
+    EXPECT_GT(aside.hits.missed.at("off_screen"), 0u);
+    EXPECT_LT(aside.hits.agreement(), aside.hits.agreementVisible());
+    EXPECT_GT(aside.hits.agreementVisible(), 0.99);
+    EXPECT_GT(aside.ledger.watts[transport::kAccountOffScreen], 0.0);
+}
+
+TEST(HitAudit, SeesFalseHitsOfAnEpsilonThatIsTooLarge) {
+    const Audited audited(scene::loadScene("flat-water"),
+                          {{"trace.test", "epsilon"}, {"trace.epsilon", "0.5"}});
+    expectAccounted(audited);
+    std::uint64_t falseHits = 0;
+    for (const auto& [cause, count] : audited.hits.falseHits)
+        falseHits += count;
+    EXPECT_GT(falseHits, audited.hits.photons / 2);
+}
+
+TEST(HitAudit, FollowsPhotonsThroughEveryInteraction) {
+    // Glass has two interfaces: the same photons are traced twice and more.
+    const Audited audited(scene::loadScene("glass-sphere"));
+    expectAccounted(audited);
+    EXPECT_GT(audited.hits.photons, 4096u);
+    EXPECT_GT(audited.hits.agreementVisible(), 0.9);
+}
+
+}  // namespace
+}  // namespace kaustik::test
