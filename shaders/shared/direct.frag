@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Direct irradiance of one light at the receivers, W/m². Every specular object blocks it wholly: what
-// passes through arrives as caustic light (design, section 1).
+// passes through arrives as caustic light (design, section 1). Where a receiver is glossy, also what
+// of it goes to the eye, W/m²/sr.
 #include "common/lights.glsl"
 #include "common/view.glsl"
+#ifdef GLOSSY_RECEIVERS
+#include "common/receiver_brdf.glsl"
+#endif
 
 layout(location = 0) out vec4 irradiance;
+#ifdef GLOSSY_RECEIVERS
+layout(location = 1) out vec4 radiance;
+#endif
 
 uniform sampler2D receiver;
 uniform sampler2D receiverSurface;
@@ -41,12 +48,19 @@ float visibility(vec3 positionVs) {
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     irradiance = vec4(0.0);
+#ifdef GLOSSY_RECEIVERS
+    radiance = vec4(0.0);
+#endif
     float depth = texelFetch(receiver, pixel, 0).x;
     if (depth <= 0.0) return;
     vec3 positionVs = viewRay(gl_FragCoord.xy) * depth;
-    vec3 normal = texelFetch(receiverSurface, pixel, 0).xyz;
+    vec4 surface = texelFetch(receiverSurface, pixel, 0);
     LightData light = lights[lightIndex];
-    float cosine = -dot(normal, lightDirection(light, positionVs));
+    vec3 direction = lightDirection(light, positionVs);
+    float cosine = -dot(surface.xyz, direction);
     if (cosine <= 0.0) return;
     irradiance.rgb = lightIrradiance(light, positionVs) * cosine * visibility(positionVs);
+#ifdef GLOSSY_RECEIVERS
+    radiance.rgb = irradiance.rgb * receiverReflection(pixel, surface, -direction);
+#endif
 }

@@ -32,7 +32,7 @@ void main() {
         float cosine = inversesqrt(1.0 + dot(onPlane, onPlane));
         float solidAngle = texel.x * texel.y * cosine * cosine * cosine;
         float distance = length(positionVs - light.positionVs.xyz);
-        flux = lightIntensity(light, positionVs) * solidAngle;
+        flux = lightIntensity(light, positionVs, max(texel.x, texel.y)) * solidAngle;
         footprint = sqrt(solidAngle) * distance;
     }
     bool isPhoton = !isReceiver(materialKind(material)) && flux.r + flux.g + flux.b > 0.0;

@@ -1,20 +1,46 @@
 // SPDX-License-Identifier: MIT
 // Radiance of the receivers on the straight eye rays, W/m²/sr: direct light, the caustic and the
-// fill light, reflected diffusely; the background where there is no receiver.
+// fill light; the background where there is no receiver. GLOSSY_RECEIVERS: direct light has gone
+// through the BRDF already; CAUSTIC_RADIANCE: so has the caustic. All else is reflected diffusely.
 #include "common/view.glsl"
+#ifdef GLOSSY_RECEIVERS
+#include "common/surface_data.glsl"
+#endif
 
 layout(location = 0) out vec4 radiance;
 
 uniform sampler2D receiver;
 uniform sampler2D receiverAlbedo;
+#ifdef GLOSSY_RECEIVERS
+uniform sampler2D receiverSurface;
+uniform sampler2D directRadiance;
+#else
 uniform sampler2D directIrradiance;
+#endif
+#ifdef CAUSTIC_RADIANCE
+uniform sampler2D causticRadiance;
+#else
 uniform sampler2D causticIrradiance;
+#endif
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     radiance = vec4(view.background.rgb, 1.0);
     if (texelFetch(receiver, pixel, 0).x <= 0.0) return;
-    vec3 irradiance = texelFetch(directIrradiance, pixel, 0).rgb +
-                      texelFetch(causticIrradiance, pixel, 0).rgb + view.ambient.rgb;
-    radiance.rgb = texelFetch(receiverAlbedo, pixel, 0).rgb * irradiance * (1.0 / 3.14159265);
+    vec3 albedo = texelFetch(receiverAlbedo, pixel, 0).rgb * (1.0 / 3.14159265);
+    vec3 fill = albedo * view.ambient.rgb;
+#ifdef GLOSSY_RECEIVERS
+    // Light from everywhere: the whole of the lobe reflects it.
+    uint material = uint(texelFetch(receiverSurface, pixel, 0).w) - 1u;
+    fill += materials[material].specular.rgb * (1.0 / 3.14159265) * view.ambient.rgb;
+    vec3 direct = texelFetch(directRadiance, pixel, 0).rgb;
+#else
+    vec3 direct = albedo * texelFetch(directIrradiance, pixel, 0).rgb;
+#endif
+#ifdef CAUSTIC_RADIANCE
+    vec3 caustic = texelFetch(causticRadiance, pixel, 0).rgb;
+#else
+    vec3 caustic = albedo * texelFetch(causticIrradiance, pixel, 0).rgb;
+#endif
+    radiance.rgb = direct + caustic + fill;
 }

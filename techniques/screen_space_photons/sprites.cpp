@@ -3,7 +3,8 @@
 // disc in the tangent plane of its receiver, or what its beam cuts out of it, falling off to
 // the edge. `reconstruct.weights` first sums each splat's weights over the receivers that the
 // pixels see, so that the flux deposited is the photon's flux. In: hits (eye view space, W) and the
-// eye buffer; out: irradiance, W/m².
+// eye buffer; out: irradiance, W/m², and where a receiver is glossy radiance towards the eye,
+// W/m²/sr: each splat by the BRDF at each pixel, with the pixel's normal and reflectance.
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/screen_space_photons/nodes.h"
 
@@ -60,12 +61,15 @@ Weights sumWeights(FrameBuilder& frame, const SpritesParams& params, Hits hits, 
 IrradianceMap splatSprites(FrameBuilder& frame, const SpritesParams& params, Hits hits,
                            EyeBuffer eye) {
     const Weights weights = sumWeights(frame, params, hits, eye);
+    const bool isGlossy = frame.needs().glossyReceivers;
     struct Data : Weights {
         IrradianceMap map;
     };
     return frame
         .pass<Data>(
-            "reconstruct.sprites", "photons become irradiance at the receivers",
+            "reconstruct.sprites",
+            isGlossy ? "photons become irradiance at the receivers, and radiance: some are glossy"
+                     : "photons become irradiance at the receivers",
             [&](graph::PassSetup& setup, Data& data) {
                 static_cast<Weights&>(data) = weights;
                 setup.read(weights.weights);
@@ -79,6 +83,11 @@ IrradianceMap splatSprites(FrameBuilder& frame, const SpritesParams& params, Hit
                                                                     frame.width(), frame.height());
                 data.map.ledger = setup.read(weights.ledger);
                 setup.bypass(data.map.irradiance, {0, 0, 0, 0});
+                if (!isGlossy) return;
+                setup.read(eye.receiverAlbedo);
+                data.map.radiance =
+                    setup.create<RadianceTexel>("caustic.radiance", frame.width(), frame.height());
+                setup.bypass(data.map.radiance, {0, 0, 0, 0});
             },
             [&inputs = frame.inputs(), params](const Data& data, gl::PassContext& context) {
                 gl::Command command = context.shaders(
@@ -93,8 +102,15 @@ IrradianceMap splatSprites(FrameBuilder& frame, const SpritesParams& params, Hit
                     .texture("hitSurface", data.hits.surface)
                     .texture("hitFlux", data.hits.flux)
                     .target(data.map.irradiance)
-                    .clear()
-                    .blend(gl::Blend::add)
+                    .clear();
+                if (data.map.radiance.valid()) {
+                    command.define("GLOSSY_RECEIVERS")
+                        .storage("Materials", inputs.gpuScene.materials())
+                        .texture("receiverAlbedo", data.eye.receiverAlbedo)
+                        .target(data.map.radiance)
+                        .clear();
+                }
+                command.blend(gl::Blend::add)
                     .drawArrays(GL_TRIANGLE_STRIP, 4, data.hits.incoming.count());
             })
         .map;

@@ -99,14 +99,19 @@ Shadows renderShadows(FrameBuilder& frame, const PictureParams& params,
         });
 }
 
-graph::Texture<IrradianceTexel> lightDirectly(FrameBuilder& frame,
-                                              const std::vector<ShadowView>& views,
-                                              const Shadows& shadows, EyeBuffer eye) {
+struct DirectLight {
+    graph::Texture<IrradianceTexel> irradiance;
+    graph::Texture<RadianceTexel> radiance;  // towards the eye; invalid where no receiver is glossy
+};
+
+DirectLight lightDirectly(FrameBuilder& frame, const std::vector<ShadowView>& views,
+                          const Shadows& shadows, EyeBuffer eye) {
     struct Data {
-        graph::Texture<IrradianceTexel> irradiance;
+        DirectLight direct;
         Shadows shadows;
         EyeBuffer eye;
     };
+    const bool isGlossy = frame.needs().glossyReceivers;
     return frame
         .pass<Data>(
             "compose.direct", "receivers are lit directly too",
@@ -116,12 +121,20 @@ graph::Texture<IrradianceTexel> lightDirectly(FrameBuilder& frame,
                 if (!views.empty()) setup.read(shadows.map);
                 setup.read(eye.receiver);
                 setup.read(eye.receiverSurface);
-                data.irradiance = setup.create<IrradianceTexel>("direct.irradiance", frame.width(),
-                                                                frame.height());
-                setup.bypass(data.irradiance, {0, 0, 0, 0});
+                DirectLight& direct = data.direct;
+                direct.irradiance = setup.create<IrradianceTexel>("direct.irradiance",
+                                                                  frame.width(), frame.height());
+                setup.bypass(direct.irradiance, {0, 0, 0, 0});
+                if (!isGlossy) return;
+                setup.read(eye.receiverAlbedo);
+                direct.radiance =
+                    setup.create<RadianceTexel>("direct.radiance", frame.width(), frame.height());
+                setup.bypass(direct.radiance, {0, 0, 0, 0});
             },
             [&inputs = frame.inputs(), views](const Data& data, gl::PassContext& context) {
-                context.texture(data.irradiance).clear({0, 0, 0, 0});
+                const DirectLight& direct = data.direct;
+                context.texture(direct.irradiance).clear({0, 0, 0, 0});
+                if (direct.radiance.valid()) context.texture(direct.radiance).clear({0, 0, 0, 0});
                 for (std::size_t light = 0; light < views.size(); ++light) {
                     gl::Command command = context.fullscreen("shared/direct.frag");
                     inputs.bindView(command)
@@ -129,6 +142,7 @@ graph::Texture<IrradianceTexel> lightDirectly(FrameBuilder& frame,
                         .texture("receiver", data.eye.receiver)
                         .texture("receiverSurface", data.eye.receiverSurface)
                         .texture("shadowMap", data.shadows.map)
+                        .texture("sceneImages", inputs.gpuScene.images())
                         .set("lightIndex", static_cast<int>(light))
                         .set("firstLayer", views[light].firstLayer)
                         .set("faceCount", static_cast<int>(views[light].eyeToLight.size()))
@@ -137,29 +151,47 @@ graph::Texture<IrradianceTexel> lightDirectly(FrameBuilder& frame,
                         command.set(fmt::format("eyeToLight[{}]", face),
                                     views[light].eyeToLight[face]);
                     }
-                    command.target(data.irradiance).blend(gl::Blend::add).draw();
+                    command.target(direct.irradiance);
+                    if (direct.radiance.valid()) {
+                        command.define("GLOSSY_RECEIVERS")
+                            .storage("Materials", inputs.gpuScene.materials())
+                            .texture("receiverAlbedo", data.eye.receiverAlbedo)
+                            .target(direct.radiance);
+                    }
+                    command.blend(gl::Blend::add).draw();
                 }
             })
-        .irradiance;
+        .direct;
 }
 
-Radiance shadeReceivers(FrameBuilder& frame, EyeBuffer eye, graph::Texture<IrradianceTexel> direct,
+Radiance shadeReceivers(FrameBuilder& frame, EyeBuffer eye, const DirectLight& direct,
                         const IrradianceMap& caustic) {
     struct Data {
         Radiance out;
         EyeBuffer eye;
-        graph::Texture<IrradianceTexel> direct;
-        graph::Texture<IrradianceTexel> caustic;
+        DirectLight direct;
+        IrradianceMap caustic;
     };
     return frame
         .pass<Data>(
             "compose.radiance", "the picture shows the receivers",
             [&](graph::PassSetup& setup, Data& data) {
                 data.eye = eye;
-                data.direct = setup.read(direct);
-                data.caustic = setup.read(caustic.irradiance);
+                data.direct = direct;
+                data.caustic = caustic;
                 setup.read(eye.receiver);
                 setup.read(eye.receiverAlbedo);
+                if (direct.radiance.valid()) {
+                    setup.read(direct.radiance);
+                    setup.read(eye.receiverSurface);
+                } else {
+                    setup.read(direct.irradiance);
+                }
+                if (caustic.radiance.valid()) {
+                    setup.read(caustic.radiance);
+                } else {
+                    setup.read(caustic.irradiance);
+                }
                 data.out.radiance = setup.create<RadianceTexel>("compose.receiver_radiance",
                                                                 frame.width(), frame.height());
             },
@@ -167,11 +199,22 @@ Radiance shadeReceivers(FrameBuilder& frame, EyeBuffer eye, graph::Texture<Irrad
                 gl::Command command = context.fullscreen("shared/radiance.frag");
                 inputs.bindView(command)
                     .texture("receiver", data.eye.receiver)
-                    .texture("receiverAlbedo", data.eye.receiverAlbedo)
-                    .texture("directIrradiance", data.direct)
-                    .texture("causticIrradiance", data.caustic)
-                    .target(data.out.radiance)
-                    .draw();
+                    .texture("receiverAlbedo", data.eye.receiverAlbedo);
+                if (data.direct.radiance.valid()) {
+                    command.define("GLOSSY_RECEIVERS")
+                        .storage("Materials", inputs.gpuScene.materials())
+                        .texture("receiverSurface", data.eye.receiverSurface)
+                        .texture("directRadiance", data.direct.radiance);
+                } else {
+                    command.texture("directIrradiance", data.direct.irradiance);
+                }
+                if (data.caustic.radiance.valid()) {
+                    command.define("CAUSTIC_RADIANCE")
+                        .texture("causticRadiance", data.caustic.radiance);
+                } else {
+                    command.texture("causticIrradiance", data.caustic.irradiance);
+                }
+                command.target(data.out.radiance).draw();
             })
         .out;
 }
@@ -187,7 +230,7 @@ Picture composePicture(FrameBuilder& frame, const PictureParams& params, Geometr
     } else {
         shadows = renderShadows(frame, params, views, geometry);
     }
-    const auto direct = lightDirectly(frame, views, shadows, eye);
+    const DirectLight direct = lightDirectly(frame, views, shadows, eye);
     const Radiance receivers = shadeReceivers(frame, eye, direct, caustic);
     const Radiance seen = frame.run<ViewStage>(eye, receivers);
     const float exposure =
