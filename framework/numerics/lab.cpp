@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "framework/numerics/lab.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 namespace kaustik::numerics {
@@ -8,8 +10,15 @@ namespace kaustik::numerics {
 std::vector<Row> Lab::run(const Case& hardCase) {
     caseId_ = hardCase.id;
     rows_.clear();
+    framesScanned_ = texturesScanned_ = valuesNotFinite_ = 0;
     for (const auto& measure : hardCase.measure)
         measure(*this);
+    if (framesScanned_ > 0) {
+        expect("",
+               fmt::format("values not finite in {} textures of {} frames", texturesScanned_,
+                           framesScanned_),
+               0.0, static_cast<double>(valuesNotFinite_), kExactly);
+    }
     return std::exchange(rows_, {});
 }
 
@@ -33,6 +42,25 @@ Lab::Choice Lab::choose(const std::string& stage, const std::string& node) const
             return {technique.name, {}, stage + "." + node};
     }
     return {registry_.techniques().front().name, {{stage, node}}, stage + "." + node};
+}
+
+Frame Lab::render(const Technique& technique, const scene::Scene& scene, FrameRequest request) {
+    request.keepsAll = true;
+    request.poison = true;
+    Frame frame(context_, registry_, scene, technique, request);
+    ++framesScanned_;
+    for (const std::string& name : frame.textureNames()) {
+        if (suite_.mayBeUnwritten(name)) continue;
+        ++texturesScanned_;
+        valuesNotFinite_ += frame.countNotFinite(name);
+    }
+    return frame;
+}
+
+Frame Lab::render(const Choice& choice, const scene::Scene& scene, FrameRequest request) {
+    request.settings.insert(request.settings.begin(), choice.settings.begin(),
+                            choice.settings.end());
+    return render(registry_.findTechnique(choice.technique), scene, request);
 }
 
 }  // namespace kaustik::numerics

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "framework/gl/context.h"
+#include "framework/numerics/frame.h"
 #include "framework/numerics/suite.h"
 #include "framework/pipeline/registry.h"
 
@@ -16,8 +17,6 @@ struct Tolerance {
     std::string reason;
 };
 inline const Tolerance kExactly{0.0, "a count, or exact in 32 bits"};
-
-using Settings = std::vector<std::pair<std::string, std::string>>;
 
 class Lab {
   public:
@@ -55,6 +54,13 @@ class Lab {
         return choices;
     }
 
+    // Renders with every texture kept, and memory that starts as NaN; each texture is scanned, and
+    // the case gets a row that says how many values were none.
+    [[nodiscard]] Frame render(const Technique& technique, const scene::Scene& scene,
+                               FrameRequest request);
+    [[nodiscard]] Frame render(const Choice& choice, const scene::Scene& scene,
+                               FrameRequest request);
+
     [[nodiscard]] gl::Context& context() { return context_; }
     [[nodiscard]] const Registry& registry() const { return registry_; }
     [[nodiscard]] const Suite& suite() const { return suite_; }
@@ -65,6 +71,9 @@ class Lab {
     const Suite& suite_;
     std::string caseId_;
     std::vector<Row> rows_;
+    std::size_t framesScanned_ = 0;
+    std::size_t texturesScanned_ = 0;
+    std::size_t valuesNotFinite_ = 0;
 };
 
 }  // namespace kaustik::numerics

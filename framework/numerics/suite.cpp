@@ -57,6 +57,7 @@ bool Suite::mayBeUnwritten(const std::string& name) const {
 Suite makeSuite(const Registry& registry) {
     Suite suite;
     addRaySegmentCases(suite);
+    addTracingCases(suite);
     addInterfaceCases(suite);
     for (const auto& add : registry.hardCases())
         add(suite);

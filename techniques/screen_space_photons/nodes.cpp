@@ -24,6 +24,7 @@ void registerScreenSpacePhotons(Registry& registry) {
                         "Krüger, Bürger, Westermann 2006",
                         {{"layers", "peel"}, {"trace", "lines"}, {"reconstruct", "sprites"}},
                         {}});
+    registry.hardCases(&addScreenSpacePhotonCases);
 }
 
 }  // namespace kaustik

@@ -10,6 +10,9 @@ namespace kaustik {
 
 void registerScreenSpacePhotons(Registry& registry);
 
+// What the hard cases need to know of these nodes, and cases of their own.
+void addScreenSpacePhotonCases(numerics::Suite& suite);
+
 LayeredDepth peelLayers(FrameBuilder& frame, const params::NoParams&, Geometry geometry);
 
 struct LinesParams {

@@ -8,6 +8,7 @@
 namespace kaustik::numerics {
 
 void addRaySegmentCases(Suite& suite);  // A1 to A5: common/ray_segment.glsl
+void addTracingCases(Suite& suite);     // A1 to A11, B17: every tracer
 void addInterfaceCases(Suite& suite);   // C19 to C27: common/fresnel.glsl, surface_data.glsl
 
 }  // namespace kaustik::numerics

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// Single stages on a bench: photons and hits that a case makes up go into one node, and what comes
+// out is read back. World space, m, W; in the frame itself all is as in a technique's.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "framework/numerics/lab.h"
+#include "framework/pipeline/ledger.h"
+
+namespace kaustik::numerics {
+
+// A photon on its way, and the specular surface that it leaves, if any.
+struct BenchPhoton {
+    glm::dvec3 position{0.0};
+    glm::dvec3 direction{0.0, 0.0, -1.0};  // unit
+    glm::dvec3 fluxWatts{1.0};
+    double footprintMeters = 0.01;
+    std::uint32_t media = 0;          // transport::Photon::media
+    glm::dvec3 startNormal{0.0};      // outward
+    std::uint32_t startMaterial = 0;  // index + 1; 0: it starts in the open
+    std::uint32_t startFate = transport::kFateNone;
+};
+
+// Where one arrived, or what it became.
+struct BenchHit {
+    glm::dvec3 position{0.0};
+    double distanceMeters = 0.0;
+    glm::dvec3 normal{0.0};
+    std::uint32_t material = 0;  // index + 1
+    glm::dvec3 fluxWatts{0.0};
+    std::uint32_t fate = transport::kFateNone;
+    [[nodiscard]] bool isHit() const {
+        return fate == transport::kFateReceiver || fate == transport::kFateSpecular;
+    }
+};
+
+struct BenchSize {
+    int width = 128;
+    int height = 128;
+};
+
+struct Traced {
+    std::vector<BenchHit> hits;  // by photon
+    EnergyLedger ledger;
+    [[nodiscard]] std::size_t hitCount() const;
+};
+
+// Traces photons to their first hits.
+[[nodiscard]] Traced tracePhotons(Lab& lab, const Lab::Choice& tracer, const scene::Scene& scene,
+                                  const std::vector<BenchPhoton>& photons,
+                                  const Settings& settings = {}, BenchSize size = {});
+
+// Photons that have just met a specular surface, at `startNormal` and `startMaterial`, interact
+// there. A result of fate kFateInFlight goes on; `normal` of it is its direction.
+[[nodiscard]] Traced interactPhotons(Lab& lab, const Lab::Choice& specular,
+                                     const scene::Scene& scene,
+                                     const std::vector<BenchPhoton>& photons,
+                                     std::vector<std::uint32_t>* media = nullptr);
+
+// Photons that have landed on a receiver, whose normal is `startNormal`, become irradiance; the
+// frame has "caustic.irradiance" and "eye.receiver".
+[[nodiscard]] Frame reconstructHits(Lab& lab, const Lab::Choice& reconstruct,
+                                    const scene::Scene& scene,
+                                    const std::vector<BenchPhoton>& photons,
+                                    const Settings& settings = {}, BenchSize size = {});
+
+}  // namespace kaustik::numerics

@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: MIT
+// A1 to A3, A6 to A11 and B17 for every node that answers `trace`: photons made up one by one, in
+// scenes of planes and boxes, against where a ray in double meets them.
+#include <algorithm>
+#include <cmath>
+
+#include "framework/numerics/bench.h"
+#include "framework/numerics/cases/common_cases.h"
+#include "framework/numerics/cases/scene_text.h"
+
+namespace kaustik::numerics {
+namespace {
+
+using namespace transport;
+
+// The camera of most cases: 128 x 128 pixels of 60 degrees at the origin.
+constexpr double kFootprintPerMeter = 2.0 * 0.57735026918962576 / 128.0;
+
+// The hit on a plane lies where the ray meets the plane that the pixel holds.
+const Tolerance kOnPlane{1e-4,
+                         "t comes from a 32-bit depth of some 10 m (1e-6 m) and a 32-bit "
+                         "normal, along rays that close in on the plane with a cosine of 0.1 "
+                         "or more"};
+
+BenchPhoton photon(const glm::dvec3& position, const glm::dvec3& direction) {
+    BenchPhoton result;
+    result.position = position;
+    result.direction = glm::normalize(direction);
+    return result;
+}
+
+// Along the ray to the plane n·p = d.
+double exactDistance(const BenchPhoton& photon, const glm::dvec3& normal, double d) {
+    return (d - glm::dot(normal, photon.position)) / glm::dot(normal, photon.direction);
+}
+
+double totalFlux(const std::vector<BenchPhoton>& photons) {
+    double total = 0.0;
+    for (const BenchPhoton& p : photons)
+        total += p.fluxWatts.x + p.fluxWatts.y + p.fluxWatts.z;
+    return total;
+}
+
+// Rows that say that every photon hits the plane n·p = d, of this material, where it should.
+void expectHits(Lab& lab, const std::string& subject, const std::string& what,
+                const std::vector<BenchPhoton>& photons, const Traced& traced,
+                const glm::dvec3& normal, double d, std::uint32_t material,
+                const Tolerance& tolerance = kOnPlane) {
+    double worst = 0.0;
+    std::size_t right = 0;
+    for (std::size_t i = 0; i < photons.size(); ++i) {
+        const BenchHit& hit = traced.hits[i];
+        if (!hit.isHit() || hit.material != material) continue;
+        ++right;
+        worst =
+            std::max(worst, std::abs(hit.distanceMeters - exactDistance(photons[i], normal, d)));
+    }
+    lab.expect(subject, "hits of " + what, static_cast<double>(photons.size()),
+               static_cast<double>(right), kExactly);
+    lab.expectDeviation(subject, "worst error of t of " + what + ", m", worst, tolerance);
+}
+
+const Tolerance kLedger{1e-5,
+                        "the ledger's quantum is 2^-50 of the light; photons hold 32-bit flux"};
+
+// Rows that say that no photon hits anything, and that these accounts hold all of their flux.
+void expectCounted(Lab& lab, const std::string& subject, const std::string& what,
+                   const std::vector<BenchPhoton>& photons, const Traced& traced,
+                   const std::vector<unsigned>& accounts, const std::string& names) {
+    double counted = 0.0;
+    for (const unsigned account : accounts)
+        counted += traced.ledger.watts[account];
+    lab.expect(subject, "hits of " + what, 0.0, static_cast<double>(traced.hitCount()), kExactly);
+    lab.expect(subject, "flux of " + what + " counted as " + names + ", share", 1.0,
+               counted / totalFlux(photons), kLedger);
+}
+
+// Flux that is in the ledger needs a light for its quantum.
+const std::string kSun = sun({0.0, -1.0, 0.0});
+
+void nearPlaneAndBehindTheEye(Lab& lab) {
+    const scene::Scene scene =
+        makeScene({}, kSun + facingPlane("wall", "grey", 60, {0, 0, -10}) +
+                          facingPlane("wall behind", "grey", 60, {0, 0, 10}));
+    std::vector<BenchPhoton> fromBehind;
+    std::vector<BenchPhoton> toBehind;
+    for (int i = 0; i < 64; ++i) {
+        const double x = 0.05 * (i % 8 - 3.6);
+        const double y = 0.05 * (i / 8 - 3.4);
+        fromBehind.push_back(
+            photon({x, y, 3.0}, glm::dvec3(8.0 * x, -6.0 * y, -10.0) - glm::dvec3(x, y, 3.0)));
+        toBehind.push_back(photon({10.0 * x, 10.0 * y, -5.0}, {-2.0 * x, -2.0 * y, 1.0}));
+    }
+    for (const Lab::Choice& tracer : lab.each<TraceStage>()) {
+        expectHits(lab, tracer.subject, "rays that come from behind the eye", fromBehind,
+                   tracePhotons(lab, tracer, scene, fromBehind), {0, 0, 1}, -10.0, kGrey);
+        expectCounted(lab, tracer.subject, "rays that go behind it", toBehind,
+                      tracePhotons(lab, tracer, scene, toBehind),
+                      {kAccountBehindEye, kAccountOffScreen}, "behind the eye or off screen");
+    }
+}
+
+void whollyBehindTheEye(Lab& lab) {
+    const scene::Scene scene =
+        makeScene({}, kSun + facingPlane("wall", "grey", 60, {0, 0, -10}) +
+                          facingPlane("wall behind", "grey", 60, {0, 0, 10}));
+    std::vector<BenchPhoton> photons;
+    for (int i = 0; i < 64; ++i)
+        photons.push_back(photon({0.3 * (i % 8) - 1.0, 0.3 * (i / 8) - 1.0, 1.0}, {0.1, 0.2, 1.0}));
+    for (const Lab::Choice& tracer : lab.each<TraceStage>()) {
+        expectCounted(lab, tracer.subject, "rays behind the eye", photons,
+                      tracePhotons(lab, tracer, scene, photons), {kAccountBehindEye},
+                      "behind the eye");
+    }
+}
+
+void alongTheViewDirection(Lab& lab) {
+    const scene::Scene scene = makeScene({}, kSun + facingPlane("wall", "grey", 60, {0, 0, -10}) +
+                                                 facingPlane("plate", "white", 4, {0, 0, -3}));
+    std::vector<BenchPhoton> parallel;
+    std::vector<BenchPhoton> away;
+    std::vector<BenchPhoton> towards;
+    for (int i = 0; i < 100; ++i) {
+        const glm::dvec3 p(0.037 * (i % 10) - 0.2, 0.041 * (i / 10) - 0.2, -1.0);
+        parallel.push_back(photon(p, {0, 0, -1}));
+        away.push_back(photon(p, p));
+        towards.push_back(photon(7.0 * p, -p));
+    }
+    for (const Lab::Choice& tracer : lab.each<TraceStage>()) {
+        expectHits(lab, tracer.subject, "rays parallel to the view direction", parallel,
+                   tracePhotons(lab, tracer, scene, parallel), {0, 0, 1}, -3.0, kWhite);
+        expectHits(lab, tracer.subject, "rays straight away from the eye", away,
+                   tracePhotons(lab, tracer, scene, away), {0, 0, 1}, -3.0, kWhite);
+        expectHits(lab, tracer.subject, "rays straight towards the eye", towards,
+                   tracePhotons(lab, tracer, scene, towards), {0, 0, 1}, -3.0, kWhite);
+    }
+}
+
+// A point at this depth on this pixel position, of 128 x 128.
+glm::dvec3 at(double pixelX, double pixelY, double depth) {
+    const double tangent = 64.0 * kFootprintPerMeter;
+    return {(pixelX / 64.0 - 1.0) * tangent * depth, (pixelY / 64.0 - 1.0) * tangent * depth,
+            -depth};
+}
+
+void diagonalsEdgesAndTies(Lab& lab) {
+    const scene::Scene scene = makeScene({}, kSun + facingPlane("wall", "grey", 60, {0, 0, -10}));
+    std::vector<BenchPhoton> photons;
+    for (const double start : {20.0, 20.5, 33.25}) {
+        for (const double length : {1.0, 7.0, 32.0, 60.0}) {
+            for (const auto& [dx, dy] : {std::pair(1.0, 1.0), std::pair(1.0, 0.0),
+                                         std::pair(0.0, 1.0), std::pair(1.0, 0.5)}) {
+                const glm::dvec3 from = at(start, start, 4.0);
+                const glm::dvec3 to = at(start + dx * length, start + dy * length, 10.0);
+                photons.push_back(photon(from, to - from));
+            }
+        }
+    }
+    for (const Lab::Choice& tracer : lab.each<TraceStage>()) {
+        expectHits(lab, tracer.subject, "rays along diagonals and pixel edges", photons,
+                   tracePhotons(lab, tracer, scene, photons), {0, 0, 1}, -10.0, kGrey);
+    }
+}
+
+void offScreenAndBeyondTheLastLayer(Lab& lab) {
+    const scene::Scene scene = makeScene({}, kSun + facingPlane("1", "grey", 40, {0, 0, -3}) +
+                                                 facingPlane("2", "grey", 40, {0, 0, -4}) +
+                                                 facingPlane("3", "grey", 40, {0, 0, -5}) +
+                                                 facingPlane("4", "grey", 40, {0, 0, -6}));
+    std::vector<BenchPhoton> leaving;
+    std::vector<BenchPhoton> hidden;
+    for (int i = 0; i < 64; ++i) {
+        const double x = 0.1 * (i % 8) - 0.35;
+        const double y = 0.1 * (i / 8) - 0.35;
+        leaving.push_back(photon({x, y, -2.0}, {4.0, 0.3 * y, -1.0}));
+        hidden.push_back(photon({x, y, -5.5}, {0.2, 0.1, -1.0}));
+    }
+    for (const Lab::Choice& tracer : lab.each<TraceStage>()) {
+        expectCounted(lab, tracer.subject, "rays that leave the screen before they hit", leaving,
+                      tracePhotons(lab, tracer, scene, leaving), {kAccountOffScreen}, "off screen");
+        expectCounted(lab, tracer.subject, "rays beyond the last of 3 layers", hidden,
+                      tracePhotons(lab, tracer, scene, hidden, {{"layers.count", "3"}}),
+                      {kAccountBeyondLastLayer, kAccountUnresolved},
+                      "beyond the layers or unresolved");
+    }
+}
+
+void passesBehind(Lab& lab) {
+    const scene::Scene scene =
+        makeScene({}, kSun + facingPlane("wall", "grey", 60, {0, 0, -10}) +
+                          object("box", "box", "white", {0, 0, -5}, "size = [2, 2, 1]") +
+                          facingPlane("plate", "white", 1, {2, 1.5, -5}));
+    std::vector<BenchPhoton> photons;
+    for (int i = 0; i < 100; ++i)
+        photons.push_back(
+            photon({-4.0, 0.12 * (i / 10) - 0.5, -8.0 - 0.02 * (i % 10)}, {1.0, 0.05, -0.25}));
+    for (const Lab::Choice& tracer : lab.each<TraceStage>()) {
+        expectHits(lab, tracer.subject, "the wall by rays that pass behind a box and a plate",
+                   photons, tracePhotons(lab, tracer, scene, photons), {0, 0, 1}, -10.0, kGrey);
+    }
+}
+
+void stepsAcrossAThinSurface(Lab& lab) {
+    const glm::dvec3 normal = glm::normalize(glm::dvec3(0.0, std::sin(0.5), std::cos(0.5)));
+    const scene::Scene scene =
+        makeScene({}, kSun + facingPlane("wall", "grey", 60, {0, 0, -100}) +
+                          object("sheet", "plane", "white", {0, 0, -5},
+                                 fmt::format("size = [8, 8]\nrotation_degrees = [{}, 0, 0]",
+                                             number(90.0 - glm::degrees(0.5)))));
+    std::vector<BenchPhoton> photons;
+    for (int i = 0; i < 400; ++i) {
+        const glm::dvec3 p(0.031 * (i % 20) - 0.3, 0.029 * (i / 20) - 0.3, -1.0);
+        // Less than two pixels on the screen, and 99 m deep.
+        photons.push_back(photon(p, p + glm::dvec3(0.003 * (i % 7), 0.002 * (i % 5), 0.0)));
+    }
+    const double d = glm::dot(normal, glm::dvec3(0, 0, -5));
+    for (const Lab::Choice& tracer : lab.each<TraceStage>()) {
+        expectHits(lab, tracer.subject, "a sheet that lies between two samples", photons,
+                   tracePhotons(lab, tracer, scene, photons), normal, d, kWhite);
+        expectHits(lab, tracer.subject, "the same in 16 x 16 pixels", photons,
+                   tracePhotons(lab, tracer, scene, photons, {}, {16, 16}), normal, d, kWhite);
+    }
+}
+
+// Water at y = 0, a floor at y = -depth, seen from above at a slant.
+scene::Scene basin(double depth, double shift) {
+    const glm::dvec3 offset(shift, 0.0, shift);
+    CameraText camera;
+    camera.position = offset + glm::dvec3(0.0, 2.0, 3.0);
+    camera.target = offset;
+    return makeScene(camera, kSun +
+                                 floorPlane("floor", "grey", 6, offset - glm::dvec3(0, depth, 0)) +
+                                 floorPlane("water", "water", 6, offset));
+}
+
+void startsOnASurface(Lab& lab) {
+    for (const Lab::Choice& tracer : lab.each<TraceStage>()) {
+        for (const double depth : {1.0, 0.02}) {
+            for (const double shift : {0.0, 1e5}) {
+                const scene::Scene scene = basin(depth, shift);
+                std::vector<BenchPhoton> photons;
+                for (int i = 0; i < 400; ++i) {
+                    BenchPhoton p =
+                        photon({shift + 0.05 * (i % 20) - 0.5, 0.0, shift + 0.05 * (i / 20) - 0.5},
+                               {0.3, -1.0, 0.1});
+                    p.media = kWater;
+                    p.startNormal = {0, 1, 0};
+                    p.startMaterial = kWater;
+                    photons.push_back(p);
+                }
+                expectHits(lab, tracer.subject,
+                           fmt::format("a floor {} m below the water that they start on, {:.0e} m "
+                                       "from the origin",
+                                       depth, shift),
+                           photons, tracePhotons(lab, tracer, scene, photons), {0, 1, 0}, -depth,
+                           kGrey,
+                           {1e-4,
+                            "32-bit depths of some 4 m, camera-relative, and normals, along "
+                            "rays that close in with a cosine above 0.9"});
+            }
+        }
+    }
+}
+
+void twoSurfacesWithinEpsilon(Lab& lab) {
+    const double gap = 0.002;
+    const scene::Scene scene =
+        makeScene({}, kSun + facingPlane("front", "grey", 60, {0, 0, -10}) +
+                          facingPlane("back", "white", 60, {0, 0, -10 - gap}) +
+                          facingPlane("behind", "grey", 60, {0, 0, -20}));
+    std::vector<BenchPhoton> forth;
+    std::vector<BenchPhoton> back;
+    for (int i = 0; i < 100; ++i) {
+        const double x = 0.11 * (i % 10) - 0.5;
+        const double y = 0.13 * (i / 10) - 0.5;
+        forth.push_back(photon({x, y, -4.0}, {0.3, 0.2, -1.0}));
+        back.push_back(photon({x, y, -14.0}, {0.3, 0.2, 1.0}));
+    }
+    const Tolerance withinEpsilon{0.06,
+                                  "the paper's test takes the fragment's own t, which may "
+                                  "differ by epsilon, 0.05 m in depth, over a cosine of 0.94"};
+    const Settings epsilon = {
+        {"trace.test", "epsilon"}, {"trace.epsilon", "0.05"}, {"layers.count", "4"}};
+    for (const Lab::Choice& tracer : lab.each<TraceStage>()) {
+        expectHits(lab, tracer.subject, "the nearer of two walls 2 mm apart", forth,
+                   tracePhotons(lab, tracer, scene, forth), {0, 0, 1}, -10.0, kGrey);
+        expectHits(lab, tracer.subject, "the nearer of them from behind", back,
+                   tracePhotons(lab, tracer, scene, back), {0, 0, 1}, -10.0 - gap, kWhite);
+        // Steep enough that no step is longer than epsilon: what a longer one misses is the
+        // test's own fault.
+        const Traced there = tracePhotons(lab, tracer, scene, forth, epsilon, {512, 512});
+        const Traced returned = tracePhotons(lab, tracer, scene, back, epsilon, {512, 512});
+        std::size_t wrong = 0;
+        for (std::size_t i = 0; i < forth.size(); ++i) {
+            wrong += there.hits[i].isHit() && there.hits[i].material != kGrey ? 1 : 0;
+            wrong += returned.hits[i].isHit() && returned.hits[i].material != kWhite ? 1 : 0;
+        }
+        lab.expect(tracer.subject, "hits of the farther of them by the paper's epsilon of 0.05 m",
+                   0.0, static_cast<double>(wrong), kExactly);
+    }
+}
+
+void edgeOnOrBelowAPixel(Lab& lab) {
+    // Seen exactly edge-on, and a quarter of a pixel wide in the middle of a pixel's corner.
+    const scene::Scene scene = makeScene(
+        {},
+        kSun + floorPlane("edge", "white", 2, {0, 0, -5}) +
+            object("speck", "box", "white", {at(90.0, 90.0, 5.0)}, "size = [0.01, 0.01, 0.01]") +
+            object("bounds", "plane", "grey", {0, -40, -5}, "size = [90, 10]"));
+    std::vector<BenchPhoton> edge;
+    std::vector<BenchPhoton> speck;
+    for (int i = 0; i < 64; ++i) {
+        edge.push_back(
+            photon({0.1 * (i % 8) - 0.35, 1.0, -5.0 + 0.1 * (i / 8) - 0.35}, {0, -1, 0}));
+        const glm::dvec3 target =
+            at(90.0, 90.0, 5.0) + glm::dvec3(0.001 * (i % 8) - 0.0035, 0.001 * (i / 8) - 0.0035, 0);
+        speck.push_back(photon(target + glm::dvec3(-0.5, 0.0, 0.0), {1, 0, 0}));
+    }
+    for (const Lab::Choice& tracer : lab.each<TraceStage>()) {
+        const std::vector<unsigned> accounts = {kAccountEdgeOn, kAccountMissedByTracer,
+                                                kAccountUnresolved, kAccountOffScreen};
+        expectCounted(lab, tracer.subject, "a sheet seen edge-on", edge,
+                      tracePhotons(lab, tracer, scene, edge), accounts, "lost");
+        expectCounted(lab, tracer.subject, "a speck below a pixel", speck,
+                      tracePhotons(lab, tracer, scene, speck), accounts, "lost");
+    }
+}
+
+}  // namespace
+
+void addTracingCases(Suite& suite) {
+    suite.add("A1", "", nearPlaneAndBehindTheEye);
+    suite.add("A2", "", whollyBehindTheEye);
+    suite.add("A3", "", alongTheViewDirection);
+    suite.add("A6", "Rays along diagonals, pixel edges and ties hit like all others.",
+              diagonalsEdgesAndTies);
+    suite.add("A7", "", offScreenAndBeyondTheLastLayer);
+    suite.add("A8", "A ray that passes behind a layer does not touch it.", passesBehind);
+    suite.add("A9", "A steep ray does not step across a thin surface.", stepsAcrossAThinSurface);
+    suite.add("A10",
+              "A ray does not hit the surface that it starts on, near or far from the origin.",
+              startsOnASurface);
+    suite.add("A11", "Of two surfaces within epsilon the nearer one is hit.",
+              twoSurfacesWithinEpsilon);
+    suite.add("B17", "What is seen edge-on or is smaller than a pixel is missed and counted.",
+              edgeOnOrBelowAPixel);
+}
+
+}  // namespace kaustik::numerics

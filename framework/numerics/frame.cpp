@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "framework/numerics/frame.h"
+
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "framework/scene/scene_file.h"
+
+namespace kaustik::numerics {
+
+scene::Scene sceneFromText(const std::string& toml) {
+    const std::filesystem::path file = std::filesystem::temp_directory_path() /
+                                       ("kaustik-scene-" + std::to_string(::getpid()) + ".toml");
+    std::ofstream(file) << toml;
+    scene::Scene scene = scene::loadSceneFile(file);
+    std::filesystem::remove(file);
+    return scene;
+}
+
+double Texels::sum() const {
+    double total = 0.0;
+    for (const float value : values)
+        total += static_cast<double>(value);
+    return total;
+}
+
+Frame::Frame(gl::Context& context, const Registry& registry, const scene::Scene& scene,
+             const Technique& technique, const FrameRequest& request)
+    : view_(render::makeEyeView(scene.camera, request.width, request.height)) {
+    RenderSettings render;
+    render.technique = technique;
+    render.params = registry.makeParams(technique);
+    for (const auto& [name, value] : request.settings)
+        render.params.set(name, value, "hard case");
+    render.width = request.width;
+    render.height = request.height;
+    renderer_ = std::make_unique<Renderer>(context, registry, scene, std::move(render));
+    std::vector<std::string> kept = request.saved;
+    if (request.keepsAll) {
+        static_cast<void>(renderer_->compile(Purpose::measurement));
+        kept = textureNames();
+    }
+    renderer_->build(Purpose::measurement, kept);
+    renderer_->executor().poisonTransients(request.poison);
+    gl::PassTimer timer(gl::TimerMode::finish);
+    renderer_->renderFrame(timer);
+}
+
+Texels Frame::read(const std::string& resource, int layer) const {
+    return read(renderer_->graph().find(resource), layer);
+}
+
+Texels Frame::read(const graph::ResourceRef& handle, int layer) const {
+    const gl::Texture& texture = renderer_->texture(handle);
+    const graph::TextureDesc& desc = texture.desc();
+    Texels texels{desc.width, desc.height, gl::formatInfo(desc.format).channels, texture.read()};
+    const std::size_t perLayer = static_cast<std::size_t>(desc.width) *
+                                 static_cast<std::size_t>(desc.height) *
+                                 static_cast<std::size_t>(texels.channels);
+    const auto begin = texels.values.begin() +
+                       static_cast<std::ptrdiff_t>(static_cast<std::size_t>(layer) * perLayer);
+    texels.values = std::vector<float>(begin, begin + static_cast<std::ptrdiff_t>(perLayer));
+    return texels;
+}
+
+std::vector<std::string> Frame::textureNames() const {
+    const graph::Graph& graph = renderer_->graph();
+    std::vector<std::string> names;
+    for (const std::string& name : graph.resourceNames()) {
+        if (std::holds_alternative<graph::TextureDesc>(graph.descOf(graph.find(name))))
+            names.push_back(name);
+    }
+    return names;
+}
+
+std::size_t Frame::countNotFinite(const std::string& texture) const {
+    std::size_t count = 0;
+    for (const float value : renderer_->texture(renderer_->graph().find(texture)).read())
+        count += std::isfinite(value) ? 0 : 1;
+    return count;
+}
+
+glm::dvec3 Frame::toWorld(const glm::dvec3& positionVs) const {
+    return glm::dvec3(glm::inverse(view_.worldToView) * glm::dvec4(positionVs, 1.0));
+}
+
+glm::dvec3 Frame::worldAt(int x, int y, double depth) const {
+    const glm::dvec2 ndc((x + 0.5) / view_.width * 2.0 - 1.0, (y + 0.5) / view_.height * 2.0 - 1.0);
+    return toWorld(glm::dvec3(ndc * view_.tangents, -1.0) * depth);
+}
+
+}  // namespace kaustik::numerics
