@@ -69,8 +69,12 @@ transport::ViewData viewData(const scene::Scene& scene, const EyeView& view) {
     data.viewToWorld = glm::mat4(glm::dmat4(glm::transpose(glm::dmat3(view.worldToView))));
     const scene::Bounds bounds = sceneBounds(scene);
     if (!bounds.empty) {
-        // A margin, so that a surface that lies in the bounds' face is inside.
-        const double margin = 1e-4 * diagonal(bounds);
+        // A margin, so that a surface that lies in the bounds' face is inside, and with it the pixel
+        // that holds the ray's last point: its middle may lie beyond.
+        double farthest = view.nearMeters;
+        for (const glm::dvec3& corner : corners(bounds))
+            farthest = std::max(farthest, -(view.worldToView * glm::dvec4(corner, 1.0)).z);
+        const double margin = 1e-4 * diagonal(bounds) + 2.0 * farthest * view.footprintPerMeter();
         data.boundsCenterVs = glm::vec4(view.worldToView * glm::dvec4(center(bounds), 1.0));
         data.boundsHalfExtent =
             glm::vec4(glm::dvec4(0.5 * (bounds.maximum - bounds.minimum) + margin, 0.0));
