@@ -80,6 +80,15 @@ std::string parseProblem(const CLI::App& app, const CLI::ParseError& error, int 
     return text + ".";
 }
 
+// The command whose help would have told.
+std::string helpFor(const CLI::App& app, int argc, const char* const* argv) {
+    for (const CLI::App* command : app.get_subcommands({})) {
+        if (argc > 1 && command->get_name() == argv[1])
+            return fmt::format("kaustik {} --help", argv[1]);
+    }
+    return "kaustik --help";
+}
+
 std::string unprintable(int errorNumber) {
     return fmt::format("Standard output cannot be written: {}.", std::strerror(errorNumber));
 }
@@ -177,6 +186,10 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry) 
     compareApp->add_option("--heatmap", compare.heatMapFile, "Writes where it is wrong, as .png");
     compareApp->add_option("--stderr", compare.standardErrorFile,
                            "The reference's standard error, an image of the same kind");
+    compareApp->add_option("--area", compare.areaFile,
+                           "An image of the area that a pixel sees, so that sums are flux");
+    compareApp->add_option("--ppd", compare.pixelsPerDegree,
+                           "Pixels in a degree of the viewer's sight, for FLIP");
     compareApp->add_option("--mask", compare.maskFile, "An image that is 0 where not to compare");
 
     ExperimentOptions experiment;
@@ -196,8 +209,8 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry) 
     } catch (const CLI::ParseError& error) {
         // --help and --version arrive here too, with exit code 0.
         if (error.get_exit_code() == 0) return app.exit(error);
-        return fail(parseProblem(app, error, argc, argv) +
-                        " 'kaustik --help' and 'kaustik run --help' print what there is.",
+        return fail(fmt::format("{} '{}' prints what there is.",
+                                parseProblem(app, error, argc, argv), helpFor(app, argc, argv)),
                     kExitBadRequest);
     }
     try {

@@ -47,14 +47,17 @@ void checkRequest(const CompareOptions& options) {
             "light.",
             options.image, options.reference));
     }
+    if (const auto& ppd = options.pixelsPerDegree; ppd && !(*ppd > 0.0 && *ppd <= 1e4)) {
+        throw ConfigError(fmt::format("--ppd: {} is not above 0 and at most 10000.", *ppd));
+    }
     if (options.heatMapFile.empty()) return;
     const std::string extension = extensionOf(options.heatMapFile);
     if (extension != ".png" && extension != ".ppm") {
         throw ConfigError(fmt::format("--heatmap: {} is no picture's name; use .png or .ppm.",
                                       options.heatMapFile));
     }
-    for (const std::string& input :
-         {options.image, options.reference, options.maskFile, options.standardErrorFile}) {
+    for (const std::string& input : {options.image, options.reference, options.maskFile,
+                                     options.standardErrorFile, options.areaFile}) {
         std::error_code ignored;
         if (!input.empty() && fs::equivalent(input, options.heatMapFile, ignored)) {
             throw ConfigError(
@@ -135,15 +138,19 @@ void compareCommand(const CompareOptions& options) {
     const Image reference = readLinear(options.reference);
     const std::optional<Image> mask = readOptional(options.maskFile);
     const std::optional<Image> standardError = readOptional(options.standardErrorFile);
+    const std::optional<Image> area = readOptional(options.areaFile);
     const measure::ImagePair pair({.image = image,
                                    .reference = reference,
                                    .mask = mask ? &*mask : nullptr,
                                    .standardError = standardError ? &*standardError : nullptr,
+                                   .area = area ? &*area : nullptr,
                                    .imageName = options.image,
                                    .referenceName = options.reference,
                                    .maskName = options.maskFile,
-                                   .standardErrorName = options.standardErrorFile});
+                                   .standardErrorName = options.standardErrorFile,
+                                   .areaName = options.areaFile});
     measure::MeasureParams params;
+    params.pixelsPerDegree = options.pixelsPerDegree.value_or(params.pixelsPerDegree);
     if (isDisplayPicture(options.reference)) params.displayWhite = 1.0;
     const ImageErrors errors = measure::measureErrors(pair, params);
 

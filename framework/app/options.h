@@ -26,8 +26,8 @@ struct RunOptions {
     bool precise = false;
     std::string reference = "none";
     long long referencePhotons = 1LL << 26;  // of auto, at least
-    std::vector<std::string> saved;  // resources
-    std::string out;                 // "" for results/runs/<scene>-<technique>
+    std::vector<std::string> saved;          // resources
+    std::string out;                         // "" for results/runs/<scene>-<technique>
 };
 
 struct ReferenceOptions {
@@ -61,7 +61,9 @@ struct CompareOptions {
     std::string reference;
     std::string maskFile;           // "" for none, as are the next two
     std::string standardErrorFile;  // of the reference
+    std::string areaFile;           // m² of receiver that a pixel sees
     std::string heatMapFile;
+    std::optional<double> pixelsPerDegree;  // of FLIP
     bool json = false;
 };
 

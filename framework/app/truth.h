@@ -15,9 +15,10 @@ namespace kaustik::app {
 
 class Truth {
   public:
-    // `wanted`: none, auto (of at least so many photons) or the file of a reference. Reads or computes what there is to compare
-    // with, for the renderer's scene and size, as of its last build. Throws ConfigError for a
-    // reference of another scene or size, IoError for a damaged one.
+    // `wanted`: none, auto (of at least so many photons) or the file of a reference. Reads or
+    // computes what there is to compare with, for the renderer's scene and size, as of its last
+    // build. Throws ConfigError for a reference of another scene or size, IoError for a damaged
+    // one.
     Truth(const std::string& wanted, std::uint64_t photons, const Renderer& renderer);
     ~Truth();
     Truth(const Truth&) = delete;

@@ -50,10 +50,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadRequest{"UnknownTechniqueOfList",
                    {"list", "params", "--technique", "x"},
                    {"no technique 'x'", "screen_space_photons"}},
-        BadRequest{"UnknownList", {"list", "scens"}, {"'scens'", "did you mean 'scenes'?"}},
-        BadRequest{"ReferenceThatCannotBeHad",
-                   {"run", "ring", "--reference", "auto"},
-                   {"--reference", "'auto'"}}),
+        BadRequest{"UnknownList", {"list", "scens"}, {"'scens'", "did you mean 'scenes'?"}}),
     nameOf);
 
 INSTANTIATE_TEST_SUITE_P(

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: MIT
+// kaustik reference, and kaustik run --reference: what they give, what they keep, what they refuse.
+#include <signal.h>
+#include <sys/mount.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "framework/image/image.h"
+#include "tests/cli/fixture.h"
+
+namespace kaustik::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+class Reference : public CommandLine {
+  protected:
+    Reference() { static_cast<void>(folder.file("wavy.toml", kWavyWater)); }
+
+    // With a cache of the test's own.
+    [[nodiscard]] Outcome runCached(const std::vector<std::string>& arguments) const {
+        return run(arguments, conditions());
+    }
+    [[nodiscard]] Conditions conditions() const {
+        Conditions conditions;
+        conditions.folder = folder / ".";
+        conditions.environment = {{"KAUSTIK_CACHE", (folder / "cache").string()}};
+        return conditions;
+    }
+
+    // Four batches: enough for an error, and little to compute.
+    [[nodiscard]] Outcome makeReference(const std::vector<std::string>& more = {},
+                                        const std::string& file = "truth.exr") const {
+        std::vector<std::string> arguments = {"reference", "wavy.toml", "--size",    "64x48",
+                                              "--photons", "1000000",   "--out",     file,
+                                              "--seed",    "1",         "--threads", "2"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return runCached(arguments);
+    }
+    [[nodiscard]] Outcome runAgainst(const std::string& reference,
+                                     const std::vector<std::string>& more = {}) const {
+        std::vector<std::string> arguments =
+            smallRun("wavy.toml",
+                     {"--out", "out", "--reference", reference, "--reference-photons", "1000000"});
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return runCached(arguments);
+    }
+
+    [[nodiscard]] fs::path cached(const std::string& extension) const {
+        for (const auto& entry : fs::directory_iterator(folder / "cache/references")) {
+            const std::string name = entry.path().filename().string();
+            if (entry.path().extension() == extension &&
+                name.find(".stderr") == std::string::npos) {
+                return entry.path();
+            }
+        }
+        return {};
+    }
+};
+
+TEST_F(Reference, IsAnImageItsErrorAndWhatTheyAre) {
+    const Outcome outcome = makeReference();
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("standard error"), std::string::npos);
+    const Image truth = readImage(folder / "truth.exr");
+    EXPECT_EQ(truth.width, 64);
+    EXPECT_EQ(truth.height, 48);
+    EXPECT_EQ(readImage(folder / "truth.stderr.exr").width, 64);
+    const json sidecar = json::parse(contents("truth.json"));
+    EXPECT_EQ(sidecar.at("scene"), "wavy");
+    EXPECT_GE(sidecar.at("photons").get<double>(), 1e6);
+    EXPECT_LT(std::abs(sidecar.at("energy").at("balance").get<double>()), 1e-9);
+}
+
+TEST_F(Reference, IsTheSameForASeedAtAnyNumberOfThreads) {
+    ASSERT_EQ(makeReference({}, "one.exr").exitCode, 0);
+    fs::remove_all(folder / "cache");
+    std::vector<std::string> arguments = {"reference", "wavy.toml", "--size", "64x48", "--photons",
+                                          "1000000",   "--threads", "8",      "--out", "eight.exr"};
+    ASSERT_EQ(runCached(arguments).exitCode, 0);
+    EXPECT_EQ(readImage(folder / "one.exr").values, readImage(folder / "eight.exr").values);
+}
+
+TEST_F(Reference, StopsAtATimeOrAnError) {
+    ASSERT_EQ(
+        runCached({"reference", "wavy.toml", "--size", "16x12", "--error", "0.2", "--out", "a.exr"})
+            .exitCode,
+        0);
+    EXPECT_LE(json::parse(contents("a.json")).at("relative_stderr").get<double>(), 0.2);
+    // Stops after the batch during which the time ran out; two are the least.
+    ASSERT_EQ(runCached({"reference", "wavy.toml", "--size", "16x12", "--seed", "2", "--seconds",
+                         "1", "--out", "b.exr"})
+                  .exitCode,
+              0);
+    EXPECT_GE(json::parse(contents("b.json")).at("batches").get<int>(), 2);
+}
+
+TEST_F(Reference, BySppmAgreesWithTheOther) {
+    ASSERT_EQ(makeReference({}, "light.exr").exitCode, 0);
+    ASSERT_EQ(makeReference({"--estimator", "sppm"}, "sppm.exr").exitCode, 0);
+    const auto fluxOf = [&](const char* file) {
+        double sum = 0.0;
+        for (const float value : readImage(folder / file).values)
+            sum += static_cast<double>(value);
+        return sum;
+    };
+    // A million photons over 3,072 pixels; radii of pixels blur across the water's shadow.
+    EXPECT_NEAR(fluxOf("sppm.exr") / fluxOf("light.exr"), 1.0, 0.02);
+}
+
+TEST_F(Reference, OfARunGivesHitsAndErrors) {
+    const Outcome outcome = runAgainst("auto");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("agreement"), std::string::npos);
+    const json result = report();
+    const json& hits = result.at("hits");
+    for (const char* key : {"agreement", "agreement_visible", "median_m", "p95_m", "p99_m", "max_m",
+                            "median_px", "p99_px"}) {
+        EXPECT_TRUE(hits.at(key).is_number()) << key;
+    }
+    for (const char* cause : {"off_screen", "behind_eye", "beyond_layers", "edge_on", "tracer"})
+        EXPECT_TRUE(hits.at("missed").at(cause).is_number()) << cause;
+    EXPECT_GT(hits.at("agreement_visible").get<double>(), 0.9);
+    const json& error = result.at("error");
+    EXPECT_EQ(error.at("reference"), "auto");
+    EXPECT_GT(error.at("reference_stderr").get<double>(), 0.0);
+    for (const json* of : {&error, &error.at("modelled_paths")}) {
+        const json& caustic = of->at("caustic_irradiance");
+        for (const char* key : {"rmse", "rel_mse", "mae", "ssim", "flip_ldr", "flip_hdr",
+                                "energy_ratio", "encircled_energy_radius_ratio"}) {
+            EXPECT_TRUE(caustic.at(key).is_number()) << key;
+        }
+        EXPECT_NEAR(caustic.at("energy_ratio").get<double>(), 1.0, 0.05);
+    }
+    // Emitted is what the truth says; the difference to the grid is a loss by name.
+    const json& energy = result.at("energy");
+    EXPECT_LT(std::abs(energy.at("balance").get<double>()), 1e-4);
+    EXPECT_TRUE(energy.at("lost_w").contains("emission_sampling"));
+    EXPECT_FALSE(energy.at("lost_w").contains("unresolved"));
+    for (const char* file : {"out/hits.png", "out/error.png", "out/reference.exr"})
+        EXPECT_EQ(readImage(folder / file).width, 64) << file;
+    EXPECT_EQ(readImage(folder / "out/reference.exr").values, readImage(cached(".exr")).values);
+}
+
+TEST_F(Reference, OfARunIsComputedOnce) {
+    ASSERT_EQ(runAgainst("auto").exitCode, 0);
+    const auto written = fs::last_write_time(cached(".json"));
+    const json first = report().at("error");
+    ASSERT_EQ(runAgainst("auto").exitCode, 0);
+    EXPECT_EQ(fs::last_write_time(cached(".json")), written);
+    EXPECT_EQ(report().at("error"), first);
+}
+
+TEST_F(Reference, FromAFileIsTakenAsItIs) {
+    ASSERT_EQ(makeReference().exitCode, 0);
+    const Outcome outcome = runAgainst("truth.exr");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_EQ(report().at("error").at("reference"), "truth.exr");
+    EXPECT_TRUE(report().contains("hits"));
+}
+
+TEST_F(Reference, OfAnotherSizeSceneOrTimeIsRefused) {
+    ASSERT_EQ(makeReference().exitCode, 0);
+    expectFailure(runAgainst("truth.exr", {"--size", "32x24"}), 2,
+                  {"truth.exr", "64x48", "32x24", "--size 64x48"});
+    std::string other = kWavyWater;
+    other.replace(other.find("1.333"), 5, "1.332");
+    static_cast<void>(folder.file("wavy.toml", other));
+    expectFailure(runAgainst("truth.exr"), 2, {"truth.exr", "another scene", "wavy"});
+    static_cast<void>(folder.file("wavy.toml", kWavyWater));
+    expectFailure(runAgainst("truth.exr", {"--time", "0.5"}), 2, {"truth.exr", "another time"});
+    EXPECT_FALSE(files().contains("out/report.json"));
+}
+
+TEST_F(Reference, ThatIsMissingOrDamagedIsRefusedByName) {
+    expectFailure(runAgainst("nowhere.exr"), 1, {"nowhere"});
+    ASSERT_EQ(makeReference().exitCode, 0);
+    fs::resize_file(folder / "truth.exr", fs::file_size(folder / "truth.exr") / 2);
+    expectFailure(runAgainst("truth.exr"), 1, {"truth.exr"});
+    // The image of another reference under this one's name.
+    ASSERT_EQ(makeReference({}, "truth.exr").exitCode, 0);
+    ASSERT_EQ(makeReference({"--seed", "3"}, "other.exr").exitCode, 0);
+    fs::copy_file(folder / "other.exr", folder / "truth.exr", fs::copy_options::overwrite_existing);
+    expectFailure(runAgainst("truth.exr"), 1, {"truth.exr", "does not belong"});
+    EXPECT_FALSE(files().contains("out/report.json"));
+}
+
+TEST_F(Reference, WhoseCacheEntryIsDamagedIsMadeAgain) {
+    ASSERT_EQ(runAgainst("auto").exitCode, 0);
+    const json before = report().at("error");
+    for (const auto& entry : fs::directory_iterator(folder / "cache/references"))
+        fs::resize_file(entry.path(), fs::file_size(entry.path()) / 2);
+    const Outcome again = runAgainst("auto");
+    ASSERT_EQ(again.exitCode, 0) << again.err;
+    EXPECT_NE(again.err.find("damaged"), std::string::npos);
+    EXPECT_EQ(report().at("error"), before);
+    EXPECT_EQ(runAgainst("auto").err.find("damaged"), std::string::npos);
+}
+
+TEST_F(Reference, ThatIsInterruptedGoesOnWhereItStopped) {
+    const std::vector<std::string> endless = {"reference", "wavy.toml", "--size",
+                                              "64x48",     "--photons", "1000000000000"};
+    Program program(endless, conditions());
+    program.waitUntilItHandles(SIGINT);
+    // Sums exist once the first batch is in them.
+    program.send(SIGINT);
+    expectFailure(program.wait(), 1, {"Interrupted", "goes on"});
+    EXPECT_FALSE(cached(".sums").empty());
+    for (const std::string& file : files())
+        EXPECT_FALSE(fs::path(file).filename().string().starts_with('.')) << file;
+    EXPECT_EQ(makeReference().exitCode, 0);
+}
+
+TEST_F(Reference, OnAFullDiskIsAMessageAndNoHalfFile) {
+    Conditions limited = conditions();
+    limited.largestFileBytes = 1024;
+    const Outcome outcome =
+        run({"reference", "wavy.toml", "--size", "64x48", "--photons", "600000"}, limited);
+    expectFailure(outcome, 1, {"cannot be written"});
+    EXPECT_EQ(files(), std::set<std::string>{"wavy.toml"});
+}
+
+TEST_F(Reference, RefusesWhatMakesNoSense) {
+    expectFailure(runCached({"reference"}), 2, {"scene"});
+    expectFailure(runCached({"reference", "wavy.toml", "--photons", "0"}), 2, {"--photons"});
+    expectFailure(runCached({"reference", "wavy.toml", "--photons", "many"}), 2, {"many"});
+    expectFailure(runCached({"reference", "wavy.toml", "--seconds", "-1"}), 2, {"--seconds"});
+    expectFailure(runCached({"reference", "wavy.toml", "--error", "0"}), 2, {"--error"});
+    expectFailure(runCached({"reference", "wavy.toml", "--estimator", "path"}), 2,
+                  {"path", "light", "sppm"});
+    expectFailure(runCached({"reference", "wavy.toml", "--interactions", "0"}), 2,
+                  {"--interactions"});
+    expectFailure(runCached({"reference", "wavy.toml", "--size", "64"}), 2, {"--size"});
+    expectFailure(runCached({"reference", "wavy.toml", "--out", "truth.png"}), 2,
+                  {"truth.png", ".exr"});
+    expectFailure(runCached({"reference", "nowhere"}), 2, {"nowhere"});
+    expectFailure(runAgainst("none", {"--reference-photons", "0"}), 2, {"--reference-photons"});
+    EXPECT_EQ(files(), std::set<std::string>{"wavy.toml"});
+}
+
+TEST_F(Reference, OfASceneWithoutCausticsSaysWhatItCan) {
+    static_cast<void>(folder.file("bare.toml", R"(
+name = "bare"
+[[light]]
+name = "sun"
+type = "directional"
+direction = [0, -1, 0]
+irradiance = 1
+[[material]]
+name = "chalk"
+type = "lambertian"
+[[object]]
+name = "floor"
+shape = "plane"
+material = "chalk"
+size = [2, 2]
+)"));
+    const Outcome outcome = runCached(smallRun(
+        "bare.toml", {"--out", "out", "--reference", "auto", "--reference-photons", "600000"}));
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const json caustic = report().at("error").at("caustic_irradiance");
+    EXPECT_EQ(caustic.at("rmse"), 0.0);
+    EXPECT_TRUE(caustic.at("rel_mse").is_null());
+    EXPECT_TRUE(caustic.at("reasons").at("rel_mse").is_string());
+    EXPECT_EQ(report().at("hits").at("photons"), 0);
+}
+
+}  // namespace
+}  // namespace kaustik::test
