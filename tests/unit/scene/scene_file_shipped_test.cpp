@@ -57,7 +57,7 @@ std::array<glm::dvec3, 3> worldCorners(const Scene& scene, const Object& object,
     return corners;
 }
 
-// The share of an object's triangles whose middle sees the light past everything Lambertian.
+// The share of an object's triangles whose middle sees the light past every receiver.
 double lightedShare(const Scene& scene, const Object& object, const Light& light) {
     const std::vector<glm::uvec3>& triangles = scene.meshes[object.mesh].triangles;
     const std::size_t stride = triangles.size() / 200 + 1;
@@ -71,7 +71,7 @@ double lightedShare(const Scene& scene, const Object& object, const Light& light
                                       : light.position;
         bool blocked = false;
         for (const Object& other : scene.objects) {
-            if (scene.materials[other.material].kind != MaterialKind::lambertian) continue;
+            if (!isReceiver(scene.materials[other.material].kind)) continue;
             for (const glm::uvec3& triangle : scene.meshes[other.mesh].triangles) {
                 blocked = blocked || cuts(source, middle, worldCorners(scene, other, triangle));
             }
@@ -90,7 +90,8 @@ TEST_F(ShippedScenes, AreListedByNameWithADescription) {
         EXPECT_EQ(loadScene(listing.name).name, listing.name);
         EXPECT_EQ(loadScene(listing.file.string()).name, listing.name);
     }
-    for (const char* name : {"pool", "flat-water", "glass-sphere", "cornell-bunny", "ring"}) {
+    for (const char* name :
+         {"pool", "flat-water", "glass-sphere", "glossy-table", "cornell-bunny", "ring"}) {
         EXPECT_TRUE(names.contains(name)) << name;
     }
 }
@@ -104,7 +105,7 @@ TEST_F(ShippedScenes, HaveALightThatReachesEverySpecularObject) {
         EXPECT_GE(needs.specularInterfaces, 1);
         EXPECT_TRUE(needs.receivers);
         for (const Object& object : scene.objects) {
-            if (scene.materials[object.material].kind == MaterialKind::lambertian) continue;
+            if (isReceiver(scene.materials[object.material].kind)) continue;
             double best = 0.0;
             for (const Light& light : scene.lights) {
                 best = std::max(best, lightedShare(scene, object, light));
