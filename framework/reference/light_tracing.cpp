@@ -40,7 +40,7 @@ class Camera {
         scattering_ = glm::dvec3(medium.scatteringPerMeter);
         fog_ = scattering_ + glm::dvec3(medium.absorptionPerMeter);
         anisotropy_ = static_cast<double>(medium.anisotropy);
-        inScattered_ = layerSize * kInScatteredLayer;
+        inScattered_ = layerSize * static_cast<std::size_t>(inScatteredLayer(scene.scene()));
     }
 
     void emitted(const glm::dvec3& flux) { result_.energy.add(transport::kAccountEmitted, flux); }
@@ -182,15 +182,19 @@ PixelSums makeEstimatorSums(const EmbreeScene& scene, const LightTraceSettings& 
     return {settings.width, settings.height, layers, irradianceScale(scene), sampler.fluxWatts()};
 }
 
+int inScatteredLayer(const scene::Scene& scene) {
+    return scatters(scene) ? kIrradianceLayer + 1 : -1;
+}
+
 int causticRadianceLayer(const scene::Scene& scene) {
     if (!sceneNeeds(scene).glossyReceivers) return -1;
-    return (scatters(scene) ? kInScatteredLayer : kIrradianceLayer) + 1;
+    return std::max(inScatteredLayer(scene), kIrradianceLayer) + 1;
 }
 
 PixelSums makeLightTraceSums(const EmbreeScene& scene, const LightTraceSettings& settings) {
-    const int layers = scatters(scene.scene()) ? 2 : 1;
-    return makeEstimatorSums(scene, settings,
-                             std::max(layers, causticRadianceLayer(scene.scene()) + 1));
+    const int last = std::max(
+        {kIrradianceLayer, inScatteredLayer(scene.scene()), causticRadianceLayer(scene.scene())});
+    return makeEstimatorSums(scene, settings, last + 1);
 }
 
 void lightTrace(const EmbreeScene& scene, const LightTraceSettings& settings,

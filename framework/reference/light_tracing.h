@@ -31,8 +31,9 @@ struct LightTraceSettings {
 
 // Layers of the sums.
 inline constexpr int kIrradianceLayer = 0;
-inline constexpr int kInScatteredLayer = 1;  // only where the scene has a medium that scatters
-// After the others; -1 where no receiver is glossy.
+// -1 where the scene has no medium that scatters.
+[[nodiscard]] int inScatteredLayer(const scene::Scene& scene);
+// -1 where no receiver is glossy.
 [[nodiscard]] int causticRadianceLayer(const scene::Scene& scene);
 
 // Empty sums that fit the scene and the settings; what an earlier run saved fits in their place.

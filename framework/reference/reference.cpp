@@ -103,9 +103,10 @@ Reference makeReference(const scene::Scene& scene, const ReferenceRequest& reque
     reference.request = request;
     reference.irradiance = sums.meanImage(kIrradianceLayer);
     reference.irradianceError = sums.standardErrorImage(kIrradianceLayer);
-    if (request.estimator == Estimator::light && sums.layers() > kInScatteredLayer) {
-        reference.inScattered = sums.meanImage(kInScatteredLayer);
-        reference.inScatteredError = sums.standardErrorImage(kInScatteredLayer);
+    const int fogLayer = inScatteredLayer(scene);
+    if (request.estimator == Estimator::light && fogLayer > 0) {
+        reference.inScattered = sums.meanImage(fogLayer);
+        reference.inScatteredError = sums.standardErrorImage(fogLayer);
     }
     const int radianceLayer =
         request.estimator == Estimator::light ? causticRadianceLayer(scene) : kMappedRadianceLayer;

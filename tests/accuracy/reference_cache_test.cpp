@@ -59,6 +59,27 @@ TEST_F(ReferenceCache, SecondLoadComputesNothingAndGivesTheSame) {
     EXPECT_TRUE(messages_.empty());
 }
 
+TEST_F(ReferenceCache, CausticRadianceIsKeptWhereAReceiverIsGlossy) {
+    EXPECT_TRUE(load().causticRadiance.values.empty());
+    const scene::Scene scene = scene::loadScene("glossy-table");
+    const EmbreeScene embree(scene);
+    for (const Estimator estimator : {Estimator::light, Estimator::sppm}) {
+        request_.estimator = estimator;
+        const auto get = [&] {
+            return loadOrCompute(embree, request_, folder_, options_, [](const std::string&) {});
+        };
+        const Reference made = get();
+        const Reference cached = get();
+        EXPECT_EQ(made.causticRadiance.values.size(), made.irradiance.values.size());
+        EXPECT_EQ(cached.causticRadiance.values, made.causticRadiance.values);
+        EXPECT_EQ(cached.causticRadianceError.values, made.causticRadianceError.values);
+        EXPECT_TRUE(cached.inScattered.values.empty());
+        const fs::path file = folder_ / (made.key + ".caustic_radiance" + floatImageExtension());
+        writeImage(file, made.irradiance);
+        EXPECT_THROW((void)readReference(folder_ / (made.key + floatImageExtension())), IoError);
+    }
+}
+
 TEST_F(ReferenceCache, MoreBatchesGoOnFromTheOnesThatAreThere) {
     options_.stop.batches = 9;
     request_.seed = 5;
@@ -134,6 +155,11 @@ TEST_F(ReferenceCache, KeyDependsOnEverythingThatMatters) {
     EXPECT_TRUE(differs([](S& s, R&) { s.camera.position.x += 1e-9; }));
     EXPECT_TRUE(differs([](S& s, R&) { s.lights[0].power.g += 1e-3f; }));
     EXPECT_TRUE(differs([](S& s, R&) { s.materials[1].albedo.r = 0.94f; }));
+    EXPECT_TRUE(differs([](S& s, R&) { s.materials[0].kind = scene::MaterialKind::glossy; }));
+    EXPECT_TRUE(differs([](S& s, R&) { s.materials[0].specular.b = 0.1f; }));
+    EXPECT_TRUE(differs([](S& s, R&) { s.materials[0].exponent = 51.0f; }));
+    EXPECT_TRUE(differs([](S& s, R&) { s.lights[0].image = 0; }));
+    EXPECT_TRUE(differs([](S& s, R&) { s.lights[0].up.x = 0.1; }));
     EXPECT_TRUE(differs([](S& s, R&) { s.meshes[1].positions[5].y += 1e-6f; }));
     EXPECT_TRUE(differs(
         [](S& s, R&) { std::swap(s.meshes[1].triangles[0].x, s.meshes[1].triangles[0].y); }));
