@@ -66,9 +66,13 @@ SpritePixel spriteAt(Sprite sprite, ivec2 pixel) {
     if (abs(facing) < 1e-5) return result;
     float depth = dot(sprite.normal, sprite.center) / facing;
     if (!(depth > view.tangents.z)) return result;
-    float distance = splatDistance(sprite, depth * ray - sprite.center);
-    if (distance >= sprite.radius) return result;
-    result.weight = splatKernel(distance / sprite.radius);
+    // On a slanted surface a splat is thinner than a pixel and may fall between the middles of all:
+    // it reaches a pixel's width far on the screen whatever it covers on the surface, so that some
+    // pixel always gets the flux (hard case 31).
+    float share = min(splatDistance(sprite, depth * ray - sprite.center) / sprite.radius,
+                      length(vec2(pixel) + 0.5 - pixelOf(sprite.center)));
+    if (share >= 1.0) return result;
+    result.weight = splatKernel(share);
     result.area = pixelArea(ray, depth, sprite.normal);
     if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, ivec2(view.sizePixels.xy)))) {
         result.where = kSpriteOffScreen;
