@@ -41,6 +41,9 @@ std::vector<TracedPhoton> readTrace(const Renderer& renderer, const TraceRecord&
         one.photon.position = xyz(position, i);
         one.photon.direction = xyz(direction, i);
         one.photon.media = static_cast<std::uint32_t>(flux[4 * i + 3]);
+        // Seen at a slant a pixel resolves less; the tracer takes its extent in depth too.
+        one.photon.reachMeters =
+            2.0 * renderer.view().footprintPerMeter() * std::abs(one.photon.position.z);
         one.fluxWatts = xyz(flux, i);
         if (fateOf(hitFlux, i) == kFateReceiver || fateOf(hitFlux, i) == kFateSpecular)
             one.found = xyz(hitPosition, i);

@@ -205,6 +205,87 @@ Traced interactPhotons(Lab& lab, const Lab::Choice& specular, const scene::Scene
     return result;
 }
 
+namespace {
+
+// Copies of the handles' texels as they are at this point of the frame.
+struct Snapshot {
+    graph::Texture<PhotonPosition> position;
+    graph::Texture<PhotonDirection> direction;
+    graph::Texture<PhotonFlux> flux;
+};
+Snapshot snapshot(FrameBuilder& frame, const Photons& photons, const std::string& suffix) {
+    struct Data : Snapshot {
+        Photons photons;
+    };
+    return frame.pass<Data>(
+        "bench.snapshot", "what a case looks at before it is overwritten",
+        [&](graph::PassSetup& setup, Data& data) {
+            data.photons = photons;
+            setup.read(photons.position);
+            setup.read(photons.direction);
+            setup.read(photons.flux);
+            const int w = photons.width;
+            const int h = photons.height;
+            data.position = setup.create<PhotonPosition>("bench.position" + suffix, w, h);
+            data.direction = setup.create<PhotonDirection>("bench.direction" + suffix, w, h);
+            data.flux = setup.create<PhotonFlux>("bench.flux" + suffix, w, h);
+        },
+        [](const Data& data, gl::PassContext& context) {
+            const auto copy = [&](const graph::ResourceRef& from, const graph::ResourceRef& to) {
+                glCopyImageSubData(context.texture(from).id(), GL_TEXTURE_2D, 0, 0, 0, 0,
+                                   context.texture(to).id(), GL_TEXTURE_2D, 0, 0, 0, 0,
+                                   data.photons.width, data.photons.height, 1);
+            };
+            copy(data.photons.position, data.position);
+            copy(data.photons.direction, data.direction);
+            copy(data.photons.flux, data.flux);
+        });
+}
+
+Emitted readEmitted(const Frame& frame, const std::string& suffix) {
+    const Texels position = frame.read("bench.position" + suffix);
+    const Texels direction = frame.read("bench.direction" + suffix);
+    const Texels flux = frame.read("bench.flux" + suffix);
+    const glm::dmat3 back(glm::transpose(glm::dmat3(frame.view().worldToView)));
+    Emitted emitted;
+    for (int y = 0; y < position.height; ++y) {
+        for (int x = 0; x < position.width; ++x) {
+            BenchHit hit;
+            hit.position = frame.toWorld(position.rgb(x, y));
+            hit.distanceMeters = 0.0;
+            hit.fluxWatts = flux.rgb(x, y);
+            hit.fate = static_cast<std::uint32_t>(direction.at(x, y, 3));
+            emitted.hits.push_back(hit);
+            emitted.directions.push_back(back * direction.rgb(x, y));
+            emitted.media.push_back(static_cast<std::uint32_t>(flux.at(x, y, 3)));
+        }
+    }
+    return emitted;
+}
+
+}  // namespace
+
+Bent emitAndInteract(Lab& lab, const Lab::Choice& emitter, const scene::Scene& scene,
+                     const Settings& settings) {
+    const Frame frame = renderBench(lab, emitter, scene, settings, {}, [](FrameBuilder& builder) {
+        const Geometry geometry = builder.run<GeometryStage>();
+        const EyeBuffer eye = builder.run<EyeStage>(geometry);
+        Hits hits = builder.run<EmitStage>(geometry);
+        static_cast<void>(snapshot(builder, hits.incoming, "_before"));
+        hits.incoming = builder.run<SpecularStage>(hits);
+        static_cast<void>(snapshot(builder, hits.incoming, "_after"));
+        const Nothing nothing = addNothing(builder, hits.incoming.ledger);
+        return FrameOutputs{nothing.picture,       nothing.caustic, eye, LayeredDepth{}, hits,
+                            nothing.caustic.ledger};
+    });
+    return {readEmitted(frame, "_before"), readEmitted(frame, "_after"), frame.renderer().ledger()};
+}
+
+Emitted emitPhotons(Lab& lab, const Lab::Choice& emitter, const scene::Scene& scene,
+                    const Settings& settings) {
+    return emitAndInteract(lab, emitter, scene, settings).before;
+}
+
 Frame reconstructHits(Lab& lab, const Lab::Choice& reconstruct, const scene::Scene& scene,
                       const std::vector<BenchPhoton>& photons, const Settings& settings,
                       BenchSize size) {

@@ -60,6 +60,23 @@ struct Traced {
                                      const std::vector<BenchPhoton>& photons,
                                      std::vector<std::uint32_t>* media = nullptr);
 
+// Photons as they leave the lights of the scene: where they first meet a specular surface.
+struct Emitted {
+    std::vector<BenchHit> hits;
+    std::vector<glm::dvec3> directions;
+    std::vector<std::uint32_t> media;
+};
+[[nodiscard]] Emitted emitPhotons(Lab& lab, const Lab::Choice& emitter, const scene::Scene& scene,
+                                  const Settings& settings);
+// The same, and what they become there.
+struct Bent {
+    Emitted before;
+    Emitted after;
+    EnergyLedger ledger;
+};
+[[nodiscard]] Bent emitAndInteract(Lab& lab, const Lab::Choice& emitter, const scene::Scene& scene,
+                                   const Settings& settings);
+
 // Photons that have landed on a receiver, whose normal is `startNormal`, become irradiance; the
 // frame has "caustic.irradiance" and "eye.receiver".
 [[nodiscard]] Frame reconstructHits(Lab& lab, const Lab::Choice& reconstruct,

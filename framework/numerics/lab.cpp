@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <limits>
 #include <utility>
+
+#include "framework/core/error.h"
 
 namespace kaustik::numerics {
 
@@ -11,8 +14,16 @@ std::vector<Row> Lab::run(const Case& hardCase) {
     caseId_ = hardCase.id;
     rows_.clear();
     framesScanned_ = texturesScanned_ = valuesNotFinite_ = 0;
-    for (const auto& measure : hardCase.measure)
-        measure(*this);
+    for (const auto& measure : hardCase.measure) {
+        try {
+            measure(*this);
+        } catch (const DeviceError&) {
+            throw;  // the cases after it would say the same
+        } catch (const Error& error) {
+            expect("", fmt::format("measuring fails: {}", error.what()), 0.0,
+                   std::numeric_limits<double>::quiet_NaN(), kExactly);
+        }
+    }
     if (framesScanned_ > 0) {
         expect("",
                fmt::format("values not finite in {} textures of {} frames", texturesScanned_,

@@ -58,7 +58,11 @@ Suite makeSuite(const Registry& registry) {
     Suite suite;
     addRaySegmentCases(suite);
     addTracingCases(suite);
+    addLayerCases(suite);
     addInterfaceCases(suite);
+    addOpticsCases(suite);
+    addReconstructionCases(suite);
+    addWholeFrameCases(suite);
     for (const auto& add : registry.hardCases())
         add(suite);
     return suite;

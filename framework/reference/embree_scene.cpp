@@ -23,6 +23,8 @@ struct FilterContext {
     TriangleId start;
     std::uint32_t innerMedium;
     SideRule sides;
+    std::uint32_t leftSide;
+    float reachMeters;
 };
 
 bool isStart(const FilterContext& context, const RTCHit& hit) {
@@ -41,10 +43,16 @@ void rejectWrongSide(const RTCFilterFunctionNArguments* arguments) {
     }
     if (context.sides == SideRule::any) return;
     const bool isDielectric = info.kind == MaterialKind::dielectric;
-    const bool oneSided = isDielectric || info.closed || context.sides == SideRule::screenSpace;
-    const bool isInside = isDielectric && context.innerMedium == info.material + 1;
-    const bool leaves = ray.dir_x * hit.Ng_x + ray.dir_y * hit.Ng_y + ray.dir_z * hit.Ng_z > 0.0f;
-    if (oneSided && leaves != isInside) arguments->valid[0] = 0;
+    const float closing = ray.dir_x * hit.Ng_x + ray.dir_y * hit.Ng_y + ray.dir_z * hit.Ng_z;
+    const bool leaves = closing > 0.0f;
+    if (isDielectric || info.closed) {
+        const bool isInside = isDielectric && context.innerMedium == info.material + 1;
+        if (leaves != isInside) arguments->valid[0] = 0;
+        return;
+    }
+    if (context.leftSide != (leaves ? transport::kLeftOutside : transport::kLeftInside)) return;
+    const float size = std::sqrt(hit.Ng_x * hit.Ng_x + hit.Ng_y * hit.Ng_y + hit.Ng_z * hit.Ng_z);
+    if (ray.tfar * std::abs(closing) <= context.reachMeters * size) arguments->valid[0] = 0;
 }
 
 // For receivers and mirrors between a point and the eye.
@@ -60,6 +68,8 @@ FilterContext makeContext(const TriangleId& start, std::uint32_t innerMedium, Si
     context.start = start;
     context.innerMedium = innerMedium;
     context.sides = sides;
+    context.leftSide = transport::kLeftNothing;
+    context.reachMeters = 0.0f;
     return context;
 }
 
@@ -222,6 +232,8 @@ void EmbreeScene::refine(const glm::dvec3& origin, const glm::dvec3& direction, 
 
 bool EmbreeScene::intersect(const Ray& ray, SurfaceHit& hit) const {
     FilterContext context = makeContext(ray.start, ray.innerMedium, ray.sides);
+    context.leftSide = ray.leftSide;
+    context.reachMeters = static_cast<float>(ray.reachMeters);
     RTCRayHit query;
     setRay(query.ray, ray.origin, ray.direction);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;

@@ -35,7 +35,6 @@ struct TriangleId {
 enum class SideRule : std::uint32_t {
     any,        // from a light: every surface from both sides
     transport,  // dielectrics by the medium, closed mirrors from outside, open ones from both sides
-    screenSpace,  // `isFacing` to the letter: every mirror from outside only
 };
 
 struct Ray {
@@ -44,6 +43,10 @@ struct Ray {
     TriangleId start;
     std::uint32_t innerMedium = 0;  // material index + 1; 0: vacuum
     SideRule sides = SideRule::transport;
+    // For rays that know no triangle to start on: the side of an open mirror that they have left
+    // (transport::kLeft…), which they cannot meet from that side within this height above it, m.
+    std::uint32_t leftSide = transport::kLeftNothing;
+    double reachMeters = 0.0;
 };
 
 struct SurfaceHit {
@@ -59,8 +62,9 @@ struct SurfaceHit {
 class EmbreeScene {
   public:
     // Builds the acceleration structures; height fields are those of Scene::timeSeconds. `scene`
-    // must outlive this. Throws DeviceError when Embree has no memory, IoError for an image. `Filters::none` is for
-    // measuring what the side rules cost: every surface counts from every side.
+    // must outlive this. Throws DeviceError when Embree has no memory, IoError for an image.
+    // `Filters::none` is for measuring what the side rules cost: every surface counts from every
+    // side.
     enum class Filters { sideRules, none };
     explicit EmbreeScene(const scene::Scene& scene, Filters filters = Filters::sideRules);
     ~EmbreeScene();

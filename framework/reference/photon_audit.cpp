@@ -9,11 +9,6 @@
 #include "framework/reference/threads.h"
 
 namespace kaustik::reference {
-namespace {
-
-constexpr std::uint32_t kMediumBase = 4096;  // common/transfer_map.glsl, innerMedium
-
-}  // namespace
 
 std::vector<FirstHit> exactFirstHits(const EmbreeScene& scene, std::span<const AuditPhoton> photons,
                                      const glm::dmat4& toWorld, int threads) {
@@ -29,8 +24,9 @@ std::vector<FirstHit> exactFirstHits(const EmbreeScene& scene, std::span<const A
         Ray ray;
         ray.origin = rotation * p + offset;
         ray.direction = rotation * photon.direction / length;
-        ray.innerMedium = photon.media % kMediumBase;
-        ray.sides = SideRule::screenSpace;
+        ray.innerMedium = photon.media % transport::kMediumBase;  // transfer_map.glsl
+        ray.leftSide = photon.media / (transport::kMediumBase * transport::kMediumBase);
+        ray.reachMeters = photon.reachMeters;
         SurfaceHit found;
         if (!scene.intersect(ray, found)) return;
         FirstHit& hit = hits[i];

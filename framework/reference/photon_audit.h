@@ -16,7 +16,9 @@ namespace kaustik::reference {
 struct AuditPhoton {
     glm::dvec3 position{0.0};   // m, in the space of `toWorld`
     glm::dvec3 direction{0.0};  // any length but 0
-    std::uint32_t media = 0;    // as transport::Photon::media: inner + 4096 * outer
+    std::uint32_t media = 0;    // as transport::Photon::media
+    // How far from an open mirror that it has left it may start, m: what a pixel resolves there.
+    double reachMeters = 0.0;
 };
 
 struct FirstHit {

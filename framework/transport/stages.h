@@ -19,6 +19,9 @@ struct ViewDepth {  // x: view depth in m, 0 none; y: half of its extent over th
 struct SurfaceTexel {  // xyz: outward shading normal in view space; w: material + 1, 0 none
     static constexpr Format format = Format::rgba32f;
 };
+struct TriangleNormal {  // xy: the triangle's outward unit normal, octahedral
+    static constexpr Format format = Format::rg32f;
+};
 struct ReceiverTexel {  // x: view depth in m, 0 none; y: area of the surface that the pixel sees,
                         // m²
     static constexpr Format format = Format::rg32f;
@@ -77,8 +80,9 @@ struct EyeBuffer {
 
 // All surfaces along each pixel's ray, front to back (K06, section 2.2).
 struct LayeredDepth {
-    graph::Texture<ViewDepth> depth;       // array, one layer a surface
-    graph::Texture<SurfaceTexel> surface;  // array
+    graph::Texture<ViewDepth> depth;        // array, one layer a surface
+    graph::Texture<SurfaceTexel> surface;   // array
+    graph::Texture<TriangleNormal> normal;  // array
     graph::Buffer<transport::LayerStatistics> statistics;
     int layers = 0;
 };

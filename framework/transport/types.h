@@ -77,6 +77,11 @@ const uint kFateReceiver = 2u;  // it has reached a receiver
 const uint kFateSpecular = 3u;  // it has reached a specular surface and will interact there
 const uint kFateEnded = 4u;     // its flux is in the ledger
 
+const uint kMediumBase = 2048u;
+const uint kLeftNothing = 0u;  // or what it cannot meet again from the same side: see hit_test.glsl
+const uint kLeftOutside = 1u;
+const uint kLeftInside = 2u;
+
 // A photon after its last specular interaction: one texel of the transfer map (K06, section 2),
 // three RGBA32F textures.
 struct Photon {
@@ -85,8 +90,9 @@ struct Photon {
     vec3 directionVs;       // unit
     uint fate;
     vec3 fluxWatts;
-    // The dielectrics around it, innermost and the one around that: material index + 1 each, packed
-    // as inner + 4096 * outer; 0 is vacuum.
+    // The dielectrics around it, innermost and the one around that: material index + 1 each, 0 is
+    // vacuum; and the side of an open mirror that it has just left (kLeft…). Packed as
+    // inner + kMediumBase * (outer + kMediumBase * left), which a float holds exactly.
     uint media;
 };
 
@@ -94,7 +100,8 @@ struct Photon {
 struct Hit {
     vec3 positionVs;
     float distanceMeters;  // travelled since the last interaction
-    vec3 normalVs;         // shading normal, outward
+    vec3 normalVs;         // outward: the shading normal, or the triangle's where the shading
+                           // normal would send light to the wrong side (common/specular.glsl)
     uint material;         // index + 1; 0: no surface
     vec3 fluxWatts;        // that arrives
     uint fate;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Whether a step of a photon's ray meets a surface of the layered depth. All tracers ask here.
+#include "common/octahedral.glsl"
 #include "common/ray_segment.glsl"
-#include "common/surface_data.glsl"
-#include "common/transfer_map.glsl"
+#include "common/specular.glsl"
 
 uniform sampler2DArray layerDepths;
 uniform sampler2DArray layerSurfaces;
+uniform sampler2DArray layerNormals;
 uniform int layerCount;
 
 struct TracedRay {
@@ -14,14 +15,26 @@ struct TracedRay {
     uint media;
 };
 
-// A photon inside a dielectric can meet that dielectric only from within, any other surface that it
-// passes only from outside. So a ray never meets the surface that it has just left, at any scale
-// (hard case 10); receivers end it from either side.
-bool isFacing(TracedRay ray, uint material, vec3 normal) {
+// A photon inside a dielectric can meet that dielectric only from within, any other dielectric and
+// any closed mirror only from outside. So a ray never meets the surface that it has just left, at
+// any scale (hard case 10); receivers end it from either side, and so do open mirrors, but for the
+// one that it has left on that side and is still no farther from than a pixel resolves.
+// `normal`: the triangle's, outward; `height`: the ray's origin above its plane, m.
+bool isFacing(TracedRay ray, uint material, vec3 normal, float height, float resolved) {
     uint kind = materialKind(material - 1u);
     if (isReceiver(kind)) return true;
+    bool leaves = dot(ray.direction, normal) > 0.0;
+    if (kind == kMaterialMirror && isOpen(material - 1u)) {
+        uint left = leaves ? kLeftOutside : kLeftInside;
+        return leftSide(ray.media) != left || abs(height) > resolved;
+    }
     bool isInside = kind == kMaterialDielectric && innerMedium(ray.media) == material;
-    return (dot(ray.direction, normal) > 0.0) == isInside;
+    return leaves == isInside;
+}
+
+// How far a point lies above the plane with this normal through what a pixel sees at this depth, m.
+float heightAbove(vec3 point, vec3 normal, ivec2 texel, float depth) {
+    return dot(normal, point - viewRay(vec2(texel) + 0.5) * depth);
 }
 
 struct LayerHit {
@@ -40,11 +53,13 @@ LayerHit testStep(RaySegment segment, TracedRay ray, int i, int n) {
     float zEnd = depthAtIndex(segment, float(i) + 1.0, count);
     float zLow = min(zBegin, zEnd);
     float zHigh = max(zBegin, zEnd);
+    bool nears = zEnd < zBegin;  // the eye: then a deeper layer is nearer along the ray
     LayerHit best = LayerHit(0.0, -1);
     for (int layer = 0; layer < layerCount; ++layer) {
         vec2 surfaceDepth = texelFetch(layerDepths, ivec3(texel, layer), 0).xy;
         float depth = surfaceDepth.x;
         if (depth <= 0.0) break;
+        float margin = surfaceDepth.y + pixelFootprint(depth);
         float t;
         if (trace_test == trace_test_epsilon) {
             // The paper's: a layer is met where it lies within a distance of the fragment's depth.
@@ -53,23 +68,25 @@ LayerHit testStep(RaySegment segment, TracedRay ray, int i, int n) {
             t = parameterAtIndex(segment, middle, count);
         } else {
             // The depths that the surface and the ray have over this pixel must overlap …
-            float margin = surfaceDepth.y + pixelFootprint(depth);
             if (depth + margin < zLow || depth - margin > zHigh) continue;
-            // … and the ray must cross the tangent plane within this step, or half a step beside it:
-            // two neighbours' planes may leave a gap between them.
-            vec3 normal = texelFetch(layerSurfaces, ivec3(texel, layer), 0).xyz;
-            vec3 onSurface = viewRay(vec2(texel) + 0.5) * depth;
+            // … and the ray must cross the triangle's plane within this step, or half a step beside
+            // it: two neighbours' planes may leave a gap between them.
+            vec3 normal = unpackUnitVector(texelFetch(layerNormals, ivec3(texel, layer), 0).xy);
             float closing = dot(normal, ray.direction);
             if (abs(closing) < 1e-6) continue;
-            t = dot(normal, onSurface - ray.origin) / closing;
+            t = -heightAbove(ray.origin, normal, texel, depth) / closing;
             float tBegin = parameterAtIndex(segment, float(i), count);
             float tEnd = parameterAtIndex(segment, float(i) + 1.0, count);
             float slack = 0.5 * (tEnd - tBegin) + 1e-6 * depth;
             if (t < tBegin - slack || t > tEnd + slack) continue;
         }
-        if (t <= 0.0 || (best.layer >= 0 && t >= best.t)) continue;
-        vec4 surface = texelFetch(layerSurfaces, ivec3(texel, layer), 0);
-        if (!isFacing(ray, uint(surface.w), surface.xyz)) continue;
+        if (t <= 0.0) continue;
+        // The paper's test cannot tell surfaces within epsilon apart by t.
+        if (best.layer >= 0 && (t > best.t || (t == best.t && !nears))) continue;
+        uint material = uint(texelFetch(layerSurfaces, ivec3(texel, layer), 0).w);
+        vec3 normal = unpackUnitVector(texelFetch(layerNormals, ivec3(texel, layer), 0).xy);
+        float height = heightAbove(ray.origin, normal, texel, depth);
+        if (!isFacing(ray, material, normal, height, margin)) continue;
         best = LayerHit(t, layer);
     }
     return best;

@@ -15,14 +15,20 @@ bool isReceiver(uint kind) {
     return kind == kMaterialLambertian || kind == kMaterialGlossy;
 }
 
+// Whether the surface bounds no volume: a sheet.
+bool isOpen(uint material) {
+    return materials[material].uv.w > 0.0;
+}
+
 // Index of refraction of a medium: material index + 1, or 0 for vacuum.
 float mediumIndex(uint medium) {
     return medium == 0u ? 1.0 : materials[medium - 1u].absorption.w;
 }
 
 // Share of the flux that is left after a way through a medium (Beer-Lambert). Zero length or zero
-// absorption leave all of it.
+// absorption leave all of it, whatever the other is: infinite for a black tint.
 vec3 mediumTransmittance(uint medium, float distanceMeters) {
     if (medium == 0u) return vec3(1.0);
-    return exp(-materials[medium - 1u].absorption.rgb * distanceMeters);
+    vec3 depth = materials[medium - 1u].absorption.rgb * distanceMeters;
+    return exp(-mix(vec3(0.0), depth, greaterThan(depth, vec3(0.0))));
 }

@@ -18,8 +18,13 @@ vec4 hitPositionTexel(Hit h) { return vec4(h.positionVs, h.distanceMeters); }
 vec4 hitSurfaceTexel(Hit h) { return vec4(h.normalVs, float(h.material)); }
 vec4 hitFluxTexel(Hit h) { return vec4(h.fluxWatts, float(h.fate)); }
 
-// The stack of dielectrics around a photon, two deep: material index + 1, 0 for vacuum.
-uint innerMedium(uint media) { return media % 4096u; }
-uint outerMedium(uint media) { return media / 4096u; }
-uint enterMedium(uint media, uint medium) { return medium + 4096u * innerMedium(media); }
+// The stack of dielectrics around a photon, two deep: material index + 1, 0 for vacuum. On top of it
+// the side of an open mirror that the photon has just left, kLeft….
+uint innerMedium(uint media) { return media % kMediumBase; }
+uint outerMedium(uint media) { return media / kMediumBase % kMediumBase; }
+uint leftSide(uint media) { return media / (kMediumBase * kMediumBase); }
+uint enterMedium(uint media, uint medium) { return medium + kMediumBase * innerMedium(media); }
 uint leaveMedium(uint media) { return outerMedium(media); }
+uint withLeftSide(uint media, uint side) {
+    return media % (kMediumBase * kMediumBase) + kMediumBase * kMediumBase * side;
+}

@@ -2,11 +2,13 @@
 // One depth layer: the nearest surface behind the layer before (Everitt 2001). The depth buffer
 // holds view depth itself, scaled by a power of two and so without rounding: layers are told apart
 // down to what 32-bit view depth can (hard cases 12, 13).
+#include "common/octahedral.glsl"
 #include "common/scene_fragment.glsl"
 #include "common/surface.glsl"
 
 layout(location = 0) out vec4 layerDepth;
 layout(location = 1) out vec4 layerSurface;
+layout(location = 2) out vec4 layerNormal;
 
 uniform sampler2DArray layerDepths;
 uniform int layer;
@@ -24,4 +26,5 @@ void main() {
     gl_FragDepth = min(depth * kDepthScale, 1.0 - 1.0 / 16777216.0);
     layerDepth = vec4(depth, 0.5 * extent, 0.0, 0.0);
     layerSurface = vec4(shadingNormal(normalVs, geometric), float(material + 1u));
+    layerNormal = vec4(packUnitVector(geometric), 0.0, 0.0);
 }

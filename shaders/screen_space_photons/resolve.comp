@@ -53,8 +53,12 @@ void main() {
         hit.positionVs = photon.positionVs + first.t * photon.directionVs;
         hit.distanceMeters = first.t;
         vec2 depth = texelFetch(layerDepths, ivec3(pixel, first.layer), 0).xy;
-        hit.normalVs = normalAtHit(hit.positionVs, surface, depth);
         hit.material = uint(surface.w);
+        vec3 triangle =
+            unpackUnitVector(texelFetch(layerNormals, ivec3(pixel, first.layer), 0).xy);
+        hit.normalVs = bendingNormal(photon.directionVs,
+                                     normalAtHit(hit.positionVs, surface, depth), triangle,
+                                     hit.material, photon.media);
         vec3 left = mediumTransmittance(innerMedium(photon.media), first.t);
         hit.fluxWatts = photon.fluxWatts * left;
         ledgerAdd(kAccountAbsorbed, photon.fluxWatts * (1.0 - left));

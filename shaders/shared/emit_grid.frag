@@ -4,6 +4,7 @@
 // section 7). An opaque surface nearer to the light leaves the texel empty.
 #include "common/scene_fragment.glsl"
 #include "common/surface.glsl"
+#include "common/specular.glsl"
 #include "common/lights.glsl"
 
 layout(location = 0) out vec4 photonPosition;
@@ -36,12 +37,20 @@ void main() {
         footprint = sqrt(solidAngle) * distance;
     }
     bool isPhoton = !isReceiver(materialKind(material)) && flux.r + flux.g + flux.b > 0.0;
-    vec3 normal = shadingNormal(normalVs, geometricNormal(positionVs, -direction));
+    vec3 geometric = geometricNormal(positionVs, -direction);
+    // A light whose rays first meet a dielectric from within is inside of it.
+    bool isInside = materialKind(material) == kMaterialDielectric && dot(direction, geometric) > 0.0;
+    uint media = isInside ? enterMedium(0u, material + 1u) : 0u;
+    if (uint(light.positionVs.w) != kLightDirectional) {
+        flux *= mediumTransmittance(media, length(positionVs - light.positionVs.xyz));
+    }
+    vec3 normal = bendingNormal(direction, shadingNormal(normalVs, geometric), geometric,
+                                material + 1u, media);
     float fate = float(isPhoton ? kFateSpecular : kFateNone);
     vec4 on = vec4(isPhoton ? 1.0 : 0.0);
     photonPosition = vec4(positionVs, footprint) * on;
     photonDirection = vec4(direction * on.xyz, fate);
-    photonFlux = vec4(flux, 0.0) * on;
+    photonFlux = vec4(flux, float(media)) * on;
     hitPosition = vec4(positionVs, 0.0) * on;
     hitSurface = vec4(normal, float(material + 1u)) * on;
     hitFlux = vec4(flux * on.xyz, fate);

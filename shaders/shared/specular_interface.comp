@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What photons do where they have met a specular surface: one thread a photon.
-#include "common/fresnel.glsl"
 #include "common/ledger.glsl"
-#include "common/surface_data.glsl"
-#include "common/transfer_map.glsl"
+#include "common/specular.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -42,18 +40,19 @@ void main() {
     photon.positionVs = hit.positionVs;
     photon.fluxWatts = hit.fluxWatts;
     photon.fate = kFateInFlight;
-    float facing = dot(photon.directionVs, hit.normalVs);
+    // The hit's normal has the triangle's side: see bendingNormal.
+    bool enters = dot(photon.directionVs, hit.normalVs) < 0.0;
+    photon.media = withLeftSide(photon.media, kLeftNothing);
     if (uint(data.albedo.w) == kMaterialMirror) {
         photon.directionVs = normalize(reflect(photon.directionVs, hit.normalVs));
         ledgerAdd(kAccountAbsorbed, photon.fluxWatts * (1.0 - data.albedo.rgb));
         photon.fluxWatts *= data.albedo.rgb;
+        if (isOpen(surface)) {
+            photon.media = withLeftSide(photon.media, enters ? kLeftOutside : kLeftInside);
+        }
     } else {
-        bool enters = facing < 0.0;
-        uint outside = enters ? innerMedium(photon.media) : outerMedium(photon.media);
-        float outsideIndex = mediumIndex(outside);
-        float from = enters ? outsideIndex : data.absorption.w;
-        float to = enters ? data.absorption.w : outsideIndex;
-        Interface meeting = interactAt(photon.directionVs, hit.normalVs, from, to);
+        vec2 indices = indicesAt(hit.material, photon.media, enters);
+        Interface meeting = interactAt(photon.directionVs, hit.normalVs, indices.x, indices.y);
         if (meeting.reflectance >= 1.0) {
             photon.directionVs = meeting.reflected;
         } else {

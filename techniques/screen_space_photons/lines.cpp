@@ -94,6 +94,7 @@ RowTextures rasterizeLines(FrameBuilder& frame, const LinesParams& params, const
                 setup.read(photons.flux);
                 setup.read(layers.depth);
                 setup.read(layers.surface);
+                setup.read(layers.normal);
                 data.textures = batch == 0 ? createRows(setup, layout, run) : textures;
                 if (batch > 0) {
                     data.textures.rows = setup.write(textures.rows);
@@ -114,6 +115,7 @@ RowTextures rasterizeLines(FrameBuilder& frame, const LinesParams& params, const
                     .texture("photonFlux", data.photons.flux)
                     .texture("layerDepths", data.layers.depth)
                     .texture("layerSurfaces", data.layers.surface)
+                    .texture("layerNormals", data.layers.normal)
                     .set("layerCount", data.layers.layers)
                     .storage("RowExtents", data.textures.extents)
                     .set("batch", batch)
@@ -143,6 +145,7 @@ Reduced reduceRows(FrameBuilder& frame, const LinesParams& params, const Layered
             data.layers = layers;
             setup.read(layers.depth);
             setup.read(layers.surface);
+            setup.read(layers.normal);
             data.textures.rows = setup.read(textures.rows);
             data.textures.extents = setup.read(textures.extents);
             data.textures.half = setup.write(textures.half);
@@ -193,6 +196,7 @@ Reduced reduceRows(FrameBuilder& frame, const LinesParams& params, const Layered
                 .texture("photonFlux", photons.flux)
                 .texture("layerDepths", data.layers.depth)
                 .texture("layerSurfaces", data.layers.surface)
+                .texture("layerNormals", data.layers.normal)
                 .image("hitPosition", data.hits.position)
                 .image("hitSurface", data.hits.surface)
                 .image("hitFlux", data.hits.flux)

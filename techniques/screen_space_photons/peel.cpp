@@ -2,7 +2,8 @@
 // layers.peel: a layered depth image by depth peeling (K06, section 2.2). `layers.complexity`
 // counts the fragments of every pixel; `layers.peel` then draws as many layers as the fullest pixel
 // needs, `layers.count` at most; what lies deeper is counted. Out: arrays of view depth with its
-// extent over the pixel (m) and of outward normals with materials, front to back.
+// extent over the pixel (m), of outward shading normals with materials, and of the triangles' own
+// normals, front to back.
 #include <fmt/format.h>
 
 #include "framework/pipeline/frame_builder.h"
@@ -75,6 +76,7 @@ LayeredDepth peelLayers(FrameBuilder& frame, const params::NoParams&, Geometry g
                 const int h = frame.height();
                 data.layers.depth = setup.create<ViewDepth>("layers.depth", w, h, layers);
                 data.layers.surface = setup.create<SurfaceTexel>("layers.surface", w, h, layers);
+                data.layers.normal = setup.create<TriangleNormal>("layers.normal", w, h, layers);
                 data.layers.statistics = setup.read(complexity.statistics);
                 data.layers.layers = layers;
                 data.depth = setup.create<DepthBuffer>("layers.depth_buffer", w, h);
@@ -102,6 +104,7 @@ LayeredDepth peelLayers(FrameBuilder& frame, const params::NoParams&, Geometry g
                         .texture("layerDepths", data.layers.depth);
                     command.target(data.layers.depth, layer).clear();
                     command.target(data.layers.surface, layer).clear();
+                    command.target(data.layers.normal, layer).clear();
                     command.depth(data.depth, gl::DepthTest::nearer).clear({1, 0, 0, 0});
                     inputs.gpuScene.draw(command, context, data.geometry, inputs.instances,
                                          render::DrawSet::all, &context.buffer(data.commands),

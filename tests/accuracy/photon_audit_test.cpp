@@ -27,7 +27,7 @@ TEST(PhotonAudit, PhotonInsideADielectricMeetsItOnlyFromWithin) {
         {{0.1, 0.5, 0.1}, {0, -1, 0}, inGlass},  // just refracted into the top face
         {{0.1, 0.5, 0.1}, {0, -1, 0}, 0},        // the same place, not inside
         {{0.1, -0.5, 0.1}, {0, -1, 0}, 0},       // just refracted out of the bottom face
-        {{0.1, 0.5, 0.1}, {0, 1, 0}, 0},         // up: through the back of the mirror
+        {{0.1, 0.5, 0.1}, {0, 1, 0}, 0},         // up: an open mirror has no wrong side
         {{0.1, 3.0, 0.1}, {0, -2, 0}, 0},        // down on the mirror's front; any length
         {{0.1, -2.0, 0.1}, {0, 1, 0}, 0},        // receivers end it from either side
     };
@@ -39,10 +39,31 @@ TEST(PhotonAudit, PhotonInsideADielectricMeetsItOnlyFromWithin) {
     EXPECT_NEAR(hits[1].distanceMeters, 0.0, 1e-12);
     EXPECT_EQ(hits[2].material, 1u);
     EXPECT_NEAR(hits[2].distanceMeters, 0.5, 1e-12);
-    EXPECT_FALSE(hits[3].exists());
+    EXPECT_EQ(hits[3].material, 3u);
+    EXPECT_NEAR(hits[3].distanceMeters, 1.5, 1e-12);
     EXPECT_EQ(hits[4].material, 3u);
     EXPECT_NEAR(hits[4].distanceMeters, 1.0, 1e-12);
     EXPECT_EQ(hits[5].material, 1u);
+}
+
+TEST(PhotonAudit, PhotonDoesNotMeetTheOpenMirrorThatItHasLeftOnThatSide) {
+    const scene::Scene scene = floorGlassAndMirror();
+    const EmbreeScene embree(scene);
+    const auto leaves = [](std::uint32_t side) {
+        return side * transport::kMediumBase * transport::kMediumBase;
+    };
+    // A tracer puts them next to the surface, at times on its far side.
+    const std::vector<AuditPhoton> photons = {
+        {{0.1, 1.999, 0.1}, {0, 1, 0}, leaves(transport::kLeftOutside), 0.01},
+        {{0.1, 2.001, 0.1}, {0, -1, 0}, leaves(transport::kLeftInside), 0.01},
+        {{0.1, 1.9, 0.1}, {0, 1, 0}, leaves(transport::kLeftOutside), 0.01},
+        {{0.1, 2.001, 0.1}, {0, -1, 0}, leaves(transport::kLeftOutside), 0.01},
+    };
+    const std::vector<FirstHit> hits = exactFirstHits(embree, photons);
+    EXPECT_FALSE(hits[0].exists());
+    EXPECT_EQ(hits[1].material, 2u);  // past the mirror, down on the glass
+    EXPECT_EQ(hits[2].material, 3u);  // farther than what a tracer is off
+    EXPECT_EQ(hits[3].material, 3u);  // back on the side that it left
 }
 
 TEST(PhotonAudit, PhotonsThatAreNoNumbersMeetNothing) {

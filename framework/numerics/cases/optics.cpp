@@ -1,0 +1,422 @@
+// SPDX-License-Identifier: MIT
+// C26 to C28a on nodes: the side of a surface, absorption, nested dielectrics and what the eye sees
+// through water, against optics in double (framework/numerics/exact.h).
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "framework/numerics/bench.h"
+#include "framework/numerics/cases/common_cases.h"
+#include "framework/numerics/cases/scene_text.h"
+#include "framework/numerics/exact.h"
+#include "framework/numerics/probe.h"
+
+namespace kaustik::numerics {
+namespace {
+
+using namespace transport;
+
+const Tolerance kDirection{1e-6,
+                           "roundings of a unit vector of 6e-8, through a normal that is "
+                           "interpolated and a refraction"};
+
+std::string lamp(const glm::dvec3& position, double intensity = 100.0) {
+    return fmt::format(
+        "[[light]]\nname = \"lamp\"\ntype = \"point\"\nposition = {}\nintensity = {}\n",
+        numbers(position), number(intensity));
+}
+
+// The bend that the rules ask for: by the shading normal on the triangle's side; by the triangle's
+// own where that would send light to the wrong side.
+struct Bend {
+    glm::dvec3 direction{0.0};
+    bool isFallBack = false;
+    double margin = 1.0;  // the cosine by which it was decided
+};
+Bend exactBend(const glm::dvec3& direction, const SurfacePoint& surface, bool isMirror, double from,
+               double to) {
+    const double side = glm::dot(direction, surface.triangleNormal) < 0.0 ? 1.0 : -1.0;
+    const glm::dvec3 outer = side * surface.triangleNormal;
+    Bend bend;
+    for (const bool isFallBack : {false, true}) {
+        const glm::dvec3 normal = isFallBack ? outer : side * surface.shadingNormal;
+        const double incidence = glm::dot(direction, normal);
+        if (!isFallBack) bend.margin = std::abs(incidence);
+        if (incidence >= 0.0) continue;
+        const ExactInterface meeting = exactInterface(direction, normal, from, to);
+        const bool isReflected = isMirror || meeting.refracted == glm::dvec3(0.0);
+        bend.direction = isReflected ? meeting.reflected : meeting.refracted;
+        bend.isFallBack = isFallBack;
+        const double above = glm::dot(meeting.reflected, outer);
+        const double onward = glm::dot(bend.direction, outer);
+        if (!isFallBack) bend.margin = std::min({bend.margin, std::abs(above), std::abs(onward)});
+        if (above > 0.0 && (onward > 0.0) == isReflected) return bend;
+    }
+    return bend;
+}
+
+// A ball of so few triangles that its smooth normals point to the wrong side for much of the light.
+void shadingNormalOnTheWrongSide(Lab& lab) {
+    for (const bool isMirror : {false, true}) {
+        const std::string material = isMirror ? "mirror" : "glass";
+        const scene::Scene scene = makeScene(
+            {}, sun({0.3, -1.0, -0.2}) +
+                    object("ball", "sphere", material, {0, 0, -4}, "radius = 1\nsegments = 6") +
+                    floorPlane("floor", "grey", 20, {0, -2, -4}));
+        for (const Lab::Choice& emitter : lab.each<EmitStage>()) {
+            const Bent bent = emitAndInteract(lab, emitter, scene, {{"emit.photons", "64x64"}});
+            double worst = 0.0;
+            int wrongSide = 0;
+            int compared = 0;
+            int fallBacks = 0;
+            for (std::size_t i = 0; i < bent.before.hits.size(); ++i) {
+                if (bent.before.hits[i].fate != kFateSpecular) continue;
+                const auto surface =
+                    surfaceAt(scene, scene.objects[0], bent.before.hits[i].position);
+                // Near an edge rounding decides which triangle it is; at the outline the light is
+                // along the triangle.
+                if (!surface || surface->edgeDistance < 1e-3) continue;
+                const glm::dvec3& direction = bent.before.directions[i];
+                const double incidence = glm::dot(direction, surface->triangleNormal);
+                if (incidence > -1e-3) continue;
+                const Bend exact = exactBend(direction, *surface, isMirror, 1.0, kGlassIndex);
+                ++compared;
+                fallBacks += exact.isFallBack ? 1 : 0;
+                const glm::dvec3& measured = bent.after.directions[i];
+                const bool isOutside = glm::dot(measured, surface->triangleNormal) > 0.0;
+                wrongSide += isOutside == isMirror ? 0 : 1;
+                worst = std::max(worst, glm::length(measured - exact.direction));
+            }
+            const std::string what = " of a coarse ball of " + material;
+            lab.expect(emitter.subject, "photons" + what + " that go to the wrong side", 0,
+                       wrongSide, kExactly);
+            lab.expectDeviation(emitter.subject, "worst error of direction" + what, worst,
+                                {2e-5,
+                                 "normals interpolate to 1e-6 over triangles of 1 m that are "
+                                 "32 texels wide, more where light grazes by 1e-3"});
+            lab.expect(emitter.subject, "is the triangle's own normal needed there", 1.0,
+                       fallBacks > (isMirror ? 10 : 0) && compared > 500 ? 1.0 : 0.0, kExactly);
+        }
+    }
+}
+
+// Photons that have entered a ball of glass meet it from within.
+void insideABall(Lab& lab) {
+    CameraText camera;
+    camera.position = {1.9, 1.7, 2.9};
+    camera.target = {0.25, 0.3, -0.05};
+    camera.fovDegrees = 38.0;
+    const scene::Scene scene = makeScene(
+        camera, sun({0, -1, 0}) +
+                    object("ball", "sphere", "glass", {0, 0.7, 0}, "radius = 0.5\nsegments = 96") +
+                    floorPlane("floor", "grey", 12, {0, 0, 0}));
+    const glm::dvec3 light = glm::normalize(glm::dvec3(1.8, -2.3, -0.7));
+    const glm::dvec3 center(0, 0.7, 0);
+    const glm::dvec3 side = glm::normalize(glm::cross(light, glm::dvec3(0, 1, 0)));
+    const glm::dvec3 up = glm::cross(side, light);
+    std::vector<BenchPhoton> photons;
+    std::vector<double> exact;
+    for (int i = 0; i < 1600; ++i) {
+        const double x = (i % 40 - 19.5) / 41.0;
+        const double y = (i / 40 - 19.5) / 41.0;
+        const glm::dvec3 from = center + x * side + y * up - 2.0 * light;
+        const auto entry = firstCrossing(scene, scene.objects[0], from, light, false, 0.0);
+        if (!entry) continue;
+        BenchPhoton p;
+        p.position = from + *entry * light;
+        const auto surface = surfaceAt(scene, scene.objects[0], p.position);
+        if (!surface) continue;
+        p.direction = exactInterface(light, surface->shadingNormal, 1.0, kGlassIndex).refracted;
+        p.media = kGlass;
+        const auto exit =
+            firstCrossing(scene, scene.objects[0], p.position, p.direction, true, 1e-9);
+        if (!exit) continue;
+        photons.push_back(p);
+        exact.push_back(*exit);
+    }
+    for (const Lab::Choice& tracer : lab.each<TraceStage>()) {
+        const Traced traced = tracePhotons(lab, tracer, scene, photons, {}, {400, 300});
+        int wrong = 0;
+        double worst = 0.0;
+        for (std::size_t i = 0; i < photons.size(); ++i) {
+            const BenchHit& hit = traced.hits[i];
+            const double error = std::abs(hit.distanceMeters - exact[i]);
+            // A footprint is 6 mm here, and the ball is met at up to a tenth of it edge-on.
+            if (hit.material != kGlass || error > 0.06) {
+                ++wrong;
+            } else {
+                worst = std::max(worst, error);
+            }
+        }
+        lab.expect(tracer.subject, "photons inside a ball of glass that do not meet it from within",
+                   0, wrong,
+                   {static_cast<double>(photons.size()) / 500.0,
+                    "where the eye sees the ball edge-on a pixel holds one of several triangles: "
+                    "2 in a thousand"});
+        lab.expectDeviation(tracer.subject, "worst error of t of the others, m", worst,
+                            {0.012, "two footprints of 6 mm where the ball is seen at a slant"});
+    }
+}
+
+// Photons that a tracer finds on a coarse ball are met on the triangle's side too.
+void shadingNormalOfATracedHit(Lab& lab) {
+    const scene::Scene scene = makeScene(
+        {}, sun({0, -1, 0}) +
+                object("ball", "sphere", "mirror", {0, 0, -4}, "radius = 1\nsegments = 6") +
+                facingPlane("wall", "grey", 30, {0, 0, -12}));
+    std::vector<BenchPhoton> photons;
+    for (int i = 0; i < 900; ++i) {
+        BenchPhoton p;
+        p.position = {0.06 * (i % 30) - 0.87, 0.06 * (i / 30) - 0.87, -1.5};
+        p.direction = glm::normalize(glm::dvec3(0.1, -0.05, -1.0));
+        photons.push_back(p);
+    }
+    for (const Lab::Choice& tracer : lab.each<TraceStage>()) {
+        const Traced traced = tracePhotons(lab, tracer, scene, photons, {}, {512, 512});
+        int wrong = 0;
+        int found = 0;
+        double worst = 0.0;
+        for (std::size_t i = 0; i < photons.size(); ++i) {
+            const BenchHit& hit = traced.hits[i];
+            if (hit.material != kMirror) continue;
+            const auto surface = surfaceAt(scene, scene.objects[0], hit.position);
+            // Near an edge the pixel may see the other triangle.
+            if (!surface || surface->edgeDistance < 0.1) continue;
+            ++found;
+            const glm::dvec3 bent =
+                exactInterface(photons[i].direction, hit.normal, 1.0, 1.0).reflected;
+            wrong += glm::dot(bent, surface->triangleNormal) > 0.0 ? 0 : 1;
+            const Bend exact = exactBend(photons[i].direction, *surface, true, 1.0, 1.0);
+            // Where the rule just decides, a normal that is off by a little decides otherwise.
+            if (exact.margin < 0.05) continue;
+            worst = std::max(worst, glm::length(bent - exact.direction));
+        }
+        lab.expect(tracer.subject, "hits of a coarse mirrored ball that reflect into it", 0, wrong,
+                   kExactly);
+        lab.expectDeviation(tracer.subject, "worst error of their reflected direction", worst,
+                            {0.05,
+                             "the normal is bilinear between pixels of 0.01 m, on triangles across "
+                             "which it turns by 1 rad/m, and reflection doubles that"});
+        lab.expect(tracer.subject, "are there enough of them", 1.0, found > 100 ? 1.0 : 0.0,
+                   kExactly);
+    }
+}
+
+void transmittance(Lab& lab) {
+    const double infinite = std::numeric_limits<double>::infinity();
+    struct Path {
+        const char* what;
+        double perMeter;
+        double meters;
+        double expected;
+    };
+    const std::vector<Path> paths = {
+        {"zero length", 3.0, 0.0, 1.0},
+        {"infinite attenuation distance over 1e30 m", 0.0, 1e30, 1.0},
+        {"infinite attenuation distance without end", 0.0, infinite, 1.0},
+        {"black tint over 1 m", infinite, 1.0, 0.0},
+        {"black tint over zero length", infinite, 0.0, 1.0},
+        {"2 m of 0.5/m", 0.5, 2.0, std::exp(-1.0)}};
+    std::vector<MaterialData> materials;
+    std::vector<glm::vec4> inputs;
+    for (const Path& path : paths) {
+        MaterialData data{};
+        data.absorption = glm::vec4(static_cast<float>(path.perMeter));
+        materials.push_back(data);
+        inputs.emplace_back(static_cast<float>(materials.size()), static_cast<float>(path.meters),
+                            0.0f, 0.0f);
+    }
+    const gl::Buffer buffer(materials, "materials");
+    const std::vector<glm::vec4> out =
+        probe(lab.context(), "numerics/transmittance.comp", inputs, static_cast<int>(paths.size()),
+              1, [&](gl::Command& command) { command.storage("Materials", buffer); });
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        lab.expect("common/surface_data.glsl", std::string("transmittance: ") + paths[i].what,
+                   paths[i].expected, static_cast<double>(out[i].g),
+                   paths[i].expected == 1.0 || paths[i].expected == 0.0
+                       ? kExactly
+                       : Tolerance{1e-6, "some steps of a 32-bit exp"});
+    }
+}
+
+// A lamp 0.5 m below open water that absorbs.
+void lampUnderWater(Lab& lab) {
+    const glm::dvec3 position(0.0, -0.5, -4.0);
+    const double perMeter = 1.2;
+    const auto sceneOf = [&](double absorption) {
+        scene::Scene scene =
+            makeScene({}, lamp(position) + floorPlane("water", "water", 1.5, {0, 0, -4}) +
+                              object("ceiling", "plane", "grey", {0, 1.5, -4},
+                                     "size = [20, 20]\nrotation_degrees = [180, 0, 0]"));
+        scene.materials[kWater - 1].absorptionPerMeter = glm::vec3(static_cast<float>(absorption));
+        return scene;
+    };
+    const scene::Scene clear = sceneOf(0.0);
+    const scene::Scene dark = sceneOf(perMeter);
+    const Settings settings = {{"emit.photons", "24x24"}};
+    for (const Lab::Choice& emitter : lab.each<EmitStage>()) {
+        const Bent without = emitAndInteract(lab, emitter, clear, settings);
+        const Bent with = emitAndInteract(lab, emitter, dark, settings);
+        double worst = 0.0;
+        double worstDirection = 0.0;
+        int photons = 0;
+        int inWater = 0;
+        int outside = 0;
+        int leaving = 0;
+        for (std::size_t i = 0; i < with.before.hits.size(); ++i) {
+            if (with.before.hits[i].fate != kFateSpecular) continue;
+            ++photons;
+            inWater += with.before.media[i] == kWater ? 1 : 0;
+            const double way = glm::length(with.before.hits[i].position - position);
+            const double left =
+                with.before.hits[i].fluxWatts.g / without.before.hits[i].fluxWatts.g;
+            worst = std::max(worst, std::abs(left - std::exp(-perMeter * way)));
+            const ExactInterface exact =
+                exactInterface(with.before.directions[i], {0.0, -1.0, 0.0}, kWaterIndex, 1.0);
+            const bool leaves = exact.refracted != glm::dvec3(0.0);
+            leaving += leaves ? 1 : 0;
+            outside += leaves && with.after.media[i] == 0 ? 1 : 0;
+            worstDirection =
+                std::max(worstDirection, glm::length(with.after.directions[i] -
+                                                     (leaves ? exact.refracted : exact.reflected)));
+        }
+        lab.expect(emitter.subject, "photons of a lamp under water that are in it", photons,
+                   inWater, kExactly);
+        lab.expectDeviation(emitter.subject, "worst error of the share that the water leaves them",
+                            worst, {1e-6, "a 32-bit exp of 1 m known to 1e-7"});
+        lab.expect(emitter.subject, "of those that refract, are outside then", leaving, outside,
+                   kExactly);
+        lab.expectDeviation(emitter.subject, "worst error of their direction", worstDirection,
+                            {2e-3,
+                             "near the critical angle a direction changes by 1/cos of it: "
+                             "1e-6 of the sine is 1.4e-3"});
+    }
+}
+
+void lookingOutOfWater(Lab& lab) {
+    CameraText above;
+    above.position = {0.0, 3.0, 0.001};  // up must not be along the view
+    above.target = {0.0, 0.0, 0.0};
+    above.fovDegrees = 4.0;
+    const scene::Scene scene =
+        makeScene(above, sun({0, -1, 0}, 500.0) + floorPlane("water", "water", 0.6, {0, 0, 0}) +
+                             floorPlane("floor", "white", 10, {0, -1, 0}));
+    const double r0 = std::pow((kWaterIndex - 1.0) / (kWaterIndex + 1.0), 2.0);
+    const double background = 2.0;
+    for (const Lab::Choice& node : lab.each<ViewStage>()) {
+        const Frame frame = lab.render(node, scene, {65, 65, {{"emit.photons", "64x64"}}});
+        const Texels seen = frame.read(frame.renderer().outputs().picture.radiance);
+        const Texels below = frame.read("compose.receiver_radiance");
+        const double inside = below.rgb(32, 32).g;
+        lab.expect(node.subject, "radiance out of water over that inside, at the normal",
+                   (1.0 - r0) / (kWaterIndex * kWaterIndex),
+                   (seen.rgb(32, 32).g - r0 * background) / inside,
+                   {1e-5, "32-bit radiances, less the reflection of the background"});
+        lab.expect(node.subject, "is the water's floor lit", 1.0, inside > 1.0 ? 1.0 : 0.0,
+                   kExactly);
+    }
+    for (const Lab::Choice& specular : lab.each<SpecularStage>()) {
+        BenchPhoton photon;
+        photon.position = {0.0, 0.0, 0.0};
+        photon.direction = {0.0, 1.0, 0.0};
+        photon.media = kWater;
+        photon.startNormal = {0.0, 1.0, 0.0};
+        photon.startMaterial = kWater;
+        const Traced out = interactPhotons(lab, specular, scene, {photon});
+        lab.expect(specular.subject, "flux that leaves water at the normal, of 1 W", 1.0 - r0,
+                   out.hits.front().fluxWatts.g, {1e-6, "roundings of 6e-8"});
+    }
+}
+
+void nestedDielectrics(Lab& lab) {
+    const scene::Scene scene =
+        makeScene({}, sun({0, -1, 0}) + floorPlane("water", "water", 2, {0, 0, -4}) +
+                          object("cube", "box", "glass", {0, -1, -4}, "size = [1, 1, 1]") +
+                          floorPlane("floor", "grey", 20, {0, -3, -4}));
+    const auto meet = [&](double radians, bool enters, std::uint32_t media) {
+        BenchPhoton photon;
+        photon.position = {0.0, -0.5, -4.0};
+        photon.direction = {std::sin(radians), enters ? -std::cos(radians) : std::cos(radians),
+                            0.0};
+        photon.startNormal = {0.0, 1.0, 0.0};
+        photon.startMaterial = kGlass;
+        photon.media = media;
+        return photon;
+    };
+    const std::uint32_t glassInWater = kGlass + kMediumBase * kWater;
+    const std::vector<BenchPhoton> photons = {
+        meet(0.6, true, kWater), meet(0.6, false, glassInWater), meet(1.2, false, glassInWater)};
+    for (const Lab::Choice& specular : lab.each<SpecularStage>()) {
+        std::vector<std::uint32_t> media;
+        const Traced result = interactPhotons(lab, specular, scene, photons, &media);
+        const ExactInterface in =
+            exactInterface(photons[0].direction, {0, 1, 0}, kWaterIndex, kGlassIndex);
+        const ExactInterface out =
+            exactInterface(photons[1].direction, {0, -1, 0}, kGlassIndex, kWaterIndex);
+        const ExactInterface total =
+            exactInterface(photons[2].direction, {0, -1, 0}, kGlassIndex, kWaterIndex);
+        // A result's direction is read as its normal.
+        lab.expectDeviation(specular.subject, "error of direction from water into glass",
+                            glm::length(result.hits[0].normal - in.refracted), kDirection);
+        lab.expectDeviation(specular.subject, "error of direction from glass into water",
+                            glm::length(result.hits[1].normal - out.refracted), kDirection);
+        lab.expectDeviation(specular.subject, "error of direction of total internal reflection",
+                            glm::length(result.hits[2].normal - total.reflected), kDirection);
+        lab.expect(specular.subject, "flux from water into glass, W", 1.0 - in.reflectance,
+                   result.hits[0].fluxWatts.g, {1e-6, "roundings of 6e-8"});
+        lab.expect(specular.subject, "media in glass in water", glassInWater, media[0], kExactly);
+        lab.expect(specular.subject, "media back in water", kWater, media[1], kExactly);
+        lab.expect(specular.subject, "media after total internal reflection", glassInWater,
+                   media[2], kExactly);
+    }
+}
+
+// A glass cube that light enters at a slant and is reflected in; all of it is on the screen.
+void cubeWithInternalReflections(Lab& lab) {
+    CameraText camera;
+    camera.position = {2.5, 3.0, 5.0};
+    camera.target = {0.0, 0.0, 0.0};
+    const scene::Scene scene =
+        makeScene(camera, sun({0.8, -1.0, 0.1}) +
+                              object("cube", "box", "glass", {0, 0.6, 0}, "size = [1, 1, 1]") +
+                              floorPlane("floor", "grey", 30, {0, 0, 0}));
+    for (const Lab::Choice& tracer : lab.each<TraceStage>()) {
+        double limited = 0.0;
+        for (const int bounces : {1, 2, 8}) {
+            const Frame frame = lab.render(
+                tracer, scene,
+                {160,
+                 120,
+                 {{"emit.photons", "48x48"}, {"specular.bounces", std::to_string(bounces)}}});
+            const EnergyLedger ledger = frame.renderer().ledger();
+            lab.expect(tracer.subject, fmt::format("balance of {} interactions", bounces), 0.0,
+                       ledger.balance(), {2e-6, "sums of 32-bit fluxes and areas in fixed point"});
+            const double share = ledger.watts[kAccountBounceLimit] / ledger.watts[kAccountEmitted];
+            if (bounces > 1) {
+                lab.expect(tracer.subject,
+                           fmt::format("is less at the limit of {} than of fewer", bounces), 1.0,
+                           share < limited ? 1.0 : 0.0, kExactly);
+            }
+            limited = share;
+        }
+    }
+}
+
+}  // namespace
+
+void addOpticsCases(Suite& suite) {
+    suite.add("C26", "The side of a surface is the triangle's, whatever the shading normal says.",
+              shadingNormalOnTheWrongSide);
+    suite.add("C26", "", shadingNormalOfATracedHit);
+    suite.add("A9", "", insideABall);
+    suite.add("C27", "Absorption is right at zero length, without absorption and for a black tint.",
+              transmittance);
+    suite.add("C27", "", lampUnderWater);
+    suite.add("C28", "Nested dielectrics and every bounce until the limit; the rest is counted.",
+              nestedDielectrics);
+    suite.add("C28", "", cubeWithInternalReflections);
+    suite.add("C28a", "Radiance out of water is T/n² of that inside; flux has no n².",
+              lookingOutOfWater);
+}
+
+}  // namespace kaustik::numerics

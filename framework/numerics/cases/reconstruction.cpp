@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+// D31, D32 and D34a for every node that answers `reconstruct` or `emit`: hits made up one by one,
+// and what becomes of their flux.
+#include <algorithm>
+#include <cmath>
+
+#include "framework/numerics/bench.h"
+#include "framework/numerics/cases/common_cases.h"
+#include "framework/numerics/cases/scene_text.h"
+
+namespace kaustik::numerics {
+namespace {
+
+using namespace transport;
+
+const Tolerance kWeights{1e-6, "1e-6 of the flux, as the case asks for"};
+
+// The camera: 128 x 128 pixels of 60 degrees at the origin.
+constexpr int kSide = 128;
+constexpr double kTangent = 0.57735026918962576;
+
+glm::dvec3 at(double pixelX, double pixelY, double depth) {
+    return {(2.0 * pixelX / kSide - 1.0) * kTangent * depth,
+            (2.0 * pixelY / kSide - 1.0) * kTangent * depth, -depth};
+}
+
+BenchPhoton landing(const glm::dvec3& position, const glm::dvec3& normal,
+                    const glm::dvec3& direction, double footprint) {
+    BenchPhoton photon;
+    photon.position = position;
+    photon.direction = glm::normalize(direction);
+    photon.startNormal = normal;
+    photon.startMaterial = kGrey;
+    photon.footprintMeters = footprint;
+    return photon;
+}
+
+// Watts of green light that the map holds on pixels of [x0, x1) x [y0, y1).
+double deposited(const Texels& irradiance, const Texels& receiver, int x0, int y0, int x1, int y1) {
+    double watts = 0.0;
+    for (int y = std::max(y0, 0); y < std::min(y1, irradiance.height); ++y) {
+        for (int x = std::max(x0, 0); x < std::min(x1, irradiance.width); ++x)
+            watts += irradiance.rgb(x, y).g * static_cast<double>(receiver.at(x, y, 1));
+    }
+    return watts;
+}
+
+double depositedEverywhere(const Frame& frame) {
+    const Texels irradiance = frame.read(frame.renderer().outputs().caustic.irradiance);
+    const Texels receiver = frame.read(frame.renderer().outputs().eye.receiver);
+    return deposited(irradiance, receiver, 0, 0, irradiance.width, irradiance.height);
+}
+
+// Of one of three equal channels.
+double account(const Frame& frame, unsigned which) {
+    return frame.renderer().ledger().watts[which] / 3.0;
+}
+
+const std::string kSun = sun({0.0, -1.0, 0.0});
+
+void kernelAtEverySubPixelOffset(Lab& lab) {
+    const scene::Scene scene = makeScene({}, kSun + facingPlane("wall", "grey", 60, {0, 0, -10}));
+    const double pixel = 2.0 * kTangent * 10.0 / kSide;
+    for (const Lab::Choice& node : lab.each<ReconstructStage>()) {
+        for (const double footprint : {0.02 * pixel, 0.3 * pixel, 1.3 * pixel}) {
+            // One photon in every 12 x 12 pixels, each at another offset.
+            std::vector<BenchPhoton> photons;
+            for (int i = 0; i < 100; ++i) {
+                const double x = 12.0 * (i % 10) + 6.0 + 0.1 * (i % 10);
+                const double y = 12.0 * (i / 10) + 6.0 + 0.1 * (i / 10);
+                photons.push_back(landing(at(x, y, 10.0), {0, 0, 1}, {0.2, 0.1, -1}, footprint));
+            }
+            const Frame frame = reconstructHits(lab, node, scene, photons);
+            const Texels irradiance = frame.read(frame.renderer().outputs().caustic.irradiance);
+            const Texels receiver = frame.read(frame.renderer().outputs().eye.receiver);
+            double worst = 0.0;
+            for (int i = 0; i < 100; ++i) {
+                const int x = 12 * (i % 10);
+                const int y = 12 * (i / 10);
+                const double flux = deposited(irradiance, receiver, x, y, x + 12, y + 12);
+                worst = std::max(worst, std::abs(flux - 1.0));
+            }
+            lab.expectDeviation(
+                node.subject,
+                fmt::format("worst sum of weights, less 1, for beams {} pixels wide "
+                            "at 100 offsets",
+                            footprint / pixel),
+                worst, kWeights);
+        }
+        std::vector<BenchPhoton> border;
+        for (int i = 0; i < 60; ++i)
+            border.push_back(
+                landing(at(0.05 * i, 4.0 + 2.0 * i, 10.0), {0, 0, 1}, {0, 0, -1}, pixel));
+        const Frame frame = reconstructHits(lab, node, scene, border);
+        const double on = depositedEverywhere(frame);
+        const double off = account(frame, kAccountOffScreen);
+        lab.expect(node.subject, "flux on the picture and clipped by its border, W", 60.0, on + off,
+                   {60e-6, "1e-6 of the flux, as the case asks for"});
+        lab.expect(node.subject, "of it, is some clipped and counted off screen", 1.0,
+                   off > 0.5 && on > 30.0 ? 1.0 : 0.0, kExactly);
+    }
+}
+
+void grazingEdgeAndOccluder(Lab& lab) {
+    // A floor seen at 2 degrees.
+    CameraText low;
+    low.position = {0.0, 0.35, 10.0};
+    low.target = {0.0, 0.0, 0.0};
+    const scene::Scene floor = makeScene(low, kSun + floorPlane("floor", "grey", 200, {0, 0, 0}));
+    std::vector<BenchPhoton> grazing;
+    for (int i = 0; i < 100; ++i) {
+        grazing.push_back(landing({0.2 * (i % 10) - 0.9, 0.0, 0.3 * (i / 10) - 1.5}, {0, 1, 0},
+                                  {0.3, -1.0, 0.2}, 0.02));
+    }
+    // A shelf whose edge lies in the middle of the picture, 5 m before the wall.
+    const scene::Scene shelf = makeScene({}, kSun + facingPlane("wall", "grey", 60, {0, 0, -10}) +
+                                                 facingPlane("shelf", "grey", 10, {-5.0, 0, -5}));
+    const double pixel = 2.0 * kTangent * 5.0 / kSide;
+    std::vector<BenchPhoton> onTheEdge;
+    std::vector<BenchPhoton> behindTheEdge;
+    for (int i = 0; i < 60; ++i) {
+        onTheEdge.push_back(landing(at(63.5, 4.0 + 2.0 * i, 5.0), {0, 0, 1}, {0, 0, -1}, pixel));
+        behindTheEdge.push_back(
+            landing(at(64.5, 4.0 + 2.0 * i, 10.0), {0, 0, 1}, {0, 0, -1}, 2.0 * pixel));
+    }
+    for (const Lab::Choice& node : lab.each<ReconstructStage>()) {
+        lab.expect(node.subject, "flux on a floor seen at 2 degrees, W", 100.0,
+                   depositedEverywhere(reconstructHits(lab, node, floor, grazing)),
+                   {100e-6, "1e-6 of the flux, as for every kernel"});
+
+        const Frame edge = reconstructHits(lab, node, shelf, onTheEdge);
+        const Texels onEdge = edge.read(edge.renderer().outputs().caustic.irradiance);
+        const Texels edgeArea = edge.read(edge.renderer().outputs().eye.receiver);
+        lab.expect(node.subject, "flux kept on a shelf by splats that hang off its edge, W", 60.0,
+                   deposited(onEdge, edgeArea, 0, 0, 64, kSide),
+                   {60e-6, "1e-6 of the flux: what hangs off is redistributed on the shelf"});
+        lab.expectDeviation(node.subject, "flux that leaks to the wall behind, W",
+                            deposited(onEdge, edgeArea, 64, 0, kSide, kSide), kExactly);
+
+        const Frame hidden = reconstructHits(lab, node, shelf, behindTheEdge);
+        const Texels onWall = hidden.read(hidden.renderer().outputs().caustic.irradiance);
+        const Texels wallArea = hidden.read(hidden.renderer().outputs().eye.receiver);
+        const double wall = deposited(onWall, wallArea, 64, 0, kSide, kSide);
+        const double occluded = account(hidden, kAccountOccludedSplat);
+        lab.expect(node.subject, "flux on the wall and counted as hidden by the shelf, W", 60.0,
+                   wall + occluded, {60e-6, "1e-6 of the flux"});
+        lab.expect(node.subject, "of it, is some counted as hidden", 1.0,
+                   occluded > 10.0 && wall > 20.0 ? 1.0 : 0.0, kExactly);
+        lab.expectDeviation(node.subject, "flux that leaks to the shelf before it, W",
+                            deposited(onWall, wallArea, 0, 0, 64, kSide), kExactly);
+    }
+}
+
+void pointLightGrid(Lab& lab) {
+    // A square of water that a lamp sees at a half-angle of 30 degrees along its sides, all on the
+    // screen.
+    const double height = 2.0;
+    const double half = height * kTangent;
+    const double intensity = 100.0;
+    CameraText camera;
+    camera.position = {0.0, 6.0, 0.01};
+    camera.target = {0.0, 0.0, 0.0};
+    const scene::Scene scene = makeScene(
+        camera, fmt::format("[[light]]\nname = \"lamp\"\ntype = \"point\"\nposition = [0, {}, 0]\n"
+                            "intensity = {}\n",
+                            number(height), number(intensity)) +
+                    floorPlane("water", "water", 2.0 * half, {0, 0, 0}) +
+                    floorPlane("floor", "grey", 12.0, {0, -1, 0}));
+    constexpr int kTexels = 32;
+    for (const Lab::Choice& node : lab.each<EmitStage>()) {
+        const Frame frame =
+            lab.render(node, scene, {96, 96, {{"emit.photons", fmt::format("{0}x{0}", kTexels)}}});
+        // A rectangle of half-angles 30 degrees: 4 asin(sin a sin b).
+        const double solidAngle = 4.0 * std::asin(0.25);
+        lab.expect(node.subject, "flux of a lamp through 30 degrees to each side, W",
+                   intensity * solidAngle, frame.renderer().ledger().watts[kAccountEmitted] / 3.0,
+                   {1e-3 * intensity * solidAngle,
+                    "a texel's solid angle is that of its middle: 1/12 of its angle squared, "
+                    "(2 tan 30° / 32)²/12 = 1e-4, several times where cos³ bends"});
+    }
+}
+
+}  // namespace
+
+void addReconstructionCases(Suite& suite) {
+    suite.add("D31",
+              "A kernel keeps its flux at every offset and size; what the border clips is "
+              "counted.",
+              kernelAtEverySubPixelOffset);
+    suite.add("D32",
+              "A splat stays on its surface: at grazing angles, at an edge, behind an "
+              "occluder.",
+              grazingEdgeAndOccluder);
+    suite.add("D34a", "The flux of a point light's texel is by its solid angle.", pointLightGrid);
+}
+
+}  // namespace kaustik::numerics
