@@ -60,6 +60,8 @@ def error_measures(study: Study) -> list[Measure]:
         ("flip_ldr", "mean FLIP"),
     ):
         for column in study.columns_like(rf"error\..*\.{metric}"):
+            if "truth_noise" in column:
+                continue  # what the truth's own error would give: no property of a run
             output = column.split(".", 1)[1].rsplit(".", 1)[0]
             unit = ""
             if metric == "rmse":
@@ -273,7 +275,7 @@ def sweep(study: Study, axis: Axis) -> Figure | None:
             line = [c for c in line if panel.of(c) is not None]
             positions = [as_number(c.axes.get(axis.key)) for c in line]
             ticks.update(zip(positions, (as_text(c.axes.get(axis.key)) for c in line)))
-            heights += [panel.of(c) for c in line]
+            heights += [panel.of(c) + (c.spread(panel.column) or 0.0) for c in line]
             few = len(lines) <= len(COLORS)
             axes.errorbar(
                 positions,
@@ -289,7 +291,7 @@ def sweep(study: Study, axis: Axis) -> Figure | None:
         if spans_decades(heights):
             axes.set_yscale("log")
         elif heights and min(heights) >= 0.0:
-            axes.set_ylim(bottom=0.0)
+            axes.set_ylim(0.0, 1.08 * max(heights) or None)
         axes.set_ylabel(panel.label.replace(" of ", "\nof ", 1))
     last = rows[-1][0]
     if spans_decades(list(ticks)):
