@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One step of a photon's ray: looks the layers up at its pixel and keeps a hit's place on the ray.
-#include "common/hit_test.glsl"
+#include "common/exit_test.glsl"
 #include "screen_space_photons/row_texel.glsl"
 
 flat in vec4 endPixels;
@@ -27,7 +27,10 @@ void main() {
     ivec2 mapSize = textureSize(photonFlux, 0);
     ivec2 texel = ivec2(photonIndex % mapSize.x, photonIndex / mapSize.x);
     uint media = uint(texelFetch(photonFlux, texel, 0).w);
-    LayerHit hit = testStep(segment, TracedRay(rayOrigin, rayDirection, media), i, steps);
+    TracedRay ray = TracedRay(rayOrigin, rayDirection, media);
+    LayerHit hit = testStep(segment, ray, i, steps);
+    bool isExit = hit.layer < 0 && trace_test == trace_test_crossing;
+    if (isExit) hit = testExit(segment, ray, i, steps);
     if (hit.layer < 0) discard;
-    rowTexel = packRowTexel(hit, i);
+    rowTexel = packRowTexel(hit, isExit ? i - 1 : i, isExit);
 }

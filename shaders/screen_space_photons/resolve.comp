@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The last part of the reduce: the column of first hits becomes hits in the transfer map, or, for a
 // photon that met nothing, an entry in the ledger. One thread a row.
-#include "common/hit_test.glsl"
+#include "common/exit_test.glsl"
 #include "common/ledger.glsl"
 #include "screen_space_photons/row_extent.glsl"
 #include "screen_space_photons/row_texel.glsl"
@@ -37,8 +37,9 @@ void main() {
     Hit hit = Hit(vec3(0.0), 0.0, vec3(0.0), 0u, vec3(0.0), kFateEnded);
     LayerHit first;
     int stepIndex;
+    bool isExit;
     vec2 found = rowExtents[batch] > 0u ? texelFetch(column, ivec2(0, row), 0).xy : vec2(0.0);
-    unpackRowTexel(found, first, stepIndex);
+    unpackRowTexel(found, first, stepIndex, isExit);
     bool isNumber = isFinite(photon.positionVs) && isFinite(photon.directionVs) &&
                     isFinite(photon.fluxWatts);
     if (!isNumber) {
@@ -56,9 +57,10 @@ void main() {
         hit.material = uint(surface.w);
         vec3 triangle =
             unpackUnitVector(texelFetch(layerNormals, ivec3(pixel, first.layer), 0).xy);
-        hit.normalVs = bendingNormal(photon.directionVs,
-                                     normalAtHit(hit.positionVs, surface, depth), triangle,
-                                     hit.material, photon.media);
+        vec3 shading = isExit ? normalAtExit(hit.positionVs, pixel, first.layer)
+                              : normalAtHit(hit.positionVs, surface, depth);
+        hit.normalVs = bendingNormal(photon.directionVs, shading, triangle, hit.material,
+                                     photon.media);
         vec3 left = mediumTransmittance(innerMedium(photon.media), first.t);
         hit.fluxWatts = photon.fluxWatts * left;
         ledgerAdd(kAccountAbsorbed, photon.fluxWatts * (1.0 - left));

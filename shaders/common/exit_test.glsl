@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// Whether a photon inside a closed dielectric has come out of it between two pixels, although it
+// crossed none of their planes: at a silhouette the surface bends away within a pixel, and beside it
+// there is no layer left to meet. Between the layers of one pixel inside and outside are known.
+#include "common/hit_test.glsl"
+
+// Whether a range of depths overlaps the inside of a dielectric at a pixel. Layers come front to
+// back; one that faces the eye opens the inside, one that faces away closes it. Unknown is inside:
+// where the layers end before the dielectric does.
+bool isInsideAt(ivec2 texel, uint medium, float zLow, float zHigh) {
+    float opened = 0.0;
+    bool isOpened = false;
+    for (int layer = 0; layer < layerCount; ++layer) {
+        vec2 depth = texelFetch(layerDepths, ivec3(texel, layer), 0).xy;
+        if (depth.x <= 0.0) return isOpened && zHigh >= opened;
+        if (uint(texelFetch(layerSurfaces, ivec3(texel, layer), 0).w) != medium) continue;
+        float margin = depth.y + pixelFootprint(depth.x);
+        vec3 normal = unpackUnitVector(texelFetch(layerNormals, ivec3(texel, layer), 0).xy);
+        if (dot(normal, viewRay(vec2(texel) + 0.5)) < 0.0) {
+            opened = depth.x - margin;
+            isOpened = true;
+        } else {
+            if (zHigh >= opened && zLow <= depth.x + margin) return true;
+            opened = depth.x + margin;
+            isOpened = false;
+        }
+    }
+    return true;
+}
+
+// The layer through which the photon came out at its last pixel inside, step i - 1, when it is
+// outside at step i: the nearest in depth of those that it can leave by. `t` is where one step meets
+// the other.
+LayerHit testExit(RaySegment segment, TracedRay ray, int i, int n) {
+    LayerHit none = LayerHit(0.0, -1);
+    uint medium = innerMedium(ray.media);
+    if (i == 0 || medium == 0u || isOpen(medium - 1u)) return none;
+    float count = float(n);
+    float zBefore = depthAtIndex(segment, float(i) - 1.0, count);
+    float zBegin = depthAtIndex(segment, float(i), count);
+    float zEnd = depthAtIndex(segment, float(i) + 1.0, count);
+    ivec2 texel = texelOfStep(segment, i, n);
+    ivec2 before = texelOfStep(segment, i - 1, n);
+    if (isInsideAt(texel, medium, min(zBegin, zEnd), max(zBegin, zEnd))) return none;
+    if (!isInsideAt(before, medium, min(zBefore, zBegin), max(zBefore, zBegin))) return none;
+    LayerHit best = none;
+    float nearest = 0.0;
+    for (int layer = 0; layer < layerCount; ++layer) {
+        float depth = texelFetch(layerDepths, ivec3(before, layer), 0).x;
+        if (depth <= 0.0) break;
+        if (uint(texelFetch(layerSurfaces, ivec3(before, layer), 0).w) != medium) continue;
+        vec3 normal = unpackUnitVector(texelFetch(layerNormals, ivec3(before, layer), 0).xy);
+        float away = abs(depth - zBegin);
+        if (dot(ray.direction, normal) <= 0.0 || (best.layer >= 0 && away >= nearest)) continue;
+        best = LayerHit(parameterAtIndex(segment, float(i), count), layer);
+        nearest = away;
+    }
+    return best.t > 0.0 ? best : none;
+}
+
+// The shading normal where the photon came out: along the chord between the two layers that bound
+// the inside at that pixel normals turn from one to the other, evenly on a sphere. The normal of
+// the layer alone is many degrees off at a silhouette, and light would be caught inside.
+vec3 normalAtExit(vec3 exitVs, ivec2 texel, int exitLayer) {
+    vec4 surface = texelFetch(layerSurfaces, ivec3(texel, exitLayer), 0);
+    bool isFront = dot(surface.xyz, viewRay(vec2(texel) + 0.5)) < 0.0;
+    int other = exitLayer;
+    for (int layer = 0; layer < layerCount; ++layer) {
+        if (texelFetch(layerDepths, ivec3(texel, layer), 0).x <= 0.0) break;
+        if (texelFetch(layerSurfaces, ivec3(texel, layer), 0).w != surface.w) continue;
+        if (isFront ? layer > exitLayer : layer < exitLayer) {
+            other = layer;
+            if (isFront) break;  // the nearest of those behind; or the last of those before
+        }
+    }
+    if (other == exitLayer) return surface.xyz;
+    float from = texelFetch(layerDepths, ivec3(texel, exitLayer), 0).x;
+    float to = texelFetch(layerDepths, ivec3(texel, other), 0).x;
+    if (from == to) return surface.xyz;
+    vec3 normal = mix(surface.xyz, texelFetch(layerSurfaces, ivec3(texel, other), 0).xyz,
+                      clamp((-exitVs.z - from) / (to - from), 0.0, 1.0));
+    float size = length(normal);
+    return size > 1e-3 ? normal / size : surface.xyz;
+}

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+// Every scene that the project ships, rendered and held against the ray-traced truth: each watt has
+// an account, each photon a fate, and the caustic has the truth's energy in the truth's places.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "framework/audit/hit_audit.h"
+#include "framework/core/error.h"
+#include "framework/core/files.h"
+#include "framework/measure/image_errors.h"
+#include "framework/reference/reference.h"
+#include "framework/scene/scene_file.h"
+#include "tests/gpu/fixture.h"
+
+namespace kaustik::test {
+namespace {
+
+using transport::kAccountEmitted;
+
+constexpr int kWidth = 160;
+constexpr int kHeight = 120;
+
+std::vector<std::string> shippedScenes() {
+    std::vector<std::string> names;
+    for (const auto& entry :
+         std::filesystem::directory_iterator(projectRoot() / "experiments/scenes")) {
+        if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+// The truth about the paths that the frame models; a batch of photons for a few each pixel.
+reference::Reference truthOf(const reference::EmbreeScene& scene, const ModelledPaths& paths) {
+    reference::ReferenceRequest request;
+    request.width = kWidth;
+    request.height = kHeight;
+    request.filter.transmissionOnly = paths.transmissionOnly;
+    request.filter.maximumInteractions = paths.interactions;
+    reference::RunOptions options;
+    options.stop.photons = 2'000'000;
+    reference::PixelSums sums = makeSums(scene, request);
+    addBatches(scene, request, options, sums);
+    return makeReference(scene.scene(), request, sums, 0.0);
+}
+
+Image imageOf(const gl::Texture& texture, int channel, int channels) {
+    const int stored = gl::formatInfo(texture.desc().format).channels;
+    const std::vector<float> texels = texture.read();
+    Image image(texture.desc().width, texture.desc().height, channels);
+    for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < image.width; ++x) {
+            for (int c = 0; c < channels; ++c) {
+                const int texel = (image.height - 1 - y) * image.width + x;
+                image.at(x, y, c) = texels[static_cast<std::size_t>(texel * stored + channel + c)];
+            }
+        }
+    }
+    return image;
+}
+
+class ShippedScene : public testing::TestWithParam<std::string> {};
+
+TEST_P(ShippedScene, HasTheCausticOfTheTruth) {
+    scene::Scene scene;
+    try {
+        scene = scene::loadScene(GetParam());
+    } catch (const IoError& missing) {
+        GTEST_SKIP() << missing.what();  // a mesh that was not fetched
+    }
+    const Registry registry = registerAll();
+    RenderSettings settings;
+    settings.technique = registry.findTechnique("screen_space_photons");
+    settings.params = registry.makeParams(settings.technique);
+    settings.width = kWidth;
+    settings.height = kHeight;
+    Renderer renderer(context(), registry, scene, std::move(settings));
+    renderer.build(Purpose::audit);
+    gl::PassTimer timer(gl::TimerMode::finish);
+    renderer.renderFrame(timer);
+
+    const reference::EmbreeScene embree(scene);
+    const reference::Reference truth = truthOf(embree, renderer.outputs().hits.incoming.paths);
+    const audit::HitAudit hits = audit::auditHits(renderer, embree);
+    const EnergyLedger ledger =
+        audit::resolveLedger(renderer, hits, truth.energy.watts[kAccountEmitted]);
+    EXPECT_LT(std::abs(ledger.balance()), 1e-4);
+    EXPECT_EQ(ledger.watts[transport::kAccountUnresolved], 0.0);
+    EXPECT_EQ(hits.notANumber, 0u);
+    RecordProperty("agreement_visible_permille",
+                   static_cast<int>(1000.0 * hits.agreementVisible()));
+    EXPECT_GT(hits.agreementVisible(), 0.97);
+
+    const FrameOutputs& outputs = renderer.outputs();
+    const Image image = imageOf(renderer.texture(outputs.caustic.irradiance), 0, 3);
+    Image receiver = imageOf(renderer.texture(outputs.eye.receiver), 0, 1);
+    Image area = imageOf(renderer.texture(outputs.eye.receiver), 1, 1);
+    for (std::size_t i = 0; i < area.values.size(); ++i) {
+        const bool sees = receiver.values[i] > 0.0f;
+        receiver.values[i] = sees ? 1.0f : 0.0f;
+        area.values[i] = sees ? area.values[i] : 0.0f;
+    }
+    const measure::ImagePair pair({.image = image,
+                                   .reference = truth.irradiance,
+                                   .mask = &receiver,
+                                   .standardError = &truth.irradianceError,
+                                   .area = &area});
+    const measure::ImageErrors errors = measure::measureErrors(pair);
+    ASSERT_TRUE(errors.energyRatio);
+    // What the grid missed of thin glass, what tracers missed and splats lost at edges, together.
+    EXPECT_NEAR(*errors.energyRatio, 1.0, 0.03);
+    ASSERT_TRUE(errors.encircledEnergy);
+    // The splats' blur, of a few pixels here, over a caustic of tens of pixels.
+    EXPECT_NEAR(errors.encircledEnergy->radiusRatio, 1.0, 0.05);
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, ShippedScene, testing::ValuesIn(shippedScenes()),
+                         [](const testing::TestParamInfo<std::string>& scene) {
+                             std::string name = scene.param;
+                             std::replace(name.begin(), name.end(), '-', '_');
+                             return name;
+                         });
+
+}  // namespace
+}  // namespace kaustik::test
