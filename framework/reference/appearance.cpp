@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "framework/scene/needs.h"
 #include "framework/scene/texture.h"
 #include "framework/transport/brdf.h"
 
@@ -55,16 +54,8 @@ bool isSecondColor(scene::Pattern pattern, const glm::dvec2& p) {
 }  // namespace
 
 Appearance::Appearance(const scene::Scene& scene) : scene_(scene), images_(scene.images.size()) {
-    const auto decode = [&](int index) {
-        if (index < 0) return;
-        const auto i = static_cast<std::size_t>(index);
-        if (images_[i].values.empty()) images_[i] = scene::decodeTexture(scene.images[i]);
-    };
-    for (const scene::Light& light : scene.lights)
-        decode(light.image);
-    if (!sceneNeeds(scene).glossyReceivers) return;
-    for (const scene::Material& material : scene.materials)
-        decode(material.image);
+    for (std::size_t i = 0; i < images_.size(); ++i)
+        images_[i] = scene::decodeTexture(scene.images[i]);
 }
 
 glm::dvec3 Appearance::albedo(std::uint32_t index, const glm::dvec2& uv) const {

@@ -16,8 +16,7 @@ namespace kaustik::reference {
 
 class Appearance {
   public:
-    // Decodes the images of spots and, where a receiver is glossy, those of materials. `scene` must
-    // outlive this. Throws IoError.
+    // Decodes all images. `scene` must outlive this. Throws IoError.
     explicit Appearance(const scene::Scene& scene);
 
     // Diffuse reflectance of a material at `uv`.
@@ -32,7 +31,7 @@ class Appearance {
 
   private:
     const scene::Scene& scene_;
-    std::vector<Image> images_;  // empty where nobody asks for one
+    std::vector<Image> images_;
 };
 
 }  // namespace kaustik::reference

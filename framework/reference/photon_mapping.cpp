@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -14,13 +14,12 @@
 #include "framework/reference/eye.h"
 #include "framework/reference/light_sampling.h"
 #include "framework/reference/light_tracing.h"
+#include "framework/reference/photon_density.h"
+#include "framework/reference/viewed_caustics.h"
 #include "framework/scene/needs.h"
 
 namespace kaustik::reference {
 namespace {
-
-// Photons on a surface that is turned further away than this belong to another one.
-constexpr double kLeastCosine = 0.7;
 
 // What the eye sees through one point of a pixel.
 struct VisiblePoint {
@@ -89,6 +88,10 @@ class Gatherer {
         reach_ = radius * glm::length(corner) / std::max(nearer, 0.1);
         within_ = points_.size() * 3 * kWithinRadiusLayer;
         radiance_ = points_.size() * 3 * kMappedRadianceLayer;
+        const int viewLayer = viewedCausticsLayer(scene.scene(), settings);
+        if (viewLayer < 0) return;
+        view_.emplace(scene, eye, settings.seed, pass, radius);
+        viewed_ = points_.size() * 3 * static_cast<std::size_t>(viewLayer);
     }
 
     void emitted(const glm::dvec3& flux) { result_.energy.add(transport::kAccountEmitted, flux); }
@@ -109,6 +112,7 @@ class Gatherer {
             return;
         }
         result_.energy.add(transport::kAccountDeposited, flux);
+        if (view_) view_->add(hit, photon, result_.values.data() + viewed_);
         const glm::dvec2 at = eye_.pixelOf(hit.position);
         if (!std::isfinite(at.x + at.y)) return;
         const glm::dvec3 lit = glm::dot(hit.geometricNormal, photon.direction) < 0.0
@@ -137,23 +141,23 @@ class Gatherer {
         const double distanceSquared = glm::dot(offset, offset);
         if (distanceSquared > point.radiusSquared || glm::dot(lit, point.normal) < kLeastCosine)
             return;
-        const glm::dvec3 within = photon.fluxWatts / (std::numbers::pi * point.radiusSquared);
-        // Twice the density within half of the area, less that within all of it.
-        const double inner = distanceSquared <= 0.5 * point.radiusSquared ? 4.0 : 0.0;
+        const glm::dvec3 within = photon.fluxWatts * densityWithin(point.radiusSquared);
+        const glm::dvec3 atPoint =
+            photon.fluxWatts * densityExtrapolated(distanceSquared, point.radiusSquared);
         double* extrapolated = result_.values.data() + 3 * pixel;
         double* plain = extrapolated + within_;
         for (int channel = 0; channel < 3; ++channel) {
-            extrapolated[channel] += within[channel] * (inner - 1.0);
+            extrapolated[channel] += atPoint[channel];
             plain[channel] += within[channel];
         }
         if (!hasRadiance_) return;
         const Reflector& at = reflectors_[pixel];
-        const glm::dvec3 reflected = within * (inner - 1.0) *
-                                     scene_.appearance().brdf(at.material, at.uv, at.shadingNormal,
-                                                              -photon.direction, at.toEye);
+        const glm::dvec3 reflected =
+            atPoint * scene_.appearance().brdf(at.material, at.uv, at.shadingNormal,
+                                               -photon.direction, at.toEye);
+        double* radiance = result_.values.data() + radiance_ + 3 * pixel;
         for (int channel = 0; channel < 3; ++channel)
-            result_.values[radiance_ + 3 * pixel + static_cast<std::size_t>(channel)] +=
-                reflected[channel];
+            radiance[channel] += reflected[channel];
     }
 
     const EmbreeScene& scene_;
@@ -165,7 +169,14 @@ class Gatherer {
     double reach_ = 0.0;        // pixels
     std::size_t within_ = 0;    // first value of the layer
     std::size_t radiance_ = 0;  // the same
+    std::size_t viewed_ = 0;    // the same
+    std::optional<ViewedCaustics> view_;
 };
+
+// The first layer after those of irradiance and radiance.
+int firstFreeLayer(const scene::Scene& scene) {
+    return sceneNeeds(scene).glossyReceivers ? kMappedRadianceLayer + 1 : kMappedRadianceLayer;
+}
 
 LightTraceSettings lightSettings(const PhotonMappingSettings& settings) {
     return {settings.width, settings.height, settings.photonsPerBatch, settings.seed,
@@ -189,8 +200,12 @@ PixelSums makePhotonMappingSums(const EmbreeScene& scene, const PhotonMappingSet
         throw ConfigError("The initial radius must be above 0 and at most 16 pixels.");
     if (!(settings.alpha > 0.0 && settings.alpha < 1.0))
         throw ConfigError("alpha must lie between 0 and 1.");
-    const bool hasRadiance = sceneNeeds(scene.scene()).glossyReceivers;
-    return makeEstimatorSums(scene, lightSettings(settings), hasRadiance ? 3 : 2);
+    return makeEstimatorSums(scene, lightSettings(settings),
+                             firstFreeLayer(scene.scene()) + (settings.followsView ? 1 : 0));
+}
+
+int viewedCausticsLayer(const scene::Scene& scene, const PhotonMappingSettings& settings) {
+    return settings.followsView ? firstFreeLayer(scene) : -1;
 }
 
 void photonMapping(const EmbreeScene& scene, const PhotonMappingSettings& settings,

@@ -7,6 +7,10 @@
 // The radius is a number of pixels, so that it follows the picture: `initialRadiusPixels` in the
 // first pass, its square then shrinking as i^(alpha-1). Photons are found by where they project,
 // which is why no search structure is needed.
+//
+// On request also the radiance of caustics along the eye's real ways, refracted and reflected
+// (viewed_caustics.h), W/m²/sr; a medium weakens it. What a medium scatters towards the eye is for
+// light tracing alone (light_tracing.h).
 #pragma once
 
 #include <cstdint>
@@ -26,6 +30,7 @@ struct PhotonMappingSettings {
     PathFilter filter;
     double initialRadiusPixels = 1.0;  // (0, 16]
     double alpha = 0.7;                // (0, 1)
+    bool followsView = false;          // also caustics seen through and in specular surfaces
 };
 
 // Layers of the sums. The density is measured within the radius and within 1/sqrt(2) of it: where
@@ -36,6 +41,10 @@ inline constexpr int kExtrapolatedLayer = 0;
 inline constexpr int kWithinRadiusLayer = 1;
 // Caustic radiance towards the eye, extrapolated; only where a receiver is glossy.
 inline constexpr int kMappedRadianceLayer = 2;
+
+// Caustics along the eye's real ways; -1 unless asked for.
+[[nodiscard]] int viewedCausticsLayer(const scene::Scene& scene,
+                                      const PhotonMappingSettings& settings);
 
 // Throws ConfigError for settings out of range.
 [[nodiscard]] PixelSums makePhotonMappingSums(const EmbreeScene& scene,

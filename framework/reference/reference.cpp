@@ -18,9 +18,9 @@ LightTraceSettings lightSettings(const ReferenceRequest& request) {
 }
 
 PhotonMappingSettings mappingSettings(const ReferenceRequest& request) {
-    return {request.width, request.height, request.photonsPerBatch,
-            request.seed,  request.filter, request.initialRadiusPixels,
-            request.alpha};
+    return {request.width, request.height,     request.photonsPerBatch,
+            request.seed,  request.filter,     request.initialRadiusPixels,
+            request.alpha, request.causticView};
 }
 
 // Field by field: structs may have padding.
@@ -72,7 +72,7 @@ std::string referenceKey(const scene::Scene& scene, const ReferenceRequest& requ
     hash.add(static_cast<std::uint8_t>(request.filter.transmissionOnly));
     hash.add(request.filter.maximumInteractions).add(request.filter.splitInteractions);
     if (request.estimator == Estimator::sppm)
-        hash.add(request.initialRadiusPixels).add(request.alpha);
+        hash.add(request.initialRadiusPixels).add(request.alpha).add(request.causticView);
     return hash.hex();
 }
 
@@ -113,6 +113,13 @@ Reference makeReference(const scene::Scene& scene, const ReferenceRequest& reque
     if (radianceLayer > 0 && sums.layers() > radianceLayer) {
         reference.causticRadiance = sums.meanImage(radianceLayer);
         reference.causticRadianceError = sums.standardErrorImage(radianceLayer);
+    }
+    const int viewLayer = request.estimator == Estimator::sppm
+                              ? viewedCausticsLayer(scene, mappingSettings(request))
+                              : -1;
+    if (viewLayer > 0) {
+        reference.causticView = sums.meanImage(viewLayer);
+        reference.causticViewError = sums.standardErrorImage(viewLayer);
     }
     reference.energy = sums.energy();
     reference.photons = sums.photons();

@@ -29,6 +29,7 @@ struct ReferenceRequest {
     PathFilter filter;
     double initialRadiusPixels = 1.0;  // sppm
     double alpha = 0.7;                // sppm
+    bool causticView = false;          // sppm: PhotonMappingSettings::followsView
 };
 
 struct Reference {
@@ -39,6 +40,8 @@ struct Reference {
     Image irradianceError;  // standard error, the same unit
     Image causticRadiance;  // empty where no receiver is glossy
     Image causticRadianceError;
+    Image causticView;  // as the eye sees it through specular surfaces; empty unless asked for
+    Image causticViewError;
     Image inScattered;  // empty without a medium that scatters, and for sppm
     Image inScatteredError;
     Energy energy;
@@ -64,7 +67,8 @@ void addBatches(const EmbreeScene& scene, const ReferenceRequest& request,
                                       const PixelSums& sums, double seconds);
 
 // NAME.exr (or .pfm) is the irradiance; beside it NAME.stderr.exr, NAME.caustic_radiance.exr and
-// NAME.caustic_radiance.stderr.exr where a receiver is glossy, NAME.in_scattered.exr and
+// NAME.caustic_radiance.stderr.exr where a receiver is glossy, NAME.caustic_view.exr and
+// NAME.caustic_view.stderr.exr where asked for, NAME.in_scattered.exr and
 // NAME.in_scattered.stderr.exr where there is a medium, and NAME.json, which is written last and
 // holds fingerprints of the others: a reference is there whole or not at all.
 void writeReference(const std::filesystem::path& path, const Reference& reference);

@@ -24,11 +24,13 @@ struct Part {
     const char* suffix;  // of the file
     Image Reference::*image;
 };
-constexpr std::array<Part, 6> kParts = {{
+constexpr std::array<Part, 8> kParts = {{
     {"irradiance", "", &Reference::irradiance},
     {"irradiance_stderr", ".stderr", &Reference::irradianceError},
     {"caustic_radiance", ".caustic_radiance", &Reference::causticRadiance},
     {"caustic_radiance_stderr", ".caustic_radiance.stderr", &Reference::causticRadianceError},
+    {"caustic_view", ".caustic_view", &Reference::causticView},
+    {"caustic_view_stderr", ".caustic_view.stderr", &Reference::causticViewError},
     {"in_scattered", ".in_scattered", &Reference::inScattered},
     {"in_scattered_stderr", ".in_scattered.stderr", &Reference::inScatteredError},
 }};
@@ -73,6 +75,7 @@ json requestToJson(const ReferenceRequest& request) {
     if (request.estimator == Estimator::sppm) {
         result["initial_radius_px"] = request.initialRadiusPixels;
         result["alpha"] = request.alpha;
+        result["caustic_view"] = request.causticView;
     }
     return result;
 }
@@ -89,6 +92,7 @@ ReferenceRequest requestFromJson(const json& from) {
     request.filter.splitInteractions = from.at("split_interactions");
     request.initialRadiusPixels = from.value("initial_radius_px", request.initialRadiusPixels);
     request.alpha = from.value("alpha", request.alpha);
+    request.causticView = from.value("caustic_view", request.causticView);
     return request;
 }
 

@@ -65,6 +65,7 @@ TEST_F(ReferenceCache, CausticRadianceIsKeptWhereAReceiverIsGlossy) {
     const EmbreeScene embree(scene);
     for (const Estimator estimator : {Estimator::light, Estimator::sppm}) {
         request_.estimator = estimator;
+        request_.causticView = estimator == Estimator::sppm;
         const auto get = [&] {
             return loadOrCompute(embree, request_, folder_, options_, [](const std::string&) {});
         };
@@ -74,6 +75,9 @@ TEST_F(ReferenceCache, CausticRadianceIsKeptWhereAReceiverIsGlossy) {
         EXPECT_EQ(cached.causticRadiance.values, made.causticRadiance.values);
         EXPECT_EQ(cached.causticRadianceError.values, made.causticRadianceError.values);
         EXPECT_TRUE(cached.inScattered.values.empty());
+        EXPECT_EQ(cached.causticView.values.empty(), estimator == Estimator::light);
+        EXPECT_EQ(cached.causticView.values, made.causticView.values);
+        EXPECT_EQ(cached.request.causticView, request_.causticView);
         const fs::path file = folder_ / (made.key + ".caustic_radiance" + floatImageExtension());
         writeImage(file, made.irradiance);
         EXPECT_THROW((void)readReference(folder_ / (made.key + floatImageExtension())), IoError);
@@ -168,6 +172,7 @@ TEST_F(ReferenceCache, KeyDependsOnEverythingThatMatters) {
     EXPECT_TRUE(differs([](S&, R& r) { r.width = 25; }));
     EXPECT_TRUE(differs([](S&, R& r) { r.seed = 2; }));
     EXPECT_TRUE(differs([](S&, R& r) { r.estimator = Estimator::sppm; }));
+    EXPECT_FALSE(differs([](S&, R& r) { r.causticView = true; }));  // light tracing has none
     EXPECT_TRUE(differs([](S&, R& r) { r.filter.transmissionOnly = true; }));
     EXPECT_TRUE(differs([](S&, R& r) { r.filter.maximumInteractions = 2; }));
     EXPECT_FALSE(differs([](S& s, R&) { s.description = "another"; }));
