@@ -15,8 +15,9 @@ vec3 lightDirection(LightData light, vec3 positionVs) {
     return distance2 > 0.0 ? offset * inversesqrt(distance2) : light.directionVs.xyz;
 }
 
-// What a spot's image makes of its intensity in `direction`, within the outer cone: spotImagePosition
-// of scene/scene.h, averaged over about a square of the side `width` in the plane at 1 m.
+// What a spot's image makes of its intensity in `direction`, within the outer cone:
+// spotImagePosition of scene/scene.h, averaged over about a square of the side `width` in the plane
+// at 1 m.
 vec3 spotColor(LightData light, vec3 direction, float width) {
     if (light.rightVs.w < 0.0) return vec3(1.0);
     float edge = light.cone.z;

@@ -6,8 +6,8 @@
 
 uniform sampler2D receiverAlbedo;
 
-// 1/sr. `surface`: the pixel's texel of receiverSurface; `toLight`: unit. The normal is taken on the
-// eye's side.
+// 1/sr. `surface`: the pixel's texel of receiverSurface; `toLight`: unit. The normal is taken on
+// the eye's side.
 vec3 receiverReflection(ivec2 pixel, vec4 surface, vec3 toLight) {
     vec3 toEye = -normalize(viewRay(vec2(pixel) + 0.5));
     vec3 normal = dot(surface.xyz, toEye) < 0.0 ? -surface.xyz : surface.xyz;
