@@ -104,6 +104,10 @@ std::vector<fs::path> writePictures(const fs::path& folder, const Renderer& rend
           readTexture(renderer.texture(outputs.picture.radiance), 0, 3));
     write("caustic", floatImageExtension(),
           readTexture(renderer.texture(outputs.caustic.irradiance), 0, 3));
+    if (outputs.caustic.radiance.valid()) {
+        write("caustic_radiance", floatImageExtension(),
+              readTexture(renderer.texture(outputs.caustic.radiance), 0, 3));
+    }
     for (const std::string& name : saved) {
         const graph::ResourceRef handle = renderer.graph().find(name);
         const gl::Texture& texture = renderer.texture(handle);

@@ -20,7 +20,8 @@ void requireTextures(const Renderer& renderer, const std::vector<std::string>& s
 // One layer of a texture, top row first, with its first `channels` channels.
 [[nodiscard]] Image readTexture(const gl::Texture& texture, int layer, int channels);
 
-// beauty (display and radiance), caustic, and the saved resources by name, one file a layer.
+// beauty (display and radiance), caustic (irradiance), caustic_radiance where a receiver is glossy,
+// and the saved resources by name, one file a layer.
 std::vector<std::filesystem::path> writePictures(const std::filesystem::path& folder,
                                                  const Renderer& renderer,
                                                  const std::vector<std::string>& saved);

@@ -70,50 +70,75 @@ ReferenceRequest requestFor(const Renderer& renderer) {
     return request;
 }
 
-// What the frame is judged by, read back once.
+// An output of the frame beside the same of a reference.
 struct Output {
-    Image irradiance;
-    Image receiver;  // view depth, not positive where there is none
-    Image area;      // m²
+    const char* name;  // in the report
+    Image image;
+    Image Reference::*truth;
+    Image Reference::*truthError;
 };
 
-Output readOutput(const Renderer& renderer) {
-    const FrameOutputs& outputs = renderer.outputs();
-    Output output;
-    output.irradiance = readTexture(renderer.texture(outputs.caustic.irradiance), 0, 3);
-    const Image receiver = readTexture(renderer.texture(outputs.eye.receiver), 0, 2);
-    output.receiver = Image(receiver.width, receiver.height, 1);
-    output.area = Image(receiver.width, receiver.height, 1);
-    for (std::size_t i = 0; i < output.area.values.size(); ++i) {
+// What the frame is judged by, read back once.
+struct Outputs {
+    std::vector<Output> images;  // the first is the caustic irradiance
+    Image receiver;              // 1 where the pixel sees one, else 0
+    Image area;                  // of the receiver that the pixel sees, m²
+    bool seesReceivers = false;
+};
+
+Outputs readOutputs(const Renderer& renderer) {
+    const FrameOutputs& frame = renderer.outputs();
+    Outputs outputs;
+    outputs.images.push_back({"caustic_irradiance",
+                              readTexture(renderer.texture(frame.caustic.irradiance), 0, 3),
+                              &Reference::irradiance, &Reference::irradianceError});
+    if (frame.caustic.radiance.valid()) {
+        outputs.images.push_back({"caustic_radiance",
+                                  readTexture(renderer.texture(frame.caustic.radiance), 0, 3),
+                                  &Reference::causticRadiance, &Reference::causticRadianceError});
+    }
+    const Image receiver = readTexture(renderer.texture(frame.eye.receiver), 0, 2);
+    outputs.receiver = Image(receiver.width, receiver.height, 1);
+    outputs.area = Image(receiver.width, receiver.height, 1);
+    for (std::size_t i = 0; i < outputs.area.values.size(); ++i) {
         const bool sees = receiver.values[2 * i] > 0.0f;
-        output.receiver.values[i] = sees ? 1.0f : 0.0f;
-        output.area.values[i] = sees ? receiver.values[2 * i + 1] : 0.0f;
+        outputs.seesReceivers = outputs.seesReceivers || sees;
+        outputs.receiver.values[i] = sees ? 1.0f : 0.0f;
+        outputs.area.values[i] = sees ? receiver.values[2 * i + 1] : 0.0f;
     }
-    return output;
+    return outputs;
 }
 
-measure::ImagePair pairOf(const Output& output, const Reference& truth) {
-    return measure::ImagePair({.image = output.irradiance,
-                               .reference = truth.irradiance,
-                               .mask = &output.receiver,
-                               .standardError = &truth.irradianceError,
-                               .area = &output.area,
-                               .imageName = "The caustic irradiance"});
+measure::ImagePair pairOf(const Outputs& outputs, const Output& output, const Reference& truth) {
+    return measure::ImagePair({.image = output.image,
+                               .reference = truth.*output.truth,
+                               .mask = &outputs.receiver,
+                               .standardError = &(truth.*output.truthError),
+                               .area = &outputs.area,
+                               .imageName = output.name});
 }
 
-json errorJson(const measure::ImageErrors& errors, const Reference& truth) {
-    return {{"reference_stderr", errors.truthNoise ? errors.truthNoise->rmse : 0.0},
-            {"reference_relative_stderr", truth.relativeError},
-            {"reference_photons", truth.photons},
-            {"reference_key", truth.key},
-            {"caustic_irradiance", measure::toJson(errors)}};
-}
-
-bool seesReceivers(const Output& output) {
-    for (const float sees : output.receiver.values) {
-        if (sees > 0.0f) return true;
+// Every output's errors against one reference; what that does not have is left out.
+json errorsAgainst(const Outputs& outputs, const Reference& truth) {
+    json result = {{"reference_relative_stderr", truth.relativeError},
+                   {"reference_photons", truth.photons},
+                   {"reference_key", truth.key}};
+    for (const Output& output : outputs.images) {
+        if ((truth.*output.truth).values.empty()) continue;
+        const measure::ImageErrors errors = measureErrors(pairOf(outputs, output, truth));
+        result[output.name] = measure::toJson(errors);
+        if (&output == &outputs.images.front())
+            result["reference_stderr"] = errors.truthNoise ? errors.truthNoise->rmse : 0.0;
     }
-    return false;
+    return result;
+}
+
+Image errorPicture(const Outputs& outputs, const Reference& truth) {
+    const measure::ImagePair pair = pairOf(outputs, outputs.images.front(), truth);
+    const measure::Plane<float> differences = measure::absoluteErrorPlane(pair);
+    measure::ImageErrors errors;
+    errors.scale = measure::referenceScale(pair);
+    return measure::heatMap(pair, differences, measure::heatMapScale(errors, differences));
 }
 
 }  // namespace
@@ -171,22 +196,17 @@ std::vector<fs::path> Truth::judge(const Renderer& renderer, const fs::path& fol
               hits, readTexture(renderer.texture(renderer.outputs().picture.display), 0, 3)));
     write("reference" + floatImageExtension(), loaded_->whole.irradiance);
 
-    const Output output = readOutput(renderer);
+    const Outputs outputs = readOutputs(renderer);
     record.error = {{"reference", loaded_->name}};
-    if (!seesReceivers(output)) {
+    if (!outputs.seesReceivers) {
         record.error["caustic_irradiance"] = nullptr;
         record.error["reason"] = "no pixel of this view sees a receiver";
         return files;
     }
-    const measure::ImagePair pair = pairOf(output, loaded_->whole);
-    const measure::ImageErrors errors = measure::measureErrors(pair);
-    record.error.update(errorJson(errors, loaded_->whole));
-    const measure::Plane<float> differences = measure::absoluteErrorPlane(pair);
-    write("error" + displayImageExtension(),
-          measure::heatMap(pair, differences, measure::heatMapScale(errors, differences)));
+    record.error.update(errorsAgainst(outputs, loaded_->whole));
+    write("error" + displayImageExtension(), errorPicture(outputs, loaded_->whole));
     if (loaded_->modelled) {
-        json modelled = errorJson(measure::measureErrors(pairOf(output, *loaded_->modelled)),
-                                  *loaded_->modelled);
+        json modelled = errorsAgainst(outputs, *loaded_->modelled);
         modelled["transmission_only"] = loaded_->paths.transmissionOnly;
         modelled["maximum_interactions"] = loaded_->paths.interactions;
         record.error["modelled_paths"] = std::move(modelled);

@@ -112,6 +112,7 @@ graph::Compiled Renderer::compile(Purpose purpose, const std::vector<std::string
     graph_->request(outputs_.picture.radiance);
     graph_->request(outputs_.picture.display);
     graph_->request(outputs_.caustic.irradiance);
+    if (outputs_.caustic.radiance.valid()) graph_->request(outputs_.caustic.radiance);
     if (purpose != Purpose::picture) {
         graph_->request(closedLedger_);
         if (outputs_.layers.statistics.valid()) graph_->request(outputs_.layers.statistics);
