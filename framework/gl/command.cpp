@@ -83,6 +83,12 @@ Command& Command::uniforms(const std::string& block, const Buffer& buffer) {
 }
 
 Command& Command::set(const std::string& name, Value value) {
+    // A command that draws more than once may set a value anew each time.
+    for (Uniform& uniform : uniforms_) {
+        if (uniform.name != name) continue;
+        uniform.value = value;
+        return *this;
+    }
     uniforms_.push_back({name, value});
     return *this;
 }

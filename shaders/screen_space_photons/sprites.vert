@@ -3,6 +3,7 @@
 // point, since points end at a device's largest size and vanish with their centre.
 #include "screen_space_photons/sprite.glsl"
 
+uniform int firstPhoton;  // of the batch
 uniform sampler2D spriteWeights;
 uniform sampler2D photonDirection;
 uniform sampler2D hitPosition;
@@ -17,7 +18,8 @@ flat out vec3 spritePower;  // flux over the sum of the weights, W/m²
 
 void main() {
     ivec2 mapSize = textureSize(hitFlux, 0);
-    ivec2 texel = ivec2(gl_InstanceID % mapSize.x, gl_InstanceID / mapSize.x);
+    int photon = firstPhoton + gl_InstanceID;
+    ivec2 texel = ivec2(photon % mapSize.x, photon / mapSize.x);
     vec4 weights = texelFetch(spriteWeights, texel, 0);
     spriteCenter = texelFetch(hitPosition, texel, 0).xyz;
     spriteNormal = texelFetch(hitSurface, texel, 0).xyz;

@@ -5,6 +5,11 @@
 // pixels see, so that the flux deposited is the photon's flux. In: hits (eye view space, W) and the
 // eye buffer; out: irradiance, W/m², and where a receiver is glossy radiance towards the eye,
 // W/m²/sr: each splat by the BRDF at each pixel, with the pixel's normal and reflectance.
+//
+// A pixel at a focus takes a great many deposits, and a plain 32-bit sum drifts: 2^25 of 0.1 are 15
+// % off. Photons are therefore drawn in batches, whose sums are added up with compensation.
+#include <algorithm>
+
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/screen_space_photons/nodes.h"
 
@@ -14,6 +19,41 @@ namespace {
 struct SpriteWeight {  // x: 1 / weighted area, 1/m²; y: radius, m; z: share that is seen
     static constexpr Format format = Format::rgba32f;
 };
+
+// A plain sum of so many equal deposits is off by 1.5e-4 of its last ones at most, 6e-5 on the
+// whole.
+constexpr int kBatchPhotons = 4096;
+
+// What a map is summed up with, where there is more than one batch.
+template <class Texel>
+struct BatchSum {
+    graph::Texture<Texel> batch;
+    graph::Texture<Texel> carry;  // what the sum so far is too large by
+};
+template <class Texel>
+BatchSum<Texel> createBatchSum(graph::PassSetup& setup, const FrameBuilder& frame,
+                               const std::string& name) {
+    return {setup.create<Texel>("reconstruct.batch_" + name, frame.width(), frame.height()),
+            setup.create<Texel>("reconstruct.carry_" + name, frame.width(), frame.height())};
+}
+template <class Texel>
+void clear(gl::PassContext& context, const graph::Texture<Texel>& sum,
+           const BatchSum<Texel>& parts) {
+    context.texture(sum).clear({0, 0, 0, 0});
+    if (!parts.batch.valid()) return;
+    context.texture(parts.batch).clear({0, 0, 0, 0});
+    context.texture(parts.carry).clear({0, 0, 0, 0});
+}
+// Adds the batch to the sum and empties it.
+template <class Texel>
+void addBatch(gl::PassContext& context, const FrameInputs& inputs, const graph::Texture<Texel>& sum,
+              const BatchSum<Texel>& parts) {
+    context.compute("screen_space_photons/sum_batch.comp")
+        .image("batchMap", parts.batch)
+        .image("carryMap", parts.carry)
+        .image("sumMap", sum)
+        .dispatchOver(inputs.view.width, 8, inputs.view.height, 8);
+}
 
 struct Weights {
     graph::Texture<SpriteWeight> weights;
@@ -62,8 +102,12 @@ IrradianceMap splatSprites(FrameBuilder& frame, const SpritesParams& params, Hit
                            EyeBuffer eye) {
     const Weights weights = sumWeights(frame, params, hits, eye);
     const bool isGlossy = frame.needs().glossyReceivers;
+    const int photons = hits.incoming.count();
+    const bool isBatched = photons > kBatchPhotons;
     struct Data : Weights {
         IrradianceMap map;
+        BatchSum<IrradianceTexel> irradiance;
+        BatchSum<RadianceTexel> radiance;
     };
     return frame
         .pass<Data>(
@@ -83,13 +127,27 @@ IrradianceMap splatSprites(FrameBuilder& frame, const SpritesParams& params, Hit
                                                                     frame.width(), frame.height());
                 data.map.ledger = setup.read(weights.ledger);
                 setup.bypass(data.map.irradiance, {0, 0, 0, 0});
+                if (isBatched) {
+                    data.irradiance = createBatchSum<IrradianceTexel>(setup, frame, "irradiance");
+                    setup.bypass(data.irradiance.batch, {0, 0, 0, 0});
+                    setup.bypass(data.irradiance.carry, {0, 0, 0, 0});
+                }
                 if (!isGlossy) return;
                 setup.read(eye.receiverAlbedo);
                 data.map.radiance =
                     setup.create<RadianceTexel>("caustic.radiance", frame.width(), frame.height());
                 setup.bypass(data.map.radiance, {0, 0, 0, 0});
+                if (isBatched) {
+                    data.radiance = createBatchSum<RadianceTexel>(setup, frame, "radiance");
+                    setup.bypass(data.radiance.batch, {0, 0, 0, 0});
+                    setup.bypass(data.radiance.carry, {0, 0, 0, 0});
+                }
             },
-            [&inputs = frame.inputs(), params](const Data& data, gl::PassContext& context) {
+            [&inputs = frame.inputs(), params, photons, isBatched](const Data& data,
+                                                                   gl::PassContext& context) {
+                const bool isGlossyToo = data.map.radiance.valid();
+                clear(context, data.map.irradiance, data.irradiance);
+                if (isGlossyToo) clear(context, data.map.radiance, data.radiance);
                 gl::Command command = context.shaders(
                     {"screen_space_photons/sprites.vert", "screen_space_photons/sprites.frag"});
                 inputs.bindView(command)
@@ -101,17 +159,21 @@ IrradianceMap splatSprites(FrameBuilder& frame, const SpritesParams& params, Hit
                     .texture("hitPosition", data.hits.position)
                     .texture("hitSurface", data.hits.surface)
                     .texture("hitFlux", data.hits.flux)
-                    .target(data.map.irradiance)
-                    .clear();
-                if (data.map.radiance.valid()) {
+                    .target(isBatched ? data.irradiance.batch : data.map.irradiance);
+                if (isGlossyToo) {
                     command.define("GLOSSY_RECEIVERS")
                         .storage("Materials", inputs.gpuScene.materials())
                         .texture("receiverAlbedo", data.eye.receiverAlbedo)
-                        .target(data.map.radiance)
-                        .clear();
+                        .target(isBatched ? data.radiance.batch : data.map.radiance);
                 }
-                command.blend(gl::Blend::add)
-                    .drawArrays(GL_TRIANGLE_STRIP, 4, data.hits.incoming.count());
+                command.blend(gl::Blend::add);
+                for (int first = 0; first < photons; first += kBatchPhotons) {
+                    command.set("firstPhoton", first)
+                        .drawArrays(GL_TRIANGLE_STRIP, 4, std::min(kBatchPhotons, photons - first));
+                    if (!isBatched) continue;
+                    addBatch(context, inputs, data.map.irradiance, data.irradiance);
+                    if (isGlossyToo) addBatch(context, inputs, data.map.radiance, data.radiance);
+                }
             })
         .map;
 }

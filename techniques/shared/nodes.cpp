@@ -36,6 +36,7 @@ void registerSharedNodes(Registry& registry) {
                                  "sees through specular surfaces.",
                                  ""},
                                 &composePicture);
+    registry.hardCases(&addSharedCases);
 }
 
 }  // namespace kaustik

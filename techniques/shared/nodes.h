@@ -9,6 +9,9 @@ namespace kaustik {
 
 void registerSharedNodes(Registry& registry);
 
+// Hard cases of the shared nodes alone.
+void addSharedCases(numerics::Suite& suite);
+
 Geometry makeHeightFields(FrameBuilder& frame, const params::NoParams&);
 
 EyeBuffer renderEye(FrameBuilder& frame, const params::NoParams&, Geometry geometry);

@@ -7,6 +7,7 @@
 #include "framework/numerics/bench.h"
 #include "framework/numerics/cases/common_cases.h"
 #include "framework/numerics/cases/scene_text.h"
+#include "framework/numerics/kernel_weights.h"
 
 namespace kaustik::numerics {
 namespace {
@@ -62,31 +63,7 @@ void kernelAtEverySubPixelOffset(Lab& lab) {
     const scene::Scene scene = makeScene({}, kSun + facingPlane("wall", "grey", 60, {0, 0, -10}));
     const double pixel = 2.0 * kTangent * 10.0 / kSide;
     for (const Lab::Choice& node : lab.each<ReconstructStage>()) {
-        for (const double footprint : {0.02 * pixel, 0.3 * pixel, 1.3 * pixel}) {
-            // One photon in every 12 x 12 pixels, each at another offset.
-            std::vector<BenchPhoton> photons;
-            for (int i = 0; i < 100; ++i) {
-                const double x = 12.0 * (i % 10) + 6.0 + 0.1 * (i % 10);
-                const double y = 12.0 * (i / 10) + 6.0 + 0.1 * (i / 10);
-                photons.push_back(landing(at(x, y, 10.0), {0, 0, 1}, {0.2, 0.1, -1}, footprint));
-            }
-            const Frame frame = reconstructHits(lab, node, scene, photons);
-            const Texels irradiance = frame.read(frame.renderer().outputs().caustic.irradiance);
-            const Texels receiver = frame.read(frame.renderer().outputs().eye.receiver);
-            double worst = 0.0;
-            for (int i = 0; i < 100; ++i) {
-                const int x = 12 * (i % 10);
-                const int y = 12 * (i / 10);
-                const double flux = deposited(irradiance, receiver, x, y, x + 12, y + 12);
-                worst = std::max(worst, std::abs(flux - 1.0));
-            }
-            lab.expectDeviation(
-                node.subject,
-                fmt::format("worst sum of weights, less 1, for beams {} pixels wide "
-                            "at 100 offsets",
-                            footprint / pixel),
-                worst, kWeights);
-        }
+        expectKernelWeights(lab, node, {}, "");
         std::vector<BenchPhoton> border;
         for (int i = 0; i < 60; ++i)
             border.push_back(
@@ -151,6 +128,26 @@ void grazingEdgeAndOccluder(Lab& lab) {
     }
 }
 
+void manyDepositsInOnePixel(Lab& lab) {
+    // 2^21, which is what fits; a plain sum of 32-bit floats is 6 % off there, and worse from there
+    // to 2^25.
+    const scene::Scene scene = makeScene({}, kSun + facingPlane("wall", "grey", 60, {0, 0, -10}));
+    constexpr int kDeposits = 1 << 21;
+    BenchPhoton photon = landing({0, 0, -10}, {0, 0, 1}, {0, 0, -1}, 0.01);
+    photon.fluxWatts = glm::dvec3(0.1);
+    const std::vector<BenchPhoton> photons(kDeposits, photon);
+    for (const Lab::Choice& node : lab.each<ReconstructStage>()) {
+        const Frame frame = reconstructHits(lab, node, scene, photons, {}, {1, 1});
+        const double flux = 0.1 * kDeposits - account(frame, kAccountOffScreen);
+        lab.expect(node.subject, "flux of 2^21 deposits of 0.1 W in one pixel, W", flux,
+                   depositedEverywhere(frame), {1e-4 * flux, "1e-4, as the case asks for"});
+        lab.expect(node.subject, "share of it that is in the pixel", 1.0, flux / (0.1 * kDeposits),
+                   {0.1,
+                    "a splat of one pixel's radius on a picture of "
+                    "one: its rim may touch what is beside it"});
+    }
+}
+
 void pointLightGrid(Lab& lab) {
     // A square of water that a lamp sees at a half-angle of 30 degrees along its sides, all on the
     // screen.
@@ -182,6 +179,35 @@ void pointLightGrid(Lab& lab) {
 
 }  // namespace
 
+void expectKernelWeights(Lab& lab, const Lab::Choice& reconstruct, const Settings& settings,
+                         const std::string& what) {
+    const scene::Scene scene = makeScene({}, kSun + facingPlane("wall", "grey", 60, {0, 0, -10}));
+    const double pixel = 2.0 * kTangent * 10.0 / kSide;
+    for (const double footprint : {0.02 * pixel, 0.3 * pixel, 1.3 * pixel}) {
+        // One photon in every 12 x 12 pixels.
+        std::vector<BenchPhoton> photons;
+        for (int i = 0; i < 100; ++i) {
+            const double x = 12.0 * (i % 10) + 6.0 + 0.1 * (i % 10);
+            const double y = 12.0 * (i / 10) + 6.0 + 0.1 * (i / 10);
+            photons.push_back(landing(at(x, y, 10.0), {0, 0, 1}, {0.2, 0.1, -1}, footprint));
+        }
+        const Frame frame = reconstructHits(lab, reconstruct, scene, photons, settings);
+        const Texels irradiance = frame.read(frame.renderer().outputs().caustic.irradiance);
+        const Texels receiver = frame.read(frame.renderer().outputs().eye.receiver);
+        double worst = 0.0;
+        for (int i = 0; i < 100; ++i) {
+            const int x = 12 * (i % 10);
+            const int y = 12 * (i / 10);
+            worst = std::max(worst,
+                             std::abs(deposited(irradiance, receiver, x, y, x + 12, y + 12) - 1.0));
+        }
+        lab.expectDeviation(reconstruct.subject,
+                            fmt::format("worst sum of weights, less 1, of beams {} pixels wide{}",
+                                        footprint / pixel, what),
+                            worst, kWeights);
+    }
+}
+
 void addReconstructionCases(Suite& suite) {
     suite.add("D31",
               "A kernel keeps its flux at every offset and size; what the border clips is "
@@ -191,6 +217,7 @@ void addReconstructionCases(Suite& suite) {
               "A splat stays on its surface: at grazing angles, at an edge, behind an "
               "occluder.",
               grazingEdgeAndOccluder);
+    suite.add("D34", "Very many deposits in one pixel do not drift.", manyDepositsInOnePixel);
     suite.add("D34a", "The flux of a point light's texel is by its solid angle.", pointLightGrid);
 }
 
