@@ -108,7 +108,7 @@ TEST(Executor, AnOpenGlErrorFailsTheRunAndNamesThePass) {
 
 TEST(Executor, AMisspeltUniformIsAnError) {
     const std::string message = runPass<ShaderError>([](gl::PassContext& pass) {
-        pass.compute("tests/gpu/shaders/fresnel.comp").set("caseCuont", 1).dispatch(1);
+        pass.compute("numerics/fresnel.comp").set("caseCuont", 1).dispatch(1);
     });
     EXPECT_NE(message.find("caseCuont"), std::string::npos) << message;
 }
