@@ -19,7 +19,9 @@ vec3 surfaceAlbedo(uint material, vec2 uv) {
     vec2 p = uv * data.uv.xy;
     // Derivatives of what was interpolated only: where a triangle covers a part of a 2x2 block, the
     // other pixels' reads from buffers may give nothing.
-    vec2 width = fwidth(uv) * abs(data.uv.xy);
+    vec2 alongX = dFdx(uv) * data.uv.xy;
+    vec2 alongY = dFdy(uv) * data.uv.xy;
+    vec2 width = abs(alongX) + abs(alongY);
     vec3 albedo = data.albedo.rgb;
     uint pattern = uint(data.patternAlbedo.w);
     if (pattern == 1u) {
@@ -31,7 +33,9 @@ vec3 surfaceAlbedo(uint material, vec2 uv) {
         vec2 tile = vec2(filteredStep(p.x, joint, width.x), filteredStep(p.y, joint, width.y));
         albedo = mix(data.patternAlbedo.rgb, albedo, tile.x * tile.y);
     }
-    if (data.uv.z >= 0.0) albedo *= texture(sceneImages, vec3(p, data.uv.z)).rgb;
+    if (data.uv.z >= 0.0) {
+        albedo *= textureGrad(sceneImages, vec3(p, data.uv.z), alongX, alongY).rgb;
+    }
     return albedo;
 }
 

@@ -102,6 +102,71 @@ TEST(GlossyReceivers, WithoutSpecularReflectanceLookLambertian) {
     EXPECT_GT(largest, 1.0f);
 }
 
+// The same place for the same uv as in the reference (tests/accuracy/glossy_test.cpp): (0, 0) is
+// the image's lower left.
+TEST(GlossyReceivers, WearTheirImageAsTheReferenceDoes) {
+    const TemporaryFolder folder;
+    // Red grows to the right, green upwards.
+    Image image(64, 32, 3);
+    for (int y = 0; y < 32; ++y) {
+        for (int x = 0; x < 64; ++x) {
+            image.at(x, y, 0) = (static_cast<float>(x) + 0.5f) / 64.0f;
+            image.at(x, y, 1) = 1.0f - (static_cast<float>(y) + 0.5f) / 32.0f;
+            image.at(x, y, 2) = 0.5f;
+        }
+    }
+    writeImage(folder / "floor.pfm", image);
+    writeFileWhole(folder / "scene.toml", R"(
+        [camera]
+        position = [0, 3, 0]
+        up = [0, 0, -1]
+        [[material]]
+        name = "printed"
+        type = "glossy"
+        albedo = [0.5, 0.8, 0.5]
+        specular = 0.2
+        texture = "floor.pfm"
+        uv_scale = 0.5
+        [[object]]
+        name = "floor"
+        shape = "plane"
+        material = "printed"
+        size = [2, 2]
+    )");
+    const scene::Scene scene = scene::loadSceneFile(folder / "scene.toml");
+    const Frame frame(scene, 128, 128, {}, {"eye.receiver_albedo"});
+    const Texels receiver = frame.read("eye.receiver");
+    const Texels albedo = frame.read("eye.receiver_albedo");
+    // The plane's uv in metres, from its mesh.
+    const scene::Mesh& mesh = scene.meshes[0];
+    const auto uvAt = [&](const glm::dvec3& world) {
+        glm::dvec2 uv(mesh.uvs[0]);
+        for (std::size_t i = 1; i < mesh.positions.size(); ++i) {
+            const glm::dvec3 side(mesh.positions[i] - mesh.positions[0]);
+            if (side.x != 0.0 && side.z != 0.0) continue;  // the far corner
+            uv += glm::dvec2(mesh.uvs[i] - mesh.uvs[0]) *
+                  glm::dot(world - glm::dvec3(mesh.positions[0]), side) / glm::dot(side, side);
+        }
+        return uv;
+    };
+    int tested = 0;
+    for (int y = 0; y < 128; ++y) {
+        for (int x = 0; x < 128; ++x) {
+            const auto depth = static_cast<double>(receiver.at(x, y, 0));
+            if (depth <= 0.0) continue;
+            const glm::dvec2 at = 0.5 * uvAt(frame.worldAt(x, y, depth));
+            // Away from the edges, where the image begins again.
+            if (glm::min(at.x, at.y) < 0.1 || glm::max(at.x, at.y) > 0.9) continue;
+            ++tested;
+            // 11 bits in the image and in the eye buffer, and filters of 8 bits.
+            EXPECT_NEAR(albedo.at(x, y, 0), 0.5 * at.x, 2e-3);
+            EXPECT_NEAR(albedo.at(x, y, 1), 0.8 * at.y, 2e-3);
+            EXPECT_NEAR(albedo.at(x, y, 2), 0.25, 2e-3);
+        }
+    }
+    EXPECT_GT(tested, 3000);
+}
+
 class TexturedSpot : public testing::Test {
   protected:
     // A spot above an interface that bends nothing, above a floor; only the interface's half x < 0
