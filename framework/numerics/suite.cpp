@@ -77,7 +77,7 @@ std::vector<Case> selectCases(const Suite& suite, const std::vector<std::string>
             ids.begin(), ids.end(), [&](const std::string& id) { return matches(pattern, id); });
         if (isThere) continue;
         const std::string suggestion = didYouMean(pattern, ids);
-        throw ConfigError(fmt::format("there is no case '{}'{} The cases are {}", pattern,
+        throw ConfigError(fmt::format("there is no case '{}'{} The cases are {}.", pattern,
                                       suggestion.empty() ? "." : suggestion, joinNames(ids)));
     }
     std::vector<Case> selected;

@@ -3,6 +3,7 @@
 // at the origin that looks down -Z.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "framework/numerics/cases/common_cases.h"
 #include "framework/numerics/cases/scene_text.h"
@@ -79,7 +80,7 @@ void planesApart(Lab& lab) {
     // steps more: the distance that every pixel resolves is what the row states.
     const double step = std::exp2(-17.0);
     for (const Lab::Choice& node : lab.each<LayersStage>()) {
-        double resolved = 0.0;
+        double resolved = std::numeric_limits<double>::infinity();
         double worst = 0.0;
         for (const int steps : {64, 32, 16, 8, 4}) {
             const scene::Scene scene =
