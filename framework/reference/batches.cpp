@@ -67,6 +67,8 @@ class Run {
         if (count >= stop.minimumBatches && count % kErrorEvery == 0)
             relativeError_ = sums_.relativeStandardError(0);
         bool isDone = stop.relativeError && relativeError_ <= *stop.relativeError;
+        // Without light or specular surfaces no batch will ever send out a photon.
+        isDone = isDone || (sums_.photons() == 0 && count >= kBatchesForAnError);
         isDone = isDone || (stop.photons && sums_.photons() >= *stop.photons);
         isDone = isDone || (stop.seconds && secondsSince(start_) >= *stop.seconds);
         if (options_.progress) {
@@ -87,6 +89,7 @@ class Run {
 
   private:
     static constexpr std::uint64_t kErrorEvery = 4;
+    static constexpr std::uint64_t kBatchesForAnError = 2;
 
     [[nodiscard]] bool sumsHeldAtStart(std::uint64_t batch) const {
         return std::any_of(held_.begin(), held_.end(), [&](const BatchRange& range) {
