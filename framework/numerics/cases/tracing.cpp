@@ -17,7 +17,7 @@ using namespace transport;
 constexpr double kFootprintPerMeter = 2.0 * 0.57735026918962576 / 128.0;
 
 // The hit on a plane lies where the ray meets the plane that the pixel holds.
-const Tolerance kOnPlane{1e-4,
+const Tolerance kOnPlane{2e-5,
                          "t comes from a 32-bit depth of some 10 m (1e-6 m) and a 32-bit "
                          "normal, along rays that close in on the plane with a cosine of 0.1 "
                          "or more"};
