@@ -4,6 +4,7 @@
 // a kernel of few pixels does not sum to 1). The part hidden from the eye or off the screen goes to
 // the ledger; the part that hangs off the surface's edge is redistributed on it. One thread a photon.
 #include "common/ledger.glsl"
+#include "common/surface_data.glsl"
 #include "screen_space_photons/sprite.glsl"
 
 layout(local_size_x = 64) in;
@@ -15,6 +16,11 @@ uniform sampler2D hitPosition;
 uniform sampler2D hitSurface;
 uniform sampler2D hitFlux;
 
+// Whether the eye looks at the side of the surface on which light arrives.
+bool seesLitSide(Sprite sprite) {
+    return (dot(sprite.normal, sprite.center) < 0.0) == (dot(sprite.normal, sprite.direction) < 0.0);
+}
+
 void main() {
     ivec2 mapSize = textureSize(hitFlux, 0);
     int index = int(gl_GlobalInvocationID.x);
@@ -25,10 +31,16 @@ void main() {
         imageStore(spriteWeights, texel, vec4(0.0));
         return;
     }
+    vec4 surface = texelFetch(hitSurface, texel, 0);
     Sprite sprite;
     sprite.center = texelFetch(hitPosition, texel, 0).xyz;
-    sprite.normal = texelFetch(hitSurface, texel, 0).xyz;
+    sprite.normal = surface.xyz;
     sprite.direction = texelFetch(photonDirection, texel, 0).xyz;
+    if (isOpen(uint(surface.w) - 1u) && !seesLitSide(sprite)) {
+        ledgerAdd(kAccountOccludedSplat, flux.rgb);
+        imageStore(spriteWeights, texel, vec4(0.0));
+        return;
+    }
     float wanted = reconstruct_sprites_radius > 0.0
                        ? reconstruct_sprites_radius
                        : reconstruct_sprites_footprints * texelFetch(photonPosition, texel, 0).w;

@@ -84,6 +84,7 @@ Weights sumWeights(FrameBuilder& frame, const SpritesParams& params, Hits hits, 
             inputs.bindView(command);
             inputs.bindLedger(command, data.ledger)
                 .params("reconstruct.sprites", params)
+                .storage("Materials", inputs.gpuScene.materials())
                 .image("spriteWeights", data.weights)
                 .texture("receiver", data.eye.receiver)
                 .texture("receiverSurface", data.eye.receiverSurface)

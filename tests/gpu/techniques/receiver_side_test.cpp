@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// A sheet shows only the side that the eye looks at: light that arrives at its back lights nothing
+// that is seen, and is in the ledger as occluded.
+#include "tests/gpu/fixture.h"
+
+namespace kaustik::test {
+namespace {
+
+using namespace transport;
+
+// Light from below through still water onto a sheet one metre above it.
+scene::Scene litFromBelow(const std::string& eye) {
+    return sceneFromText(R"(
+name = "sheet"
+[camera]
+position = )" + eye + R"(
+target = [0, 1, 0]
+up = [0, 0, -1]
+[[light]]
+name = "lamp"
+type = "directional"
+direction = [0, 1, 0]
+irradiance = 1000
+[[material]]
+name = "chalk"
+type = "lambertian"
+albedo = 0.5
+[[material]]
+name = "water"
+type = "dielectric"
+ior = 1.333
+[[object]]
+name = "sheet"
+shape = "plane"
+material = "chalk"
+size = [4, 4]
+position = [0, 1, 0]
+[[object]]
+name = "water"
+shape = "water"
+material = "water"
+size = [1, 1]
+cells = [4, 4]
+)");
+}
+
+double brightest(const Texels& irradiance) {
+    float most = 0.0f;
+    for (const float value : irradiance.values)
+        most = std::max(most, value);
+    return static_cast<double>(most);
+}
+
+TEST(ReceiverSide, ThatIsLitIsSeenFromWhereTheLightComesFrom) {
+    const scene::Scene scene = litFromBelow("[0, -2, 0.01]");
+    const Frame frame(scene, 120, 90, {{"emit.photons", "64x64"}});
+    EXPECT_GT(brightest(frame.causticIrradiance()), 900.0);
+}
+
+TEST(ReceiverSide, ThatIsDarkStaysDark) {
+    const scene::Scene scene = litFromBelow("[0, 4, 0.01]");
+    const Frame frame(scene, 120, 90, {{"emit.photons", "64x64"}});
+    EXPECT_EQ(brightest(frame.causticIrradiance()), 0.0);
+    const EnergyLedger ledger = frame.renderer().ledger();
+    EXPECT_GT(ledger.watts[kAccountArrived], 0.0);
+    // Both are sums of the same photons in the same fixed point.
+    EXPECT_EQ(ledger.watts[kAccountOccludedSplat], ledger.watts[kAccountArrived]);
+}
+
+}  // namespace
+}  // namespace kaustik::test
