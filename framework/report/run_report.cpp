@@ -30,6 +30,7 @@ json needsJson(const scene::SceneNeeds& needs, const LayerStatistics& layers) {
     return {{"specular_interfaces", needs.specularInterfaces},
             {"reflectors", needs.reflectors},
             {"refractors", needs.refractors},
+            {"closed_dielectrics", needs.closedDielectrics},
             {"medium", needs.medium},
             {"glossy_receivers", needs.glossyReceivers},
             {"animated", needs.animated},

@@ -34,6 +34,7 @@ SceneNeeds sceneNeeds(const Scene& scene) {
             case MaterialKind::dielectric:
                 ++needs.refractors;
                 needs.specularInterfaces += mesh.closed ? 2 : 1;
+                needs.closedDielectrics = needs.closedDielectrics || mesh.closed;
                 break;
             case MaterialKind::mirror:
                 if (needs.reflectors++ == 0) ++needs.specularInterfaces;

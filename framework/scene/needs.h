@@ -12,11 +12,12 @@ struct SceneNeeds {
     // together 1. Repeated reflections, between mirrors or inside a dielectric, are not counted;
     // a technique's own bounce limit says how many it follows.
     int specularInterfaces = 0;
-    int reflectors = 0;            // objects that are mirrors
-    int refractors = 0;            // objects that are dielectrics
-    bool medium = false;           // one that scatters or absorbs
-    bool glossyReceivers = false;  // a receiver is not Lambertian alone
-    bool animated = false;         // a height field has a wave that moves
+    int reflectors = 0;              // objects that are mirrors
+    int refractors = 0;              // objects that are dielectrics
+    bool closedDielectrics = false;  // one of these bounds a volume: glass, not a water surface
+    bool medium = false;             // one that scatters or absorbs
+    bool glossyReceivers = false;    // a receiver is not Lambertian alone
+    bool animated = false;           // a height field has a wave that moves
     int lights = 0;
     bool receivers = false;            // a diffuse or glossy surface that light ends on
     int measuredDepthComplexity = -1;  // most layers behind one pixel; -1 until a renderer counts

@@ -29,8 +29,11 @@ void main() {
     uint media = uint(texelFetch(photonFlux, texel, 0).w);
     TracedRay ray = TracedRay(rayOrigin, rayDirection, media);
     LayerHit hit = testStep(segment, ray, i, steps);
-    bool isExit = hit.layer < 0 && trace_test == trace_test_crossing;
+    bool isExit = false;
+#ifdef CLOSED_DIELECTRICS
+    isExit = hit.layer < 0 && trace_test == trace_test_crossing;
     if (isExit) hit = testExit(segment, ray, i, steps);
+#endif
     if (hit.layer < 0) discard;
     rowTexel = packRowTexel(hit, isExit ? i - 1 : i, isExit);
 }

@@ -81,6 +81,7 @@ RowTextures rasterizeLines(FrameBuilder& frame, const LinesParams& params, const
     };
     const auto trace = frame.params<TraceParams>("trace");
     const int run = frame.runsOf(TraceStage::name);
+    const bool hasInside = frame.needs().closedDielectrics;
     return frame
         .pass<Data>(
             "trace.lines",
@@ -101,11 +102,13 @@ RowTextures rasterizeLines(FrameBuilder& frame, const LinesParams& params, const
                     data.textures.extents = setup.write(textures.extents);
                 }
             },
-            [&inputs = frame.inputs(), params, trace, layout, batch](const Data& data,
-                                                                     gl::PassContext& context) {
+            [&inputs = frame.inputs(), params, trace, layout, batch, hasInside](
+                const Data& data, gl::PassContext& context) {
                 if (batch == 0) context.buffer(data.textures.extents).clear();
                 gl::Command command = context.shaders(
                     {"screen_space_photons/lines.vert", "screen_space_photons/lines.frag"});
+                // A silhouette can hide a way out only of what has an inside.
+                if (hasInside) command.define("CLOSED_DIELECTRICS");
                 inputs.bindView(command)
                     .params("trace", trace)
                     .params("trace.lines", params)
