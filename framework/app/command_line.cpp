@@ -58,7 +58,8 @@ std::string parseProblem(const CLI::App& app, const CLI::ParseError& error, int 
                          const char* const* argv) {
     const std::string text = error.what();
     if (dynamic_cast<const CLI::ConversionError*>(&error) != nullptr) {
-        return fmt::format("This is not a whole number{}.", text.substr(text.find(':')));
+        return fmt::format("This is not a number, or not a whole one{}.",
+                           text.substr(text.find(':')));
     }
     std::vector<std::string> commands;
     for (const CLI::App* command : app.get_subcommands({}))
@@ -174,7 +175,9 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry) 
         ->add_option("--interactions", reference.interactions,
                      "Most specular interactions of a photon")
         ->capture_default_str();
-    referenceApp->add_option("--out", reference.out, "The .exr that is written");
+    referenceApp->add_flag("--caustic-view", reference.causticView,
+                           "Also what the eye sees of it through and in specular surfaces (sppm)");
+    referenceApp->add_option("--out", reference.out, "The .exr or .pfm that is written");
 
     CompareOptions compare;
     CLI::App* compareApp =

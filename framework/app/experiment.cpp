@@ -86,6 +86,11 @@ void drawReport(const ExperimentOptions& options) {
             "'experiment run'.");
     }
     const fs::path folder = options.target;
+    if (fs::is_regular_file(folder / "numerics.md")) {
+        throw ConfigError(
+            fmt::format("{} holds the table of hard cases, which needs no figures: {}.",
+                        folder.string(), (folder / "numerics.md").string()));
+    }
     if (!fs::is_regular_file(folder / "runs.csv")) {
         throw ConfigError(
             fmt::format("{} holds no runs.csv; 'kaustik experiment run SPEC.toml "

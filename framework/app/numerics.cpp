@@ -3,11 +3,13 @@
 // table.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
 #include "framework/app/commands.h"
 #include "framework/app/numerics.h"
+#include "framework/app/output.h"
 #include "framework/app/progress.h"
 #include "framework/core/error.h"
 #include "framework/core/files.h"
@@ -40,6 +42,7 @@ void runSuite(const ExperimentOptions& options, const experiment::Spec& spec,
     table.cases = chosenCases(suite, spec);
     const fs::path out = options.out.empty() ? fs::path("results/runs/experiments") / spec.name
                                              : fs::path(options.out);
+    requireWritable(out);
     const std::unique_ptr<gl::Context> context = gl::Context::createHeadless();
     table.device = context->info().renderer;
     numerics::Lab lab(*context, registry, suite);

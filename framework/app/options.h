@@ -42,6 +42,7 @@ struct ReferenceOptions {
     int threads = 0;  // 0: all
     bool transmissionOnly = false;
     int interactions = 64;
+    bool causticView = false;
     std::string out;  // "" for results/references/<scene>-<estimator>-<size>.exr
 };
 

@@ -33,7 +33,7 @@ void Progress::update(int done) {
 }
 
 void Progress::updateShare(double share, const std::string& reached) {
-    if (share > 0.0 && share <= 1.0) print(share, reached);
+    if (share >= 0.0 && share <= 1.0) print(share, reached);
 }
 
 void Progress::print(double share, const std::string& reached) {
@@ -41,8 +41,8 @@ void Progress::print(double share, const std::string& reached) {
     const double elapsed = std::chrono::duration<double>(now - begin_).count();
     const double sinceLast = std::chrono::duration<double>(now - last_).count();
     if (!isTerminal_ && (sinceLast < kSecondsBetweenPlainLines || share >= 1.0)) return;
-    const std::string text =
-        fmt::format("{} {}, about {:.0f} s left", what_, reached, elapsed / share * (1.0 - share));
+    std::string text = fmt::format("{} {}", what_, reached);
+    if (share > 0.0) text += fmt::format(", about {:.0f} s left", elapsed / share * (1.0 - share));
     if (isTerminal_) {
         fmt::print(stderr, "\r\033[K{}", text);
         std::fflush(stderr);

@@ -2,6 +2,8 @@
 // kaustik reference: computes the ray-traced truth of a scene, or goes on with it.
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "framework/app/commands.h"
 #include "framework/app/output.h"
 #include "framework/core/error.h"
@@ -67,6 +69,9 @@ ReferenceRequest requestOf(const ReferenceOptions& options) {
             fmt::format("--interactions: {} is not from 1 to 1000.", options.interactions));
     }
     request.filter.maximumInteractions = options.interactions;
+    request.causticView = options.causticView;
+    if (request.causticView && request.estimator != Estimator::sppm)
+        throw ConfigError("--caustic-view: only --estimator sppm sees through specular surfaces.");
     return request;
 }
 
@@ -75,8 +80,12 @@ void print(const Reference& result, const fs::path& file) {
     fmt::print("{}, {}x{}, {} photons in {} batches, {:.1f} s\n", result.scene,
                result.request.width, result.request.height, result.photons, result.batches,
                result.seconds);
-    fmt::print("standard error {:.3f} % of the mean of a lit pixel\n",
-               100.0 * result.relativeError);
+    if (std::isfinite(result.relativeError)) {
+        fmt::print("standard error {:.3f} % of the mean of a lit pixel\n",
+                   100.0 * result.relativeError);
+    } else {
+        fmt::print("no pixel is lit, so there is no standard error to give\n");
+    }
     fmt::print("emitted {:.5g} W, deposited {:.5g} W ({:.5g} W in the picture), balance {:.1e}\n",
                watts[transport::kAccountEmitted], watts[transport::kAccountDeposited],
                result.energy.visibleWatts, result.energy.balance());

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -54,11 +55,22 @@ Reference readFor(const std::string& file, const Renderer& renderer) {
                         file, request.width, request.height, settings.width, settings.height,
                         request.width, request.height));
     }
-    if (found.key != referenceKey(renderer.scene(), request)) {
+    const scene::Scene& scene = renderer.scene();
+    if (found.key != referenceKey(scene, request)) {
         throw ConfigError(fmt::format(
             "--reference: {} is of another scene ('{}') or of this one as it was at another time "
-            "or before a change; 'kaustik reference {}' makes one that fits.",
-            file, found.scene, renderer.scene().name));
+            "or before a change; 'kaustik reference {} --size {}x{} --time {}' makes one that "
+            "fits.",
+            file, found.scene, scene.file.string(), settings.width, settings.height,
+            scene.timeSeconds));
+    }
+    const reference::PathFilter all;
+    if (request.filter.transmissionOnly ||
+        request.filter.maximumInteractions < all.maximumInteractions) {
+        throw ConfigError(fmt::format(
+            "--reference: {} follows only a part of the paths of light; a run is judged "
+            "by all of them, and with 'auto' also by those that it models.",
+            file));
     }
     return found;
 }
@@ -118,17 +130,30 @@ measure::ImagePair pairOf(const Outputs& outputs, const Output& output, const Re
                                .imageName = output.name});
 }
 
-// Every output's errors against one reference; what that does not have is left out.
+// Every output's errors against one reference; what that does not have is left out. An output that
+// holds values that are no numbers has no errors, but a reason.
 json errorsAgainst(const Outputs& outputs, const Reference& truth) {
-    json result = {{"reference_relative_stderr", truth.relativeError},
+    json result = {{"reference_estimator",
+                    truth.request.estimator == reference::Estimator::light ? "light" : "sppm"},
                    {"reference_photons", truth.photons},
                    {"reference_key", truth.key}};
+    if (std::isfinite(truth.relativeError)) {
+        result["reference_relative_stderr"] = truth.relativeError;
+    } else {
+        result["reference_relative_stderr"] = nullptr;
+        result["reasons"]["reference_relative_stderr"] = "no pixel of the reference is lit";
+    }
     for (const Output& output : outputs.images) {
         if ((truth.*output.truth).values.empty()) continue;
-        const measure::ImageErrors errors = measureErrors(pairOf(outputs, output, truth));
-        result[output.name] = measure::toJson(errors);
-        if (&output == &outputs.images.front())
-            result["reference_stderr"] = errors.truthNoise ? errors.truthNoise->rmse : 0.0;
+        try {
+            const measure::ImageErrors errors = measureErrors(pairOf(outputs, output, truth));
+            result[output.name] = measure::toJson(errors);
+            if (&output == &outputs.images.front())
+                result["reference_stderr"] = errors.truthNoise ? errors.truthNoise->rmse : 0.0;
+        } catch (const IoError& error) {
+            result[output.name] = nullptr;
+            result["reasons"][output.name] = error.what();
+        }
     }
     return result;
 }
@@ -200,11 +225,15 @@ std::vector<fs::path> Truth::judge(const Renderer& renderer, const fs::path& fol
     record.error = {{"reference", loaded_->name}};
     if (!outputs.seesReceivers) {
         record.error["caustic_irradiance"] = nullptr;
-        record.error["reason"] = "no pixel of this view sees a receiver";
+        record.error["reasons"]["caustic_irradiance"] = "no pixel of this view sees a receiver";
         return files;
     }
     record.error.update(errorsAgainst(outputs, loaded_->whole));
-    write("error" + displayImageExtension(), errorPicture(outputs, loaded_->whole));
+    if (record.error.at("caustic_irradiance").is_null()) {
+        record.warnings.push_back(record.error.at("reasons").at("caustic_irradiance"));
+    } else {
+        write("error" + displayImageExtension(), errorPicture(outputs, loaded_->whole));
+    }
     if (loaded_->modelled) {
         json modelled = errorsAgainst(outputs, *loaded_->modelled);
         modelled["transmission_only"] = loaded_->paths.transmissionOnly;

@@ -31,24 +31,30 @@ std::vector<TracedPhoton> readTrace(const Renderer& renderer, const TraceRecord&
     const std::vector<float> flux = renderer.texture(photons.flux).read();
     const std::vector<float> hitPosition = renderer.texture(trace.hits.position).read();
     const std::vector<float> hitFlux = renderer.texture(trace.hits.flux).read();
-    const auto fateOf = [](const std::vector<float>& texels, std::size_t i) {
-        return static_cast<unsigned>(texels[4 * i + 3]);
+    // A word of the transfer map; what is none is counted among what is not a number.
+    constexpr unsigned kNoWord = ~0u;
+    const auto wordAt = [](const std::vector<float>& texels, std::size_t i) {
+        const float word = texels[4 * i + 3];
+        return word >= 0.0f && word < 4.2e9f ? static_cast<unsigned>(word) : kNoWord;
     };
     std::vector<TracedPhoton> traced;
     for (std::size_t i = 0; i < static_cast<std::size_t>(photons.count()); ++i) {
-        if (fateOf(direction, i) != kFateInFlight) continue;
+        const unsigned fate = wordAt(direction, i);
+        if (fate == kNoWord) ++notANumber;
+        if (fate != kFateInFlight) continue;
         TracedPhoton one;
         one.photon.position = xyz(position, i);
         one.photon.direction = xyz(direction, i);
-        one.photon.media = static_cast<std::uint32_t>(flux[4 * i + 3]);
+        one.photon.media = wordAt(flux, i);
         // Seen at a slant a pixel resolves less; the tracer takes its extent in depth too.
         one.photon.reachMeters =
             2.0 * renderer.view().footprintPerMeter() * std::abs(one.photon.position.z);
         one.fluxWatts = xyz(flux, i);
-        if (fateOf(hitFlux, i) == kFateReceiver || fateOf(hitFlux, i) == kFateSpecular)
+        const unsigned found = wordAt(hitFlux, i);
+        if (found == kFateReceiver || found == kFateSpecular || found == kNoWord)
             one.found = xyz(hitPosition, i);
         const bool isNumber = isFinite(one.photon.position) && isFinite(one.photon.direction) &&
-                              isFinite(one.fluxWatts) && (!one.found || isFinite(*one.found));
+                              isFinite(one.fluxWatts) && one.photon.media != kNoWord;
         if (!isNumber) {
             ++notANumber;
             continue;
@@ -96,6 +102,7 @@ const char* nameOf(Sight sight) {
 }
 
 const char* falseHitName(const PhotonFate& fate) {
+    if (fate.verdict == Verdict::notANumber) return "not_a_number";
     if (fate.verdict == Verdict::displaced) return "displaced";
     if (fate.verdict == Verdict::tooNear) return "too_near";
     return nameOf(fate.sight);  // no surface at all, or why the exact hit was passed
@@ -109,7 +116,7 @@ class Counter {
             audit_.missed[nameOf(sight)] = 0;
             audit_.falseHits[nameOf(sight)] = 0;
         }
-        for (const char* cause : {"no_surface", "displaced", "too_near"})
+        for (const char* cause : {"no_surface", "displaced", "too_near", "not_a_number"})
             audit_.falseHits[cause] = 0;
     }
 
@@ -135,7 +142,9 @@ class Counter {
         } else {
             ++audit_.falseHits[falseHitName(fate)];
         }
-        const auto pixel = pixelOf(view_, traced.found ? *traced.found : exact.position);
+        const bool isPlaced = traced.found && fate.verdict != Verdict::notANumber;
+        if (!isPlaced && !exact.exists()) return;
+        const auto pixel = pixelOf(view_, isPlaced ? *traced.found : exact.position);
         if (pixel) audit_.wrong.push_back({*pixel, fate.verdict});
     }
 
@@ -158,27 +167,37 @@ Layers readLayers(const Renderer& renderer) {
     return {texture.desc().width, texture.desc().height, layers.layers, texture.read()};
 }
 
-double share(std::uint64_t part, std::uint64_t whole) {
-    return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 1.0;
+std::optional<double> share(std::uint64_t part, std::uint64_t whole) {
+    if (whole == 0) return std::nullopt;
+    return static_cast<double>(part) / static_cast<double>(whole);
+}
+
+PhotonFate judge(const render::EyeView& view, const Layers& layers, const TracedPhoton& traced,
+                 const reference::FirstHit& exact) {
+    const bool isNumber = !traced.found || isFinite(*traced.found);
+    PhotonFate fate = judgeFate(view, layers, traced.photon.position,
+                                isNumber ? traced.found : std::nullopt, exact);
+    if (!isNumber) fate.verdict = Verdict::notANumber;
+    return fate;
 }
 
 }  // namespace
 
-Quantiles quantilesOf(std::vector<double> samples) {
-    if (samples.empty()) return {};
+std::optional<Quantiles> quantilesOf(std::vector<double> samples) {
+    if (samples.empty()) return std::nullopt;
     std::sort(samples.begin(), samples.end());
     const auto rank = [&](double share) {
         const double index = std::ceil(share * static_cast<double>(samples.size()));
         return samples[static_cast<std::size_t>(std::max(index, 1.0)) - 1];
     };
-    return {rank(0.5), rank(0.95), rank(0.99), samples.back()};
+    return Quantiles{rank(0.5), rank(0.95), rank(0.99), samples.back()};
 }
 
-double HitAudit::agreement() const {
+std::optional<double> HitAudit::agreement() const {
     return share(right, photons);
 }
 
-double HitAudit::agreementVisible() const {
+std::optional<double> HitAudit::agreementVisible() const {
     return share(rightVisible, visible);
 }
 
@@ -197,9 +216,7 @@ HitAudit auditHits(const Renderer& renderer, const reference::EmbreeScene& scene
         const std::vector<reference::FirstHit> exact =
             reference::exactFirstHits(scene, photons, viewToWorld, threads);
         for (std::size_t i = 0; i < traced.size(); ++i) {
-            counter.add(
-                traced[i], exact[i],
-                judgeFate(view, layers, traced[i].photon.position, traced[i].found, exact[i]));
+            counter.add(traced[i], exact[i], judge(view, layers, traced[i], exact[i]));
         }
     }
     counter.finish();

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,14 +17,15 @@
 
 namespace kaustik::audit {
 
-// Median, 95th and 99th percentile by the nearest rank, and the maximum; 0 without samples.
+// Median, 95th and 99th percentile by the nearest rank, and the maximum.
 struct Quantiles {
     double median = 0.0;
     double percentile95 = 0.0;
     double percentile99 = 0.0;
     double maximum = 0.0;
 };
-[[nodiscard]] Quantiles quantilesOf(std::vector<double> samples);
+// Nothing without samples.
+[[nodiscard]] std::optional<Quantiles> quantilesOf(std::vector<double> samples);
 
 // A photon with the wrong fate, for the picture: where it should be, or is where it should not.
 struct WrongPhoton {
@@ -32,14 +34,14 @@ struct WrongPhoton {
 };
 
 struct HitAudit {
-    std::uint64_t photons = 0;       // that were traced, of all tracings of the frame
-    std::uint64_t notANumber = 0;    // not among them
-    std::uint64_t exactHits = 0;     // photons that have a first hit
-    std::uint64_t visible = 0;       // photons whose first hit the screen could show
-    std::uint64_t right = 0;         // of all
-    std::uint64_t rightVisible = 0;  // of those that are visible
-    Quantiles meters;                // from the exact hit, where there are both
-    Quantiles pixels;
+    std::uint64_t photons = 0;        // that were traced, of all tracings of the frame
+    std::uint64_t notANumber = 0;     // photons that are none themselves; not among them
+    std::uint64_t exactHits = 0;      // photons that have a first hit
+    std::uint64_t visible = 0;        // photons whose first hit the screen could show
+    std::uint64_t right = 0;          // of all
+    std::uint64_t rightVisible = 0;   // of those that are visible
+    std::optional<Quantiles> meters;  // from the exact hit, where there are both
+    std::optional<Quantiles> pixels;
     std::uint64_t unplaced = 0;  // pairs of hits of which one is not before the eye: no pixels
     std::map<std::string, std::uint64_t> missed;     // by cause
     std::map<std::string, std::uint64_t> falseHits;  // by cause
@@ -48,15 +50,16 @@ struct HitAudit {
     std::array<std::uint64_t, transport::kAccountCount> missedPhotons{};
     std::vector<WrongPhoton> wrong;
 
-    [[nodiscard]] double agreement() const;
-    [[nodiscard]] double agreementVisible() const;
+    // Nothing where there is no photon to judge.
+    [[nodiscard]] std::optional<double> agreement() const;
+    [[nodiscard]] std::optional<double> agreementVisible() const;
 };
 
 // Of the frame that `renderer` has rendered for Purpose::audit. `scene`: the same one.
 [[nodiscard]] HitAudit auditHits(const Renderer& renderer, const reference::EmbreeScene& scene,
                                  int threads = 0);
 
-// The `hits` of report.json.
+// The `hits` of report.json; null, with a reason, for what there is not.
 [[nodiscard]] nlohmann::json toJson(const HitAudit& audit);
 
 // The ledger of that frame with what the tracers could not tell apart told apart, and with what the

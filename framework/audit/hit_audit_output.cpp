@@ -22,25 +22,36 @@ glm::vec3 colorOf(Verdict verdict) {
 }  // namespace
 
 nlohmann::json toJson(const HitAudit& audit) {
-    return {{"agreement", audit.agreement()},
-            {"agreement_visible", audit.agreementVisible()},
-            {"photons", audit.photons},
-            {"exact_hits", audit.exactHits},
-            {"visible", audit.visible},
-            {"right", audit.right},
-            {"right_visible", audit.rightVisible},
-            {"nan", audit.notANumber},
-            {"median_m", audit.meters.median},
-            {"p95_m", audit.meters.percentile95},
-            {"p99_m", audit.meters.percentile99},
-            {"max_m", audit.meters.maximum},
-            {"median_px", audit.pixels.median},
-            {"p95_px", audit.pixels.percentile95},
-            {"p99_px", audit.pixels.percentile99},
-            {"max_px", audit.pixels.maximum},
-            {"unplaced", audit.unplaced},
-            {"false_hits", audit.falseHits},
-            {"missed", audit.missed}};
+    nlohmann::json result = {{"photons", audit.photons},
+                             {"exact_hits", audit.exactHits},
+                             {"visible", audit.visible},
+                             {"right", audit.right},
+                             {"right_visible", audit.rightVisible},
+                             {"nan", audit.notANumber},
+                             {"unplaced", audit.unplaced},
+                             {"false_hits", audit.falseHits},
+                             {"missed", audit.missed}};
+    const auto set = [&](const std::string& key, const std::optional<double>& value,
+                         const char* reason) {
+        result[key] = value ? nlohmann::json(*value) : nlohmann::json();
+        if (!value) result["reasons"][key] = reason;
+    };
+    set("agreement", audit.agreement(), "no photon was traced");
+    set("agreement_visible", audit.agreementVisible(),
+        "the screen shows no photon's exact first hit");
+    const auto setAll = [&](const std::string& unit, const std::optional<Quantiles>& of) {
+        const auto value = [&](double Quantiles::*part) {
+            return of ? std::optional<double>((*of).*part) : std::nullopt;
+        };
+        const char* const reason = "no photon has both a hit and an exact one";
+        set("median_" + unit, value(&Quantiles::median), reason);
+        set("p95_" + unit, value(&Quantiles::percentile95), reason);
+        set("p99_" + unit, value(&Quantiles::percentile99), reason);
+        set("max_" + unit, value(&Quantiles::maximum), reason);
+    };
+    setAll("m", audit.meters);
+    setAll("px", audit.pixels);
+    return result;
 }
 
 Image wrongPhotonsPicture(const HitAudit& audit, const Image& display) {

@@ -32,6 +32,7 @@ enum class Verdict {
     displaced,  // a hit beside the exact one: within four pixels and four footprints of it
     tooNear,    // a hit before the exact one
     tooFar,     // a hit past the exact one
+    notANumber  // a hit, but not where
 };
 
 struct PhotonFate {

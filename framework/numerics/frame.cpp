@@ -14,10 +14,15 @@ namespace kaustik::numerics {
 scene::Scene sceneFromText(const std::string& toml) {
     const std::filesystem::path file = std::filesystem::temp_directory_path() /
                                        ("kaustik-scene-" + std::to_string(::getpid()) + ".toml");
+    struct Removed {
+        const std::filesystem::path& file;
+        ~Removed() {
+            std::error_code ignored;
+            std::filesystem::remove(file, ignored);
+        }
+    } const removed{file};
     std::ofstream(file) << toml;
-    scene::Scene scene = scene::loadSceneFile(file);
-    std::filesystem::remove(file);
-    return scene;
+    return scene::loadSceneFile(file);
 }
 
 double Texels::sum() const {

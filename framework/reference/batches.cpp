@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <limits>
 #include <memory>
 
@@ -69,6 +70,9 @@ class Run {
         bool isDone = stop.relativeError && relativeError_ <= *stop.relativeError;
         // Without light or specular surfaces no batch will ever send out a photon.
         isDone = isDone || (sums_.photons() == 0 && count >= kBatchesForAnError);
+        // Nor will an error ever be known where no pixel is lit.
+        isDone = isDone || (stop.relativeError && !stop.photons && !stop.seconds &&
+                            std::isinf(relativeError_) && count >= kBatchesForALitPixel);
         isDone = isDone || (stop.photons && sums_.photons() >= *stop.photons);
         isDone = isDone || (stop.seconds && secondsSince(start_) >= *stop.seconds);
         if (options_.progress) {
@@ -90,6 +94,7 @@ class Run {
   private:
     static constexpr std::uint64_t kErrorEvery = 4;
     static constexpr std::uint64_t kBatchesForAnError = 2;
+    static constexpr std::uint64_t kBatchesForALitPixel = 64;
 
     [[nodiscard]] bool sumsHeldAtStart(std::uint64_t batch) const {
         return std::any_of(held_.begin(), held_.end(), [&](const BatchRange& range) {

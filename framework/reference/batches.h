@@ -16,8 +16,10 @@ struct StopWhen {
     std::optional<std::uint64_t> batches;  // in all, those of earlier runs included
     std::optional<std::uint64_t> photons;  // in all, rounded up to whole batches
     std::optional<double> seconds;         // of this run
-    std::optional<double> relativeError;   // PixelSums::relativeStandardError of layer 0
-    std::uint64_t minimumBatches = 8;      // before the error is believed
+    // PixelSums::relativeStandardError of layer 0; where no pixel is lit after 64 batches it is
+    // given up, unless there is another end.
+    std::optional<double> relativeError;
+    std::uint64_t minimumBatches = 8;  // before the error is believed
 };
 
 struct Progress {

@@ -16,6 +16,7 @@ namespace fs = std::filesystem;
 
 // What is met first ends a run; so one that is met is enough.
 bool isGoodEnough(const Reference& reference, const StopWhen& stop) {
+    if (reference.photons == 0) return true;  // nothing is sent out: it is exact
     if (stop.batches && reference.batches >= *stop.batches) return true;
     if (stop.photons && reference.photons >= *stop.photons) return true;
     if (stop.relativeError && reference.relativeError <= *stop.relativeError) return true;

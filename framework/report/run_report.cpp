@@ -104,10 +104,14 @@ std::vector<double> bookkeepingSamples(const RunRecord& record) {
 // One line for each of hits and error.
 std::string truthTable(const RunRecord& record) {
     std::string table;
+    const auto orNone = [](const json& value, double factor, const char* unit) {
+        return value.is_null() ? std::string("none")
+                               : fmt::format("{:.4g}{}", factor * value.get<double>(), unit);
+    };
     if (!record.hits.is_null()) {
-        table += fmt::format("{:<22}agreement {:.2f}%, of visible {:.2f}%; ", "hits",
-                             100.0 * record.hits.at("agreement").get<double>(),
-                             100.0 * record.hits.at("agreement_visible").get<double>());
+        table += fmt::format("{:<22}agreement {}, of visible {}; ", "hits",
+                             orNone(record.hits.at("agreement"), 100.0, "%"),
+                             orNone(record.hits.at("agreement_visible"), 100.0, "%"));
         for (const char* kind : {"missed", "false_hits"}) {
             std::string causes;
             for (const auto& [cause, count] : record.hits.at(kind).items()) {
@@ -117,9 +121,9 @@ std::string truthTable(const RunRecord& record) {
             if (!causes.empty()) causes.back() = ';';
             table += fmt::format("{}{} ", kind, causes.empty() ? " none;" : causes);
         }
-        table += fmt::format("distance median {:.3g} px, 99% {:.3g} px\n",
-                             record.hits.at("median_px").get<double>(),
-                             record.hits.at("p99_px").get<double>());
+        table += fmt::format("distance median {}, 99% {}\n",
+                             orNone(record.hits.at("median_px"), 1.0, " px"),
+                             orNone(record.hits.at("p99_px"), 1.0, " px"));
     }
     const auto errorLine = [&](const char* name, const json& error) {
         const json& caustic = error.at("caustic_irradiance");

@@ -128,3 +128,11 @@ vec3 normalAtHit(vec3 hitVs, vec4 surface, vec2 depthAndExtent) {
     float size = length(sum);
     return size > 1e-3 ? sum / size : surface.xyz;
 }
+
+// The normal of a receiver: the shading normal, unless that takes the eye or the arriving light for
+// being on the other side than the triangle does.
+vec3 receiverNormal(vec3 positionVs, vec3 direction, vec3 shading, vec3 geometric) {
+    bool sameLight = (dot(direction, shading) < 0.0) == (dot(direction, geometric) < 0.0);
+    bool sameEye = (dot(positionVs, shading) < 0.0) == (dot(positionVs, geometric) < 0.0);
+    return sameLight && sameEye ? shading : geometric;
+}

@@ -59,12 +59,14 @@ void main() {
             unpackUnitVector(texelFetch(layerNormals, ivec3(pixel, first.layer), 0).xy);
         vec3 shading = isExit ? normalAtExit(hit.positionVs, pixel, first.layer)
                               : normalAtHit(hit.positionVs, surface, depth);
-        hit.normalVs = bendingNormal(photon.directionVs, shading, triangle, hit.material,
-                                     photon.media);
+        bool arrives = isReceiver(materialKind(hit.material - 1u));
+        hit.normalVs =
+            arrives ? receiverNormal(hit.positionVs, photon.directionVs, shading, triangle)
+                    : bendingNormal(photon.directionVs, shading, triangle, hit.material,
+                                    photon.media);
         vec3 left = mediumTransmittance(innerMedium(photon.media), first.t);
         hit.fluxWatts = photon.fluxWatts * left;
         ledgerAdd(kAccountAbsorbed, photon.fluxWatts * (1.0 - left));
-        bool arrives = isReceiver(materialKind(hit.material - 1u));
         hit.fate = arrives ? kFateReceiver : kFateSpecular;
         if (arrives) ledgerAdd(kAccountArrived, hit.fluxWatts);
     }

@@ -68,14 +68,16 @@ SpritePixel spriteAt(Sprite sprite, ivec2 pixel) {
     if (!(depth > view.tangents.z)) return result;
     // On a slanted surface a splat is thinner than a pixel and may fall between the middles of all:
     // it reaches a pixel's width far on the screen whatever it covers on the surface, so that some
-    // pixel always gets the flux (hard case 31).
-    float share = min(splatDistance(sprite, depth * ray - sprite.center) / sprite.radius,
-                      length(vec2(pixel) + 0.5 - pixelOf(sprite.center)));
+    // pixel always gets the flux (hard case 31); but only pixels that see the surface there, as the
+    // splat itself ends before.
+    float own = splatDistance(sprite, depth * ray - sprite.center) / sprite.radius;
+    float share = min(own, length(vec2(pixel) + 0.5 - pixelOf(sprite.center)));
     if (share >= 1.0) return result;
+    bool isReached = own < 1.0;
     result.weight = splatKernel(share);
     result.area = pixelArea(ray, depth, sprite.normal);
     if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, ivec2(view.sizePixels.xy)))) {
-        result.where = kSpriteOffScreen;
+        if (isReached) result.where = kSpriteOffScreen;
         return result;
     }
     vec2 seen = texelFetch(receiver, pixel, 0).xy;
@@ -85,7 +87,7 @@ SpritePixel spriteAt(Sprite sprite, ivec2 pixel) {
     bool isMirror = seen.x < 0.0;
     float seenDepth = abs(seen.x);
     if (seenDepth > 0.0 && seenDepth < depth - tolerance) {
-        result.where = kSpriteOccluded;
+        if (isReached) result.where = kSpriteOccluded;
         return result;
     }
     vec3 seenNormal = texelFetch(receiverSurface, pixel, 0).xyz;

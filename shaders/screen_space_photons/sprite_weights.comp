@@ -68,7 +68,7 @@ void main() {
         if (occluded > 0.0) ledgerAdd(kAccountOccludedSplat, flux.rgb * (occluded / total));
         if (offScreen > 0.0) ledgerAdd(kAccountOffScreen, flux.rgb * (offScreen / total));
     } else {
-        // No pixel centre falls on the disc: the surface is seen edge-on.
+        // No pixel shows the surface where the light arrives: it is edge-on or below a pixel.
         ledgerAdd(kAccountEdgeOn, flux.rgb);
     }
     imageStore(spriteWeights, texel, weights);

@@ -3,6 +3,7 @@
 // passes through arrives as caustic light (design, section 1). Where a receiver is glossy, also what
 // of it goes to the eye, W/m²/sr.
 #include "common/lights.glsl"
+#include "common/surface_data.glsl"
 #include "common/view.glsl"
 #ifdef GLOSSY_RECEIVERS
 #include "common/receiver_brdf.glsl"
@@ -57,7 +58,9 @@ void main() {
     vec4 surface = texelFetch(receiverSurface, pixel, 0);
     LightData light = lights[lightIndex];
     vec3 direction = lightDirection(light, positionVs);
-    float cosine = -dot(surface.xyz, direction);
+    // A sheet is lit on the side that the eye looks at, or not at all.
+    bool isTurned = isOpen(uint(surface.w) - 1u) && dot(surface.xyz, positionVs) > 0.0;
+    float cosine = -dot(isTurned ? -surface.xyz : surface.xyz, direction);
     if (cosine <= 0.0) return;
     irradiance.rgb = lightIrradiance(light, positionVs) * cosine * visibility(positionVs);
 #ifdef GLOSSY_RECEIVERS

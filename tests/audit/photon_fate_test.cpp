@@ -109,13 +109,13 @@ TEST(Quantiles, AreNearestRanks) {
     std::vector<double> samples;
     for (int i = 100; i >= 1; --i)
         samples.push_back(i);
-    const Quantiles quantiles = quantilesOf(samples);
+    const Quantiles quantiles = quantilesOf(samples).value();
     EXPECT_EQ(quantiles.median, 50.0);
     EXPECT_EQ(quantiles.percentile95, 95.0);
     EXPECT_EQ(quantiles.percentile99, 99.0);
     EXPECT_EQ(quantiles.maximum, 100.0);
-    EXPECT_EQ(quantilesOf({3.0}).median, 3.0);
-    EXPECT_EQ(quantilesOf({}).maximum, 0.0);
+    EXPECT_EQ(quantilesOf({3.0}).value().median, 3.0);
+    EXPECT_FALSE(quantilesOf({}));
 }
 
 }  // namespace

@@ -96,7 +96,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadRequest{"NoFrames", {"run", "ring", "--frames", "0"}, {"--frames", "0"}},
         BadRequest{"FramesThatAreNoNumber",
                    {"run", "ring", "--frames", "few"},
-                   {"not a whole number", "--frames", "few"}},
+                   {"not a number", "--frames", "few"}},
         BadRequest{"NegativeWarmUp", {"run", "ring", "--warmup", "-1"}, {"--warmup", "-1"}},
         BadRequest{"SeedThatIsNoNumber", {"run", "ring", "--seed", "x"}, {"--seed", "x"}},
         BadRequest{"TimeThatIsNoNumber", {"run", "ring", "--time", "noon"}, {"--time", "'noon'"}},

@@ -330,12 +330,16 @@ void twoSurfacesWithinEpsilon(Lab& lab) {
         const Traced there = tracePhotons(lab, tracer, scene, forth, epsilon, {512, 512});
         const Traced returned = tracePhotons(lab, tracer, scene, back, epsilon, {512, 512});
         std::size_t wrong = 0;
+        std::size_t found = 0;
         for (std::size_t i = 0; i < forth.size(); ++i) {
+            found += (there.hits[i].isHit() ? 1u : 0u) + (returned.hits[i].isHit() ? 1u : 0u);
             wrong += there.hits[i].isHit() && there.hits[i].material != kGrey ? 1 : 0;
             wrong += returned.hits[i].isHit() && returned.hits[i].material != kWhite ? 1 : 0;
         }
         lab.expect(tracer.subject, "hits of the farther of them by the paper's epsilon of 0.2 m",
                    0.0, static_cast<double>(wrong), kExactly);
+        lab.expect(tracer.subject, "photons that hit either of them by it",
+                   2.0 * static_cast<double>(forth.size()), static_cast<double>(found), kExactly);
     }
 }
 

@@ -188,14 +188,20 @@ void badGeometry(Lab& lab) {
               });
 }
 
-// A vertex that is no number must not reach the map, though importers refuse it before.
+// What is no number in a mesh must not reach the map, though importers refuse it before.
 void vertexThatIsNoNumber(Lab& lab) {
-    scene::Scene scene = makeScene(
+    const scene::Scene scene = makeScene(
         kAbove, kSun + kFloor +
                     object("ball", "sphere", "glass", {0, 0.6, 0}, "radius = 0.4\nsegments = 24"));
-    scene::Mesh& ball = scene.meshes[1];
-    ball.normals[ball.normals.size() / 2] = glm::vec3(std::numeric_limits<float>::quiet_NaN());
-    expectLit(lab, "a normal that is no number", scene, kSmall);
+    const glm::vec3 noNumber(std::numeric_limits<float>::quiet_NaN());
+    scene::Scene badNormal = scene;
+    std::vector<glm::vec3>& normals = badNormal.meshes[1].normals;
+    normals[normals.size() / 2] = noNumber;
+    expectLit(lab, "a normal that is no number", badNormal, kSmall);
+    scene::Scene badPosition = scene;
+    std::vector<glm::vec3>& positions = badPosition.meshes[1].positions;
+    positions[positions.size() / 2] = noNumber;
+    expectLit(lab, "a position that is no number", badPosition, kSmall);
 }
 
 }  // namespace

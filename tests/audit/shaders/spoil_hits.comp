@@ -9,6 +9,7 @@ layout(rgba32f) uniform image2D hitPosition;
 layout(rgba32f) uniform image2D hitFlux;
 uniform vec2 shiftPixels;
 uniform int dropped;
+uniform int notANumber;
 
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
@@ -17,6 +18,7 @@ void main() {
     if (uint(flux.w) != kFateReceiver) return;
     vec4 position = imageLoad(hitPosition, texel);
     position.xy += shiftPixels * pixelFootprint(-position.z);
+    if (notANumber != 0) position.x = uintBitsToFloat(0x7fc00000u);
     imageStore(hitPosition, texel, position);
     if (dropped != 0) imageStore(hitFlux, texel, vec4(0.0, 0.0, 0.0, float(kFateEnded)));
 }

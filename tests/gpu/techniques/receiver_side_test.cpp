@@ -67,5 +67,15 @@ TEST(ReceiverSide, ThatIsDarkStaysDark) {
     EXPECT_EQ(ledger.watts[kAccountOccludedSplat], ledger.watts[kAccountArrived]);
 }
 
+TEST(ReceiverSide, OfDirectLightIsTheEyesToo) {
+    // Beside the water's shadow the lamp lights the sheet's underside.
+    for (const auto& [eye, lit] : {std::pair{"[0, -2, 0.01]", 1000.0}, {"[0, 4, 0.01]", 0.0}}) {
+        const scene::Scene scene = litFromBelow(eye);
+        const Frame frame(scene, 120, 90, {{"emit.photons", "64x64"}}, {"direct.irradiance"});
+        // The lamp stands straight below: its irradiance, in 32-bit arithmetic.
+        EXPECT_NEAR(brightest(frame.read("direct.irradiance")), lit, 1e-2) << eye;
+    }
+}
+
 }  // namespace
 }  // namespace kaustik::test
