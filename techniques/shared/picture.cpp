@@ -139,6 +139,7 @@ DirectLight lightDirectly(FrameBuilder& frame, const std::vector<ShadowView>& vi
                     gl::Command command = context.fullscreen("shared/direct.frag");
                     inputs.bindView(command)
                         .storage("Lights", inputs.lights)
+                        .storage("Materials", inputs.gpuScene.materials())
                         .texture("receiver", data.eye.receiver)
                         .texture("receiverSurface", data.eye.receiverSurface)
                         .texture("shadowMap", data.shadows.map)
@@ -154,7 +155,6 @@ DirectLight lightDirectly(FrameBuilder& frame, const std::vector<ShadowView>& vi
                     command.target(direct.irradiance);
                     if (direct.radiance.valid()) {
                         command.define("GLOSSY_RECEIVERS")
-                            .storage("Materials", inputs.gpuScene.materials())
                             .texture("receiverAlbedo", data.eye.receiverAlbedo)
                             .target(direct.radiance);
                     }
