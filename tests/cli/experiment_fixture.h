@@ -47,6 +47,7 @@ class ExperimentCommand : public CommandLine {
         std::set<std::string> names;
         for (const std::string& file : files()) {
             const std::filesystem::path path = file;
+            if (file.find(".part") != std::string::npos) continue;  // killed just before it was
             if (path.filename() == "run.json" && path.begin()->string() == out) {
                 names.insert(path.parent_path().filename().string());
             }
