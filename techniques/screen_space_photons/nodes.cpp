@@ -14,6 +14,15 @@ void registerScreenSpacePhotons(Registry& registry) {
                                "reduces the row to its first hit.",
                                "K06, section 2.1"},
                               &traceLines);
+    registry.node<TraceStage>("march",
+                              {"Follows each photon's ray over the screen in a fragment shader, "
+                               "a pixel a step, to its first hit.",
+                               "K06, section 2.1, the comparison"},
+                              &traceMarch);
+    registry.node<TraceStage>(
+        "march_compute",
+        {"The same in a compute shader, one thread a photon.", "K06, section 2.1, the comparison"},
+        &traceMarchCompute);
     registry.node<ReconstructStage>("sprites",
                                     {"Splats each photon as a disc in its receiver's tangent "
                                      "plane, ray-cast per pixel; the flux is kept exactly.",

@@ -39,6 +39,25 @@ struct LinesParams {
 Hits traceLines(FrameBuilder& frame, const LinesParams& params, Photons photons,
                 LayeredDepth layers, Hits previous);
 
+struct MarchParams {
+    int steps = 0;
+    int minimum = 4;
+    template <class R>
+    void reflect(R& r) {
+        r.field(steps, "steps",
+                "Most steps of a photon's ray; 0: as many as the longer side of the picture has "
+                "pixels, so that no step skips one",
+                "", params::range(0, 16384));
+        r.field(minimum, "minimum",
+                "Fewest steps of a ray, for rays almost parallel to the view direction", "",
+                params::range(1, 64));
+    }
+};
+Hits traceMarch(FrameBuilder& frame, const MarchParams& params, Photons photons,
+                LayeredDepth layers, Hits previous);
+Hits traceMarchCompute(FrameBuilder& frame, const MarchParams& params, Photons photons,
+                       LayeredDepth layers, Hits previous);
+
 // What a splat covers of its receiver's tangent plane.
 enum class SpriteShape : int { beam, disc };
 

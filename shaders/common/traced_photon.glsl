@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// What every tracer does before and after its search: reads a photon of the transfer map, and makes
+// of what was found a hit, with the normal and the flux that arrives, or an entry in the ledger.
+#include "common/exit_test.glsl"
+#include "common/ledger.glsl"
+
+uniform sampler2D photonPosition;
+uniform sampler2D photonDirection;
+uniform sampler2D photonFlux;
+
+// A layer that a ray has met first, and at which pixel.
+struct FirstHit {
+    LayerHit hit;  // hit.layer < 0: none
+    ivec2 pixel;
+    bool isExit;  // the photon came out between two pixels
+};
+
+bool isFinite(vec3 v) {
+    return !any(isnan(v)) && !any(isinf(v));
+}
+
+bool isNumber(Photon photon) {
+    return isFinite(photon.positionVs) && isFinite(photon.directionVs) &&
+           isFinite(photon.fluxWatts);
+}
+
+Photon photonAt(ivec2 texel) {
+    return unpackPhoton(texelFetch(photonPosition, texel, 0), texelFetch(photonDirection, texel, 0),
+                        texelFetch(photonFlux, texel, 0));
+}
+
+// Accounts for the photon's flux: what was absorbed on the way, what arrives at a receiver, or why
+// nothing was met.
+Hit deliver(Photon photon, FirstHit first) {
+    Hit hit = Hit(vec3(0.0), 0.0, vec3(0.0), 0u, vec3(0.0), kFateEnded);
+    if (!isNumber(photon)) {
+        ledgerAdd(kAccountNotANumber, vec3(0.0));
+        return hit;
+    }
+    if (first.hit.layer < 0) {
+        ledgerAdd(clipRay(photon.positionVs, photon.directionVs).cause, photon.fluxWatts);
+        return hit;
+    }
+    ivec3 place = ivec3(first.pixel, first.hit.layer);
+    vec4 surface = texelFetch(layerSurfaces, place, 0);
+    hit.positionVs = photon.positionVs + first.hit.t * photon.directionVs;
+    hit.distanceMeters = first.hit.t;
+    hit.material = uint(surface.w);
+    vec3 triangle = unpackUnitVector(texelFetch(layerNormals, place, 0).xy);
+    vec3 shading =
+        first.isExit ? normalAtExit(hit.positionVs, first.pixel, first.hit.layer)
+                     : normalAtHit(hit.positionVs, surface, texelFetch(layerDepths, place, 0).xy);
+    bool arrives = isReceiver(materialKind(hit.material - 1u));
+    hit.normalVs =
+        arrives
+            ? receiverNormal(hit.positionVs, photon.directionVs, shading, triangle)
+            : bendingNormal(photon.directionVs, shading, triangle, hit.material, photon.media);
+    vec3 left = mediumTransmittance(innerMedium(photon.media), first.hit.t);
+    hit.fluxWatts = photon.fluxWatts * left;
+    ledgerAdd(kAccountAbsorbed, photon.fluxWatts * (1.0 - left));
+    hit.fate = arrives ? kFateReceiver : kFateSpecular;
+    if (arrives) ledgerAdd(kAccountArrived, hit.fluxWatts);
+    return hit;
+}

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// trace.march and trace.march_compute: each photon's ray followed over the screen a pixel a step,
+// every layer looked up, until the first hit (K06, section 2.1: what the paper compares its lines
+// with). One fragment or one compute thread a photon; both give the same hits as trace.lines, whose
+// steps and hit test they share. In: photons and layered depth in eye view space, m; out: hits, W
+// that arrive after absorption.
+#include <algorithm>
+
+#include "framework/pipeline/frame_builder.h"
+#include "techniques/screen_space_photons/nodes.h"
+
+namespace kaustik {
+namespace {
+
+struct Marched {
+    Hits hits;
+    LayeredDepth layers;
+};
+
+// `issue` sets what differs: the parameters, the outputs and the last call.
+template <class Issue>
+Hits addMarch(FrameBuilder& frame, const std::string& name, const std::string& why,
+              const std::vector<std::string>& shaders, const Photons& photons,
+              const LayeredDepth& layers, const Hits& previous, Issue issue) {
+    const auto trace = frame.params<TraceParams>("trace");
+    const bool hasInside = frame.needs().closedDielectrics;
+    return frame
+        .pass<Marched>(
+            name, why,
+            [&](graph::PassSetup& setup, Marched& data) {
+                data.layers = layers;
+                setup.read(layers.depth);
+                setup.read(layers.surface);
+                setup.read(layers.normal);
+                data.hits.incoming = photons;
+                setup.read(photons.position);
+                setup.read(photons.direction);
+                setup.read(photons.flux);
+                data.hits.position = setup.write(previous.position);
+                data.hits.surface = setup.write(previous.surface);
+                data.hits.flux = setup.write(previous.flux);
+                data.hits.incoming.ledger = setup.write(photons.ledger);
+            },
+            [&inputs = frame.inputs(), trace, hasInside, shaders, issue](const Marched& data,
+                                                                         gl::PassContext& context) {
+                const Photons& incoming = data.hits.incoming;
+                gl::Command command = context.shaders(shaders);
+                if (hasInside) command.define("CLOSED_DIELECTRICS");
+                inputs.bindView(command);
+                inputs.bindLedger(command, incoming.ledger)
+                    .params("trace", trace)
+                    .storage("Materials", inputs.gpuScene.materials())
+                    .texture("photonPosition", incoming.position)
+                    .texture("photonDirection", incoming.direction)
+                    .texture("photonFlux", incoming.flux)
+                    .texture("layerDepths", data.layers.depth)
+                    .texture("layerSurfaces", data.layers.surface)
+                    .texture("layerNormals", data.layers.normal)
+                    .set("layerCount", data.layers.layers);
+                issue(command, data);
+            })
+        .hits;
+}
+
+// A pixel a step at most, unless the parameters say otherwise.
+MarchParams withSteps(const FrameBuilder& frame, MarchParams params) {
+    if (params.steps == 0) params.steps = std::max(frame.width(), frame.height());
+    return params;
+}
+
+}  // namespace
+
+Hits traceMarch(FrameBuilder& frame, const MarchParams& params, Photons photons,
+                LayeredDepth layers, Hits previous) {
+    return addMarch(frame, "trace.march", "one fragment a photon follows its ray",
+                    {"screen_space_photons/march.frag"}, photons, layers, previous,
+                    [params = withSteps(frame, params)](gl::Command& command, const Marched& data) {
+                        command.params("trace.march", params)
+                            .target(data.hits.position)
+                            .target(data.hits.surface)
+                            .target(data.hits.flux)
+                            .draw();
+                    });
+}
+
+Hits traceMarchCompute(FrameBuilder& frame, const MarchParams& params, Photons photons,
+                       LayeredDepth layers, Hits previous) {
+    return addMarch(frame, "trace.march_compute", "one compute thread a photon follows its ray",
+                    {"screen_space_photons/march.comp"}, photons, layers, previous,
+                    [params = withSteps(frame, params)](gl::Command& command, const Marched& data) {
+                        const Photons& incoming = data.hits.incoming;
+                        command.params("trace.march_compute", params)
+                            .image("hitPosition", data.hits.position)
+                            .image("hitSurface", data.hits.surface)
+                            .image("hitFlux", data.hits.flux)
+                            .dispatchOver(incoming.width, 8, incoming.height, 8);
+                    });
+}
+
+}  // namespace kaustik
