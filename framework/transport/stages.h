@@ -19,6 +19,9 @@ struct ViewDepth {  // x: view depth in m, 0 none; y: half of its extent over th
 struct SurfaceTexel {  // xyz: outward shading normal in view space; w: material + 1, 0 none
     static constexpr Format format = Format::rgba32f;
 };
+struct DepthRange {  // x: nearest, y: farthest depth at which a ray may meet a layer, m; y 0: none
+    static constexpr Format format = Format::rg32f;
+};
 struct TriangleNormal {  // xy: the triangle's outward unit normal, octahedral
     static constexpr Format format = Format::rg32f;
 };
@@ -83,6 +86,7 @@ struct LayeredDepth {
     graph::Texture<ViewDepth> depth;        // array, one layer a surface
     graph::Texture<SurfaceTexel> surface;   // array
     graph::Texture<TriangleNormal> normal;  // array
+    graph::Texture<DepthRange> pyramid;     // array; the layers' ranges over squares of pixels
     graph::Buffer<transport::LayerStatistics> statistics;
     int layers = 0;
 };

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// trace.march and trace.march_compute: each photon's ray followed over the screen a pixel a step,
+// trace.march, trace.march_compute: each photon's ray followed over the screen a pixel a step,
 // every layer looked up, until the first hit (K06, section 2.1: what the paper compares its lines
-// with). One fragment or one compute thread a photon; both give the same hits as trace.lines, whose
-// steps and hit test they share. In: photons and layered depth in eye view space, m; out: hits, W
-// that arrive after absorption.
+// with). trace.hierarchical, trace.hierarchical_compute: the same, but squares of pixels whose
+// layers the ray cannot meet are left out. One fragment or one compute thread a photon; all give
+// the same hits as trace.lines, whose steps and hit test they share. In: photons and layered depth
+// in eye view space, m; out: hits, W that arrive after absorption.
 #include <algorithm>
 
 #include "framework/pipeline/frame_builder.h"
@@ -20,7 +21,7 @@ struct Marched {
 // `issue` sets what differs: the parameters, the outputs and the last call.
 template <class Issue>
 Hits addMarch(FrameBuilder& frame, const std::string& name, const std::string& why,
-              const std::vector<std::string>& shaders, const Photons& photons,
+              const std::vector<std::string>& shaders, bool isHierarchical, const Photons& photons,
               const LayeredDepth& layers, const Hits& previous, Issue issue) {
     const auto trace = frame.params<TraceParams>("trace");
     const bool hasInside = frame.needs().closedDielectrics;
@@ -32,6 +33,7 @@ Hits addMarch(FrameBuilder& frame, const std::string& name, const std::string& w
                 setup.read(layers.depth);
                 setup.read(layers.surface);
                 setup.read(layers.normal);
+                if (isHierarchical) setup.read(layers.pyramid);
                 data.hits.incoming = photons;
                 setup.read(photons.position);
                 setup.read(photons.direction);
@@ -41,8 +43,8 @@ Hits addMarch(FrameBuilder& frame, const std::string& name, const std::string& w
                 data.hits.flux = setup.write(previous.flux);
                 data.hits.incoming.ledger = setup.write(photons.ledger);
             },
-            [&inputs = frame.inputs(), trace, hasInside, shaders, issue](const Marched& data,
-                                                                         gl::PassContext& context) {
+            [&inputs = frame.inputs(), trace, hasInside, shaders, isHierarchical, issue](
+                const Marched& data, gl::PassContext& context) {
                 const Photons& incoming = data.hits.incoming;
                 gl::Command command = context.shaders(shaders);
                 if (hasInside) command.define("CLOSED_DIELECTRICS");
@@ -57,6 +59,7 @@ Hits addMarch(FrameBuilder& frame, const std::string& name, const std::string& w
                     .texture("layerSurfaces", data.layers.surface)
                     .texture("layerNormals", data.layers.normal)
                     .set("layerCount", data.layers.layers);
+                if (isHierarchical) command.texture("layerPyramid", data.layers.pyramid);
                 issue(command, data);
             })
         .hits;
@@ -68,33 +71,65 @@ MarchParams withSteps(const FrameBuilder& frame, MarchParams params) {
     return params;
 }
 
+// One fragment a photon.
+Hits inFragments(FrameBuilder& frame, const std::string& node, const std::string& why,
+                 bool isHierarchical, const MarchParams& params, const Photons& photons,
+                 const LayeredDepth& layers, const Hits& previous) {
+    const std::string name = "trace." + node;
+    return addMarch(
+        frame, name, why, {"screen_space_photons/" + node + ".frag"}, isHierarchical, photons,
+        layers, previous,
+        [name, params = withSteps(frame, params)](gl::Command& command, const Marched& data) {
+            command.params(name, params)
+                .target(data.hits.position)
+                .target(data.hits.surface)
+                .target(data.hits.flux)
+                .draw();
+        });
+}
+
+// One compute thread a photon.
+Hits inThreads(FrameBuilder& frame, const std::string& node, const std::string& why,
+               bool isHierarchical, const MarchParams& params, const Photons& photons,
+               const LayeredDepth& layers, const Hits& previous) {
+    const std::string name = "trace." + node + "_compute";
+    return addMarch(
+        frame, name, why, {"screen_space_photons/" + node + ".comp"}, isHierarchical, photons,
+        layers, previous,
+        [name, params = withSteps(frame, params)](gl::Command& command, const Marched& data) {
+            const Photons& incoming = data.hits.incoming;
+            command.params(name, params)
+                .image("hitPosition", data.hits.position)
+                .image("hitSurface", data.hits.surface)
+                .image("hitFlux", data.hits.flux)
+                .dispatchOver(incoming.width, 8, incoming.height, 8);
+        });
+}
+
 }  // namespace
 
 Hits traceMarch(FrameBuilder& frame, const MarchParams& params, Photons photons,
                 LayeredDepth layers, Hits previous) {
-    return addMarch(frame, "trace.march", "one fragment a photon follows its ray",
-                    {"screen_space_photons/march.frag"}, photons, layers, previous,
-                    [params = withSteps(frame, params)](gl::Command& command, const Marched& data) {
-                        command.params("trace.march", params)
-                            .target(data.hits.position)
-                            .target(data.hits.surface)
-                            .target(data.hits.flux)
-                            .draw();
-                    });
+    return inFragments(frame, "march", "one fragment a photon follows its ray", false, params,
+                       photons, layers, previous);
 }
 
 Hits traceMarchCompute(FrameBuilder& frame, const MarchParams& params, Photons photons,
                        LayeredDepth layers, Hits previous) {
-    return addMarch(frame, "trace.march_compute", "one compute thread a photon follows its ray",
-                    {"screen_space_photons/march.comp"}, photons, layers, previous,
-                    [params = withSteps(frame, params)](gl::Command& command, const Marched& data) {
-                        const Photons& incoming = data.hits.incoming;
-                        command.params("trace.march_compute", params)
-                            .image("hitPosition", data.hits.position)
-                            .image("hitSurface", data.hits.surface)
-                            .image("hitFlux", data.hits.flux)
-                            .dispatchOver(incoming.width, 8, incoming.height, 8);
-                    });
+    return inThreads(frame, "march", "one thread a photon follows its ray", false, params, photons,
+                     layers, previous);
+}
+
+Hits traceHierarchical(FrameBuilder& frame, const MarchParams& params, Photons photons,
+                       LayeredDepth layers, Hits previous) {
+    return inFragments(frame, "hierarchical", "one fragment a photon follows its ray", true, params,
+                       photons, layers, previous);
+}
+
+Hits traceHierarchicalCompute(FrameBuilder& frame, const MarchParams& params, Photons photons,
+                              LayeredDepth layers, Hits previous) {
+    return inThreads(frame, "hierarchical", "one thread a photon follows its ray", true, params,
+                     photons, layers, previous);
 }
 
 }  // namespace kaustik

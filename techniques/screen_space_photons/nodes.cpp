@@ -23,6 +23,14 @@ void registerScreenSpacePhotons(Registry& registry) {
         "march_compute",
         {"The same in a compute shader, one thread a photon.", "K06, section 2.1, the comparison"},
         &traceMarchCompute);
+    registry.node<TraceStage>("hierarchical",
+                              {"Follows each photon's ray in a fragment shader and leaves out "
+                               "squares of pixels whose layers it cannot meet.",
+                               ""},
+                              &traceHierarchical);
+    registry.node<TraceStage>("hierarchical_compute",
+                              {"The same in a compute shader, one thread a photon.", ""},
+                              &traceHierarchicalCompute);
     registry.node<ReconstructStage>("sprites",
                                     {"Splats each photon as a disc in its receiver's tangent "
                                      "plane, ray-cast per pixel; the flux is kept exactly.",

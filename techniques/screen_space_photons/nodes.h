@@ -13,6 +13,9 @@ void registerScreenSpacePhotons(Registry& registry);
 // What the hard cases need to know of these nodes, and cases of their own.
 void addScreenSpacePhotonCases(numerics::Suite& suite);
 
+// Adds the pass that makes `pyramid` of the other layers' textures.
+[[nodiscard]] LayeredDepth addPyramid(FrameBuilder& frame, const LayeredDepth& layers);
+
 LayeredDepth peelLayers(FrameBuilder& frame, const params::NoParams&, Geometry geometry);
 
 struct LinesParams {
@@ -57,6 +60,11 @@ Hits traceMarch(FrameBuilder& frame, const MarchParams& params, Photons photons,
                 LayeredDepth layers, Hits previous);
 Hits traceMarchCompute(FrameBuilder& frame, const MarchParams& params, Photons photons,
                        LayeredDepth layers, Hits previous);
+
+Hits traceHierarchical(FrameBuilder& frame, const MarchParams& params, Photons photons,
+                       LayeredDepth layers, Hits previous);
+Hits traceHierarchicalCompute(FrameBuilder& frame, const MarchParams& params, Photons photons,
+                              LayeredDepth layers, Hits previous);
 
 // What a splat covers of its receiver's tangent plane.
 enum class SpriteShape : int { beam, disc };

@@ -65,53 +65,57 @@ LayeredDepth peelLayers(FrameBuilder& frame, const params::NoParams&, Geometry g
         Geometry geometry;
     };
     const std::size_t commandCount = frame.gpuScene().commandCount();
-    return frame
-        .pass<Data>(
-            "layers.peel",
-            fmt::format("the tracer needs hidden surfaces; at most {} layers", layers),
-            [&](graph::PassSetup& setup, Data& data) {
-                data.geometry = geometry;
-                if (geometry.heightFields.valid()) setup.read(geometry.heightFields);
-                const int w = frame.width();
-                const int h = frame.height();
-                data.layers.depth = setup.create<ViewDepth>("layers.depth", w, h, layers);
-                data.layers.surface = setup.create<SurfaceTexel>("layers.surface", w, h, layers);
-                data.layers.normal = setup.create<TriangleNormal>("layers.normal", w, h, layers);
-                data.layers.statistics = setup.read(complexity.statistics);
-                data.layers.layers = layers;
-                data.depth = setup.create<DepthBuffer>("layers.depth_buffer", w, h);
-                data.commands = setup.createBuffer<DrawCommandWords>(
-                    "layers.commands",
-                    std::max<std::size_t>(commandCount, 1) * static_cast<std::size_t>(layers));
-            },
-            [&inputs = frame.inputs(), layers, commandCount](const Data& data,
-                                                             gl::PassContext& context) {
-                context.compute("screen_space_photons/peel_commands.comp")
-                    .storage("SceneCommands", inputs.gpuScene.commands())
-                    .storage("LayerCommands", data.commands)
-                    .storage("Statistics", data.layers.statistics)
-                    .set("commandCount", static_cast<int>(commandCount))
-                    .set("layerCount", layers)
-                    .dispatchOver(static_cast<int>(commandCount) * layers, 64);
-                for (int layer = 0; layer < layers; ++layer) {
-                    // The layer before is read from the array that this one is written to.
-                    glTextureBarrier();
-                    gl::Command command =
-                        context.shaders({"shared/eye.vert", "screen_space_photons/peel.frag"});
-                    inputs.gpuScene.bindMaterials(command);
-                    command.set("projection", inputs.view.projection())
-                        .set("layer", layer)
-                        .texture("layerDepths", data.layers.depth);
-                    command.target(data.layers.depth, layer).clear();
-                    command.target(data.layers.surface, layer).clear();
-                    command.target(data.layers.normal, layer).clear();
-                    command.depth(data.depth, gl::DepthTest::nearer).clear({1, 0, 0, 0});
-                    inputs.gpuScene.draw(command, context, data.geometry, inputs.instances,
-                                         render::DrawSet::all, &context.buffer(data.commands),
-                                         static_cast<std::size_t>(layer) * commandCount);
-                }
-            })
-        .layers;
+    const LayeredDepth peeled =
+        frame
+            .pass<Data>(
+                "layers.peel",
+                fmt::format("the tracer needs hidden surfaces; at most {} layers", layers),
+                [&](graph::PassSetup& setup, Data& data) {
+                    data.geometry = geometry;
+                    if (geometry.heightFields.valid()) setup.read(geometry.heightFields);
+                    const int w = frame.width();
+                    const int h = frame.height();
+                    data.layers.depth = setup.create<ViewDepth>("layers.depth", w, h, layers);
+                    data.layers.surface =
+                        setup.create<SurfaceTexel>("layers.surface", w, h, layers);
+                    data.layers.normal =
+                        setup.create<TriangleNormal>("layers.normal", w, h, layers);
+                    data.layers.statistics = setup.read(complexity.statistics);
+                    data.layers.layers = layers;
+                    data.depth = setup.create<DepthBuffer>("layers.depth_buffer", w, h);
+                    data.commands = setup.createBuffer<DrawCommandWords>(
+                        "layers.commands",
+                        std::max<std::size_t>(commandCount, 1) * static_cast<std::size_t>(layers));
+                },
+                [&inputs = frame.inputs(), layers, commandCount](const Data& data,
+                                                                 gl::PassContext& context) {
+                    context.compute("screen_space_photons/peel_commands.comp")
+                        .storage("SceneCommands", inputs.gpuScene.commands())
+                        .storage("LayerCommands", data.commands)
+                        .storage("Statistics", data.layers.statistics)
+                        .set("commandCount", static_cast<int>(commandCount))
+                        .set("layerCount", layers)
+                        .dispatchOver(static_cast<int>(commandCount) * layers, 64);
+                    for (int layer = 0; layer < layers; ++layer) {
+                        // The layer before is read from the array that this one is written to.
+                        glTextureBarrier();
+                        gl::Command command =
+                            context.shaders({"shared/eye.vert", "screen_space_photons/peel.frag"});
+                        inputs.gpuScene.bindMaterials(command);
+                        command.set("projection", inputs.view.projection())
+                            .set("layer", layer)
+                            .texture("layerDepths", data.layers.depth);
+                        command.target(data.layers.depth, layer).clear();
+                        command.target(data.layers.surface, layer).clear();
+                        command.target(data.layers.normal, layer).clear();
+                        command.depth(data.depth, gl::DepthTest::nearer).clear({1, 0, 0, 0});
+                        inputs.gpuScene.draw(command, context, data.geometry, inputs.instances,
+                                             render::DrawSet::all, &context.buffer(data.commands),
+                                             static_cast<std::size_t>(layer) * commandCount);
+                    }
+                })
+            .layers;
+    return addPyramid(frame, peeled);
 }
 
 }  // namespace kaustik

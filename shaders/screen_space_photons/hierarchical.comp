@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// trace.hierarchical_compute: one thread a photon.
+#include "screen_space_photons/hierarchical.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(rgba32f) uniform image2D hitPosition;
+layout(rgba32f) uniform image2D hitSurface;
+layout(rgba32f) uniform image2D hitFlux;
+
+void main() {
+    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(texel, textureSize(photonPosition, 0)))) return;
+    Photon photon = photonAt(texel);
+    if (photon.fate != kFateInFlight) return;  // its hit, if any, stands
+    Hit hit = deliver(photon, traverse(photon, trace_hierarchical_compute_minimum,
+                                       trace_hierarchical_compute_steps));
+    imageStore(hitPosition, texel, hitPositionTexel(hit));
+    imageStore(hitSurface, texel, hitSurfaceTexel(hit));
+    imageStore(hitFlux, texel, hitFluxTexel(hit));
+}

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// trace.hierarchical: one fragment a photon, drawn over the transfer map.
+#include "screen_space_photons/hierarchical.glsl"
+
+layout(location = 0) out vec4 hitPosition;
+layout(location = 1) out vec4 hitSurface;
+layout(location = 2) out vec4 hitFlux;
+
+void main() {
+    Photon photon = photonAt(ivec2(gl_FragCoord.xy));
+    if (photon.fate != kFateInFlight) discard;  // its hit, if any, stands
+    Hit hit =
+        deliver(photon, traverse(photon, trace_hierarchical_minimum, trace_hierarchical_steps));
+    hitPosition = hitPositionTexel(hit);
+    hitSurface = hitSurfaceTexel(hit);
+    hitFlux = hitFluxTexel(hit);
+}

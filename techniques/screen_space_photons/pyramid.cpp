@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// layers.pyramid: over squares of 4, 16 and 64 pixels and for each layer, the range of depths over
+// which a ray may meet it. Left out where no tracer reads it. In: layered depth; out: ranges, m,
+// the levels side by side in one array texture (shaders/screen_space_photons/pyramid_layout.glsl).
+#include <algorithm>
+
+#include "framework/pipeline/frame_builder.h"
+#include "techniques/screen_space_photons/nodes.h"
+
+namespace kaustik {
+namespace {
+
+constexpr int kLevels = 3;
+
+int squares(int pixels, int level) {
+    const int side = 1 << (2 * level);
+    return (pixels + side - 1) / side;
+}
+
+}  // namespace
+
+LayeredDepth addPyramid(FrameBuilder& frame, const LayeredDepth& layers) {
+    const int w = frame.width();
+    const int h = frame.height();
+    return frame.pass<LayeredDepth>(
+        "layers.pyramid", "the tracer leaves out what a ray cannot meet",
+        [&](graph::PassSetup& setup, LayeredDepth& data) {
+            data = layers;
+            setup.read(layers.depth);
+            data.pyramid = setup.create<DepthRange>(
+                "layers.pyramid", squares(w, 1) + squares(w, 2),
+                std::max(squares(h, 1), squares(h, 2) + squares(h, 3)), layers.layers);
+        },
+        [&inputs = frame.inputs(), w, h](const LayeredDepth& data, gl::PassContext& context) {
+            context.texture(data.pyramid).clear({0, 0, 0, 0});  // the corners beside the levels
+            for (int level = 1; level <= kLevels; ++level) {
+                gl::Command command = context.compute("screen_space_photons/pyramid.comp");
+                inputs.bindView(command)
+                    .texture("layerDepths", data.depth)
+                    .image("pyramid", data.pyramid)
+                    .set("level", level)
+                    .dispatch((squares(w, level) + 7) / 8, (squares(h, level) + 7) / 8,
+                              data.layers);
+            }
+        });
+}
+
+}  // namespace kaustik
