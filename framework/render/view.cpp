@@ -69,8 +69,8 @@ transport::ViewData viewData(const scene::Scene& scene, const EyeView& view) {
     data.viewToWorld = glm::mat4(glm::dmat4(glm::transpose(glm::dmat3(view.worldToView))));
     const scene::Bounds bounds = sceneBounds(scene);
     if (!bounds.empty) {
-        // A margin, so that a surface that lies in the bounds' face is inside, and with it the pixel
-        // that holds the ray's last point: its middle may lie beyond.
+        // A margin, so that a surface that lies in the bounds' face is inside, and with it the
+        // pixel that holds the ray's last point: its middle may lie beyond.
         double farthest = view.nearMeters;
         for (const glm::dvec3& corner : corners(bounds))
             farthest = std::max(farthest, -(view.worldToView * glm::dvec4(corner, 1.0)).z);
