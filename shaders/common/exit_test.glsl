@@ -82,3 +82,28 @@ vec3 normalAtExit(vec3 exitVs, ivec2 texel, int exitLayer) {
     float size = length(normal);
     return size > 1e-3 ? normal / size : surface.xyz;
 }
+
+// A layer that a ray has met first, and at which pixel.
+struct FirstHit {
+    LayerHit hit;  // hit.layer < 0: none
+    ivec2 pixel;
+    bool isExit;  // the photon came out between two pixels
+};
+
+FirstHit noHit() {
+    return FirstHit(LayerHit(0.0, -1), ivec2(0), false);
+}
+
+// What one step of a ray meets: a layer's plane, or, where the scene has closed dielectrics, the way
+// out of one that no plane shows. Every tracer asks here.
+FirstHit hitOfStep(RaySegment segment, TracedRay ray, int i, int n) {
+    FirstHit found = FirstHit(testStep(segment, ray, i, n), texelOfStep(segment, i, n), false);
+#ifdef CLOSED_DIELECTRICS
+    if (found.hit.layer < 0 && trace_test == trace_test_crossing) {
+        found.hit = testExit(segment, ray, i, n);
+        found.pixel = texelOfStep(segment, i - 1, n);
+        found.isExit = true;
+    }
+#endif
+    return found;
+}

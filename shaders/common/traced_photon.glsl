@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What every tracer does before and after its search: reads a photon of the transfer map, and makes
+// What tracers that search in order share: a photon of the transfer map, the search's step, and what makes
 // of what was found a hit, with the normal and the flux that arrives, or an entry in the ledger.
 #include "common/exit_test.glsl"
 #include "common/ledger.glsl"
@@ -8,12 +8,20 @@ uniform sampler2D photonPosition;
 uniform sampler2D photonDirection;
 uniform sampler2D photonFlux;
 
-// A layer that a ray has met first, and at which pixel.
-struct FirstHit {
-    LayerHit hit;  // hit.layer < 0: none
-    ivec2 pixel;
-    bool isExit;  // the photon came out between two pixels
-};
+// Asks step `i` of a search in order, of which the steps before `end` are left. A hit may lie half a
+// step beyond its own, and the next step know a nearer one: it is asked too, as the reduce of all
+// steps does.
+void searchStep(RaySegment segment, TracedRay ray, int i, int n, inout FirstHit first,
+                inout int end) {
+    FirstHit found = hitOfStep(segment, ray, i, n);
+    if (found.hit.layer < 0) return;
+    if (first.hit.layer < 0) {
+        end = min(end, i + 2);
+    } else if (found.hit.t >= first.hit.t) {
+        return;
+    }
+    first = found;
+}
 
 bool isFinite(vec3 v) {
     return !any(isnan(v)) && !any(isinf(v));

@@ -33,7 +33,7 @@ bool mayMeet(ivec2 square, int level, float zLow, float zHigh) {
 }
 
 FirstHit traverse(Photon photon, int minimumSteps, int maximumSteps) {
-    FirstHit first = FirstHit(LayerHit(0.0, -1), ivec2(0), false);
+    FirstHit first = noHit();
     if (!isNumber(photon)) return first;
     RaySegment segment = clipRay(photon.positionVs, photon.directionVs);
     if (!segment.visible) return first;
@@ -47,7 +47,7 @@ FirstHit traverse(Photon photon, int minimumSteps, int maximumSteps) {
         medium != 0u && !isOpen(medium - 1u) && trace_test == trace_test_crossing;
 #endif
     int level = 2;
-    int end = steps;  // of the steps that are asked: a hit's next one may know a nearer
+    int end = steps;
     int i = 0;
     while (i < end) {
         ivec2 square = texelOfStep(segment, i, steps) >> (2 * level);
@@ -74,21 +74,8 @@ FirstHit traverse(Photon photon, int minimumSteps, int maximumSteps) {
             --level;
             continue;
         }
-        for (; i < min(beyond, end); ++i) {
-            LayerHit hit = testStep(segment, ray, i, steps);
-            bool isExit = false;
-#ifdef CLOSED_DIELECTRICS
-            isExit = hit.layer < 0 && mayComeOut;
-            if (isExit) hit = testExit(segment, ray, i, steps);
-#endif
-            if (hit.layer < 0) continue;
-            if (first.hit.layer < 0) {
-                end = min(end, i + 2);
-            } else if (hit.t >= first.hit.t) {
-                continue;
-            }
-            first = FirstHit(hit, texelOfStep(segment, isExit ? i - 1 : i, steps), isExit);
-        }
+        for (; i < min(beyond, end); ++i)
+            searchStep(segment, ray, i, steps, first, end);
         level = 2;
     }
     return first;

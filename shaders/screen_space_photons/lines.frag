@@ -28,12 +28,7 @@ void main() {
     ivec2 texel = ivec2(photonIndex % mapSize.x, photonIndex / mapSize.x);
     uint media = uint(texelFetch(photonFlux, texel, 0).w);
     TracedRay ray = TracedRay(rayOrigin, rayDirection, media);
-    LayerHit hit = testStep(segment, ray, i, steps);
-    bool isExit = false;
-#ifdef CLOSED_DIELECTRICS
-    isExit = hit.layer < 0 && trace_test == trace_test_crossing;
-    if (isExit) hit = testExit(segment, ray, i, steps);
-#endif
-    if (hit.layer < 0) discard;
-    rowTexel = packRowTexel(hit, isExit ? i - 1 : i, isExit);
+    FirstHit found = hitOfStep(segment, ray, i, steps);
+    if (found.hit.layer < 0) discard;
+    rowTexel = packRowTexel(found.hit, found.isExit ? i - 1 : i, found.isExit);
 }

@@ -24,7 +24,7 @@ void main() {
     Photon photon = photonAt(texel);
     if (photon.fate != kFateInFlight) return;  // its hit, if any, stands
 
-    FirstHit first = FirstHit(LayerHit(0.0, -1), ivec2(0), false);
+    FirstHit first = noHit();
     int stepIndex;
     vec2 found = rowExtents[batch] > 0u ? texelFetch(column, ivec2(0, row), 0).xy : vec2(0.0);
     unpackRowTexel(found, first.hit, stepIndex, first.isExit);
