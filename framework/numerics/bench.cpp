@@ -172,8 +172,14 @@ Traced tracePhotons(Lab& lab, const Lab::Choice& tracer, const scene::Scene& sce
             Hits hits = inject(builder, batch);
             hits = builder.run<TraceStage>(hits.incoming, layers, hits);
             const Nothing nothing = addNothing(builder, hits.incoming.ledger);
-            return FrameOutputs{nothing.picture,       nothing.caustic, eye, layers, hits,
-                                nothing.caustic.ledger};
+            return FrameOutputs{nothing.picture,
+                                nothing.caustic,
+                                eye,
+                                layers,
+                                hits,
+                                nothing.caustic.ledger,
+                                {},
+                                {}};
         });
     const Hits& hits = frame.renderer().outputs().hits;
     return {readHits(frame, photons.size(), hits.position, hits.surface, hits.flux),
@@ -188,10 +194,10 @@ Traced interactPhotons(Lab& lab, const Lab::Choice& specular, const scene::Scene
         const Geometry geometry = builder.run<GeometryStage>();
         const EyeBuffer eye = builder.run<EyeStage>(geometry);
         Hits hits = inject(builder, batch);
-        hits.incoming = builder.run<SpecularStage>(hits);
+        hits = builder.run<SpecularStage>(hits);
         const Nothing nothing = addNothing(builder, hits.incoming.ledger);
-        return FrameOutputs{nothing.picture,       nothing.caustic, eye, {}, hits,
-                            nothing.caustic.ledger};
+        return FrameOutputs{
+            nothing.picture, nothing.caustic, eye, {}, hits, nothing.caustic.ledger, {}, {}};
     });
     const Photons& after = frame.renderer().outputs().hits.incoming;
     Traced result{readHits(frame, photons.size(), after.position, after.direction, after.flux),
@@ -272,11 +278,17 @@ Bent emitAndInteract(Lab& lab, const Lab::Choice& emitter, const scene::Scene& s
         const EyeBuffer eye = builder.run<EyeStage>(geometry);
         Hits hits = builder.run<EmitStage>(geometry);
         static_cast<void>(snapshot(builder, hits.incoming, "_before"));
-        hits.incoming = builder.run<SpecularStage>(hits);
+        hits = builder.run<SpecularStage>(hits);
         static_cast<void>(snapshot(builder, hits.incoming, "_after"));
         const Nothing nothing = addNothing(builder, hits.incoming.ledger);
-        return FrameOutputs{nothing.picture,       nothing.caustic, eye, LayeredDepth{}, hits,
-                            nothing.caustic.ledger};
+        return FrameOutputs{nothing.picture,
+                            nothing.caustic,
+                            eye,
+                            LayeredDepth{},
+                            hits,
+                            nothing.caustic.ledger,
+                            {},
+                            {}};
     });
     return {readEmitted(frame, "_before"), readEmitted(frame, "_after"), frame.renderer().ledger()};
 }
@@ -297,7 +309,7 @@ Frame reconstructHits(Lab& lab, const Lab::Choice& reconstruct, const scene::Sce
         const Hits hits = inject(builder, batch);
         const IrradianceMap caustic = builder.run<ReconstructStage>(hits, eye);
         const Nothing nothing = addNothing(builder, caustic.ledger);
-        return FrameOutputs{nothing.picture, caustic, eye, {}, hits, caustic.ledger};
+        return FrameOutputs{nothing.picture, caustic, eye, {}, hits, caustic.ledger, {}, {}};
     });
 }
 

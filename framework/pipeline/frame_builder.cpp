@@ -46,8 +46,8 @@ std::string whyNoCaustic(const scene::SceneNeeds& needs) {
 
 // Irradiance of zero and an empty ledger, in place of all that follows photons.
 IrradianceMap leaveOutCaustic(FrameBuilder& frame, const std::string& why) {
-    for (const char* stage : {LayersStage::name, EmitStage::name, SpecularStage::name,
-                              TraceStage::name, ReconstructStage::name}) {
+    for (const char* stage : {EmitStage::name, SpecularStage::name, TraceStage::name,
+                              MediaStage::name, BlurStage::name, ReconstructStage::name}) {
         const std::string node = frame.chosenNode(stage).name;
         frame.leaveOut(std::string(stage) + "." + node, why);
     }
@@ -65,27 +65,60 @@ IrradianceMap leaveOutCaustic(FrameBuilder& frame, const std::string& why) {
         });
 }
 
+struct Caustic {
+    Hits hits;
+    IrradianceMap map;
+    InScattered inScattered;
+};
+
+Caustic followPhotons(FrameBuilder& frame, const Geometry& geometry, const EyeBuffer& eye,
+                      const LayeredDepth& layers) {
+    const bool scatters = frame.needs().scatteringMedium;
+    Caustic caustic;
+    caustic.hits = frame.run<EmitStage>(geometry);
+    const int interactions = interactionCount(frame);
+    for (int i = 0; i < interactions; ++i) {
+        const Hits meeting = frame.run<SpecularStage>(caustic.hits);
+        caustic.hits = frame.run<TraceStage>(meeting.incoming, layers, meeting);
+        if (scatters)
+            caustic.inScattered = frame.run<MediaStage>(caustic.hits, eye, caustic.inScattered);
+    }
+    if (scatters) {
+        caustic.inScattered = frame.run<BlurStage>(caustic.inScattered);
+    } else {
+        for (const char* stage : {MediaStage::name, BlurStage::name}) {
+            frame.leaveOut(std::string(stage) + "." + frame.chosenNode(stage).name,
+                           "the scene has no medium that scatters");
+        }
+    }
+    caustic.map = frame.run<ReconstructStage>(caustic.hits, eye);
+    return caustic;
+}
+
 }  // namespace
 
 FrameOutputs buildFrame(FrameBuilder& frame) {
     const Geometry geometry = frame.run<GeometryStage>();
     const EyeBuffer eye = frame.run<EyeStage>(geometry);
-    const std::string whyNot = whyNoCaustic(frame.needs());
-    if (!whyNot.empty()) {
-        const IrradianceMap caustic = leaveOutCaustic(frame, whyNot);
-        const Picture picture = frame.run<ComposeStage>(geometry, eye, caustic);
-        return {picture, caustic, eye, {}, {}, caustic.ledger};
-    }
     const LayeredDepth layers = frame.run<LayersStage>(geometry);
-    Hits hits = frame.run<EmitStage>(geometry);
-    const int interactions = interactionCount(frame);
-    for (int i = 0; i < interactions; ++i) {
-        hits.incoming = frame.run<SpecularStage>(hits);
-        hits = frame.run<TraceStage>(hits.incoming, layers, hits);
+    const Shadows shadows = frame.run<ShadowStage>(geometry, eye, layers);
+    const std::string whyNot = whyNoCaustic(frame.needs());
+    Caustic caustic;
+    if (whyNot.empty()) {
+        caustic = followPhotons(frame, geometry, eye, layers);
+    } else {
+        caustic.map = leaveOutCaustic(frame, whyNot);
     }
-    const IrradianceMap caustic = frame.run<ReconstructStage>(hits, eye);
-    const Picture picture = frame.run<ComposeStage>(geometry, eye, caustic);
-    return {picture, caustic, eye, layers, hits, caustic.ledger};
+    const Picture picture = frame.run<ComposeStage>(
+        geometry, eye, layers, LightParts{shadows, caustic.map, caustic.inScattered});
+    return {picture,
+            caustic.map,
+            eye,
+            whyNot.empty() ? layers : LayeredDepth{},
+            caustic.hits,
+            caustic.map.ledger,
+            caustic.inScattered,
+            shadows};
 }
 
 }  // namespace kaustik

@@ -48,7 +48,7 @@ class FrameBuilder {
         const auto& build = *static_cast<const typename Stage::Build*>(node.build.get());
         typename Stage::Output output = build(*this, std::move(in)...);
         if constexpr (std::is_same_v<Stage, TraceStage>) {
-            if (recordsTraces_) traces_.push_back(recordTrace(*this, output));
+            if (recordsTraces_ && prefix_.empty()) traces_.push_back(recordTrace(*this, output));
         }
         return output;
     }
@@ -58,10 +58,29 @@ class FrameBuilder {
     template <class Data, class Setup, class Execute>
     const Data& pass(const std::string& name, const std::string& why, Setup&& setup,
                      Execute&& execute) {
-        return graph_.addPass<Data, gl::PassContext>({name, why}, std::forward<Setup>(setup),
-                                                     std::forward<Execute>(execute));
+        return graph_.addPass<Data, gl::PassContext>(
+            {prefix_ + name, why}, std::forward<Setup>(setup), std::forward<Execute>(execute));
     }
-    void leaveOut(const std::string& name, const std::string& why) { graph_.leaveOut(name, why); }
+    void leaveOut(const std::string& name, const std::string& why) {
+        graph_.leaveOut(prefix_ + name, why);
+    }
+
+    // While it lives, passes are named "STAGE.…": for a stage that uses nodes of another one, a
+    // tracer say. Such tracings are not part of what the photon audit records.
+    class Within {
+      public:
+        Within(FrameBuilder& frame, const std::string& stage)
+            : frame_(frame), before_(frame.prefix_) {
+            frame.prefix_ += stage + ".";
+        }
+        ~Within() { frame_.prefix_ = before_; }
+        Within(const Within&) = delete;
+        Within& operator=(const Within&) = delete;
+
+      private:
+        FrameBuilder& frame_;
+        std::string before_;
+    };
 
     // The parameters of a node ("trace.lines") or those that a stage shares ("trace").
     template <class Params>
@@ -100,6 +119,7 @@ class FrameBuilder {
     std::vector<std::shared_ptr<void>> kept_;
     std::vector<std::string> warnings_;
     std::vector<std::string> stagesRun_;
+    std::string prefix_;
     bool recordsTraces_ = false;
     std::vector<TraceRecord> traces_;
 };

@@ -41,6 +41,8 @@ struct FrameOutputs {
     LayeredDepth layers;  // invalid handles where a technique has none
     Hits hits;
     Ledger ledger;  // with everything but what was deposited
+    InScattered inScattered;
+    Shadows shadows;
 };
 
 using BuildFrame = std::function<FrameOutputs(FrameBuilder&)>;

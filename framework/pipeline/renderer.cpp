@@ -113,6 +113,7 @@ graph::Compiled Renderer::compile(Purpose purpose, const std::vector<std::string
     graph_->request(outputs_.picture.display);
     graph_->request(outputs_.caustic.irradiance);
     if (outputs_.caustic.radiance.valid()) graph_->request(outputs_.caustic.radiance);
+    if (outputs_.inScattered.radiance.valid()) graph_->request(outputs_.inScattered.radiance);
     if (purpose != Purpose::picture) {
         graph_->request(closedLedger_);
         if (outputs_.layers.statistics.valid()) graph_->request(outputs_.layers.statistics);
@@ -153,6 +154,9 @@ void Renderer::requestForAudit() {
     }
     request(outputs_.layers.depth);
     request(outputs_.eye.receiver);
+    request(outputs_.picture.view.exitPosition);
+    request(outputs_.picture.view.exitDirection);
+    request(outputs_.shadows.visibility);
 }
 
 void Renderer::build(Purpose purpose, const std::vector<std::string>& resources) {

@@ -81,6 +81,15 @@ transport::ViewData viewData(const scene::Scene& scene, const EyeView& view) {
     }
     data.background = glm::vec4(scene.backgroundRadiance, 0.0f);
     data.ambient = glm::vec4(scene.ambientIrradiance, 0.0f);
+    if (scene.medium) {
+        const scene::Medium& medium = *scene.medium;
+        data.mediumScattering = glm::vec4(medium.scatteringPerMeter, medium.anisotropy);
+        data.mediumExtinction =
+            glm::vec4(medium.scatteringPerMeter + medium.absorptionPerMeter, 0.0f);
+    }
+    data.environment =
+        glm::vec4(static_cast<float>(scene.environmentImage),
+                  static_cast<float>(glm::radians(scene.environmentTurnDegrees)), 0.0f, 0.0f);
     return data;
 }
 

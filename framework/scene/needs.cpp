@@ -45,6 +45,7 @@ SceneNeeds sceneNeeds(const Scene& scene) {
     const glm::vec3 none(0.0f);
     needs.medium = scene.medium && (scene.medium->scatteringPerMeter != none ||
                                     scene.medium->absorptionPerMeter != none);
+    needs.scatteringMedium = scene.medium && scene.medium->scatteringPerMeter != none;
     return needs;
 }
 

@@ -16,6 +16,7 @@ struct SceneNeeds {
     int refractors = 0;              // objects that are dielectrics
     bool closedDielectrics = false;  // one of these bounds a volume: glass, not a water surface
     bool medium = false;             // one that scatters or absorbs
+    bool scatteringMedium = false;   // one that scatters: there is light on the way to be seen
     bool glossyReceivers = false;    // a receiver is not Lambertian alone
     bool animated = false;           // a height field has a wave that moves
     int lights = 0;

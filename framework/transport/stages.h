@@ -63,6 +63,16 @@ struct DisplayTexel {  // rgb: display-encoded (sRGB), [0,1]
     static constexpr Format format = Format::rgba8;
 };
 
+struct VisibilityTexel {  // x: share of a light's direct light that reaches the receiver, [0, 1]
+    static constexpr Format format = Format::r32f;
+};
+struct ExitPosition {  // xyz: view space, m; w: specular surfaces that the eye's ray met, 0 none
+    static constexpr Format format = Format::rgba32f;
+};
+struct ExitDirection {  // xyz: unit, view space; w: 1 where the ray came out, 0 where it was lost
+    static constexpr Format format = Format::rgba32f;
+};
+
 using Ledger = graph::Buffer<transport::LedgerEntry>;
 
 // Vertices that are made on the GPU each frame; invalid where the scene has none.
@@ -129,9 +139,36 @@ struct Radiance {
     graph::Texture<RadianceTexel> radiance;
 };
 
+// Caustic light that the medium scatters once towards the eye along the straight eye ray, with the
+// transmittance to the eye; invalid where the scene has no medium that scatters.
+struct InScattered {
+    graph::Texture<RadianceTexel> radiance;
+};
+
+// Which direct light reaches the receivers; invalid where the scene has no light.
+struct Shadows {
+    graph::Texture<VisibilityTexel> visibility;  // array, a layer a light
+};
+
+// What the eye sees through or in specular objects, and where its transmitted rays left them for
+// good; the latter is invalid where a node does not follow rays.
+struct View {
+    graph::Texture<RadianceTexel> radiance;
+    graph::Texture<ExitPosition> exitPosition;
+    graph::Texture<ExitDirection> exitDirection;
+};
+
+// All light that the picture is made of.
+struct LightParts {
+    Shadows shadows;
+    IrradianceMap caustic;
+    InScattered inScattered;
+};
+
 struct Picture {
     graph::Texture<RadianceTexel> radiance;
     graph::Texture<DisplayTexel> display;
+    View view;
 };
 
 class FrameBuilder;
@@ -161,7 +198,8 @@ struct EmitStage : Stage<Hits(Geometry)> {
     static constexpr const char* name = "emit";
     static constexpr const char* question = "Where does light first meet a specular surface?";
 };
-struct SpecularStage : Stage<Photons(Hits)> {
+// Gives the hits as they stand, with the photons that go on as `incoming`.
+struct SpecularStage : Stage<Hits(Hits)> {
     static constexpr const char* name = "specular";
     static constexpr const char* question = "Where do photons go from a specular surface?";
 };
@@ -173,11 +211,24 @@ struct ReconstructStage : Stage<IrradianceMap(Hits, EyeBuffer)> {
     static constexpr const char* name = "reconstruct";
     static constexpr const char* question = "How does flux at points become irradiance?";
 };
-struct ViewStage : Stage<Radiance(EyeBuffer, Radiance)> {
+// Adds what photons scatter on their way to these hits to what those of earlier ways did.
+struct MediaStage : Stage<InScattered(Hits, EyeBuffer, InScattered)> {
+    static constexpr const char* name = "media";
+    static constexpr const char* question = "What does a medium scatter towards the eye?";
+};
+struct BlurStage : Stage<InScattered(InScattered)> {
+    static constexpr const char* name = "blur";
+    static constexpr const char* question = "How is in-scattered light smoothed on the screen?";
+};
+struct ShadowStage : Stage<Shadows(Geometry, EyeBuffer, LayeredDepth)> {
+    static constexpr const char* name = "shadow";
+    static constexpr const char* question = "Which receivers does direct light reach?";
+};
+struct ViewStage : Stage<View(Geometry, EyeBuffer, LayeredDepth, Radiance)> {
     static constexpr const char* name = "view";
     static constexpr const char* question = "What does the eye see through specular surfaces?";
 };
-struct ComposeStage : Stage<Picture(Geometry, EyeBuffer, IrradianceMap)> {
+struct ComposeStage : Stage<Picture(Geometry, EyeBuffer, LayeredDepth, LightParts)> {
     static constexpr const char* name = "compose";
     static constexpr const char* question = "How do all parts become a picture?";
 };

@@ -25,6 +25,9 @@ struct ViewData {
     vec4 boundsHalfExtent;  // along the world's axes, m
     vec4 background;        // radiance that comes from outside of the scene, W/m²/sr
     vec4 ambient;           // constant fill light for the picture, W/m²
+    vec4 mediumScattering;  // of what fills the scene: rgb 1/m; w: Henyey-Greenstein g
+    vec4 mediumExtinction;  // rgb: scattering and absorption, 1/m
+    vec4 environment;       // x: image layer of what surrounds the scene, -1 none; y: its turn, rad
 };
 
 // One placed mesh, for one view (std430).
@@ -81,6 +84,9 @@ const uint kMediumBase = 2048u;
 const uint kLeftNothing = 0u;  // or what it cannot meet again from the same side: see hit_test.glsl
 const uint kLeftOutside = 1u;
 const uint kLeftInside = 2u;
+// A ray that asks whether anything is in its way: it meets every surface from either side, but for
+// the one that it starts on.
+const uint kLeftForAll = 3u;
 
 // A photon after its last specular interaction: one texel of the transfer map (K06, section 2),
 // three RGBA32F textures.

@@ -5,6 +5,7 @@
 
 #include "framework/pipeline/registry.h"
 #include "framework/pipeline/stage_params.h"
+#include "framework/render/gpu_scene.h"
 
 namespace kaustik {
 
@@ -12,6 +13,17 @@ void registerScreenSpacePhotons(Registry& registry);
 
 // What the hard cases need to know of these nodes, and cases of their own.
 void addScreenSpacePhotonCases(numerics::Suite& suite);
+
+// Which surfaces a layered depth image holds, and its resources' names ("layers" gives
+// "layers.depth").
+struct LayersRequest {
+    std::string name;
+    render::DrawSet set = render::DrawSet::all;
+    int layers = 8;
+};
+// Adds the passes of a layered depth image without a pyramid.
+[[nodiscard]] LayeredDepth peel(FrameBuilder& frame, Geometry geometry,
+                                const LayersRequest& request);
 
 // Adds the pass that makes `pyramid` of the other layers' textures.
 [[nodiscard]] LayeredDepth addPyramid(FrameBuilder& frame, const LayeredDepth& layers);

@@ -25,17 +25,18 @@ struct Complexity {
     Geometry geometry;
 };
 
-Complexity measureComplexity(FrameBuilder& frame, Geometry geometry, int layers) {
+Complexity measureComplexity(FrameBuilder& frame, Geometry geometry, const LayersRequest& request) {
     return frame.pass<Complexity>(
         "layers.complexity", "peeling stops at the measured depth complexity",
         [&](graph::PassSetup& setup, Complexity& data) {
             data.geometry = geometry;
             if (geometry.heightFields.valid()) setup.read(geometry.heightFields);
-            data.counts = setup.create<CountTexel>("layers.counts", frame.width(), frame.height());
+            data.counts =
+                setup.create<CountTexel>(request.name + ".counts", frame.width(), frame.height());
             data.statistics =
-                setup.createBuffer<transport::LayerStatistics>("layers.statistics", 1);
+                setup.createBuffer<transport::LayerStatistics>(request.name + ".statistics", 1);
         },
-        [&inputs = frame.inputs(), layers](const Complexity& data, gl::PassContext& context) {
+        [&inputs = frame.inputs(), request](const Complexity& data, gl::PassContext& context) {
             context.buffer(data.statistics).clear();
             gl::Command count =
                 context.shaders({"shared/eye.vert", "screen_space_photons/peel_count.frag"});
@@ -43,21 +44,20 @@ Complexity measureComplexity(FrameBuilder& frame, Geometry geometry, int layers)
                 .target(data.counts)
                 .clear()
                 .blend(gl::Blend::add);
-            inputs.gpuScene.draw(count, context, data.geometry, inputs.instances,
-                                 render::DrawSet::all);
+            inputs.gpuScene.draw(count, context, data.geometry, inputs.instances, request.set);
             context.compute("screen_space_photons/peel_statistics.comp")
                 .texture("counts", data.counts)
                 .storage("Statistics", data.statistics)
-                .set("layerCount", layers)
+                .set("layerCount", request.layers)
                 .dispatchOver(inputs.view.width, 8, inputs.view.height, 8);
         });
 }
 
 }  // namespace
 
-LayeredDepth peelLayers(FrameBuilder& frame, const params::NoParams&, Geometry geometry) {
-    const int layers = frame.params<LayersParams>("layers").count;
-    const Complexity complexity = measureComplexity(frame, geometry, layers);
+LayeredDepth peel(FrameBuilder& frame, Geometry geometry, const LayersRequest& request) {
+    const int layers = request.layers;
+    const Complexity complexity = measureComplexity(frame, geometry, request);
     struct Data {
         LayeredDepth layers;
         graph::Texture<DepthBuffer> depth;
@@ -75,20 +75,21 @@ LayeredDepth peelLayers(FrameBuilder& frame, const params::NoParams&, Geometry g
                     if (geometry.heightFields.valid()) setup.read(geometry.heightFields);
                     const int w = frame.width();
                     const int h = frame.height();
-                    data.layers.depth = setup.create<ViewDepth>("layers.depth", w, h, layers);
+                    data.layers.depth =
+                        setup.create<ViewDepth>(request.name + ".depth", w, h, layers);
                     data.layers.surface =
-                        setup.create<SurfaceTexel>("layers.surface", w, h, layers);
+                        setup.create<SurfaceTexel>(request.name + ".surface", w, h, layers);
                     data.layers.normal =
-                        setup.create<TriangleNormal>("layers.normal", w, h, layers);
+                        setup.create<TriangleNormal>(request.name + ".normal", w, h, layers);
                     data.layers.statistics = setup.read(complexity.statistics);
                     data.layers.layers = layers;
-                    data.depth = setup.create<DepthBuffer>("layers.depth_buffer", w, h);
+                    data.depth = setup.create<DepthBuffer>(request.name + ".depth_buffer", w, h);
                     data.commands = setup.createBuffer<DrawCommandWords>(
-                        "layers.commands",
+                        request.name + ".commands",
                         std::max<std::size_t>(commandCount, 1) * static_cast<std::size_t>(layers));
                 },
-                [&inputs = frame.inputs(), layers, commandCount](const Data& data,
-                                                                 gl::PassContext& context) {
+                [&inputs = frame.inputs(), request, layers, commandCount](
+                    const Data& data, gl::PassContext& context) {
                     context.compute("screen_space_photons/peel_commands.comp")
                         .storage("SceneCommands", inputs.gpuScene.commands())
                         .storage("LayerCommands", data.commands)
@@ -110,12 +111,17 @@ LayeredDepth peelLayers(FrameBuilder& frame, const params::NoParams&, Geometry g
                         command.target(data.layers.normal, layer).clear();
                         command.depth(data.depth, gl::DepthTest::nearer).clear({1, 0, 0, 0});
                         inputs.gpuScene.draw(command, context, data.geometry, inputs.instances,
-                                             render::DrawSet::all, &context.buffer(data.commands),
+                                             request.set, &context.buffer(data.commands),
                                              static_cast<std::size_t>(layer) * commandCount);
                     }
                 })
             .layers;
-    return addPyramid(frame, peeled);
+    return peeled;
+}
+
+LayeredDepth peelLayers(FrameBuilder& frame, const params::NoParams&, Geometry geometry) {
+    const int layers = frame.params<LayersParams>("layers").count;
+    return addPyramid(frame, peel(frame, geometry, {"layers", render::DrawSet::all, layers}));
 }
 
 }  // namespace kaustik

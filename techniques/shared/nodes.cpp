@@ -26,13 +26,17 @@ void registerSharedNodes(Registry& registry) {
                                   "branch goes to the ledger.",
                                   "K06, section 2.3"},
                                  &interactAtInterface);
+    registry.node<ShadowStage>(
+        "map", {"Draws the scene from each light and compares distances.", ""}, &lookUpShadowMaps);
+    registry.node<MediaStage>("none", {"Leaves in-scattered light out.", ""}, &leaveOutScattering);
+    registry.node<BlurStage>("none", {"Leaves in-scattered light as it is.", ""}, &leaveUnblurred);
     registry.node<ViewStage>("interface",
                              {"Looks through the first specular surface with one refraction, at "
                               "the distance of the receiver straight behind it.",
                               ""},
                              &viewThroughInterface);
     registry.node<ComposeStage>("picture",
-                                {"Direct light with shadow maps, the caustic, and what the eye "
+                                {"Direct light with its shadows, the caustic, and what the eye "
                                  "sees through specular surfaces.",
                                  ""},
                                 &composePicture);

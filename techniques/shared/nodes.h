@@ -18,7 +18,7 @@ EyeBuffer renderEye(FrameBuilder& frame, const params::NoParams&, Geometry geome
 
 Hits emitGrid(FrameBuilder& frame, const params::NoParams&, Geometry geometry);
 
-Photons interactAtInterface(FrameBuilder& frame, const params::NoParams&, Hits hits);
+Hits interactAtInterface(FrameBuilder& frame, const params::NoParams&, Hits hits);
 
 struct InterfaceViewParams {
     bool refract = true;
@@ -28,16 +28,27 @@ struct InterfaceViewParams {
                 "Bend the eye's ray at the surface; off: look straight through");
     }
 };
-Radiance viewThroughInterface(FrameBuilder& frame, const InterfaceViewParams& params, EyeBuffer eye,
-                              Radiance receivers);
+View viewThroughInterface(FrameBuilder& frame, const InterfaceViewParams& params, Geometry geometry,
+                          EyeBuffer eye, LayeredDepth layers, Radiance receivers);
+
+struct ShadowMapParams {
+    int size = 1024;
+    template <class R>
+    void reflect(R& r) {
+        r.field(size, "size", "Side of a light's shadow map", "texels", params::range(16, 8192));
+    }
+};
+Shadows lookUpShadowMaps(FrameBuilder& frame, const ShadowMapParams& params, Geometry geometry,
+                         EyeBuffer eye, LayeredDepth layers);
+
+InScattered leaveOutScattering(FrameBuilder& frame, const params::NoParams&, Hits hits,
+                               EyeBuffer eye, InScattered before);
+InScattered leaveUnblurred(FrameBuilder& frame, const params::NoParams&, InScattered sharp);
 
 struct PictureParams {
-    int shadowSize = 1024;
     float exposure = 0.0f;
     template <class R>
     void reflect(R& r) {
-        r.field(shadowSize, "shadow_size", "Side of a light's shadow map", "texels",
-                params::range(16, 8192));
         r.field(
             exposure, "exposure",
             "Brightness of the display image; 0: from the irradiance at the middle of the scene",
@@ -45,6 +56,6 @@ struct PictureParams {
     }
 };
 Picture composePicture(FrameBuilder& frame, const PictureParams& params, Geometry geometry,
-                       EyeBuffer eye, IrradianceMap caustic);
+                       EyeBuffer eye, LayeredDepth layers, LightParts light);
 
 }  // namespace kaustik

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// compose.picture: shadow maps and direct light of all lights, the radiance of the receivers with
-// the caustic on them, what the eye sees through specular surfaces (stage `view`), and the display
-// image. Irradiance in W/m², radiance in W/m²/sr.
+// compose.picture: direct light of all lights, the radiance of the receivers with the caustic on
+// them, what the eye sees through specular surfaces (stage `view`), and the display image.
+// Irradiance in W/m², radiance in W/m²/sr.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,40 +11,6 @@
 
 namespace kaustik {
 namespace {
-
-struct LightDepth {  // x: planar depth from the light, m, 0 none; y: its extent over the texel, m
-    static constexpr Format format = Format::rg32f;
-};
-
-struct ShadowView {
-    glm::mat4 projection;
-    std::vector<glm::mat4> eyeToLight;                    // by face
-    std::vector<const render::ViewInstances*> instances;  // by face
-    int firstLayer = 0;
-};
-
-// One face for a light with a direction, six around a point light.
-std::vector<ShadowView> makeShadowViews(FrameBuilder& frame) {
-    std::vector<ShadowView> views;
-    const scene::Bounds bounds = sceneBounds(frame.scene());
-    int layer = 0;
-    for (const scene::Light& light : frame.scene().lights) {
-        ShadowView shadow;
-        shadow.firstLayer = layer;
-        const int faces = light.kind == scene::LightKind::directional ? 1 : 6;
-        for (int face = 0; face < faces; ++face) {
-            const render::LightView view = faces == 1 ? render::makeLightView(light, bounds, bounds)
-                                                      : render::makeCubeFaceView(light, face);
-            shadow.projection = view.projection();
-            shadow.eyeToLight.push_back(render::eyeToLight(view, frame.view()));
-            shadow.instances.push_back(
-                &frame.keep(frame.gpuScene().makeInstances(view.worldToLight)));
-        }
-        layer += faces;
-        views.push_back(std::move(shadow));
-    }
-    return views;
-}
 
 // What makes a half-reflecting receiver in the middle of the scene a middle grey.
 float automaticExposure(const scene::Scene& scene) {
@@ -62,63 +28,26 @@ float automaticExposure(const scene::Scene& scene) {
     return irradiance > 0.0 ? static_cast<float>(0.45 * 3.14159265 / (0.5 * irradiance)) : 1.0f;
 }
 
-struct Shadows {
-    graph::Texture<LightDepth> map;
-    graph::Texture<DepthBuffer> depth;
-    Geometry geometry;
-};
-
-Shadows renderShadows(FrameBuilder& frame, const PictureParams& params,
-                      const std::vector<ShadowView>& views, Geometry geometry) {
-    const int layers = views.back().firstLayer + static_cast<int>(views.back().eyeToLight.size());
-    return frame.pass<Shadows>(
-        "compose.shadow", fmt::format("{} light{}", views.size(), views.size() == 1 ? "" : "s"),
-        [&](graph::PassSetup& setup, Shadows& data) {
-            data.geometry = geometry;
-            if (geometry.heightFields.valid()) setup.read(geometry.heightFields);
-            const int side = params.shadowSize;
-            data.map = setup.create<LightDepth>("compose.shadow_map", side, side, layers);
-            data.depth = setup.create<DepthBuffer>("compose.shadow_depth_buffer", side, side);
-            setup.bypass(data.map, {0, 0, 0, 0});
-            setup.bypass(data.depth, {0, 0, 0, 0});
-        },
-        [&inputs = frame.inputs(), views](const Shadows& data, gl::PassContext& context) {
-            for (const ShadowView& view : views) {
-                for (std::size_t face = 0; face < view.eyeToLight.size(); ++face) {
-                    gl::Command command =
-                        context.shaders({"shared/eye.vert", "shared/shadow.frag"});
-                    command.set("projection", view.projection)
-                        .target(data.map, view.firstLayer + static_cast<int>(face))
-                        .clear()
-                        .depth(data.depth, gl::DepthTest::nearerReversed)
-                        .clear();
-                    inputs.gpuScene.draw(command, context, data.geometry, *view.instances[face],
-                                         render::DrawSet::all);
-                }
-            }
-        });
-}
-
 struct DirectLight {
     graph::Texture<IrradianceTexel> irradiance;
     graph::Texture<RadianceTexel> radiance;  // towards the eye; invalid where no receiver is glossy
 };
 
-DirectLight lightDirectly(FrameBuilder& frame, const std::vector<ShadowView>& views,
-                          const Shadows& shadows, EyeBuffer eye) {
+DirectLight lightDirectly(FrameBuilder& frame, const Shadows& shadows, EyeBuffer eye) {
     struct Data {
         DirectLight direct;
         Shadows shadows;
         EyeBuffer eye;
     };
     const bool isGlossy = frame.needs().glossyReceivers;
+    const int lights = frame.needs().lights;
     return frame
         .pass<Data>(
             "compose.direct", "receivers are lit directly too",
             [&](graph::PassSetup& setup, Data& data) {
                 data.shadows = shadows;
                 data.eye = eye;
-                if (!views.empty()) setup.read(shadows.map);
+                if (lights > 0) setup.read(shadows.visibility);
                 setup.read(eye.receiver);
                 setup.read(eye.receiverSurface);
                 DirectLight& direct = data.direct;
@@ -131,27 +60,20 @@ DirectLight lightDirectly(FrameBuilder& frame, const std::vector<ShadowView>& vi
                     setup.create<RadianceTexel>("direct.radiance", frame.width(), frame.height());
                 setup.bypass(direct.radiance, {0, 0, 0, 0});
             },
-            [&inputs = frame.inputs(), views](const Data& data, gl::PassContext& context) {
+            [&inputs = frame.inputs(), lights](const Data& data, gl::PassContext& context) {
                 const DirectLight& direct = data.direct;
                 context.texture(direct.irradiance).clear({0, 0, 0, 0});
                 if (direct.radiance.valid()) context.texture(direct.radiance).clear({0, 0, 0, 0});
-                for (std::size_t light = 0; light < views.size(); ++light) {
+                for (int light = 0; light < lights; ++light) {
                     gl::Command command = context.fullscreen("shared/direct.frag");
                     inputs.bindView(command)
                         .storage("Lights", inputs.lights)
                         .storage("Materials", inputs.gpuScene.materials())
                         .texture("receiver", data.eye.receiver)
                         .texture("receiverSurface", data.eye.receiverSurface)
-                        .texture("shadowMap", data.shadows.map)
+                        .texture("visibility", data.shadows.visibility)
                         .texture("sceneImages", inputs.gpuScene.images())
-                        .set("lightIndex", static_cast<int>(light))
-                        .set("firstLayer", views[light].firstLayer)
-                        .set("faceCount", static_cast<int>(views[light].eyeToLight.size()))
-                        .set("projection", views[light].projection);
-                    for (std::size_t face = 0; face < views[light].eyeToLight.size(); ++face) {
-                        command.set(fmt::format("eyeToLight[{}]", face),
-                                    views[light].eyeToLight[face]);
-                    }
+                        .set("lightIndex", light);
                     command.target(direct.irradiance);
                     if (direct.radiance.valid()) {
                         command.define("GLOSSY_RECEIVERS")
@@ -222,23 +144,17 @@ Radiance shadeReceivers(FrameBuilder& frame, EyeBuffer eye, const DirectLight& d
 }  // namespace
 
 Picture composePicture(FrameBuilder& frame, const PictureParams& params, Geometry geometry,
-                       EyeBuffer eye, IrradianceMap caustic) {
-    const std::vector<ShadowView> views = makeShadowViews(frame);
-    Shadows shadows;
-    if (views.empty()) {
-        frame.leaveOut("compose.shadow", "the scene has no light");
-    } else {
-        shadows = renderShadows(frame, params, views, geometry);
-    }
-    const DirectLight direct = lightDirectly(frame, views, shadows, eye);
-    const Radiance receivers = shadeReceivers(frame, eye, direct, caustic);
-    const Radiance seen = frame.run<ViewStage>(eye, receivers);
+                       EyeBuffer eye, LayeredDepth layers, LightParts light) {
+    const DirectLight direct = lightDirectly(frame, light.shadows, eye);
+    const Radiance receivers = shadeReceivers(frame, eye, direct, light.caustic);
+    const View seen = frame.run<ViewStage>(geometry, eye, layers, receivers);
     const float exposure =
         params.exposure > 0.0f ? params.exposure : automaticExposure(frame.scene());
     return frame.pass<Picture>(
         "compose.display", "the display image is an output",
         [&](graph::PassSetup& setup, Picture& data) {
             data.radiance = setup.read(seen.radiance);
+            data.view = seen;
             data.display = setup.create<DisplayTexel>("display", frame.width(), frame.height());
         },
         [exposure](const Picture& data, gl::PassContext& context) {

@@ -7,16 +7,17 @@
 
 namespace kaustik {
 
-Radiance viewThroughInterface(FrameBuilder& frame, const InterfaceViewParams& params, EyeBuffer eye,
-                              Radiance receivers) {
+View viewThroughInterface(FrameBuilder& frame, const InterfaceViewParams& params,
+                          Geometry /*geometry*/, EyeBuffer eye, LayeredDepth /*layers*/,
+                          Radiance receivers) {
     if (!eye.interface.valid()) {
         frame.leaveOut("view.interface", "the scene has no specular surface");
-        return receivers;
+        return {receivers.radiance, {}, {}};
     }
     struct Data {
         EyeBuffer eye;
         Radiance receivers;
-        Radiance seen;
+        View seen;
     };
     return frame
         .pass<Data>(

@@ -21,7 +21,7 @@ size = "32x24"
 frames = 1
 warmup = 0
 "emit.photons" = "16x16"
-"compose.picture.shadow_size" = 64
+"shadow.map.size" = 64
 )";
 
 class ExperimentCommand : public CommandLine {

@@ -119,7 +119,7 @@ Outcome runKaustik(const std::vector<std::string>& arguments, const Conditions& 
 std::vector<std::string> smallRun(const std::string& scene, const std::vector<std::string>& more) {
     std::vector<std::string> arguments = {
         "run",      scene, "--size", "64x48",         "--frames", "1",
-        "--warmup", "0",   "--set",  "photons=32x32", "--set",    "shadow_size=64"};
+        "--warmup", "0",   "--set",  "photons=32x32", "--set",    "shadow.map.size=64"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;
 }

@@ -197,11 +197,11 @@ TEST_F(Disable, OfTheSpritesLeavesNoCaustic) {
 
 TEST_F(Disable, OfTheShadowsLightsWhatTheyDarkened) {
     static_cast<void>(renderWater({}, "shadows"));
-    static_cast<void>(renderWater({"--disable", "compose.shadow"}));
+    static_cast<void>(renderWater({"--disable", "shadow.map"}));
     const json withShadows = report("shadows");
     const json withoutShadows = report();
-    EXPECT_EQ(passNamed(withShadows, "compose.shadow").at("ran"), true);
-    EXPECT_EQ(passNamed(withoutShadows, "compose.shadow").at("ran"), false);
+    EXPECT_EQ(passNamed(withShadows, "shadow.map").at("ran"), true);
+    EXPECT_EQ(passNamed(withoutShadows, "shadow.map").at("ran"), false);
     // Water blocks direct light, so without the shadow map the floor below it is brighter.
     double brighter = 0.0;
     const Image with = readImage(folder / "shadows/beauty.exr");
@@ -214,7 +214,7 @@ TEST_F(Disable, OfTheShadowsLightsWhatTheyDarkened) {
 
 TEST_F(Disable, TakesAUniqueShortFormAndReportsTheFullName) {
     static_cast<void>(renderWater({"--disable", "sprites", "--disable", "shadow"}));
-    EXPECT_EQ(report().at("disabled"), json({"compose.shadow", "reconstruct.sprites"}));
+    EXPECT_EQ(report().at("disabled"), json({"shadow.map", "reconstruct.sprites"}));
     EXPECT_TRUE(isBlack(readImage(folder / "out/caustic.exr")));
 }
 

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// media.none, blur.none: the choice to leave in-scattered light out, or as it is.
+#include "framework/pipeline/frame_builder.h"
+#include "techniques/shared/nodes.h"
+
+namespace kaustik {
+
+InScattered leaveOutScattering(FrameBuilder& frame, const params::NoParams&, Hits /*hits*/,
+                               EyeBuffer /*eye*/, InScattered before) {
+    frame.leaveOut("media.none", "the settings leave in-scattered light out");
+    return before;
+}
+
+InScattered leaveUnblurred(FrameBuilder& frame, const params::NoParams&, InScattered sharp) {
+    frame.leaveOut("blur.none", "the settings leave in-scattered light as it is");
+    return sharp;
+}
+
+}  // namespace kaustik
