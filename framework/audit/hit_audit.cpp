@@ -164,7 +164,12 @@ Layers readLayers(const Renderer& renderer) {
     const LayeredDepth& layers = renderer.outputs().layers;
     if (!layers.depth.valid()) return {};
     const gl::Texture& texture = renderer.texture(layers.depth);
-    return {texture.desc().width, texture.desc().height, layers.layers, texture.read()};
+    const std::vector<float> texels = texture.read();
+    std::vector<float> depths;  // and extents
+    depths.reserve(texels.size() / 2);
+    for (std::size_t i = 0; i + 1 < texels.size(); i += 4)
+        depths.insert(depths.end(), {texels[i], texels[i + 1]});
+    return {texture.desc().width, texture.desc().height, layers.layers, std::move(depths)};
 }
 
 std::optional<double> share(std::uint64_t part, std::uint64_t whole) {

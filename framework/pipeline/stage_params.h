@@ -12,7 +12,7 @@ struct LayersParams {
     void reflect(R& r) {
         r.field(count, "count",
                 "Most depth layers that are peeled; deeper fragments are counted and left out", "",
-                params::range(1, 64));
+                params::range(1, 32));
     }
 };
 
@@ -36,7 +36,7 @@ struct SpecularParams {
 };
 
 // How a tracer decides that a ray meets a layer.
-enum class HitTest : int { crossing, epsilon };
+enum class HitTest : int { crossing, epsilon, inOut };
 
 struct TraceParams {
     HitTest test = HitTest::crossing;
@@ -45,11 +45,12 @@ struct TraceParams {
     void reflect(R& r) {
         r.choice(test, "test",
                  "crossing: the ray crosses the tangent plane of a layer within the pixel's "
-                 "footprint, whatever the scene's scale; epsilon: the paper's absolute distance",
-                 {"crossing", "epsilon"});
+                 "footprint, whatever the scene's scale; epsilon: the paper's absolute distance; "
+                 "in_out: that, or the ray is between a solid's front and its back",
+                 {"crossing", "epsilon", "in_out"});
         r.field(epsilonMeters, "epsilon",
                 "Largest difference of depth between ray and layer that counts as a hit, for the "
-                "epsilon test",
+                "epsilon and in_out tests",
                 "m", params::range(1e-6f, 1e6f));
     }
 };

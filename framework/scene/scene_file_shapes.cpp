@@ -79,6 +79,18 @@ std::function<Mesh()> readTorus(TableReader& reader, double) {
     return [shape] { return makeTorus(shape); };
 }
 
+std::function<Mesh()> readTree(TableReader& reader, double) {
+    TreeShape shape;
+    shape.height = reader.number("height", kPositive);
+    shape.trunkRadius = reader.number("trunk_radius", kPositive);
+    shape.levels = segments(reader, "levels", 1, shape.levels);
+    shape.children = segments(reader, "children", 1, shape.children);
+    shape.sides = segments(reader, "sides", 3, shape.sides);
+    shape.spreadDegrees = reader.number("spread_degrees", kPositive, shape.spreadDegrees);
+    shape.seed = segments(reader, "seed", 1, 1);
+    return [shape] { return makeTree(shape); };
+}
+
 std::function<Mesh()> readLens(TableReader& reader, double) {
     LensShape shape;
     shape.topRadius = reader.number("top_radius", kAnyNumber);
@@ -142,6 +154,7 @@ Mesh readShape(TableReader& reader, double timeSeconds) {
                                                                {"cylinder", readCylinder},
                                                                {"ring", readRing},
                                                                {"torus", readTorus},
+                                                               {"tree", readTree},
                                                                {"lens", readLens},
                                                                {"prism", readPrism},
                                                                {"paraboloid", readParaboloid},

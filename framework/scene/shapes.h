@@ -8,6 +8,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <glm/glm.hpp>
 
 #include "framework/scene/scene.h"
@@ -53,6 +54,20 @@ struct CylinderShape {
     unsigned segments = 128;
 };
 [[nodiscard]] Mesh makeCylinder(const CylinderShape& shape);
+
+// A tree without leaves that stands on its origin: each branch a closed tapering tube with
+// `children` branches of its own, down to `levels`. The same for a seed on every machine; about
+// `height` high.
+struct TreeShape {
+    double height = 3.0;
+    double trunkRadius = 0.1;
+    unsigned levels = 5;
+    unsigned children = 3;
+    unsigned sides = 6;
+    double spreadDegrees = 38.0;  // between a branch and what it grows from
+    std::uint64_t seed = 1;
+};
+[[nodiscard]] Mesh makeTree(const TreeShape& shape);
 
 // A finger ring about the y axis: a tube with flat walls and a square edge.
 struct RingShape {

@@ -19,11 +19,15 @@ struct ViewDepth {  // x: view depth in m, 0 none; y: half of its extent over th
 struct SurfaceTexel {  // xyz: outward shading normal in view space; w: material + 1, 0 none
     static constexpr Format format = Format::rgba32f;
 };
-struct DepthRange {  // x: nearest, y: farthest depth at which a ray may meet a layer, m; y 0: none
-    static constexpr Format format = Format::rg32f;
+struct SquarePlane {  // xyz: 1/z in a square's middle, 1/m, 0 empty, and its growth a pixel; w: how
+                      // far from that plane a ray may meet the layer
+    static constexpr Format format = Format::rgba32f;
 };
-struct TriangleNormal {  // xy: the triangle's outward unit normal, octahedral
-    static constexpr Format format = Format::rg32f;
+// All that a hit test asks of a layer, in one place. x: view depth in m, 0 none; y: half of its
+// extent over the pixel, m; z: the triangle's outward unit normal, packed (common/octahedral.glsl);
+// w: material + 1.
+struct LayerTexel {
+    static constexpr Format format = Format::rgba32f;
 };
 struct ReceiverTexel {  // x: view depth in m, 0 none; y: area of the surface that the pixel sees,
                         // m²
@@ -93,10 +97,9 @@ struct EyeBuffer {
 
 // All surfaces along each pixel's ray, front to back (K06, section 2.2).
 struct LayeredDepth {
-    graph::Texture<ViewDepth> depth;        // array, one layer a surface
-    graph::Texture<SurfaceTexel> surface;   // array
-    graph::Texture<TriangleNormal> normal;  // array
-    graph::Texture<DepthRange> pyramid;     // array; the layers' ranges over squares of pixels
+    graph::Texture<LayerTexel> depth;      // array, one layer a surface
+    graph::Texture<SurfaceTexel> surface;  // array
+    graph::Texture<SquarePlane> pyramid;   // array; planes of the layers over squares of pixels
     graph::Buffer<transport::LayerStatistics> statistics;
     int layers = 0;
 };

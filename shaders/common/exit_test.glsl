@@ -11,17 +11,16 @@ bool isInsideAt(ivec2 texel, uint medium, float zLow, float zHigh) {
     float opened = 0.0;
     bool isOpened = false;
     for (int layer = 0; layer < layerCount; ++layer) {
-        vec2 depth = texelFetch(layerDepths, ivec3(texel, layer), 0).xy;
-        if (depth.x <= 0.0) return isOpened && zHigh >= opened;
-        if (uint(texelFetch(layerSurfaces, ivec3(texel, layer), 0).w) != medium) continue;
-        float margin = depth.y + pixelFootprint(depth.x);
-        vec3 normal = unpackUnitVector(texelFetch(layerNormals, ivec3(texel, layer), 0).xy);
-        if (dot(normal, viewRay(vec2(texel) + 0.5)) < 0.0) {
-            opened = depth.x - margin;
+        LayerSurface surface = layerAt(texel, layer);
+        if (surface.depth <= 0.0) return isOpened && zHigh >= opened;
+        if (surface.material != medium) continue;
+        float margin = surface.extent + pixelFootprint(surface.depth);
+        if (dot(surface.normal, viewRay(vec2(texel) + 0.5)) < 0.0) {
+            opened = surface.depth - margin;
             isOpened = true;
         } else {
-            if (zHigh >= opened && zLow <= depth.x + margin) return true;
-            opened = depth.x + margin;
+            if (zHigh >= opened && zLow <= surface.depth + margin) return true;
+            opened = surface.depth + margin;
             isOpened = false;
         }
     }
@@ -46,12 +45,11 @@ LayerHit testExit(RaySegment segment, TracedRay ray, int i, int n) {
     LayerHit best = none;
     float nearest = 0.0;
     for (int layer = 0; layer < layerCount; ++layer) {
-        float depth = texelFetch(layerDepths, ivec3(before, layer), 0).x;
-        if (depth <= 0.0) break;
-        if (uint(texelFetch(layerSurfaces, ivec3(before, layer), 0).w) != medium) continue;
-        vec3 normal = unpackUnitVector(texelFetch(layerNormals, ivec3(before, layer), 0).xy);
-        float away = abs(depth - zBegin);
-        if (dot(ray.direction, normal) <= 0.0 || (best.layer >= 0 && away >= nearest)) continue;
+        LayerSurface surface = layerAt(before, layer);
+        if (surface.depth <= 0.0) break;
+        if (surface.material != medium) continue;
+        float away = abs(surface.depth - zBegin);
+        if (dot(ray.direction, surface.normal) <= 0.0 || (best.layer >= 0 && away >= nearest)) continue;
         best = LayerHit(parameterAtIndex(segment, float(i), count), layer);
         nearest = away;
     }
@@ -99,7 +97,7 @@ FirstHit noHit() {
 FirstHit hitOfStep(RaySegment segment, TracedRay ray, int i, int n) {
     FirstHit found = FirstHit(testStep(segment, ray, i, n), texelOfStep(segment, i, n), false);
 #ifdef CLOSED_DIELECTRICS
-    if (found.hit.layer < 0 && trace_test == trace_test_crossing) {
+    if (found.hit.layer < 0) {
         found.hit = testExit(segment, ray, i, n);
         found.pixel = texelOfStep(segment, i - 1, n);
         found.isExit = true;

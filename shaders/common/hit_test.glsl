@@ -6,8 +6,20 @@
 
 uniform sampler2DArray layerDepths;
 uniform sampler2DArray layerSurfaces;
-uniform sampler2DArray layerNormals;
 uniform int layerCount;
+
+// What a layer has at a pixel: depth 0 where nothing.
+struct LayerSurface {
+    float depth;   // m
+    float extent;  // half of the depth's over the pixel, m
+    vec3 normal;   // the triangle's, outward
+    uint material;  // index + 1
+};
+
+LayerSurface layerAt(ivec2 texel, int layer) {
+    vec4 data = texelFetch(layerDepths, ivec3(texel, layer), 0);
+    return LayerSurface(data.x, data.y, unitVectorOfQuantized(data.z), uint(data.w));
+}
 
 struct TracedRay {
     vec3 origin;
@@ -21,6 +33,7 @@ struct TracedRay {
 // one that it has left on that side and is still no farther from than a pixel resolves.
 // `normal`: the triangle's, outward; `height`: the ray's origin above its plane, m.
 bool isFacing(TracedRay ray, uint material, vec3 normal, float height, float resolved) {
+    if (leftSide(ray.media) == kLeftForAll) return abs(height) > resolved;
     uint kind = materialKind(material - 1u);
     if (isReceiver(kind)) return true;
     bool leaves = dot(ray.direction, normal) > 0.0;
@@ -42,56 +55,6 @@ struct LayerHit {
     int layer;
 };
 
-// Tests the step [i, i + 1] of `n` against every layer of the pixel in its middle; the nearest hit
-// along the ray (hard case 11).
-LayerHit testStep(RaySegment segment, TracedRay ray, int i, int n) {
-    float middle = float(i) + 0.5;
-    float count = float(n);
-    vec2 pixel = (segment.nearPixel * (count - middle) + segment.farPixel * middle) / count;
-    ivec2 texel = clamp(ivec2(floor(pixel)), ivec2(0), ivec2(view.sizePixels.xy) - 1);
-    float zBegin = depthAtIndex(segment, float(i), count);
-    float zEnd = depthAtIndex(segment, float(i) + 1.0, count);
-    float zLow = min(zBegin, zEnd);
-    float zHigh = max(zBegin, zEnd);
-    bool nears = zEnd < zBegin;  // the eye: then a deeper layer is nearer along the ray
-    LayerHit best = LayerHit(0.0, -1);
-    for (int layer = 0; layer < layerCount; ++layer) {
-        vec2 surfaceDepth = texelFetch(layerDepths, ivec3(texel, layer), 0).xy;
-        float depth = surfaceDepth.x;
-        if (depth <= 0.0) break;
-        float margin = surfaceDepth.y + pixelFootprint(depth);
-        float t;
-        if (trace_test == trace_test_epsilon) {
-            // The paper's: a layer is met where it lies within a distance of the fragment's depth.
-            float zMiddle = depthAtIndex(segment, middle, count);
-            if (abs(depth - zMiddle) > trace_epsilon) continue;
-            t = parameterAtIndex(segment, middle, count);
-        } else {
-            // The depths that the surface and the ray have over this pixel must overlap …
-            if (depth + margin < zLow || depth - margin > zHigh) continue;
-            // … and the ray must cross the triangle's plane within this step, or half a step beside
-            // it: two neighbours' planes may leave a gap between them.
-            vec3 normal = unpackUnitVector(texelFetch(layerNormals, ivec3(texel, layer), 0).xy);
-            float closing = dot(normal, ray.direction);
-            if (abs(closing) < 1e-6) continue;
-            t = -heightAbove(ray.origin, normal, texel, depth) / closing;
-            float tBegin = parameterAtIndex(segment, float(i), count);
-            float tEnd = parameterAtIndex(segment, float(i) + 1.0, count);
-            float slack = 0.5 * (tEnd - tBegin) + 1e-6 * depth;
-            if (t < tBegin - slack || t > tEnd + slack) continue;
-        }
-        if (t <= 0.0) continue;
-        // The paper's test cannot tell surfaces within epsilon apart by t.
-        if (best.layer >= 0 && (t > best.t || (t == best.t && !nears))) continue;
-        uint material = uint(texelFetch(layerSurfaces, ivec3(texel, layer), 0).w);
-        vec3 normal = unpackUnitVector(texelFetch(layerNormals, ivec3(texel, layer), 0).xy);
-        float height = heightAbove(ray.origin, normal, texel, depth);
-        if (!isFacing(ray, material, normal, height, margin)) continue;
-        best = LayerHit(t, layer);
-    }
-    return best;
-}
-
 ivec2 texelOfStep(RaySegment segment, int i, int n) {
     float middle = float(i) + 0.5;
     vec2 pixel =
@@ -99,15 +62,112 @@ ivec2 texelOfStep(RaySegment segment, int i, int n) {
     return clamp(ivec2(floor(pixel)), ivec2(0), ivec2(view.sizePixels.xy) - 1);
 }
 
+// One step [i, i + 1] of `n` along a ray.
+struct RayStep {
+    ivec2 texel;  // under its middle
+    float zBegin;
+    float zEnd;
+    float tBegin;  // ray parameters, m
+    float tEnd;
+    float zMiddle;
+    float tMiddle;
+};
+
+RayStep rayStep(RaySegment segment, int i, int n) {
+    float first = float(i);
+    float count = float(n);
+    return RayStep(texelOfStep(segment, i, n), depthAtIndex(segment, first, count),
+                   depthAtIndex(segment, first + 1.0, count),
+                   parameterAtIndex(segment, first, count),
+                   parameterAtIndex(segment, first + 1.0, count),
+                   depthAtIndex(segment, first + 0.5, count),
+                   parameterAtIndex(segment, first + 0.5, count));
+}
+
+#ifdef IN_OUT_TEST
+// Whether the ray is between this layer and the one that bounds the same solid with it: its front and
+// its back are consecutive layers (K06, section 5: "an additional in-out test considering consecutive
+// pairs of layered depth images"). Not for the solid that the ray is inside of: see testExit.
+bool isInSolid(TracedRay ray, RayStep at, int layer, LayerSurface surface) {
+    if (isOpen(surface.material - 1u) || innerMedium(ray.media) == surface.material) return false;
+    vec3 eyeRay = viewRay(vec2(at.texel) + 0.5);
+    bool isFront = dot(surface.normal, eyeRay) < 0.0;
+    int next = isFront ? layer + 1 : layer - 1;
+    if (next < 0 || next >= layerCount) return false;
+    LayerSurface other = layerAt(at.texel, next);
+    if (other.depth <= 0.0 || other.material != surface.material) return false;
+    if ((dot(other.normal, eyeRay) < 0.0) == isFront) return false;
+    return at.zMiddle >= min(surface.depth, other.depth) &&
+           at.zMiddle <= max(surface.depth, other.depth);
+}
+#endif
+
+// Where the ray meets the surface that a layer has at the step's pixel, whichever side that shows;
+// m, 0: nowhere in this step.
+float meetLayer(TracedRay ray, RayStep at, int layer, LayerSurface surface) {
+    float depth = surface.depth;
+    if (depth <= 0.0) return 0.0;
+#ifdef EPSILON_TEST
+    // The paper's: a layer is met where it lies within a distance of the fragment's depth.
+    bool isMet = abs(depth - at.zMiddle) <= trace_epsilon;
+#ifdef IN_OUT_TEST
+    isMet = isMet || isInSolid(ray, at, layer, surface);
+#endif
+    return isMet ? at.tMiddle : 0.0;
+#else
+    // The depths that the surface and the ray have over this pixel must overlap …
+    float margin = surface.extent + pixelFootprint(depth);
+    if (depth + margin < min(at.zBegin, at.zEnd) || depth - margin > max(at.zBegin, at.zEnd))
+        return 0.0;
+    // … and the ray must cross the triangle's plane within this step, or half a step beside it: two
+    // neighbours' planes may leave a gap between them.
+    float closing = dot(surface.normal, ray.direction);
+    if (abs(closing) < 1e-6) return 0.0;
+    float t = -heightAbove(ray.origin, surface.normal, at.texel, depth) / closing;
+    float slack = 0.5 * (at.tEnd - at.tBegin) + 1e-6 * depth;
+    return t < at.tBegin - slack || t > at.tEnd + slack ? 0.0 : max(t, 0.0);
+#endif
+}
+
+// Whether a surface that the ray meets there is one that ends or turns it.
+bool isFacingAt(TracedRay ray, ivec2 texel, LayerSurface surface) {
+    float height = heightAbove(ray.origin, surface.normal, texel, surface.depth);
+    return isFacing(ray, surface.material, surface.normal, height,
+                    surface.extent + pixelFootprint(surface.depth));
+}
+
+// Of two surfaces the one nearer along the ray (hard case 11). The paper's test cannot tell those of
+// one step apart by t: where the ray comes nearer to the eye, the deeper layer is.
+bool isNearer(float t, float before, RayStep at, bool isSameStep) {
+    return t < before || (t == before && isSameStep && at.zEnd < at.zBegin);
+}
+
+// Tests one step against every layer of its pixel; the nearest hit along the ray.
+LayerHit testStep(RaySegment segment, TracedRay ray, int i, int n) {
+    RayStep at = rayStep(segment, i, n);
+    LayerHit best = LayerHit(0.0, -1);
+    for (int layer = 0; layer < layerCount; ++layer) {
+        LayerSurface surface = layerAt(at.texel, layer);
+        if (surface.depth <= 0.0) break;
+        float t = meetLayer(ray, at, layer, surface);
+        if (t <= 0.0 || (best.layer >= 0 && !isNearer(t, best.t, at, true))) continue;
+        if (isFacingAt(ray, at.texel, surface)) best = LayerHit(t, layer);
+    }
+    return best;
+}
+
 // The surface's normal where the ray meets it: bilinear between the pixels around the hit, each with
 // the layer that continues the surface; the normal of one pixel alone would send all photons that
 // meet it the same way. `surface` and `depth` are those of the hit's own pixel and layer.
-vec3 normalAtHit(vec3 hitVs, vec4 surface, vec2 depthAndExtent) {
+// A receiver sends the light nowhere: its pixel's normal will do.
+vec3 normalAtHit(vec3 hitVs, vec4 surface, vec2 depthAndExtent, bool arrives) {
+    if (arrives) return surface.xyz;
     vec2 corner = pixelOf(hitVs) - 0.5;
     ivec2 first = ivec2(floor(corner));
     vec2 f = corner - vec2(first);
     vec3 sum = vec3(0.0);
-    for (int i = 0; i < 4; ++i) {
+    int corners = arrives ? 0 : 4;  // devices without branches still leave a loop out
+    for (int i = 0; i < corners; ++i) {
         ivec2 step = ivec2(i & 1, i >> 1);
         ivec2 texel = clamp(first + step, ivec2(0), ivec2(view.sizePixels.xy) - 1);
         vec2 axis = mix(1.0 - f, f, vec2(step));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What tracers that search in order share: a photon of the transfer map, the search's step, and what makes
-// of what was found a hit, with the normal and the flux that arrives, or an entry in the ledger.
+// What tracers that search in order share: a photon of the transfer map, the search's step, and what
+// makes of what was found a hit, with the normal and the flux that arrives, or an entry in the
+// ledger.
 #include "common/exit_test.glsl"
 #include "common/ledger.glsl"
 
@@ -54,11 +55,12 @@ Hit deliver(Photon photon, FirstHit first) {
     hit.positionVs = photon.positionVs + first.hit.t * photon.directionVs;
     hit.distanceMeters = first.hit.t;
     hit.material = uint(surface.w);
-    vec3 triangle = unpackUnitVector(texelFetch(layerNormals, place, 0).xy);
+    vec4 layer = texelFetch(layerDepths, place, 0);
+    vec3 triangle = unitVectorOfQuantized(layer.z);
+    bool arrives = isReceiver(materialKind(hit.material - 1u));
     vec3 shading =
         first.isExit ? normalAtExit(hit.positionVs, first.pixel, first.hit.layer)
-                     : normalAtHit(hit.positionVs, surface, texelFetch(layerDepths, place, 0).xy);
-    bool arrives = isReceiver(materialKind(hit.material - 1u));
+                     : normalAtHit(hit.positionVs, surface, layer.xy, arrives);
     hit.normalVs =
         arrives
             ? receiverNormal(hit.positionVs, photon.directionVs, shading, triangle)

@@ -7,31 +7,92 @@
 
 uniform sampler2DArray layerPyramid;
 
+// A ray's way over the screen, a step at a time.
+struct Way {
+    vec2 start;  // px
+    vec2 perStep;
+    vec2 stepsPerPixel;  // 1 / perStep; 0 where it does not move
+    float inverseZ;      // at the start, 1/m
+    float inverseZPerStep;
+    float slack;  // in 1/z, for rounding or the paper's epsilon
+};
+
+Way wayOf(RaySegment segment, int n) {
+    Way way;
+    float count = float(n);
+    way.start = segment.nearPixel;
+    way.perStep = (segment.farPixel - segment.nearPixel) / count;
+    way.stepsPerPixel = vec2(way.perStep.x != 0.0 ? 1.0 / way.perStep.x : 0.0,
+                             way.perStep.y != 0.0 ? 1.0 / way.perStep.y : 0.0);
+    way.inverseZ = segment.nearInverseZ;
+    way.inverseZPerStep = (segment.farInverseZ - segment.nearInverseZ) / count;
+    float largest = max(segment.nearInverseZ, segment.farInverseZ);
+    way.slack = 4e-7 * largest;
+#ifdef EPSILON_TEST
+    way.slack = largest * trace_epsilon < 0.999
+                    ? largest * largest * trace_epsilon / (1.0 - largest * trace_epsilon)
+                    : 1e30;
+#endif
+    return way;
+}
+
 // The first step after `i` of which the middle lies outside of a square of the level.
-int stepBeyond(RaySegment segment, ivec2 square, int level, int i, int n) {
+int stepBeyond(Way way, ivec2 square, int level, int i, int n) {
     float side = float(1 << (2 * level));
-    vec2 perStep = (segment.farPixel - segment.nearPixel) / float(n);
+    vec2 edge = side * (vec2(square) + vec2(greaterThan(way.perStep, vec2(0.0))));
+    // A little less, so that rounding leaves no step to the wrong square.
+    vec2 steps = (edge - way.start) * way.stepsPerPixel - 0.502;
     float beyond = float(n);
-    for (int axis = 0; axis < 2; ++axis) {
-        float advance = perStep[axis];
-        if (advance == 0.0) continue;
-        float edge = side * float(square[axis] + (advance > 0.0 ? 1 : 0));
-        beyond = min(beyond, (edge - segment.nearPixel[axis]) / advance - 0.5);
-    }
+    if (way.perStep.x != 0.0) beyond = min(beyond, steps.x);
+    if (way.perStep.y != 0.0) beyond = min(beyond, steps.y);
     return clamp(int(ceil(beyond)), i + 1, n);
 }
 
-// Whether any layer of the square may be met between two depths.
-bool mayMeet(ivec2 square, int level, float zLow, float zHigh) {
+// Steps [first, end) of a ray, and the layers, a bit each, that it may meet there.
+struct Asked {
+    int first;
+    int end;
+    uint layers;
+};
+
+// Which of the steps [first, end) may meet a layer of the square. Along the ray 1/z is linear, as on
+// the squares' planes, and so is the ray's distance from one.
+Asked stepsThatMayMeet(Way way, ivec2 square, int level, int first, int end) {
+    vec2 start = way.start - (vec2(square) + 0.5) * float(1 << (2 * level));
     ivec2 texel = pyramidOffset(ivec2(view.sizePixels.xy), level) + square;
+    Asked asked = Asked(end, first, 0u);
+#ifdef IN_OUT_TEST
+    bool wasBehind = false;  // the layer before, at some step
+#endif
     for (int layer = 0; layer < layerCount; ++layer) {
-        vec2 range = texelFetch(layerPyramid, ivec3(texel, layer), 0).xy;
-        if (range.y <= 0.0) return false;  // nor has it a deeper layer
-        if (zLow <= range.y && zHigh >= range.x) return true;
+        vec4 plane = texelFetch(layerPyramid, ivec3(texel, layer), 0);
+        if (plane.x <= 0.0) break;  // nor has it a deeper layer
+        float away = way.inverseZ - plane.x - dot(plane.yz, start);
+        float awayPerStep = way.inverseZPerStep - dot(plane.yz, way.perStep);
+        vec2 across = abs(plane.yz * way.perStep);
+        float reach = plane.w + way.slack + 0.5 * (across.x + across.y);
+#ifdef IN_OUT_TEST
+        vec2 ends = away + awayPerStep * vec2(first, end);
+        if (wasBehind && max(ends.x, ends.y) >= -reach)
+            asked = Asked(first, end, asked.layers | (3u << (layer - 1)));
+        wasBehind = min(ends.x, ends.y) <= reach;
+#endif
+        // Where |away + awayPerStep i| <= reach.
+        float scale = 1.0 / (abs(awayPerStep) > 1e-36 ? awayPerStep : 1e-36);
+        float middle = -away * scale;
+        float extent = abs(reach * scale) + 1e-3;
+        vec2 met = vec2(middle - extent, middle + extent);
+        if (met.y < float(first) || met.x > float(end)) continue;
+        met = clamp(met, vec2(first), vec2(end));
+        asked.first = min(asked.first, max(int(ceil(met.x)) - 1, first));
+        asked.end = max(asked.end, min(int(floor(met.y)) + 1, end));
+        asked.layers |= 1u << layer;
     }
-    return false;
+    return asked;
 }
 
+// Three loops in one: squares until steps are found that may meet something, their layers until the
+// ray crosses one, and what that means. Devices that run many photons in step do each for many.
 FirstHit traverse(Photon photon, int minimumSteps, int maximumSteps) {
     FirstHit first = noHit();
     if (!isNumber(photon)) return first;
@@ -39,44 +100,92 @@ FirstHit traverse(Photon photon, int minimumSteps, int maximumSteps) {
     if (!segment.visible) return first;
     TracedRay ray = TracedRay(photon.positionVs, photon.directionVs, photon.media);
     int steps = stepCount(segment, minimumSteps, maximumSteps);
-    float count = float(steps);
-    float slack = trace_test == trace_test_epsilon ? trace_epsilon : 0.0;
+    Way way = wayOf(segment, steps);
 #ifdef CLOSED_DIELECTRICS
     uint medium = innerMedium(photon.media);
-    bool mayComeOut =
-        medium != 0u && !isOpen(medium - 1u) && trace_test == trace_test_crossing;
+    bool mayComeOut = medium != 0u && !isOpen(medium - 1u);
 #endif
-    int level = 2;
+    int level = kPyramidLevels;
     int end = steps;
+    int firstStep = -1;  // that of `first`
     int i = 0;
+    Asked asked = Asked(0, 0, 0u);
+    uint layers = 0u;  // that step i is still to be asked about
     while (i < end) {
-        ivec2 square = texelOfStep(segment, i, steps) >> (2 * level);
-        int beyond = stepBeyond(segment, square, level, i, steps);
-        float zBegin = depthAtIndex(segment, float(i), count);
-        float zEnd = depthAtIndex(segment, float(beyond), count);
-        float zLow = min(zBegin, zEnd);
-        float zHigh = max(zBegin, zEnd);
-        bool isAsked = mayMeet(square, level, zLow - slack, zHigh + slack);
+        while (i < end && i >= asked.end) {
+            ivec2 square = texelOfStep(segment, i, steps) >> (2 * level);
+            int beyond = stepBeyond(way, square, level, i, steps);
+            Asked found = stepsThatMayMeet(way, square, level, i, beyond);
 #ifdef CLOSED_DIELECTRICS
-        // What is inside at the square's last step came out nowhere in it.
-        if (!isAsked && mayComeOut) {
-            float zLast = depthAtIndex(segment, float(beyond) - 1.0, count);
-            isAsked = !isInsideAt(texelOfStep(segment, beyond - 1, steps), medium,
-                                  min(zLast, zEnd), max(zLast, zEnd));
-        }
+            // What is inside at the square's last step came out nowhere in it.
+            if (mayComeOut) {
+                float zLast = depthAtIndex(segment, float(beyond) - 1.0, float(steps));
+                float zEnd = depthAtIndex(segment, float(beyond), float(steps));
+                bool isOut = !isInsideAt(texelOfStep(segment, beyond - 1, steps), medium,
+                                         min(zLast, zEnd), max(zLast, zEnd));
+                if (isOut || found.layers != 0u) found = Asked(i, beyond, found.layers);
+            }
 #endif
-        if (!isAsked && first.hit.layer < 0) {
-            i = beyond;
-            level = min(level + 1, kPyramidLevels);
-            continue;
+            if (found.first >= found.end) {
+                i = beyond;
+                level = min(level + 1, kPyramidLevels);
+                continue;
+            }
+            i = found.first;
+            if (level > 1) {
+                --level;
+                continue;
+            }
+            asked = found;
+            layers = asked.layers;
+            level = 2;
         }
-        if (level > 1) {
-            --level;
-            continue;
+        float t = 0.0;
+        int layer = -1;
+        LayerSurface surface;
+        int step = i;
+        while (i < min(asked.end, end) && t <= 0.0) {
+            step = i;
+            if (layers != 0u) {
+                layer = findLSB(layers);
+                layers &= layers - 1u;
+                RayStep at = rayStep(segment, i, steps);
+                surface = layerAt(at.texel, layer);
+                t = meetLayer(ray, at, layer, surface);
+            }
+#ifdef CLOSED_DIELECTRICS
+            else {
+                if (mayComeOut && firstStep != i) {
+                    LayerHit out_ = testExit(segment, ray, i, steps);
+                    if (out_.layer >= 0 && (first.hit.layer < 0 || out_.t < first.hit.t)) {
+                        if (first.hit.layer < 0) end = min(end, i + 2);
+                        first = FirstHit(out_, texelOfStep(segment, i - 1, steps), true);
+                        firstStep = i;
+                    }
+                }
+                ++i;
+                layers = asked.layers;
+            }
+#else
+            if (layers == 0u) {
+                ++i;
+                layers = asked.layers;
+            }
+#endif
         }
-        for (; i < min(beyond, end); ++i)
-            searchStep(segment, ray, i, steps, first, end);
-        level = 2;
+        if (t > 0.0) {
+            RayStep at = rayStep(segment, step, steps);
+            bool isFirst = first.hit.layer < 0;
+            if ((isFirst || isNearer(t, first.hit.t, at, step == firstStep)) &&
+                isFacingAt(ray, at.texel, surface)) {
+                // The next step's surfaces are met at most half a step before it begins.
+                float next = parameterAtIndex(segment, float(step) + 2.0, float(steps));
+                bool mayBeNearer = t > at.tEnd - 0.51 * (next - at.tEnd) - 2e-6 * at.zEnd;
+                end = min(end, mayBeNearer ? step + 2 : step + 1);
+                first = FirstHit(LayerHit(t, layer), at.texel, false);
+                firstStep = step;
+            }
+        }
     }
     return first;
 }

@@ -8,7 +8,6 @@
 
 layout(location = 0) out vec4 layerDepth;
 layout(location = 1) out vec4 layerSurface;
-layout(location = 2) out vec4 layerNormal;
 
 uniform sampler2DArray layerDepths;
 uniform int layer;
@@ -24,7 +23,6 @@ void main() {
         if (before <= 0.0 || depth <= before) discard;
     }
     gl_FragDepth = min(depth * kDepthScale, 1.0 - 1.0 / 16777216.0);
-    layerDepth = vec4(depth, 0.5 * extent, 0.0, 0.0);
+    layerDepth = vec4(depth, 0.5 * extent, quantizedUnitVector(geometric), float(material + 1u));
     layerSurface = vec4(shadingNormal(normalVs, geometric), float(material + 1u));
-    layerNormal = vec4(packUnitVector(geometric), 0.0, 0.0);
 }

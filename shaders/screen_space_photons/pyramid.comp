@@ -1,37 +1,72 @@
 // SPDX-License-Identifier: MIT
-// One level of the layers' depth pyramid: for each square and layer the range of depths over which a
-// ray may meet the layer there, margins included; an empty range (y <= 0) where it has no fragment.
+// One level of the layers' pyramid (pyramid_layout.glsl): for each square and layer a plane in 1/z,
+// which is linear on the screen where a surface is flat, and how far what a ray may meet there lies
+// from it. One thread a square.
 #include "common/view.glsl"
 #include "screen_space_photons/pyramid_layout.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(rg32f) uniform image2DArray pyramid;
+layout(rgba32f) uniform image2DArray pyramid;
 uniform sampler2DArray layerDepths;
+uniform int layerCount;
 uniform int level;
 
 void main() {
     ivec2 pixels = textureSize(layerDepths, 0).xy;
-    ivec3 texel = ivec3(gl_GlobalInvocationID);
-    if (any(greaterThanEqual(texel.xy, pyramidSize(pixels, level)))) return;
-    ivec2 first = 4 * texel.xy;
-    ivec2 end = min(first + 4, level == 1 ? pixels : pyramidSize(pixels, level - 1));
-    ivec2 below = level == 1 ? ivec2(0) : pyramidOffset(pixels, level - 1);
-    vec2 range = vec2(3e38, 0.0);
-    for (int y = first.y; y < end.y; ++y) {
-        for (int x = first.x; x < end.x; ++x) {
-            vec2 part;
-            if (level == 1) {
-                vec2 depth = texelFetch(layerDepths, ivec3(x, y, texel.z), 0).xy;
-                // As wide as the hit test's first question (common/hit_test.glsl, testStep).
-                float margin = depth.y + pixelFootprint(depth.x);
-                part = depth.x > 0.0 ? vec2(depth.x - margin, depth.x + margin) : vec2(3e38, 0.0);
-            } else {
-                part = imageLoad(pyramid, ivec3(below + ivec2(x, y), texel.z)).xy;
+    ivec2 square = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(square, pyramidSize(pixels, level)))) return;
+    ivec2 to = pyramidOffset(pixels, level) + square;
+    ivec2 from = level == 1 ? ivec2(0) : pyramidOffset(pixels, level - 1);
+    ivec2 sizeBelow = level == 1 ? pixels : pyramidSize(pixels, level - 1);
+    ivec2 count = min(sizeBelow - 4 * square, 4);
+    float side = float(1 << (2 * (level - 1)));  // of a part, px
+    for (int layer = 0; layer < layerCount; ++layer) {
+        // Parts of the square: pixels, or squares of the level below.
+        vec4 parts[16];
+        vec2 slope = vec2(0.0);
+        bool isWhole = count == ivec2(4);
+        bool isEmpty = true;
+        for (int i = 0; i < 16; ++i) {
+            ivec2 at = ivec2(i & 3, i >> 2);
+            vec4 part = vec4(0.0);
+            if (all(lessThan(at, count))) {
+                if (level == 1) {
+                    vec2 depth = texelFetch(layerDepths, ivec3(4 * square + at, layer), 0).xy;
+                    part = vec4(depth.x > 0.0 ? 1.0 / depth.x : 0.0, 0.0, 0.0,
+                                inverseMargin(depth.x, depth.y + pixelFootprint(depth.x)));
+                } else {
+                    part = imageLoad(pyramid, ivec3(from + 4 * square + at, layer));
+                }
             }
-            range = vec2(min(range.x, part.x), max(range.y, part.y));
+            parts[i] = part;
+            isWhole = isWhole && part.x > 0.0;
+            isEmpty = isEmpty && part.x <= 0.0;
+            slope += (vec2(at) - 1.5) * part.x;
         }
+        if (isEmpty) {
+            for (int rest = layer; rest < layerCount; ++rest)
+                imageStore(pyramid, ivec3(to, rest), vec4(0.0));
+            return;
+        }
+        // Least squares over the middles of all parts; without some of them level.
+        slope = isWhole ? slope / (20.0 * side) : vec2(0.0);
+        vec2 bounds = vec2(3e38, -3e38);
+        for (int i = 0; i < 16; ++i) {
+            vec4 part = parts[i];
+            if (part.x <= 0.0) continue;
+            vec2 middle = (vec2(i & 3, i >> 2) - 1.5) * side;
+            float beside = part.x - dot(slope, middle);
+            // Its own plane turns from this one towards its corners.
+            vec2 turn = abs(part.yz - slope) * 0.5 * side;
+            float reach = part.w + (level == 1 ? 0.0 : turn.x + turn.y);
+            bounds = vec2(min(bounds.x, beside - reach), max(bounds.y, beside + reach));
+        }
+        float reach = 0.5 * (bounds.y - bounds.x);
+        // The ray's pixel position is up to half a pixel from the middle that was measured.
+        if (level == 1) reach += 0.5 * (abs(slope.x) + abs(slope.y));
+        float middle = 0.5 * (bounds.x + bounds.y);
+        imageStore(pyramid, ivec3(to, layer),
+                   vec4(max(middle, 1e-30), slope, reach * (1.0 + 1e-6) + 4e-7 * middle));
     }
-    imageStore(pyramid, ivec3(pyramidOffset(pixels, level) + texel.xy, texel.z),
-               vec4(range, 0.0, 0.0));
 }

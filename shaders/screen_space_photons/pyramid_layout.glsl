@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: MIT
-// Where the levels of the layers' depth pyramid lie in its texture: level 1 at the left, the others
-// right of it, one above the other. A texel of level k covers a square of 4^k pixels.
+// The layers' pyramid: where its levels lie in its texture, level 1 at the left, the others right of it,
+// one above the other. A texel of level k covers a square of 4^k pixels; x: 1/z in its middle (1/m, 0:
+// the layer is empty there), yz: by how much it grows a pixel, w: how far from that plane a ray may be
+// and still meet the layer.
 const int kPyramidLevels = 3;
 
 ivec2 pyramidSize(ivec2 pixels, int level) {
-    int side = 1 << (2 * level);
-    return (pixels + side - 1) / side;
+    return (pixels + (1 << (2 * level)) - 1) >> (2 * level);
 }
 
 ivec2 pyramidOffset(ivec2 pixels, int level) {
-    ivec2 offset = ivec2(0);
-    if (level > 1) offset.x = pyramidSize(pixels, 1).x;
-    for (int below = 2; below < level; ++below)
-        offset.y += pyramidSize(pixels, below).y;
-    return offset;
+    if (level == 1) return ivec2(0);
+    return ivec2(pyramidSize(pixels, 1).x, level == 2 ? 0 : pyramidSize(pixels, 2).y);
+}
+
+// The most that 1/z differs within a margin around a depth.
+float inverseMargin(float depth, float margin) {
+    if (depth <= 0.0) return 0.0;
+    return margin < 0.999 * depth ? margin / (depth * (depth - margin)) : 1e30;
 }

@@ -39,12 +39,17 @@ float splatKernel(float share) {
 
 float splatDistance(Sprite sprite, vec3 offset) {
     if (reconstruct_sprites_shape == reconstruct_sprites_shape_disc) return length(offset);
+    if (reconstruct_sprites_shape == reconstruct_sprites_shape_screen) {
+        // At right angles to the eye's axis, at the centre's depth, whatever the receiver does.
+        vec3 point = sprite.center + offset;
+        return length(point.xy * (sprite.center.z / min(point.z, -1e-20)) - sprite.center.xy);
+    }
     return length(cross(offset, boundedDirection(sprite.direction, sprite.normal)));
 }
 
 // The farthest that the splat reaches from its centre, m.
 float splatExtent(Sprite sprite) {
-    if (reconstruct_sprites_shape == reconstruct_sprites_shape_disc) return sprite.radius;
+    if (reconstruct_sprites_shape != reconstruct_sprites_shape_beam) return sprite.radius;
     return sprite.radius / max(abs(dot(sprite.direction, sprite.normal)), kLeastSlant);
 }
 
@@ -106,6 +111,10 @@ const int kMostReach = 120;
 
 // Half the sides of the pixel rectangle around the centre's pixel that the splat can cover.
 ivec2 spriteReach(Sprite sprite) {
+    if (reconstruct_sprites_shape == reconstruct_sprites_shape_screen) {
+        return min(ivec2(ceil(sprite.radius / pixelFootprint(-sprite.center.z))) + 1,
+                   ivec2(kMostReach));
+    }
     vec3 along = vec3(0.0);
     if (reconstruct_sprites_shape == reconstruct_sprites_shape_beam) {
         vec3 direction = boundedDirection(sprite.direction, sprite.normal);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What photons do where they have met a specular surface: one thread a photon.
-#include "common/ledger.glsl"
-#include "common/specular.glsl"
+#include "common/interaction.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -35,33 +34,9 @@ void main() {
     }
     if (isFirst != 0) ledgerAdd(kAccountEmitted, hit.fluxWatts);
 
-    uint surface = hit.material - 1u;
-    MaterialData data = materials[surface];
-    photon.positionVs = hit.positionVs;
-    photon.fluxWatts = hit.fluxWatts;
-    photon.fate = kFateInFlight;
-    // The hit's normal has the triangle's side: see bendingNormal.
-    bool enters = dot(photon.directionVs, hit.normalVs) < 0.0;
-    photon.media = withLeftSide(photon.media, kLeftNothing);
-    if (uint(data.albedo.w) == kMaterialMirror) {
-        photon.directionVs = normalize(reflect(photon.directionVs, hit.normalVs));
-        ledgerAdd(kAccountAbsorbed, photon.fluxWatts * (1.0 - data.albedo.rgb));
-        photon.fluxWatts *= data.albedo.rgb;
-        if (isOpen(surface)) {
-            photon.media = withLeftSide(photon.media, enters ? kLeftOutside : kLeftInside);
-        }
-    } else {
-        vec2 indices = indicesAt(hit.material, photon.media, enters);
-        Interface meeting = interactAt(photon.directionVs, hit.normalVs, indices.x, indices.y);
-        if (meeting.reflectance >= 1.0) {
-            photon.directionVs = meeting.reflected;
-        } else {
-            photon.directionVs = meeting.refracted;
-            photon.media = enters ? enterMedium(photon.media, hit.material)
-                                  : leaveMedium(photon.media);
-            ledgerAdd(kAccountUntracedBranch, photon.fluxWatts * meeting.reflectance);
-            photon.fluxWatts *= 1.0 - meeting.reflectance;
-        }
-    }
-    store(texel, photon);
+    Branches branches = branchesOf(photon, hit);
+    bool goesThrough = branches.transmitted.fate == kFateInFlight;
+    if (goesThrough && branches.reflected.fate == kFateInFlight)
+        ledgerAdd(kAccountUntracedBranch, branches.reflected.fluxWatts);
+    store(texel, goesThrough ? branches.transmitted : branches.reflected);
 }

@@ -10,6 +10,7 @@
 #include <algorithm>
 
 #include "framework/pipeline/frame_builder.h"
+#include "techniques/screen_space_photons/hit_testing.h"
 #include "techniques/screen_space_photons/nodes.h"
 
 namespace kaustik {
@@ -79,9 +80,8 @@ RowTextures rasterizeLines(FrameBuilder& frame, const LinesParams& params, const
         Photons photons;
         LayeredDepth layers;
     };
-    const auto trace = frame.params<TraceParams>("trace");
+    const HitTesting testing = hitTesting(frame);
     const int run = frame.runsOf(TraceStage::name);
-    const bool hasInside = frame.needs().closedDielectrics;
     return frame
         .pass<Data>(
             "trace.lines",
@@ -93,40 +93,36 @@ RowTextures rasterizeLines(FrameBuilder& frame, const LinesParams& params, const
                 setup.read(photons.position);
                 setup.read(photons.direction);
                 setup.read(photons.flux);
-                setup.read(layers.depth);
-                setup.read(layers.surface);
-                setup.read(layers.normal);
+                readLayers(setup, layers);
                 data.textures = batch == 0 ? createRows(setup, layout, run) : textures;
                 if (batch > 0) {
                     data.textures.rows = setup.write(textures.rows);
                     data.textures.extents = setup.write(textures.extents);
                 }
             },
-            [&inputs = frame.inputs(), params, trace, layout, batch, hasInside](
-                const Data& data, gl::PassContext& context) {
+            [&inputs = frame.inputs(), params, testing, layout, batch](const Data& data,
+                                                                       gl::PassContext& context) {
                 if (batch == 0) context.buffer(data.textures.extents).clear();
-                gl::Command command = context.shaders(
-                    {"screen_space_photons/lines.vert", "screen_space_photons/lines.frag"});
-                // A silhouette can hide a way out only of what has an inside.
-                if (hasInside) command.define("CLOSED_DIELECTRICS");
-                inputs.bindView(command)
-                    .params("trace", trace)
+                const bool isMade = params.source == LineSource::geometry;
+                std::vector<std::string> shaders{"screen_space_photons/lines.vert"};
+                if (isMade)
+                    shaders = {"screen_space_photons/lines_point.vert",
+                               "screen_space_photons/lines.geom"};
+                shaders.push_back("screen_space_photons/lines.frag");
+                gl::Command command = context.shaders(shaders);
+                bindHitTesting(command, testing, inputs, data.layers)
                     .params("trace.lines", params)
-                    .storage("Materials", inputs.gpuScene.materials())
                     .texture("photonPosition", data.photons.position)
                     .texture("photonDirection", data.photons.direction)
                     .texture("photonFlux", data.photons.flux)
-                    .texture("layerDepths", data.layers.depth)
-                    .texture("layerSurfaces", data.layers.surface)
-                    .texture("layerNormals", data.layers.normal)
-                    .set("layerCount", data.layers.layers)
                     .storage("RowExtents", data.textures.extents)
                     .set("batch", batch)
                     .set("firstPhoton", batch * layout.rows)
                     .set("rowsSize", glm::ivec2(layout.width, layout.rows))
                     .target(data.textures.rows)
                     .clear()
-                    .drawArrays(GL_LINES, 2 * layout.rows);
+                    .drawArrays(isMade ? GL_POINTS : GL_LINES,
+                                isMade ? layout.rows : 2 * layout.rows);
             })
         .textures;
 }
@@ -141,14 +137,12 @@ Reduced reduceRows(FrameBuilder& frame, const LinesParams& params, const Layered
     struct Data : Reduced {
         LayeredDepth layers;
     };
-    const auto trace = frame.params<TraceParams>("trace");
+    const HitTesting testing = hitTesting(frame);
     return frame.pass<Data>(
         "trace.reduce", "the first hit of each row",
         [&](graph::PassSetup& setup, Data& data) {
             data.layers = layers;
-            setup.read(layers.depth);
-            setup.read(layers.surface);
-            setup.read(layers.normal);
+            readLayers(setup, layers);
             data.textures.rows = setup.read(textures.rows);
             data.textures.extents = setup.read(textures.extents);
             data.textures.half = setup.write(textures.half);
@@ -162,8 +156,8 @@ Reduced reduceRows(FrameBuilder& frame, const LinesParams& params, const Layered
             data.hits.flux = setup.write(hits.flux);
             data.hits.incoming.ledger = setup.write(hits.incoming.ledger);
         },
-        [&inputs = frame.inputs(), params, trace, layout, batch](const Data& data,
-                                                                 gl::PassContext& context) {
+        [&inputs = frame.inputs(), params, testing, layout, batch](const Data& data,
+                                                                   gl::PassContext& context) {
             graph::ResourceRef source = data.textures.rows;
             graph::ResourceRef target = data.textures.half;
             graph::ResourceRef spare = data.textures.quarter;
@@ -186,24 +180,18 @@ Reduced reduceRows(FrameBuilder& frame, const LinesParams& params, const Layered
             }
             const Photons& photons = data.hits.incoming;
             gl::Command command = context.compute("screen_space_photons/resolve.comp");
-            inputs.bindView(command);
+            bindHitTesting(command, testing, inputs, data.layers);
             inputs.bindLedger(command, photons.ledger)
-                .params("trace", trace)
                 .params("trace.lines", params)
-                .storage("Materials", inputs.gpuScene.materials())
                 .storage("RowExtents", data.textures.extents)
                 .set("batch", batch)
                 .texture("column", source)
                 .texture("photonPosition", photons.position)
                 .texture("photonDirection", photons.direction)
                 .texture("photonFlux", photons.flux)
-                .texture("layerDepths", data.layers.depth)
-                .texture("layerSurfaces", data.layers.surface)
-                .texture("layerNormals", data.layers.normal)
                 .image("hitPosition", data.hits.position)
                 .image("hitSurface", data.hits.surface)
                 .image("hitFlux", data.hits.flux)
-                .set("layerCount", data.layers.layers)
                 .set("firstPhoton", batch * layout.rows)
                 .set("photonCount", photons.count())
                 .set("rowsWidth", layout.width)

@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "framework/pipeline/frame_builder.h"
+#include "techniques/screen_space_photons/hit_testing.h"
 #include "techniques/screen_space_photons/nodes.h"
 
 namespace kaustik {
@@ -23,16 +24,13 @@ template <class Issue>
 Hits addMarch(FrameBuilder& frame, const std::string& name, const std::string& why,
               const std::vector<std::string>& shaders, bool isHierarchical, const Photons& photons,
               const LayeredDepth& layers, const Hits& previous, Issue issue) {
-    const auto trace = frame.params<TraceParams>("trace");
-    const bool hasInside = frame.needs().closedDielectrics;
+    const HitTesting testing = hitTesting(frame);
     return frame
         .pass<Marched>(
             name, why,
             [&](graph::PassSetup& setup, Marched& data) {
                 data.layers = layers;
-                setup.read(layers.depth);
-                setup.read(layers.surface);
-                setup.read(layers.normal);
+                readLayers(setup, layers);
                 if (isHierarchical) setup.read(layers.pyramid);
                 data.hits.incoming = photons;
                 setup.read(photons.position);
@@ -43,22 +41,15 @@ Hits addMarch(FrameBuilder& frame, const std::string& name, const std::string& w
                 data.hits.flux = setup.write(previous.flux);
                 data.hits.incoming.ledger = setup.write(photons.ledger);
             },
-            [&inputs = frame.inputs(), trace, hasInside, shaders, isHierarchical, issue](
+            [&inputs = frame.inputs(), testing, shaders, isHierarchical, issue](
                 const Marched& data, gl::PassContext& context) {
                 const Photons& incoming = data.hits.incoming;
                 gl::Command command = context.shaders(shaders);
-                if (hasInside) command.define("CLOSED_DIELECTRICS");
-                inputs.bindView(command);
+                bindHitTesting(command, testing, inputs, data.layers);
                 inputs.bindLedger(command, incoming.ledger)
-                    .params("trace", trace)
-                    .storage("Materials", inputs.gpuScene.materials())
                     .texture("photonPosition", incoming.position)
                     .texture("photonDirection", incoming.direction)
-                    .texture("photonFlux", incoming.flux)
-                    .texture("layerDepths", data.layers.depth)
-                    .texture("layerSurfaces", data.layers.surface)
-                    .texture("layerNormals", data.layers.normal)
-                    .set("layerCount", data.layers.layers);
+                    .texture("photonFlux", incoming.flux);
                 if (isHierarchical) command.texture("layerPyramid", data.layers.pyramid);
                 issue(command, data);
             })

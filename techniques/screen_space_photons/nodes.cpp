@@ -31,6 +31,10 @@ void registerScreenSpacePhotons(Registry& registry) {
     registry.node<TraceStage>("hierarchical_compute",
                               {"The same in a compute shader, one thread a photon.", ""},
                               &traceHierarchicalCompute);
+    registry.node<ShadowStage>(
+        "rays",
+        {"Traces a ray from every receiver to the light through the layers.", "K06, section 5"},
+        &traceShadowRays);
     registry.node<ReconstructStage>("sprites",
                                     {"Splats each photon as a disc in its receiver's tangent "
                                      "plane, ray-cast per pixel; the flux is kept exactly.",

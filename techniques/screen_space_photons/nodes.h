@@ -30,13 +30,21 @@ struct LayersRequest {
 
 LayeredDepth peelLayers(FrameBuilder& frame, const params::NoParams&, Geometry geometry);
 
+// How each photon's line gets its vertices (K06, section 2.1; section 6, future work).
+enum class LineSource : int { vertex, geometry };
+
 struct LinesParams {
+    LineSource source = LineSource::vertex;
     int width = 0;
     int rows = 0;
     int memoryMebibytes = 64;
     int minimum = 4;
     template <class R>
     void reflect(R& r) {
+        r.choice(source, "source",
+                 "vertex: a vertex shader places both ends of each line; geometry: a geometry "
+                 "shader makes the line from one point",
+                 {"vertex", "geometry"});
         r.field(width, "width",
                 "Most fragments of a photon's line; 0: as many as the longer side of the picture "
                 "has pixels, so that no step skips one",
@@ -78,8 +86,11 @@ Hits traceHierarchical(FrameBuilder& frame, const MarchParams& params, Photons p
 Hits traceHierarchicalCompute(FrameBuilder& frame, const MarchParams& params, Photons photons,
                               LayeredDepth layers, Hits previous);
 
+Shadows traceShadowRays(FrameBuilder& frame, const params::NoParams&, Geometry geometry,
+                        EyeBuffer eye, LayeredDepth layers);
+
 // What a splat covers of its receiver's tangent plane.
-enum class SpriteShape : int { beam, disc };
+enum class SpriteShape : int { beam, disc, screen };
 
 // How a splat falls off from its middle to its radius.
 enum class SpriteKernel : int { gaussian, linear, epanechnikov };
@@ -92,10 +103,12 @@ struct SpritesParams {
     int maximumPixels = 64;
     template <class R>
     void reflect(R& r) {
-        r.choice(shape, "shape",
-                 "beam: what a round beam along the photon's path cuts out of the tangent plane, "
-                 "longer where light grazes; disc: the paper's circle in that plane",
-                 {"beam", "disc"});
+        r.choice(
+            shape, "shape",
+            "beam: what a round beam along the photon's path cuts out of the tangent plane, "
+            "longer where light grazes; disc: the paper's circle in that plane; screen: a circle "
+            "on the screen, the paper's comparison (Fig. 6)",
+            {"beam", "disc", "screen"});
         r.choice(kernel, "kernel",
                  "gaussian: cut off at 3 sigma, evens out the photons' grid best; linear: the "
                  "paper's; epanechnikov: a parabola",

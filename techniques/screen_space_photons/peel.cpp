@@ -2,8 +2,8 @@
 // layers.peel: a layered depth image by depth peeling (K06, section 2.2). `layers.complexity`
 // counts the fragments of every pixel; `layers.peel` then draws as many layers as the fullest pixel
 // needs, `layers.count` at most; what lies deeper is counted. Out: arrays of view depth with its
-// extent over the pixel (m), of outward shading normals with materials, and of the triangles' own
-// normals, front to back.
+// extent over the pixel (m) and the triangles' normals, and of outward shading normals with
+// materials, front to back.
 #include <fmt/format.h>
 
 #include "framework/pipeline/frame_builder.h"
@@ -76,11 +76,9 @@ LayeredDepth peel(FrameBuilder& frame, Geometry geometry, const LayersRequest& r
                     const int w = frame.width();
                     const int h = frame.height();
                     data.layers.depth =
-                        setup.create<ViewDepth>(request.name + ".depth", w, h, layers);
+                        setup.create<LayerTexel>(request.name + ".depth", w, h, layers);
                     data.layers.surface =
                         setup.create<SurfaceTexel>(request.name + ".surface", w, h, layers);
-                    data.layers.normal =
-                        setup.create<TriangleNormal>(request.name + ".normal", w, h, layers);
                     data.layers.statistics = setup.read(complexity.statistics);
                     data.layers.layers = layers;
                     data.depth = setup.create<DepthBuffer>(request.name + ".depth_buffer", w, h);
@@ -108,7 +106,6 @@ LayeredDepth peel(FrameBuilder& frame, Geometry geometry, const LayersRequest& r
                             .texture("layerDepths", data.layers.depth);
                         command.target(data.layers.depth, layer).clear();
                         command.target(data.layers.surface, layer).clear();
-                        command.target(data.layers.normal, layer).clear();
                         command.depth(data.depth, gl::DepthTest::nearer).clear({1, 0, 0, 0});
                         inputs.gpuScene.draw(command, context, data.geometry, inputs.instances,
                                              request.set, &context.buffer(data.commands),

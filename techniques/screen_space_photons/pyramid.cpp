@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// layers.pyramid: over squares of 4, 16 and 64 pixels and for each layer, the range of depths over
-// which a ray may meet it. Left out where no tracer reads it. In: layered depth; out: ranges, m,
-// the levels side by side in one array texture (shaders/screen_space_photons/pyramid_layout.glsl).
+// layers.pyramid: over squares of 4, 16 and 64 pixels and for each layer a plane in 1/z and how far
+// from it a ray may meet the layer; 1/z is linear on the screen where a surface is flat, so that
+// the plane of a floor is exact at any size. Left out where no tracer reads it. In: layered depth;
+// out: planes, 1/m, the levels side by side in one array texture
+// (shaders/screen_space_photons/pyramid_layout.glsl).
 #include <algorithm>
 
 #include "framework/pipeline/frame_builder.h"
@@ -27,7 +29,7 @@ LayeredDepth addPyramid(FrameBuilder& frame, const LayeredDepth& layers) {
         [&](graph::PassSetup& setup, LayeredDepth& data) {
             data = layers;
             setup.read(layers.depth);
-            data.pyramid = setup.create<DepthRange>(
+            data.pyramid = setup.create<SquarePlane>(
                 "layers.pyramid", squares(w, 1) + squares(w, 2),
                 std::max(squares(h, 1), squares(h, 2) + squares(h, 3)), layers.layers);
         },
@@ -38,9 +40,9 @@ LayeredDepth addPyramid(FrameBuilder& frame, const LayeredDepth& layers) {
                 inputs.bindView(command)
                     .texture("layerDepths", data.depth)
                     .image("pyramid", data.pyramid)
+                    .set("layerCount", data.layers)
                     .set("level", level)
-                    .dispatch((squares(w, level) + 7) / 8, (squares(h, level) + 7) / 8,
-                              data.layers);
+                    .dispatchOver(squares(w, level), 8, squares(h, level), 8);
             }
         });
 }

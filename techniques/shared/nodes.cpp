@@ -28,6 +28,9 @@ void registerSharedNodes(Registry& registry) {
                                  &interactAtInterface);
     registry.node<ShadowStage>(
         "map", {"Draws the scene from each light and compares distances.", ""}, &lookUpShadowMaps);
+    registry.node<SpecularStage>(
+        "split", {"Refracts and reflects: follows both Fresnel branches.", "K06, section 2.3"},
+        &splitAtInterface);
     registry.node<MediaStage>("none", {"Leaves in-scattered light out.", ""}, &leaveOutScattering);
     registry.node<BlurStage>("none", {"Leaves in-scattered light as it is.", ""}, &leaveUnblurred);
     registry.node<ViewStage>("interface",

@@ -20,6 +20,18 @@ Hits emitGrid(FrameBuilder& frame, const params::NoParams&, Geometry geometry);
 
 Hits interactAtInterface(FrameBuilder& frame, const params::NoParams&, Hits hits);
 
+struct SplitParams {
+    int levels = 1;
+    template <class R>
+    void reflect(R& r) {
+        r.field(levels, "levels",
+                "Interactions at which both branches are followed, which doubles the transfer map; "
+                "at later ones each photon takes one of them, drawn by its share",
+                "", params::range(0, 6));
+    }
+};
+Hits splitAtInterface(FrameBuilder& frame, const SplitParams& params, Hits hits);
+
 struct InterfaceViewParams {
     bool refract = true;
     template <class R>

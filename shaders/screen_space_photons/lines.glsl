@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// One end of the horizontal line of a photon (K06, section 2.1, Fig. 4): from the left edge of the
+// photon's row, one fragment a step. The line is drawn half a texel longer at both ends and the
+// fragments are told apart by their own position, so that the result does not depend on how a device
+// rasterises the ends of lines (hard case 6).
+#include "common/ray_segment.glsl"
+#include "common/transfer_map.glsl"
+#include "screen_space_photons/row_extent.glsl"
+
+uniform sampler2D photonPosition;
+uniform sampler2D photonDirection;
+uniform int firstPhoton;
+uniform ivec2 rowsSize;
+
+flat out vec4 endPixels;
+flat out vec4 ends;  // 1/z and t of both ends
+flat out vec3 rayOrigin;
+flat out vec3 rayDirection;
+flat out int steps;
+flat out int photonIndex;
+
+// Sets gl_Position and the outputs; whether there is a line.
+bool placeLineEnd(int row, bool isEnd) {
+    photonIndex = firstPhoton + row;
+    ivec2 mapSize = textureSize(photonPosition, 0);
+    ivec2 texel = ivec2(photonIndex % mapSize.x, photonIndex / mapSize.x);
+    vec4 direction = texelFetch(photonDirection, texel, 0);
+    steps = 0;
+    gl_Position = vec4(-2.0, -2.0, 0.0, 1.0);  // outside: a line of no fragments
+    if (texel.y >= mapSize.y || uint(direction.w) != kFateInFlight) return false;
+    rayOrigin = texelFetch(photonPosition, texel, 0).xyz;
+    rayDirection = direction.xyz;
+    RaySegment segment = clipRay(rayOrigin, rayDirection);
+    if (!segment.visible) return false;
+    steps = stepCount(segment, trace_lines_minimum, rowsSize.x);
+    if (isEnd) atomicMax(rowExtents[batch], uint(steps));
+    endPixels = vec4(segment.nearPixel, segment.farPixel);
+    ends = vec4(segment.nearInverseZ, segment.farInverseZ, segment.nearT, segment.farT);
+    float column = isEnd ? float(steps) + 0.5 : -0.5;
+    vec2 position = vec2(column, float(row) + 0.5) / vec2(rowsSize);
+    gl_Position = vec4(position * 2.0 - 1.0, 0.0, 1.0);
+    return true;
+}

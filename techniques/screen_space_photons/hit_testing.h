@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// What the shaders of every screen-space tracer are told: the layers, and how a hit is tested.
+#pragma once
+
+#include "framework/pipeline/frame_builder.h"
+#include "framework/pipeline/stage_params.h"
+
+namespace kaustik {
+
+struct HitTesting {
+    TraceParams params;
+    bool hasInside = false;  // the scene has closed dielectrics
+};
+[[nodiscard]] HitTesting hitTesting(const FrameBuilder& frame);
+
+// Declares that a pass looks layers up, and binds them for common/hit_test.glsl.
+void readLayers(graph::PassSetup& setup, const LayeredDepth& layers);
+gl::Command& bindHitTesting(gl::Command& command, const HitTesting& testing,
+                            const FrameInputs& inputs, const LayeredDepth& layers);
+
+}  // namespace kaustik
