@@ -128,6 +128,7 @@ void GpuScene::uploadMeshes() {
                             static_cast<GLint>(ranges[mesh].firstVertex), object});
     }
     commandCount_ = commands.size();
+    order_ = order;
     const auto firstOfOrder = [&](std::size_t wanted) {
         return static_cast<std::size_t>(
             std::find_if(order.begin(), order.end(),
@@ -263,6 +264,22 @@ void GpuScene::draw(gl::Command& command, const gl::PassContext& context, const 
                               context.buffer(geometry.heightFields).id(), 0, sizeof(VertexData));
     command.drawIndexedIndirect(heightFieldVertexArray_.id(), list, firstCommand + fieldFirst,
                                 fieldCount);
+}
+
+void GpuScene::drawOne(gl::Command& command, const gl::PassContext& context,
+                       const Geometry& geometry, const ViewInstances& view, std::size_t index,
+                       const gl::Buffer* commands, std::size_t firstCommand) const {
+    command.storage("Instances", view.instances);
+    const gl::Buffer& list = commands != nullptr ? *commands : commands_;
+    const bool isHeightField = index >= heightFieldGroup_.kindBegin[0];
+    if (isHeightField) {
+        glVertexArrayVertexBuffer(heightFieldVertexArray_.id(), 0,
+                                  context.buffer(geometry.heightFields).id(), 0,
+                                  sizeof(VertexData));
+    }
+    command.drawIndexedIndirect(
+        isHeightField ? heightFieldVertexArray_.id() : staticVertexArray_.id(), list,
+        firstCommand + index, 1);
 }
 
 void GpuScene::bindMaterials(gl::Command& command) const {

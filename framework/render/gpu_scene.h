@@ -36,6 +36,12 @@ class GpuScene {
               const ViewInstances& view, DrawSet set, const gl::Buffer* commands = nullptr,
               std::size_t firstCommand = 0) const;
 
+    // The same for one command, of commandCount(): one object of the scene.
+    void drawOne(gl::Command& command, const gl::PassContext& context, const Geometry& geometry,
+                 const ViewInstances& view, std::size_t index, const gl::Buffer* commands = nullptr,
+                 std::size_t firstCommand = 0) const;
+    [[nodiscard]] std::size_t objectOf(std::size_t command) const { return order_[command]; }
+
     [[nodiscard]] const gl::Buffer& materials() const { return materials_; }
     [[nodiscard]] const gl::Texture& images() const { return images_; }
     [[nodiscard]] const gl::Buffer& commands() const { return commands_; }
@@ -76,6 +82,7 @@ class GpuScene {
     std::vector<HeightFieldRange> heightFields_;
     std::size_t heightFieldVertexCount_ = 0;
     std::size_t commandCount_ = 0;
+    std::vector<GLuint> order_;  // objects by command
     Group staticGroup_;
     Group heightFieldGroup_;
 };

@@ -11,6 +11,7 @@ layout(location = 1) out vec4 layerSurface;
 
 uniform sampler2DArray layerDepths;
 uniform int layer;
+uniform int before;  // the index of the layer before this one
 
 const float kDepthScale = 1.0 / 1048576.0;
 
@@ -19,8 +20,8 @@ void main() {
     float extent = fwidth(depth);
     vec3 geometric = geometricNormal(positionVs, -positionVs);
     if (layer > 0) {
-        float before = texelFetch(layerDepths, ivec3(gl_FragCoord.xy, layer - 1), 0).x;
-        if (before <= 0.0 || depth <= before) discard;
+        float depthBefore = texelFetch(layerDepths, ivec3(gl_FragCoord.xy, before), 0).x;
+        if (depthBefore <= 0.0 || depth <= depthBefore) discard;
     }
     gl_FragDepth = min(depth * kDepthScale, 1.0 - 1.0 / 16777216.0);
     layerDepth = vec4(depth, 0.5 * extent, quantizedUnitVector(geometric), float(material + 1u));

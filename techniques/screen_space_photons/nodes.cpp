@@ -9,6 +9,11 @@ void registerScreenSpacePhotons(Registry& registry) {
                                 "picture's measured depth complexity.",
                                 "K06, section 2.2"},
                                &peelLayers);
+    registry.node<LayersStage>("per_object",
+                               {"Peels every object by itself, no deeper than it is, and merges "
+                                "them: less geometry where many objects overlap.",
+                                "K06, section 2.2"},
+                               &peelObjects);
     registry.node<TraceStage>("lines",
                               {"Rasterises each photon's ray as a line into a row of a texture and "
                                "reduces the row to its first hit.",
@@ -31,6 +36,11 @@ void registerScreenSpacePhotons(Registry& registry) {
     registry.node<TraceStage>("hierarchical_compute",
                               {"The same in a compute shader, one thread a photon.", ""},
                               &traceHierarchicalCompute);
+    registry.node<TraceStage>("all_hits",
+                              {"Lights every receiver on a photon's ray instead of the first: the "
+                               "wrong picture, for comparison.",
+                               "K06, section 2, Fig. 3"},
+                              &traceAllHits);
     registry.node<ShadowStage>(
         "rays",
         {"Traces a ray from every receiver to the light through the layers.", "K06, section 5"},

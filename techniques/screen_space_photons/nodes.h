@@ -20,7 +20,11 @@ struct LayersRequest {
     std::string name;
     render::DrawSet set = render::DrawSet::all;
     int layers = 8;
+    bool reducesCounts = false;  // by a texture reduce instead of atomics
 };
+// Adds the pass that counts the fragments of every pixel (K06, section 2.2).
+[[nodiscard]] graph::Buffer<transport::LayerStatistics> measureComplexity(
+    FrameBuilder& frame, Geometry geometry, const LayersRequest& request);
 // Adds the passes of a layered depth image without a pyramid.
 [[nodiscard]] LayeredDepth peel(FrameBuilder& frame, Geometry geometry,
                                 const LayersRequest& request);
@@ -28,7 +32,22 @@ struct LayersRequest {
 // Adds the pass that makes `pyramid` of the other layers' textures.
 [[nodiscard]] LayeredDepth addPyramid(FrameBuilder& frame, const LayeredDepth& layers);
 
-LayeredDepth peelLayers(FrameBuilder& frame, const params::NoParams&, Geometry geometry);
+// How the fragments of all pixels become their maximum and sums (K06, section 2.2).
+enum class Counting : int { atomics, reduce };
+
+struct PeelParams {
+    Counting counting = Counting::atomics;
+    template <class R>
+    void reflect(R& r) {
+        r.choice(counting, "counting",
+                 "atomics: each pixel adds to shared numbers; reduce: the paper's texture reduce, "
+                 "exact to 16 million fragments",
+                 {"atomics", "reduce"});
+    }
+};
+LayeredDepth peelLayers(FrameBuilder& frame, const PeelParams& params, Geometry geometry);
+
+LayeredDepth peelObjects(FrameBuilder& frame, const params::NoParams&, Geometry geometry);
 
 // How each photon's line gets its vertices (K06, section 2.1; section 6, future work).
 enum class LineSource : int { vertex, geometry };
@@ -85,6 +104,25 @@ Hits traceHierarchical(FrameBuilder& frame, const MarchParams& params, Photons p
                        LayeredDepth layers, Hits previous);
 Hits traceHierarchicalCompute(FrameBuilder& frame, const MarchParams& params, Photons photons,
                               LayeredDepth layers, Hits previous);
+
+struct AllHitsParams {
+    int slots = 4;
+    int steps = 0;
+    int minimum = 4;
+    template <class R>
+    void reflect(R& r) {
+        r.field(slots, "slots", "Most hits of a ray that are kept", "", params::range(1, 16));
+        r.field(steps, "steps",
+                "Most steps of a photon's ray; 0: as many as the longer side of the picture has "
+                "pixels, so that no step skips one",
+                "", params::range(0, 16384));
+        r.field(minimum, "minimum",
+                "Fewest steps of a ray, for rays almost parallel to the view direction", "",
+                params::range(1, 64));
+    }
+};
+Hits traceAllHits(FrameBuilder& frame, const AllHitsParams& params, Photons photons,
+                  LayeredDepth layers, Hits previous);
 
 Shadows traceShadowRays(FrameBuilder& frame, const params::NoParams&, Geometry geometry,
                         EyeBuffer eye, LayeredDepth layers);

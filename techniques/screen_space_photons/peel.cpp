@@ -6,6 +6,8 @@
 // materials, front to back.
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/screen_space_photons/nodes.h"
 
@@ -19,45 +21,96 @@ struct DrawCommandWords {
     GLuint words[5];
 };
 
+struct ReducedCounts {  // x: most fragments in a pixel; y: all; z: left out; w: pixels with some
+    static constexpr Format format = Format::rgba32f;
+};
+
 struct Complexity {
     graph::Buffer<transport::LayerStatistics> statistics;
     graph::Texture<CountTexel> counts;
+    // The reduce goes back and forth between these.
+    graph::Texture<ReducedCounts> half;
+    graph::Texture<ReducedCounts> quarter;
     Geometry geometry;
 };
 
-Complexity measureComplexity(FrameBuilder& frame, Geometry geometry, const LayersRequest& request) {
-    return frame.pass<Complexity>(
-        "layers.complexity", "peeling stops at the measured depth complexity",
-        [&](graph::PassSetup& setup, Complexity& data) {
-            data.geometry = geometry;
-            if (geometry.heightFields.valid()) setup.read(geometry.heightFields);
-            data.counts =
-                setup.create<CountTexel>(request.name + ".counts", frame.width(), frame.height());
-            data.statistics =
-                setup.createBuffer<transport::LayerStatistics>(request.name + ".statistics", 1);
-        },
-        [&inputs = frame.inputs(), request](const Complexity& data, gl::PassContext& context) {
-            context.buffer(data.statistics).clear();
-            gl::Command count =
-                context.shaders({"shared/eye.vert", "screen_space_photons/peel_count.frag"});
-            count.set("projection", inputs.view.projection())
-                .target(data.counts)
-                .clear()
-                .blend(gl::Blend::add);
-            inputs.gpuScene.draw(count, context, data.geometry, inputs.instances, request.set);
-            context.compute("screen_space_photons/peel_statistics.comp")
-                .texture("counts", data.counts)
-                .storage("Statistics", data.statistics)
-                .set("layerCount", request.layers)
-                .dispatchOver(inputs.view.width, 8, inputs.view.height, 8);
-        });
+int halved(int side) {
+    return (side + 1) / 2;
+}
+
+// K06: "the maximum over all pixels is then collected by a texture reduce-max operation".
+void reduceCounts(const Complexity& data, gl::PassContext& context, int layers, int w, int h) {
+    graph::ResourceRef source = data.counts;
+    graph::ResourceRef target = data.half;
+    graph::ResourceRef spare = data.quarter;
+    for (bool isFirst = true; isFirst || w > 1 || h > 1; isFirst = false) {
+        w = halved(w);
+        h = halved(h);
+        context.fullscreen("screen_space_photons/counts_reduce.frag")
+            .texture("source", source)
+            .set("layerCount", layers)
+            .set("isFirst", isFirst ? 1 : 0)
+            .target(target)
+            .clear()
+            .viewport(0, 0, w, h)
+            .draw();
+        source = target;
+        std::swap(target, spare);
+    }
+    context.compute("screen_space_photons/counts_store.comp")
+        .texture("reduced", source)
+        .storage("Statistics", data.statistics)
+        .dispatch(1);
 }
 
 }  // namespace
 
+graph::Buffer<transport::LayerStatistics> measureComplexity(FrameBuilder& frame, Geometry geometry,
+                                                            const LayersRequest& request) {
+    return frame
+        .pass<Complexity>(
+            "layers.complexity", "peeling stops at the measured depth complexity",
+            [&](graph::PassSetup& setup, Complexity& data) {
+                data.geometry = geometry;
+                if (geometry.heightFields.valid()) setup.read(geometry.heightFields);
+                const int w = frame.width();
+                const int h = frame.height();
+                data.counts = setup.create<CountTexel>(request.name + ".counts", w, h);
+                data.statistics =
+                    setup.createBuffer<transport::LayerStatistics>(request.name + ".statistics", 1);
+                if (!request.reducesCounts) return;
+                data.half = setup.create<ReducedCounts>(request.name + ".counts_half", halved(w),
+                                                        halved(h));
+                data.quarter = setup.create<ReducedCounts>(request.name + ".counts_quarter",
+                                                           halved(halved(w)), halved(halved(h)));
+            },
+            [&inputs = frame.inputs(), request](const Complexity& data, gl::PassContext& context) {
+                gl::Command count =
+                    context.shaders({"shared/eye.vert", "screen_space_photons/peel_count.frag"});
+                count.set("projection", inputs.view.projection())
+                    .target(data.counts)
+                    .clear()
+                    .blend(gl::Blend::add);
+                inputs.gpuScene.draw(count, context, data.geometry, inputs.instances, request.set);
+                if (request.reducesCounts) {
+                    reduceCounts(data, context, request.layers, inputs.view.width,
+                                 inputs.view.height);
+                    return;
+                }
+                context.buffer(data.statistics).clear();
+                context.compute("screen_space_photons/peel_statistics.comp")
+                    .texture("counts", data.counts)
+                    .storage("Statistics", data.statistics)
+                    .set("layerCount", request.layers)
+                    .dispatchOver(inputs.view.width, 8, inputs.view.height, 8);
+            })
+        .statistics;
+}
+
 LayeredDepth peel(FrameBuilder& frame, Geometry geometry, const LayersRequest& request) {
     const int layers = request.layers;
-    const Complexity complexity = measureComplexity(frame, geometry, request);
+    const graph::Buffer<transport::LayerStatistics> statistics =
+        measureComplexity(frame, geometry, request);
     struct Data {
         LayeredDepth layers;
         graph::Texture<DepthBuffer> depth;
@@ -79,7 +132,7 @@ LayeredDepth peel(FrameBuilder& frame, Geometry geometry, const LayersRequest& r
                         setup.create<LayerTexel>(request.name + ".depth", w, h, layers);
                     data.layers.surface =
                         setup.create<SurfaceTexel>(request.name + ".surface", w, h, layers);
-                    data.layers.statistics = setup.read(complexity.statistics);
+                    data.layers.statistics = setup.read(statistics);
                     data.layers.layers = layers;
                     data.depth = setup.create<DepthBuffer>(request.name + ".depth_buffer", w, h);
                     data.commands = setup.createBuffer<DrawCommandWords>(
@@ -103,6 +156,7 @@ LayeredDepth peel(FrameBuilder& frame, Geometry geometry, const LayersRequest& r
                         inputs.gpuScene.bindMaterials(command);
                         command.set("projection", inputs.view.projection())
                             .set("layer", layer)
+                            .set("before", layer - 1)
                             .texture("layerDepths", data.layers.depth);
                         command.target(data.layers.depth, layer).clear();
                         command.target(data.layers.surface, layer).clear();
@@ -116,9 +170,11 @@ LayeredDepth peel(FrameBuilder& frame, Geometry geometry, const LayersRequest& r
     return peeled;
 }
 
-LayeredDepth peelLayers(FrameBuilder& frame, const params::NoParams&, Geometry geometry) {
+LayeredDepth peelLayers(FrameBuilder& frame, const PeelParams& params, Geometry geometry) {
     const int layers = frame.params<LayersParams>("layers").count;
-    return addPyramid(frame, peel(frame, geometry, {"layers", render::DrawSet::all, layers}));
+    return addPyramid(
+        frame, peel(frame, geometry,
+                    {"layers", render::DrawSet::all, layers, params.counting == Counting::reduce}));
 }
 
 }  // namespace kaustik
