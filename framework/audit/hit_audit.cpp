@@ -160,15 +160,40 @@ class Counter {
     std::vector<double> pixels_;
 };
 
+// As common/octahedral.glsl folds it.
+glm::dvec3 unfoldUnitVector(const glm::dvec2& folded) {
+    glm::dvec3 n(folded, 1.0 - std::abs(folded.x) - std::abs(folded.y));
+    if (n.z < 0.0) {
+        n = glm::dvec3((1.0 - std::abs(folded.y)) * (folded.x >= 0.0 ? 1.0 : -1.0),
+                       (1.0 - std::abs(folded.x)) * (folded.y >= 0.0 ? 1.0 : -1.0), n.z);
+    }
+    return glm::normalize(n);
+}
+
+// Depths and, from the triangles' planes, their extents over the pixels.
 Layers readLayers(const Renderer& renderer) {
     const LayeredDepth& layers = renderer.outputs().layers;
     if (!layers.depth.valid()) return {};
     const gl::Texture& texture = renderer.texture(layers.depth);
     const std::vector<float> texels = texture.read();
+    const int width = texture.desc().width;
+    const int height = texture.desc().height;
+    const render::EyeView& view = renderer.view();
     std::vector<float> depths;  // and extents
     depths.reserve(texels.size() / 2);
-    for (std::size_t i = 0; i + 1 < texels.size(); i += 4)
-        depths.insert(depths.end(), {texels[i], texels[i + 1]});
+    for (std::size_t i = 0; i + 3 < texels.size(); i += 4) {
+        const std::size_t pixel = i / 4 % static_cast<std::size_t>(width * height);
+        const double x = static_cast<double>(pixel % static_cast<std::size_t>(width)) + 0.5;
+        const double y = static_cast<double>(pixel / static_cast<std::size_t>(width)) + 0.5;
+        const glm::dvec3 ray((2.0 * x / width - 1.0) * view.tangents.x,
+                             (2.0 * y / height - 1.0) * view.tangents.y, -1.0);
+        const double depth = static_cast<double>(texels[i]);
+        const glm::dvec3 normal = unfoldUnitVector(glm::dvec2(texels[i + 1], texels[i + 2]));
+        const double slope = (std::abs(normal.x) + std::abs(normal.y)) /
+                             std::max(std::abs(glm::dot(normal, ray)), 1e-4);
+        const double extent = 0.5 * depth * view.footprintPerMeter() * slope;
+        depths.insert(depths.end(), {texels[i], static_cast<float>(extent)});
+    }
     return {texture.desc().width, texture.desc().height, layers.layers, std::move(depths)};
 }
 

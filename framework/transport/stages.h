@@ -23,9 +23,8 @@ struct SquarePlane {  // xyz: 1/z in a square's middle, 1/m, 0 empty, and its gr
                       // far from that plane a ray may meet the layer
     static constexpr Format format = Format::rgba32f;
 };
-// All that a hit test asks of a layer, in one place. x: view depth in m, 0 none; y: half of its
-// extent over the pixel, m; z: the triangle's outward unit normal, packed (common/octahedral.glsl);
-// w: material + 1.
+// All that a hit test asks of a layer, in one place. x: view depth in m, 0 none; yz: the triangle's
+// outward unit normal, octahedral (common/octahedral.glsl); w: material + 1.
 struct LayerTexel {
     static constexpr Format format = Format::rgba32f;
 };

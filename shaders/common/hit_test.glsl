@@ -18,7 +18,9 @@ struct LayerSurface {
 
 LayerSurface layerAt(ivec2 texel, int layer) {
     vec4 data = texelFetch(layerDepths, ivec3(texel, layer), 0);
-    return LayerSurface(data.x, data.y, unitVectorOfQuantized(data.z), uint(data.w));
+    vec3 normal = unpackUnitVector(data.yz);
+    float extent = pixelDepthExtent(viewRay(vec2(texel) + 0.5), data.x, normal);
+    return LayerSurface(data.x, extent, normal, uint(data.w));
 }
 
 struct TracedRay {

@@ -15,17 +15,3 @@ vec3 unpackUnitVector(vec2 folded) {
     if (n.z < 0.0) n.xy = (1.0 - abs(n.yx)) * signOf(n.xy);
     return normalize(n);
 }
-
-// The same in one number, 12 bits for each of the two, which a float holds exactly; off by 5e-4 rad at
-// most.
-const float kUnitVectorSteps = 4095.0;
-
-float quantizedUnitVector(vec3 unit) {
-    vec2 steps = round((packUnitVector(unit) * 0.5 + 0.5) * kUnitVectorSteps);
-    return steps.x + 4096.0 * steps.y;
-}
-
-vec3 unitVectorOfQuantized(float number) {
-    float y = floor(number / 4096.0);
-    return unpackUnitVector(vec2(number - 4096.0 * y, y) * (2.0 / kUnitVectorSteps) - 1.0);
-}

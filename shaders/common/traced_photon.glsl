@@ -55,16 +55,15 @@ Hit deliver(Photon photon, FirstHit first) {
     hit.positionVs = photon.positionVs + first.hit.t * photon.directionVs;
     hit.distanceMeters = first.hit.t;
     hit.material = uint(surface.w);
-    vec4 layer = texelFetch(layerDepths, place, 0);
-    vec3 triangle = unitVectorOfQuantized(layer.z);
+    LayerSurface layer = layerAt(first.pixel, first.hit.layer);
     bool arrives = isReceiver(materialKind(hit.material - 1u));
     vec3 shading =
         first.isExit ? normalAtExit(hit.positionVs, first.pixel, first.hit.layer)
-                     : normalAtHit(hit.positionVs, surface, layer.xy, arrives);
+                     : normalAtHit(hit.positionVs, surface, vec2(layer.depth, layer.extent), arrives);
     hit.normalVs =
         arrives
-            ? receiverNormal(hit.positionVs, photon.directionVs, shading, triangle)
-            : bendingNormal(photon.directionVs, shading, triangle, hit.material, photon.media);
+            ? receiverNormal(hit.positionVs, photon.directionVs, shading, layer.normal)
+            : bendingNormal(photon.directionVs, shading, layer.normal, hit.material, photon.media);
     vec3 left = mediumTransmittance(innerMedium(photon.media), first.hit.t);
     hit.fluxWatts = photon.fluxWatts * left;
     ledgerAdd(kAccountAbsorbed, photon.fluxWatts * (1.0 - left));

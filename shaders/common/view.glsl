@@ -22,6 +22,13 @@ float pixelFootprint(float depth) {
     return view.tangents.w * depth;
 }
 
+// Half of what the depth of a plane with unit normal `normalVs` differs by over a pixel, m; bounded
+// where the plane is seen edge-on. `ray`: viewRay through the pixel's middle.
+float pixelDepthExtent(vec3 ray, float depth, vec3 normalVs) {
+    float slope = (abs(normalVs.x) + abs(normalVs.y)) / max(abs(dot(normalVs, ray)), 1e-4);
+    return 0.5 * pixelFootprint(depth) * slope;
+}
+
 // The area that a pixel sees of a plane with unit normal `normalVs` at this depth: exact for a pixel
 // so small that its rays spread evenly. Bounded where the plane is seen edge-on.
 float pixelArea(vec3 ray, float depth, vec3 normalVs) {

@@ -17,13 +17,12 @@ const float kDepthScale = 1.0 / 1048576.0;
 
 void main() {
     float depth = -positionVs.z;
-    float extent = fwidth(depth);
     vec3 geometric = geometricNormal(positionVs, -positionVs);
     if (layer > 0) {
         float depthBefore = texelFetch(layerDepths, ivec3(gl_FragCoord.xy, before), 0).x;
         if (depthBefore <= 0.0 || depth <= depthBefore) discard;
     }
     gl_FragDepth = min(depth * kDepthScale, 1.0 - 1.0 / 16777216.0);
-    layerDepth = vec4(depth, 0.5 * extent, quantizedUnitVector(geometric), float(material + 1u));
+    layerDepth = vec4(depth, packUnitVector(geometric), float(material + 1u));
     layerSurface = vec4(shadingNormal(normalVs, geometric), float(material + 1u));
 }

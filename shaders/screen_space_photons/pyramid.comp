@@ -2,6 +2,7 @@
 // One level of the layers' pyramid (pyramid_layout.glsl): for each square and layer a plane in 1/z,
 // which is linear on the screen where a surface is flat, and how far what a ray may meet there lies
 // from it. One thread a square.
+#include "common/octahedral.glsl"
 #include "common/view.glsl"
 #include "screen_space_photons/pyramid_layout.glsl"
 
@@ -32,9 +33,14 @@ void main() {
             vec4 part = vec4(0.0);
             if (all(lessThan(at, count))) {
                 if (level == 1) {
-                    vec2 depth = texelFetch(layerDepths, ivec3(4 * square + at, layer), 0).xy;
-                    part = vec4(depth.x > 0.0 ? 1.0 / depth.x : 0.0, 0.0, 0.0,
-                                inverseMargin(depth.x, depth.y + pixelFootprint(depth.x)));
+                    ivec2 pixel = 4 * square + at;
+                    vec4 texel = texelFetch(layerDepths, ivec3(pixel, layer), 0);
+                    float depth = texel.x;
+                    float extent = pixelDepthExtent(viewRay(vec2(pixel) + 0.5), depth,
+                                                    unpackUnitVector(texel.yz));
+                    // As wide as the hit test's first question (common/hit_test.glsl, meetLayer).
+                    part = vec4(depth > 0.0 ? 1.0 / depth : 0.0, 0.0, 0.0,
+                                inverseMargin(depth, extent + pixelFootprint(depth)));
                 } else {
                     part = imageLoad(pyramid, ivec3(from + 4 * square + at, layer));
                 }
