@@ -4,6 +4,7 @@
 // ledger.
 #include "common/exit_test.glsl"
 #include "common/ledger.glsl"
+#include "common/medium.glsl"
 
 uniform sampler2D photonPosition;
 uniform sampler2D photonDirection;
@@ -22,15 +23,6 @@ void searchStep(RaySegment segment, TracedRay ray, int i, int n, inout FirstHit 
         return;
     }
     first = found;
-}
-
-bool isFinite(vec3 v) {
-    return !any(isnan(v)) && !any(isinf(v));
-}
-
-bool isNumber(Photon photon) {
-    return isFinite(photon.positionVs) && isFinite(photon.directionVs) &&
-           isFinite(photon.fluxWatts);
 }
 
 Photon photonAt(ivec2 texel) {
@@ -65,7 +57,8 @@ Hit deliver(Photon photon, FirstHit first) {
         arrives
             ? receiverNormal(hit.positionVs, photon.directionVs, shading, triangle)
             : bendingNormal(photon.directionVs, shading, triangle, hit.material, photon.media);
-    vec3 left = mediumTransmittance(innerMedium(photon.media), first.hit.t);
+    // Vacuum has no extinction, and asking whether the scene is in one would cost more than the sum.
+    vec3 left = transmittanceOver(extinctionAround(photon.media), first.hit.t);
     hit.fluxWatts = photon.fluxWatts * left;
     ledgerAdd(kAccountAbsorbed, photon.fluxWatts * (1.0 - left));
     hit.fate = arrives ? kFateReceiver : kFateSpecular;

@@ -9,6 +9,10 @@ namespace kaustik {
 
 void registerSharedNodes(Registry& registry);
 
+// The nodes that leave in-scattered light out or as it is; after those that do something, of which
+// the first is a stage's default.
+void registerMediaLeftOut(Registry& registry);
+
 // Hard cases of the shared nodes alone.
 void addSharedCases(numerics::Suite& suite);
 
