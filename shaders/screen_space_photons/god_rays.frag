@@ -60,18 +60,18 @@ void main() {
     way.farInverseZ = wayEnds.y;
     way.nearT = wayEnds.z;
     way.farT = wayEnds.w;
-    // Two points a pixel, by Gauss and Legendre; more where a pixel holds much of the way.
-    int pieces = clamp(int(ceil(16.0 * (part.y - part.x))), 1, 16);
+    // The middle of a pixel's part; of more pieces where a pixel holds much of the way.
+    int pieces = clamp(int(ceil(64.0 * (part.y - part.x))), 1, 64);
     float piece = (part.y - part.x) / float(pieces);
     vec3 sum = vec3(0.0);
-    for (int k = 0; k < 2 * pieces; ++k) {
-        float node = (k & 1) == 0 ? 0.21132487 : 0.78867513;
-        float i = part.x + piece * (float(k >> 1) + node);
+    for (int k = 0; k < pieces; ++k) {
+        float i = part.x + piece * (float(k) + 0.5);
         vec2 at = mix(wayPixels.xy, wayPixels.zw, i);
         float depth = depthAtIndex(way, i, 1.0);
         float reach = halfWidth(wayWidth.x, 1.0 / depth) * wayWidth.y;
         float across = parabolaBelow((turned.y + 1.0 - at.y) / reach) -
                        parabolaBelow((turned.y - at.y) / reach);
+        if (across <= 0.0) continue;
         vec3 ray = viewRay(isSteep != 0 ? at.yx : at);
         float slant = length(ray);
         vec3 opticalDepth = wayExtinction * parameterAtIndex(way, i, 1.0) +
@@ -79,5 +79,5 @@ void main() {
         float cosine = -dot(wayDirection, ray) / slant;
         sum += across * slant * phaseFunction(cosine) * exp(-opticalDepth);
     }
-    radiance = vec4(wayPower * sum * (0.5 * piece), 0.0);
+    radiance = vec4(wayPower * (sum * piece), 0.0);
 }
