@@ -11,6 +11,7 @@
 #include "framework/scene/height_field.h"
 #include "framework/scene/needs.h"
 #include "framework/scene/scene_file.h"
+#include "tests/unit/scene/mesh_import_fixture.h"
 #include "tests/unit/scene/scene_file_fixture.h"
 
 namespace kaustik::scene {
@@ -20,6 +21,7 @@ class ShippedScenes : public test::SceneFile {
   protected:
     ShippedScenes() {
         write("bunny.obj", test::kTetrahedron);
+        write("horse.3ds", tetrahedron3ds());
         ::setenv("KAUSTIK_MESHES", folder.c_str(), 1);
     }
     ~ShippedScenes() override { ::unsetenv("KAUSTIK_MESHES"); }
@@ -90,8 +92,8 @@ TEST_F(ShippedScenes, AreListedByNameWithADescription) {
         EXPECT_EQ(loadScene(listing.name).name, listing.name);
         EXPECT_EQ(loadScene(listing.file.string()).name, listing.name);
     }
-    for (const char* name :
-         {"pool", "flat-water", "glass-sphere", "glossy-table", "cornell-bunny", "ring"}) {
+    for (const char* name : {"pool", "flat-water", "glass-sphere", "glossy-table", "cornell-bunny",
+                             "ring", "god-rays"}) {
         EXPECT_TRUE(names.contains(name)) << name;
     }
 }
@@ -154,6 +156,47 @@ TEST_F(ShippedScenes, CornellWaterMeetsItsPaneAtEveryTime) {
     }
     EXPECT_GT(highest, 0.005);
     EXPECT_EQ(sceneNeeds(scene).specularInterfaces, 2);
+}
+
+TEST_F(ShippedScenes, GodRaysHasACrestThatFocusesItsLightOnTheHorse) {
+    const Scene scene = loadScene("god-rays");
+    ASSERT_TRUE(scene.medium);
+    EXPECT_TRUE(sceneNeeds(scene).scatteringMedium);
+    const Bounds horse = objectBounds(scene, object(scene, "horse"));
+    const Bounds cave = objectBounds(scene, object(scene, "cave"));
+    const Bounds water = objectBounds(scene, object(scene, "water"));
+    EXPECT_LT(horse.maximum.y, water.minimum.y);
+    EXPECT_GT(horse.minimum.y, cave.minimum.y);
+    // The eye is under water, in the cave.
+    const glm::dvec3 eye = scene.camera.position;
+    EXPECT_TRUE(glm::all(glm::greaterThan(eye, cave.minimum)));
+    EXPECT_TRUE(glm::all(glm::lessThan(eye, glm::dvec3(cave.maximum.x, water.minimum.y,
+                                                       cave.maximum.z))));
+    // Back along the refracted sun from the middle of its back to the water at rest: there the
+    // short waves meet with their crests, which focus at about the horse.
+    const HeightField& field = *scene.meshes[object(scene, "water").mesh].heightField;
+    const glm::dvec3 sun = scene.lights.at(0).direction;
+    const double ior = 1.333;
+    const glm::dvec2 across = glm::dvec2(sun.x, sun.z) / ior;
+    const double down = std::sqrt(1.0 - glm::dot(across, across));
+    const glm::dvec3 back(0.5 * (horse.minimum.x + horse.maximum.x), horse.maximum.y,
+                          0.5 * (horse.minimum.z + horse.maximum.z));
+    const glm::dvec2 crest = glm::dvec2(back.x, back.z) - across * (-back.y / down);
+    const glm::dvec3 middle(object(scene, "water").toWorld[3]);
+    double curvature = 0.0;
+    for (const Wave& wave : field.waves) {
+        const double k = 2.0 * glm::pi<double>() / double(wave.wavelengthMeters);
+        const double angle = glm::radians(double(wave.directionDegrees));
+        const glm::dvec2 local = crest - glm::dvec2(middle.x, middle.z);
+        const double phase =
+            k * (std::cos(angle) * local.x + std::sin(angle) * local.y) + double(wave.phaseRadians);
+        curvature += double(wave.amplitudeMeters) * k * k * std::cos(phase);
+    }
+    // Of both directions across the crest together: on average half of it in each.
+    const double focalLength = ior / ((ior - 1.0) * 0.5 * curvature);
+    RecordProperty("focal_length_mm", static_cast<int>(1000.0 * focalLength));
+    EXPECT_GT(focalLength, 0.5 * -back.y);
+    EXPECT_LT(focalLength, 2.0 * -back.y);
 }
 
 TEST_F(ShippedScenes, AnUnknownNameIsAnsweredWithTheNearestAndAll) {
