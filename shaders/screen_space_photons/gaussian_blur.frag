@@ -10,9 +10,8 @@ uniform int reach;    // px
 uniform ivec2 along;
 
 int mirrored(int i, int size) {
-    int period = 2 * size;
-    i = (i % period + period) % period;
-    return i < size ? i : period - 1 - i;
+    i = (i < 0 ? -1 - i : i) % (2 * size);  // of a negative number % is undefined
+    return i < size ? i : 2 * size - 1 - i;
 }
 
 void main() {

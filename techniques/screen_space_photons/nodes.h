@@ -166,7 +166,7 @@ IrradianceMap splatSprites(FrameBuilder& frame, const SpritesParams& params, Hit
 
 struct GodRayParams {
     float width = 0.0f;
-    float footprints = 1.0f;
+    float footprints = 1.5f;
     int maximum = 64;
     template <class R>
     void reflect(R& r) {
