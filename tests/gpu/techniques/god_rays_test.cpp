@@ -234,7 +234,8 @@ TEST(GodRays, AreLeftOutWhereNothingScatters) {
 
 TEST(GodRayBlur, KeepsTheLightAndSpreadsItByItsSigma) {
     const scene::Scene scene = beamThroughFog();
-    const Settings few = {{"emit.photons", "2x2"}, {"blur", "gaussian"}};
+    const Settings few = {
+        {"emit.photons", "2x2"}, {"media.lines.width", "1"}, {"blur", "gaussian"}};
     const auto render = [&](const char* sigma) {
         Settings settings = few;
         settings.emplace_back("blur.gaussian.sigma", sigma);
