@@ -113,9 +113,9 @@ Outputs readOutputs(const Renderer& renderer) {
                                   &Reference::causticRadiance, &Reference::causticRadianceError});
     }
     if (frame.inScattered.radiance.valid()) {
-        outputs.images.push_back(
-            {"in_scattered", readTexture(renderer.texture(frame.inScattered.radiance), 0, 3),
-             &Reference::inScattered, &Reference::inScatteredError, false});
+        outputs.images.push_back({"in_scattered",
+                                  readTexture(renderer.texture(frame.inScattered.radiance), 0, 3),
+                                  &Reference::inScattered, &Reference::inScatteredError, false});
     }
     const Image receiver = readTexture(renderer.texture(frame.eye.receiver), 0, 2);
     outputs.receiver = Image(receiver.width, receiver.height, 1);

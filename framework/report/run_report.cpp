@@ -130,8 +130,9 @@ std::string truthTable(const RunRecord& record) {
         if (!error.contains(output) || error.at(output).is_null()) return;
         const json& errors = error.at(output);
         const auto value = [&](const char* key) { return orNone(errors.at(key), 1.0, ""); };
-        const double noise =
-            errors.contains("truth_noise") ? errors.at("truth_noise").at("rmse").get<double>() : 0.0;
+        const double noise = errors.contains("truth_noise")
+                                 ? errors.at("truth_noise").at("rmse").get<double>()
+                                 : 0.0;
         table += fmt::format(
             "{:<22}RMSE {} {} (the truth's own {:.2g}), relMSE {}, SSIM {}, FLIP {}, energy "
             "ratio {}\n",
@@ -145,7 +146,8 @@ std::string truthTable(const RunRecord& record) {
     if (!record.error.is_null()) {
         errorLines("error", "  in-scattered", record.error);
         if (record.error.contains("modelled_paths")) {
-            errorLines("  of modelled paths", "    in-scattered", record.error.at("modelled_paths"));
+            errorLines("  of modelled paths", "    in-scattered",
+                       record.error.at("modelled_paths"));
         }
     }
     return table;

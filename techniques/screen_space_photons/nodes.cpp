@@ -56,7 +56,7 @@ void registerScreenSpacePhotons(Registry& registry) {
                                "K06, section 3.2"},
                               &drawGodRays);
     registry.node<BlurStage>("gaussian",
-                             {"Smooths in-scattered light by a Gaussian of constant size on the "
+                             {"Smooths in-scattered light with a Gaussian of constant size on the "
                               "screen.",
                               "K06, section 3.2"},
                              &blurGaussian);

@@ -95,7 +95,8 @@ IrradianceMap splatSprites(FrameBuilder& frame, const SpritesParams& params, Hit
                 data.map.ledger = setup.read(weights.ledger);
                 setup.bypass(data.map.irradiance, {0, 0, 0, 0});
                 if (isBatched) {
-                    data.irradiance = createBatchSum<IrradianceTexel>(setup, frame, "reconstruct", "irradiance");
+                    data.irradiance =
+                        createBatchSum<IrradianceTexel>(setup, frame, "reconstruct", "irradiance");
                 }
                 if (!isGlossy) return;
                 setup.read(eye.receiverAlbedo);
@@ -103,7 +104,8 @@ IrradianceMap splatSprites(FrameBuilder& frame, const SpritesParams& params, Hit
                     setup.create<RadianceTexel>("caustic.radiance", frame.width(), frame.height());
                 setup.bypass(data.map.radiance, {0, 0, 0, 0});
                 if (isBatched) {
-                    data.radiance = createBatchSum<RadianceTexel>(setup, frame, "reconstruct", "radiance");
+                    data.radiance =
+                        createBatchSum<RadianceTexel>(setup, frame, "reconstruct", "radiance");
                 }
             },
             [&inputs = frame.inputs(), params, photons, isBatched](const Data& data,

@@ -31,6 +31,7 @@ void registerSharedNodes(Registry& registry) {
     registry.node<SpecularStage>(
         "split", {"Refracts and reflects: follows both Fresnel branches.", "K06, section 2.3"},
         &splitAtInterface);
+    registry.node<BlurStage>("none", {"Leaves in-scattered light as it is.", ""}, &leaveUnblurred);
     registry.node<ViewStage>("interface",
                              {"Looks through the first specular surface with one refraction, at "
                               "the distance of the receiver straight behind it.",
@@ -46,7 +47,6 @@ void registerSharedNodes(Registry& registry) {
 
 void registerMediaLeftOut(Registry& registry) {
     registry.node<MediaStage>("none", {"Leaves in-scattered light out.", ""}, &leaveOutScattering);
-    registry.node<BlurStage>("none", {"Leaves in-scattered light as it is.", ""}, &leaveUnblurred);
 }
 
 }  // namespace kaustik

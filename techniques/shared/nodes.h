@@ -9,8 +9,8 @@ namespace kaustik {
 
 void registerSharedNodes(Registry& registry);
 
-// The nodes that leave in-scattered light out or as it is; after those that do something, of which
-// the first is a stage's default.
+// The node that leaves in-scattered light out; after those that make it, of which the first is the
+// stage's default.
 void registerMediaLeftOut(Registry& registry);
 
 // Hard cases of the shared nodes alone.
