@@ -45,6 +45,10 @@ InScattered blurAlong(FrameBuilder& frame, const GaussianBlurParams& params, InS
 }  // namespace
 
 InScattered blurGaussian(FrameBuilder& frame, const GaussianBlurParams& params, InScattered sharp) {
+    if (!sharp.radiance.valid()) {
+        frame.leaveOut("blur.gaussian", "no in-scattered light is made");
+        return sharp;
+    }
     const InScattered rows = blurAlong(frame, params, sharp, "blur.rows", {1, 0});
     return blurAlong(frame, params, rows, "blur.in_scattered", {0, 1});
 }

@@ -224,6 +224,11 @@ TEST(GodRays, AreLeftOutWhereNothingScatters) {
     const Frame clear(scene, 32, 24, few);
     EXPECT_TRUE(hasPass(clear, "media.lines", graph::PassState::leftOut));
     EXPECT_TRUE(hasPass(clear, "compose.medium", graph::PassState::leftOut));
+    // Nor is there anything to blur where the settings leave it out.
+    const Frame without(beamThroughFog(), 32, 24,
+                        {{"emit.photons", "16x16"}, {"media", "none"}, {"blur", "gaussian"}});
+    EXPECT_TRUE(hasPass(without, "blur.gaussian", graph::PassState::leftOut));
+    EXPECT_FALSE(without.renderer().outputs().inScattered.radiance.valid());
     // What stands in for a light path that cannot be needs no medium's light either.
     scene = beamThroughFog();
     scene.lights.clear();
