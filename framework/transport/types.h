@@ -21,7 +21,7 @@ struct ViewData {
                        // pixel covers at a depth of 1 m
     vec4 sizePixels;   // width, height, 1/width, 1/height
     mat4 viewToWorld;  // rotation only
-    vec4 boundsCenterVs;    // of the scene's world-axis bounding box, m
+    vec4 boundsCenterVs;  // of the scene's world-axis bounding box, m
     // Along the world's axes, m; w: the margin in it that rays are cut with (viewData), m.
     vec4 boundsHalfExtent;
     vec4 background;        // radiance that comes from outside of the scene, W/m²/sr

@@ -25,8 +25,8 @@ float mediumIndex(uint medium) {
     return medium == 0u ? 1.0 : materials[medium - 1u].absorption.w;
 }
 
-// Share of the flux that is left after a way (Beer-Lambert). Zero length or zero extinction leave all
-// of it, whatever the other is: infinite for a black tint.
+// Share of the flux that is left after a way (Beer-Lambert). Zero length or zero extinction leave
+// all of it, whatever the other is: infinite for a black tint.
 vec3 transmittanceOver(vec3 extinctionPerMeter, float distanceMeters) {
     vec3 depth = extinctionPerMeter * distanceMeters;
     return exp(-mix(vec3(0.0), depth, greaterThan(depth, vec3(0.0))));

@@ -57,7 +57,7 @@ Hit deliver(Photon photon, FirstHit first) {
         arrives
             ? receiverNormal(hit.positionVs, photon.directionVs, shading, triangle)
             : bendingNormal(photon.directionVs, shading, triangle, hit.material, photon.media);
-    // Vacuum has no extinction, and asking whether the scene is in one would cost more than the sum.
+    // Asking whether there is a medium would cost more than adding its zeros.
     vec3 left = transmittanceOver(extinctionAround(photon.media), first.hit.t);
     hit.fluxWatts = photon.fluxWatts * left;
     ledgerAdd(kAccountAbsorbed, photon.fluxWatts * (1.0 - left));

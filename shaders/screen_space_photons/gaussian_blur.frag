@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// One direction of a Gaussian, cut off at 3 sigma and normalised over its samples. Beyond the border
-// the picture goes on as its mirror image, however small it is: what each pixel gives away adds up to
-// 1 then, as what each takes does.
+// One direction of a Gaussian, cut off at 3 sigma and normalised over its samples. Beyond the
+// border the picture goes on as its mirror image, however small it is: what each pixel gives away
+// adds up to 1 then, as what each takes does.
 layout(location = 0) out vec4 blurred;
 
 uniform sampler2D source;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // In-scattered radiance that one photon's way adds at one pixel, W/m²/sr, the mean over the pixel:
 //     L = ∫ Φ(t) σs p(cosθ) Tr(eye) |r| / (z³ a²) dt
-// over the part of the way that the pixel sees; r is the point in view space, z its depth, a² the area
-// of a pixel at a depth of 1 m, z³ a² / |r| the pixel's solid angle times |r|². With i along the line
-// on the screen 1/z goes from 1/z0 to 1/z1 linearly, and so dt/z² = (t1 - t0)/(z0 z1) di: nothing is
-// singular for a way towards the eye, and a column of pixels gets its share of the line exactly
-// (hard case 36). Across the line the shares of a column's pixels add up to 1.
+// over the part of the way that the pixel sees; r is the point in view space, z its depth, a² the
+// area of a pixel at a depth of 1 m, z³ a² / |r| the pixel's solid angle times |r|². With i along
+// the line on the screen 1/z goes from 1/z0 to 1/z1 linearly, and so dt/z² = (t1 - t0)/(z0 z1) di:
+// nothing is singular for a way towards the eye, and a column of pixels gets its share of the line
+// exactly (hard case 36). Across the line the shares of a column's pixels add up to 1.
 #include "screen_space_photons/god_rays.glsl"
 
 flat in vec4 wayPixels;
@@ -43,7 +43,8 @@ vec2 partBefore(vec2 part, float depth) {
     float rise = wayEnds.y - wayEnds.x;
     float low = 1.0 / depth - wayEnds.x;
     if (rise == 0.0) return low <= 0.0 ? part : vec2(1.0, 0.0);
-    return rise > 0.0 ? vec2(max(part.x, low / rise), part.y) : vec2(part.x, min(part.y, low / rise));
+    float end = low / rise;
+    return rise > 0.0 ? vec2(max(part.x, end), part.y) : vec2(part.x, min(part.y, end));
 }
 
 void main() {

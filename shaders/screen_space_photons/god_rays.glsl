@@ -34,8 +34,8 @@ RaySegment clipWay(vec3 origin, vec3 direction, float end, float marginPixels) {
     return way;
 }
 
-// Half of the line's width across it, px, where the way is at this 1/depth. A footprint's width goes
-// with 1/depth, so it is linear along the line as 1/depth is.
+// Half of the line's width across it, px, where the way is at this 1/depth. A footprint's width
+// goes with 1/depth, so it is linear along the line as 1/depth is.
 float halfWidth(float footprintMeters, float inverseZ) {
     float wanted = media_lines_width;
     if (media_lines_width <= 0.0) {

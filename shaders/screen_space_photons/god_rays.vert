@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The line of one photon: a parallelogram that covers every pixel which may hold a part of it. The
-// fragments work their shares out themselves, so that a device's rules for lines do not matter (hard
-// case 6), nor how far beyond the line the parallelogram reaches. A strip of four vertices.
+// fragments work their shares out themselves, so that a device's rules for lines do not matter
+// (hard case 6), nor how far beyond the line the parallelogram reaches. A strip of four vertices.
 #include "screen_space_photons/god_rays.glsl"
 
 uniform int firstPhoton;  // of the batch
@@ -16,7 +16,7 @@ flat out vec4 wayEnds;    // 1/z and t of both ends
 flat out vec3 wayDirection;
 flat out vec3 wayExtinction;  // 1/m
 flat out vec3 wayPower;       // see god_rays.frag
-flat out vec2 wayWidth;       // footprint, m; a width along the shorter axis over one across the line
+flat out vec2 wayWidth;       // footprint, m; width along the shorter axis over that across
 flat out int isSteep;
 
 void main() {
