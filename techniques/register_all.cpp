@@ -10,6 +10,7 @@ Registry registerAll() {
     Registry registry;
     registerSharedNodes(registry);
     registerScreenSpacePhotons(registry);
+    registerMediaLeftOut(registry);
     return registry;
 }
 

@@ -126,8 +126,11 @@ def speed_against_error(study: Study, measure: Measure) -> Figure | None:
     axes.step(
         *zip(*front), where="post", color="#555555", linewidth=1, label="Pareto front", zorder=1
     )
-    noise = [n for c in shown for n in c.numbers("error.reference_stderr")]
-    if noise and measure.column.endswith(".rmse"):
+    noise = []
+    if measure.column.endswith(".rmse"):
+        own = measure.column.removesuffix("rmse") + "truth_noise.rmse"
+        noise = [n for c in shown for n in c.numbers(own)]
+    if noise:
         axes.axhline(max(noise), color="#555555", linestyle=":", label="the truth's standard error")
     # Only the front is named, else the names hide each other; the table has them all.
     middle = 0.5 * (front[0][0] + front[-1][0])
@@ -257,7 +260,8 @@ def sweep(study: Study, axis: Axis) -> Figure | None:
     """Time, and error where it is known, along one setting."""
     measures = error_measures(study)
     panels: list[Measure] = [Measure(FRAME, "frame time (ms)")]
-    panels += [m for m in measures if m.column.endswith("caustic_irradiance.rel_mse")][:1]
+    for output in ("caustic_irradiance", "in_scattered"):
+        panels += [m for m in measures if m.column.endswith(f"{output}.rel_mse")][:1]
     panels += [m for m in measures if m.column == "hits.agreement_visible"]
     figure, rows = plt.subplots(
         len(panels),

@@ -59,12 +59,30 @@ def find_image(folder: Path, name: str, suffixes: tuple[str, ...]) -> Path | Non
     return next((p for s in suffixes if (p := folder / f"{name}{s}").is_file()), None)
 
 
-def find_truth(configuration: Configuration) -> Path | None:
+@dataclass(frozen=True)
+class Output:
+    """What runs are judged by, and the files of it."""
+
+    file: str
+    truth: str
+    kind: str  # for people
+    unit: str
+
+
+CAUSTIC = Output("caustic", "reference", "caustic irradiance", "W/m²")
+IN_SCATTERED = Output(
+    "in_scattered", "reference_in_scattered", "in-scattered radiance", "W/m²/sr"
+)
+
+
+def find_truth(configuration: Configuration, output: Output) -> Path | None:
     """The reference picture of a configuration: beside its report, or where that says it is."""
     for folder in configuration.folders:
-        beside = find_image(folder, "reference", (".exr", ".pfm"))
+        beside = find_image(folder, output.truth, (".exr", ".pfm"))
         if beside:
             return beside
+        if output is not CAUSTIC:
+            continue  # what the report names is the caustic's
         try:
             report = json.loads((folder / "report.json").read_text(encoding="utf-8"))
         except (OSError, ValueError):
@@ -80,7 +98,7 @@ def find_truth(configuration: Configuration) -> Path | None:
 @dataclass
 class Picture:
     label: str
-    kind: str  # what it shows, for the page: "caustic irradiance", …
+    kind: str  # what it shows, for the page: an output's kind, or "picture"
     pixels: np.ndarray  # for a display: height x width x 3 in [0, 1]
 
 
@@ -100,10 +118,11 @@ def white_of(image: np.ndarray) -> float:
 
 
 class Pictures:
-    """The caustics of some configurations and their truths, at one exposure."""
+    """One output of some configurations and their truths, at one exposure."""
 
-    def __init__(self, configurations: list[Configuration]):
-        self.caustics: list[tuple[Configuration, np.ndarray]] = []
+    def __init__(self, configurations: list[Configuration], output: Output):
+        self.output = output
+        self.images: list[tuple[Configuration, np.ndarray]] = []
         self.truths: dict[str, np.ndarray] = {}  # by configuration
         self.problems: list[str] = []
         self.beauties: list[Picture] = []
@@ -118,48 +137,48 @@ class Pictures:
             except (OSError, ValueError) as error:
                 self.problems.append(f"{error}.")
         truths = list(self.truths.values())
-        linear = truths or [image for _, image in self.caustics]
+        linear = truths or [image for _, image in self.images]
         self.white = max((white_of(image) for image in linear), default=1.0)
 
     def _read(self, configuration: Configuration) -> None:
         folder = configuration.folders[0]
         beauty = find_image(folder, "beauty", (".png", ".ppm"))
-        if beauty:
+        if beauty and self.output is CAUSTIC:
             self.beauties.append(Picture(configuration.label, "picture", read_image(beauty)))
-        caustic = find_image(folder, "caustic", (".exr", ".pfm"))
-        if not caustic:
+        file = find_image(folder, self.output.file, (".exr", ".pfm"))
+        if not file:
             return
-        image = read_image(caustic)
-        self.caustics.append((configuration, image))
-        truth = find_truth(configuration)
+        image = read_image(file)
+        self.images.append((configuration, image))
+        truth = find_truth(configuration, self.output)
         if truth:
             true_image = read_image(truth)
             if true_image.shape == image.shape:
                 self.truths[configuration.hash] = true_image
             else:
-                self.problems.append(f"{truth} is of another size than {caustic}.")
+                self.problems.append(f"{truth} is of another size than {file}.")
 
     def for_page(self) -> list[Picture]:
         """The truths first, each once."""
         pictures: list[Picture] = []
         seen: list[np.ndarray] = []
-        for configuration, _ in self.caustics:
+        for configuration, _ in self.images:
             truth = self.truths.get(configuration.hash)
             if truth is None or any(truth.shape == s.shape and (truth == s).all() for s in seen):
                 continue
             seen.append(truth)
             label = "truth" if len(seen) == 1 else f"truth of {configuration.label}"
-            pictures.append(Picture(label, "caustic irradiance", displayed(truth, self.white)))
-        for configuration, image in self.caustics:
+            pictures.append(Picture(label, self.output.kind, displayed(truth, self.white)))
+        for configuration, image in self.images:
             pictures.append(
-                Picture(configuration.label, "caustic irradiance", displayed(image, self.white))
+                Picture(configuration.label, self.output.kind, displayed(image, self.white))
             )
         return pictures + self.beauties
 
 
 def side_by_side(pictures: Pictures) -> Figure | None:
     """One row a configuration: the truth, the technique and where it is wrong."""
-    shown = [(c, image) for c, image in pictures.caustics if c.hash in pictures.truths]
+    shown = [(c, image) for c, image in pictures.images if c.hash in pictures.truths]
     if not shown:
         return None
     height, width = shown[0][1].shape[:2]
@@ -188,20 +207,21 @@ def side_by_side(pictures: Pictures) -> Figure | None:
             axes.grid(False)
     rows[0][0].set_title("truth", fontsize=8)
     rows[0][2].set_title("error", fontsize=8)
+    output = pictures.output
     figure.colorbar(
-        shade, ax=rows[:, 2].tolist(), label="|difference| of caustic irradiance (W/m²)"
+        shade, ax=rows[:, 2].tolist(), label=f"|difference| of {output.kind} ({output.unit})"
     )
     return figure
 
 
 def gallery(pictures: Pictures) -> Figure | None:
-    """The caustics alone, where there is no truth to set them beside."""
-    if not pictures.caustics or pictures.truths:
+    """The images alone, where there is no truth to set them beside."""
+    if not pictures.images or pictures.truths:
         return None
-    count = len(pictures.caustics)
+    count = len(pictures.images)
     across = min(count, 3)
     down = -(-count // across)
-    height, width = pictures.caustics[0][1].shape[:2]
+    height, width = pictures.images[0][1].shape[:2]
     figure, rows = plt.subplots(
         down,
         across,
@@ -211,7 +231,7 @@ def gallery(pictures: Pictures) -> Figure | None:
     )
     for axes in rows.flat:
         axes.axis("off")
-    for axes, (configuration, image) in zip(rows.flat, pictures.caustics):
+    for axes, (configuration, image) in zip(rows.flat, pictures.images):
         axes.imshow(displayed(image, pictures.white))
         axes.set_title(configuration.label, fontsize=8)
     return figure

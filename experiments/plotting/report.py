@@ -66,21 +66,26 @@ def draw(folder: Path) -> None:
 
     from figures import all_figures
     from page import make_page
-    from pictures import Pictures, gallery, side_by_side
+    from pictures import CAUSTIC, IN_SCATTERED, Pictures, gallery, side_by_side
     from study import evenly, read_study
 
     study = read_study(folder)
-    pictures = Pictures(evenly(study.configurations, MOST_PICTURES))
-    for problem in pictures.problems:
+    shown = evenly(study.configurations, MOST_PICTURES)
+    outputs = [Pictures(shown, output) for output in (CAUSTIC, IN_SCATTERED)]
+    for problem in dict.fromkeys(problem for pictures in outputs for problem in pictures.problems):
         print(f"warning: {problem}")
-    of_pictures = [
-        (
-            "pictures",
-            "The truth, the caustic of each configuration, and where it is wrong; one exposure.",
-            side_by_side(pictures),
-        ),
-        ("pictures", "The caustic of each configuration, at one exposure.", gallery(pictures)),
-    ]
+    of_pictures = []
+    for pictures in outputs:
+        name = "pictures" if pictures.output is CAUSTIC else f"pictures-{pictures.output.file}"
+        what = f"the {pictures.output.kind} of each configuration"
+        of_pictures += [
+            (
+                name,
+                f"The truth, {what}, and where it is wrong; one exposure.",
+                side_by_side(pictures),
+            ),
+            (name, f"{what.capitalize()}, at one exposure.", gallery(pictures)),
+        ]
     (folder / "figures").mkdir(exist_ok=True)
     written = []
     for name, caption, figure in [*all_figures(study), *of_pictures]:
@@ -96,7 +101,8 @@ def draw(folder: Path) -> None:
     text = io.StringIO()
     csv.writer(text, lineterminator="\n").writerows([header, *rows])
     write_whole(folder / "summary.csv", text.getvalue().encode("utf-8"))
-    page = make_page(study, written, pictures.for_page(), (header, rows, caption))
+    on_page = [picture for pictures in outputs for picture in pictures.for_page()]
+    page = make_page(study, written, on_page, (header, rows, caption))
     write_whole(folder / "report.html", page.encode("utf-8"))
 
 

@@ -108,6 +108,10 @@ std::vector<fs::path> writePictures(const fs::path& folder, const Renderer& rend
         write("caustic_radiance", floatImageExtension(),
               readTexture(renderer.texture(outputs.caustic.radiance), 0, 3));
     }
+    if (outputs.inScattered.radiance.valid()) {
+        write("in_scattered", floatImageExtension(),
+              readTexture(renderer.texture(outputs.inScattered.radiance), 0, 3));
+    }
     for (const std::string& name : saved) {
         const graph::ResourceRef handle = renderer.graph().find(name);
         const gl::Texture& texture = renderer.texture(handle);

@@ -21,7 +21,7 @@ void requireTextures(const Renderer& renderer, const std::vector<std::string>& s
 [[nodiscard]] Image readTexture(const gl::Texture& texture, int layer, int channels);
 
 // beauty (display and radiance), caustic (irradiance), caustic_radiance where a receiver is glossy,
-// and the saved resources by name, one file a layer.
+// in_scattered where there is a medium, and the saved resources by name, one file a layer.
 std::vector<std::filesystem::path> writePictures(const std::filesystem::path& folder,
                                                  const Renderer& renderer,
                                                  const std::vector<std::string>& saved);

@@ -88,6 +88,9 @@ struct Output {
     Image image;
     Image Reference::*truth;
     Image Reference::*truthError;
+    // Whether it is of receivers: pixels that see none do not count then, and the others by the
+    // area that they see.
+    bool isOfReceivers = true;
 };
 
 // What the frame is judged by, read back once.
@@ -109,6 +112,11 @@ Outputs readOutputs(const Renderer& renderer) {
                                   readTexture(renderer.texture(frame.caustic.radiance), 0, 3),
                                   &Reference::causticRadiance, &Reference::causticRadianceError});
     }
+    if (frame.inScattered.radiance.valid()) {
+        outputs.images.push_back({"in_scattered",
+                                  readTexture(renderer.texture(frame.inScattered.radiance), 0, 3),
+                                  &Reference::inScattered, &Reference::inScatteredError, false});
+    }
     const Image receiver = readTexture(renderer.texture(frame.eye.receiver), 0, 2);
     outputs.receiver = Image(receiver.width, receiver.height, 1);
     outputs.area = Image(receiver.width, receiver.height, 1);
@@ -124,9 +132,9 @@ Outputs readOutputs(const Renderer& renderer) {
 measure::ImagePair pairOf(const Outputs& outputs, const Output& output, const Reference& truth) {
     return measure::ImagePair({.image = output.image,
                                .reference = truth.*output.truth,
-                               .mask = &outputs.receiver,
+                               .mask = output.isOfReceivers ? &outputs.receiver : nullptr,
                                .standardError = &(truth.*output.truthError),
-                               .area = &outputs.area,
+                               .area = output.isOfReceivers ? &outputs.area : nullptr,
                                .imageName = output.name});
 }
 
@@ -145,6 +153,11 @@ json errorsAgainst(const Outputs& outputs, const Reference& truth) {
     }
     for (const Output& output : outputs.images) {
         if ((truth.*output.truth).values.empty()) continue;
+        if (output.isOfReceivers && !outputs.seesReceivers) {
+            result[output.name] = nullptr;
+            result["reasons"][output.name] = "no pixel of this view sees a receiver";
+            continue;
+        }
         try {
             const measure::ImageErrors errors = measureErrors(pairOf(outputs, output, truth));
             result[output.name] = measure::toJson(errors);
@@ -220,16 +233,15 @@ std::vector<fs::path> Truth::judge(const Renderer& renderer, const fs::path& fol
           audit::wrongPhotonsPicture(
               hits, readTexture(renderer.texture(renderer.outputs().picture.display), 0, 3)));
     write("reference" + floatImageExtension(), loaded_->whole.irradiance);
+    if (!loaded_->whole.inScattered.values.empty())
+        write("reference_in_scattered" + floatImageExtension(), loaded_->whole.inScattered);
 
     const Outputs outputs = readOutputs(renderer);
     record.error = {{"reference", loaded_->name}};
-    if (!outputs.seesReceivers) {
-        record.error["caustic_irradiance"] = nullptr;
-        record.error["reasons"]["caustic_irradiance"] = "no pixel of this view sees a receiver";
-        return files;
-    }
     record.error.update(errorsAgainst(outputs, loaded_->whole));
-    if (record.error.at("caustic_irradiance").is_null()) {
+    if (!outputs.seesReceivers) {
+        // Nothing is wrong with the picture: a caustic has nowhere to be seen.
+    } else if (record.error.at("caustic_irradiance").is_null()) {
         record.warnings.push_back(record.error.at("reasons").at("caustic_irradiance"));
     } else {
         write("error" + displayImageExtension(), errorPicture(outputs, loaded_->whole));

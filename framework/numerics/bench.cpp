@@ -313,4 +313,25 @@ Frame reconstructHits(Lab& lab, const Lab::Choice& reconstruct, const scene::Sce
     });
 }
 
+Frame scatterPhotons(Lab& lab, const Lab::Choice& media, const scene::Scene& scene,
+                     const std::vector<BenchPhoton>& photons, const Settings& settings,
+                     BenchSize size) {
+    Batch batch =
+        makeBatch(scene, photons, transport::kFateInFlight, transport::kFateReceiver, size);
+    for (std::size_t i = 0; i < photons.size(); ++i) {
+        batch.photons[i].hitPosition.w = static_cast<float>(photons[i].wayMeters);
+        if (photons[i].wayMeters == 0.0)
+            batch.photons[i].hitFlux.w = static_cast<float>(transport::kFateEnded);
+    }
+    return renderBench(lab, media, scene, settings, size, [&batch](FrameBuilder& builder) {
+        const Geometry geometry = builder.run<GeometryStage>();
+        const EyeBuffer eye = builder.run<EyeStage>(geometry);
+        const Hits hits = inject(builder, batch);
+        const InScattered scattered = builder.run<MediaStage>(hits, eye, InScattered{});
+        const Nothing nothing = addNothing(builder, hits.incoming.ledger);
+        return FrameOutputs{nothing.picture,        nothing.caustic, eye, {}, hits,
+                            nothing.caustic.ledger, scattered,       {}};
+    });
+}
+
 }  // namespace kaustik::numerics

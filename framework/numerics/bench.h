@@ -22,6 +22,7 @@ struct BenchPhoton {
     glm::dvec3 startNormal{0.0};      // outward
     std::uint32_t startMaterial = 0;  // index + 1; 0: it starts in the open
     std::uint32_t startFate = transport::kFateNone;
+    double wayMeters = 0.0;  // scatterPhotons: to the receiver where its way ends; 0: it has none
 };
 
 // Where one arrived, or what it became.
@@ -83,5 +84,11 @@ struct Bent {
                                     const scene::Scene& scene,
                                     const std::vector<BenchPhoton>& photons,
                                     const Settings& settings = {}, BenchSize size = {});
+
+// What photons that were on their way scatter towards the eye: outputs().inScattered, invalid where
+// the node leaves it out.
+[[nodiscard]] Frame scatterPhotons(Lab& lab, const Lab::Choice& media, const scene::Scene& scene,
+                                   const std::vector<BenchPhoton>& photons,
+                                   const Settings& settings = {}, BenchSize size = {});
 
 }  // namespace kaustik::numerics

@@ -62,6 +62,7 @@ Suite makeSuite(const Registry& registry) {
     addInterfaceCases(suite);
     addOpticsCases(suite);
     addReconstructionCases(suite);
+    addMediaCases(suite);
     addWholeFrameCases(suite);
     for (const auto& add : registry.hardCases())
         add(suite);

@@ -77,7 +77,7 @@ transport::ViewData viewData(const scene::Scene& scene, const EyeView& view) {
         const double margin = 1e-4 * diagonal(bounds) + 2.0 * farthest * view.footprintPerMeter();
         data.boundsCenterVs = glm::vec4(view.worldToView * glm::dvec4(center(bounds), 1.0));
         data.boundsHalfExtent =
-            glm::vec4(glm::dvec4(0.5 * (bounds.maximum - bounds.minimum) + margin, 0.0));
+            glm::vec4(glm::dvec4(0.5 * (bounds.maximum - bounds.minimum) + margin, margin));
     }
     data.background = glm::vec4(scene.backgroundRadiance, 0.0f);
     data.ambient = glm::vec4(scene.ambientIrradiance, 0.0f);

@@ -101,7 +101,7 @@ std::vector<double> bookkeepingSamples(const RunRecord& record) {
     return samples;
 }
 
-// One line for each of hits and error.
+// A line for hits, and one for every output that has an error.
 std::string truthTable(const RunRecord& record) {
     std::string table;
     const auto orNone = [](const json& value, double factor, const char* unit) {
@@ -125,24 +125,30 @@ std::string truthTable(const RunRecord& record) {
                              orNone(record.hits.at("median_px"), 1.0, " px"),
                              orNone(record.hits.at("p99_px"), 1.0, " px"));
     }
-    const auto errorLine = [&](const char* name, const json& error) {
-        const json& caustic = error.at("caustic_irradiance");
-        if (caustic.is_null()) return;
-        const auto value = [&](const char* key) {
-            const json& number = caustic.at(key);
-            return number.is_null() ? std::string("none")
-                                    : fmt::format("{:.4g}", number.get<double>());
-        };
+    const auto errorLine = [&](const char* name, const json& error, const char* output,
+                               const char* unit) {
+        if (!error.contains(output) || error.at(output).is_null()) return;
+        const json& errors = error.at(output);
+        const auto value = [&](const char* key) { return orNone(errors.at(key), 1.0, ""); };
+        const double noise = errors.contains("truth_noise")
+                                 ? errors.at("truth_noise").at("rmse").get<double>()
+                                 : 0.0;
         table += fmt::format(
-            "{:<22}RMSE {} W/m² (the truth's own {:.2g}), relMSE {}, SSIM {}, FLIP {}, energy "
+            "{:<22}RMSE {} {} (the truth's own {:.2g}), relMSE {}, SSIM {}, FLIP {}, energy "
             "ratio {}\n",
-            name, value("rmse"), error.at("reference_stderr").get<double>(), value("rel_mse"),
-            value("ssim"), value("flip_ldr"), value("energy_ratio"));
+            name, value("rmse"), unit, noise, value("rel_mse"), value("ssim"), value("flip_ldr"),
+            value("energy_ratio"));
+    };
+    const auto errorLines = [&](const char* caustic, const char* inScattered, const json& error) {
+        errorLine(caustic, error, "caustic_irradiance", "W/m²");
+        errorLine(inScattered, error, "in_scattered", "W/m²/sr");
     };
     if (!record.error.is_null()) {
-        errorLine("error", record.error);
-        if (record.error.contains("modelled_paths"))
-            errorLine("  of modelled paths", record.error.at("modelled_paths"));
+        errorLines("error", "  in-scattered", record.error);
+        if (record.error.contains("modelled_paths")) {
+            errorLines("  of modelled paths", "    in-scattered",
+                       record.error.at("modelled_paths"));
+        }
     }
     return table;
 }

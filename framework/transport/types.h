@@ -21,8 +21,9 @@ struct ViewData {
                        // pixel covers at a depth of 1 m
     vec4 sizePixels;   // width, height, 1/width, 1/height
     mat4 viewToWorld;  // rotation only
-    vec4 boundsCenterVs;    // of the scene's world-axis bounding box, m
-    vec4 boundsHalfExtent;  // along the world's axes, m
+    vec4 boundsCenterVs;  // of the scene's world-axis bounding box, m
+    // Along the world's axes, m; w: the margin in it that rays are cut with (viewData), m.
+    vec4 boundsHalfExtent;
     vec4 background;        // radiance that comes from outside of the scene, W/m²/sr
     vec4 ambient;           // constant fill light for the picture, W/m²
     vec4 mediumScattering;  // of what fills the scene: rgb 1/m; w: Henyey-Greenstein g

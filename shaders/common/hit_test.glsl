@@ -160,9 +160,10 @@ LayerHit testStep(RaySegment segment, TracedRay ray, int i, int n) {
 
 // The surface's normal where the ray meets it: bilinear between the pixels around the hit, each with
 // the layer that continues the surface; the normal of one pixel alone would send all photons that
-// meet it the same way. `surface` and `depth` are those of the hit's own pixel and layer.
+// meet it the same way. `surface` and
+// `layerHit` are those of the hit's own pixel and layer.
 // A receiver sends the light nowhere: its pixel's normal will do.
-vec3 normalAtHit(vec3 hitVs, vec4 surface, vec2 depthAndExtent, bool arrives) {
+vec3 normalAtHit(vec3 hitVs, vec4 surface, LayerSurface layerHit, bool arrives) {
     if (arrives) return surface.xyz;
     vec2 corner = pixelOf(hitVs) - 0.5;
     ivec2 first = ivec2(floor(corner));
@@ -178,8 +179,8 @@ vec3 normalAtHit(vec3 hitVs, vec4 surface, vec2 depthAndExtent, bool arrives) {
             float depth = texelFetch(layerDepths, ivec3(texel, layer), 0).x;
             if (depth <= 0.0) break;
             // The same surface lies within a pixel's extent of the hit's own depth.
-            float reach = 2.0 * depthAndExtent.y + 2.0 * pixelFootprint(depth);
-            if (abs(depth - depthAndExtent.x) > reach) continue;
+            float reach = 2.0 * layerHit.extent + 2.0 * pixelFootprint(depth);
+            if (abs(depth - layerHit.depth) > reach) continue;
             vec4 other = texelFetch(layerSurfaces, ivec3(texel, layer), 0);
             // A crease of more than 60 degrees is an edge, not a curve.
             if (other.w != surface.w || dot(other.xyz, surface.xyz) < 0.5) continue;

@@ -25,10 +25,19 @@ float mediumIndex(uint medium) {
     return medium == 0u ? 1.0 : materials[medium - 1u].absorption.w;
 }
 
-// Share of the flux that is left after a way through a medium (Beer-Lambert). Zero length or zero
-// absorption leave all of it, whatever the other is: infinite for a black tint.
-vec3 mediumTransmittance(uint medium, float distanceMeters) {
-    if (medium == 0u) return vec3(1.0);
-    vec3 depth = materials[medium - 1u].absorption.rgb * distanceMeters;
+// Share of the flux that is left after a way (Beer-Lambert). Zero length or zero extinction leave
+// all of it, whatever the other is: infinite for a black tint.
+vec3 transmittanceOver(vec3 extinctionPerMeter, float distanceMeters) {
+    vec3 depth = extinctionPerMeter * distanceMeters;
     return exp(-mix(vec3(0.0), depth, greaterThan(depth, vec3(0.0))));
+}
+
+// What a dielectric absorbs, 1/m.
+vec3 mediumAbsorption(uint medium) {
+    return medium == 0u ? vec3(0.0) : materials[medium - 1u].absorption.rgb;
+}
+
+// The share that a way through a dielectric leaves.
+vec3 mediumTransmittance(uint medium, float distanceMeters) {
+    return transmittanceOver(mediumAbsorption(medium), distanceMeters);
 }

@@ -4,6 +4,7 @@
 // ledger.
 #include "common/exit_test.glsl"
 #include "common/ledger.glsl"
+#include "common/medium.glsl"
 
 uniform sampler2D photonPosition;
 uniform sampler2D photonDirection;
@@ -22,15 +23,6 @@ void searchStep(RaySegment segment, TracedRay ray, int i, int n, inout FirstHit 
         return;
     }
     first = found;
-}
-
-bool isFinite(vec3 v) {
-    return !any(isnan(v)) && !any(isinf(v));
-}
-
-bool isNumber(Photon photon) {
-    return isFinite(photon.positionVs) && isFinite(photon.directionVs) &&
-           isFinite(photon.fluxWatts);
 }
 
 Photon photonAt(ivec2 texel) {
@@ -59,12 +51,13 @@ Hit deliver(Photon photon, FirstHit first) {
     bool arrives = isReceiver(materialKind(hit.material - 1u));
     vec3 shading =
         first.isExit ? normalAtExit(hit.positionVs, first.pixel, first.hit.layer)
-                     : normalAtHit(hit.positionVs, surface, vec2(layer.depth, layer.extent), arrives);
+                     : normalAtHit(hit.positionVs, surface, layer, arrives);
     hit.normalVs =
         arrives
             ? receiverNormal(hit.positionVs, photon.directionVs, shading, layer.normal)
             : bendingNormal(photon.directionVs, shading, layer.normal, hit.material, photon.media);
-    vec3 left = mediumTransmittance(innerMedium(photon.media), first.hit.t);
+    // Asking whether there is a medium would cost more than adding its zeros.
+    vec3 left = transmittanceOver(extinctionAround(photon.media), first.hit.t);
     hit.fluxWatts = photon.fluxWatts * left;
     ledgerAdd(kAccountAbsorbed, photon.fluxWatts * (1.0 - left));
     hit.fate = arrives ? kFateReceiver : kFateSpecular;

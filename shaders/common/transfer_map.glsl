@@ -11,6 +11,15 @@ Hit unpackHit(vec4 position, vec4 surface, vec4 flux) {
     return Hit(position.xyz, position.w, surface.xyz, uint(surface.w), flux.rgb, uint(flux.w));
 }
 
+bool isFinite(vec3 v) {
+    return !any(isnan(v)) && !any(isinf(v));
+}
+
+bool isNumber(Photon photon) {
+    return isFinite(photon.positionVs) && isFinite(photon.directionVs) &&
+           isFinite(photon.fluxWatts);
+}
+
 vec4 photonPositionTexel(Photon p) { return vec4(p.positionVs, p.footprintMeters); }
 vec4 photonDirectionTexel(Photon p) { return vec4(p.directionVs, float(p.fate)); }
 vec4 photonFluxTexel(Photon p) { return vec4(p.fluxWatts, float(p.media)); }

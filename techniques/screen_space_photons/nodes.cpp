@@ -50,6 +50,16 @@ void registerScreenSpacePhotons(Registry& registry) {
                                      "plane, ray-cast per pixel; the flux is kept exactly.",
                                      "K06, section 3.1, Eq. 1"},
                                     &splatSprites);
+    registry.node<MediaStage>("lines",
+                              {"Draws each photon's way through the medium as a line of the light "
+                               "that is scattered towards the eye.",
+                               "K06, section 3.2"},
+                              &drawGodRays);
+    registry.node<BlurStage>("gaussian",
+                             {"Smooths in-scattered light with a Gaussian of constant size on the "
+                              "screen.",
+                              "K06, section 3.2"},
+                             &blurGaussian);
     registry.technique({"screen_space_photons",
                         "Photon rays traced through a layered depth image as rasterised lines.",
                         "Krüger, Bürger, Westermann 2006",

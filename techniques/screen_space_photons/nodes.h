@@ -164,4 +164,34 @@ struct SpritesParams {
 IrradianceMap splatSprites(FrameBuilder& frame, const SpritesParams& params, Hits hits,
                            EyeBuffer eye);
 
+struct GodRayParams {
+    float width = 0.0f;
+    float footprints = 1.5f;
+    int maximum = 64;
+    template <class R>
+    void reflect(R& r) {
+        r.field(width, "width",
+                "Width of a photon's line, 1 at least (the paper's); 0: follows the photon's "
+                "footprint",
+                "px", params::range(0.0f, 64.0f));
+        r.field(footprints, "footprints",
+                "Width of a line in widths of its photon's beam, when no width is set", "",
+                params::range(0.1f, 100.0f));
+        r.field(maximum, "maximum", "Largest width on the screen; lines shrink to it", "px",
+                params::range(1, 256));
+    }
+};
+InScattered drawGodRays(FrameBuilder& frame, const GodRayParams& params, Hits hits, EyeBuffer eye,
+                        InScattered before);
+
+struct GaussianBlurParams {
+    float sigma = 2.0f;
+    template <class R>
+    void reflect(R& r) {
+        r.field(sigma, "sigma", "Standard deviation of the Gaussian", "px",
+                params::range(0.1f, 64.0f));
+    }
+};
+InScattered blurGaussian(FrameBuilder& frame, const GaussianBlurParams& params, InScattered sharp);
+
 }  // namespace kaustik

@@ -11,6 +11,7 @@
 #include <algorithm>
 
 #include "framework/pipeline/frame_builder.h"
+#include "techniques/screen_space_photons/batch_sum.h"
 #include "techniques/screen_space_photons/nodes.h"
 
 namespace kaustik {
@@ -19,41 +20,6 @@ namespace {
 struct SpriteWeight {  // x: 1 / weighted area, 1/m²; y: radius, m; z: share that is seen
     static constexpr Format format = Format::rgba32f;
 };
-
-// A plain sum of so many equal deposits is off by 1.5e-4 of its last ones at most, 6e-5 on the
-// whole.
-constexpr int kBatchPhotons = 4096;
-
-// What a map is summed up with, where there is more than one batch.
-template <class Texel>
-struct BatchSum {
-    graph::Texture<Texel> batch;
-    graph::Texture<Texel> carry;  // what the sum so far is too large by
-};
-template <class Texel>
-BatchSum<Texel> createBatchSum(graph::PassSetup& setup, const FrameBuilder& frame,
-                               const std::string& name) {
-    return {setup.create<Texel>("reconstruct.batch_" + name, frame.width(), frame.height()),
-            setup.create<Texel>("reconstruct.carry_" + name, frame.width(), frame.height())};
-}
-template <class Texel>
-void clear(gl::PassContext& context, const graph::Texture<Texel>& sum,
-           const BatchSum<Texel>& parts) {
-    context.texture(sum).clear({0, 0, 0, 0});
-    if (!parts.batch.valid()) return;
-    context.texture(parts.batch).clear({0, 0, 0, 0});
-    context.texture(parts.carry).clear({0, 0, 0, 0});
-}
-// Adds the batch to the sum and empties it.
-template <class Texel>
-void addBatch(gl::PassContext& context, const FrameInputs& inputs, const graph::Texture<Texel>& sum,
-              const BatchSum<Texel>& parts) {
-    context.compute("screen_space_photons/sum_batch.comp")
-        .image("batchMap", parts.batch)
-        .image("carryMap", parts.carry)
-        .image("sumMap", sum)
-        .dispatchOver(inputs.view.width, 8, inputs.view.height, 8);
-}
 
 struct Weights {
     graph::Texture<SpriteWeight> weights;
@@ -129,9 +95,8 @@ IrradianceMap splatSprites(FrameBuilder& frame, const SpritesParams& params, Hit
                 data.map.ledger = setup.read(weights.ledger);
                 setup.bypass(data.map.irradiance, {0, 0, 0, 0});
                 if (isBatched) {
-                    data.irradiance = createBatchSum<IrradianceTexel>(setup, frame, "irradiance");
-                    setup.bypass(data.irradiance.batch, {0, 0, 0, 0});
-                    setup.bypass(data.irradiance.carry, {0, 0, 0, 0});
+                    data.irradiance =
+                        createBatchSum<IrradianceTexel>(setup, frame, "reconstruct", "irradiance");
                 }
                 if (!isGlossy) return;
                 setup.read(eye.receiverAlbedo);
@@ -139,16 +104,19 @@ IrradianceMap splatSprites(FrameBuilder& frame, const SpritesParams& params, Hit
                     setup.create<RadianceTexel>("caustic.radiance", frame.width(), frame.height());
                 setup.bypass(data.map.radiance, {0, 0, 0, 0});
                 if (isBatched) {
-                    data.radiance = createBatchSum<RadianceTexel>(setup, frame, "radiance");
-                    setup.bypass(data.radiance.batch, {0, 0, 0, 0});
-                    setup.bypass(data.radiance.carry, {0, 0, 0, 0});
+                    data.radiance =
+                        createBatchSum<RadianceTexel>(setup, frame, "reconstruct", "radiance");
                 }
             },
             [&inputs = frame.inputs(), params, photons, isBatched](const Data& data,
                                                                    gl::PassContext& context) {
                 const bool isGlossyToo = data.map.radiance.valid();
-                clear(context, data.map.irradiance, data.irradiance);
-                if (isGlossyToo) clear(context, data.map.radiance, data.radiance);
+                context.texture(data.map.irradiance).clear({0, 0, 0, 0});
+                clear(context, data.irradiance);
+                if (isGlossyToo) {
+                    context.texture(data.map.radiance).clear({0, 0, 0, 0});
+                    clear(context, data.radiance);
+                }
                 gl::Command command = context.shaders(
                     {"screen_space_photons/sprites.vert", "screen_space_photons/sprites.frag"});
                 inputs.bindView(command)

@@ -31,7 +31,6 @@ void registerSharedNodes(Registry& registry) {
     registry.node<SpecularStage>(
         "split", {"Refracts and reflects: follows both Fresnel branches.", "K06, section 2.3"},
         &splitAtInterface);
-    registry.node<MediaStage>("none", {"Leaves in-scattered light out.", ""}, &leaveOutScattering);
     registry.node<BlurStage>("none", {"Leaves in-scattered light as it is.", ""}, &leaveUnblurred);
     registry.node<ViewStage>("interface",
                              {"Looks through the first specular surface with one refraction, at "
@@ -44,6 +43,10 @@ void registerSharedNodes(Registry& registry) {
                                  ""},
                                 &composePicture);
     registry.hardCases(&addSharedCases);
+}
+
+void registerMediaLeftOut(Registry& registry) {
+    registry.node<MediaStage>("none", {"Leaves in-scattered light out.", ""}, &leaveOutScattering);
 }
 
 }  // namespace kaustik

@@ -9,6 +9,10 @@ namespace kaustik {
 
 void registerSharedNodes(Registry& registry);
 
+// The node that leaves in-scattered light out; after those that make it, of which the first is the
+// stage's default.
+void registerMediaLeftOut(Registry& registry);
+
 // Hard cases of the shared nodes alone.
 void addSharedCases(numerics::Suite& suite);
 

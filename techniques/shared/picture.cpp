@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // compose.picture: direct light of all lights, the radiance of the receivers with the caustic on
-// them, what the eye sees through specular surfaces (stage `view`), and the display image.
-// Irradiance in W/m², radiance in W/m²/sr.
+// them, what the eye sees through specular surfaces (stage `view`), the medium before all of it,
+// and the display image. Irradiance in W/m², radiance in W/m²/sr.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -141,6 +141,49 @@ Radiance shadeReceivers(FrameBuilder& frame, EyeBuffer eye, const DirectLight& d
         .out;
 }
 
+// What the eye sees is weakened along the straight eye ray, and what the medium scatters on it
+// comes on top: after the view stage, since much of it is scattered before any specular surface and
+// must not get lost there. What is scattered behind one is shown unrefracted.
+Radiance lookThroughMedium(FrameBuilder& frame, EyeBuffer eye, Radiance seen,
+                           const InScattered& inScattered) {
+    if (!frame.needs().medium) {
+        frame.leaveOut("compose.medium", "the scene has no medium");
+        return seen;
+    }
+    struct Data {
+        Radiance out;
+        EyeBuffer eye;
+        Radiance seen;
+        InScattered inScattered;
+    };
+    return frame
+        .pass<Data>(
+            "compose.medium", "the eye looks through the medium",
+            [&](graph::PassSetup& setup, Data& data) {
+                data.eye = eye;
+                data.seen = seen;
+                data.inScattered = inScattered;
+                setup.read(eye.receiver);
+                setup.read(seen.radiance);
+                if (inScattered.radiance.valid()) setup.read(inScattered.radiance);
+                data.out.radiance =
+                    setup.create<RadianceTexel>("compose.radiance", frame.width(), frame.height());
+                setup.bypass(data.out.radiance, seen.radiance);
+            },
+            [&inputs = frame.inputs()](const Data& data, gl::PassContext& context) {
+                gl::Command command = context.fullscreen("shared/medium.frag");
+                inputs.bindView(command)
+                    .storage("Materials", inputs.gpuScene.materials())
+                    .texture("receiver", data.eye.receiver)
+                    .texture("seenRadiance", data.seen.radiance);
+                if (data.inScattered.radiance.valid()) {
+                    command.define("SCATTERS").texture("inScattered", data.inScattered.radiance);
+                }
+                command.target(data.out.radiance).draw();
+            })
+        .out;
+}
+
 }  // namespace
 
 Picture composePicture(FrameBuilder& frame, const PictureParams& params, Geometry geometry,
@@ -148,12 +191,13 @@ Picture composePicture(FrameBuilder& frame, const PictureParams& params, Geometr
     const DirectLight direct = lightDirectly(frame, light.shadows, eye);
     const Radiance receivers = shadeReceivers(frame, eye, direct, light.caustic);
     const View seen = frame.run<ViewStage>(geometry, eye, layers, receivers);
+    const Radiance whole = lookThroughMedium(frame, eye, {seen.radiance}, light.inScattered);
     const float exposure =
         params.exposure > 0.0f ? params.exposure : automaticExposure(frame.scene());
     return frame.pass<Picture>(
         "compose.display", "the display image is an output",
         [&](graph::PassSetup& setup, Picture& data) {
-            data.radiance = setup.read(seen.radiance);
+            data.radiance = setup.read(whole.radiance);
             data.view = seen;
             data.display = setup.create<DisplayTexel>("display", frame.width(), frame.height());
         },

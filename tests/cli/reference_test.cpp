@@ -296,5 +296,25 @@ size = [2, 2]
     EXPECT_TRUE(hits.at("reasons").at("agreement").is_string());
 }
 
+TEST_F(Reference, OfAMediumJudgesWhatItScatters) {
+    static_cast<void>(folder.file("fog.toml", std::string(kWavyWater) + R"(
+[medium]
+scattering_per_meter = 0.2
+)"));
+    const Outcome outcome = runCached(smallRun(
+        "fog.toml", {"--out", "out", "--reference", "auto", "--reference-photons", "600000"}));
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("in-scattered"), std::string::npos);
+    const json error = report().at("error");
+    for (const json* of : {&error, &error.at("modelled_paths")}) {
+        const json& scattered = of->at("in_scattered");
+        EXPECT_GT(scattered.at("truth_noise").at("rmse").get<double>(), 0.0);
+        // Pixels that see no receiver count too.
+        EXPECT_EQ(scattered.at("counted_pixels").get<int>(), 64 * 48);
+    }
+    EXPECT_EQ(readImage(folder / "out/in_scattered.exr").width,
+              readImage(folder / "out/reference_in_scattered.exr").width);
+}
+
 }  // namespace
 }  // namespace kaustik::test

@@ -11,6 +11,7 @@
 #include "framework/scene/height_field.h"
 #include "framework/scene/needs.h"
 #include "framework/scene/scene_file.h"
+#include "tests/unit/scene/mesh_import_fixture.h"
 #include "tests/unit/scene/scene_file_fixture.h"
 
 namespace kaustik::scene {
@@ -20,6 +21,7 @@ class ShippedScenes : public test::SceneFile {
   protected:
     ShippedScenes() {
         write("bunny.obj", test::kTetrahedron);
+        write("horse.3ds", test::tetrahedron3ds());
         ::setenv("KAUSTIK_MESHES", folder.c_str(), 1);
     }
     ~ShippedScenes() override { ::unsetenv("KAUSTIK_MESHES"); }
@@ -90,8 +92,8 @@ TEST_F(ShippedScenes, AreListedByNameWithADescription) {
         EXPECT_EQ(loadScene(listing.name).name, listing.name);
         EXPECT_EQ(loadScene(listing.file.string()).name, listing.name);
     }
-    for (const char* name :
-         {"pool", "flat-water", "glass-sphere", "glossy-table", "cornell-bunny", "ring"}) {
+    for (const char* name : {"pool", "flat-water", "glass-sphere", "glossy-table", "cornell-bunny",
+                             "ring", "god-rays"}) {
         EXPECT_TRUE(names.contains(name)) << name;
     }
 }
@@ -154,6 +156,45 @@ TEST_F(ShippedScenes, CornellWaterMeetsItsPaneAtEveryTime) {
     }
     EXPECT_GT(highest, 0.005);
     EXPECT_EQ(sceneNeeds(scene).specularInterfaces, 2);
+}
+
+TEST_F(ShippedScenes, GodRaysConvergeOnTheHorsesBack) {
+    const Scene scene = loadScene("god-rays");
+    EXPECT_TRUE(sceneNeeds(scene).scatteringMedium);
+    const Object& surface = object(scene, "water");
+    const Bounds horse = objectBounds(scene, object(scene, "horse"));
+    const Bounds cave = objectBounds(scene, object(scene, "cave"));
+    const Bounds water = objectBounds(scene, surface);
+    EXPECT_LT(horse.maximum.y, water.minimum.y);
+    EXPECT_GT(horse.minimum.y, cave.minimum.y);
+    const glm::dvec3 eye = scene.camera.position;
+    EXPECT_TRUE(glm::all(glm::greaterThan(eye, cave.minimum)));
+    EXPECT_LT(eye.y, water.minimum.y);
+    // The sun through the water, down to where the horse's back is: what one square of 6 cm there
+    // gets, over what it would get through still water. The stand-in for the horse is of another
+    // height, which is why it is a number here.
+    const double height = -2.0;
+    const double square = 0.06;
+    const HeightField& field = *scene.meshes[surface.mesh].heightField;
+    const glm::dvec3 sun = glm::normalize(scene.lights.at(0).direction);
+    const glm::dvec3 place(surface.toWorld[3]);
+    constexpr int kRays = 600;
+    const glm::dvec2 size(field.sizeMeters);
+    const glm::dvec2 middle(0.5 * (horse.minimum.x + horse.maximum.x),
+                            0.5 * (horse.minimum.z + horse.maximum.z));
+    double caught = 0.0;
+    for (int i = 0; i < kRays * kRays; ++i) {
+        const glm::dvec2 local =
+            size * (glm::dvec2(i % kRays + 0.5, i / kRays + 0.5) / double(kRays) - 0.5);
+        const HeightSample sample = evaluateHeightField(field, local, 0.0);
+        const glm::dvec3 ray = glm::refract(sun, sample.normal, 1.0 / 1.333);
+        const glm::dvec3 from = place + glm::dvec3(local.x, sample.height, local.y);
+        const glm::dvec3 there = from + ray * ((height - from.y) / ray.y);
+        const glm::dvec2 offset = glm::abs(glm::dvec2(there.x, there.z) - middle);
+        if (offset.x < 0.5 * square && offset.y < 0.5 * square) caught += 1.0;
+    }
+    const double concentration = caught / (kRays * kRays) * size.x * size.y / (square * square);
+    EXPECT_GT(concentration, 8.0);
 }
 
 TEST_F(ShippedScenes, AnUnknownNameIsAnsweredWithTheNearestAndAll) {

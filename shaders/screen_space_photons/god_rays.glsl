@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// The way of a photon through the medium as a line on the screen: a RaySegment whose ends are the
+// photon's, in pixels that may lie a little beside the screen, so that a wide line is whole there.
+#include "common/medium.glsl"
+#include "common/ray_segment.glsl"
+
+// The way up to `end` m, as far as it is inside of the medium, before the near plane and within so
+// many pixels of the screen.
+RaySegment clipWay(vec3 origin, vec3 direction, float end, float marginPixels) {
+    RaySegment way;
+    float low = 0.0;
+    float high = min(end, boundsInterval(origin, direction).y);
+    cutHalfSpace(-origin.z - view.tangents.z, -direction.z, low, high);
+    for (int axis = 0; axis < 2; ++axis) {
+        float slope = view.tangents[axis] * (1.0 + 2.0 * marginPixels * view.sizePixels[axis + 2]);
+        cutHalfSpace(-origin.z * slope - origin[axis], -direction.z * slope - direction[axis], low,
+                     high);
+        cutHalfSpace(-origin.z * slope + origin[axis], -direction.z * slope + direction[axis], low,
+                     high);
+    }
+    way.visible = low < high;
+    if (!way.visible) return way;
+    way.nearT = low;
+    way.farT = high;
+    vec3 a = origin + low * direction;
+    vec3 b = origin + high * direction;
+    // Rounding may leave an end a little before the near plane.
+    a.z = min(a.z, -view.tangents.z);
+    b.z = min(b.z, -view.tangents.z);
+    way.nearPixel = pixelOf(a);
+    way.farPixel = pixelOf(b);
+    way.nearInverseZ = -1.0 / a.z;
+    way.farInverseZ = -1.0 / b.z;
+    return way;
+}
+
+// Half of the line's width across it, px, where the way is at this 1/depth. A footprint's width
+// goes with 1/depth, so it is linear along the line as 1/depth is.
+float halfWidth(float footprintMeters, float inverseZ) {
+    float wanted = media_lines_width;
+    if (media_lines_width <= 0.0) {
+        wanted = media_lines_footprints * footprintMeters * inverseZ / view.tangents.w;
+    }
+    return 0.5 * clamp(wanted, 1.0, float(media_lines_maximum));
+}

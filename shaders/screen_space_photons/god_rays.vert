@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// The line of one photon: a parallelogram that covers every pixel which may hold a part of it. The
+// fragments work their shares out themselves, so that a device's rules for lines do not matter
+// (hard case 6), nor how far beyond the line the parallelogram reaches. A strip of four vertices.
+#include "screen_space_photons/god_rays.glsl"
+
+uniform int firstPhoton;  // of the batch
+uniform sampler2D photonPosition;
+uniform sampler2D photonDirection;
+uniform sampler2D photonFlux;
+uniform sampler2D hitPosition;
+uniform sampler2D hitFlux;
+
+flat out vec4 wayPixels;  // of both ends; the longer axis of the line comes first
+flat out vec4 wayEnds;    // 1/z and t of both ends
+flat out vec3 wayDirection;
+flat out vec3 wayExtinction;  // 1/m
+flat out vec3 wayPower;       // see god_rays.frag
+flat out vec2 wayWidth;       // footprint, m; width along the shorter axis over that across
+flat out int isSteep;
+
+void main() {
+    gl_Position = vec4(-2.0, -2.0, 0.0, 1.0);
+    ivec2 mapSize = textureSize(photonFlux, 0);
+    int index = firstPhoton + gl_InstanceID;
+    ivec2 texel = ivec2(index % mapSize.x, index / mapSize.x);
+    Photon photon = unpackPhoton(texelFetch(photonPosition, texel, 0),
+                                 texelFetch(photonDirection, texel, 0),
+                                 texelFetch(photonFlux, texel, 0));
+    // Others have not been on their way in this tracing.
+    if (photon.fate != kFateInFlight || !isNumber(photon)) return;
+    uint fate = uint(texelFetch(hitFlux, texel, 0).w);
+    bool hasHit = fate == kFateReceiver || fate == kFateSpecular;
+    float end = hasHit ? texelFetch(hitPosition, texel, 0).w : 3.0e38;
+    RaySegment way = clipWay(photon.positionVs, photon.directionVs, end,
+                             0.5 * float(media_lines_maximum) + 1.0);
+    if (!way.visible) return;
+
+    vec2 along = way.farPixel - way.nearPixel;
+    isSteep = abs(along.y) > abs(along.x) ? 1 : 0;
+    if (isSteep != 0) {
+        along = along.yx;
+        way.nearPixel = way.nearPixel.yx;
+        way.farPixel = way.farPixel.yx;
+    }
+    wayPixels = vec4(way.nearPixel, way.farPixel);
+    wayEnds = vec4(way.nearInverseZ, way.farInverseZ, way.nearT, way.farT);
+    wayDirection = photon.directionVs;
+    wayExtinction = extinctionAround(photon.media);
+    float pixel = view.tangents.w;
+    wayPower = photon.fluxWatts * view.mediumScattering.rgb *
+               ((way.farT - way.nearT) * way.nearInverseZ * way.farInverseZ / (pixel * pixel));
+    // A line of less than a pixel has no direction on the screen.
+    float slope = abs(along.x) > 1.0 ? along.y / along.x : 0.0;
+    wayWidth = vec2(photon.footprintMeters, sqrt(1.0 + slope * slope));
+
+    bool isEnd = (gl_VertexID & 1) == 1;
+    float side = gl_VertexID < 2 ? -1.0 : 1.0;
+    // A pixel's middle is half a pixel at most from what it holds along the line, and so much more
+    // across as the line rises; the rest is for the rasteriser's rounding.
+    const float rounding = 0.05;
+    float forward = along.x < 0.0 ? -1.0 : 1.0;
+    float beyond = (0.5 + rounding) * (isEnd ? forward : -forward);
+    float nearest = max(way.nearInverseZ, way.farInverseZ);
+    float reach = halfWidth(photon.footprintMeters, nearest) * wayWidth.y + 1.0 + rounding;
+    if (slope == 0.0) reach += abs(along.y);
+    vec2 corner = isEnd ? way.farPixel : way.nearPixel;
+    corner += vec2(beyond, beyond * slope + side * reach);
+    if (isSteep != 0) corner = corner.yx;
+    gl_Position = vec4(corner * view.sizePixels.zw * 2.0 - 1.0, 0.0, 1.0);
+}

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// media.lines: god rays (K06, section 3.2). The way of each photon from its last specular surface
+// to its hit as a line on the screen, added up to what the medium scatters once towards the eye
+// along the straight eye ray. In: photons and hits in eye view space, m and W; out: in-scattered
+// radiance, W/m²/sr, the mean over each pixel, with the losses to the medium (and to the dielectric
+// around the photon) on the way and to the medium on the straight ray to the eye. What lies behind
+// the pixel's receiver does not count; a photon without a hit goes on to the end of the screen or
+// the scene.
+//
+// The paper draws one-pixel lines. A photon stands for a beam that is as wide as its footprint, and
+// where that is more than a pixel such lines leave stripes: by default they fall off over one and a
+// half times the beam, which has the least error (experiments/krueger2006_god_rays.toml: a third of
+// the one-pixel lines' for 64 x 64 photons, the same where beams are no wider than pixels). Where
+// many photons cross a pixel, as at a focus or before an eye in the medium, a plain sum drifts
+// (hard case 34): they come in batches whose sums are added up with compensation.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "framework/pipeline/frame_builder.h"
+#include "techniques/screen_space_photons/batch_sum.h"
+#include "techniques/screen_space_photons/nodes.h"
+
+namespace kaustik {
+
+InScattered drawGodRays(FrameBuilder& frame, const GodRayParams& params, Hits hits, EyeBuffer eye,
+                        InScattered before) {
+    const int photons = hits.incoming.count();
+    const bool isBatched = photons > kBatchPhotons;
+    const bool isFirst = !before.radiance.valid();
+    const int run = frame.runsOf(MediaStage::name);
+    struct Data {
+        InScattered out;
+        Hits hits;
+        EyeBuffer eye;
+        BatchSum<RadianceTexel> parts;
+    };
+    return frame
+        .pass<Data>(
+            "media.lines", "the medium scatters what photons carry",
+            [&](graph::PassSetup& setup, Data& data) {
+                data.hits = hits;
+                data.eye = eye;
+                setup.read(hits.position);
+                setup.read(hits.flux);
+                setup.read(hits.incoming.position);
+                setup.read(hits.incoming.direction);
+                setup.read(hits.incoming.flux);
+                setup.read(eye.receiver);
+                if (isFirst) {
+                    data.out.radiance = setup.create<RadianceTexel>("media.in_scattered",
+                                                                    frame.width(), frame.height());
+                    setup.bypass(data.out.radiance, {0, 0, 0, 0});
+                } else {
+                    data.out.radiance = setup.write(before.radiance);
+                    setup.bypass(data.out.radiance, before.radiance);
+                }
+                if (isBatched) {
+                    data.parts = createBatchSum<RadianceTexel>(
+                        setup, frame, "media",
+                        run == 1 ? "in_scattered" : fmt::format("in_scattered_{}", run));
+                }
+            },
+            [&inputs = frame.inputs(), params, photons, isBatched, isFirst](
+                const Data& data, gl::PassContext& context) {
+                if (isFirst) context.texture(data.out.radiance).clear({0, 0, 0, 0});
+                clear(context, data.parts);
+                const Photons& incoming = data.hits.incoming;
+                gl::Command command = context.shaders(
+                    {"screen_space_photons/god_rays.vert", "screen_space_photons/god_rays.frag"});
+                inputs.bindView(command)
+                    .params("media.lines", params)
+                    .storage("Materials", inputs.gpuScene.materials())
+                    .texture("photonPosition", incoming.position)
+                    .texture("photonDirection", incoming.direction)
+                    .texture("photonFlux", incoming.flux)
+                    .texture("hitPosition", data.hits.position)
+                    .texture("hitFlux", data.hits.flux)
+                    .texture("receiver", data.eye.receiver)
+                    .target(isBatched ? data.parts.batch : data.out.radiance)
+                    .blend(gl::Blend::add);
+                for (int first = 0; first < photons; first += kBatchPhotons) {
+                    command.set("firstPhoton", first)
+                        .drawArrays(GL_TRIANGLE_STRIP, 4, std::min(kBatchPhotons, photons - first));
+                    if (isBatched) addBatch(context, inputs, data.out.radiance, data.parts);
+                }
+            })
+        .out;
+}
+
+}  // namespace kaustik
