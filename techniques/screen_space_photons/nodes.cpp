@@ -40,10 +40,18 @@ void registerScreenSpacePhotons(Registry& registry) {
                                      "plane, ray-cast per pixel; the flux is kept exactly.",
                                      "K06, section 3.1, Eq. 1"},
                                     &splatSprites);
+    registry.node<ViewStage>("refraction",
+                             {"Traces the eye's refracted rays on the screen through the layers of "
+                              "the transmitting objects, and on into the scene.",
+                              "K06, section 4"},
+                             &traceRefraction);
     registry.technique({"screen_space_photons",
                         "Photon rays traced through a layered depth image as rasterised lines.",
                         "Krüger, Bürger, Westermann 2006",
-                        {{"layers", "peel"}, {"trace", "lines"}, {"reconstruct", "sprites"}},
+                        {{"layers", "peel"},
+                         {"trace", "lines"},
+                         {"reconstruct", "sprites"},
+                         {"view", "refraction"}},
                         {}});
     registry.hardCases(&addScreenSpacePhotonCases);
 }

@@ -126,4 +126,45 @@ struct SpritesParams {
 IrradianceMap splatSprites(FrameBuilder& frame, const SpritesParams& params, Hits hits,
                            EyeBuffer eye);
 
+// Where an eye ray's next interface is looked for.
+enum class RefractionSearch : int { monotonic, all };
+
+struct RefractionViewParams {
+    RefractionSearch search = RefractionSearch::monotonic;
+    int interfaces = 4;
+    int reflections = 4;
+    int layers = 8;
+    bool scene = true;
+    bool reflection = true;
+    int stride = 4;
+    template <class R>
+    void reflect(R& r) {
+        r.choice(search, "search",
+                 "monotonic: the paper's, between the layer that the ray has passed last and the "
+                 "next one; all: in every layer of every pixel on its way",
+                 {"monotonic", "all"});
+        r.field(interfaces, "interfaces",
+                "Most refractions of an eye ray; the paper's table has 2, and 1 is its Fig. 9, left",
+                "", params::range(1, 16));
+        r.field(reflections, "reflections",
+                "Most total internal reflections of an eye ray; what needs more is lost", "",
+                params::range(0, 64));
+        r.field(layers, "layers",
+                "Most layers of transmitting objects that are peeled; the monotonic search needs "
+                "no more than its interfaces",
+                "", params::range(1, 64));
+        r.field(scene, "scene",
+                "Look for the receivers that the ray meets where the picture shows them (the "
+                "paper's Fig. 10); off: only what surrounds the scene");
+        r.field(reflection, "reflection",
+                "The same for the reflection at the first interface; off: it sees what surrounds "
+                "the scene");
+        r.field(stride, "stride",
+                "Pixels between two looks of a ray at the receivers; thinner ones may be missed",
+                "px", params::range(1, 64));
+    }
+};
+View traceRefraction(FrameBuilder& frame, const RefractionViewParams& params, Geometry geometry,
+                     EyeBuffer eye, LayeredDepth layers, Radiance receivers);
+
 }  // namespace kaustik

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// What a ray that has left the specular surfaces sees (K06, section 4, Fig. 10): the receivers of the
+// eye buffer, where its image shows them, and else what surrounds the scene. "This is an
+// approximation that can only simulate the refraction of [...] objects that are visible to the viewer
+// in the absence of the water surface": of what lies hidden or off the screen nothing is known.
+#include "common/surface_data.glsl"
+#include "common/ray_segment.glsl"
+#include "common/surroundings.glsl"
+
+uniform sampler2D receiver;
+uniform sampler2D receiverSurface;
+uniform sampler2D receiverRadiance;
+
+struct SceneHit {
+    bool isFound;
+    bool isOpen;  // not found, because nothing is there: the ray leaves the scene on the screen
+    float t;      // m
+    vec3 radiance;
+};
+
+// The receiver's tangent plane at a pixel, where a ray crosses it: the ray parameter, or -1.
+float crossReceiver(vec3 origin, vec3 direction, ivec2 texel, float depth) {
+    vec3 normal = texelFetch(receiverSurface, texel, 0).xyz;
+    float closing = dot(normal, direction);
+    if (abs(closing) < 1e-6) return -1.0;
+    return dot(normal, viewRay(vec2(texel) + 0.5) * depth - origin) / closing;
+}
+
+// Bilinear between those of the four pixels around the hit that lie on the hit's tangent plane.
+vec3 radianceAround(vec3 hitVs, ivec2 texel) {
+    vec3 normal = texelFetch(receiverSurface, texel, 0).xyz;
+    vec2 corner = pixelOf(hitVs) - 0.5;
+    ivec2 first = ivec2(floor(corner));
+    vec2 f = corner - vec2(first);
+    float reach = 2.0 * pixelFootprint(-hitVs.z);
+    vec3 sum = vec3(0.0);
+    float weights = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 step = ivec2(i & 1, i >> 1);
+        ivec2 other = clamp(first + step, ivec2(0), ivec2(view.sizePixels.xy) - 1);
+        float depth = texelFetch(receiver, other, 0).x;
+        if (depth <= 0.0) continue;
+        if (abs(dot(normal, viewRay(vec2(other) + 0.5) * depth - hitVs)) > reach) continue;
+        vec2 axis = mix(1.0 - f, f, vec2(step));
+        sum += axis.x * axis.y * texelFetch(receiverRadiance, other, 0).rgb;
+        weights += axis.x * axis.y;
+    }
+    return weights > 1e-3 ? sum / weights : texelFetch(receiverRadiance, texel, 0).rgb;
+}
+
+// Looks for the first receiver before `reach` (m). `stride` pixels are looked at together: where the
+// ray is before the receivers at one look and behind them at the next, all pixels between are asked.
+SceneHit searchReceivers(vec3 origin, vec3 direction, float reach, int stride) {
+    SceneHit none = SceneHit(false, false, 0.0, vec3(0.0));
+    RaySegment segment = clipRay(origin, direction);
+    if (!segment.visible) return none;
+    int n = stepCount(segment, 4, 16384);
+    float count = float(n);
+    bool isBefore = true;
+    for (int look = 0; look < n; look += stride) {
+        int last = min(look + stride, n) - 1;
+        // At the stride's end, or one by one where the stride holds a change.
+        ivec2 there = clamp(ivec2(floor((segment.nearPixel * (count - float(last) - 0.5) +
+                                         segment.farPixel * (float(last) + 0.5)) / count)),
+                            ivec2(0), ivec2(view.sizePixels.xy) - 1);
+        float depthThere = texelFetch(receiver, there, 0).x;
+        float zThere = depthAtIndex(segment, float(last) + 0.5, count);
+        bool isBeforeThere = depthThere <= 0.0 || zThere < depthThere;
+        if (isBefore && !isBeforeThere) {
+            for (int i = look; i <= last; ++i) {
+                float middle = float(i) + 0.5;
+                ivec2 texel = clamp(ivec2(floor((segment.nearPixel * (count - middle) +
+                                                 segment.farPixel * middle) / count)),
+                                    ivec2(0), ivec2(view.sizePixels.xy) - 1);
+                float depth = texelFetch(receiver, texel, 0).x;
+                float z = depthAtIndex(segment, middle, count);
+                if (depth <= 0.0 || z < depth) continue;
+                // Behind: through the surface, or past its edge.
+                float t = crossReceiver(origin, direction, texel, depth);
+                float from = parameterAtIndex(segment, max(middle - 1.5, 0.0), count);
+                float to = parameterAtIndex(segment, min(middle + 1.5, count), count);
+                if (t < from - 1e-5 * depth || t > to + 1e-5 * depth) continue;
+                if (t > reach) return none;
+                return SceneHit(true, false, t, radianceAround(origin + t * direction, texel));
+            }
+        }
+        isBefore = isBeforeThere;
+        if (parameterAtIndex(segment, float(last), count) > reach) return none;
+    }
+    none.isOpen = isBefore && segment.cause == kAccountUnresolved;
+    return none;
+}
