@@ -78,7 +78,7 @@ FirstHit searchBetweenLayers(RaySegment segment, TracedRay ray, int passed, int 
     for (int i = 0; i < steps; ++i) {
         float middle = float(i) + 0.5;
         ivec2 texel = texelOfStep(segment, i, steps);
-        float z = depthAtIndex(segment, middle, count);
+        float z = depthAtIndex(segment, float(i) + 1.0, count);
         float current = passed >= 0 ? texelFetch(layerDepths, ivec3(texel, passed), 0).x : 0.0;
         float next = passed + 1 < layerCount
                          ? texelFetch(layerDepths, ivec3(texel, passed + 1), 0).x

@@ -48,7 +48,8 @@ vec3 radianceAround(vec3 hitVs, ivec2 texel) {
     return weights > 1e-3 ? sum / weights : texelFetch(receiverRadiance, texel, 0).rgb;
 }
 
-// Looks for the first receiver before `reach` (m). `stride` pixels are looked at together: where the
+// Looks for the first receiver before `reach` (m): by the ray's depth at the end of each step, since
+// the last one ends just behind the scene's last surface. `stride` pixels are looked at together: where the
 // ray is before the receivers at one look and behind them at the next, all pixels between are asked.
 SceneHit searchReceivers(vec3 origin, vec3 direction, float reach, int stride) {
     SceneHit none = SceneHit(false, false, 0.0, vec3(0.0));
@@ -64,7 +65,7 @@ SceneHit searchReceivers(vec3 origin, vec3 direction, float reach, int stride) {
                                          segment.farPixel * (float(last) + 0.5)) / count)),
                             ivec2(0), ivec2(view.sizePixels.xy) - 1);
         float depthThere = texelFetch(receiver, there, 0).x;
-        float zThere = depthAtIndex(segment, float(last) + 0.5, count);
+        float zThere = depthAtIndex(segment, float(last) + 1.0, count);
         bool isBeforeThere = depthThere <= 0.0 || zThere < depthThere;
         if (isBefore && !isBeforeThere) {
             for (int i = look; i <= last; ++i) {
@@ -73,7 +74,7 @@ SceneHit searchReceivers(vec3 origin, vec3 direction, float reach, int stride) {
                                                  segment.farPixel * middle) / count)),
                                     ivec2(0), ivec2(view.sizePixels.xy) - 1);
                 float depth = texelFetch(receiver, texel, 0).x;
-                float z = depthAtIndex(segment, middle, count);
+                float z = depthAtIndex(segment, float(i) + 1.0, count);
                 if (depth <= 0.0 || z < depth) continue;
                 // Behind: through the surface, or past its edge.
                 float t = crossReceiver(origin, direction, texel, depth);
