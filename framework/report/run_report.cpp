@@ -101,6 +101,32 @@ std::vector<double> bookkeepingSamples(const RunRecord& record) {
     return samples;
 }
 
+// How wrong what the eye sees through specular surfaces is; "" where it was not judged.
+std::string viewLine(const json& view) {
+    if (view.is_null()) return "";
+    const auto number = [](const json& value, double factor = 1.0) {
+        return value.is_null() ? std::string("none")
+                               : fmt::format("{:.4g}", factor * value.get<double>());
+    };
+    std::string line = fmt::format("{:<22}", "view");
+    if (view.contains("exit_direction_deg")) {
+        const json& direction = view.at("exit_direction_deg");
+        line += fmt::format(
+            "exit direction median {}°, 95% {}°; position median {} px; interfaces right {}%, lost "
+            "{}%; ",
+            number(direction.at("median")), number(direction.at("p95")),
+            number(view.at("exit_position_px").at("median")),
+            number(view.at("interfaces_right"), 100.0), number(view.at("lost"), 100.0));
+    }
+    if (!view.at("radiance").is_null()) {
+        const json& radiance = view.at("radiance");
+        line += fmt::format("radiance RMSE {} W/m²/sr, relMSE {}, MAE {}, SSIM {}",
+                            number(radiance.at("rmse")), number(radiance.at("rel_mse")),
+                            number(radiance.at("mae")), number(radiance.at("ssim")));
+    }
+    return line + "\n";
+}
+
 // One line for each of hits and error.
 std::string truthTable(const RunRecord& record) {
     std::string table;
@@ -143,6 +169,7 @@ std::string truthTable(const RunRecord& record) {
         errorLine("error", record.error);
         if (record.error.contains("modelled_paths"))
             errorLine("  of modelled paths", record.error.at("modelled_paths"));
+        if (record.error.contains("view")) table += viewLine(record.error.at("view"));
     }
     return table;
 }
