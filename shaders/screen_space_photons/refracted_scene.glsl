@@ -14,9 +14,14 @@ uniform sampler2D receiverRadiance;
 struct SceneHit {
     bool isFound;
     bool isOpen;  // not found, because nothing is there: the ray leaves the scene on the screen
-    float t;      // m
+    float t;      // m; not found: to where the screen or the scene ends
+    ivec2 lastPixel;  // not found: of that end
     vec3 radiance;
 };
+
+SceneHit nothingThere() {
+    return SceneHit(false, true, 0.0, ivec2(-1), vec3(0.0));
+}
 
 // The receiver's tangent plane at a pixel, where a ray crosses it: the ray parameter, or -1.
 float crossReceiver(vec3 origin, vec3 direction, ivec2 texel, float depth) {
@@ -52,7 +57,7 @@ vec3 radianceAround(vec3 hitVs, ivec2 texel) {
 // the last one ends just behind the scene's last surface. `stride` pixels are looked at together: where the
 // ray is before the receivers at one look and behind them at the next, all pixels between are asked.
 SceneHit searchReceivers(vec3 origin, vec3 direction, float reach, int stride) {
-    SceneHit none = SceneHit(false, false, 0.0, vec3(0.0));
+    SceneHit none = SceneHit(false, false, 0.0, ivec2(-1), vec3(0.0));
     RaySegment segment = clipRay(origin, direction);
     if (!segment.visible) return none;
     int n = stepCount(segment, 4, 16384);
@@ -82,12 +87,36 @@ SceneHit searchReceivers(vec3 origin, vec3 direction, float reach, int stride) {
                 float to = parameterAtIndex(segment, min(middle + 1.5, count), count);
                 if (t < from - 1e-5 * depth || t > to + 1e-5 * depth) continue;
                 if (t > reach) return none;
-                return SceneHit(true, false, t, radianceAround(origin + t * direction, texel));
+                return SceneHit(true, false, t, texel,
+                                radianceAround(origin + t * direction, texel));
             }
         }
         isBefore = isBeforeThere;
         if (parameterAtIndex(segment, float(last), count) > reach) return none;
     }
     none.isOpen = isBefore && segment.cause == kAccountUnresolved;
+    none.t = segment.farT;
+    none.lastPixel =
+        clamp(ivec2(floor(segment.farPixel)), ivec2(0), ivec2(view.sizePixels.xy) - 1);
     return none;
+}
+
+// Radiance along a ray that starts at `origin` within the medium `medium` (material index + 1) of an
+// open surface, or 0, of which `seen` is known. Where nothing is known of what it meets: in water,
+// which has no end to see, the receiver straight behind the surface at `pixel`, else the last one
+// that the ray passes on the screen; in the open what surrounds the scene.
+vec3 radianceAlong(vec3 origin, vec3 direction, uint medium, SceneHit seen, ivec2 pixel) {
+    if (seen.isFound) return seen.radiance * mediumTransmittance(medium, seen.t);
+    if (medium != 0u && !seen.isOpen) {
+        float straight = texelFetch(receiver, pixel, 0).x;
+        if (straight > -origin.z) {
+            float behind = (straight + origin.z) * length(viewRay(vec2(pixel) + 0.5));
+            return texelFetch(receiverRadiance, pixel, 0).rgb * mediumTransmittance(medium, behind);
+        }
+        if (seen.lastPixel.x >= 0 && texelFetch(receiver, seen.lastPixel, 0).x > 0.0) {
+            return texelFetch(receiverRadiance, seen.lastPixel, 0).rgb *
+                   mediumTransmittance(medium, seen.t);
+        }
+    }
+    return surroundingRadiance(direction) * mediumTransmittance(medium, 1e30);
 }

@@ -16,31 +16,21 @@ uniform sampler2D interfaceSurface;
 const float kFar = 1e30;
 
 SceneHit lookIntoScene(vec3 origin, vec3 direction, float reach) {
-    if (!view_refraction_scene) return SceneHit(false, true, 0.0, vec3(0.0));
+    if (!view_refraction_scene) return nothingThere();
     return searchReceivers(origin, direction, reach, view_refraction_stride);
 }
 
-// Radiance along a ray within `media`. Where nothing is known of what it meets: in water the receiver
-// straight behind the surface, since there is no end of the water to see; else what surrounds the
-// scene.
-vec3 radianceAlong(vec3 origin, vec3 direction, uint media, SceneHit seen, ivec2 pixel) {
+// The medium of an open surface that a ray is in, or 0: what is inside of a closed object and is not
+// traced out of it is taken to see what it would outside.
+uint openMedium(uint media) {
     uint medium = innerMedium(media);
-    bool isInWater = medium != 0u && isOpen(medium - 1u);
-    if (seen.isFound) {
-        return seen.radiance * mediumTransmittance(isInWater ? medium : 0u, seen.t);
-    }
-    float straight = texelFetch(receiver, pixel, 0).x;
-    if (isInWater && !seen.isOpen && straight > -origin.z) {
-        float behind = (straight + origin.z) * length(viewRay(vec2(pixel) + 0.5));
-        return texelFetch(receiverRadiance, pixel, 0).rgb * mediumTransmittance(medium, behind);
-    }
-    return surroundingRadiance(direction) * mediumTransmittance(isInWater ? medium : 0u, kFar);
+    return medium != 0u && isOpen(medium - 1u) ? medium : 0u;
 }
 
 // The eye's ray in a mirror that it meets first.
 void lookIntoMirror(ivec2 pixel, vec3 direction, vec3 origin, vec3 normal, vec3 reflectance) {
     vec3 reflected = normalize(reflect(direction, normal));
-    SceneHit seen = SceneHit(false, true, 0.0, vec3(0.0));
+    SceneHit seen = nothingThere();
     if (view_refraction_reflection) seen = lookIntoScene(origin, reflected, kFar);
     radiance = vec4(reflectance * radianceAlong(origin, reflected, 0u, seen, pixel), 1.0);
     exitPosition = vec4(origin, 1.0);
@@ -143,7 +133,7 @@ void main() {
         bool isInside = isInsideClosed(path.media);
         bool isLast = path.refractions >= view_refraction_interfaces ||
                       path.reflections > view_refraction_reflections;
-        seen = SceneHit(false, true, 0.0, vec3(0.0));
+        seen = nothingThere();
 #ifndef RECEIVERS_INSIDE
         if (!isInside)
 #endif
@@ -164,12 +154,12 @@ void main() {
     uint media = isInsideClosed(path.media) && !seen.isFound ? leaveMedium(path.media) : path.media;
     float ratio = mediumIndex(innerMedium(mediaAtEye)) / mediumIndex(innerMedium(media));
     radiance.rgb = path.throughput * ratio * ratio *
-                   radianceAlong(path.origin, path.direction, media, seen, pixel);
+                   radianceAlong(path.origin, path.direction, openMedium(media), seen, pixel);
     if (first.reflectance < 1.0) {
-        SceneHit mirrored = SceneHit(false, true, 0.0, vec3(0.0));
+        SceneHit mirrored = nothingThere();
         if (view_refraction_reflection) mirrored = lookIntoScene(entry, first.reflected, kFar);
         radiance.rgb += reached * first.reflectance *
-                        radianceAlong(entry, first.reflected, mediaAtEye, mirrored, pixel);
+                        radianceAlong(entry, first.reflected, openMedium(mediaAtEye), mirrored, pixel);
     }
     radiance.a = 1.0;
 }
