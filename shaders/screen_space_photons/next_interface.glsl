@@ -105,6 +105,12 @@ FirstHit searchBetweenLayers(RaySegment segment, TracedRay ray, int passed, int 
         if (layer < 0) continue;
         float t;
         if (!meetsLayer(ray, texel, layer, t)) continue;
+        // Where the ray comes to lie behind another part of the object it does not cross that.
+        if (view_refraction_stop == view_refraction_stop_crossing &&
+            (t < parameterAtIndex(segment, max(middle - 2.0, 0.0), count) ||
+             t > parameterAtIndex(segment, min(middle + 1.0, count), count))) {
+            continue;
+        }
         // The point on the surface, as far as this step and the one before reach.
         t = clamp(t, parameterAtIndex(segment, max(middle - 1.0, 0.0), count),
                   parameterAtIndex(segment, min(middle + 0.5, count), count));

@@ -3,13 +3,22 @@
 // eye buffer, where its image shows them, and else what surrounds the scene. "This is an
 // approximation that can only simulate the refraction of [...] objects that are visible to the viewer
 // in the absence of the water surface": of what lies hidden or off the screen nothing is known.
-#include "common/surface_data.glsl"
 #include "common/ray_segment.glsl"
+#include "common/surface_data.glsl"
 #include "common/surroundings.glsl"
 
+layout(location = 0) out vec4 radiance;
+layout(location = 1) out vec4 exitPosition;
+layout(location = 2) out vec4 exitDirection;
+
+uniform sampler2D interfaceDepth;
+uniform sampler2D interfaceSurface;
 uniform sampler2D receiver;
 uniform sampler2D receiverSurface;
 uniform sampler2D receiverRadiance;
+uniform int looksIntoScene;  // else only at what surrounds the scene
+uniform int mirrorsScene;    // the same for reflections at the first interface
+uniform int lookStride;      // px
 
 struct SceneHit {
     bool isFound;
@@ -53,18 +62,18 @@ vec3 radianceAround(vec3 hitVs, ivec2 texel) {
     return weights > 1e-3 ? sum / weights : texelFetch(receiverRadiance, texel, 0).rgb;
 }
 
-// Looks for the first receiver before `reach` (m): by the ray's depth at the end of each step, since
-// the last one ends just behind the scene's last surface. `stride` pixels are looked at together: where the
+// Looks for the first receiver: by the ray's depth at the end of each step, since the last one ends
+// just behind the scene's last surface. `lookStride` pixels are looked at together: where the
 // ray is before the receivers at one look and behind them at the next, all pixels between are asked.
-SceneHit searchReceivers(vec3 origin, vec3 direction, float reach, int stride) {
+SceneHit searchReceivers(vec3 origin, vec3 direction) {
     SceneHit none = SceneHit(false, false, 0.0, ivec2(-1), vec3(0.0));
     RaySegment segment = clipRay(origin, direction);
     if (!segment.visible) return none;
     int n = stepCount(segment, 4, 16384);
     float count = float(n);
     bool isBefore = true;
-    for (int look = 0; look < n; look += stride) {
-        int last = min(look + stride, n) - 1;
+    for (int look = 0; look < n; look += lookStride) {
+        int last = min(look + lookStride, n) - 1;
         // At the stride's end, or one by one where the stride holds a change.
         ivec2 there = clamp(ivec2(floor((segment.nearPixel * (count - float(last) - 0.5) +
                                          segment.farPixel * (float(last) + 0.5)) / count)),
@@ -86,19 +95,25 @@ SceneHit searchReceivers(vec3 origin, vec3 direction, float reach, int stride) {
                 float from = parameterAtIndex(segment, max(middle - 1.5, 0.0), count);
                 float to = parameterAtIndex(segment, min(middle + 1.5, count), count);
                 if (t < from - 1e-5 * depth || t > to + 1e-5 * depth) continue;
-                if (t > reach) return none;
                 return SceneHit(true, false, t, texel,
                                 radianceAround(origin + t * direction, texel));
             }
         }
         isBefore = isBeforeThere;
-        if (parameterAtIndex(segment, float(last), count) > reach) return none;
     }
     none.isOpen = isBefore && segment.cause == kAccountUnresolved;
     none.t = segment.farT;
     none.lastPixel =
         clamp(ivec2(floor(segment.farPixel)), ivec2(0), ivec2(view.sizePixels.xy) - 1);
     return none;
+}
+
+// What the ray that goes on sees, and the one that the first interface reflects.
+SceneHit lookThrough(vec3 origin, vec3 direction) {
+    return looksIntoScene != 0 ? searchReceivers(origin, direction) : nothingThere();
+}
+SceneHit lookIntoMirror(vec3 origin, vec3 direction) {
+    return mirrorsScene != 0 ? searchReceivers(origin, direction) : nothingThere();
 }
 
 // Radiance along a ray that starts at `origin` within the medium `medium` (material index + 1) of an
@@ -119,4 +134,14 @@ vec3 radianceAlong(vec3 origin, vec3 direction, uint medium, SceneHit seen, ivec
         }
     }
     return surroundingRadiance(direction) * mediumTransmittance(medium, 1e30);
+}
+
+// The eye's ray at a mirror that it meets first: all outputs.
+void writeMirror(ivec2 pixel, vec3 viewing, vec3 normal, vec3 reflectance) {
+    vec3 origin = viewing * texelFetch(interfaceDepth, pixel, 0).x;
+    vec3 reflected = normalize(reflect(normalize(viewing), normal));
+    SceneHit seen = lookIntoMirror(origin, reflected);
+    radiance = vec4(reflectance * radianceAlong(origin, reflected, 0u, seen, pixel), 1.0);
+    exitPosition = vec4(origin, 1.0);
+    exitDirection = vec4(reflected, 1.0);
 }

@@ -6,35 +6,13 @@
 #include "screen_space_photons/next_interface.glsl"
 #include "screen_space_photons/refracted_scene.glsl"
 
-layout(location = 0) out vec4 radiance;
-layout(location = 1) out vec4 exitPosition;
-layout(location = 2) out vec4 exitDirection;
-
-uniform sampler2D interfaceDepth;
-uniform sampler2D interfaceSurface;
-
 const float kFar = 1e30;
-
-SceneHit lookIntoScene(vec3 origin, vec3 direction, float reach) {
-    if (!view_refraction_scene) return nothingThere();
-    return searchReceivers(origin, direction, reach, view_refraction_stride);
-}
 
 // The medium of an open surface that a ray is in, or 0: what is inside of a closed object and is not
 // traced out of it is taken to see what it would outside.
 uint openMedium(uint media) {
     uint medium = innerMedium(media);
     return medium != 0u && isOpen(medium - 1u) ? medium : 0u;
-}
-
-// The eye's ray in a mirror that it meets first.
-void lookIntoMirror(ivec2 pixel, vec3 direction, vec3 origin, vec3 normal, vec3 reflectance) {
-    vec3 reflected = normalize(reflect(direction, normal));
-    SceneHit seen = nothingThere();
-    if (view_refraction_reflection) seen = lookIntoScene(origin, reflected, kFar);
-    radiance = vec4(reflectance * radianceAlong(origin, reflected, 0u, seen, pixel), 1.0);
-    exitPosition = vec4(origin, 1.0);
-    exitDirection = vec4(reflected, 1.0);
 }
 
 struct EyePath {
@@ -109,8 +87,7 @@ void main() {
     vec4 mirror = texelFetch(interfaceSurface, pixel, 0);
     MaterialData data = materials[uint(mirror.w) - 1u];
     if (uint(data.albedo.w) == kMaterialMirror) {
-        lookIntoMirror(pixel, direction, viewing * texelFetch(interfaceDepth, pixel, 0).x,
-                       mirror.xyz, data.albedo.rgb);
+        writeMirror(pixel, viewing, mirror.xyz, data.albedo.rgb);
         return;
     }
     // The first layer is what the eye sees first.
@@ -137,7 +114,7 @@ void main() {
 #ifndef RECEIVERS_INSIDE
         if (!isInside)
 #endif
-            seen = lookIntoScene(path.origin, path.direction, kFar);
+            seen = lookThrough(path.origin, path.direction);
         if (isLast) {
             path.isLost = path.reflections > view_refraction_reflections;
             break;
@@ -156,8 +133,7 @@ void main() {
     radiance.rgb = path.throughput * ratio * ratio *
                    radianceAlong(path.origin, path.direction, openMedium(media), seen, pixel);
     if (first.reflectance < 1.0) {
-        SceneHit mirrored = nothingThere();
-        if (view_refraction_reflection) mirrored = lookIntoScene(entry, first.reflected, kFar);
+        SceneHit mirrored = lookIntoMirror(entry, first.reflected);
         radiance.rgb += reached * first.reflectance *
                         radianceAlong(entry, first.reflected, openMedium(mediaAtEye), mirrored, pixel);
     }

@@ -45,6 +45,11 @@ void registerScreenSpacePhotons(Registry& registry) {
                               "the transmitting objects, and on into the scene.",
                               "K06, section 4"},
                              &traceRefraction);
+    registry.node<ViewStage>("image_space",
+                             {"Refracts the eye's rays at two interfaces, with the distance inside "
+                              "estimated from the back faces.",
+                              "Wyman 2005 (W05), K06's comparison"},
+                             &refractInImageSpace);
     registry.technique({"screen_space_photons",
                         "Photon rays traced through a layered depth image as rasterised lines.",
                         "Krüger, Bürger, Westermann 2006",

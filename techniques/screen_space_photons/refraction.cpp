@@ -58,7 +58,7 @@ View traceRefraction(FrameBuilder& frame, const RefractionViewParams& params, Ge
                 gl::Command command = context.fullscreen("screen_space_photons/refraction.frag");
                 if (hasInside) command.define("CLOSED_DIELECTRICS");
                 if (box.holdsReceivers) command.define("RECEIVERS_INSIDE");
-                bindViewInputs(inputs, command, data.eye, data.receivers);
+                bindView(inputs, command, data.eye, data.receivers, params.look, data.seen);
                 command.params("view.refraction", params)
                     .params("trace", trace)
                     .texture("layerDepths", data.layers.depth)
@@ -67,9 +67,6 @@ View traceRefraction(FrameBuilder& frame, const RefractionViewParams& params, Ge
                     .set("layerCount", data.layers.layers)
                     .set("dielectricsCenterVs", box.centerVs)
                     .set("dielectricsHalfExtent", box.halfExtentMeters)
-                    .target(data.seen.radiance)
-                    .target(data.seen.exitPosition)
-                    .target(data.seen.exitDirection)
                     .draw();
             })
         .seen;

@@ -2,7 +2,7 @@
 #include "techniques/screen_space_photons/view_passes.h"
 
 #include <algorithm>
-#include <cmath>
+#include <vector>
 
 namespace kaustik {
 namespace {
@@ -68,8 +68,8 @@ View createView(const FrameBuilder& frame, graph::PassSetup& setup, const EyeBuf
     return view;
 }
 
-void bindViewInputs(const FrameInputs& inputs, gl::Command& command, const EyeBuffer& eye,
-                    const Radiance& receivers) {
+void bindView(const FrameInputs& inputs, gl::Command& command, const EyeBuffer& eye,
+              const Radiance& receivers, const SceneLookParams& look, const View& seen) {
     inputs.bindView(command)
         .storage("Materials", inputs.gpuScene.materials())
         .texture("sceneImages", inputs.gpuScene.images())
@@ -77,7 +77,13 @@ void bindViewInputs(const FrameInputs& inputs, gl::Command& command, const EyeBu
         .texture("interfaceSurface", eye.interfaceSurface)
         .texture("receiver", eye.receiver)
         .texture("receiverSurface", eye.receiverSurface)
-        .texture("receiverRadiance", receivers.radiance);
+        .texture("receiverRadiance", receivers.radiance)
+        .set("looksIntoScene", look.scene ? 1 : 0)
+        .set("mirrorsScene", look.scene && look.reflection ? 1 : 0)
+        .set("lookStride", look.stride)
+        .target(seen.radiance)
+        .target(seen.exitPosition)
+        .target(seen.exitDirection);
 }
 
 }  // namespace kaustik

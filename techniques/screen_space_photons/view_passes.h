@@ -3,6 +3,7 @@
 #pragma once
 
 #include "framework/pipeline/frame_builder.h"
+#include "techniques/screen_space_photons/nodes.h"
 
 namespace kaustik {
 
@@ -20,8 +21,9 @@ struct DielectricsBox {
 [[nodiscard]] View createView(const FrameBuilder& frame, graph::PassSetup& setup,
                               const EyeBuffer& eye, const Radiance& receivers);
 
-// Binds what createView has declared, the view, the materials and the images.
-void bindViewInputs(const FrameInputs& inputs, gl::Command& command, const EyeBuffer& eye,
-                    const Radiance& receivers);
+// Binds what createView has declared, the view, the materials and the images, and its outputs as
+// targets: for shaders that include screen_space_photons/refracted_scene.glsl.
+void bindView(const FrameInputs& inputs, gl::Command& command, const EyeBuffer& eye,
+              const Radiance& receivers, const SceneLookParams& look, const View& seen);
 
 }  // namespace kaustik
