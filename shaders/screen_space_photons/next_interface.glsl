@@ -105,15 +105,13 @@ FirstHit searchBetweenLayers(RaySegment segment, TracedRay ray, int passed, int 
         if (layer < 0) continue;
         float t;
         if (!meetsLayer(ray, texel, layer, t)) continue;
-        // Where the ray comes to lie behind another part of the object it does not cross that.
-        if (view_refraction_stop == view_refraction_stop_crossing &&
-            (t < parameterAtIndex(segment, max(middle - 2.0, 0.0), count) ||
-             t > parameterAtIndex(segment, min(middle + 1.0, count), count))) {
-            continue;
-        }
-        // The point on the surface, as far as this step and the one before reach.
-        t = clamp(t, parameterAtIndex(segment, max(middle - 1.0, 0.0), count),
-                  parameterAtIndex(segment, min(middle + 0.5, count), count));
+        // Where the ray comes to lie behind another part of the object it does not cross that within
+        // a step or two; the paper takes it for met all the same.
+        float from = parameterAtIndex(segment, max(middle - 2.0, 0.0), count);
+        float to = parameterAtIndex(segment, min(middle + 1.0, count), count);
+        bool isNear = t >= from && t <= to;
+        if (!isNear && view_refraction_stop == view_refraction_stop_crossing) continue;
+        t = clamp(t, from, to);
         return FirstHit(LayerHit(t, layer), texel, false);
     }
     return noHit();

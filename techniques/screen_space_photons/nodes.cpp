@@ -59,6 +59,7 @@ void registerScreenSpacePhotons(Registry& registry) {
                          {"view", "refraction"}},
                         {}});
     registry.hardCases(&addScreenSpacePhotonCases);
+    registry.hardCases(&addViewCases);
 }
 
 }  // namespace kaustik

@@ -17,12 +17,25 @@
 
 namespace kaustik {
 
-View traceRefraction(FrameBuilder& frame, const RefractionViewParams& params, Geometry geometry,
+namespace {
+
+// A path crosses a sheet of water once: where there is nothing else, no second interface is looked
+// for, nor peeled.
+RefractionViewParams forScene(const scene::SceneNeeds& needs, RefractionViewParams params) {
+    if (!needs.closedDielectrics)
+        params.interfaces = std::min(params.interfaces, std::max(needs.refractors, 1));
+    return params;
+}
+
+}  // namespace
+
+View traceRefraction(FrameBuilder& frame, const RefractionViewParams& wanted, Geometry geometry,
                      EyeBuffer eye, LayeredDepth /*layers*/, Radiance receivers) {
     if (!eye.interface.valid()) {
         frame.leaveOut("view.refraction", "the scene has no specular surface");
         return {receivers.radiance, {}, {}};
     }
+    const RefractionViewParams params = forScene(frame.needs(), wanted);
     const auto trace = frame.params<TraceParams>("trace");
     const bool isMonotonic = params.search == RefractionSearch::monotonic;
     LayeredDepth layers;

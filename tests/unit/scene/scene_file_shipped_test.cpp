@@ -11,6 +11,7 @@
 #include "framework/scene/height_field.h"
 #include "framework/scene/needs.h"
 #include "framework/scene/scene_file.h"
+#include "tests/unit/scene/mesh_import_fixture.h"
 #include "tests/unit/scene/scene_file_fixture.h"
 
 namespace kaustik::scene {
@@ -19,7 +20,10 @@ namespace {
 class ShippedScenes : public test::SceneFile {
   protected:
     ShippedScenes() {
-        write("bunny.obj", test::kTetrahedron);
+        for (const char* name : {"bunny.obj", "teapot.obj"})
+            write(name, test::kTetrahedron);
+        for (const char* name : {"dragon_vrip_res2.ply.gz", "dragon_vrip_res3.ply.gz"})
+            write(name, test::gzip(test::tetrahedronPly("ascii")));
         ::setenv("KAUSTIK_MESHES", folder.c_str(), 1);
     }
     ~ShippedScenes() override { ::unsetenv("KAUSTIK_MESHES"); }
@@ -91,7 +95,9 @@ TEST_F(ShippedScenes, AreListedByNameWithADescription) {
         EXPECT_EQ(loadScene(listing.file.string()).name, listing.name);
     }
     for (const char* name :
-         {"pool", "flat-water", "glass-sphere", "glossy-table", "cornell-bunny", "ring"}) {
+         {"pool", "flat-water", "glass-sphere", "glossy-table", "cornell-bunny", "ring",
+          "glass-bunny", "glass-dragon-low", "glass-dragon", "glass-teapot", "concave-glass",
+          "water-from-below"}) {
         EXPECT_TRUE(names.contains(name)) << name;
     }
 }
