@@ -235,7 +235,8 @@ std::vector<fs::path> Truth::judge(const Renderer& renderer, const fs::path& fol
     if (record.error.at("caustic_irradiance").is_null()) {
         record.warnings.push_back(record.error.at("reasons").at("caustic_irradiance"));
     } else {
-        write("error" + displayImageExtension(), errorPicture(pairOf(outputs, outputs.images.front(), loaded_->whole)));
+        write("error" + displayImageExtension(),
+              errorPicture(pairOf(outputs, outputs.images.front(), loaded_->whole)));
     }
     if (loaded_->modelled) {
         json modelled = errorsAgainst(outputs, *loaded_->modelled);

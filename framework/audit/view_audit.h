@@ -26,8 +26,8 @@ struct ViewAudit {
     std::size_t lost = 0;             // of these: the exact ray came out, the other did not
     std::size_t notANumber = 0;
     ExitErrors all;
-    ExitErrors sameInterfaces;  // of those alone that met as many
-    double meanInterfaces = 0.0;       // exact
+    ExitErrors sameInterfaces;    // of those alone that met as many
+    double meanInterfaces = 0.0;  // exact
 };
 
 // `exitPosition` and `exitDirection`: View's, rows from the top, 4 channels.

@@ -46,8 +46,8 @@ std::optional<EyePath> followEye(const EmbreeScene& scene, const glm::dvec3& ori
     LightTransport(scene, oneBranch).finish(*state, nullptr, random, sink);
     if (!sink.path) return std::nullopt;
     // Flux is what a branch keeps; radiance changes by the square of the index too.
-    const double ratio = mediumIndex(scene.scene(), state->media.inner()) /
-                         mediumIndex(scene.scene(), sink.medium);
+    const double ratio =
+        mediumIndex(scene.scene(), state->media.inner()) / mediumIndex(scene.scene(), sink.medium);
     sink.path->throughput *= ratio * ratio;
     return sink.path;
 }

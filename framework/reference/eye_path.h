@@ -22,8 +22,9 @@ struct EyePath {
     double lengthMeters = 0.0;
 };
 
-// A ray of the eye as a photon that goes backwards, of throughput 1. An eye that looks at a dielectric
-// from within is inside of it, as a light is. Nothing where the ray meets no surface at all.
+// A ray of the eye as a photon that goes backwards, of throughput 1. An eye that looks at a
+// dielectric from within is inside of it, as a light is. Nothing where the ray meets no surface at
+// all.
 [[nodiscard]] std::optional<PhotonState> startAtEye(const EmbreeScene& scene,
                                                     const glm::dvec3& origin,
                                                     const glm::dvec3& direction);

@@ -34,8 +34,8 @@ class Receivers {
             if (!of.meshes[object.mesh].closed) isOpen_[object.material] = 1;
         }
         const glm::dvec3 extent = scene.bounds().maximum - scene.bounds().minimum;
-        lift_ = 16.0 * static_cast<double>(std::numeric_limits<float>::epsilon()) *
-                glm::length(extent);
+        lift_ =
+            16.0 * static_cast<double>(std::numeric_limits<float>::epsilon()) * glm::length(extent);
     }
 
     // Along `direction` (unit, towards the receiver), W/m²/sr.
@@ -80,8 +80,7 @@ class Receivers {
         if (range > 0.0 && arriving.distance > range) return {};
         arriving.irradiance /= arriving.distance * arriving.distance;
         if (light.kind == scene::LightKind::spot) {
-            const double falloff =
-                spotFalloff(light, glm::dot(-arriving.toLight, light.direction));
+            const double falloff = spotFalloff(light, glm::dot(-arriving.toLight, light.direction));
             if (falloff <= 0.0) return {};
             arriving.irradiance *=
                 falloff * scene_.appearance().spotColor(light, -arriving.toLight);
@@ -211,8 +210,7 @@ class Tracer {
         PathFilter all;
         all.splitInteractions = request_.splitInteractions;
         all.maximumInteractions = request_.maximumInteractions;
-        RadianceSink sink(scene_, receivers_,
-                          mediumIndex(scene_.scene(), state->media.inner()));
+        RadianceSink sink(scene_, receivers_, mediumIndex(scene_.scene(), state->media.inner()));
         LightTransport(scene_, all).finish(*state, nullptr, random, sink);
         return sink.sum;
     }

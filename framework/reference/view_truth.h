@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What the eye sees in and through specular surfaces, ray traced: for every pixel the exact way of
-// the transmitted ray, and the radiance that arrives at the eye by all ways. Caustics are left out of
-// the radiance: receivers have their direct and their fill light, everything specular blocks direct
-// light, and what leaves the scene sees what surrounds it (Appearance::surroundings).
+// the transmitted ray, and the radiance that arrives at the eye by all ways. Caustics are left out
+// of the radiance: receivers have their direct and their fill light, everything specular blocks
+// direct light, and what leaves the scene sees what surrounds it (Appearance::surroundings).
 #pragma once
 
 #include <cstdint>
@@ -25,11 +25,12 @@ struct ViewTruthRequest {
 // Rows from the top. Only pixels whose middle sees a specular surface are known; others are 0.
 struct ViewTruth {
     // The way through the pixel's middle: refracted at every dielectric unless all is reflected.
-    Image exitPosition;   // where it leaves the last specular surface: view space, m; how many it met
-    Image exitDirection;  // unit, view space; 1 where it came out, 0 at the limit
-    Image radiance;       // mean over the pixel, W/m²/sr
-    Image radianceError;  // its standard error
-    Image mask;           // 1 where the pixel's middle sees a specular surface
+    Image
+        exitPosition;  // where it leaves the last specular surface: view space, m; how many it met
+    Image exitDirection;     // unit, view space; 1 where it came out, 0 at the limit
+    Image radiance;          // mean over the pixel, W/m²/sr
+    Image radianceError;     // its standard error
+    Image mask;              // 1 where the pixel's middle sees a specular surface
     std::size_t pixels = 0;  // of these
 };
 

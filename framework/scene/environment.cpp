@@ -75,8 +75,7 @@ Image makeEnvironment(EnvironmentPattern pattern) {
         const double latitude = (0.5 - (row + 0.5) / kHeight) * glm::pi<double>();
         for (int column = 0; column < kWidth; ++column) {
             const double longitude = ((column + 0.5) / kWidth - 0.5) * glm::two_pi<double>();
-            const glm::dvec3 direction(std::cos(latitude) * std::sin(longitude),
-                                       std::sin(latitude),
+            const glm::dvec3 direction(std::cos(latitude) * std::sin(longitude), std::sin(latitude),
                                        -std::cos(latitude) * std::cos(longitude));
             const glm::dvec3 color =
                 pattern == EnvironmentPattern::sky ? sky(direction) : grid(longitude, latitude);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What surrounds a scene (Scene::environmentImage): where a direction falls in its latitude-longitude
-// picture, and pictures that need no file.
+// What surrounds a scene (Scene::environmentImage): where a direction falls in its
+// latitude-longitude picture, and pictures that need no file.
 #pragma once
 
 #include <glm/glm.hpp>

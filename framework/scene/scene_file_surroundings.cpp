@@ -145,12 +145,13 @@ void readEnvironment(TableReader& reader, Scene& scene) {
         reader.finish();
         scene.environmentImage = static_cast<int>(scene.images.size());
         // As a file would be, so that nothing else need know of it.
-        scene.images.push_back({"the environment's pattern " + name, "",
-                                encodePfm(makeEnvironment(pattern)), false});
+        scene.images.push_back(
+            {"the environment's pattern " + name, "", encodePfm(makeEnvironment(pattern)), false});
     }
     if (scene.backgroundRadiance == glm::vec3(0.0f)) {
-        reader.fail("", "an environment is seen only where background_radiance, which multiplies "
-                        "it, is above 0");
+        reader.fail("",
+                    "an environment is seen only where background_radiance, which multiplies "
+                    "it, is above 0");
     }
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // view.image_space: image-space refraction at two interfaces (Wyman 2005, W05), with which K06
 // compares its own (Table 1, in braces). "view.back_faces" draws the farthest back faces of the
-// transmitting objects; "view.image_space" estimates from them where a refracted ray leaves, and looks
-// up what it sees there as view.refraction does. In: eye buffer, radiance of the receivers; out:
-// radiance, W/m²/sr, and where each ray left, view space, m.
+// transmitting objects; "view.image_space" estimates from them where a refracted ray leaves, and
+// looks up what it sees there as view.refraction does. In: eye buffer, radiance of the receivers;
+// out: radiance, W/m²/sr, and where each ray left, view space, m.
 //
 // W05's weights and its precomputed distance along the inverse normal are not in our texts: the
 // weight here is the ratio of the angles of refraction and incidence, and the distance is searched
@@ -56,9 +56,8 @@ BackFaces drawBackFaces(FrameBuilder& frame, Geometry geometry) {
 
 }  // namespace
 
-View refractInImageSpace(FrameBuilder& frame, const ImageSpaceViewParams& params,
-                         Geometry geometry, EyeBuffer eye, LayeredDepth /*layers*/,
-                         Radiance receivers) {
+View refractInImageSpace(FrameBuilder& frame, const ImageSpaceViewParams& params, Geometry geometry,
+                         EyeBuffer eye, LayeredDepth /*layers*/, Radiance receivers) {
     if (!eye.interface.valid()) {
         frame.leaveOut("view.image_space", "the scene has no specular surface");
         return {receivers.radiance, {}, {}};

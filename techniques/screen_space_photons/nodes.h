@@ -171,9 +171,10 @@ struct RefractionViewParams {
                  "that one which passes behind another part of the object goes on. For the "
                  "monotonic search",
                  {"crossing", "depth"});
-        r.field(interfaces, "interfaces",
-                "Most refractions of an eye ray; the paper's table has 2, and 1 is its Fig. 9, left",
-                "", params::range(1, 16));
+        r.field(
+            interfaces, "interfaces",
+            "Most refractions of an eye ray; the paper's table has 2, and 1 is its Fig. 9, left",
+            "", params::range(1, 16));
         r.field(reflections, "reflections",
                 "Most total internal reflections of an eye ray; what needs more is lost", "",
                 params::range(0, 64));
@@ -199,8 +200,7 @@ struct ImageSpaceViewParams {
         look.reflect(r);
     }
 };
-View refractInImageSpace(FrameBuilder& frame, const ImageSpaceViewParams& params,
-                         Geometry geometry, EyeBuffer eye, LayeredDepth layers,
-                         Radiance receivers);
+View refractInImageSpace(FrameBuilder& frame, const ImageSpaceViewParams& params, Geometry geometry,
+                         EyeBuffer eye, LayeredDepth layers, Radiance receivers);
 
 }  // namespace kaustik

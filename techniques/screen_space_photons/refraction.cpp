@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// view.refraction: screen-space refraction tracing (K06, section 4). The passes "view.layers.…" peel
-// the transmitting objects alone; "view.refraction" follows the eye's transmitted ray of every pixel
-// through them and looks up what it sees: the receivers that the eye buffer shows (the refracted
-// scene, Fig. 10), else what surrounds the scene. The reflection at the first interface is looked up
-// the same way; later partial reflections are left out. In: eye buffer, radiance of the receivers;
-// out: radiance, W/m²/sr, and where each ray left for good, view space, m.
+// view.refraction: screen-space refraction tracing (K06, section 4). The passes "view.layers.…"
+// peel the transmitting objects alone; "view.refraction" follows the eye's transmitted ray of every
+// pixel through them and looks up what it sees: the receivers that the eye buffer shows (the
+// refracted scene, Fig. 10), else what surrounds the scene. The reflection at the first interface
+// is looked up the same way; later partial reflections are left out. In: eye buffer, radiance of
+// the receivers; out: radiance, W/m²/sr, and where each ray left for good, view space, m.
 //
 // The paper does not say what happens at total internal reflection (here the ray goes on, between
 // the same two layers), nor when a ray leaves through the layer that it has entered by (here it is

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Hard cases of the nodes that follow the eye's rays through specular surfaces, against closed forms
-// in double: a plane-parallel slab (C25), an index of 1 (C19), total reflection and Snell's window
-// (C22), a ball (F), and that both searches find the same in convex bodies.
+// Hard cases of the nodes that follow the eye's rays through specular surfaces, against closed
+// forms in double: a plane-parallel slab (C25), an index of 1 (C19), total reflection and Snell's
+// window (C22), a ball (F), and that both searches find the same in convex bodies.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -79,9 +79,9 @@ Deviation compare(const Frame& frame, const Exits& exits,
             const auto expected = exact(eye, glm::normalize(frame.worldAt(x, y, 1.0) - eye));
             if (!expected) continue;
             ++deviation.pixels;
-            const bool isRight = exits.direction.at(x, y, 3) == 1.0f &&
-                                 exits.position.at(x, y, 3) ==
-                                     static_cast<float>(expected->interfaces);
+            const bool isRight =
+                exits.direction.at(x, y, 3) == 1.0f &&
+                exits.position.at(x, y, 3) == static_cast<float>(expected->interfaces);
             if (!isRight) {
                 ++deviation.wrong;
                 continue;
@@ -104,13 +104,13 @@ void slab(Lab& lab) {
     const glm::dvec3 normal(std::sin(turn), 0.0, std::cos(turn));
     const glm::dvec3 side(std::cos(turn), 0.0, -std::sin(turn));
     const glm::dvec3 center(0.0, 0.0, -4.0);
-    const scene::Scene scene =
-        makeScene({{}, {0.0, 0.0, -1.0}, 40.0, 0.01},
-                  object("slab", "box", "glass", center,
-                         "size = [8, 8, 1]\nrotation_degrees = [0, 25, 0]"));
+    const scene::Scene scene = makeScene(
+        {{}, {0.0, 0.0, -1.0}, 40.0, 0.01},
+        object("slab", "box", "glass", center, "size = [8, 8, 1]\nrotation_degrees = [0, 25, 0]"));
     const auto exact = [&](const glm::dvec3& eye,
                            const glm::dvec3& ray) -> std::optional<ExactExit> {
-        const double toFront = glm::dot(center + 0.5 * normal - eye, normal) / glm::dot(ray, normal);
+        const double toFront =
+            glm::dot(center + 0.5 * normal - eye, normal) / glm::dot(ray, normal);
         const glm::dvec3 entry = eye + toFront * ray;
         const ExactInterface in = exactInterface(ray, normal, 1.0, kGlassIndex);
         const glm::dvec3 exit = entry - in.refracted / glm::dot(in.refracted, normal);
@@ -148,8 +148,7 @@ std::optional<ExactExit> throughBall(const glm::dvec3& eye, const glm::dvec3& ra
     if (square > 0.81) return std::nullopt;
     const glm::dvec3 entry = eye + (along - std::sqrt(1.0 - square)) * ray;
     const ExactInterface in = exactInterface(ray, entry - center, 1.0, kGlassIndex);
-    const glm::dvec3 exit =
-        entry - 2.0 * glm::dot(in.refracted, entry - center) * in.refracted;
+    const glm::dvec3 exit = entry - 2.0 * glm::dot(in.refracted, entry - center) * in.refracted;
     const ExactInterface out = exactInterface(in.refracted, center - exit, kGlassIndex, 1.0);
     return ExactExit{exit, out.refracted, 2};
 }
@@ -217,8 +216,7 @@ void invisible(Lab& lab) {
         double worst = 0.0;
         for (int y = 0; y < 120; ++y) {
             for (int x = 0; x < 160; ++x) {
-                worst = std::max(worst, std::abs(exits.radiance.rgb(x, y).g -
-                                                 behind.rgb(x, y).g) /
+                worst = std::max(worst, std::abs(exits.radiance.rgb(x, y).g - behind.rgb(x, y).g) /
                                             std::max(behind.rgb(x, y).g, 1.0));
             }
         }
@@ -258,8 +256,10 @@ void snellsWindow(Lab& lab) {
                    inside > 1000 && found.pixels - inside > 1000 ? 1.0 : 0.0, kExactly);
         lab.expect(tested.subject, "lost at the surface from below", 0.0, found.wrong, kExactly);
         lab.expectDeviation(
-            tested.subject, "direction through the surface from below, or reflected", found.direction,
-            {3e-4, "roundings of 6e-8 over the cosine of refraction, 1e-5 below the critical sine"});
+            tested.subject, "direction through the surface from below, or reflected",
+            found.direction,
+            {3e-4,
+             "roundings of 6e-8 over the cosine of refraction, 1e-5 below the critical sine"});
         double worst = 0.0;
         const glm::dvec3 eye = frame.toWorld(glm::dvec3(0.0));
         for (int y = 0; y < 120; ++y) {
@@ -275,8 +275,9 @@ void snellsWindow(Lab& lab) {
         }
         lab.expectDeviation(tested.subject, "radiance from below, n² T of the sky's, relative",
                             worst,
-                            {1e-3, "reflectance climbs to 1 like the square root of what is left "
-                                   "of the critical angle, 1e-5 here"});
+                            {1e-3,
+                             "reflectance climbs to 1 like the square root of what is left "
+                             "of the critical angle, 1e-5 here"});
     }
 }
 

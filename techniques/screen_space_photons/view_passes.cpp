@@ -40,8 +40,7 @@ DielectricsBox boxOfDielectrics(const FrameBuilder& frame) {
     }
     const render::EyeView& view = frame.view();
     const glm::dvec3 extent = all.maximum - all.minimum;
-    const glm::dvec3 center(view.worldToView *
-                            glm::dvec4(0.5 * (all.minimum + all.maximum), 1.0));
+    const glm::dvec3 center(view.worldToView * glm::dvec4(0.5 * (all.minimum + all.maximum), 1.0));
     const double farthest = std::max(-center.z + 0.5 * glm::length(extent), view.nearMeters);
     const double margin = 1e-4 * glm::length(extent) + 2.0 * farthest * view.footprintPerMeter();
     box.centerVs = glm::vec3(center);

@@ -65,8 +65,8 @@ TEST(EnvironmentPatterns, AreFiniteAndGoOnAcrossTheirSeam) {
 }
 
 TEST_F(EnvironmentInASceneFile, IsAPatternOrAnImageWithATurn) {
-    const Scene patterned = load(
-        "background_radiance = 2\n[environment]\npattern = 'grid'\nturn_degrees = 30\n");
+    const Scene patterned =
+        load("background_radiance = 2\n[environment]\npattern = 'grid'\nturn_degrees = 30\n");
     ASSERT_EQ(patterned.environmentImage, 0);
     EXPECT_EQ(patterned.environmentTurnDegrees, 30.0);
     const Image image = decodeTexture(patterned.images.at(0));

@@ -94,10 +94,9 @@ TEST_F(ShippedScenes, AreListedByNameWithADescription) {
         EXPECT_EQ(loadScene(listing.name).name, listing.name);
         EXPECT_EQ(loadScene(listing.file.string()).name, listing.name);
     }
-    for (const char* name :
-         {"pool", "flat-water", "glass-sphere", "glossy-table", "cornell-bunny", "ring",
-          "glass-bunny", "glass-dragon-low", "glass-dragon", "glass-teapot", "concave-glass",
-          "water-from-below"}) {
+    for (const char* name : {"pool", "flat-water", "glass-sphere", "glossy-table", "cornell-bunny",
+                             "ring", "glass-bunny", "glass-dragon-low", "glass-dragon",
+                             "glass-teapot", "concave-glass", "water-from-below"}) {
         EXPECT_TRUE(names.contains(name)) << name;
     }
 }
