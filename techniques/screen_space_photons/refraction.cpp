@@ -10,6 +10,7 @@
 // the same two layers), nor when a ray leaves through the layer that it has entered by (here it is
 // then between that layer and the one before).
 #include <algorithm>
+#include <glm/glm.hpp>
 
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/screen_space_photons/nodes.h"
@@ -19,11 +20,28 @@ namespace kaustik {
 
 namespace {
 
-// A path crosses a sheet of water once: where there is nothing else, no second interface is looked
-// for, nor peeled.
-RefractionViewParams forScene(const scene::SceneNeeds& needs, RefractionViewParams params) {
-    if (!needs.closedDielectrics)
-        params.interfaces = std::min(params.interfaces, std::max(needs.refractors, 1));
+// Whether a surface bounds no volume and does not turn back: water, a pane, but not a teapot with
+// open seams.
+bool isSheet(const scene::Mesh& mesh) {
+    if (mesh.closed) return false;
+    if (mesh.heightField) return true;
+    glm::vec3 mean(0.0f);
+    for (const glm::vec3& normal : mesh.normals)
+        mean += normal;
+    return std::all_of(mesh.normals.begin(), mesh.normals.end(),
+                       [&](const glm::vec3& normal) { return glm::dot(normal, mean) > 0.0f; });
+}
+
+// A path crosses a sheet once: where there is nothing else, no more interfaces are looked for, nor
+// peeled, than there are sheets.
+RefractionViewParams forScene(const scene::Scene& scene, RefractionViewParams params) {
+    int sheets = 0;
+    for (const scene::Object& object : scene.objects) {
+        if (scene.materials[object.material].kind != scene::MaterialKind::dielectric) continue;
+        if (!isSheet(scene.meshes[object.mesh])) return params;
+        ++sheets;
+    }
+    params.interfaces = std::min(params.interfaces, std::max(sheets, 1));
     return params;
 }
 
@@ -35,7 +53,7 @@ View traceRefraction(FrameBuilder& frame, const RefractionViewParams& wanted, Ge
         frame.leaveOut("view.refraction", "the scene has no specular surface");
         return {receivers.radiance, {}, {}};
     }
-    const RefractionViewParams params = forScene(frame.needs(), wanted);
+    const RefractionViewParams params = forScene(frame.scene(), wanted);
     const auto trace = frame.params<TraceParams>("trace");
     const bool isMonotonic = params.search == RefractionSearch::monotonic;
     LayeredDepth layers;
