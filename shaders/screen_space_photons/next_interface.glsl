@@ -56,14 +56,11 @@ FirstHit searchAllLayers(RaySegment segment, TracedRay ray, int steps) {
 // Whether the ray can meet the surface of a layer at this pixel at all, by its side; `t`: where it
 // crosses the tangent plane there.
 bool meetsLayer(TracedRay ray, ivec2 texel, int layer, out float t) {
-    ivec3 place = ivec3(texel, layer);
-    float depth = texelFetch(layerDepths, place, 0).x;
-    uint material = uint(texelFetch(layerSurfaces, place, 0).w);
-    vec3 normal = unpackUnitVector(texelFetch(layerNormals, place, 0).xy);
-    float height = heightAbove(ray.origin, normal, texel, depth);
-    float closing = dot(normal, ray.direction);
+    LayerSurface surface = layerAt(texel, layer);
+    float height = heightAbove(ray.origin, surface.normal, texel, surface.depth);
+    float closing = dot(surface.normal, ray.direction);
     t = abs(closing) > 1e-6 ? -height / closing : -1.0;
-    return isFacing(ray, material, normal, height, pixelFootprint(depth));
+    return isFacingAt(ray, texel, surface);
 }
 
 // `passed`: the layer that the ray has passed last, -1 for none. "Traced through the depth layers

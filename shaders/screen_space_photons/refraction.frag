@@ -62,17 +62,15 @@ bool advance(inout EyePath path, float reach) {
                          ? searchAllLayers(segment, ray, steps)
                          : searchBetweenLayers(segment, ray, path.passed, steps);
     if (found.hit.layer < 0) return false;
-    ivec3 place = ivec3(found.pixel, found.hit.layer);
-    vec4 surface = texelFetch(layerSurfaces, place, 0);
-    vec3 triangle = unpackUnitVector(texelFetch(layerNormals, place, 0).xy);
+    vec4 surface = texelFetch(layerSurfaces, ivec3(found.pixel, found.hit.layer), 0);
+    LayerSurface met = layerAt(found.pixel, found.hit.layer);
     path.throughput *= mediumTransmittance(innerMedium(path.media), found.hit.t);
     path.origin += found.hit.t * path.direction;
     vec3 shading =
         found.isExit ? normalAtExit(path.origin, found.pixel, found.hit.layer)
-                     : normalAtHit(path.origin, surface, texelFetch(layerDepths, place, 0).xy);
-    uint material = uint(surface.w);
-    vec3 normal = bendingNormal(path.direction, shading, triangle, material, path.media);
-    bend(path, normal, material, found.hit.layer);
+                     : normalAtHit(path.origin, surface, vec2(met.depth, met.extent), false);
+    vec3 normal = bendingNormal(path.direction, shading, met.normal, met.material, path.media);
+    bend(path, normal, met.material, found.hit.layer);
     return true;
 }
 
@@ -91,19 +89,19 @@ void main() {
         return;
     }
     // The first layer is what the eye sees first.
-    vec4 surface = texelFetch(layerSurfaces, ivec3(pixel, 0), 0);
-    uint material = uint(surface.w);
-    if (material == 0u) return;
-    vec3 triangle = unpackUnitVector(texelFetch(layerNormals, ivec3(pixel, 0), 0).xy);
-    vec3 entry = viewing * texelFetch(layerDepths, ivec3(pixel, 0), 0).x;
+    LayerSurface surface = layerAt(pixel, 0);
+    uint material = surface.material;
+    if (surface.depth <= 0.0) return;
+    vec3 entry = viewing * surface.depth;
     // An eye that looks at a dielectric from within is inside of it.
-    bool isEyeInside = dot(direction, triangle) > 0.0;
+    bool isEyeInside = dot(direction, surface.normal) > 0.0;
     uint mediaAtEye = isEyeInside ? enterMedium(0u, material) : 0u;
 
     EyePath path = EyePath(entry, direction, vec3(1.0), mediaAtEye, 0, 0, 0, -1, false);
     path.throughput *= mediumTransmittance(innerMedium(mediaAtEye), length(entry));
     vec3 reached = path.throughput;
-    vec3 normal = bendingNormal(direction, surface.xyz, triangle, material, mediaAtEye);
+    vec3 shading = texelFetch(layerSurfaces, ivec3(pixel, 0), 0).xyz;
+    vec3 normal = bendingNormal(direction, shading, surface.normal, material, mediaAtEye);
     Interface first = bend(path, normal, material, 0);
     SceneHit seen;
     for (;;) {

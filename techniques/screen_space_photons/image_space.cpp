@@ -82,7 +82,8 @@ View refractInImageSpace(FrameBuilder& frame, const ImageSpaceViewParams& params
             },
             [&inputs = frame.inputs(), params](const Data& data, gl::PassContext& context) {
                 gl::Command command = context.fullscreen("screen_space_photons/image_space.frag");
-                bindView(inputs, command, data.eye, data.receivers, params.look, data.seen);
+                inputs.bindView(command).storage("Materials", inputs.gpuScene.materials());
+                bindLook(inputs, command, data.eye, data.receivers, params.look, data.seen);
                 command.params("view.image_space", params)
                     .texture("backDepth", data.faces.depth)
                     .texture("backSurface", data.faces.surface)

@@ -13,6 +13,7 @@
 #include <glm/glm.hpp>
 
 #include "framework/pipeline/frame_builder.h"
+#include "techniques/screen_space_photons/hit_testing.h"
 #include "techniques/screen_space_photons/nodes.h"
 #include "techniques/screen_space_photons/view_passes.h"
 
@@ -54,7 +55,7 @@ View traceRefraction(FrameBuilder& frame, const RefractionViewParams& wanted, Ge
         return {receivers.radiance, {}, {}};
     }
     const RefractionViewParams params = forScene(frame.scene(), wanted);
-    const auto trace = frame.params<TraceParams>("trace");
+    const HitTesting testing = hitTesting(frame);
     const bool isMonotonic = params.search == RefractionSearch::monotonic;
     LayeredDepth layers;
     {
@@ -71,7 +72,6 @@ View traceRefraction(FrameBuilder& frame, const RefractionViewParams& wanted, Ge
         View seen;
     };
     const DielectricsBox box = boxOfDielectrics(frame);
-    const bool hasInside = frame.needs().closedDielectrics;
     return frame
         .pass<Data>(
             "view.refraction", "the eye looks through specular surfaces",
@@ -79,23 +79,16 @@ View traceRefraction(FrameBuilder& frame, const RefractionViewParams& wanted, Ge
                 data.eye = eye;
                 data.layers = layers;
                 data.receivers = receivers;
-                setup.read(layers.depth);
-                setup.read(layers.surface);
-                setup.read(layers.normal);
+                readLayers(setup, layers);
                 data.seen = createView(frame, setup, eye, receivers);
             },
-            [&inputs = frame.inputs(), params, trace, box, hasInside](const Data& data,
-                                                                      gl::PassContext& context) {
+            [&inputs = frame.inputs(), params, testing, box](const Data& data,
+                                                             gl::PassContext& context) {
                 gl::Command command = context.fullscreen("screen_space_photons/refraction.frag");
-                if (hasInside) command.define("CLOSED_DIELECTRICS");
                 if (box.holdsReceivers) command.define("RECEIVERS_INSIDE");
-                bindView(inputs, command, data.eye, data.receivers, params.look, data.seen);
+                bindHitTesting(command, testing, inputs, data.layers);
+                bindLook(inputs, command, data.eye, data.receivers, params.look, data.seen);
                 command.params("view.refraction", params)
-                    .params("trace", trace)
-                    .texture("layerDepths", data.layers.depth)
-                    .texture("layerSurfaces", data.layers.surface)
-                    .texture("layerNormals", data.layers.normal)
-                    .set("layerCount", data.layers.layers)
                     .set("dielectricsCenterVs", box.centerVs)
                     .set("dielectricsHalfExtent", box.halfExtentMeters)
                     .draw();

@@ -67,11 +67,9 @@ View createView(const FrameBuilder& frame, graph::PassSetup& setup, const EyeBuf
     return view;
 }
 
-void bindView(const FrameInputs& inputs, gl::Command& command, const EyeBuffer& eye,
+void bindLook(const FrameInputs& inputs, gl::Command& command, const EyeBuffer& eye,
               const Radiance& receivers, const SceneLookParams& look, const View& seen) {
-    inputs.bindView(command)
-        .storage("Materials", inputs.gpuScene.materials())
-        .texture("sceneImages", inputs.gpuScene.images())
+    command.texture("sceneImages", inputs.gpuScene.images())
         .texture("interfaceDepth", eye.interface)
         .texture("interfaceSurface", eye.interfaceSurface)
         .texture("receiver", eye.receiver)

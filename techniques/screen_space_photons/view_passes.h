@@ -21,9 +21,9 @@ struct DielectricsBox {
 [[nodiscard]] View createView(const FrameBuilder& frame, graph::PassSetup& setup,
                               const EyeBuffer& eye, const Radiance& receivers);
 
-// Binds what createView has declared, the view, the materials and the images, and its outputs as
-// targets: for shaders that include screen_space_photons/refracted_scene.glsl.
-void bindView(const FrameInputs& inputs, gl::Command& command, const EyeBuffer& eye,
+// Binds what createView has declared, the images, and its outputs as targets: what
+// screen_space_photons/refracted_scene.glsl needs besides the view and the materials.
+void bindLook(const FrameInputs& inputs, gl::Command& command, const EyeBuffer& eye,
               const Radiance& receivers, const SceneLookParams& look, const View& seen);
 
 }  // namespace kaustik
