@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What the eye sees through two interfaces, in image space (W05, as K06 and WN09 describe it): the
-// point where a refracted ray leaves lies at a distance between that to the back faces along the eye's
-// ray, d_V, and that along the inverse normal, d_N. The weight of d_V is the ratio of the angles of
-// refraction and incidence: right for an index of 1, where the ray goes straight on, and for one
-// without limit, where it follows the normal.
+// point where a refracted ray leaves lies at a distance between that to the back faces along the
+// eye's ray, d_V, and that along the inverse normal, d_N. The weight of d_V is the ratio of the
+// angles of refraction and incidence: right for an index of 1, where the ray goes straight on, and
+// for one without limit, where it follows the normal.
 #include "common/fresnel.glsl"
 #include "screen_space_photons/refracted_scene.glsl"
 

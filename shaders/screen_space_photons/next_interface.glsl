@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Where a ray of the eye meets the next interface of the transmitting objects, in their layered depth
-// (K06, section 4). The monotonic search keeps to two layers, the one that the ray has passed and the
-// next one: a ray that has met n interfaces is looked for between the layers n and n + 1. The search
-// of all layers is the tracers' (hit_test.glsl).
+// Where a ray of the eye meets the next interface of the transmitting objects, in their layered
+// depth (K06, section 4). The monotonic search keeps to two layers, the one that the ray has
+// passed and the next one: a ray that has met n interfaces is looked for between the layers n and
+// n + 1. The search of all layers is the tracers' (hit_test.glsl).
 #include "common/exit_test.glsl"
 
 uniform vec3 dielectricsCenterVs;     // the box around all dielectrics, along the world's axes, m
@@ -102,8 +102,8 @@ FirstHit searchBetweenLayers(RaySegment segment, TracedRay ray, int passed, int 
         if (layer < 0) continue;
         float t;
         if (!meetsLayer(ray, texel, layer, t)) continue;
-        // Where the ray comes to lie behind another part of the object it does not cross that within
-        // a step or two; the paper takes it for met all the same.
+        // Where the ray comes to lie behind another part of the object it does not cross that
+        // within a step or two; the paper takes it for met all the same.
         float from = parameterAtIndex(segment, max(middle - 2.0, 0.0), count);
         float to = parameterAtIndex(segment, min(middle + 1.0, count), count);
         bool isNear = t >= from && t <= to;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// What a ray that has left the specular surfaces sees (K06, section 4, Fig. 10): the receivers of the
-// eye buffer, where its image shows them, and else what surrounds the scene. "This is an
-// approximation that can only simulate the refraction of [...] objects that are visible to the viewer
-// in the absence of the water surface": of what lies hidden or off the screen nothing is known.
+// What a ray that has left the specular surfaces sees (K06, section 4, Fig. 10): the receivers of
+// the eye buffer, where its image shows them, and else what surrounds the scene. "This is an
+// approximation that can only simulate the refraction of [...] objects that are visible to the
+// viewer in the absence of the water surface": of what lies hidden or off the screen nothing is
+// known.
 #include "common/ray_segment.glsl"
 #include "common/surface_data.glsl"
 #include "common/surroundings.glsl"
@@ -64,7 +65,8 @@ vec3 radianceAround(vec3 hitVs, ivec2 texel) {
 
 // Looks for the first receiver: by the ray's depth at the end of each step, since the last one ends
 // just behind the scene's last surface. `lookStride` pixels are looked at together: where the
-// ray is before the receivers at one look and behind them at the next, all pixels between are asked.
+// ray is before the receivers at one look and behind them at the next, all pixels between are
+// asked.
 SceneHit searchReceivers(vec3 origin, vec3 direction) {
     SceneHit none = SceneHit(false, false, 0.0, ivec2(-1), vec3(0.0));
     RaySegment segment = clipRay(origin, direction);
@@ -116,10 +118,10 @@ SceneHit lookIntoMirror(vec3 origin, vec3 direction) {
     return mirrorsScene != 0 ? searchReceivers(origin, direction) : nothingThere();
 }
 
-// Radiance along a ray that starts at `origin` within the medium `medium` (material index + 1) of an
-// open surface, or 0, of which `seen` is known. Where nothing is known of what it meets: in water,
-// which has no end to see, the receiver straight behind the surface at `pixel`, else the last one
-// that the ray passes on the screen; in the open what surrounds the scene.
+// Radiance along a ray that starts at `origin` within the medium `medium` (material index + 1) of
+// an open surface, or 0, of which `seen` is known. Where nothing is known of what it meets: in
+// water, which has no end to see, the receiver straight behind the surface at `pixel`, else the
+// last one that the ray passes on the screen; in the open what surrounds the scene.
 vec3 radianceAlong(vec3 origin, vec3 direction, uint medium, SceneHit seen, ivec2 pixel) {
     if (seen.isFound) return seen.radiance * mediumTransmittance(medium, seen.t);
     if (medium != 0u && !seen.isOpen) {

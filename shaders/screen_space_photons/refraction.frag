@@ -8,8 +8,8 @@
 
 const float kFar = 1e30;
 
-// The medium of an open surface that a ray is in, or 0: what is inside of a closed object and is not
-// traced out of it is taken to see what it would outside.
+// The medium of an open surface that a ray is in, or 0: what is inside of a closed object and is
+// not traced out of it is taken to see what it would outside.
 uint openMedium(uint media) {
     uint medium = innerMedium(media);
     return medium != 0u && isOpen(medium - 1u) ? medium : 0u;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Radiance of the receivers on the straight eye rays, W/m²/sr: direct light, the caustic and the
-// fill light; what surrounds the scene where there is no receiver. GLOSSY_RECEIVERS: direct light has gone
-// through the BRDF already; CAUSTIC_RADIANCE: so has the caustic. All else is reflected diffusely.
+// fill light; what surrounds the scene where there is no receiver. GLOSSY_RECEIVERS: direct light
+// has gone through the BRDF already; CAUSTIC_RADIANCE: so has the caustic. All else is reflected
+// diffusely.
 #include "common/surroundings.glsl"
 #ifdef GLOSSY_RECEIVERS
 #include "common/surface_data.glsl"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What the eye sees in the first specular surface of a pixel: one refraction and one reflection.
 // The refracted ray is taken as far as the receiver lies straight behind the surface, and what the
-// picture shows there is looked up; the reflected one sees what surrounds the scene. Radiance changes by T/n²
-// where it leaves the medium that the receiver lies in (hard case 28a).
+// picture shows there is looked up; the reflected one sees what surrounds the scene. Radiance
+// changes by T/n² where it leaves the medium that the receiver lies in (hard case 28a).
 #include "common/fresnel.glsl"
 #include "common/surface_data.glsl"
 #include "common/surroundings.glsl"
@@ -53,7 +53,8 @@ void main() {
         float behind = receiverDepth > depth ? (receiverDepth - depth) * length(ray) : 0.0;
         ivec2 found = lookThrough(entry, meeting.refracted, behind, pixel);
         bool isOpen = data.uv.w > 0.0;
-        // Behind an open surface the receiver lies inside the medium; a closed object is left again.
+        // Behind an open surface the receiver lies inside the medium; a closed object is left
+        // again.
         float transmittance = 1.0 - meeting.reflectance;
         float factor = isOpen ? (enters ? transmittance / (index * index)
                                         : transmittance * index * index)
