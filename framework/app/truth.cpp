@@ -13,6 +13,8 @@
 #ifdef KAUSTIK_HAS_EMBREE
 #include "framework/app/reference_work.h"
 #include "framework/audit/hit_audit.h"
+#include "framework/audit/shadow_audit.h"
+#include "framework/audit/view_audit.h"
 #include "framework/measure/heat_map.h"
 #include "framework/measure/image_errors.h"
 #endif
@@ -33,6 +35,9 @@ Purpose Truth::purpose() const {
     return Purpose::measurement;
 }
 std::vector<fs::path> Truth::judge(const Renderer&, const fs::path&, report::RunRecord&) const {
+    return {};
+}
+std::vector<fs::path> Truth::judgeView(Renderer&, const fs::path&, report::RunRecord&) const {
     return {};
 }
 
@@ -171,8 +176,7 @@ json errorsAgainst(const Outputs& outputs, const Reference& truth) {
     return result;
 }
 
-Image errorPicture(const Outputs& outputs, const Reference& truth) {
-    const measure::ImagePair pair = pairOf(outputs, outputs.images.front(), truth);
+Image errorPicture(const measure::ImagePair& pair) {
     const measure::Plane<float> differences = measure::absoluteErrorPlane(pair);
     measure::ImageErrors errors;
     errors.scale = measure::referenceScale(pair);
@@ -244,7 +248,8 @@ std::vector<fs::path> Truth::judge(const Renderer& renderer, const fs::path& fol
     } else if (record.error.at("caustic_irradiance").is_null()) {
         record.warnings.push_back(record.error.at("reasons").at("caustic_irradiance"));
     } else {
-        write("error" + displayImageExtension(), errorPicture(outputs, loaded_->whole));
+        write("error" + displayImageExtension(),
+              errorPicture(pairOf(outputs, outputs.images.front(), loaded_->whole)));
     }
     if (loaded_->modelled) {
         json modelled = errorsAgainst(outputs, *loaded_->modelled);
@@ -252,7 +257,68 @@ std::vector<fs::path> Truth::judge(const Renderer& renderer, const fs::path& fol
         modelled["maximum_interactions"] = loaded_->paths.interactions;
         record.error["modelled_paths"] = std::move(modelled);
     }
+    const graph::ResourceRef& visibility = renderer.outputs().shadows.visibility;
+    if (visibility.valid()) {
+        audit::ShadowAudit shadows;
+        const std::size_t lights = renderer.scene().lights.size();
+        for (std::size_t light = 0; light < lights; ++light) {
+            shadows.add(audit::auditShadow(
+                readTexture(renderer.texture(visibility), static_cast<int>(light), 1), light,
+                loaded_->scene));
+        }
+        record.error["shadow"] = audit::toJson(shadows);
+    }
     return files;
+}
+
+std::vector<fs::path> Truth::judgeView(Renderer& renderer, const fs::path& folder,
+                                       report::RunRecord& record) const {
+    if (!loaded_ || renderer.needs().specularInterfaces == 0) return {};
+    renderer.build(Purpose::view);
+    gl::PassTimer untimed(gl::TimerMode::finish);
+    renderer.renderFrame(untimed);
+    reference::ViewTruthRequest request;
+    request.width = renderer.settings().width;
+    request.height = renderer.settings().height;
+    const reference::ViewTruth truth = traceView(loaded_->scene, request);
+    json& error = record.error["view"];
+    if (truth.pixels == 0) {
+        error = nullptr;
+        record.error["reasons"]["view"] = "no pixel of this view sees a specular surface";
+        return {};
+    }
+    const View& seen = renderer.outputs().picture.view;
+    if (seen.exitPosition.valid()) {
+        const Image position = readTexture(renderer.texture(seen.exitPosition), 0, 4);
+        const Image direction = readTexture(renderer.texture(seen.exitDirection), 0, 4);
+        error = audit::toJson(audit::auditView(position, direction, truth, renderer.view()));
+    } else {
+        error["reasons"]["exit_direction_deg"] = "this node follows no rays";
+    }
+    if (renderer.needs().medium) {
+        error["radiance"] = nullptr;
+        error["reasons"]["radiance"] = "the truth of the view knows no medium that fills the scene";
+        return {};
+    }
+    const Image radiance = readTexture(renderer.texture(seen.radiance), 0, 3);
+    try {
+        const measure::ImagePair pair({.image = radiance,
+                                       .reference = truth.radiance,
+                                       .mask = &truth.mask,
+                                       .standardError = &truth.radianceError,
+                                       .imageName = "the view's radiance"});
+        error["radiance"] = measure::toJson(measureErrors(pair));
+        const std::vector<fs::path> files = {folder / ("view_error" + displayImageExtension()),
+                                             folder / ("view_reference" + floatImageExtension())};
+        writeImage(files[0], errorPicture(pair));
+        writeImage(files[1], truth.radiance);
+        return files;
+    } catch (const IoError& problem) {
+        error["radiance"] = nullptr;
+        error["reasons"]["radiance"] = problem.what();
+        record.warnings.push_back(problem.what());
+        return {};
+    }
 }
 
 #endif

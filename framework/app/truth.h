@@ -33,6 +33,13 @@ class Truth {
                                              const std::filesystem::path& folder,
                                              report::RunRecord& record) const;
 
+    // Judges what the eye sees through specular surfaces, without caustics on either side: renders
+    // a frame of its own and fills `view` of the record's error. Writes pictures as judge() does.
+    // The renderer is left with that frame.
+    std::vector<std::filesystem::path> judgeView(Renderer& renderer,
+                                                 const std::filesystem::path& folder,
+                                                 report::RunRecord& record) const;
+
   private:
     struct Loaded;
     std::unique_ptr<Loaded> loaded_;

@@ -36,8 +36,10 @@ int interactionCount(FrameBuilder& frame) {
     return std::max(1, canRepeat ? limit : std::min(needs.specularInterfaces, limit));
 }
 
-// Why the scene has no caustic; "" if it may have one.
-std::string whyNoCaustic(const scene::SceneNeeds& needs) {
+// Why the frame has no caustic; "" if it may have one.
+std::string whyNoCaustic(const FrameBuilder& frame) {
+    const scene::SceneNeeds& needs = frame.needs();
+    if (frame.leavesOutCaustic()) return "what the eye sees is judged without it";
     if (needs.lights == 0) return "the scene has no light";
     if (needs.specularInterfaces == 0) return "the scene has no specular surface";
     if (!needs.receivers) return "the scene has no receiver";
@@ -102,7 +104,7 @@ FrameOutputs buildFrame(FrameBuilder& frame) {
     const EyeBuffer eye = frame.run<EyeStage>(geometry);
     const LayeredDepth layers = frame.run<LayersStage>(geometry);
     const Shadows shadows = frame.run<ShadowStage>(geometry, eye, layers);
-    const std::string whyNot = whyNoCaustic(frame.needs());
+    const std::string whyNot = whyNoCaustic(frame);
     Caustic caustic;
     if (whyNot.empty()) {
         caustic = followPhotons(frame, geometry, eye, layers);

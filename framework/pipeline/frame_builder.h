@@ -38,8 +38,13 @@ struct FrameInputs {
 class FrameBuilder {
   public:
     // `recordsTraces`: keeps what each tracing was given and what it found (for the photon audit).
-    FrameBuilder(graph::Graph& graph, const FrameInputs& inputs, bool recordsTraces = false)
-        : graph_(graph), inputs_(inputs), recordsTraces_(recordsTraces) {}
+    // `leavesOutCaustic`: no photons, so that what the eye sees is judged apart.
+    FrameBuilder(graph::Graph& graph, const FrameInputs& inputs, bool recordsTraces = false,
+                 bool leavesOutCaustic = false)
+        : graph_(graph),
+          inputs_(inputs),
+          recordsTraces_(recordsTraces),
+          leavesOutCaustic_(leavesOutCaustic) {}
 
     // Runs the node that the settings choose for a stage.
     template <class Stage, class... In>
@@ -107,6 +112,7 @@ class FrameBuilder {
     }
     [[nodiscard]] std::vector<std::shared_ptr<void>> takeKept() { return std::move(kept_); }
     [[nodiscard]] const std::vector<TraceRecord>& traces() const { return traces_; }
+    [[nodiscard]] bool leavesOutCaustic() const { return leavesOutCaustic_; }
     // For the report.
     void warn(std::string warning) { warnings_.push_back(std::move(warning)); }
     [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
@@ -121,6 +127,7 @@ class FrameBuilder {
     std::vector<std::string> stagesRun_;
     std::string prefix_;
     bool recordsTraces_ = false;
+    bool leavesOutCaustic_ = false;
     std::vector<TraceRecord> traces_;
 };
 

@@ -98,16 +98,16 @@ Renderer::Renderer(gl::Context& context, const Registry& registry, const scene::
     context_.check();
 }
 
-FrameBuilder Renderer::declareFrame(bool recordsTraces) {
+FrameBuilder Renderer::declareFrame(bool recordsTraces, bool leavesOutCaustic) {
     graph_ = std::make_unique<graph::Graph>();
-    FrameBuilder frame(*graph_, inputs_, recordsTraces);
+    FrameBuilder frame(*graph_, inputs_, recordsTraces, leavesOutCaustic);
     outputs_ = settings_.technique.build ? settings_.technique.build(frame) : buildFrame(frame);
     return frame;
 }
 
 graph::Compiled Renderer::compile(Purpose purpose, const std::vector<std::string>& resources) {
     const auto begin = std::chrono::steady_clock::now();
-    FrameBuilder frame = declareFrame(purpose == Purpose::audit);
+    FrameBuilder frame = declareFrame(purpose == Purpose::audit, purpose == Purpose::view);
     if (purpose != Purpose::picture) closedLedger_ = closeLedger(frame, outputs_);
     graph_->request(outputs_.picture.radiance);
     graph_->request(outputs_.picture.display);
@@ -120,6 +120,7 @@ graph::Compiled Renderer::compile(Purpose purpose, const std::vector<std::string
     }
     traces_ = frame.traces();
     if (purpose == Purpose::audit) requestForAudit();
+    if (purpose == Purpose::view) requestExits();
     for (const std::string& name : resources) {
         const graph::ResourceRef handle = graph_->find(name);
         if (!handle.valid()) {
@@ -154,9 +155,14 @@ void Renderer::requestForAudit() {
     }
     request(outputs_.layers.depth);
     request(outputs_.eye.receiver);
-    request(outputs_.picture.view.exitPosition);
-    request(outputs_.picture.view.exitDirection);
     request(outputs_.shadows.visibility);
+    requestExits();
+}
+
+void Renderer::requestExits() {
+    const View& seen = outputs_.picture.view;
+    if (seen.exitPosition.valid()) graph_->request(seen.exitPosition);
+    if (seen.exitDirection.valid()) graph_->request(seen.exitDirection);
 }
 
 void Renderer::build(Purpose purpose, const std::vector<std::string>& resources) {

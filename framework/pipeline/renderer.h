@@ -28,7 +28,8 @@ struct RenderSettings {
 enum class Purpose {
     picture,      // what a user of the technique wants: this is what is timed
     measurement,  // also the ledger, the layer statistics and every resource kept by name
-    audit         // also what every tracing was given and what it found, the layers, the receivers
+    audit,        // also what every tracing was given and what it found, the layers, the receivers
+    view          // what the eye sees through specular surfaces, without photons
 };
 
 class Renderer {
@@ -74,9 +75,11 @@ class Renderer {
     [[nodiscard]] gl::Executor& executor() { return executor_; }
 
   private:
-    [[nodiscard]] FrameBuilder declareFrame(bool recordsTraces = false);
+    [[nodiscard]] FrameBuilder declareFrame(bool recordsTraces = false,
+                                            bool leavesOutCaustic = false);
 
     void requestForAudit();
+    void requestExits();
 
     gl::Context& context_;
     const Registry& registry_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "framework/scene/environment.h"
 #include "framework/scene/texture.h"
 #include "framework/transport/brdf.h"
 
@@ -19,7 +20,7 @@ int texelIndex(double index, int count, Edge edge) {
 }
 
 // `position`: (0, 0) is the lower left, (1, 1) the upper right.
-glm::dvec3 sample(const Image& image, const glm::dvec2& position, Edge edge) {
+glm::dvec3 sample(const Image& image, const glm::dvec2& position, Edge columns, Edge rows) {
     const double x = position.x * image.width - 0.5;
     const double y = (1.0 - position.y) * image.height - 0.5;
     const double left = std::floor(x);
@@ -31,8 +32,8 @@ glm::dvec3 sample(const Image& image, const glm::dvec2& position, Edge edge) {
         const double weight = (1.0 - std::abs(x - column)) * (1.0 - std::abs(y - row));
         for (int c = 0; c < 3; ++c) {
             sum[c] +=
-                weight * static_cast<double>(image.at(texelIndex(column, image.width, edge),
-                                                      texelIndex(row, image.height, edge), c));
+                weight * static_cast<double>(image.at(texelIndex(column, image.width, columns),
+                                                      texelIndex(row, image.height, rows), c));
         }
     }
     return sum;
@@ -64,7 +65,8 @@ glm::dvec3 Appearance::albedo(std::uint32_t index, const glm::dvec2& uv) const {
     glm::dvec3 albedo(isSecondColor(material.pattern, p) ? material.patternAlbedo
                                                          : material.albedo);
     if (material.image >= 0)
-        albedo *= sample(images_[static_cast<std::size_t>(material.image)], p, Edge::repeat);
+        albedo *= sample(images_[static_cast<std::size_t>(material.image)], p, Edge::repeat,
+                         Edge::repeat);
     return albedo;
 }
 
@@ -78,7 +80,14 @@ glm::dvec3 Appearance::brdf(std::uint32_t index, const glm::dvec2& uv, const glm
 glm::dvec3 Appearance::spotColor(const scene::Light& light, const glm::dvec3& direction) const {
     if (light.image < 0) return glm::dvec3(1.0);
     return sample(images_[static_cast<std::size_t>(light.image)],
-                  spotImagePosition(light, direction), Edge::clamp);
+                  spotImagePosition(light, direction), Edge::clamp, Edge::clamp);
+}
+
+glm::dvec3 Appearance::surroundings(const glm::dvec3& direction) const {
+    const glm::dvec3 background(scene_.backgroundRadiance);
+    if (scene_.environmentImage < 0) return background;
+    return background * sample(images_[static_cast<std::size_t>(scene_.environmentImage)],
+                               environmentPosition(scene_, direction), Edge::repeat, Edge::clamp);
 }
 
 }  // namespace kaustik::reference

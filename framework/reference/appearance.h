@@ -29,6 +29,10 @@ class Appearance {
     [[nodiscard]] glm::dvec3 spotColor(const scene::Light& light,
                                        const glm::dvec3& direction) const;
 
+    // What comes from outside of the scene along `direction` (unit, world space, from the eye
+    // outwards), W/m²/sr.
+    [[nodiscard]] glm::dvec3 surroundings(const glm::dvec3& direction) const;
+
   private:
     const scene::Scene& scene_;
     std::vector<Image> images_;

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "framework/reference/embree_scene.h"
+#include "framework/reference/light_transport.h"
 #include "framework/reference/random.h"
 
 namespace kaustik::reference {
@@ -20,6 +21,16 @@ struct EyePath {
     glm::dvec3 throughput{0.0};
     double lengthMeters = 0.0;
 };
+
+// A ray of the eye as a photon that goes backwards, of throughput 1. An eye that looks at a
+// dielectric from within is inside of it, as a light is. Nothing where the ray meets no surface at
+// all.
+[[nodiscard]] std::optional<PhotonState> startAtEye(const EmbreeScene& scene,
+                                                    const glm::dvec3& origin,
+                                                    const glm::dvec3& direction);
+
+// Index of refraction of a medium: material index + 1, or 0 for vacuum.
+[[nodiscard]] double mediumIndex(const scene::Scene& scene, std::uint32_t medium);
 
 // `direction`: unit. Nothing where the path leaves the scene.
 [[nodiscard]] std::optional<EyePath> followEye(const EmbreeScene& scene, const glm::dvec3& origin,

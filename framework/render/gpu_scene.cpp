@@ -40,12 +40,26 @@ std::size_t drawOrder(scene::MaterialKind kind) {
     return 0;
 }
 
-// `image` as RGBA, resampled bilinearly to side x side, bottom row first. Beyond its edges the
-// image goes on with itself, or with its outermost texels where `clamps`.
-std::vector<float> resample(const Image& image, int side, bool clamps) {
+// Beyond its edges an image goes on with itself, or with its outermost texels where it is clamped.
+struct Edges {
+    bool clampsColumns = false;
+    bool clampsRows = false;
+};
+
+// What an image shows decides: a spot's ends at its edge, and above what surrounds the scene there
+// is not what lies below.
+Edges edgesOf(const scene::Scene& scene, int image) {
+    const bool isProjected =
+        std::any_of(scene.lights.begin(), scene.lights.end(),
+                    [&](const scene::Light& light) { return light.image == image; });
+    return {isProjected, isProjected || scene.environmentImage == image};
+}
+
+// `image` as RGBA, resampled bilinearly to side x side, bottom row first.
+std::vector<float> resample(const Image& image, int side, const Edges& edges) {
     std::vector<float> texels(static_cast<std::size_t>(side) * static_cast<std::size_t>(side) * 4,
                               1.0f);
-    const auto inside = [&](int i, int n) {
+    const auto inside = [](int i, int n, bool clamps) {
         return clamps ? std::clamp(i, 0, n - 1) : (i % n + n) % n;
     };
     for (int y = 0; y < side; ++y) {
@@ -62,7 +76,8 @@ std::vector<float> resample(const Image& image, int side, bool clamps) {
             const float fy = v - static_cast<float>(y0);
             for (int c = 0; c < 3; ++c) {
                 const auto at = [&](int i, int j) {
-                    return image.at(inside(i, image.width), inside(j, image.height), c);
+                    return image.at(inside(i, image.width, edges.clampsColumns),
+                                    inside(j, image.height, edges.clampsRows), c);
                 };
                 const float low = at(x0, y0) * (1 - fx) + at(x0 + 1, y0) * fx;
                 const float high = at(x0, y0 + 1) * (1 - fx) + at(x0 + 1, y0 + 1) * fx;
@@ -205,10 +220,7 @@ void GpuScene::uploadImages() {
     images_ = gl::Texture({side, side, graph::Format::rgba16f, layers}, "scene images", true);
     for (std::size_t i = 0; i < images.size(); ++i) {
         const int index = static_cast<int>(i);
-        const bool isProjected =
-            std::any_of(scene_.lights.begin(), scene_.lights.end(),
-                        [&](const scene::Light& light) { return light.image == index; });
-        images_.upload(index, resample(images[i], side, isProjected));
+        images_.upload(index, resample(images[i], side, edgesOf(scene_, index)));
     }
     if (!images.empty()) images_.generateMipmaps();
 }

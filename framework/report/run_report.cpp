@@ -101,6 +101,43 @@ std::vector<double> bookkeepingSamples(const RunRecord& record) {
     return samples;
 }
 
+// How wrong what the eye sees through specular surfaces is; "" where it was not judged.
+std::string viewLine(const json& view) {
+    if (view.is_null()) return "";
+    const auto number = [](const json& value, double factor = 1.0) {
+        return value.is_null() ? std::string("none")
+                               : fmt::format("{:.4g}", factor * value.get<double>());
+    };
+    std::string line = fmt::format("{:<22}", "view");
+    if (view.contains("exit_direction_deg")) {
+        const json& direction = view.at("exit_direction_deg");
+        line += fmt::format(
+            "exit direction median {}°, 95% {}°; position median {} px; interfaces right {}%, lost "
+            "{}%; ",
+            number(direction.at("median")), number(direction.at("p95")),
+            number(view.at("exit_position_px").at("median")),
+            number(view.at("interfaces_right"), 100.0), number(view.at("lost"), 100.0));
+    }
+    if (!view.at("radiance").is_null()) {
+        const json& radiance = view.at("radiance");
+        line += fmt::format("radiance RMSE {} W/m²/sr, relMSE {}, MAE {}, SSIM {}",
+                            number(radiance.at("rmse")), number(radiance.at("rel_mse")),
+                            number(radiance.at("mae")), number(radiance.at("ssim")));
+    }
+    return line + "\n";
+}
+
+// How many receivers lie on the wrong side of a shadow.
+std::string shadowLine(const json& shadow) {
+    if (shadow.at("misclassified").is_null()) return "";
+    const auto percent = [&](const char* key) { return 100.0 * shadow.at(key).get<double>(); };
+    return fmt::format(
+        "{:<22}{:.3g}% of {} pixels misclassified: {:.3g}% lit taken for shadow, {:.3g}% shadow "
+        "taken for lit\n",
+        "shadow", percent("misclassified"), shadow.at("pixels").get<std::uint64_t>(),
+        percent("lit_taken_for_shadow"), percent("shadow_taken_for_lit"));
+}
+
 // A line for hits, and one for every output that has an error.
 std::string truthTable(const RunRecord& record) {
     std::string table;
@@ -149,6 +186,8 @@ std::string truthTable(const RunRecord& record) {
             errorLines("  of modelled paths", "    in-scattered",
                        record.error.at("modelled_paths"));
         }
+        if (record.error.contains("view")) table += viewLine(record.error.at("view"));
+        if (record.error.contains("shadow")) table += shadowLine(record.error.at("shadow"));
     }
     return table;
 }

@@ -61,6 +61,7 @@ Scene loadSceneFile(const fs::path& path) {
     scene.timeSeconds = top.number("time", kAnyNumber, 0.0);
     std::optional<TableReader> camera = top.table("camera");
     std::optional<TableReader> medium = top.table("medium");
+    std::optional<TableReader> environment = top.table("environment");
     std::vector<TableReader> lights = top.tables("light");
     std::vector<TableReader> materials = top.tables("material");
     std::vector<TableReader> objects = top.tables("object");
@@ -69,6 +70,7 @@ Scene loadSceneFile(const fs::path& path) {
 
     if (camera) scene.camera = readCamera(*camera);
     if (medium) scene.medium = readMedium(*medium);
+    if (environment) readEnvironment(*environment, scene);
     for (TableReader& reader : lights) {
         Light light = readLight(reader, scene);
         requireNewName(scene.lights, light.name, reader);

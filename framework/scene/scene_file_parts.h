@@ -13,6 +13,9 @@ namespace kaustik::scene {
 [[nodiscard]] Camera readCamera(TableReader& reader);
 [[nodiscard]] Medium readMedium(TableReader& reader);
 
+// Sets what surrounds the scene; a pattern becomes one of its images.
+void readEnvironment(TableReader& reader, Scene& scene);
+
 // These add the texture, if there is one, to the scene's images.
 [[nodiscard]] Light readLight(TableReader& reader, Scene& scene);
 [[nodiscard]] Material readMaterial(TableReader& reader, Scene& scene);

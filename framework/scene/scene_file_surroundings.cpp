@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The tables [camera], [medium], [[light]] and [[material]] of a scene file.
+// The tables [camera], [medium], [environment], [[light]] and [[material]] of a scene file.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +7,8 @@
 #include <glm/gtc/constants.hpp>
 
 #include "framework/core/error.h"
+#include "framework/image/pfm.h"
+#include "framework/scene/environment.h"
 #include "framework/scene/scene_file_parts.h"
 
 namespace kaustik::scene {
@@ -51,13 +53,13 @@ bool isEncoded(const std::filesystem::path& file) {
     return extension != ".pfm" && extension != ".exr" && extension != ".hdr";
 }
 
-int readTexture(TableReader& reader, Scene& scene) {
-    const std::filesystem::path name = reader.text("texture");
+int readTexture(TableReader& reader, Scene& scene, const char* key = "texture") {
+    const std::filesystem::path name = reader.text(key);
     const std::filesystem::path file = reader.file().parent_path() / name;
     std::error_code error;
     if (!std::filesystem::is_regular_file(file, error)) {
-        throw IoError(fmt::format("{}: {}: the texture {} was not found.", reader.place("texture"),
-                                  reader.subject(), file.string()));
+        throw IoError(fmt::format("{}: {}: the {} {} was not found.", reader.place(key),
+                                  reader.subject(), key, file.string()));
     }
     for (std::size_t i = 0; i < scene.images.size(); ++i) {
         if (scene.images[i].file == file) return static_cast<int>(i);
@@ -125,6 +127,32 @@ Medium readMedium(TableReader& reader) {
     medium.anisotropy = reader.numberAsFloat("anisotropy", kAnisotropy, 0.0);
     reader.finish();
     return medium;
+}
+
+void readEnvironment(TableReader& reader, Scene& scene) {
+    scene.environmentTurnDegrees = reader.number("turn_degrees", kAnyNumber, 0.0);
+    if (reader.has("image") == reader.has("pattern")) {
+        reader.finish();
+        reader.fail("image", "environment has either an image or a pattern");
+    }
+    if (reader.has("image")) {
+        scene.environmentImage = readTexture(reader, scene, "image");
+        reader.finish();
+    } else {
+        const auto pattern = reader.choice<EnvironmentPattern>(
+            "pattern", {{"sky", EnvironmentPattern::sky}, {"grid", EnvironmentPattern::grid}});
+        const std::string name = reader.text("pattern");
+        reader.finish();
+        scene.environmentImage = static_cast<int>(scene.images.size());
+        // As a file would be, so that nothing else need know of it.
+        scene.images.push_back(
+            {"the environment's pattern " + name, "", encodePfm(makeEnvironment(pattern)), false});
+    }
+    if (scene.backgroundRadiance == glm::vec3(0.0f)) {
+        reader.fail("",
+                    "an environment is seen only where background_radiance, which multiplies "
+                    "it, is above 0");
+    }
 }
 
 Light readLight(TableReader& reader, Scene& scene) {

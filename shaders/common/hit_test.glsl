@@ -160,8 +160,7 @@ LayerHit testStep(RaySegment segment, TracedRay ray, int i, int n) {
 
 // The surface's normal where the ray meets it: bilinear between the pixels around the hit, each with
 // the layer that continues the surface; the normal of one pixel alone would send all photons that
-// meet it the same way. `surface` and
-// `layerHit` are those of the hit's own pixel and layer.
+// meet it the same way. `surface` and `layerHit` are those of the hit's own pixel and layer.
 // A receiver sends the light nowhere: its pixel's normal will do.
 vec3 normalAtHit(vec3 hitVs, vec4 surface, LayerSurface layerHit, bool arrives) {
     if (arrives) return surface.xyz;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Radiance of the receivers on the straight eye rays, W/m²/sr: direct light, the caustic and the
-// fill light; the background where there is no receiver. GLOSSY_RECEIVERS: direct light has gone
-// through the BRDF already; CAUSTIC_RADIANCE: so has the caustic. All else is reflected diffusely.
-#include "common/view.glsl"
+// fill light; what surrounds the scene where there is no receiver. GLOSSY_RECEIVERS: direct light
+// has gone through the BRDF already; CAUSTIC_RADIANCE: so has the caustic. All else is reflected
+// diffusely.
+#include "common/surroundings.glsl"
 #ifdef GLOSSY_RECEIVERS
 #include "common/surface_data.glsl"
 #endif
@@ -25,8 +26,10 @@ uniform sampler2D causticIrradiance;
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    radiance = vec4(view.background.rgb, 1.0);
-    if (texelFetch(receiver, pixel, 0).x <= 0.0) return;
+    if (texelFetch(receiver, pixel, 0).x <= 0.0) {
+        radiance = vec4(surroundingRadiance(normalize(viewRay(gl_FragCoord.xy))), 1.0);
+        return;
+    }
     vec3 albedo = texelFetch(receiverAlbedo, pixel, 0).rgb * (1.0 / 3.14159265);
     vec3 fill = albedo * view.ambient.rgb;
 #ifdef GLOSSY_RECEIVERS

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // What the eye sees in the first specular surface of a pixel: one refraction and one reflection.
 // The refracted ray is taken as far as the receiver lies straight behind the surface, and what the
-// picture shows there is looked up; the reflected one sees the background. Radiance changes by T/n²
-// where it leaves the medium that the receiver lies in (hard case 28a).
+// picture shows there is looked up; the reflected one sees what surrounds the scene. Radiance
+// changes by T/n² where it leaves the medium that the receiver lies in (hard case 28a).
 #include "common/fresnel.glsl"
 #include "common/surface_data.glsl"
-#include "common/view.glsl"
+#include "common/surroundings.glsl"
 
 layout(location = 0) out vec4 radiance;
 
@@ -40,7 +40,7 @@ void main() {
     vec3 ray = viewRay(gl_FragCoord.xy);
     vec3 direction = normalize(ray);
     if (uint(data.albedo.w) == kMaterialMirror) {
-        radiance = vec4(data.albedo.rgb * view.background.rgb, 1.0);
+        radiance = vec4(data.albedo.rgb * surroundingRadiance(reflect(direction, surface.xyz)), 1.0);
         return;
     }
     float index = data.absorption.w;
@@ -53,7 +53,8 @@ void main() {
         float behind = receiverDepth > depth ? (receiverDepth - depth) * length(ray) : 0.0;
         ivec2 found = lookThrough(entry, meeting.refracted, behind, pixel);
         bool isOpen = data.uv.w > 0.0;
-        // Behind an open surface the receiver lies inside the medium; a closed object is left again.
+        // Behind an open surface the receiver lies inside the medium; a closed object is left
+        // again.
         float transmittance = 1.0 - meeting.reflectance;
         float factor = isOpen ? (enters ? transmittance / (index * index)
                                         : transmittance * index * index)
@@ -61,5 +62,6 @@ void main() {
         through = factor * texelFetch(receiverRadiance, found, 0).rgb;
         if (isOpen && enters) through *= mediumTransmittance(material + 1u, behind);
     }
-    radiance = vec4(through + meeting.reflectance * view.background.rgb, 1.0);
+    radiance =
+        vec4(through + meeting.reflectance * surroundingRadiance(meeting.reflected), 1.0);
 }

@@ -60,12 +60,26 @@ void registerScreenSpacePhotons(Registry& registry) {
                               "screen.",
                               "K06, section 3.2"},
                              &blurGaussian);
+    registry.node<ViewStage>("refraction",
+                             {"Traces the eye's refracted rays on the screen through the layers of "
+                              "the transmitting objects, and on into the scene.",
+                              "K06, section 4"},
+                             &traceRefraction);
+    registry.node<ViewStage>("image_space",
+                             {"Refracts the eye's rays at two interfaces, with the distance inside "
+                              "estimated from the back faces.",
+                              "Wyman 2005 (W05), K06's comparison"},
+                             &refractInImageSpace);
     registry.technique({"screen_space_photons",
                         "Photon rays traced through a layered depth image as rasterised lines.",
                         "Krüger, Bürger, Westermann 2006",
-                        {{"layers", "peel"}, {"trace", "lines"}, {"reconstruct", "sprites"}},
+                        {{"layers", "peel"},
+                         {"trace", "lines"},
+                         {"reconstruct", "sprites"},
+                         {"view", "refraction"}},
                         {}});
     registry.hardCases(&addScreenSpacePhotonCases);
+    registry.hardCases(&addViewCases);
 }
 
 }  // namespace kaustik

@@ -13,6 +13,7 @@ void registerScreenSpacePhotons(Registry& registry);
 
 // What the hard cases need to know of these nodes, and cases of their own.
 void addScreenSpacePhotonCases(numerics::Suite& suite);
+void addViewCases(numerics::Suite& suite);
 
 // Which surfaces a layered depth image holds, and its resources' names ("layers" gives
 // "layers.depth").
@@ -193,5 +194,80 @@ struct GaussianBlurParams {
     }
 };
 InScattered blurGaussian(FrameBuilder& frame, const GaussianBlurParams& params, InScattered sharp);
+// Where an eye ray's next interface is looked for.
+enum class RefractionSearch : int { monotonic, all };
+
+// When the monotonic search takes a layer for met.
+enum class RefractionStop : int { crossing, depth };
+
+// How rays that have left the specular surfaces look for what they see; the nodes share it.
+struct SceneLookParams {
+    bool scene = true;
+    bool reflection = true;
+    int stride = 4;
+    template <class R>
+    void reflect(R& r) {
+        r.field(scene, "scene",
+                "Look for the receivers that the ray meets where the picture shows them (the "
+                "paper's Fig. 10); off: only what surrounds the scene");
+        r.field(reflection, "reflection",
+                "The same for the reflection at the first interface; off: it sees what surrounds "
+                "the scene");
+        r.field(stride, "stride",
+                "Pixels between two looks of a ray at the receivers; thinner ones may be missed",
+                "px", params::range(1, 64));
+    }
+};
+
+struct RefractionViewParams {
+    RefractionSearch search = RefractionSearch::monotonic;
+    RefractionStop stop = RefractionStop::crossing;
+    int interfaces = 4;
+    int reflections = 4;
+    int layers = 8;
+    SceneLookParams look;
+    template <class R>
+    void reflect(R& r) {
+        r.choice(search, "search",
+                 "monotonic: the paper's, between the layer that the ray has passed last and the "
+                 "next one; all: in every layer of every pixel on its way",
+                 {"monotonic", "all"});
+        r.choice(stop, "stop",
+                 "depth: the paper's, as soon as the ray is deeper than the next layer or nearer "
+                 "than the one passed; crossing: it must cross that layer's plane nearby too, so "
+                 "that one which passes behind another part of the object goes on. For the "
+                 "monotonic search",
+                 {"crossing", "depth"});
+        r.field(
+            interfaces, "interfaces",
+            "Most refractions of an eye ray; the paper's table has 2, and 1 is its Fig. 9, left",
+            "", params::range(1, 16));
+        r.field(reflections, "reflections",
+                "Most total internal reflections of an eye ray; what needs more is lost", "",
+                params::range(0, 64));
+        r.field(layers, "layers",
+                "Most layers of transmitting objects that are peeled; the monotonic search needs "
+                "no more than its interfaces",
+                "", params::range(1, 64));
+        look.reflect(r);
+    }
+};
+View traceRefraction(FrameBuilder& frame, const RefractionViewParams& params, Geometry geometry,
+                     EyeBuffer eye, LayeredDepth layers, Radiance receivers);
+
+struct ImageSpaceViewParams {
+    int steps = 8;
+    SceneLookParams look;
+    template <class R>
+    void reflect(R& r) {
+        r.field(steps, "steps",
+                "Looks at the back faces along the inverse normal, for the distance to them; 0: "
+                "only the distance along the eye's ray is used",
+                "", params::range(0, 64));
+        look.reflect(r);
+    }
+};
+View refractInImageSpace(FrameBuilder& frame, const ImageSpaceViewParams& params, Geometry geometry,
+                         EyeBuffer eye, LayeredDepth layers, Radiance receivers);
 
 }  // namespace kaustik

@@ -121,7 +121,8 @@ Radiance shadeReceivers(FrameBuilder& frame, EyeBuffer eye, const DirectLight& d
                 gl::Command command = context.fullscreen("shared/radiance.frag");
                 inputs.bindView(command)
                     .texture("receiver", data.eye.receiver)
-                    .texture("receiverAlbedo", data.eye.receiverAlbedo);
+                    .texture("receiverAlbedo", data.eye.receiverAlbedo)
+                    .texture("sceneImages", inputs.gpuScene.images());
                 if (data.direct.radiance.valid()) {
                     command.define("GLOSSY_RECEIVERS")
                         .storage("Materials", inputs.gpuScene.materials())

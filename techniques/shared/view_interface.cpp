@@ -42,6 +42,7 @@ View viewThroughInterface(FrameBuilder& frame, const InterfaceViewParams& params
                     .texture("interfaceSurface", data.eye.interfaceSurface)
                     .texture("receiver", data.eye.receiver)
                     .texture("receiverRadiance", data.receivers.radiance)
+                    .texture("sceneImages", inputs.gpuScene.images())
                     .target(data.seen.radiance)
                     .draw();
             })

@@ -76,6 +76,27 @@ TEST_F(Reference, IsTheSameForASeedAtAnyNumberOfThreads) {
     EXPECT_EQ(readImage(folder / "one.exr").values, readImage(folder / "eight.exr").values);
 }
 
+TEST_F(Reference, JudgesWhatTheEyeSeesThroughSpecularSurfacesApart) {
+    const Outcome outcome = runAgainst("auto");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("exit direction median"), std::string::npos) << outcome.out;
+    const json view = report().at("error").at("view");
+    // One interface, which the eye sees itself: rounding is all that is wrong.
+    EXPECT_EQ(view.at("interfaces_right"), 1.0);
+    EXPECT_EQ(view.at("lost"), 0.0);
+    EXPECT_LT(view.at("exit_direction_deg").at("p99").get<double>(), 0.01);
+    EXPECT_LT(view.at("exit_position_px").at("median").get<double>(), 1e-3);
+    EXPECT_GT(view.at("radiance").at("ssim").get<double>(), 0.5);
+    EXPECT_EQ(readImage(folder / "out/view_error.png").width, report().at("size").at(0));
+    EXPECT_TRUE(fs::exists(folder / "out/view_reference.exr"));
+    // A node that follows no rays has no exits, and a reason.
+    ASSERT_EQ(runAgainst("auto", {"--set", "view=interface"}).exitCode, 0);
+    const json other = report().at("error").at("view");
+    EXPECT_FALSE(other.contains("exit_direction_deg"));
+    EXPECT_TRUE(other.at("reasons").contains("exit_direction_deg"));
+    EXPECT_GT(other.at("radiance").at("rmse").get<double>(), 0.0);
+}
+
 TEST_F(Reference, StopsAtATimeOrAnError) {
     ASSERT_EQ(
         runCached({"reference", "wavy.toml", "--size", "16x12", "--error", "0.2", "--out", "a.exr"})

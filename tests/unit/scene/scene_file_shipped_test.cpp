@@ -20,7 +20,10 @@ namespace {
 class ShippedScenes : public test::SceneFile {
   protected:
     ShippedScenes() {
-        write("bunny.obj", test::kTetrahedron);
+        for (const char* name : {"bunny.obj", "teapot.obj"})
+            write(name, test::kTetrahedron);
+        for (const char* name : {"dragon_vrip_res2.ply.gz", "dragon_vrip_res3.ply.gz"})
+            write(name, test::gzip(test::tetrahedronPly("ascii")));
         write("horse.3ds", test::tetrahedron3ds());
         ::setenv("KAUSTIK_MESHES", folder.c_str(), 1);
     }
@@ -93,7 +96,9 @@ TEST_F(ShippedScenes, AreListedByNameWithADescription) {
         EXPECT_EQ(loadScene(listing.file.string()).name, listing.name);
     }
     for (const char* name : {"pool", "flat-water", "glass-sphere", "glossy-table", "cornell-bunny",
-                             "ring", "god-rays"}) {
+                             "ring", "god-rays", "glass-bunny", "glass-dragon-low",
+                             "glass-dragon", "glass-teapot", "concave-glass", "water-from-below",
+                             "blocker", "pool-reflections", "tree"}) {
         EXPECT_TRUE(names.contains(name)) << name;
     }
 }

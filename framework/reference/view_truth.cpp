@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: MIT
+#include "framework/reference/view_truth.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+#include <limits>
+#include <vector>
+
+#include "framework/reference/eye.h"
+#include "framework/reference/eye_path.h"
+#include "framework/reference/light_transport.h"
+#include "framework/reference/threads.h"
+
+namespace kaustik::reference {
+namespace {
+
+// Irradiance that a light sends to a point, on a surface that faces it, if nothing is in the way.
+struct Arriving {
+    glm::dvec3 irradiance{0.0};
+    glm::dvec3 toLight{0.0};  // unit
+    double distance = std::numeric_limits<double>::infinity();
+};
+
+// Radiance of receivers by direct and fill light.
+class Receivers {
+  public:
+    explicit Receivers(const EmbreeScene& scene) : scene_(scene) {
+        const scene::Scene& of = scene.scene();
+        isOpen_.assign(of.materials.size(), 0);
+        for (const scene::Object& object : of.objects) {
+            if (!of.meshes[object.mesh].closed) isOpen_[object.material] = 1;
+        }
+        const glm::dvec3 extent = scene.bounds().maximum - scene.bounds().minimum;
+        lift_ =
+            16.0 * static_cast<double>(std::numeric_limits<float>::epsilon()) * glm::length(extent);
+    }
+
+    // Along `direction` (unit, towards the receiver), W/m²/sr.
+    [[nodiscard]] glm::dvec3 radiance(const SurfaceHit& hit, const glm::dvec3& direction) const {
+        const scene::Scene& scene = scene_.scene();
+        const scene::Material& material = scene.materials[hit.material];
+        const Appearance& appearance = scene_.appearance();
+        // A sheet is lit on the side that is looked at.
+        const bool isTurned =
+            isOpen_[hit.material] != 0 && glm::dot(direction, hit.geometricNormal) > 0.0;
+        const double side = isTurned ? -1.0 : 1.0;
+        const glm::dvec3 shading = side * hit.shadingNormal;
+        const glm::dvec3 geometric = side * hit.geometricNormal;
+        glm::dvec3 sum = glm::dvec3(scene.ambientIrradiance) *
+                         (appearance.albedo(hit.material, hit.uv) + glm::dvec3(material.specular)) /
+                         glm::pi<double>();
+        for (const scene::Light& light : scene.lights) {
+            const Arriving arriving = fromLight(light, hit.position);
+            const double cosine = glm::dot(shading, arriving.toLight);
+            if (cosine <= 0.0 || glm::dot(geometric, arriving.toLight) <= 0.0) continue;
+            if (arriving.irradiance == glm::dvec3(0.0) || isBlocked(hit, geometric, arriving))
+                continue;
+            sum += arriving.irradiance * cosine *
+                   appearance.brdf(hit.material, hit.uv, shading, arriving.toLight, -direction);
+        }
+        return sum;
+    }
+
+  private:
+    [[nodiscard]] Arriving fromLight(const scene::Light& light, const glm::dvec3& position) const {
+        Arriving arriving;
+        arriving.irradiance = glm::dvec3(light.power);
+        if (light.kind == scene::LightKind::directional) {
+            arriving.toLight = -light.direction;
+            return arriving;
+        }
+        const glm::dvec3 offset = light.position - scene_.center() - position;
+        arriving.distance = glm::length(offset);
+        if (!(arriving.distance > 0.0)) return {};
+        arriving.toLight = offset / arriving.distance;
+        const double range = static_cast<double>(light.rangeMeters);
+        if (range > 0.0 && arriving.distance > range) return {};
+        arriving.irradiance /= arriving.distance * arriving.distance;
+        if (light.kind == scene::LightKind::spot) {
+            const double falloff = spotFalloff(light, glm::dot(-arriving.toLight, light.direction));
+            if (falloff <= 0.0) return {};
+            arriving.irradiance *=
+                falloff * scene_.appearance().spotColor(light, -arriving.toLight);
+        }
+        return arriving;
+    }
+
+    // Every surface blocks, specular ones too: what they let through is caustic light.
+    [[nodiscard]] bool isBlocked(const SurfaceHit& hit, const glm::dvec3& geometric,
+                                 const Arriving& arriving) const {
+        const Ray ray{hit.position + lift_ * geometric, arriving.toLight, hit.triangle, 0,
+                      SideRule::any};
+        SurfaceHit blocker;
+        return scene_.intersect(ray, blocker) && blocker.distance < arriving.distance;
+    }
+
+    const EmbreeScene& scene_;
+    std::vector<char> isOpen_;  // by material, as on the device
+    double lift_ = 0.0;         // off the receiver, m: positions are 32-bit floats
+};
+
+struct ExitSink : NullSink {
+    void met(const SurfaceHit& hit, const PhotonState&) {
+        position = hit.position;
+        ++count;
+    }
+    void leftScene(const PhotonState& state) { end(state); }
+    void arrived(const SurfaceHit&, const PhotonState& state) { end(state); }
+    void end(const PhotonState& state) {
+        direction = state.direction;
+        cameOut = true;
+    }
+    glm::dvec3 position{0.0};
+    glm::dvec3 direction{0.0};
+    int count = 0;
+    bool cameOut = false;
+};
+
+struct RadianceSink : NullSink {
+    RadianceSink(const EmbreeScene& from, const Receivers& lit, double index)
+        : scene(from), receivers(lit), indexAtEye(index) {}
+    void arrived(const SurfaceHit& hit, const PhotonState& state) {
+        sum += weight(state) * receivers.radiance(hit, state.direction);
+    }
+    void leftScene(const PhotonState& state) {
+        glm::dvec3 left = weight(state);
+        const std::uint32_t inner = state.media.inner();
+        // A medium without end leaves nothing of what it absorbs.
+        for (int c = 0; inner != 0 && c < 3; ++c) {
+            if (scene.scene().materials[inner - 1].absorptionPerMeter[c] > 0.0f) left[c] = 0.0;
+        }
+        sum += left * scene.appearance().surroundings(state.direction);
+    }
+    // Flux is what a branch keeps; radiance changes by the square of the index too.
+    [[nodiscard]] glm::dvec3 weight(const PhotonState& state) const {
+        const double ratio = indexAtEye / mediumIndex(scene.scene(), state.media.inner());
+        return state.fluxWatts * ratio * ratio;
+    }
+    const EmbreeScene& scene;
+    const Receivers& receivers;
+    double indexAtEye = 1.0;
+    glm::dvec3 sum{0.0};
+};
+
+class Tracer {
+  public:
+    Tracer(const EmbreeScene& scene, const ViewTruthRequest& request, ViewTruth& truth)
+        : scene_(scene),
+          eye_(scene, request.width, request.height),
+          receivers_(scene),
+          request_(request),
+          truth_(truth),
+          toView_(glm::transpose(glm::dmat3(right(), up(), backward()))) {}
+
+    void traceRow(int row) const {
+        for (int column = 0; column < request_.width; ++column) {
+            if (traceExit(column, row)) traceRadiance(column, row);
+        }
+    }
+
+  private:
+    // The eye's axes, from its rays: the middle of the picture and one pixel beside it.
+    [[nodiscard]] glm::dvec3 backward() const {
+        return -eye_.ray(0.5 * request_.width, 0.5 * request_.height);
+    }
+    [[nodiscard]] glm::dvec3 right() const {
+        return glm::normalize(eye_.ray(1.0, 0.0) - eye_.ray(0.0, 0.0));
+    }
+    [[nodiscard]] glm::dvec3 up() const {
+        return glm::normalize(eye_.ray(0.0, 0.0) - eye_.ray(0.0, 1.0));
+    }
+
+    // The state at the near plane of the ray through a point of the picture.
+    [[nodiscard]] std::optional<PhotonState> start(double column, double row) const {
+        const glm::dvec3 ray = eye_.ray(column, row);
+        return startAtEye(scene_, eye_.position() + eye_.nearMeters() * ray, glm::normalize(ray));
+    }
+
+    // False where the pixel's middle sees no specular surface.
+    bool traceExit(int column, int row) const {
+        const std::optional<PhotonState> state = start(column + 0.5, row + 0.5);
+        if (!state) return false;
+        PathFilter transmitted;
+        transmitted.transmissionOnly = true;
+        transmitted.maximumInteractions = request_.maximumInteractions;
+        ExitSink sink;
+        Random random(request_.seed, 0, 0);  // nothing is chosen
+        LightTransport(scene_, transmitted).finish(*state, nullptr, random, sink);
+        if (sink.count == 0) return false;
+        const glm::dvec3 position = toView_ * (sink.position - eye_.position());
+        const glm::dvec3 direction = toView_ * sink.direction;
+        for (int c = 0; c < 3; ++c) {
+            truth_.exitPosition.at(column, row, c) = static_cast<float>(position[c]);
+            truth_.exitDirection.at(column, row, c) = static_cast<float>(direction[c]);
+        }
+        truth_.exitPosition.at(column, row, 3) = static_cast<float>(sink.count);
+        truth_.exitDirection.at(column, row, 3) = sink.cameOut ? 1.0f : 0.0f;
+        truth_.mask.at(column, row, 0) = 1.0f;
+        return true;
+    }
+
+    [[nodiscard]] glm::dvec3 sample(double column, double row, Random& random) const {
+        const std::optional<PhotonState> state = start(column, row);
+        if (!state) {
+            return scene_.appearance().surroundings(glm::normalize(eye_.ray(column, row)));
+        }
+        PathFilter all;
+        all.splitInteractions = request_.splitInteractions;
+        all.maximumInteractions = request_.maximumInteractions;
+        RadianceSink sink(scene_, receivers_, mediumIndex(scene_.scene(), state->media.inner()));
+        LightTransport(scene_, all).finish(*state, nullptr, random, sink);
+        return sink.sum;
+    }
+
+    void traceRadiance(int column, int row) const {
+        const int side = request_.samplesPerSide;
+        const double count = static_cast<double>(side) * side;
+        glm::dvec3 sum(0.0);
+        glm::dvec3 squares(0.0);
+        Random random(request_.seed, 1,
+                      static_cast<std::uint64_t>(row) * static_cast<std::uint64_t>(request_.width) +
+                          static_cast<std::uint64_t>(column));
+        for (int i = 0; i < side * side; ++i) {
+            const double x = column + (i % side + random.uniform()) / side;
+            const double y = row + (i / side + random.uniform()) / side;
+            const glm::dvec3 value = sample(x, y, random);
+            sum += value;
+            squares += value * value;
+        }
+        const glm::dvec3 mean = sum / count;
+        for (int c = 0; c < 3; ++c) {
+            // As if the samples were independent; jittered, they are a little better.
+            const double variance = std::max(squares[c] / count - mean[c] * mean[c], 0.0);
+            truth_.radiance.at(column, row, c) = static_cast<float>(mean[c]);
+            truth_.radianceError.at(column, row, c) =
+                static_cast<float>(std::sqrt(variance / std::max(count - 1.0, 1.0)));
+        }
+    }
+
+    const EmbreeScene& scene_;
+    Eye eye_;
+    Receivers receivers_;
+    ViewTruthRequest request_;
+    ViewTruth& truth_;
+    glm::dmat3 toView_;
+};
+
+}  // namespace
+
+ViewTruth traceView(const EmbreeScene& scene, const ViewTruthRequest& request) {
+    ViewTruth truth;
+    truth.exitPosition = Image(request.width, request.height, 4);
+    truth.exitDirection = Image(request.width, request.height, 4);
+    truth.radiance = Image(request.width, request.height, 3);
+    truth.radianceError = Image(request.width, request.height, 3);
+    truth.mask = Image(request.width, request.height, 1);
+    const Tracer tracer(scene, request, truth);
+    runWithThreads(request.threads, [&] {
+        tbb::parallel_for(0, request.height, [&](int row) { tracer.traceRow(row); });
+    });
+    truth.pixels = static_cast<std::size_t>(
+        std::count(truth.mask.values.begin(), truth.mask.values.end(), 1.0f));
+    return truth;
+}
+
+}  // namespace kaustik::reference

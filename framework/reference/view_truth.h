@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// What the eye sees in and through specular surfaces, ray traced: for every pixel the exact way of
+// the transmitted ray, and the radiance that arrives at the eye by all ways. Caustics are left out
+// of the radiance: receivers have their direct and their fill light, everything specular blocks
+// direct light, and what leaves the scene sees what surrounds it (Appearance::surroundings).
+#pragma once
+
+#include <cstdint>
+
+#include "framework/image/image.h"
+#include "framework/reference/embree_scene.h"
+
+namespace kaustik::reference {
+
+struct ViewTruthRequest {
+    int width = 800;
+    int height = 600;
+    int samplesPerSide = 4;     // of a pixel's square, jittered: its box filter
+    int splitInteractions = 2;  // both parts are followed; at later ones one, by its share
+    int maximumInteractions = 64;
+    std::uint64_t seed = 1;
+    int threads = 0;  // 0: all
+};
+
+// Rows from the top. Only pixels whose middle sees a specular surface are known; others are 0.
+struct ViewTruth {
+    // The way through the pixel's middle: refracted at every dielectric unless all is reflected.
+    Image
+        exitPosition;  // where it leaves the last specular surface: view space, m; how many it met
+    Image exitDirection;     // unit, view space; 1 where it came out, 0 at the limit
+    Image radiance;          // mean over the pixel, W/m²/sr
+    Image radianceError;     // its standard error
+    Image mask;              // 1 where the pixel's middle sees a specular surface
+    std::size_t pixels = 0;  // of these
+};
+
+[[nodiscard]] ViewTruth traceView(const EmbreeScene& scene, const ViewTruthRequest& request);
+
+}  // namespace kaustik::reference

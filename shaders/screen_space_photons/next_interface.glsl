@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+// Where a ray of the eye meets the next interface of the transmitting objects, in their layered
+// depth (K06, section 4). The monotonic search keeps to two layers, the one that the ray has
+// passed and the next one: a ray that has met n interfaces is looked for between the layers n and
+// n + 1. The search of all layers is the tracers' (hit_test.glsl).
+#include "common/exit_test.glsl"
+
+uniform vec3 dielectricsCenterVs;     // the box around all dielectrics, along the world's axes, m
+uniform vec3 dielectricsHalfExtent;
+
+// The part of the ray that is on the screen, within the box of the dielectrics and before `reach`.
+RaySegment clipToDielectrics(vec3 origin, vec3 direction, float reach) {
+    RaySegment segment = clipRay(origin, direction);
+    if (!segment.visible) return segment;
+    mat3 toWorld = mat3(view.viewToWorld);
+    vec3 o = toWorld * (origin - dielectricsCenterVs);
+    vec3 d = toWorld * direction;
+    float low = segment.nearT;
+    float high = min(segment.farT, reach);
+    for (int axis = 0; axis < 3; ++axis) {
+        cutHalfSpace(dielectricsHalfExtent[axis] + o[axis], d[axis], low, high);
+        cutHalfSpace(dielectricsHalfExtent[axis] - o[axis], -d[axis], low, high);
+    }
+    segment.visible = low <= high;
+    if (!segment.visible) return segment;
+    segment.nearT = low;
+    segment.farT = high;
+    vec3 a = origin + low * direction;
+    vec3 b = origin + high * direction;
+    a.z = min(a.z, -view.tangents.z);
+    b.z = min(b.z, -view.tangents.z);
+    segment.nearPixel = pixelOf(a);
+    segment.farPixel = pixelOf(b);
+    segment.nearInverseZ = -1.0 / a.z;
+    segment.farInverseZ = -1.0 / b.z;
+    return segment;
+}
+
+FirstHit searchAllLayers(RaySegment segment, TracedRay ray, int steps) {
+    FirstHit first = noHit();
+    int end = steps;
+    for (int i = 0; i < end; ++i) {
+        FirstHit found = hitOfStep(segment, ray, i, steps);
+        if (found.hit.layer < 0) continue;
+        // A hit may lie half a step beyond its own, and the next step know a nearer one.
+        if (first.hit.layer < 0) {
+            end = min(end, i + 2);
+        } else if (found.hit.t >= first.hit.t) {
+            continue;
+        }
+        first = found;
+    }
+    return first;
+}
+
+// Whether the ray can meet the surface of a layer at this pixel at all, by its side; `t`: where it
+// crosses the tangent plane there.
+bool meetsLayer(TracedRay ray, ivec2 texel, int layer, out float t) {
+    LayerSurface surface = layerAt(texel, layer);
+    float height = heightAbove(ray.origin, surface.normal, texel, surface.depth);
+    float closing = dot(surface.normal, ray.direction);
+    t = abs(closing) > 1e-6 ? -height / closing : -1.0;
+    return isFacingAt(ray, texel, surface);
+}
+
+// `passed`: the layer that the ray has passed last, -1 for none. "Traced through the depth layers
+// until the depth along the ray is either greater than the depth in the next layer or less than the
+// depth in the current layer": two texels a step. Inside of a closed object a pixel that no longer
+// has the current layer is beyond its silhouette: the ray has left between two pixels.
+FirstHit searchBetweenLayers(RaySegment segment, TracedRay ray, int passed, int steps) {
+    float count = float(steps);
+    uint medium = innerMedium(ray.media);
+    bool isInside = medium != 0u && !isOpen(medium - 1u);
+    ivec2 before = ivec2(-1);
+    for (int i = 0; i < steps; ++i) {
+        float middle = float(i) + 0.5;
+        ivec2 texel = texelOfStep(segment, i, steps);
+        float z = depthAtIndex(segment, float(i) + 1.0, count);
+        float current = passed >= 0 ? texelFetch(layerDepths, ivec3(texel, passed), 0).x : 0.0;
+        float next = passed + 1 < layerCount
+                         ? texelFetch(layerDepths, ivec3(texel, passed + 1), 0).x
+                         : 0.0;
+        if (isInside && passed >= 0 && current <= 0.0 && before.x >= 0) {
+            for (int layer = passed + 1; layer >= passed; --layer) {
+                float t;
+                if (layer >= layerCount ||
+                    texelFetch(layerDepths, ivec3(before, layer), 0).x <= 0.0 ||
+                    !meetsLayer(ray, before, layer, t)) {
+                    continue;
+                }
+                return FirstHit(LayerHit(parameterAtIndex(segment, float(i), count), layer), before,
+                                true);
+            }
+        }
+        int layer = -1;
+        if (next > 0.0 && z > next) {
+            layer = passed + 1;
+        } else if (current > 0.0 && z < current) {
+            layer = passed;
+        }
+        before = texel;
+        if (layer < 0) continue;
+        float t;
+        if (!meetsLayer(ray, texel, layer, t)) continue;
+        // Where the ray comes to lie behind another part of the object it does not cross that
+        // within a step or two; the paper takes it for met all the same.
+        float from = parameterAtIndex(segment, max(middle - 2.0, 0.0), count);
+        float to = parameterAtIndex(segment, min(middle + 1.0, count), count);
+        bool isNear = t >= from && t <= to;
+        if (!isNear && view_refraction_stop == view_refraction_stop_crossing) continue;
+        t = clamp(t, from, to);
+        return FirstHit(LayerHit(t, layer), texel, false);
+    }
+    return noHit();
+}

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// view.image_space: image-space refraction at two interfaces (Wyman 2005, W05), with which K06
+// compares its own (Table 1, in braces). "view.back_faces" draws the farthest back faces of the
+// transmitting objects; "view.image_space" estimates from them where a refracted ray leaves, and
+// looks up what it sees there as view.refraction does. In: eye buffer, radiance of the receivers;
+// out: radiance, W/m²/sr, and where each ray left, view space, m.
+//
+// W05's weights and its precomputed distance along the inverse normal are not in our texts: the
+// weight here is the ratio of the angles of refraction and incidence, and the distance is searched
+// among the back faces, `steps` looks and four bisections. What is totally reflected at the second
+// interface is told apart and goes on unbent.
+#include "framework/pipeline/frame_builder.h"
+#include "techniques/screen_space_photons/nodes.h"
+#include "techniques/screen_space_photons/view_passes.h"
+
+namespace kaustik {
+namespace {
+
+struct BackFaces {
+    graph::Texture<ViewDepth> depth;
+    graph::Texture<SurfaceTexel> surface;
+};
+
+BackFaces drawBackFaces(FrameBuilder& frame, Geometry geometry) {
+    struct Data {
+        BackFaces faces;
+        graph::Texture<DepthBuffer> depthBuffer;
+        Geometry geometry;
+    };
+    return frame
+        .pass<Data>(
+            "view.back_faces", "the eye's rays leave transmitting objects through their backs",
+            [&](graph::PassSetup& setup, Data& data) {
+                data.geometry = geometry;
+                if (geometry.heightFields.valid()) setup.read(geometry.heightFields);
+                const int w = frame.width();
+                const int h = frame.height();
+                data.faces.depth = setup.create<ViewDepth>("view.back_depth", w, h);
+                data.faces.surface = setup.create<SurfaceTexel>("view.back_surface", w, h);
+                data.depthBuffer = setup.create<DepthBuffer>("view.back_depth_buffer", w, h);
+            },
+            [&inputs = frame.inputs()](const Data& data, gl::PassContext& context) {
+                gl::Command command =
+                    context.shaders({"shared/eye.vert", "screen_space_photons/back_faces.frag"});
+                inputs.gpuScene.bindMaterials(command);
+                command.set("projection", inputs.view.projection());
+                command.target(data.faces.depth).clear();
+                command.target(data.faces.surface).clear();
+                // Reversed z: the smaller value is the farther one.
+                command.depth(data.depthBuffer, gl::DepthTest::nearer).clear({1, 0, 0, 0});
+                inputs.gpuScene.draw(command, context, data.geometry, inputs.instances,
+                                     render::DrawSet::dielectrics);
+            })
+        .faces;
+}
+
+}  // namespace
+
+View refractInImageSpace(FrameBuilder& frame, const ImageSpaceViewParams& params, Geometry geometry,
+                         EyeBuffer eye, LayeredDepth /*layers*/, Radiance receivers) {
+    if (!eye.interface.valid()) {
+        frame.leaveOut("view.image_space", "the scene has no specular surface");
+        return {receivers.radiance, {}, {}};
+    }
+    const BackFaces faces = drawBackFaces(frame, geometry);
+    struct Data {
+        EyeBuffer eye;
+        BackFaces faces;
+        Radiance receivers;
+        View seen;
+    };
+    return frame
+        .pass<Data>(
+            "view.image_space", "the eye looks through specular surfaces",
+            [&](graph::PassSetup& setup, Data& data) {
+                data.eye = eye;
+                data.faces = faces;
+                data.receivers = receivers;
+                setup.read(faces.depth);
+                setup.read(faces.surface);
+                data.seen = createView(frame, setup, eye, receivers);
+            },
+            [&inputs = frame.inputs(), params](const Data& data, gl::PassContext& context) {
+                gl::Command command = context.fullscreen("screen_space_photons/image_space.frag");
+                inputs.bindView(command).storage("Materials", inputs.gpuScene.materials());
+                bindLook(inputs, command, data.eye, data.receivers, params.look, data.seen);
+                command.params("view.image_space", params)
+                    .texture("backDepth", data.faces.depth)
+                    .texture("backSurface", data.faces.surface)
+                    .draw();
+            })
+        .seen;
+}
+
+}  // namespace kaustik

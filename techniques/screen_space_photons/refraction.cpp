@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// view.refraction: screen-space refraction tracing (K06, section 4). The passes "view.layers.…"
+// peel the transmitting objects alone; "view.refraction" follows the eye's transmitted ray of every
+// pixel through them and looks up what it sees: the receivers that the eye buffer shows (the
+// refracted scene, Fig. 10), else what surrounds the scene. The reflection at the first interface
+// is looked up the same way; later partial reflections are left out. In: eye buffer, radiance of
+// the receivers; out: radiance, W/m²/sr, and where each ray left for good, view space, m.
+//
+// The paper does not say what happens at total internal reflection (here the ray goes on, between
+// the same two layers), nor when a ray leaves through the layer that it has entered by (here it is
+// then between that layer and the one before).
+#include <algorithm>
+#include <glm/glm.hpp>
+
+#include "framework/pipeline/frame_builder.h"
+#include "techniques/screen_space_photons/hit_testing.h"
+#include "techniques/screen_space_photons/nodes.h"
+#include "techniques/screen_space_photons/view_passes.h"
+
+namespace kaustik {
+
+namespace {
+
+// Whether a surface bounds no volume and does not turn back: water, a pane, but not a teapot with
+// open seams.
+bool isSheet(const scene::Mesh& mesh) {
+    if (mesh.closed) return false;
+    if (mesh.heightField) return true;
+    glm::vec3 mean(0.0f);
+    for (const glm::vec3& normal : mesh.normals)
+        mean += normal;
+    return std::all_of(mesh.normals.begin(), mesh.normals.end(),
+                       [&](const glm::vec3& normal) { return glm::dot(normal, mean) > 0.0f; });
+}
+
+// A path crosses a sheet once: where there is nothing else, no more interfaces are looked for, nor
+// peeled, than there are sheets.
+RefractionViewParams forScene(const scene::Scene& scene, RefractionViewParams params) {
+    int sheets = 0;
+    for (const scene::Object& object : scene.objects) {
+        if (scene.materials[object.material].kind != scene::MaterialKind::dielectric) continue;
+        if (!isSheet(scene.meshes[object.mesh])) return params;
+        ++sheets;
+    }
+    params.interfaces = std::min(params.interfaces, std::max(sheets, 1));
+    return params;
+}
+
+}  // namespace
+
+View traceRefraction(FrameBuilder& frame, const RefractionViewParams& wanted, Geometry geometry,
+                     EyeBuffer eye, LayeredDepth /*layers*/, Radiance receivers) {
+    if (!eye.interface.valid()) {
+        frame.leaveOut("view.refraction", "the scene has no specular surface");
+        return {receivers.radiance, {}, {}};
+    }
+    const RefractionViewParams params = forScene(frame.scene(), wanted);
+    const HitTesting testing = hitTesting(frame);
+    const bool isMonotonic = params.search == RefractionSearch::monotonic;
+    LayeredDepth layers;
+    {
+        const FrameBuilder::Within within(frame, "view");
+        // The n-th interface is looked for in the n-th layer, and no deeper.
+        layers = peel(frame, geometry,
+                      {"view.layers", render::DrawSet::dielectrics,
+                       isMonotonic ? std::min(params.layers, params.interfaces) : params.layers});
+    }
+    struct Data {
+        EyeBuffer eye;
+        LayeredDepth layers;
+        Radiance receivers;
+        View seen;
+    };
+    const DielectricsBox box = boxOfDielectrics(frame);
+    return frame
+        .pass<Data>(
+            "view.refraction", "the eye looks through specular surfaces",
+            [&](graph::PassSetup& setup, Data& data) {
+                data.eye = eye;
+                data.layers = layers;
+                data.receivers = receivers;
+                readLayers(setup, layers);
+                data.seen = createView(frame, setup, eye, receivers);
+            },
+            [&inputs = frame.inputs(), params, testing, box](const Data& data,
+                                                             gl::PassContext& context) {
+                gl::Command command = context.fullscreen("screen_space_photons/refraction.frag");
+                if (box.holdsReceivers) command.define("RECEIVERS_INSIDE");
+                bindHitTesting(command, testing, inputs, data.layers);
+                bindLook(inputs, command, data.eye, data.receivers, params.look, data.seen);
+                command.params("view.refraction", params)
+                    .set("dielectricsCenterVs", box.centerVs)
+                    .set("dielectricsHalfExtent", box.halfExtentMeters)
+                    .draw();
+            })
+        .seen;
+}
+
+}  // namespace kaustik
