@@ -13,6 +13,7 @@
 #include "framework/core/error.h"
 #include "framework/core/files.h"
 #include "framework/pipeline/stage_params.h"
+#include "framework/report/limits.h"
 #include "framework/report/run_report.h"
 
 namespace kaustik::app {
@@ -107,11 +108,6 @@ void runCommand(const RunOptions& options, const Registry& registry) {
     record.warnings = scene.warnings;
     record.warnings.insert(record.warnings.end(), renderer.warnings().begin(),
                            renderer.warnings().end());
-    if (record.layers.leftOut > 0) {
-        record.warnings.push_back(fmt::format(
-            "{} fragments in {} pixels lie beyond the last of {} layers (layers.count).",
-            record.layers.leftOut, record.layers.pixelsLeftOut, record.layersAllowed));
-    }
     for (const std::string& name : unusedSettings(renderer)) {
         record.warnings.push_back(
             fmt::format("{} was set, but no node of this run uses it.", name));
@@ -131,6 +127,8 @@ void runCommand(const RunOptions& options, const Registry& registry) {
     fmt::print("{} with {}, {}x{}, on {}\n", scene.name, renderer.settings().technique.name,
                renderer.settings().width, renderer.settings().height, context->info().renderer);
     fmt::print("{}", report::makeTable(record));
+    for (const report::ReachedLimit& limit : report::reachedLimits(record, renderer))
+        fmt::print("limit   {} = {:g}: {}\n", limit.parameter, limit.value, limit.sentence);
     for (const std::string& warning : record.warnings)
         fmt::print("warning: {}\n", warning);
     for (const fs::path& file : files)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "framework/report/run_report.h"
 
+#include "framework/report/limits.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -258,6 +260,7 @@ json makeReport(const RunRecord& record, const Renderer& renderer, const gl::Dev
           {"buffer_bytes", record.bufferBytes},
           {"scene_bytes", renderer.gpuScene().bytes()},
           {"peak_bytes", record.peakBytes}}},
+        {"limits", toJson(reachedLimits(record, renderer))},
         {"warnings", record.warnings}};
     if (!record.hits.is_null()) report["hits"] = record.hits;
     if (!record.error.is_null()) report["error"] = record.error;
