@@ -190,7 +190,7 @@ Layers readLayers(const Renderer& renderer) {
         const double depth = static_cast<double>(texels[i]);
         const glm::dvec3 normal = unfoldUnitVector(glm::dvec2(texels[i + 1], texels[i + 2]));
         const double slope = (std::abs(normal.x) + std::abs(normal.y)) /
-                             std::max(std::abs(glm::dot(normal, ray)), 1e-4);
+                             std::max(std::abs(glm::dot(normal, ray)), 1e-6);
         const double extent = 0.5 * depth * view.footprintPerMeter() * slope;
         depths.insert(depths.end(), {texels[i], static_cast<float>(extent)});
     }

@@ -39,6 +39,9 @@ ShadowAudit auditShadow(const Image& visibility, std::size_t light,
                         const reference::EmbreeScene& scene) {
     const scene::Light& source = scene.scene().lights[light];
     const reference::Eye eye(scene, visibility.width, visibility.height);
+    // Off the receiver, whose own triangle would else be in the way: positions are 32-bit floats.
+    const scene::Bounds& bounds = scene.bounds();
+    const double lift = 2e-6 * glm::length(bounds.maximum - bounds.minimum);
     ShadowAudit audit;
     for (int y = 0; y < visibility.height; ++y) {
         for (int x = 0; x < visibility.width; ++x) {
@@ -56,7 +59,7 @@ ShadowAudit auditShadow(const Image& visibility, std::size_t light,
                 continue;
             }
             reference::Ray toLight;
-            toLight.origin = seen.position;
+            toLight.origin = seen.position + lift * side * seen.geometricNormal;
             toLight.direction = way.direction;
             toLight.start = seen.triangle;
             toLight.sides = reference::SideRule::any;

@@ -68,7 +68,7 @@ bool advance(inout EyePath path, float reach) {
     path.origin += found.hit.t * path.direction;
     vec3 shading =
         found.isExit ? normalAtExit(path.origin, found.pixel, found.hit.layer)
-                     : normalAtHit(path.origin, surface, vec2(met.depth, met.extent), false);
+                     : normalAtHit(path.origin, surface, met, false);
     vec3 normal = bendingNormal(path.direction, shading, met.normal, met.material, path.media);
     bend(path, normal, met.material, found.hit.layer);
     return true;
