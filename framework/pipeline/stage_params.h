@@ -12,7 +12,7 @@ struct LayersParams {
     void reflect(R& r) {
         r.field(count, "count",
                 "Most depth layers that are peeled; deeper fragments are counted and left out", "",
-                params::range(1, 32));
+                params::range(1, 64));
     }
 };
 

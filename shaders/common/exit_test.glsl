@@ -14,7 +14,7 @@ bool isInsideAt(ivec2 texel, uint medium, float zLow, float zHigh) {
         LayerSurface surface = layerAt(texel, layer);
         if (surface.depth <= 0.0) return isOpened && zHigh >= opened;
         if (surface.material != medium) continue;
-        float margin = surface.extent + pixelFootprint(surface.depth);
+        float margin = surface.margin;
         if (dot(surface.normal, viewRay(vec2(texel) + 0.5)) < 0.0) {
             opened = surface.depth - margin;
             isOpened = true;

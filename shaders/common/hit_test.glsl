@@ -11,7 +11,7 @@ uniform int layerCount;
 // What a layer has at a pixel: depth 0 where nothing.
 struct LayerSurface {
     float depth;   // m
-    float extent;  // half of the depth's over the pixel, m
+    float margin;  // by which a ray may pass before or behind it and still meet it, m
     vec3 normal;   // the triangle's, outward
     uint material;  // index + 1
 };
@@ -19,8 +19,8 @@ struct LayerSurface {
 LayerSurface layerAt(ivec2 texel, int layer) {
     vec4 data = texelFetch(layerDepths, ivec3(texel, layer), 0);
     vec3 normal = unpackUnitVector(data.yz);
-    float extent = pixelDepthExtent(viewRay(vec2(texel) + 0.5), data.x, normal);
-    return LayerSurface(data.x, extent, normal, uint(data.w));
+    float margin = depthMargin(viewRay(vec2(texel) + 0.5), data.x, normal);
+    return LayerSurface(data.x, margin, normal, uint(data.w));
 }
 
 struct TracedRay {
@@ -118,9 +118,10 @@ float meetLayer(TracedRay ray, RayStep at, int layer, LayerSurface surface) {
     return isMet ? at.tMiddle : 0.0;
 #else
     // The depths that the surface and the ray have over this pixel must overlap …
-    float margin = surface.extent + pixelFootprint(depth);
-    if (depth + margin < min(at.zBegin, at.zEnd) || depth - margin > max(at.zBegin, at.zEnd))
+    if (depth + surface.margin < min(at.zBegin, at.zEnd) ||
+        depth - surface.margin > max(at.zBegin, at.zEnd)) {
         return 0.0;
+    }
     // … and the ray must cross the triangle's plane within this step, or half a step beside it: two
     // neighbours' planes may leave a gap between them.
     float closing = dot(surface.normal, ray.direction);
@@ -134,8 +135,7 @@ float meetLayer(TracedRay ray, RayStep at, int layer, LayerSurface surface) {
 // Whether a surface that the ray meets there is one that ends or turns it.
 bool isFacingAt(TracedRay ray, ivec2 texel, LayerSurface surface) {
     float height = heightAbove(ray.origin, surface.normal, texel, surface.depth);
-    return isFacing(ray, surface.material, surface.normal, height,
-                    surface.extent + pixelFootprint(surface.depth));
+    return isFacing(ray, surface.material, surface.normal, height, surface.margin);
 }
 
 // Of two surfaces the one nearer along the ray (hard case 11). The paper's test cannot tell those of
@@ -168,6 +168,8 @@ vec3 normalAtHit(vec3 hitVs, vec4 surface, LayerSurface layerHit, bool arrives) 
     ivec2 first = ivec2(floor(corner));
     vec2 f = corner - vec2(first);
     vec3 sum = vec3(0.0);
+    // The same surface lies within a pixel's extent of the hit's own depth.
+    float extent = pixelDepthExtent(viewRay(pixelOf(hitVs)), layerHit.depth, layerHit.normal);
     int corners = arrives ? 0 : 4;  // devices without branches still leave a loop out
     for (int i = 0; i < corners; ++i) {
         ivec2 step = ivec2(i & 1, i >> 1);
@@ -177,8 +179,7 @@ vec3 normalAtHit(vec3 hitVs, vec4 surface, LayerSurface layerHit, bool arrives) 
         for (int layer = 0; layer < layerCount; ++layer) {
             float depth = texelFetch(layerDepths, ivec3(texel, layer), 0).x;
             if (depth <= 0.0) break;
-            // The same surface lies within a pixel's extent of the hit's own depth.
-            float reach = 2.0 * layerHit.extent + 2.0 * pixelFootprint(depth);
+            float reach = 2.0 * extent + 2.0 * pixelFootprint(depth);
             if (abs(depth - layerHit.depth) > reach) continue;
             vec4 other = texelFetch(layerSurfaces, ivec3(texel, layer), 0);
             // A crease of more than 60 degrees is an edge, not a curve.

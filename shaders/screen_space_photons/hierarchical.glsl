@@ -48,11 +48,26 @@ int stepBeyond(Way way, ivec2 square, int level, int i, int n) {
     return clamp(int(ceil(beyond)), i + 1, n);
 }
 
+uvec2 bitOf(int layer) {
+    return layer < 32 ? uvec2(1u << layer, 0u) : uvec2(0u, 1u << (layer - 32));
+}
+// Takes the lowest layer out of a set that is not empty.
+int takeLowest(inout uvec2 layers) {
+    if (layers.x != 0u) {
+        int layer = findLSB(layers.x);
+        layers.x &= layers.x - 1u;
+        return layer;
+    }
+    int layer = findLSB(layers.y);
+    layers.y &= layers.y - 1u;
+    return 32 + layer;
+}
+
 // Steps [first, end) of a ray, and the layers, a bit each, that it may meet there.
 struct Asked {
     int first;
     int end;
-    uint layers;
+    uvec2 layers;
 };
 
 // Which of the steps [first, end) may meet a layer of the square. Along the ray 1/z is linear, as on
@@ -60,7 +75,7 @@ struct Asked {
 Asked stepsThatMayMeet(Way way, ivec2 square, int level, int first, int end) {
     vec2 start = way.start - (vec2(square) + 0.5) * float(1 << (2 * level));
     ivec2 texel = pyramidOffset(ivec2(view.sizePixels.xy), level) + square;
-    Asked asked = Asked(end, first, 0u);
+    Asked asked = Asked(end, first, uvec2(0u));
 #ifdef IN_OUT_TEST
     bool wasBehind = false;  // the layer before, at some step
 #endif
@@ -74,7 +89,7 @@ Asked stepsThatMayMeet(Way way, ivec2 square, int level, int first, int end) {
 #ifdef IN_OUT_TEST
         vec2 ends = away + awayPerStep * vec2(first, end);
         if (wasBehind && max(ends.x, ends.y) >= -reach)
-            asked = Asked(first, end, asked.layers | (3u << (layer - 1)));
+            asked = Asked(first, end, asked.layers | bitOf(layer) | bitOf(layer - 1));
         wasBehind = min(ends.x, ends.y) <= reach;
 #endif
         // Where |away + awayPerStep i| <= reach.
@@ -86,7 +101,7 @@ Asked stepsThatMayMeet(Way way, ivec2 square, int level, int first, int end) {
         met = clamp(met, vec2(first), vec2(end));
         asked.first = min(asked.first, max(int(ceil(met.x)) - 1, first));
         asked.end = max(asked.end, min(int(floor(met.y)) + 1, end));
-        asked.layers |= 1u << layer;
+        asked.layers |= bitOf(layer);
     }
     return asked;
 }
@@ -109,8 +124,8 @@ FirstHit traverse(Photon photon, int minimumSteps, int maximumSteps) {
     int end = steps;
     int firstStep = -1;  // that of `first`
     int i = 0;
-    Asked asked = Asked(0, 0, 0u);
-    uint layers = 0u;  // that step i is still to be asked about
+    Asked asked = Asked(0, 0, uvec2(0u));
+    uvec2 layers = uvec2(0u);  // that step i is still to be asked about
     while (i < end) {
         while (i < end && i >= asked.end) {
             ivec2 square = texelOfStep(segment, i, steps) >> (2 * level);
@@ -123,7 +138,7 @@ FirstHit traverse(Photon photon, int minimumSteps, int maximumSteps) {
                 float zEnd = depthAtIndex(segment, float(beyond), float(steps));
                 bool isOut = !isInsideAt(texelOfStep(segment, beyond - 1, steps), medium,
                                          min(zLast, zEnd), max(zLast, zEnd));
-                if (isOut || found.layers != 0u) found = Asked(i, beyond, found.layers);
+                if (isOut || found.layers != uvec2(0u)) found = Asked(i, beyond, found.layers);
             }
 #endif
             if (found.first >= found.end) {
@@ -146,9 +161,8 @@ FirstHit traverse(Photon photon, int minimumSteps, int maximumSteps) {
         int step = i;
         while (i < min(asked.end, end) && t <= 0.0) {
             step = i;
-            if (layers != 0u) {
-                layer = findLSB(layers);
-                layers &= layers - 1u;
+            if (layers != uvec2(0u)) {
+                layer = takeLowest(layers);
                 RayStep at = rayStep(segment, i, steps);
                 surface = layerAt(at.texel, layer);
                 t = meetLayer(ray, at, layer, surface);
@@ -167,7 +181,7 @@ FirstHit traverse(Photon photon, int minimumSteps, int maximumSteps) {
                 layers = asked.layers;
             }
 #else
-            if (layers == 0u) {
+            if (layers == uvec2(0u)) {
                 ++i;
                 layers = asked.layers;
             }

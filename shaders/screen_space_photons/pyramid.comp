@@ -36,11 +36,10 @@ void main() {
                     ivec2 pixel = 4 * square + at;
                     vec4 texel = texelFetch(layerDepths, ivec3(pixel, layer), 0);
                     float depth = texel.x;
-                    float extent = pixelDepthExtent(viewRay(vec2(pixel) + 0.5), depth,
-                                                    unpackUnitVector(texel.yz));
-                    // As wide as the hit test's first question (common/hit_test.glsl, meetLayer).
+                    float margin = depthMargin(viewRay(vec2(pixel) + 0.5), depth,
+                                               unpackUnitVector(texel.yz));
                     part = vec4(depth > 0.0 ? 1.0 / depth : 0.0, 0.0, 0.0,
-                                inverseMargin(depth, extent + pixelFootprint(depth)));
+                                inverseMargin(depth, margin));
                 } else {
                     part = imageLoad(pyramid, ivec3(from + 4 * square + at, layer));
                 }

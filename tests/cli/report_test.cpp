@@ -55,7 +55,7 @@ TEST_F(Report, HasTheKeysOfTheSchema) {
                     "size", "frames", "warmup", "timer", "frame_ms", "startup_ms", "passes",
                     "photons", "energy", "memory", "warnings",
                     // Ours, besides.
-                    "disabled", "time_s", "bookkeeping_ms", "graph_build_ms", "layers"}));
+                    "disabled", "time_s", "bookkeeping_ms", "graph_build_ms", "layers", "limits"}));
     EXPECT_EQ(keysOf(report.at("device")), (Keys{"renderer", "vendor", "gl", "cpu", "threads"}));
     EXPECT_EQ(keysOf(report.at("scene")), (Keys{"name", "triangles", "needs"}));
     EXPECT_EQ(keysOf(report.at("photons")), (Keys{"emitted", "specular", "hit", "missed", "nan"}));
@@ -150,23 +150,39 @@ TEST_F(Report, KeepsTimedFramesOnlyAndWarmsUpBefore) {
     EXPECT_EQ(frames, (Keys{"frame 2", "frame 3", "frame 4"}));
 }
 
-TEST_F(Report, WarnsOfLayersThatWereLeftOut) {
+TEST_F(Report, SaysWhatWasLostToEveryLimitThatWasReached) {
     static_cast<void>(renderWater({"--set", "layers.count=1"}));
     const json report = this->report();
-    ASSERT_EQ(report.at("warnings").size(), 1u) << report.at("warnings");
-    EXPECT_NE(report.at("warnings")[0].get<std::string>().find("layers.count"), std::string::npos);
+    ASSERT_EQ(report.at("limits").size(), 1u) << report.at("limits");
+    const json& limit = report.at("limits")[0];
+    EXPECT_EQ(limit.at("limit"), "layers.count");
+    EXPECT_EQ(limit.at("value"), 1);
+    EXPECT_EQ(limit.at("needed"), report.at("layers").at("complexity"));
+    EXPECT_NE(limit.at("lost").get<std::string>().find(
+                  report.at("layers").at("fragments_left_out").dump() + " of "),
+              std::string::npos)
+        << limit;
     EXPECT_EQ(report.at("layers").at("allowed"), 1);
     EXPECT_GT(report.at("layers").at("fragments_left_out"), 0);
 }
 
+TEST_F(Report, CountsTheBatchesOfALimitedMemory) {
+    static_cast<void>(renderWater({"--set", "trace=lines", "--set", "lines.rows=64"}));
+    const json report = this->report();
+    ASSERT_EQ(report.at("limits").size(), 1u) << report.at("limits");
+    EXPECT_EQ(report.at("limits")[0].at("limit"), "trace.lines.memory");
+    EXPECT_EQ(report.at("limits")[0].at("value"), 32 * 32 / 64);
+    EXPECT_EQ(report.at("limits")[0].at("lost_w"), 0.0);
+}
+
 TEST_F(Set, TakesAnyUniqueShortFormAndReportsTheFullName) {
-    static_cast<void>(renderWater({"--set", "trace=lines", "--set", "lines.width=32"}));
+    static_cast<void>(renderWater({"--set", "trace=lines", "--set", "lines.rows=32"}));
     const json report = this->report();
     const json& parameters = report.at("parameters");
     EXPECT_EQ(parameters.at("trace"), "lines");
-    EXPECT_EQ(parameters.at("trace.lines.width"), 32);
+    EXPECT_EQ(parameters.at("trace.lines.rows"), 32);
     EXPECT_EQ(parameters.at("emit.photons"), "32x32");  // smallRun says photons=32x32
-    EXPECT_FALSE(parameters.contains("lines.width"));
+    EXPECT_FALSE(parameters.contains("lines.rows"));
     EXPECT_FALSE(parameters.contains("photons"));
 }
 
