@@ -7,7 +7,7 @@
 #include "common/surface_data.glsl"
 #include "screen_space_photons/sprite.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(rgba32f) writeonly uniform image2D spriteWeights;
 uniform sampler2D photonPosition;
@@ -23,9 +23,8 @@ bool seesLitSide(Sprite sprite) {
 
 void main() {
     ivec2 mapSize = textureSize(hitFlux, 0);
-    int index = int(gl_GlobalInvocationID.x);
-    if (index >= mapSize.x * mapSize.y) return;
-    ivec2 texel = ivec2(index % mapSize.x, index / mapSize.x);
+    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(texel, mapSize))) return;
     vec4 flux = texelFetch(hitFlux, texel, 0);
     if (uint(flux.w) != kFateReceiver) {
         imageStore(spriteWeights, texel, vec4(0.0));

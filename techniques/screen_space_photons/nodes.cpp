@@ -71,10 +71,10 @@ void registerScreenSpacePhotons(Registry& registry) {
                               "Wyman 2005 (W05), K06's comparison"},
                              &refractInImageSpace);
     registry.technique({"screen_space_photons",
-                        "Photon rays traced through a layered depth image as rasterised lines.",
+                        "Photon rays traced on the screen through a layered depth image.",
                         "Krüger, Bürger, Westermann 2006",
                         {{"layers", "peel"},
-                         {"trace", "lines"},
+                         {"trace", "hierarchical"},
                          {"reconstruct", "sprites"},
                          {"view", "refraction"}},
                         {}});

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // layers.peel: a layered depth image by depth peeling (K06, section 2.2). `layers.complexity`
 // counts the fragments of every pixel; `layers.peel` then draws as many layers as the fullest pixel
-// needs, `layers.count` at most; what lies deeper is counted. Out: arrays of view depth (m) with the
-// triangles' normals, and of outward shading normals with materials, front to back.
+// needs, `layers.count` at most; what lies deeper is counted. Out: arrays of view depth (m) with
+// the triangles' normals, and of outward shading normals with materials, front to back.
 #include <fmt/format.h>
 
 #include <utility>

@@ -59,7 +59,7 @@ Weights sumWeights(FrameBuilder& frame, const SpritesParams& params, Hits hits, 
                 .texture("hitPosition", data.hits.position)
                 .texture("hitSurface", data.hits.surface)
                 .texture("hitFlux", data.hits.flux)
-                .dispatchOver(data.hits.incoming.count(), 64);
+                .dispatchOver(data.hits.incoming.width, 8, data.hits.incoming.height, 8);
         });
 }
 

@@ -88,10 +88,12 @@ bool isLit(const Texels& texels) {
 
 TEST(ScreenSpacePhotons, TheResultDoesNotDependOnTheRowsOfABatch) {
     const scene::Scene scene = wavyBasin();
-    const Frame whole(scene, 160, 120, kSmall, {"hits.position", "hits.flux"});
+    Frame::Settings lines = kSmall;
+    lines.emplace_back("trace", "lines");
+    const Frame whole(scene, 160, 120, lines, {"hits.position", "hits.flux"});
     ASSERT_TRUE(isLit(whole.causticIrradiance()));
     for (const char* rows : {"1000", "257", "64"}) {
-        Frame::Settings settings = kSmall;
+        Frame::Settings settings = lines;
         settings.emplace_back("trace.lines.rows", rows);
         const Frame batched(scene, 160, 120, settings, {"hits.position", "hits.flux"});
         expectBitEqual(whole.read("hits.position"), batched.read("hits.position"));
@@ -164,6 +166,7 @@ TEST(ScreenSpacePhotons, RowMemoryStaysWithinItsParameterFrom64To2048PhotonsASid
             settings.technique = registry.findTechnique("screen_space_photons");
             settings.params = registry.makeParams(settings.technique);
             settings.params.set("emit.photons", fmt::format("{0}x{0}", side), "test");
+            settings.params.set("trace", "lines", "test");
             settings.params.set("trace.lines.memory", std::to_string(mebibytes), "test");
             Renderer renderer(context(), registry, scene, settings);
             // Only compiled: what memory it would take is known before any is taken.

@@ -38,7 +38,7 @@ INSTANTIATE_TEST_SUITE_P(
     Every, Marching,
     testing::Combine(testing::Values("march", "march_compute", "hierarchical",
                                      "hierarchical_compute"),
-                     testing::Values("crossing", "epsilon")),
+                     testing::Values("crossing", "epsilon", "in_out")),
     [](const testing::TestParamInfo<std::tuple<const char*, const char*>>& tested) {
         return std::string(std::get<0>(tested.param)) + "_" + std::get<1>(tested.param);
     });

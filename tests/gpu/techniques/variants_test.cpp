@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: MIT
+// The paper's variants (K06): other ways to the same layers, lines and counts give the same; both
+// Fresnel branches carry what they must; shadow rays find a ball's shadow; all hits are all hits.
+#include <algorithm>
+#include <cmath>
+
+#include "framework/pipeline/ledger.h"
+#include "framework/scene/scene_file.h"
+#include "framework/transport/types.h"
+#include "tests/gpu/fixture.h"
+
+namespace kaustik::test {
+namespace {
+
+using transport::kAccountEmitted;
+using transport::kAccountUntracedBranch;
+using transport::kFateReceiver;
+
+void expectSame(const Frame& a, const Frame& b, const std::string& name, int layer = 0) {
+    const Texels left = a.read(name, layer);
+    const Texels right = b.read(name, layer);
+    ASSERT_EQ(left.values.size(), right.values.size()) << name;
+    std::size_t different = 0;
+    for (std::size_t i = 0; i < left.values.size(); ++i)
+        different += left.values[i] == right.values[i] ? 0 : 1;
+    EXPECT_EQ(different, 0u) << name << ", layer " << layer;
+}
+
+TEST(PerObjectLayers, AreThoseOfAllObjectsTogether) {
+    const std::vector<std::string> saved = {"layers.depth", "layers.surface"};
+    for (const char* name : {"glass-sphere", "ring", "pool-reflections"}) {
+        SCOPED_TRACE(name);
+        const scene::Scene scene = scene::loadScene(name);
+        const Settings settings = {{"emit.photons", "16x16"}};
+        Settings perObject = settings;
+        perObject.emplace_back("layers", "per_object");
+        const Frame together(scene, 160, 120, settings, saved);
+        const Frame apart(scene, 160, 120, perObject, saved);
+        for (const std::string& texture : saved) {
+            for (int layer = 0; layer < 8; ++layer)
+                expectSame(together, apart, texture, layer);
+        }
+        EXPECT_EQ(together.renderer().layerStatistics().complexity,
+                  apart.renderer().layerStatistics().complexity);
+    }
+}
+
+TEST(DepthComplexity, IsTheSameByReduceAndByAtomics) {
+    const scene::Scene scene = scene::loadScene("glass-sphere");
+    // Sizes that do not halve evenly, and fewer layers than there are.
+    for (const auto& [width, height] : {std::pair(160, 120), std::pair(131, 77), std::pair(1, 1)}) {
+        const Settings few = {{"layers.count", "2"}, {"emit.photons", "8x8"}};
+        Settings reduced = few;
+        reduced.emplace_back("layers.peel.counting", "reduce");
+        const auto a = Frame(scene, width, height, few).renderer().layerStatistics();
+        const auto b = Frame(scene, width, height, reduced).renderer().layerStatistics();
+        EXPECT_EQ(a.complexity, b.complexity);
+        EXPECT_EQ(a.fragments, b.fragments);
+        EXPECT_EQ(a.leftOut, b.leftOut);
+        EXPECT_EQ(a.pixelsLeftOut, b.pixelsLeftOut);
+        if (width > 1) {
+            EXPECT_GT(a.leftOut, 0u);
+        }
+    }
+}
+
+TEST(LineSource, OfTheGeometryShaderFindsTheSameHits) {
+    const scene::Scene scene = scene::loadScene("glass-sphere");
+    const std::vector<std::string> saved = {"hits.position", "hits.surface", "hits.flux"};
+    const Settings settings = {{"trace", "lines"}, {"emit.photons", "64x64"}};
+    Settings made = settings;
+    made.emplace_back("trace.lines.source", "geometry");
+    made.emplace_back("trace.lines.rows", "1000");
+    const Frame placed(scene, 160, 120, settings, saved);
+    const Frame generated(scene, 160, 120, made, saved);
+    for (const std::string& name : saved)
+        expectSame(placed, generated, name);
+}
+
+// Light at 60 degrees on flat water: a floor below it, and a screen where the reflected part
+// arrives.
+const char* const kMirroringWater = R"(
+name = "mirroring water"
+[camera]
+position = [1, 2.5, 7]
+target = [0.8, 0.2, 0]
+[[light]]
+name = "sun"
+type = "directional"
+direction = [0.8660254037844386, -0.5, 0]
+irradiance = 100
+[[material]]
+name = "grey"
+type = "lambertian"
+albedo = 0.5
+[[material]]
+name = "water"
+type = "dielectric"
+ior = 1.333
+[[object]]
+name = "water"
+shape = "plane"
+material = "water"
+size = [1, 1]
+[[object]]
+name = "object 1"
+shape = "plane"
+material = "grey"
+size = [6, 6]
+position = [0, -0.5, 0]
+[[object]]
+name = "object 2"
+shape = "plane"
+material = "grey"
+size = [3, 3]
+position = [2.2, 1, 0]
+)";
+
+double reflectance(double cosine, double n) {
+    const double sine = std::sqrt(1.0 - cosine * cosine) / n;
+    const double transmitted = std::sqrt(1.0 - sine * sine);
+    const double s = (cosine - n * transmitted) / (cosine + n * transmitted);
+    const double p = (n * cosine - transmitted) / (n * cosine + transmitted);
+    return 0.5 * (s * s + p * p);
+}
+
+// Flux that arrived at receivers in rows [first, end) of the map.
+double arrivedIn(const Texels& flux, int first, int end) {
+    double sum = 0.0;
+    for (int y = first; y < end; ++y) {
+        for (int x = 0; x < flux.width; ++x) {
+            if (static_cast<unsigned>(flux.at(x, y, 3)) != kFateReceiver) continue;
+            const glm::dvec3 rgb = flux.rgb(x, y);
+            sum += rgb.r + rgb.g + rgb.b;
+        }
+    }
+    return sum;
+}
+
+TEST(SplitBranches, CarryTheFresnelSharesAndLoseNothing) {
+    const scene::Scene scene = sceneFromText(kMirroringWater);
+    const Frame frame(scene, 200, 150, {{"specular", "split"}, {"emit.photons", "64x64"}},
+                      {"hits.flux_1"});
+    const Texels flux = frame.read("hits.flux_1");
+    ASSERT_EQ(flux.height, 128);
+    const EnergyLedger ledger = frame.renderer().ledger();
+    const double emitted = ledger.watts[kAccountEmitted];
+    const double expected = reflectance(0.5, 1.333);
+    EXPECT_NEAR(arrivedIn(flux, 64, 128) / emitted, expected, 1e-5);
+    EXPECT_NEAR(arrivedIn(flux, 0, 64) / emitted, 1.0 - expected, 1e-5);
+    EXPECT_EQ(ledger.watts[kAccountUntracedBranch], 0.0);
+    EXPECT_LT(std::abs(ledger.balance()), 1e-6);
+}
+
+TEST(SplitBranches, AreDrawnByTheirShareWhereThereIsNoRoomForBoth) {
+    const scene::Scene scene = sceneFromText(kMirroringWater);
+    const Frame frame(
+        scene, 200, 150,
+        {{"specular", "split"}, {"specular.split.levels", "0"}, {"emit.photons", "256x256"}},
+        {"hits.flux_1", "hits.position_1"});
+    const Texels flux = frame.read("hits.flux_1");
+    const Texels position = frame.read("hits.position_1");
+    const EnergyLedger ledger = frame.renderer().ledger();
+    const double emitted = ledger.watts[kAccountEmitted];
+    EXPECT_NEAR(arrivedIn(flux, 0, flux.height) / emitted, 1.0, 1e-5);
+    double reflected = 0.0;
+    for (int y = 0; y < flux.height; ++y) {
+        for (int x = 0; x < flux.width; ++x) {
+            if (static_cast<unsigned>(flux.at(x, y, 3)) != kFateReceiver) continue;
+            const glm::dvec3 rgb = flux.rgb(x, y);
+            if (frame.toWorld(position.rgb(x, y)).y > 0.5) reflected += rgb.r + rgb.g + rgb.b;
+        }
+    }
+    // 65,536 draws: four standard errors of a share of 0.06.
+    EXPECT_NEAR(reflected / emitted, reflectance(0.5, 1.333), 4.0 * std::sqrt(0.06 / 65536.0));
+}
+
+TEST(ShadowRays, FindTheShadowOfABall) {
+    const scene::Scene scene = sceneFromText(R"(
+name = "ball"
+[camera]
+position = [0, 2.5, 3.5]
+target = [0, 0.3, 0]
+[[light]]
+name = "sun"
+type = "directional"
+direction = [0, -1, 0]
+irradiance = 100
+[[material]]
+name = "grey"
+type = "lambertian"
+albedo = 0.5
+[[object]]
+name = "object 3"
+shape = "plane"
+material = "grey"
+size = [4, 4]
+[[object]]
+name = "object 4"
+shape = "sphere"
+material = "grey"
+radius = 0.5
+position = [0, 1, 0]
+)");
+    for (const char* tracer : {"lines", "hierarchical"}) {
+        SCOPED_TRACE(tracer);
+        const Frame frame(scene, 320, 240, {{"shadow", "rays"}, {"trace", tracer}},
+                          {"shadow.visibility", "eye.receiver"});
+        const Texels visibility = frame.read("shadow.visibility");
+        const Texels receiver = frame.read("eye.receiver");
+        int dark = 0;
+        int lit = 0;
+        int wrong = 0;
+        for (int y = 0; y < receiver.height; ++y) {
+            for (int x = 0; x < receiver.width; ++x) {
+                const double depth = receiver.at(x, y, 0);
+                if (depth <= 0.0) continue;
+                const glm::dvec3 point = frame.worldAt(x, y, depth);
+                if (point.y > 0.01) continue;  // the ball itself
+                const double fromAxis = std::hypot(point.x, point.z);
+                // Pixels across the edge may be either; two of them are 4 cm here.
+                if (std::abs(fromAxis - 0.5) < 0.04) continue;
+                const bool isDark = visibility.at(x, y, 0) < 0.5f;
+                ++(fromAxis < 0.5 ? dark : lit);
+                wrong += isDark != (fromAxis < 0.5) ? 1 : 0;
+            }
+        }
+        EXPECT_GT(dark, 1000);
+        EXPECT_GT(lit, 10000);
+        EXPECT_EQ(wrong, 0);
+    }
+}
+
+TEST(AllHits, LightWhatLiesBehindAReceiver) {
+    // Light falls through a sheet that does not bend it on a plate, and on the floor beneath.
+    const scene::Scene scene = sceneFromText(R"(
+name = "plate"
+[camera]
+position = [0, 1.5, 4]
+target = [0, 0, 0]
+[[light]]
+name = "sun"
+type = "directional"
+direction = [0, -1, 0]
+irradiance = 100
+[[material]]
+name = "grey"
+type = "lambertian"
+albedo = 0.5
+[[material]]
+name = "air"
+type = "dielectric"
+ior = 1
+[[object]]
+name = "object 5"
+shape = "plane"
+material = "air"
+size = [1, 1]
+position = [0, 0.5, 0]
+[[object]]
+name = "object 6"
+shape = "plane"
+material = "grey"
+size = [0.5, 0.5]
+[[object]]
+name = "object 7"
+shape = "plane"
+material = "grey"
+size = [3, 3]
+position = [0, -0.5, 0]
+)");
+    const Settings settings = {{"emit.photons", "64x64"}};
+    Settings all = settings;
+    all.emplace_back("trace", "all_hits");
+    const Frame first(scene, 200, 150, settings, {"hits.flux"});
+    const Frame every(scene, 200, 150, all, {"hits.flux_all_1"});
+    const auto count = [](const Texels& flux) {
+        int hits = 0;
+        for (int y = 0; y < flux.height; ++y) {
+            for (int x = 0; x < flux.width; ++x)
+                hits += static_cast<unsigned>(flux.at(x, y, 3)) == kFateReceiver ? 1 : 0;
+        }
+        return hits;
+    };
+    EXPECT_EQ(count(first.read("hits.flux")), 64 * 64);
+    // A quarter of the photons would meet the floor under the plate too.
+    EXPECT_EQ(count(every.read("hits.flux_all_1")), 64 * 64 + 32 * 32);
+}
+
+TEST(ScreenAlignedSprites, KeepTheFlux) {
+    const scene::Scene scene = scene::loadScene("glass-sphere");
+    const Frame frame(scene, 200, 150,
+                      {{"reconstruct.sprites.shape", "screen"}, {"emit.photons", "64x64"}});
+    EXPECT_LT(std::abs(frame.renderer().ledger().balance()), 1e-6);
+}
+
+}  // namespace
+}  // namespace kaustik::test
