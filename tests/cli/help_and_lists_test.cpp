@@ -119,7 +119,7 @@ TEST_F(List, WithATechniqueHasTheParametersOfItsNodesOnly) {
         if (std::count(name.begin(), name.end(), '.') < 2) continue;  // of a stage, not of a node
         EXPECT_TRUE(contains(nodes, name.substr(0, name.rfind('.')))) << name;
     }
-    EXPECT_TRUE(contains(namesIn(params), "trace.lines.width"));
+    EXPECT_TRUE(contains(namesIn(params), "trace.hierarchical.steps"));
 }
 
 TEST_F(Explain, SaysOfEveryNodeWhyItRunsOrNot) {
@@ -130,7 +130,7 @@ TEST_F(Explain, SaysOfEveryNodeWhyItRunsOrNot) {
     EXPECT_TRUE(
         std::regex_search(outcome.out, std::regex("geometry\\.height_field +left out +\\w+")))
         << outcome.out;
-    EXPECT_TRUE(std::regex_search(outcome.out, std::regex("trace\\.lines +runs +\\w+")))
+    EXPECT_TRUE(std::regex_search(outcome.out, std::regex("trace\\.hierarchical +runs +\\w+")))
         << outcome.out;
     EXPECT_TRUE(files().empty());
 }

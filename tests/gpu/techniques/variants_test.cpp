@@ -283,8 +283,11 @@ position = [0, -0.5, 0]
         return hits;
     };
     EXPECT_EQ(count(first.read("hits.flux")), 64 * 64);
-    // A quarter of the photons would meet the floor under the plate too.
-    EXPECT_EQ(count(every.read("hits.flux_all_1")), 64 * 64 + 32 * 32);
+    // A quarter of the photons would meet the floor under the plate too. Its edges are known to a
+    // pixel, 2 cm, which is more than a photon.
+    const int further = count(every.read("hits.flux_all_1")) - 64 * 64;
+    EXPECT_GE(further, 30 * 30);
+    EXPECT_LE(further, 36 * 36);
 }
 
 TEST(ScreenAlignedSprites, KeepTheFlux) {
