@@ -170,10 +170,10 @@ FirstHit traverse(Photon photon, int minimumSteps, int maximumSteps) {
 #ifdef CLOSED_DIELECTRICS
             else {
                 if (mayComeOut && firstStep != i) {
-                    LayerHit out_ = testExit(segment, ray, i, steps);
-                    if (out_.layer >= 0 && (first.hit.layer < 0 || out_.t < first.hit.t)) {
+                    LayerHit wayOut = testExit(segment, ray, i, steps);
+                    if (wayOut.layer >= 0 && (first.hit.layer < 0 || wayOut.t < first.hit.t)) {
                         if (first.hit.layer < 0) end = min(end, i + 2);
-                        first = FirstHit(out_, texelOfStep(segment, i - 1, steps), true);
+                        first = FirstHit(wayOut, texelOfStep(segment, i - 1, steps), true);
                         firstStep = i;
                     }
                 }
