@@ -150,7 +150,8 @@ TEST_F(Explain, DrawsEveryPassAndResourceAsGraphviz) {
     const std::string dot = contents("graph.dot");
     EXPECT_TRUE(dot.starts_with("digraph")) << dot;
     EXPECT_TRUE(dot.ends_with("}\n")) << dot;
-    expectAllIn(dot, {"trace.hierarchical", "reconstruct.sprites", "photons.flux", "caustic.irradiance"});
+    expectAllIn(
+        dot, {"trace.hierarchical", "reconstruct.sprites", "photons.flux", "caustic.irradiance"});
     // Each arrow joins two nodes that are declared with a label.
     const std::regex arrow(R"( (\w+) -> (\w+);)");
     std::size_t arrows = 0;

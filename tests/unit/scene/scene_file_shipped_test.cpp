@@ -95,10 +95,10 @@ TEST_F(ShippedScenes, AreListedByNameWithADescription) {
         EXPECT_EQ(loadScene(listing.name).name, listing.name);
         EXPECT_EQ(loadScene(listing.file.string()).name, listing.name);
     }
-    for (const char* name : {"pool", "flat-water", "glass-sphere", "glossy-table", "cornell-bunny",
-                             "ring", "god-rays", "glass-bunny", "glass-dragon-low",
-                             "glass-dragon", "glass-teapot", "concave-glass", "water-from-below",
-                             "blocker", "pool-reflections", "tree"}) {
+    for (const char* name :
+         {"pool", "flat-water", "glass-sphere", "glossy-table", "cornell-bunny", "ring", "god-rays",
+          "glass-bunny", "glass-dragon-low", "glass-dragon", "glass-teapot", "concave-glass",
+          "water-from-below", "blocker", "pool-reflections", "tree"}) {
         EXPECT_TRUE(names.contains(name)) << name;
     }
 }
