@@ -129,6 +129,8 @@ std::string contentsOf(const scene::Scene& scene) {
     }
     for (const scene::TextureImage& image : scene.images)
         parts += fingerprint(image.file.empty() ? image.bytes : readFile(image.file));
+    for (const fs::path& file : scene.extendedFiles)
+        parts += fingerprint(readFile(file));
     return fingerprint(parts);
 }
 

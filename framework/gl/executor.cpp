@@ -10,6 +10,21 @@
 #include "framework/core/error.h"
 
 namespace kaustik::gl {
+namespace {
+
+// Ends with the pass, whatever that throws.
+class DebugGroup {
+  public:
+    DebugGroup(std::size_t number, const std::string& name) {
+        glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, static_cast<GLuint>(number),
+                         static_cast<GLsizei>(name.size()), name.c_str());
+    }
+    ~DebugGroup() { glPopDebugGroup(); }
+    DebugGroup(const DebugGroup&) = delete;
+    DebugGroup& operator=(const DebugGroup&) = delete;
+};
+
+}  // namespace
 
 Command PassContext::fullscreen(const std::string& fragmentShader) {
     return {*this, {fragmentShader}};
@@ -111,14 +126,14 @@ void Executor::clearSlot(std::size_t slot, const graph::ClearValue& value) const
     }
 }
 
-void Executor::runFrame(PassTimer& timer) {
+bool Executor::runFrame(PassTimer& timer, const std::function<bool(std::size_t)>& goesOn) {
     PassContext context(*this);
     timer.beginFrame(compiled_.steps.size());
     for (std::size_t i = 0; i < compiled_.steps.size(); ++i) {
         const graph::Step& step = compiled_.steps[i];
+        if (goesOn && !goesOn(i)) return false;  // the timer begins this frame again
         context_.setScope(step.name);
-        glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, static_cast<GLuint>(i),
-                         static_cast<GLsizei>(step.name.size()), step.name.c_str());
+        const DebugGroup group(i, step.name);
         if (poison_) {
             const float nan = std::numeric_limits<float>::quiet_NaN();
             const std::uint32_t ones = ~0u;
@@ -139,10 +154,10 @@ void Executor::runFrame(PassTimer& timer) {
             clearSlot(clear.slot, clear.value);
         if (step.execute) step.execute(context);
         timer.endPass(i);
-        glPopDebugGroup();
         context_.check();
     }
     timer.endFrame();
+    return true;
 }
 
 GLuint Executor::framebuffer(const std::vector<Attachment>& attachments) {

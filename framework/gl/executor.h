@@ -3,6 +3,7 @@
 // timer of its name, and hands the passes their textures and buffers.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 #include <tuple>
@@ -59,8 +60,10 @@ class Executor {
     // runs, so that a test sees who reads what nobody wrote.
     void poisonTransients(bool poison) { poison_ = poison; }
 
-    // Runs all passes once. Throws what a pass throws, and DeviceError for OpenGL errors.
-    void runFrame(PassTimer& timer);
+    // Runs all passes once. Throws what a pass throws, and DeviceError for OpenGL errors. `goesOn`
+    // is asked before each pass, by its number; where it says no, the frame ends there and has no
+    // time, and the result is false.
+    bool runFrame(PassTimer& timer, const std::function<bool(std::size_t)>& goesOn = {});
 
     [[nodiscard]] const Texture& texture(const graph::ResourceRef& handle) const;
     [[nodiscard]] const Buffer& buffer(const graph::ResourceRef& handle) const;

@@ -210,4 +210,16 @@ Program& ProgramCache::get(const ProgramKey& key) {
     return programs_.emplace(key, Program(key)).first->second;
 }
 
+std::vector<std::string> ProgramCache::reload() {
+    std::vector<std::string> errors;
+    for (auto& [key, program] : programs_) {
+        try {
+            program = Program(key);
+        } catch (const Error& error) {
+            errors.emplace_back(error.what());
+        }
+    }
+    return errors;
+}
+
 }  // namespace kaustik::gl

@@ -67,6 +67,10 @@ class ProgramCache {
     // Compiles at first use. Throws ShaderError.
     [[nodiscard]] Program& get(const ProgramKey& key);
 
+    // Compiles all programs anew from the files as they are now. Those that fail stay as they were;
+    // gives their errors, one a program, and nothing where all is well.
+    [[nodiscard]] std::vector<std::string> reload();
+
   private:
     std::map<ProgramKey, Program> programs_;
 };

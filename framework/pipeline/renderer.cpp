@@ -98,6 +98,19 @@ Renderer::Renderer(gl::Context& context, const Registry& registry, const scene::
     context_.check();
 }
 
+void Renderer::update(RenderSettings settings) {
+    settings_ = std::move(settings);
+    view_ = render::makeEyeView(scene_.camera, settings_.width, settings_.height);
+    viewBlock_ = makeViewBlock(scene_, view_);
+    lights_ = makeLights(scene_, view_);
+    instances_ = gpuScene_.makeInstances(view_.worldToView);
+    const int measuredDepthComplexity = needs_.measuredDepthComplexity;
+    needs_ = sceneNeeds(scene_);
+    needs_.measuredDepthComplexity = measuredDepthComplexity;
+    ledgerQuantumWatts_ = ledgerQuantum(scene_);
+    context_.check();
+}
+
 FrameBuilder Renderer::declareFrame(bool recordsTraces, bool leavesOutCaustic) {
     graph_ = std::make_unique<graph::Graph>();
     FrameBuilder frame(*graph_, inputs_, recordsTraces, leavesOutCaustic);
@@ -169,8 +182,8 @@ void Renderer::build(Purpose purpose, const std::vector<std::string>& resources)
     executor_.prepare(compile(purpose, resources));
 }
 
-void Renderer::renderFrame(gl::PassTimer& timer) {
-    executor_.runFrame(timer);
+bool Renderer::renderFrame(gl::PassTimer& timer, const std::function<bool(std::size_t)>& goesOn) {
+    return executor_.runFrame(timer, goesOn);
 }
 
 EnergyLedger Renderer::ledger() const {

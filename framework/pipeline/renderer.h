@@ -3,6 +3,7 @@
 // tests are thin users of this.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <set>
 #include <string>
@@ -38,6 +39,11 @@ class Renderer {
     Renderer(gl::Context& context, const Registry& registry, const scene::Scene& scene,
              RenderSettings settings);
 
+    // Takes over other settings, and what has changed of the scene's camera, lights, medium, time
+    // and waves; its meshes, materials and images must be as they were. Programs and memory that
+    // still fit are kept. build() must follow.
+    void update(RenderSettings settings);
+
     // Builds and compiles the graph, and allocates its memory. `resources` are kept until the
     // frame's end so that they can be saved: those that nothing asks for are asked for; an unknown
     // name is a ConfigError with the nearest one. Throws GraphError, ConfigError and DeviceError.
@@ -45,7 +51,9 @@ class Renderer {
     // Only declares and compiles: what a frame would take is known before any memory is taken.
     [[nodiscard]] graph::Compiled compile(Purpose purpose,
                                           const std::vector<std::string>& resources = {});
-    void renderFrame(gl::PassTimer& timer);
+    // `goesOn` is asked before each pass (its number among compiled().steps); where it says no, the
+    // rest of the frame is left out and the result is false.
+    bool renderFrame(gl::PassTimer& timer, const std::function<bool(std::size_t)>& goesOn = {});
 
     // Of the last build.
     [[nodiscard]] const graph::Graph& graph() const { return *graph_; }
@@ -73,6 +81,7 @@ class Renderer {
     [[nodiscard]] const render::GpuScene& gpuScene() const { return gpuScene_; }
     [[nodiscard]] const RenderSettings& settings() const { return settings_; }
     [[nodiscard]] gl::Executor& executor() { return executor_; }
+    [[nodiscard]] gl::ProgramCache& programs() { return programs_; }
 
   private:
     [[nodiscard]] FrameBuilder declareFrame(bool recordsTraces = false,

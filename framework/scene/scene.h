@@ -19,6 +19,7 @@ struct Camera {
     glm::dvec3 up{0.0, 1.0, 0.0};
     double verticalFovDegrees = 45.0;  // (0, 180)
     double nearMeters = 0.01;          // > 0; there is no far plane
+    friend bool operator==(const Camera&, const Camera&) = default;
 };
 
 enum class LightKind { directional, point, spot };
@@ -83,6 +84,7 @@ struct Wave {
     float phaseRadians = 0.0f;
     // Angular frequency in rad/s; < 0: the deep-water dispersion sqrt(g k).
     float omegaRadiansPerSecond = -1.0f;
+    friend bool operator==(const Wave&, const Wave&) = default;
 };
 
 // A rectangular height field, y = sum of waves over (x, z), centred on its object's origin; its
@@ -120,12 +122,14 @@ struct Medium {
     glm::vec3 scatteringPerMeter{0.0f};
     glm::vec3 absorptionPerMeter{0.0f};
     float anisotropy = 0.0f;  // Henyey-Greenstein g in (-1, 1)
+    friend bool operator==(const Medium&, const Medium&) = default;
 };
 
 struct Scene {
     std::string name;
     std::string description;
     std::filesystem::path file;
+    std::vector<std::filesystem::path> extendedFiles;  // that `file` builds on, nearest first
     Camera camera;
     std::vector<Light> lights;
     std::vector<Material> materials;

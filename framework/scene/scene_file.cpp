@@ -38,6 +38,39 @@ fs::path sceneFolder() {
     return projectRoot() / "experiments" / "scenes";
 }
 
+// A file that says `extends`: only what it changes is in it.
+Scene loadExtension(TableReader& top, const fs::path& path) {
+    const std::string base = top.text("extends");
+    const std::string extension = lowerExtension(base);
+    const bool isFile = extension == ".toml" || extension == ".gltf" || extension == ".glb";
+    const std::string name = top.text("name", path.stem().string());
+    const std::string description = top.text("description", "");
+    const SceneEdits edits = readEdits(top);
+    // A scene that extends itself, by whatever way, would be loaded for ever.
+    static thread_local int depth = 0;
+    struct Deeper {
+        Deeper() { ++depth; }
+        ~Deeper() { --depth; }
+    } const deeper;
+    if (depth > 16) top.fail("extends", "scenes extend each other without an end");
+    Scene scene;
+    try {
+        scene = loadScene(isFile ? (path.parent_path() / base).string() : base);
+    } catch (const ConfigError& error) {
+        top.fail("extends", error.what());
+    }
+    scene.name = name;
+    if (!description.empty()) scene.description = description;
+    scene.extendedFiles.insert(scene.extendedFiles.begin(), scene.file);
+    scene.file = path;
+    try {
+        applyEdits(scene, edits);
+    } catch (const ConfigError& error) {
+        top.fail("extends", error.what());
+    }
+    return scene;
+}
+
 }  // namespace
 
 std::string lowerExtension(const fs::path& path) {
@@ -50,6 +83,7 @@ std::string lowerExtension(const fs::path& path) {
 Scene loadSceneFile(const fs::path& path) {
     const toml::table document = parseToml(path);
     TableReader top(document, path, "");
+    if (top.has("extends")) return loadExtension(top, path);
     Scene scene;
     scene.file = path;
     scene.name = top.text("name", path.stem().string());

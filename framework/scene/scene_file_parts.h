@@ -6,6 +6,7 @@
 #include <string>
 
 #include "framework/scene/scene.h"
+#include "framework/scene/scene_edits.h"
 #include "framework/scene/table_reader.h"
 
 namespace kaustik::scene {
@@ -23,6 +24,12 @@ void readEnvironment(TableReader& reader, Scene& scene);
 // Adds the object's mesh to the scene; objects of the same mesh file share it. The materials must
 // have been read.
 [[nodiscard]] Object readObject(TableReader& reader, Scene& scene);
+
+// The waves of a table: [{…}, …] under `waves`, or [[….wave]].
+[[nodiscard]] std::vector<Wave> readWaves(TableReader& reader);
+
+// What a scene file that extends another one may say: scene_file_extension.cpp.
+[[nodiscard]] SceneEdits readEdits(TableReader& top);
 
 // The mesh of a `shape = …` object at the scene's time.
 [[nodiscard]] Mesh readShape(TableReader& reader, double timeSeconds);

@@ -118,6 +118,14 @@ std::function<Mesh()> readParaboloid(TableReader& reader, double) {
     return [shape] { return makeParaboloid(shape); };
 }
 
+std::function<Mesh()> readWater(TableReader& reader, double timeSeconds) {
+    HeightField field;
+    field.sizeMeters = reader.vector2("size", kPositive);
+    field.cells = reader.counts("cells", 1, kMaximumCells, glm::uvec2(128));
+    field.waves = readWaves(reader);
+    return [field, timeSeconds] { return makeHeightField(field, timeSeconds); };
+}
+
 Wave readWave(TableReader& reader) {
     Wave wave;
     wave.amplitudeMeters = reader.numberAsFloat("amplitude", kNotNegative);
@@ -131,21 +139,19 @@ Wave readWave(TableReader& reader) {
     return wave;
 }
 
-std::function<Mesh()> readWater(TableReader& reader, double timeSeconds) {
-    HeightField field;
-    field.sizeMeters = reader.vector2("size", kPositive);
-    field.cells = reader.counts("cells", 1, kMaximumCells, glm::uvec2(128));
+}  // namespace
+
+std::vector<Wave> readWaves(TableReader& reader) {
     if (reader.has("wave") && reader.has("waves")) {
         reader.fail("wave", "the waves are listed in waves or as [[object.wave]], not both");
     }
+    std::vector<Wave> waves;
     for (const char* key : {"waves", "wave"}) {
         for (TableReader& wave : reader.tables(key))
-            field.waves.push_back(readWave(wave));
+            waves.push_back(readWave(wave));
     }
-    return [field, timeSeconds] { return makeHeightField(field, timeSeconds); };
+    return waves;
 }
-
-}  // namespace
 
 Mesh readShape(TableReader& reader, double timeSeconds) {
     const auto readKeys = reader.choice<ShapeReader>("shape", {{"plane", readPlane},

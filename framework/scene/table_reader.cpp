@@ -154,12 +154,15 @@ glm::dvec3 TableReader::uniformOrVector3(std::string_view key, const NumberRange
     return {v[0], v[1], v[2]};
 }
 
+glm::dvec3 unitDirection(const glm::dvec3& vector) {
+    return glm::normalize(
+        vector / std::max({std::abs(vector.x), std::abs(vector.y), std::abs(vector.z)}));
+}
+
 glm::dvec3 TableReader::direction(std::string_view key) {
     const glm::dvec3 vector = vector3(key, kAnyNumber);
-    const double longest = std::max({std::abs(vector.x), std::abs(vector.y), std::abs(vector.z)});
-    if (longest == 0.0) fail(key, fmt::format("{} must not be the zero vector", key));
-    // Divided first, so that the square of a tiny component does not vanish.
-    return glm::normalize(vector / longest);
+    if (vector == glm::dvec3(0.0)) fail(key, fmt::format("{} must not be the zero vector", key));
+    return unitDirection(vector);
 }
 
 bool TableReader::flag(std::string_view key, bool fallback) {

@@ -37,6 +37,9 @@ inline constexpr NumberRange kPositive{kSmallestLength, kLargestNumber, false, f
 inline constexpr NumberRange kNotNegative{0.0, kLargestNumber, false, false};
 inline constexpr NumberRange kUnitInterval{0.0, 1.0, false, false};
 
+// Of length 1. `vector` is not zero, but may be tiny: it is divided before it is squared.
+[[nodiscard]] glm::dvec3 unitDirection(const glm::dvec3& vector);
+
 class TableReader {
   public:
     // `table` must outlive the reader. subject: what the table describes, for messages: "light".
