@@ -4,17 +4,14 @@
 
 #include <algorithm>
 #include <chrono>
-#include <nlohmann/json.hpp>
 
 #include "framework/app/commands.h"
 #include "framework/app/output.h"
 #include "framework/app/progress.h"
+#include "framework/app/run_record.h"
 #include "framework/app/truth.h"
 #include "framework/core/error.h"
-#include "framework/core/files.h"
-#include "framework/pipeline/stage_params.h"
 #include "framework/report/limits.h"
-#include "framework/report/run_report.h"
 
 namespace kaustik::app {
 namespace {
@@ -79,18 +76,10 @@ void runCommand(const RunOptions& options, const Registry& registry) {
     requireWritable(folder);
     catchInterrupts();
 
-    report::RunRecord record;
-    record.timer = options.precise ? gl::TimerMode::finish : gl::TimerMode::timestamps;
+    report::RunRecord record =
+        startRecord(renderer, options.precise ? gl::TimerMode::finish : gl::TimerMode::timestamps);
     record.warmup = options.warmup;
     record.seed = options.seed;
-    record.graphBuildMilliseconds = renderer.buildMilliseconds();
-    record.passes = renderer.compiled().records;
-    record.textureBytes = renderer.compiled().textureBytes;
-    record.bufferBytes = renderer.compiled().bufferBytes;
-    record.peakBytes = renderer.compiled().peakBytes;
-    for (const graph::Step& step : renderer.compiled().steps) {
-        record.stepNames.push_back(step.name);
-    }
     gl::PassTimer timer(record.timer);
     record.startupMilliseconds =
         std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
@@ -98,31 +87,8 @@ void runCommand(const RunOptions& options, const Registry& registry) {
                       renderer);  // before the frames: it may be refused
     record.frames = renderTimedFrames(renderer, timer, options);
 
-    // The pictures come from one more frame, which also fills the ledger; it is not timed.
-    renderer.build(truth.purpose(), options.saved);
-    gl::PassTimer untimed(gl::TimerMode::finish);
-    renderer.renderFrame(untimed);
-    record.ledger = renderer.ledger();
-    record.layers = renderer.layerStatistics();
-    record.layersAllowed = renderer.outputs().layers.layers;
-    record.warnings = scene.warnings;
-    record.warnings.insert(record.warnings.end(), renderer.warnings().begin(),
-                           renderer.warnings().end());
-    for (const std::string& name : unusedSettings(renderer)) {
-        record.warnings.push_back(
-            fmt::format("{} was set, but no node of this run uses it.", name));
-    }
-
-    throwIfInterrupted();
-    std::vector<fs::path> files = writePictures(folder, renderer, options.saved);
-    const std::vector<fs::path> judged = truth.judge(renderer, folder, record);
-    files.insert(files.end(), judged.begin(), judged.end());
-    const std::vector<fs::path> seen = truth.judgeView(renderer, folder, record);
-    files.insert(files.end(), seen.begin(), seen.end());
-    writeFileWhole(folder / "trace.json", report::makeChromeTrace(record).dump());
-    writeFileWhole(folder / "samples.json", report::makeSamples(record).dump());
-    const nlohmann::json report = report::makeReport(record, renderer, context->info());
-    writeFileWhole(folder / "report.json", report.dump(2) + "\n");
+    const std::vector<fs::path> files =
+        finishRun(renderer, truth, record, folder, options.saved, context->info());
 
     fmt::print("{} with {}, {}x{}, on {}\n", scene.name, renderer.settings().technique.name,
                renderer.settings().width, renderer.settings().height, context->info().renderer);
@@ -133,8 +99,6 @@ void runCommand(const RunOptions& options, const Registry& registry) {
         fmt::print("warning: {}\n", warning);
     for (const fs::path& file : files)
         fmt::print("wrote {}\n", file.string());
-    for (const char* name : {"trace.json", "samples.json", "report.json"})
-        fmt::print("wrote {}\n", (folder / name).string());
 }
 
 }  // namespace kaustik::app

@@ -107,6 +107,19 @@ Graph::Plan Graph::plan() const {
     return plan;
 }
 
+std::string Graph::bypassText(const Pass& pass) const {
+    if (pass.isLeftOut || pass.bypasses.size() < pass.outputs.size()) return "";
+    std::string text;
+    for (const Bypass& bypass : pass.bypasses) {
+        if (!text.empty()) text += "; ";
+        text +=
+            bypass.input.valid()
+                ? fmt::format("'{}' is '{}' unchanged", nameOf(bypass.output), nameOf(bypass.input))
+                : fmt::format("'{}' is {:g} everywhere", nameOf(bypass.output), bypass.value[0]);
+    }
+    return text;
+}
+
 void Graph::fillRecords(const Plan& plan, Compiled& compiled) const {
     std::map<std::string, std::size_t> recordOf;
     for (std::size_t p = 0; p < passes_.size(); ++p) {
@@ -121,19 +134,12 @@ void Graph::fillRecords(const Plan& plan, Compiled& compiled) const {
             }
             continue;
         }
-        PassRecord record{pass.info.name, PassState::ran, pass.info.why, 1};
+        PassRecord record{pass.info.name, PassState::ran, pass.info.why, 1, bypassText(pass)};
         if (pass.isLeftOut) {
             record.state = PassState::leftOut;
         } else if (plan.bypassed[p]) {
             record.state = PassState::bypassed;
-            record.why = "disabled";
-            for (const Bypass& bypass : pass.bypasses) {
-                record.why += bypass.input.valid()
-                                  ? fmt::format("; '{}' is '{}' unchanged", nameOf(bypass.output),
-                                                nameOf(bypass.input))
-                                  : fmt::format("; '{}' is {:g} everywhere", nameOf(bypass.output),
-                                                bypass.value[0]);
-            }
+            record.why = "disabled; " + record.bypass;
         } else if (!plan.needed[p]) {
             record.state = PassState::culled;
             std::vector<std::string> outputs;

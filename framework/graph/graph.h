@@ -35,6 +35,8 @@ struct PassRecord {
     PassState state = PassState::ran;
     std::string why;
     std::size_t repeats = 1;  // passes of this name
+    // What stands in for the pass where it is disabled; "" where nothing does: it is required.
+    std::string bypass;
 };
 
 class Graph;
@@ -207,6 +209,7 @@ class Graph {
     [[nodiscard]] Plan plan() const;
     void planRequired(Plan& plan) const;
     void planBypasses(Plan& plan) const;
+    [[nodiscard]] std::string bypassText(const Pass& pass) const;
     void fillRecords(const Plan& plan, Compiled& compiled) const;
     void assignSlots(const Plan& plan, Compiled& compiled) const;
 
