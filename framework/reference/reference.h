@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "framework/image/image.h"
@@ -77,6 +78,12 @@ void writeReference(const std::filesystem::path& path, const Reference& referenc
 // finite; and ConfigError when `expectedKey` is not empty and not its own.
 [[nodiscard]] Reference readReference(const std::filesystem::path& path,
                                       const std::string& expectedKey = "");
+
+// The reference that `cacheFolder` has, however good it is; nothing where there is none, or where it
+// is damaged.
+[[nodiscard]] std::optional<Reference> findCached(const scene::Scene& scene,
+                                                  const ReferenceRequest& request,
+                                                  const std::filesystem::path& cacheFolder);
 
 // The reference from `cacheFolder` when one is there that is at least as good as `options.stop`
 // asks for; else its sums are taken up where they were left, or begun, and cached. A damaged entry

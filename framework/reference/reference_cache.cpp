@@ -25,6 +25,18 @@ bool isGoodEnough(const Reference& reference, const StopWhen& stop) {
 
 }  // namespace
 
+std::optional<Reference> findCached(const scene::Scene& scene, const ReferenceRequest& request,
+                                    const fs::path& cacheFolder) {
+    const std::string key = referenceKey(scene, request);
+    std::error_code error;
+    if (!fs::exists(cacheFolder / (key + ".json"), error)) return {};
+    try {
+        return readReference(cacheFolder / (key + floatImageExtension()), key);
+    } catch (const Error&) {
+        return {};
+    }
+}
+
 Reference loadOrCompute(const EmbreeScene& scene, const ReferenceRequest& request,
                         const fs::path& cacheFolder, const RunOptions& options,
                         const std::function<void(const std::string&)>& report) {

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include "framework/gui/document.h"
+
+#include <nlohmann/json.hpp>
+
+#include "framework/scene/scene_file.h"
+
+namespace kaustik::gui {
+namespace {
+
+using nlohmann::json;
+using scene::SceneEdits;
+
+json vectorJson(const glm::dvec3& v) {
+    return {v.x, v.y, v.z};
+}
+json vectorJson(const glm::vec3& v) {
+    return {v.x, v.y, v.z};
+}
+template <class V>
+V vectorFrom(const json& j) {
+    return V(j.at(0), j.at(1), j.at(2));
+}
+
+json variantJson(const Variant& variant) {
+    return {{"technique", variant.technique},
+            {"set", variant.assignments},
+            {"disable", variant.disabled}};
+}
+
+Variant variantFrom(const json& j) {
+    Variant variant;
+    variant.technique = j.at("technique").get<std::string>();
+    variant.assignments = j.at("set").get<std::map<std::string, std::string>>();
+    variant.disabled = j.at("disable").get<std::set<std::string>>();
+    return variant;
+}
+
+json cameraJson(const scene::Camera& camera) {
+    return {{"position", vectorJson(camera.position)},
+            {"target", vectorJson(camera.target)},
+            {"up", vectorJson(camera.up)},
+            {"vertical_fov_degrees", camera.verticalFovDegrees},
+            {"near", camera.nearMeters}};
+}
+
+scene::Camera cameraFrom(const json& j) {
+    scene::Camera camera;
+    camera.position = vectorFrom<glm::dvec3>(j.at("position"));
+    camera.target = vectorFrom<glm::dvec3>(j.at("target"));
+    camera.up = vectorFrom<glm::dvec3>(j.at("up"));
+    camera.verticalFovDegrees = j.at("vertical_fov_degrees");
+    camera.nearMeters = j.at("near");
+    return camera;
+}
+
+json editsJson(const SceneEdits& edits) {
+    json result = json::object();
+    if (edits.camera) result["camera"] = cameraJson(*edits.camera);
+    if (edits.timeSeconds) result["time"] = *edits.timeSeconds;
+    if (edits.medium) {
+        result["medium"] = {{"scattering", vectorJson(edits.medium->scatteringPerMeter)},
+                            {"absorption", vectorJson(edits.medium->absorptionPerMeter)},
+                            {"anisotropy", edits.medium->anisotropy}};
+    }
+    for (const auto& [name, edit] : edits.lights) {
+        json& light = result["lights"][name] = json::object();
+        if (edit.direction) light["direction"] = vectorJson(*edit.direction);
+        if (edit.position) light["position"] = vectorJson(*edit.position);
+        if (edit.powerFactor) light["power_factor"] = *edit.powerFactor;
+    }
+    for (const auto& [name, waves] : edits.waves) {
+        json& list = result["waves"][name] = json::array();
+        for (const scene::Wave& wave : waves) {
+            list.push_back({wave.amplitudeMeters, wave.wavelengthMeters, wave.directionDegrees,
+                            wave.phaseRadians, wave.omegaRadiansPerSecond});
+        }
+    }
+    return result;
+}
+
+SceneEdits editsFrom(const json& j) {
+    SceneEdits edits;
+    if (j.contains("camera")) edits.camera = cameraFrom(j.at("camera"));
+    if (j.contains("time")) edits.timeSeconds = j.at("time").get<double>();
+    if (j.contains("medium")) {
+        const json& medium = j.at("medium");
+        edits.medium =
+            scene::Medium{vectorFrom<glm::vec3>(medium.at("scattering")),
+                          vectorFrom<glm::vec3>(medium.at("absorption")), medium.at("anisotropy")};
+    }
+    for (const auto& [name, light] : j.value("lights", json::object()).items()) {
+        scene::LightEdit& edit = edits.lights[name];
+        if (light.contains("direction"))
+            edit.direction = vectorFrom<glm::dvec3>(light.at("direction"));
+        if (light.contains("position"))
+            edit.position = vectorFrom<glm::dvec3>(light.at("position"));
+        if (light.contains("power_factor")) edit.powerFactor = light.at("power_factor");
+    }
+    for (const auto& [name, list] : j.value("waves", json::object()).items()) {
+        std::vector<scene::Wave>& waves = edits.waves[name];
+        for (const json& wave : list)
+            waves.push_back({wave.at(0), wave.at(1), wave.at(2), wave.at(3), wave.at(4)});
+    }
+    return edits;
+}
+
+}  // namespace
+
+RenderSettings settingsOf(const Variant& variant, const params::Extent& size,
+                          const Registry& registry) {
+    RenderSettings settings;
+    settings.technique = registry.findTechnique(variant.technique);
+    settings.params = registry.makeParams(settings.technique);
+    for (const auto& [name, value] : variant.assignments)
+        settings.params.set(name, value, "workbench");
+    settings.disabledPasses = variant.disabled;
+    settings.width = size.width;
+    settings.height = size.height;
+    return settings;
+}
+
+scene::Scene sceneOf(const Document& document) {
+    scene::Scene scene = scene::loadScene(document.scene);
+    scene::applyEdits(scene, document.edits);
+    return scene;
+}
+
+json toJson(const Document& document) {
+    json result = {{"scene", document.scene},
+                   {"edits", editsJson(document.edits)},
+                   {"size", {document.size.width, document.size.height}},
+                   {"variant", variantJson(document.variant)}};
+    if (document.other) result["other"] = variantJson(*document.other);
+    return result;
+}
+
+Document documentFromJson(const json& j) {
+    try {
+        Document document;
+        document.scene = j.at("scene").get<std::string>();
+        document.edits = editsFrom(j.at("edits"));
+        document.size = {j.at("size").at(0), j.at("size").at(1)};
+        document.variant = variantFrom(j.at("variant"));
+        if (j.contains("other")) document.other = variantFrom(j.at("other"));
+        const bool isSize = document.size.width >= 1 && document.size.width <= 16384 &&
+                            document.size.height >= 1 && document.size.height <= 16384;
+        return isSize ? document : Document();
+    } catch (const json::exception&) {
+        return {};
+    }
+}
+
+}  // namespace kaustik::gui

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// What is worked on in the workbench, as a value: scene, changes to it, size, and one or two ways
+// to render it. Everything that decides a picture is here, so that it can be sent to another
+// thread, compared, kept over a restart and written as an experiment.
+#pragma once
+
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "framework/params/field.h"
+#include "framework/pipeline/renderer.h"
+#include "framework/scene/scene_edits.h"
+
+namespace kaustik::gui {
+
+// One way to render: what `kaustik run` takes as --technique, --set and --disable.
+struct Variant {
+    std::string technique = "screen_space_photons";
+    std::map<std::string, std::string> assignments;  // by full name
+    std::set<std::string> disabled;                  // passes, by full name
+    friend bool operator==(const Variant&, const Variant&) = default;
+};
+
+struct Document {
+    std::string scene = "pool";  // a name or a file's path, as `kaustik run` takes it
+    scene::SceneEdits edits;
+    params::Extent size{800, 600};
+    Variant variant;               // A
+    std::optional<Variant> other;  // B, beside it
+    friend bool operator==(const Document&, const Document&) = default;
+};
+
+// Throws ConfigError for what the registry does not have or a parameter does not take.
+[[nodiscard]] RenderSettings settingsOf(const Variant& variant, const params::Extent& size,
+                                        const Registry& registry);
+
+// The scene with its changes. Throws what loading it throws.
+[[nodiscard]] scene::Scene sceneOf(const Document& document);
+
+[[nodiscard]] nlohmann::json toJson(const Document& document);
+// What is missing or makes no sense is as in a new document: a restart must never fail for it.
+[[nodiscard]] Document documentFromJson(const nlohmann::json& json);
+
+}  // namespace kaustik::gui

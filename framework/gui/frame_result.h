@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// What the renderer's thread tells the window: values that nobody changes any more, so that both
+// may read them at once.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "framework/gl/context.h"
+#include "framework/gui/document.h"
+#include "framework/gui/histogram.h"
+#include "framework/gui/photon_probe.h"
+#include "framework/image/image.h"
+#include "framework/measure/finite.h"
+#include "framework/report/limits.h"
+#include "framework/report/run_report.h"
+#include "framework/scene/scene.h"
+
+namespace kaustik::app {
+struct Outputs;
+}
+
+namespace kaustik::gui {
+
+struct ListedTexture {
+    std::string name;
+    graph::TextureDesc desc;
+};
+
+// One layer of a texture, read back.
+struct ViewedTexture {
+    std::string name;        // of the resource; "" where it is the picture
+    bool isEncoded = false;  // display-encoded, not linear
+    int layer = 0;
+    Image values;  // all channels, top row first
+    std::optional<measure::NotFinite> notFinite;
+    Histogram histogram;
+};
+
+// Of one way to render.
+struct VariantResult {
+    std::uint64_t frame = 0;  // counts the frames of this variant
+    std::string error;        // why there is no newer picture; "" where all is well
+    bool isPreview = false;   // smaller, and without caustics
+    bool isSettled = false;   // the order's frames are done: nothing will change any more
+    std::vector<graph::PassRecord> passes;
+    std::vector<report::PassTimes> times;  // of the newest frames, oldest first
+    std::vector<double> frameMs;
+    std::vector<ListedTexture> textures;
+    std::optional<ViewedTexture> viewed;
+    std::vector<std::string> warnings;
+    std::size_t peakBytes = 0;
+    // Of one more frame, once the order is settled.
+    std::optional<EnergyLedger> ledger;
+    std::vector<report::ReachedLimit> limits;
+    std::shared_ptr<const app::Outputs> outputs;  // where asked for
+    ModelledPaths paths;
+};
+
+// What the window needs to know of a scene that it has not loaded itself.
+struct SceneFacts {
+    std::string name;
+    std::string description;
+    std::size_t triangles = 0;
+    scene::SceneNeeds needs;
+    scene::Camera camera;  // as are the next, with the document's changes
+    std::vector<scene::Light> lights;
+    std::optional<scene::Medium> medium;
+    double timeSeconds = 0.0;
+    scene::Bounds bounds;
+    struct Water {
+        std::string object;
+        std::vector<scene::Wave> waves;
+    };
+    std::vector<Water> waters;
+};
+
+struct FrameResult {
+    std::uint64_t order = 0;    // that it answers
+    Document document;          // of that order
+    std::string problem;        // with scene or device, so that there is no frame at all; else ""
+    bool isLost = false;        // the device is gone: only another worker can go on
+    std::string shaderProblem;  // the programs that failed to reload; the last good ones are used
+    gl::DeviceInfo device;
+    std::shared_ptr<const SceneFacts> scene;
+    std::array<VariantResult, 2> variants;  // A, and B where the document has one
+    std::optional<PhotonProbe> probe;
+};
+
+}  // namespace kaustik::gui

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// Which photons landed at a pixel, and the ways that they came: read from the records of every
+// tracing of a frame that was rendered for Purpose::audit.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "framework/pipeline/renderer.h"
+
+namespace kaustik::gui {
+
+struct PhotonPath {
+    glm::ivec2 photon{0};  // its texel of the transfer map
+    // Eye view space, m: a point of the light's way before the first surface, each interaction,
+    // and where it landed.
+    std::vector<glm::vec3> points;
+    glm::vec3 fluxWatts{0.0f};
+    float pixels = 0.0f;  // from the middle of the probed pixel
+};
+
+struct PhotonProbe {
+    glm::ivec2 pixel{0};  // from the upper left
+    float radiusPixels = 1.0f;
+    std::size_t landed = 0;         // within the radius
+    glm::vec3 fluxWatts{0.0f};      // of all of them
+    std::vector<PhotonPath> paths;  // the nearest, kMostPaths at most
+    static constexpr std::size_t kMostPaths = 200;
+};
+
+// Of the frame that was rendered last; waits for the device.
+[[nodiscard]] PhotonProbe probePhotons(const Renderer& renderer, glm::ivec2 pixel,
+                                       float radiusPixels);
+
+// Where a point before the eye is seen, in pixels from the upper left; `visible` is false for one
+// nearer than the near plane.
+struct Projected {
+    glm::vec2 pixel{0.0f};
+    bool visible = false;
+};
+[[nodiscard]] Projected project(const render::EyeView& view, const glm::vec3& pointVs);
+
+}  // namespace kaustik::gui

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: MIT
+#include "framework/gui/truth_worker.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "framework/core/error.h"
+#ifdef KAUSTIK_HAS_EMBREE
+#include "framework/app/caustic_errors.h"
+#include "framework/app/reference_work.h"
+#include "framework/reference/reference.h"
+#endif
+
+namespace kaustik::gui {
+
+bool TruthAim::operator==(const TruthAim& other) const {
+    return scene == other.scene && edits == other.edits && size == other.size &&
+           paths.transmissionOnly == other.paths.transmissionOnly &&
+           paths.interactions == other.paths.interactions;
+}
+
+TruthWorker::TruthWorker(std::function<void()> onNews)
+    : onNews_(std::move(onNews)), thread_([this] { run(); }) {}
+
+TruthWorker::~TruthWorker() {
+    {
+        const std::lock_guard lock(mutex_);
+        stop_ = true;
+    }
+    wake_.notify_all();
+    thread_.join();
+}
+
+void TruthWorker::aim(const TruthAim& aim) {
+    {
+        const std::lock_guard lock(mutex_);
+        if (wantedAim_ == aim) return;
+        wantedAim_ = aim;
+        wantedPhotons_ = 0;
+        wantedFrames_.reset();
+    }
+    wake_.notify_all();
+}
+
+void TruthWorker::compute(std::uint64_t photons) {
+    {
+        const std::lock_guard lock(mutex_);
+        wantedPhotons_ = photons;
+    }
+    wake_.notify_all();
+}
+
+void TruthWorker::stopComputing() {
+    const std::lock_guard lock(mutex_);
+    wantedPhotons_ = 0;
+}
+
+void TruthWorker::judge(const std::array<JudgedFrame, 2>& frames) {
+    {
+        const std::lock_guard lock(mutex_);
+        wantedFrames_ = frames;
+    }
+    wake_.notify_all();
+}
+
+std::shared_ptr<const TruthState> TruthWorker::state() const {
+    const std::lock_guard lock(mutex_);
+    return state_;
+}
+
+void TruthWorker::post() {
+    {
+        const std::lock_guard lock(mutex_);
+        state_ = std::make_shared<const TruthState>(working_);
+    }
+    onNews_();
+}
+
+bool TruthWorker::isSuperseded() const {
+    const std::lock_guard lock(mutex_);
+    return stop_ || wantedAim_ != currentAim_ || wantedPhotons_ == 0;
+}
+
+#ifndef KAUSTIK_HAS_EMBREE
+
+struct TruthWorker::Loaded {};
+void TruthWorker::run() {
+    working_.problem = "This program was built without Embree and knows no truth.";
+    post();
+}
+
+#else
+
+namespace {
+
+using reference::Reference;
+using reference::ReferenceRequest;
+
+// Between two looks at what else there is to do, and two pictures of the truth.
+constexpr std::uint64_t kPhotonsAtOnce = 1u << 23;
+
+std::filesystem::path cache() {
+    return app::cacheFolder() / "references";
+}
+
+}  // namespace
+
+struct TruthWorker::Loaded {
+    explicit Loaded(scene::Scene s) : scene(std::move(s)) {}
+    scene::Scene scene;
+    std::optional<reference::EmbreeScene> embree;  // made when first computed with
+    ReferenceRequest request;
+    std::optional<ReferenceRequest> modelledRequest;
+    std::optional<Reference> whole;
+    std::optional<Reference> modelled;
+};
+
+void TruthWorker::run() {
+    static_cast<void>(setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 10));
+    std::unique_ptr<Loaded> loaded;
+    for (;;) {
+        bool hasNewAim = false;
+        std::uint64_t photons = 0;
+        std::optional<std::array<JudgedFrame, 2> > frames;
+        {
+            std::unique_lock lock(mutex_);
+            wake_.wait(lock, [&] {
+                return stop_ || wantedAim_ != currentAim_ || wantedPhotons_ > 0 || wantedFrames_;
+            });
+            if (stop_) return;
+            hasNewAim = wantedAim_ != currentAim_;
+            currentAim_ = wantedAim_;
+            if (!hasNewAim) {
+                frames = std::exchange(wantedFrames_, {});
+                photons = wantedPhotons_;
+            }
+        }
+        try {
+            if (hasNewAim) {
+                loaded.reset();
+                working_ = {};
+                working_.work = TruthState::Work::looking;
+                post();
+                loaded = std::make_unique<Loaded>(
+                    sceneOf({currentAim_->scene, currentAim_->edits, currentAim_->size, {}, {}}));
+                look(*loaded, *currentAim_);
+            } else if (loaded && frames && loaded->whole) {
+                judgeFrames(*loaded, *frames);
+            } else if (loaded && photons > 0) {
+                computeMore(*loaded, photons);
+            } else {
+                stopComputing();
+            }
+        } catch (const std::exception& error) {
+            working_.problem = error.what();
+            working_.work = TruthState::Work::none;
+            stopComputing();
+            post();
+        }
+    }
+}
+
+void TruthWorker::takeOver(const Loaded& loaded) {
+    working_.photons = loaded.whole ? loaded.whole->photons : 0;
+    working_.relativeError = loaded.whole ? loaded.whole->relativeError : 0.0;
+    working_.irradiance =
+        loaded.whole ? std::make_shared<const Image>(loaded.whole->irradiance) : nullptr;
+}
+
+void TruthWorker::look(Loaded& loaded, const TruthAim& aim) {
+    loaded.request.width = aim.size.width;
+    loaded.request.height = aim.size.height;
+    if (aim.paths.interactions > 0) {
+        loaded.modelledRequest = loaded.request;
+        loaded.modelledRequest->filter.transmissionOnly = aim.paths.transmissionOnly;
+        loaded.modelledRequest->filter.maximumInteractions = aim.paths.interactions;
+    }
+    loaded.whole = findCached(loaded.scene, loaded.request, cache());
+    if (loaded.modelledRequest)
+        loaded.modelled = findCached(loaded.scene, *loaded.modelledRequest, cache());
+    working_.aim = aim;
+    working_.work = TruthState::Work::none;
+    takeOver(loaded);
+    post();
+}
+
+void TruthWorker::computeMore(Loaded& loaded, std::uint64_t photons) {
+    if (!loaded.embree) loaded.embree.emplace(loaded.scene);
+    const std::uint64_t before = loaded.whole ? loaded.whole->photons : 0;
+    const std::uint64_t target =
+        std::min(photons, before + std::max(kPhotonsAtOnce / 8, std::min(before, kPhotonsAtOnce)));
+    working_.work = TruthState::Work::computing;
+    working_.problem.clear();
+    auto lastPost = std::chrono::steady_clock::now();
+    reference::RunOptions options;
+    options.stop.photons = target;
+    options.progress = [&](const reference::Progress& now) {
+        working_.share =
+            std::min(1.0, static_cast<double>(now.photons) / static_cast<double>(photons));
+        working_.reached =
+            fmt::format("{:.1f} of {:.1f} million photons", static_cast<double>(now.photons) * 1e-6,
+                        static_cast<double>(photons) * 1e-6);
+        if (std::isfinite(now.relativeError))
+            working_.reached += fmt::format(", standard error {:.2f} %", 100.0 * now.relativeError);
+        if (std::chrono::steady_clock::now() - lastPost > std::chrono::milliseconds(100)) {
+            lastPost = std::chrono::steady_clock::now();
+            post();
+        }
+        return !isSuperseded();
+    };
+    const auto ignore = [](const std::string&) {};
+    try {
+        if (before < photons) {
+            loaded.whole = loadOrCompute(*loaded.embree, loaded.request, cache(), options, ignore);
+        }
+        if (loaded.modelledRequest && !isSuperseded()) {
+            loaded.modelled =
+                loadOrCompute(*loaded.embree, *loaded.modelledRequest, cache(), options, ignore);
+        }
+    } catch (const ConfigError&) {
+        if (!isSuperseded())
+            throw;  // else: ended below two batches, of which there is no reference
+    }
+    const bool isDone = loaded.whole && loaded.whole->photons >= photons;
+    working_.work = isDone || isSuperseded() ? TruthState::Work::none : TruthState::Work::computing;
+    if (isDone) stopComputing();
+    takeOver(loaded);
+    for (TruthState::Judgement& judgement : working_.judgements)
+        judgement.frame = 0;  // by a worse truth: frames are to be judged again
+    post();
+}
+
+void TruthWorker::judgeFrames(Loaded& loaded, const std::array<JudgedFrame, 2>& frames) {
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        TruthState::Judgement judgement;
+        if (frames[i].outputs) {
+            const app::Outputs& outputs = *frames[i].outputs;
+            const Image& image = outputs.images.front().image;
+            if (image.width != loaded.request.width || image.height != loaded.request.height)
+                continue;
+            judgement.frame = frames[i].frame;
+            judgement.whole = errorsAgainst(outputs, *loaded.whole);
+            if (loaded.modelled) judgement.modelled = errorsAgainst(outputs, *loaded.modelled);
+            if (outputs.seesReceivers && !judgement.whole.at("caustic_irradiance").is_null()) {
+                judgement.heatMap = std::make_shared<const Image>(
+                    app::errorPicture(pairOf(outputs, outputs.images.front(), *loaded.whole)));
+            }
+        }
+        working_.judgements[i] = std::move(judgement);
+    }
+    post();
+}
+
+#endif
+
+}  // namespace kaustik::gui

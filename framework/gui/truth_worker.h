@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// The ray-traced truth in the background: looked for in the cache, computed when asked for, and
+// what each frame is worth beside it. On a thread of its own at low priority, which nothing waits
+// for. Without Embree it says so and does nothing.
+#pragma once
+
+#include <array>
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "framework/gui/document.h"
+#include "framework/image/image.h"
+
+namespace kaustik::app {
+struct Outputs;
+}
+
+namespace kaustik::gui {
+
+// What a reference depends on.
+struct TruthAim {
+    std::string scene;
+    scene::SceneEdits edits;
+    params::Extent size;
+    ModelledPaths paths;  // interactions 0: nothing is modelled
+    [[nodiscard]] bool operator==(const TruthAim& other) const;
+};
+
+// A frame to be judged.
+struct JudgedFrame {
+    std::uint64_t frame = 0;
+    std::shared_ptr<const app::Outputs> outputs;
+};
+
+struct TruthState {
+    enum class Work { none, looking, computing };
+    Work work = Work::none;
+    double share = 0.0;   // computed of what was asked for
+    std::string reached;  // "3.1 million photons, standard error 2.1 %"
+    std::string problem;
+    std::optional<TruthAim> aim;  // that all of the following is of
+    std::uint64_t photons = 0;    // 0: there is no reference
+    double relativeError = 0.0;
+    std::shared_ptr<const Image> irradiance;  // W/m², top row first
+    struct Judgement {
+        std::uint64_t frame = 0;  // 0: none yet
+        nlohmann::json whole;     // as `error` of report.json
+        nlohmann::json modelled;  // as `error.modelled_paths`; null where unknown
+        std::shared_ptr<const Image> heatMap;
+    };
+    std::array<Judgement, 2> judgements;  // of A and B
+};
+
+class TruthWorker {
+  public:
+    // `onNews` is called on the worker's thread.
+    explicit TruthWorker(std::function<void()> onNews);
+    ~TruthWorker();  // what has been computed is kept
+    TruthWorker(const TruthWorker&) = delete;
+    TruthWorker& operator=(const TruthWorker&) = delete;
+
+    // What the truth should be of, from now on; ends a computation of something else.
+    void aim(const TruthAim& aim);
+    // Goes on computing until there are so many photons.
+    void compute(std::uint64_t photons);
+    void stopComputing();
+    // The newest frames of A and B; those before are forgotten.
+    void judge(const std::array<JudgedFrame, 2>& frames);
+
+    [[nodiscard]] std::shared_ptr<const TruthState> state() const;
+
+  private:
+    struct Loaded;  // scene and references, on the thread
+
+    void run();
+    void post();
+    void look(Loaded& loaded, const TruthAim& aim);
+    void computeMore(Loaded& loaded, std::uint64_t photons);
+    void judgeFrames(Loaded& loaded, const std::array<JudgedFrame, 2>& frames);
+    void takeOver(const Loaded& loaded);
+    [[nodiscard]] bool isSuperseded() const;
+
+    std::function<void()> onNews_;
+    mutable std::mutex mutex_;
+    std::condition_variable wake_;
+    bool stop_ = false;
+    std::optional<TruthAim> wantedAim_;  // newest
+    std::optional<TruthAim> currentAim_;
+    std::uint64_t wantedPhotons_ = 0;  // 0: none
+    std::optional<std::array<JudgedFrame, 2>> wantedFrames_;
+    std::shared_ptr<const TruthState> state_ = std::make_shared<const TruthState>();
+    TruthState working_;  // the thread's own
+    std::thread thread_;
+};
+
+}  // namespace kaustik::gui

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// One way to render on the renderer's thread: builds what is asked for, renders frames that are
+// timed, and reads back what the window shows.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "framework/gui/frame_result.h"
+#include "framework/pipeline/renderer.h"
+#include "framework/report/run_report.h"
+
+namespace kaustik::gui {
+
+// What the window wants to see of a frame.
+struct Viewing {
+    std::string resource;  // "": the picture
+    int layer = 0;
+    bool readsOutputs = false;  // VariantResult::outputs
+    friend bool operator==(const Viewing&, const Viewing&) = default;
+};
+
+class VariantRenderer {
+  public:
+    // Asked before each pass, with its number, how many there are, and its name.
+    using GoesOn = std::function<bool(std::size_t, std::size_t, const std::string&)>;
+
+    // All of these outlive the renderer.
+    VariantRenderer(gl::Context& context, const Registry& registry, const scene::Scene& scene)
+        : context_(context), registry_(registry), scene_(scene) {}
+
+    // Renders a frame of the variant and reads it back into result(). False: it was ended early,
+    // and the result is the one before. What is wrong with the variant becomes the result's error;
+    // only a DeviceError is thrown.
+    bool render(const Variant& variant, const params::Extent& size, const Viewing& viewing,
+                gl::TimerMode timer, const GoesOn& goesOn);
+    // The same, smaller and without caustics, for a view that is being turned. Not timed.
+    bool renderPreview(const Variant& variant, const params::Extent& size, const GoesOn& goesOn);
+    // One more frame of what was rendered last, for the ledger and the limits.
+    bool measure(const GoesOn& goesOn);
+    // One more frame for the photons that landed at a pixel.
+    [[nodiscard]] std::optional<PhotonProbe> probe(glm::ivec2 pixel, float radius,
+                                                   const GoesOn& goesOn);
+
+    [[nodiscard]] const VariantResult& result() const { return result_; }
+    [[nodiscard]] VariantResult& result() { return result_; }
+    // Of what was rendered last; null before.
+    [[nodiscard]] Renderer* renderer() { return renderer_.get(); }
+    // With the newest frames, for report.json.
+    [[nodiscard]] const report::RunRecord& record() const { return record_; }
+    // Programs that cannot be compiled any more; the others are replaced.
+    [[nodiscard]] std::vector<std::string> reloadShaders();
+    // The scene's lights, camera, time … have changed.
+    void noteSceneChange() { isUpToDate_ = false; }
+
+    static constexpr std::size_t kFramesKept = 128;
+
+  private:
+    void prepare(const Variant& variant, const params::Extent& size);
+    void restartTimes(gl::TimerMode timer);
+    void readBack(const Viewing& viewing);
+    bool guarded(const std::function<bool()>& work);
+    [[nodiscard]] std::function<bool(std::size_t)> stepwise(const GoesOn& goesOn) const;
+
+    gl::Context& context_;
+    const Registry& registry_;
+    const scene::Scene& scene_;
+    std::unique_ptr<Renderer> renderer_;
+    Variant variant_;
+    params::Extent size_;
+    bool isUpToDate_ = false;
+    std::string built_;  // what `renderer_` is built for, to build only when that changes
+    std::unique_ptr<gl::PassTimer> timer_;
+    report::RunRecord record_;
+    VariantResult result_;
+};
+
+}  // namespace kaustik::gui

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// The workbench's window: GLFW with an OpenGL context of its own, and Dear ImGui in it. Knows
+// nothing of what is drawn.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+struct GLFWwindow;
+
+namespace kaustik::gui {
+
+class Window {
+  public:
+    struct Placement {
+        int width = 1440;
+        int height = 900;
+        int x = -1;  // negative: wherever the system puts it
+        int y = -1;
+    };
+
+    // Throws DeviceError (exit code 1) that says what is missing and names `kaustik run`, which
+    // needs no window. `imguiSettings`: where Dear ImGui keeps its own.
+    Window(const std::string& title, const Placement& placement,
+           const std::filesystem::path& imguiSettings);
+    ~Window();
+    Window(const Window&) = delete;
+    Window& operator=(const Window&) = delete;
+
+    [[nodiscard]] bool isClosing() const;
+    void close();
+    // Waits for input, but not longer than so many seconds; then begins a frame of the interface.
+    void beginFrame(double waitSeconds);
+    // Draws it. Throws DeviceError (exit code 3) when the window's context is lost.
+    void endFrame();
+    // Ends a wait from any thread.
+    static void wake();
+
+    // Files that were dropped on the window since the last call.
+    [[nodiscard]] std::vector<std::string> takeDropped();
+    [[nodiscard]] Placement placement() const;
+    [[nodiscard]] float scale() const { return scale_; }  // of the interface, 1 at 96 dpi
+    // What is seen now, 8 bits RGB, top row first; of the frame that was drawn last.
+    [[nodiscard]] std::vector<float> readPixels(int& width, int& height) const;
+    // Whether anything has happened that needs more than one frame to settle.
+    [[nodiscard]] bool hadInput() const { return hadInput_; }
+    [[nodiscard]] const std::string& renderer() const { return renderer_; }
+
+  private:
+    void loadFont();
+
+    GLFWwindow* window_ = nullptr;
+    std::string iniFile_;
+    std::string renderer_;
+    std::vector<std::string> dropped_;
+    float scale_ = 1.0f;
+    bool hadInput_ = true;
+    bool isRobust_ = false;
+};
+
+}  // namespace kaustik::gui
