@@ -105,6 +105,7 @@ void runCommand(const RunOptions& options, const Registry& registry) {
     record.ledger = renderer.ledger();
     record.layers = renderer.layerStatistics();
     record.layersAllowed = renderer.outputs().layers.layers;
+    record.nodeLimits = renderer.reachedLimits();
     record.warnings = scene.warnings;
     record.warnings.insert(record.warnings.end(), renderer.warnings().begin(),
                            renderer.warnings().end());
@@ -127,7 +128,7 @@ void runCommand(const RunOptions& options, const Registry& registry) {
     fmt::print("{} with {}, {}x{}, on {}\n", scene.name, renderer.settings().technique.name,
                renderer.settings().width, renderer.settings().height, context->info().renderer);
     fmt::print("{}", report::makeTable(record));
-    for (const report::ReachedLimit& limit : report::reachedLimits(record, renderer))
+    for (const ReachedLimit& limit : report::reachedLimits(record, renderer))
         fmt::print("limit   {} = {:g}: {}\n", limit.parameter, limit.value, limit.sentence);
     for (const std::string& warning : record.warnings)
         fmt::print("warning: {}\n", warning);

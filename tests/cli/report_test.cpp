@@ -2,6 +2,7 @@
 // report.json, schema kaustik.report/1 (design, section 7), and how --set and --disable show in it.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 
 #include "framework/image/image.h"
@@ -156,6 +157,7 @@ TEST_F(Report, SaysWhatWasLostToEveryLimitThatWasReached) {
     ASSERT_EQ(report.at("limits").size(), 1u) << report.at("limits");
     const json& limit = report.at("limits")[0];
     EXPECT_EQ(limit.at("limit"), "layers.count");
+    EXPECT_EQ(limit.at("unit"), "layers");
     EXPECT_EQ(limit.at("value"), 1);
     EXPECT_EQ(limit.at("needed"), report.at("layers").at("complexity"));
     EXPECT_NE(limit.at("lost").get<std::string>().find(
@@ -171,8 +173,36 @@ TEST_F(Report, CountsTheBatchesOfALimitedMemory) {
     const json report = this->report();
     ASSERT_EQ(report.at("limits").size(), 1u) << report.at("limits");
     EXPECT_EQ(report.at("limits")[0].at("limit"), "trace.lines.memory");
+    EXPECT_EQ(report.at("limits")[0].at("unit"), "batches");
     EXPECT_EQ(report.at("limits")[0].at("value"), 32 * 32 / 64);
     EXPECT_EQ(report.at("limits")[0].at("lost_w"), 0.0);
+}
+
+// The entries of `limits` by their names.
+std::map<std::string, json> limitsOf(const json& report) {
+    std::map<std::string, json> limits;
+    for (const json& limit : report.at("limits"))
+        limits[limit.at("limit")] = limit;
+    return limits;
+}
+
+TEST_F(Report, TakesOneTracingABounceForNoBatches) {
+    const std::vector<std::string> arguments =
+        smallRun("glass-sphere", {"--set", "trace=lines", "--out", "out"});
+    ASSERT_EQ(run(arguments).exitCode, 0);
+    EXPECT_GT(passNamed(report(), "trace.lines").at("repeats"), 1);
+    std::map<std::string, json> limits = limitsOf(report());
+    EXPECT_FALSE(limits.contains("trace.lines.memory")) << report().at("limits");
+    // What goes to and fro in the sphere is cut off.
+    ASSERT_TRUE(limits.contains("specular.bounces")) << report().at("limits");
+    EXPECT_EQ(limits["specular.bounces"].at("unit"), "bounces");
+
+    std::vector<std::string> batched = arguments;
+    batched.insert(batched.end(), {"--set", "lines.rows=64"});
+    ASSERT_EQ(run(batched).exitCode, 0);
+    limits = limitsOf(report());
+    ASSERT_TRUE(limits.contains("trace.lines.memory")) << report().at("limits");
+    EXPECT_EQ(limits["trace.lines.memory"].at("value"), 32 * 32 / 64);  // of each tracing
 }
 
 TEST_F(Set, TakesAnyUniqueShortFormAndReportsTheFullName) {
