@@ -44,7 +44,8 @@ void main() {
                        ? reconstruct_sprites_radius
                        : reconstruct_sprites_footprints * texelFetch(photonPosition, texel, 0).w;
     float pixel = pixelFootprint(-sprite.center.z);
-    sprite.radius = clamp(wanted, pixel, float(reconstruct_sprites_maximum) * pixel);
+    float largest = float(reconstruct_sprites_maximum) * pixel;
+    sprite.radius = clamp(wanted, pixel, largest);
 
     float on = 0.0;
     float occluded = 0.0;
@@ -63,7 +64,8 @@ void main() {
     float total = on + occluded + offScreen;
     vec4 weights = vec4(0.0);
     if (total > 0.0) {
-        weights = vec4(1.0 / total, sprite.radius, on / total, 0.0);
+        float shrunkFrom = wanted > largest ? wanted / pixel : 0.0;
+        weights = vec4(1.0 / total, sprite.radius, on / total, shrunkFrom);
         if (occluded > 0.0) ledgerAdd(kAccountOccludedSplat, flux.rgb * (occluded / total));
         if (offScreen > 0.0) ledgerAdd(kAccountOffScreen, flux.rgb * (offScreen / total));
     } else {
