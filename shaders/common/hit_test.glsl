@@ -57,13 +57,6 @@ struct LayerHit {
     int layer;
 };
 
-ivec2 texelOfStep(RaySegment segment, int i, int n) {
-    float middle = float(i) + 0.5;
-    vec2 pixel =
-        (segment.nearPixel * (float(n) - middle) + segment.farPixel * middle) / float(n);
-    return clamp(ivec2(floor(pixel)), ivec2(0), ivec2(view.sizePixels.xy) - 1);
-}
-
 // One step [i, i + 1] of `n` along a ray.
 struct RayStep {
     ivec2 texel;  // under its middle

@@ -12,27 +12,11 @@ uniform vec3 dielectricsHalfExtent;
 RaySegment clipToDielectrics(vec3 origin, vec3 direction, float reach) {
     RaySegment segment = clipRay(origin, direction);
     if (!segment.visible) return segment;
-    mat3 toWorld = mat3(view.viewToWorld);
-    vec3 o = toWorld * (origin - dielectricsCenterVs);
-    vec3 d = toWorld * direction;
     float low = segment.nearT;
     float high = min(segment.farT, reach);
-    for (int axis = 0; axis < 3; ++axis) {
-        cutHalfSpace(dielectricsHalfExtent[axis] + o[axis], d[axis], low, high);
-        cutHalfSpace(dielectricsHalfExtent[axis] - o[axis], -d[axis], low, high);
-    }
+    cutToBox(origin, direction, dielectricsCenterVs, dielectricsHalfExtent, low, high);
     segment.visible = low <= high;
-    if (!segment.visible) return segment;
-    segment.nearT = low;
-    segment.farT = high;
-    vec3 a = origin + low * direction;
-    vec3 b = origin + high * direction;
-    a.z = min(a.z, -view.tangents.z);
-    b.z = min(b.z, -view.tangents.z);
-    segment.nearPixel = pixelOf(a);
-    segment.farPixel = pixelOf(b);
-    segment.nearInverseZ = -1.0 / a.z;
-    segment.farInverseZ = -1.0 / b.z;
+    if (segment.visible) setEnds(segment, origin, direction, low, high);
     return segment;
 }
 
