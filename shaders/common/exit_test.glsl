@@ -32,8 +32,8 @@ bool isInsideAt(ivec2 texel, uint medium, float zLow, float zHigh) {
 // the other.
 LayerHit testExit(RaySegment segment, TracedRay ray, int i, int n) {
     LayerHit none = LayerHit(0.0, -1);
+    if (i == 0 || !isInsideClosed(ray.media)) return none;
     uint medium = innerMedium(ray.media);
-    if (i == 0 || medium == 0u || isOpen(medium - 1u)) return none;
     float count = float(n);
     float zBefore = depthAtIndex(segment, float(i) - 1.0, count);
     float zBegin = depthAtIndex(segment, float(i), count);
@@ -104,4 +104,22 @@ FirstHit hitOfStep(RaySegment segment, TracedRay ray, int i, int n) {
     }
 #endif
     return found;
+}
+
+// Asks the steps of a ray in order. A hit may lie half a step beyond its own, and the next step know
+// a nearer one: it is asked too, as the reduce of all steps does.
+FirstHit firstHitOfSteps(RaySegment segment, TracedRay ray, int n) {
+    FirstHit first = noHit();
+    int end = n;
+    for (int i = 0; i < end; ++i) {
+        FirstHit found = hitOfStep(segment, ray, i, n);
+        if (found.hit.layer < 0) continue;
+        if (first.hit.layer < 0) {
+            end = min(end, i + 2);
+        } else if (found.hit.t >= first.hit.t) {
+            continue;
+        }
+        first = found;
+    }
+    return first;
 }

@@ -4,6 +4,12 @@
 #include "common/surface_data.glsl"
 #include "common/transfer_map.glsl"
 
+// Whether light in `media` is inside of something that has an inside, other than water.
+bool isInsideClosed(uint media) {
+    uint medium = innerMedium(media);
+    return medium != 0u && !isOpen(medium - 1u);
+}
+
 // The indices of refraction before and behind a dielectric (material index + 1) for light in `media`.
 // The side is the triangle's, never the shading normal's.
 vec2 indicesAt(uint material, uint media, bool enters) {

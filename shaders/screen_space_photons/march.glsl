@@ -4,14 +4,9 @@
 #include "common/traced_photon.glsl"
 
 FirstHit march(Photon photon, int minimumSteps, int maximumSteps) {
-    FirstHit first = noHit();
-    if (!isNumber(photon)) return first;
+    if (!isNumber(photon)) return noHit();
     RaySegment segment = clipRay(photon.positionVs, photon.directionVs);
-    if (!segment.visible) return first;
+    if (!segment.visible) return noHit();
     TracedRay ray = TracedRay(photon.positionVs, photon.directionVs, photon.media);
-    int steps = stepCount(segment, minimumSteps, maximumSteps);
-    int end = steps;
-    for (int i = 0; i < end; ++i)
-        searchStep(segment, ray, i, steps, first, end);
-    return first;
+    return firstHitOfSteps(segment, ray, stepCount(segment, minimumSteps, maximumSteps));
 }

@@ -47,11 +47,6 @@ Interface bend(inout EyePath path, vec3 normal, uint material, int layer) {
     return meeting;
 }
 
-bool isInsideClosed(uint media) {
-    uint medium = innerMedium(media);
-    return medium != 0u && !isOpen(medium - 1u);
-}
-
 // To the next interface before `reach`; false: there is none.
 bool advance(inout EyePath path, float reach) {
     RaySegment segment = clipToDielectrics(path.origin, path.direction, reach);
@@ -59,7 +54,7 @@ bool advance(inout EyePath path, float reach) {
     TracedRay ray = TracedRay(path.origin, path.direction, path.media);
     int steps = stepCount(segment, 4, 16384);
     FirstHit found = view_refraction_search == view_refraction_search_all
-                         ? searchAllLayers(segment, ray, steps)
+                         ? firstHitOfSteps(segment, ray, steps)
                          : searchBetweenLayers(segment, ray, path.passed, steps);
     if (found.hit.layer < 0) return false;
     vec4 surface = texelFetch(layerSurfaces, ivec3(found.pixel, found.hit.layer), 0);
