@@ -64,7 +64,7 @@ bool cutToScreen(vec3 origin, vec3 direction, vec2 tangents, inout float low, in
     return isCut;
 }
 
-// Makes [low, high] of the ray, which is before the near plane, the segment's and projects its ends.
+// Makes [low, high] of a ray, which is before the near plane, the segment; projects its ends.
 void setEnds(inout RaySegment segment, vec3 origin, vec3 direction, float low, float high) {
     segment.nearT = low;
     segment.farT = high;

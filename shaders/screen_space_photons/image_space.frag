@@ -84,7 +84,8 @@ void main() {
     float index = data.absorption.w;
     vec3 entry = viewing * depth;
     bool enters = dot(direction, surface.xyz) < 0.0;
-    Interface first = interactAt(direction, surface.xyz, enters ? 1.0 : index, enters ? index : 1.0);
+    Interface first =
+        interactAt(direction, surface.xyz, enters ? 1.0 : index, enters ? index : 1.0);
     bool isTotal = first.reflectance >= 1.0;
     vec3 origin = entry;
     vec3 onward = isTotal ? first.reflected : first.refracted;

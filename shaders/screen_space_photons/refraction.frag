@@ -128,8 +128,9 @@ void main() {
                    radianceAlong(path.origin, path.direction, openMedium(media), seen, pixel);
     if (first.reflectance < 1.0) {
         SceneHit mirrored = lookIntoMirror(entry, first.reflected);
-        radiance.rgb += reached * first.reflectance *
-                        radianceAlong(entry, first.reflected, openMedium(mediaAtEye), mirrored, pixel);
+        radiance.rgb +=
+            reached * first.reflectance *
+            radianceAlong(entry, first.reflected, openMedium(mediaAtEye), mirrored, pixel);
     }
     radiance.a = 1.0;
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What each splat's weights sum to over the pixels' areas, so that exactly the photon's flux is
-// deposited at every orientation, size and distance (METHODS.md, section 7: sampled at pixel centres
-// a kernel of few pixels does not sum to 1). The part hidden from the eye or off the screen goes to
-// the ledger; the part that hangs off the surface's edge is redistributed on it. One thread a photon.
+// deposited at every orientation, size and distance (METHODS.md, section 7: sampled at pixel
+// centres a kernel of few pixels does not sum to 1). The part hidden from the eye or off the screen
+// goes to the ledger; the part that hangs off the surface's edge is redistributed on it. One thread
+// a photon.
 #include "common/ledger.glsl"
 #include "common/surface_data.glsl"
 #include "screen_space_photons/sprite.glsl"
@@ -18,7 +19,8 @@ uniform sampler2D hitFlux;
 
 // Whether the eye looks at the side of the surface on which light arrives.
 bool seesLitSide(Sprite sprite) {
-    return (dot(sprite.normal, sprite.center) < 0.0) == (dot(sprite.normal, sprite.direction) < 0.0);
+    bool isEyeInFront = dot(sprite.normal, sprite.center) < 0.0;
+    return isEyeInFront == (dot(sprite.normal, sprite.direction) < 0.0);
 }
 
 void main() {
