@@ -95,7 +95,7 @@ void main() {
     throughput *= reached;
     bool isInMedium = enters != isTotal;
     float met = 1.0;
-    float cameOut = 1.0;
+    float ending = kWayCameOut;
     float back = texelFetch(backDepth, pixel, 0).x;
     if (enters && back > depth) {
         float alongRay = (back - depth) * length(viewing);
@@ -124,12 +124,12 @@ void main() {
             onward = second.refracted;
             throughput *= 1.0 - second.reflectance;
         } else {
-            cameOut = 0.0;  // total internal reflection is not followed
+            ending = kWayLost;  // total internal reflection is not followed
         }
         isInMedium = false;
     }
     exitPosition = vec4(origin, met);
-    exitDirection = vec4(onward, cameOut);
+    exitDirection = vec4(onward, ending);
 
     uint medium = isInMedium && isOpen(material - 1u) ? material : 0u;
     float ratio = mediumIndex(mediumAtEye) / mediumIndex(isInMedium ? material : 0u);

@@ -141,5 +141,5 @@ void writeMirror(ivec2 pixel, vec3 viewing, vec3 normal, vec3 reflectance) {
     SceneHit seen = lookIntoMirror(origin, reflected);
     radiance = vec4(reflectance * radianceAlong(origin, reflected, 0u, seen, pixel), 1.0);
     exitPosition = vec4(origin, 1.0);
-    exitDirection = vec4(reflected, 1.0);
+    exitDirection = vec4(reflected, kWayCameOut);
 }
