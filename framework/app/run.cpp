@@ -93,7 +93,7 @@ void runCommand(const RunOptions& options, const Registry& registry) {
     fmt::print("{} with {}, {}x{}, on {}\n", scene.name, renderer.settings().technique.name,
                renderer.settings().width, renderer.settings().height, context->info().renderer);
     fmt::print("{}", report::makeTable(record));
-    for (const report::ReachedLimit& limit : report::reachedLimits(record, renderer))
+    for (const ReachedLimit& limit : report::reachedLimits(record, renderer))
         fmt::print("limit   {} = {:g}: {}\n", limit.parameter, limit.value, limit.sentence);
     for (const std::string& warning : record.warnings)
         fmt::print("warning: {}\n", warning);

@@ -34,6 +34,7 @@ std::vector<fs::path> finishRun(Renderer& renderer, const Truth& truth, report::
     record.ledger = renderer.ledger();
     record.layers = renderer.layerStatistics();
     record.layersAllowed = renderer.outputs().layers.layers;
+    record.nodeLimits = renderer.reachedLimits();
     record.warnings = renderer.scene().warnings;
     record.warnings.insert(record.warnings.end(), renderer.warnings().begin(),
                            renderer.warnings().end());

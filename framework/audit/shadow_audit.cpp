@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/reference/eye.h"
+#include "framework/reference/shadow_rays.h"
 
 namespace kaustik::audit {
 namespace {
@@ -39,9 +40,7 @@ ShadowAudit auditShadow(const Image& visibility, std::size_t light,
                         const reference::EmbreeScene& scene) {
     const scene::Light& source = scene.scene().lights[light];
     const reference::Eye eye(scene, visibility.width, visibility.height);
-    // Off the receiver, whose own triangle would else be in the way: positions are 32-bit floats.
-    const scene::Bounds& bounds = scene.bounds();
-    const double lift = 2e-6 * glm::length(bounds.maximum - bounds.minimum);
+    const reference::ShadowRays shadowRays(scene);
     ShadowAudit audit;
     for (int y = 0; y < visibility.height; ++y) {
         for (int x = 0; x < visibility.width; ++x) {
@@ -58,14 +57,8 @@ ShadowAudit auditShadow(const Image& visibility, std::size_t light,
                 side * glm::dot(seen.shadingNormal, way.direction) < kLeastCosine) {
                 continue;
             }
-            reference::Ray toLight;
-            toLight.origin = seen.position + lift * side * seen.geometricNormal;
-            toLight.direction = way.direction;
-            toLight.start = seen.triangle;
-            toLight.sides = reference::SideRule::any;
-            reference::SurfaceHit blocker;
             const bool isBlocked =
-                scene.intersect(toLight, blocker) && blocker.distance < way.meters;
+                shadowRays.isBlocked(seen, side * seen.geometricNormal, way.direction, way.meters);
             const bool isDark = !(visibility.at(x, y, 0) > 0.5f);
             ++audit.asked;
             audit.inShadow += isBlocked ? 1 : 0;

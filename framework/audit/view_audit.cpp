@@ -72,7 +72,7 @@ ViewAudit auditView(const Image& exitPosition, const Image& exitDirection,
                 ++audit.notANumber;
                 continue;
             }
-            if (exitDirection.at(x, y, 3) == 0.0f || length == 0.0) {
+            if (exitDirection.at(x, y, 3) <= transport::kWayLost || length == 0.0) {
                 ++audit.lost;
                 continue;
             }

@@ -57,7 +57,7 @@ struct VariantResult {
     std::size_t peakBytes = 0;
     // Of one more frame, once the order is settled.
     std::optional<EnergyLedger> ledger;
-    std::vector<report::ReachedLimit> limits;
+    std::vector<ReachedLimit> limits;
     std::shared_ptr<const app::Outputs> outputs;  // where asked for
     ModelledPaths paths;
 };

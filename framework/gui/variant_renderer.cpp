@@ -192,6 +192,7 @@ bool VariantRenderer::measure(const GoesOn& goesOn) {
         record.ledger = renderer_->ledger();
         record.layers = renderer_->layerStatistics();
         record.layersAllowed = renderer_->outputs().layers.layers;
+        record.nodeLimits = renderer_->reachedLimits();
         result_.ledger = record.ledger;
         result_.limits = report::reachedLimits(record, *renderer_);
         return true;

@@ -10,6 +10,7 @@
 
 #include "framework/gl/executor.h"
 #include "framework/graph/graph.h"
+#include "framework/pipeline/limit.h"
 #include "framework/pipeline/registry.h"
 #include "framework/pipeline/trace_record.h"
 #include "framework/render/gpu_scene.h"
@@ -116,6 +117,12 @@ class FrameBuilder {
     // For the report.
     void warn(std::string warning) { warnings_.push_back(std::move(warning)); }
     [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
+    // Also for the report, where a frame is measured; the pass's name as it was given to pass().
+    void keepsTo(NodeLimit limit) {
+        limit.pass = prefix_ + limit.pass;
+        limits_.push_back(std::move(limit));
+    }
+    [[nodiscard]] const std::vector<NodeLimit>& limits() const { return limits_; }
     // How often a stage has been run so far, the running one included.
     [[nodiscard]] int runsOf(const std::string& stage) const;
 
@@ -124,6 +131,7 @@ class FrameBuilder {
     const FrameInputs& inputs_;
     std::vector<std::shared_ptr<void>> kept_;
     std::vector<std::string> warnings_;
+    std::vector<NodeLimit> limits_;
     std::vector<std::string> stagesRun_;
     std::string prefix_;
     bool recordsTraces_ = false;

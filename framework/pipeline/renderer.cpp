@@ -146,11 +146,29 @@ graph::Compiled Renderer::compile(Purpose purpose, const std::vector<std::string
     graph::Compiled compiled = settings_.disabledPasses.empty()
                                    ? graph_->compile()
                                    : compileWithout(*graph_, settings_.disabledPasses);
+    limits_.clear();
+    if (purpose == Purpose::measurement || purpose == Purpose::audit)
+        compiled = keepLimits(compiled, frame.limits());
     buildMilliseconds_ =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
     kept_ = frame.takeKept();
     warnings_ = frame.warnings();
     return compiled;
+}
+
+// Only of passes that run: to ask for what others make would bring them back.
+graph::Compiled Renderer::keepLimits(const graph::Compiled& compiled,
+                                     const std::vector<NodeLimit>& limits) {
+    for (const NodeLimit& limit : limits) {
+        const bool runs = std::any_of(
+            compiled.records.begin(), compiled.records.end(), [&](const graph::PassRecord& pass) {
+                return pass.name == limit.pass && pass.state == graph::PassState::ran;
+            });
+        if (!runs) continue;
+        limits_.push_back(limit);
+        if (limit.counted.valid()) graph_->request(limit.counted);
+    }
+    return graph_->compile();
 }
 
 void Renderer::requestForAudit() {
@@ -192,6 +210,23 @@ EnergyLedger Renderer::ledger() const {
 
 EnergyLedger Renderer::ledger(const Ledger& handle) const {
     return readLedger(executor_.buffer(handle), ledgerQuantumWatts_);
+}
+
+std::vector<ReachedLimit> Renderer::reachedLimits() const {
+    std::vector<ReachedLimit> all;
+    for (const NodeLimit& limit : limits_) {
+        const std::optional<ReachedLimit> reached = limit.reached(executor_);
+        if (!reached) continue;
+        const auto same = std::find_if(all.begin(), all.end(), [&](const ReachedLimit& other) {
+            return other.parameter == reached->parameter;
+        });
+        if (same == all.end()) {
+            all.push_back(*reached);
+        } else if (reached->value > same->value) {
+            *same = *reached;
+        }
+    }
+    return all;
 }
 
 transport::LayerStatistics Renderer::layerStatistics() const {

@@ -28,7 +28,8 @@ struct RenderSettings {
 // What a frame is asked for.
 enum class Purpose {
     picture,      // what a user of the technique wants: this is what is timed
-    measurement,  // also the ledger, the layer statistics and every resource kept by name
+    measurement,  // also the ledger, the layer statistics, what tells which limits were reached,
+                  // and every resource kept by name
     audit,        // also what every tracing was given and what it found, the layers, the receivers
     view          // what the eye sees through specular surfaces, without photons
 };
@@ -65,8 +66,11 @@ class Renderer {
     // Of the last build for Purpose::audit.
     [[nodiscard]] const std::vector<TraceRecord>& traces() const { return traces_; }
 
-    // What was rendered; these wait for the device. The first two need Purpose::measurement.
+    // What was rendered; these wait for the device. The first two and the layers' statistics need
+    // Purpose::measurement.
     [[nodiscard]] EnergyLedger ledger() const;
+    // Those that nodes keep to; of several passes with one limit the one that went farthest.
+    [[nodiscard]] std::vector<ReachedLimit> reachedLimits() const;
     // A ledger as it stood where the handle was written.
     [[nodiscard]] EnergyLedger ledger(const Ledger& handle) const;
     [[nodiscard]] transport::LayerStatistics layerStatistics() const;
@@ -89,6 +93,8 @@ class Renderer {
 
     void requestForAudit();
     void requestExits();
+    [[nodiscard]] graph::Compiled keepLimits(const graph::Compiled& compiled,
+                                             const std::vector<NodeLimit>& limits);
 
     gl::Context& context_;
     const Registry& registry_;
@@ -110,6 +116,7 @@ class Renderer {
     FrameOutputs outputs_;
     Ledger closedLedger_;
     std::vector<TraceRecord> traces_;
+    std::vector<NodeLimit> limits_;
     std::vector<std::string> warnings_;
     double buildMilliseconds_ = 0.0;
 };

@@ -12,6 +12,7 @@
 #include "framework/reference/eye.h"
 #include "framework/reference/eye_path.h"
 #include "framework/reference/light_transport.h"
+#include "framework/reference/shadow_rays.h"
 #include "framework/reference/threads.h"
 
 namespace kaustik::reference {
@@ -27,15 +28,12 @@ struct Arriving {
 // Radiance of receivers by direct and fill light.
 class Receivers {
   public:
-    explicit Receivers(const EmbreeScene& scene) : scene_(scene) {
+    explicit Receivers(const EmbreeScene& scene) : scene_(scene), shadowRays_(scene) {
         const scene::Scene& of = scene.scene();
         isOpen_.assign(of.materials.size(), 0);
         for (const scene::Object& object : of.objects) {
             if (!of.meshes[object.mesh].closed) isOpen_[object.material] = 1;
         }
-        const glm::dvec3 extent = scene.bounds().maximum - scene.bounds().minimum;
-        lift_ =
-            16.0 * static_cast<double>(std::numeric_limits<float>::epsilon()) * glm::length(extent);
     }
 
     // Along `direction` (unit, towards the receiver), W/m²/sr.
@@ -56,8 +54,10 @@ class Receivers {
             const Arriving arriving = fromLight(light, hit.position);
             const double cosine = glm::dot(shading, arriving.toLight);
             if (cosine <= 0.0 || glm::dot(geometric, arriving.toLight) <= 0.0) continue;
-            if (arriving.irradiance == glm::dvec3(0.0) || isBlocked(hit, geometric, arriving))
+            if (arriving.irradiance == glm::dvec3(0.0) ||
+                shadowRays_.isBlocked(hit, geometric, arriving.toLight, arriving.distance)) {
                 continue;
+            }
             sum += arriving.irradiance * cosine *
                    appearance.brdf(hit.material, hit.uv, shading, arriving.toLight, -direction);
         }
@@ -88,18 +88,9 @@ class Receivers {
         return arriving;
     }
 
-    // Every surface blocks, specular ones too: what they let through is caustic light.
-    [[nodiscard]] bool isBlocked(const SurfaceHit& hit, const glm::dvec3& geometric,
-                                 const Arriving& arriving) const {
-        const Ray ray{hit.position + lift_ * geometric, arriving.toLight, hit.triangle, 0,
-                      SideRule::any};
-        SurfaceHit blocker;
-        return scene_.intersect(ray, blocker) && blocker.distance < arriving.distance;
-    }
-
     const EmbreeScene& scene_;
+    ShadowRays shadowRays_;
     std::vector<char> isOpen_;  // by material, as on the device
-    double lift_ = 0.0;         // off the receiver, m: positions are 32-bit floats
 };
 
 struct ExitSink : NullSink {

@@ -25,7 +25,7 @@ std::vector<ReachedLimit> reachedLimits(const RunRecord& record, const Renderer&
     const EnergyLedger& ledger = record.ledger;
     if (layers.leftOut > 0) {
         const double lost = ledger.watts[kAccountBeyondLastLayer];
-        limits.push_back({"layers.count", static_cast<double>(record.layersAllowed),
+        limits.push_back({"layers.count", "layers", static_cast<double>(record.layersAllowed),
                           static_cast<double>(layers.complexity),
                           fmt::format("{} of {} fragments, in {} pixels, lie beyond the last layer",
                                       layers.leftOut, layers.fragments, layers.pixelsLeftOut),
@@ -37,23 +37,12 @@ std::vector<ReachedLimit> reachedLimits(const RunRecord& record, const Renderer&
     const std::uint64_t photons =
         ledger.events[kAccountBounceLimit] + ledger.events[kAccountInternalReflectionLimit];
     if (photons > 0) {
-        limits.push_back({"specular.bounces", static_cast<double>(bounces), 0.0,
+        limits.push_back({"specular.bounces", "bounces", static_cast<double>(bounces), 0.0,
                           fmt::format("{} photons were still on their way, {:.3g}% of the flux",
                                       photons, shareOfEmitted(ledger, atLimit)),
                           atLimit});
     }
-    // Batches cost time and nothing else, unless the ledger says so.
-    for (const graph::PassRecord& pass : record.passes) {
-        if (pass.name != "trace.lines" || pass.state != graph::PassState::ran) continue;
-        const double lost = ledger.watts[kAccountBatchLimit];
-        if (pass.repeats > 1 || lost > 0.0) {
-            limits.push_back({"trace.lines.memory", static_cast<double>(pass.repeats), 1.0,
-                              fmt::format("{} passes over the photons instead of one a tracing; "
-                                          "{:.3g}% of the flux was lost to it",
-                                          pass.repeats, shareOfEmitted(ledger, lost)),
-                              lost});
-        }
-    }
+    limits.insert(limits.end(), record.nodeLimits.begin(), record.nodeLimits.end());
     return limits;
 }
 
@@ -61,6 +50,7 @@ nlohmann::json toJson(const std::vector<ReachedLimit>& limits) {
     nlohmann::json list = nlohmann::json::array();
     for (const ReachedLimit& limit : limits) {
         nlohmann::json entry = {{"limit", limit.parameter},
+                                {"unit", limit.unit},
                                 {"value", limit.value},
                                 {"lost", limit.sentence},
                                 {"lost_w", limit.lostWatts}};

@@ -26,6 +26,7 @@ struct RunRecord {
     EnergyLedger ledger;
     transport::LayerStatistics layers;
     int layersAllowed = 0;
+    std::vector<ReachedLimit> nodeLimits;  // that nodes keep to; the report has all
     std::size_t textureBytes = 0;
     std::size_t bufferBytes = 0;
     std::size_t peakBytes = 0;

@@ -72,7 +72,7 @@ struct VisibilityTexel {  // x: share of a light's direct light that reaches the
 struct ExitPosition {  // xyz: view space, m; w: specular surfaces that the eye's ray met, 0 none
     static constexpr Format format = Format::rgba32f;
 };
-struct ExitDirection {  // xyz: unit, view space; w: 1 where the ray came out, 0 where it was lost
+struct ExitDirection {  // xyz: unit, view space; w: how the ray's way has ended, kWay…
     static constexpr Format format = Format::rgba32f;
 };
 

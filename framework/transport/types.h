@@ -114,6 +114,14 @@ struct Hit {
     uint fate;
 };
 
+// How the eye's way through specular surfaces has ended; above 0 it has come out.
+const float kWayCameOut = 1.0f;
+const float kWayLost = 0.0f;
+// Beyond a cap: totally reflected too often; refracted as often as may be, but still inside of a
+// closed object, out of which it is taken to have come as it was.
+const float kWayReflectedTooOften = -1.0f;
+const float kWayStoppedInside = 2.0f;
+
 // Accounts of the energy ledger (design, section 5). Watts are summed over the three channels.
 const uint kAccountEmitted = 0u;
 const uint kAccountDeposited = 1u;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Whether a photon inside a closed dielectric has come out of it between two pixels, although it
-// crossed none of their planes: at a silhouette the surface bends away within a pixel, and beside it
-// there is no layer left to meet. Between the layers of one pixel inside and outside are known.
+// crossed none of their planes: at a silhouette the surface bends away within a pixel, and beside
+// it there is no layer left to meet. Between the layers of one pixel inside and outside are known.
 #include "common/hit_test.glsl"
 
 // Whether a range of depths overlaps the inside of a dielectric at a pixel. Layers come front to
@@ -28,12 +28,12 @@ bool isInsideAt(ivec2 texel, uint medium, float zLow, float zHigh) {
 }
 
 // The layer through which the photon came out at its last pixel inside, step i - 1, when it is
-// outside at step i: the nearest in depth of those that it can leave by. `t` is where one step meets
-// the other.
+// outside at step i: the nearest in depth of those that it can leave by. `t` is where one step
+// meets the other.
 LayerHit testExit(RaySegment segment, TracedRay ray, int i, int n) {
     LayerHit none = LayerHit(0.0, -1);
+    if (i == 0 || !isInsideClosed(ray.media)) return none;
     uint medium = innerMedium(ray.media);
-    if (i == 0 || medium == 0u || isOpen(medium - 1u)) return none;
     float count = float(n);
     float zBefore = depthAtIndex(segment, float(i) - 1.0, count);
     float zBegin = depthAtIndex(segment, float(i), count);
@@ -49,7 +49,8 @@ LayerHit testExit(RaySegment segment, TracedRay ray, int i, int n) {
         if (surface.depth <= 0.0) break;
         if (surface.material != medium) continue;
         float away = abs(surface.depth - zBegin);
-        if (dot(ray.direction, surface.normal) <= 0.0 || (best.layer >= 0 && away >= nearest)) continue;
+        if (dot(ray.direction, surface.normal) <= 0.0) continue;
+        if (best.layer >= 0 && away >= nearest) continue;
         best = LayerHit(parameterAtIndex(segment, float(i), count), layer);
         nearest = away;
     }
@@ -92,8 +93,8 @@ FirstHit noHit() {
     return FirstHit(LayerHit(0.0, -1), ivec2(0), false);
 }
 
-// What one step of a ray meets: a layer's plane, or, where the scene has closed dielectrics, the way
-// out of one that no plane shows. Every tracer asks here.
+// What one step of a ray meets: a layer's plane, or, where the scene has closed dielectrics, the
+// way out of one that no plane shows. Every tracer asks here.
 FirstHit hitOfStep(RaySegment segment, TracedRay ray, int i, int n) {
     FirstHit found = FirstHit(testStep(segment, ray, i, n), texelOfStep(segment, i, n), false);
 #ifdef CLOSED_DIELECTRICS
@@ -104,4 +105,22 @@ FirstHit hitOfStep(RaySegment segment, TracedRay ray, int i, int n) {
     }
 #endif
     return found;
+}
+
+// Asks the steps of a ray in order. A hit may lie half a step beyond its own, and the next step
+// know a nearer one: it is asked too, as the reduce of all steps does.
+FirstHit firstHitOfSteps(RaySegment segment, TracedRay ray, int n) {
+    FirstHit first = noHit();
+    int end = n;
+    for (int i = 0; i < end; ++i) {
+        FirstHit found = hitOfStep(segment, ray, i, n);
+        if (found.hit.layer < 0) continue;
+        if (first.hit.layer < 0) {
+            end = min(end, i + 2);
+        } else if (found.hit.t >= first.hit.t) {
+            continue;
+        }
+        first = found;
+    }
+    return first;
 }

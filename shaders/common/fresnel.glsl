@@ -8,8 +8,8 @@ struct Interface {
     vec3 refracted;        // unit; zero for total internal reflection
 };
 
-// `direction`: unit, towards the surface; `normal`: unit, either side; the light comes from a medium
-// of index `from` and would go on in one of index `to`.
+// `direction`: unit, towards the surface; `normal`: unit, either side; the light comes from a
+// medium of index `from` and would go on in one of index `to`.
 Interface interactAt(vec3 direction, vec3 normal, float from, float to) {
     vec3 n = dot(direction, normal) < 0.0 ? normal : -normal;
     // 1 - (eta sin)^2 loses all its digits near the critical angle in 32 bits.

@@ -57,13 +57,6 @@ struct LayerHit {
     int layer;
 };
 
-ivec2 texelOfStep(RaySegment segment, int i, int n) {
-    float middle = float(i) + 0.5;
-    vec2 pixel =
-        (segment.nearPixel * (float(n) - middle) + segment.farPixel * middle) / float(n);
-    return clamp(ivec2(floor(pixel)), ivec2(0), ivec2(view.sizePixels.xy) - 1);
-}
-
 // One step [i, i + 1] of `n` along a ray.
 struct RayStep {
     ivec2 texel;  // under its middle
@@ -87,9 +80,10 @@ RayStep rayStep(RaySegment segment, int i, int n) {
 }
 
 #ifdef IN_OUT_TEST
-// Whether the ray is between this layer and the one that bounds the same solid with it: its front and
-// its back are consecutive layers (K06, section 5: "an additional in-out test considering consecutive
-// pairs of layered depth images"). Not for the solid that the ray is inside of: see testExit.
+// Whether the ray is between this layer and the one that bounds the same solid with it: its front
+// and its back are consecutive layers (K06, section 5: "an additional in-out test considering
+// consecutive pairs of layered depth images"). Not for the solid that the ray is inside of: see
+// testExit.
 bool isInSolid(TracedRay ray, RayStep at, int layer, LayerSurface surface) {
     if (isOpen(surface.material - 1u) || innerMedium(ray.media) == surface.material) return false;
     vec3 eyeRay = viewRay(vec2(at.texel) + 0.5);
@@ -138,8 +132,8 @@ bool isFacingAt(TracedRay ray, ivec2 texel, LayerSurface surface) {
     return isFacing(ray, surface.material, surface.normal, height, surface.margin);
 }
 
-// Of two surfaces the one nearer along the ray (hard case 11). The paper's test cannot tell those of
-// one step apart by t: where the ray comes nearer to the eye, the deeper layer is.
+// Of two surfaces the one nearer along the ray (hard case 11). The paper's test cannot tell those
+// of one step apart by t: where the ray comes nearer to the eye, the deeper layer is.
 bool isNearer(float t, float before, RayStep at, bool isSameStep) {
     return t < before || (t == before && isSameStep && at.zEnd < at.zBegin);
 }
@@ -158,10 +152,10 @@ LayerHit testStep(RaySegment segment, TracedRay ray, int i, int n) {
     return best;
 }
 
-// The surface's normal where the ray meets it: bilinear between the pixels around the hit, each with
-// the layer that continues the surface; the normal of one pixel alone would send all photons that
-// meet it the same way. `surface` and `layerHit` are those of the hit's own pixel and layer.
-// A receiver sends the light nowhere: its pixel's normal will do.
+// The surface's normal where the ray meets it: bilinear between the pixels around the hit, each
+// with the layer that continues the surface; the normal of one pixel alone would send all photons
+// that meet it the same way. `surface` and `layerHit` are those of the hit's own pixel and layer. A
+// receiver sends the light nowhere: its pixel's normal will do.
 vec3 normalAtHit(vec3 hitVs, vec4 surface, LayerSurface layerHit, bool arrives) {
     if (arrives) return surface.xyz;
     vec2 corner = pixelOf(hitVs) - 0.5;

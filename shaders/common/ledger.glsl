@@ -8,8 +8,8 @@ layout(std430) buffer LedgerEntries {
 };
 uniform float ledgerUnitsPerWatt;
 
-// Adds the flux of all channels to an account, as one event. What is not a number counts as an event
-// of its own account and adds nothing.
+// Adds the flux of all channels to an account, as one event. What is not a number counts as an
+// event of its own account and adds nothing.
 void ledgerAdd(uint account, vec3 fluxWatts) {
     float watts = fluxWatts.r + fluxWatts.g + fluxWatts.b;
     if (isnan(watts) || isinf(watts) || watts < 0.0) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Closes the ledger of a frame: what the irradiance map holds, summed over the receivers' areas, and
-// photons that were still on their way when the bounces ended.
+// Closes the ledger of a frame: what the irradiance map holds, summed over the receivers' areas,
+// and photons that were still on their way when the bounces ended.
 #include "common/ledger.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -33,41 +33,39 @@ bool cutHalfSpace(float a, float b, inout float low, inout float high) {
     return a < 0.0;
 }
 
-// The part of the ray inside the scene's bounding box.
-void cutToBounds(vec3 origin, vec3 direction, inout float low, inout float high) {
+// The part of the ray inside a box along the world's axes.
+void cutToBox(vec3 origin, vec3 direction, vec3 centerVs, vec3 halfExtent, inout float low,
+              inout float high) {
     mat3 toWorld = mat3(view.viewToWorld);
-    vec3 o = toWorld * (origin - view.boundsCenterVs.xyz);
+    vec3 o = toWorld * (origin - centerVs);
     vec3 d = toWorld * direction;
     for (int axis = 0; axis < 3; ++axis) {
-        cutHalfSpace(view.boundsHalfExtent[axis] + o[axis], d[axis], low, high);
-        cutHalfSpace(view.boundsHalfExtent[axis] - o[axis], -d[axis], low, high);
+        cutHalfSpace(halfExtent[axis] + o[axis], d[axis], low, high);
+        cutHalfSpace(halfExtent[axis] - o[axis], -d[axis], low, high);
     }
 }
 
-RaySegment clipRay(vec3 origin, vec3 direction) {
-    RaySegment segment;
-    float low = 0.0;
-    float high = 3.0e38;
-    cutToBounds(origin, direction, low, high);
-    // Where the ray goes matters more than where it ends: without a hit, a ray that left through a
-    // side of the screen is off screen, one that the near plane cut is behind the eye, and one that
-    // crossed all of the scene on the screen stays unresolved.
-    segment.cause = kAccountUnresolved;
-    bool behind = cutHalfSpace(-origin.z - view.tangents.z, -direction.z, low, high);
-    if (behind || low > high) segment.cause = kAccountBehindEye;
-    if (low <= high) {
-        bool off = false;
-        for (int axis = 0; axis < 2; ++axis) {
-            float slope = view.tangents[axis];
-            off = cutHalfSpace(-origin.z * slope - origin[axis], -direction.z * slope - direction[axis],
-                               low, high) || off;
-            off = cutHalfSpace(-origin.z * slope + origin[axis], -direction.z * slope + direction[axis],
-                               low, high) || off;
-        }
-        if (off || low > high) segment.cause = kAccountOffScreen;
+// The part of the ray before the near plane; returns whether the far end was cut.
+bool cutToNearPlane(vec3 origin, vec3 direction, inout float low, inout float high) {
+    return cutHalfSpace(-origin.z - view.tangents.z, -direction.z, low, high);
+}
+
+// The part of the ray between the sides of a frame around the view's axis, of which `tangents` are
+// those of half its angles; the screen's are view.tangents. Returns whether the far end was cut.
+bool cutToScreen(vec3 origin, vec3 direction, vec2 tangents, inout float low, inout float high) {
+    bool isCut = false;
+    for (int axis = 0; axis < 2; ++axis) {
+        float slope = tangents[axis];
+        float depth = -origin.z * slope;
+        float rise = -direction.z * slope;
+        isCut = cutHalfSpace(depth - origin[axis], rise - direction[axis], low, high) || isCut;
+        isCut = cutHalfSpace(depth + origin[axis], rise + direction[axis], low, high) || isCut;
     }
-    segment.visible = low <= high;
-    if (!segment.visible) return segment;
+    return isCut;
+}
+
+// Makes [low, high] of a ray, which is before the near plane, the segment; projects its ends.
+void setEnds(inout RaySegment segment, vec3 origin, vec3 direction, float low, float high) {
     segment.nearT = low;
     segment.farT = high;
     vec3 a = origin + low * direction;
@@ -79,6 +77,25 @@ RaySegment clipRay(vec3 origin, vec3 direction) {
     segment.farPixel = pixelOf(b);
     segment.nearInverseZ = -1.0 / a.z;
     segment.farInverseZ = -1.0 / b.z;
+}
+
+RaySegment clipRay(vec3 origin, vec3 direction) {
+    RaySegment segment;
+    float low = 0.0;
+    float high = 3.0e38;
+    cutToBox(origin, direction, view.boundsCenterVs.xyz, view.boundsHalfExtent.xyz, low, high);
+    // Where the ray goes matters more than where it ends: without a hit, a ray that left through a
+    // side of the screen is off screen, one that the near plane cut is behind the eye, and one that
+    // crossed all of the scene on the screen stays unresolved.
+    segment.cause = kAccountUnresolved;
+    bool behind = cutToNearPlane(origin, direction, low, high);
+    if (behind || low > high) segment.cause = kAccountBehindEye;
+    if (low <= high) {
+        bool off = cutToScreen(origin, direction, view.tangents.xy, low, high);
+        if (off || low > high) segment.cause = kAccountOffScreen;
+    }
+    segment.visible = low <= high;
+    if (segment.visible) setEnds(segment, origin, direction, low, high);
     return segment;
 }
 
@@ -99,4 +116,12 @@ float parameterAtIndex(RaySegment segment, float i, float n) {
     float a = segment.nearInverseZ * (n - i);
     float b = segment.farInverseZ * i;
     return (segment.nearT * a + segment.farT * b) / (a + b);
+}
+
+// The pixel under the middle of step [i, i + 1] of `n`.
+ivec2 texelOfStep(RaySegment segment, int i, int n) {
+    float middle = float(i) + 0.5;
+    vec2 pixel =
+        (segment.nearPixel * (float(n) - middle) + segment.farPixel * middle) / float(n);
+    return clamp(ivec2(floor(pixel)), ivec2(0), ivec2(view.sizePixels.xy) - 1);
 }

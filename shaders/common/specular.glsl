@@ -4,17 +4,23 @@
 #include "common/surface_data.glsl"
 #include "common/transfer_map.glsl"
 
-// The indices of refraction before and behind a dielectric (material index + 1) for light in `media`.
-// The side is the triangle's, never the shading normal's.
+// Whether light in `media` is inside of something that has an inside, other than water.
+bool isInsideClosed(uint media) {
+    uint medium = innerMedium(media);
+    return medium != 0u && !isOpen(medium - 1u);
+}
+
+// The indices of refraction before and behind a dielectric (material index + 1) for light in
+// `media`. The side is the triangle's, never the shading normal's.
 vec2 indicesAt(uint material, uint media, bool enters) {
     float inside = mediumIndex(material);
     float outside = mediumIndex(enters ? innerMedium(media) : outerMedium(media));
     return enters ? vec2(outside, inside) : vec2(inside, outside);
 }
 
-// The shading normal bends light as the smooth surface would. Where it would send light to the wrong
-// side of the triangle, the triangle's own normal does: nothing leaks through a surface, and whoever
-// takes the sign of the result takes the triangle's side. All unit; both normals outward.
+// The shading normal bends light as the smooth surface would. Where it would send light to the
+// wrong side of the triangle, the triangle's own normal does: nothing leaks through a surface, and
+// whoever takes the sign of the result takes the triangle's side. All unit; both normals outward.
 vec3 bendingNormal(vec3 direction, vec3 shading, vec3 geometric, uint material, uint media) {
     uint kind = materialKind(material - 1u);
     if (isReceiver(kind)) return shading;

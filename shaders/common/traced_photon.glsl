@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What tracers that search in order share: a photon of the transfer map, the search's step, and what
-// makes of what was found a hit, with the normal and the flux that arrives, or an entry in the
-// ledger.
+// What tracers that search in order share: a photon of the transfer map, and what makes of what was
+// found a hit, with the normal and the flux that arrives, or an entry in the ledger.
 #include "common/exit_test.glsl"
 #include "common/ledger.glsl"
 #include "common/medium.glsl"
@@ -9,21 +8,6 @@
 uniform sampler2D photonPosition;
 uniform sampler2D photonDirection;
 uniform sampler2D photonFlux;
-
-// Asks step `i` of a search in order, of which the steps before `end` are left. A hit may lie half a
-// step beyond its own, and the next step know a nearer one: it is asked too, as the reduce of all
-// steps does.
-void searchStep(RaySegment segment, TracedRay ray, int i, int n, inout FirstHit first,
-                inout int end) {
-    FirstHit found = hitOfStep(segment, ray, i, n);
-    if (found.hit.layer < 0) return;
-    if (first.hit.layer < 0) {
-        end = min(end, i + 2);
-    } else if (found.hit.t >= first.hit.t) {
-        return;
-    }
-    first = found;
-}
 
 Photon photonAt(ivec2 texel) {
     return unpackPhoton(texelFetch(photonPosition, texel, 0), texelFetch(photonDirection, texel, 0),

@@ -27,8 +27,8 @@ vec4 hitPositionTexel(Hit h) { return vec4(h.positionVs, h.distanceMeters); }
 vec4 hitSurfaceTexel(Hit h) { return vec4(h.normalVs, float(h.material)); }
 vec4 hitFluxTexel(Hit h) { return vec4(h.fluxWatts, float(h.fate)); }
 
-// The stack of dielectrics around a photon, two deep: material index + 1, 0 for vacuum. On top of it
-// the side of an open mirror that the photon has just left, kLeft….
+// The stack of dielectrics around a photon, two deep: material index + 1, 0 for vacuum. On top of
+// it the side of an open mirror that the photon has just left, kLeft….
 uint innerMedium(uint media) { return media % kMediumBase; }
 uint outerMedium(uint media) { return media / kMediumBase % kMediumBase; }
 uint leftSide(uint media) { return media / (kMediumBase * kMediumBase); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The eye's view: between view space (m) and pixels (continuous, pixel centres at .5, lower left 0).
+// The eye's view: between view space (m) and pixels (continuous, centres at .5, lower left 0).
 #include "framework/transport/types.h"
 
 layout(std140) uniform View {
@@ -29,19 +29,20 @@ float pixelDepthExtent(vec3 ray, float depth, vec3 normalVs) {
     return 0.5 * pixelFootprint(depth) * slope;
 }
 
-// How far a ray may pass from a surface's depth at a pixel's middle and still meet it there: a pixel's
-// footprint and the extent. A surface seen more nearly edge-on than this slope is taken for the
-// silhouette of something thin, which ends within the pixel: without a bound rays meet its plane far
-// before and behind it (cornell-bunny: 99.0 % of the photons right without, 99.4 % with 8, 98.8 % with
-// 3).
+// How far a ray may pass from a surface's depth at a pixel's middle and still meet it there: a
+// pixel's footprint and the extent. A surface seen more nearly edge-on than this slope is taken for
+// the silhouette of something thin, which ends within the pixel: without a bound rays meet its
+// plane far before and behind it (cornell-bunny: 99.0 % of the photons right without, 99.4 % with
+// 8, 98.8 % with 3).
 const float kSteepestSlope = 8.0;
 float depthMargin(vec3 ray, float depth, vec3 normalVs) {
     float footprint = pixelFootprint(depth);
-    return footprint + min(pixelDepthExtent(ray, depth, normalVs), 0.5 * kSteepestSlope * footprint);
+    float extent = pixelDepthExtent(ray, depth, normalVs);
+    return footprint + min(extent, 0.5 * kSteepestSlope * footprint);
 }
 
-// The area that a pixel sees of a plane with unit normal `normalVs` at this depth: exact for a pixel
-// so small that its rays spread evenly. Bounded where the plane is seen edge-on.
+// The area that a pixel sees of a plane with unit normal `normalVs` at this depth: exact for a
+// pixel so small that its rays spread evenly. Bounded where the plane is seen edge-on.
 float pixelArea(vec3 ray, float depth, vec3 normalVs) {
     float side = pixelFootprint(depth);
     return side * side / max(abs(dot(normalVs, ray)), 1e-4);

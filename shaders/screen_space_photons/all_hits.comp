@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// trace.all_hits: one thread a photon and slot; slot 0 holds the first hit, the others the receivers
-// that the ray would meet behind it.
+// trace.all_hits: one thread a photon and slot; slot 0 holds the first hit, the others the
+// receivers that the ray would meet behind it.
 #include "common/traced_photon.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -16,8 +16,8 @@ uniform sampler2D keptSurface;
 uniform sampler2D keptFlux;
 uniform int rows;  // of a slot
 
-// The surface number `wanted` along the ray; past the first only receivers count, and none where the
-// first is specular: there the light does go on elsewhere.
+// The surface number `wanted` along the ray; past the first only receivers count, and none where
+// the first is specular: there the light does go on elsewhere.
 FirstHit hitNumber(Photon photon, int wanted) {
     FirstHit last = noHit();
     if (!isNumber(photon)) return last;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One step of the reduce of fragment counts (K06, section 2.2): of four texels the largest count, and
-// the sums of fragments, of those beyond the last layer and of pixels that have some. x, y, z, w.
+// One step of the reduce of fragment counts (K06, section 2.2): of four texels the largest count,
+// and the sums of fragments, of those beyond the last layer and of pixels that have some: x to w.
 uniform sampler2D source;
 uniform int layerCount;
 uniform int isFirst;  // the source holds the counts themselves

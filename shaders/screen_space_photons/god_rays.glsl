@@ -10,27 +10,11 @@ RaySegment clipWay(vec3 origin, vec3 direction, float end, float marginPixels) {
     RaySegment way;
     float low = 0.0;
     float high = min(end, boundsInterval(origin, direction).y);
-    cutHalfSpace(-origin.z - view.tangents.z, -direction.z, low, high);
-    for (int axis = 0; axis < 2; ++axis) {
-        float slope = view.tangents[axis] * (1.0 + 2.0 * marginPixels * view.sizePixels[axis + 2]);
-        cutHalfSpace(-origin.z * slope - origin[axis], -direction.z * slope - direction[axis], low,
-                     high);
-        cutHalfSpace(-origin.z * slope + origin[axis], -direction.z * slope + direction[axis], low,
-                     high);
-    }
+    cutToNearPlane(origin, direction, low, high);
+    vec2 tangents = view.tangents.xy * (1.0 + 2.0 * marginPixels * view.sizePixels.zw);
+    cutToScreen(origin, direction, tangents, low, high);
     way.visible = low < high;
-    if (!way.visible) return way;
-    way.nearT = low;
-    way.farT = high;
-    vec3 a = origin + low * direction;
-    vec3 b = origin + high * direction;
-    // Rounding may leave an end a little before the near plane.
-    a.z = min(a.z, -view.tangents.z);
-    b.z = min(b.z, -view.tangents.z);
-    way.nearPixel = pixelOf(a);
-    way.farPixel = pixelOf(b);
-    way.nearInverseZ = -1.0 / a.z;
-    way.farInverseZ = -1.0 / b.z;
+    if (way.visible) setEnds(way, origin, direction, low, high);
     return way;
 }
 

@@ -84,7 +84,8 @@ void main() {
     float index = data.absorption.w;
     vec3 entry = viewing * depth;
     bool enters = dot(direction, surface.xyz) < 0.0;
-    Interface first = interactAt(direction, surface.xyz, enters ? 1.0 : index, enters ? index : 1.0);
+    Interface first =
+        interactAt(direction, surface.xyz, enters ? 1.0 : index, enters ? index : 1.0);
     bool isTotal = first.reflectance >= 1.0;
     vec3 origin = entry;
     vec3 onward = isTotal ? first.reflected : first.refracted;
@@ -94,7 +95,7 @@ void main() {
     throughput *= reached;
     bool isInMedium = enters != isTotal;
     float met = 1.0;
-    float cameOut = 1.0;
+    float ending = kWayCameOut;
     float back = texelFetch(backDepth, pixel, 0).x;
     if (enters && back > depth) {
         float alongRay = (back - depth) * length(viewing);
@@ -123,12 +124,12 @@ void main() {
             onward = second.refracted;
             throughput *= 1.0 - second.reflectance;
         } else {
-            cameOut = 0.0;  // total internal reflection is not followed
+            ending = kWayLost;  // total internal reflection is not followed
         }
         isInMedium = false;
     }
     exitPosition = vec4(origin, met);
-    exitDirection = vec4(onward, cameOut);
+    exitDirection = vec4(onward, ending);
 
     uint medium = isInMedium && isOpen(material - 1u) ? material : 0u;
     float ratio = mediumIndex(mediumAtEye) / mediumIndex(isInMedium ? material : 0u);

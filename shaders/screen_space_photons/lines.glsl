@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // One end of the horizontal line of a photon (K06, section 2.1, Fig. 4): from the left edge of the
 // photon's row, one fragment a step. The line is drawn half a texel longer at both ends and the
-// fragments are told apart by their own position, so that the result does not depend on how a device
-// rasterises the ends of lines (hard case 6).
+// fragments are told apart by their own position, so that the result does not depend on how a
+// device rasterises the ends of lines (hard case 6).
 #include "common/ray_segment.glsl"
 #include "common/transfer_map.glsl"
 #include "screen_space_photons/row_extent.glsl"

@@ -13,7 +13,8 @@ void main() {
     if (any(greaterThanEqual(texel, textureSize(photonPosition, 0)))) return;
     Photon photon = photonAt(texel);
     if (photon.fate != kFateInFlight) return;  // its hit, if any, stands
-    Hit hit = deliver(photon, march(photon, trace_march_compute_minimum, trace_march_compute_steps));
+    FirstHit first = march(photon, trace_march_compute_minimum, trace_march_compute_steps);
+    Hit hit = deliver(photon, first);
     imageStore(hitPosition, texel, hitPositionTexel(hit));
     imageStore(hitSurface, texel, hitSurfaceTexel(hit));
     imageStore(hitFlux, texel, hitFluxTexel(hit));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Puts one layer of one object into the picture's layers, in order of depth; what falls off the last
-// one is counted where all fragments are. Of surfaces at the same depth the object drawn first stays
-// alone, as in layers.peel (hard case 12). One thread a pixel.
+// Puts one layer of one object into the picture's layers, in order of depth; what falls off the
+// last one is counted where all fragments are. Of surfaces at the same depth the object drawn first
+// stays alone, as in layers.peel (hard case 12). One thread a pixel.
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(rgba32f) uniform image2DArray layerDepths;

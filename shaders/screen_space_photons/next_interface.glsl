@@ -2,7 +2,7 @@
 // Where a ray of the eye meets the next interface of the transmitting objects, in their layered
 // depth (K06, section 4). The monotonic search keeps to two layers, the one that the ray has
 // passed and the next one: a ray that has met n interfaces is looked for between the layers n and
-// n + 1. The search of all layers is the tracers' (hit_test.glsl).
+// n + 1. The search of all layers is the tracers' (exit_test.glsl).
 #include "common/exit_test.glsl"
 
 uniform vec3 dielectricsCenterVs;     // the box around all dielectrics, along the world's axes, m
@@ -12,45 +12,12 @@ uniform vec3 dielectricsHalfExtent;
 RaySegment clipToDielectrics(vec3 origin, vec3 direction, float reach) {
     RaySegment segment = clipRay(origin, direction);
     if (!segment.visible) return segment;
-    mat3 toWorld = mat3(view.viewToWorld);
-    vec3 o = toWorld * (origin - dielectricsCenterVs);
-    vec3 d = toWorld * direction;
     float low = segment.nearT;
     float high = min(segment.farT, reach);
-    for (int axis = 0; axis < 3; ++axis) {
-        cutHalfSpace(dielectricsHalfExtent[axis] + o[axis], d[axis], low, high);
-        cutHalfSpace(dielectricsHalfExtent[axis] - o[axis], -d[axis], low, high);
-    }
+    cutToBox(origin, direction, dielectricsCenterVs, dielectricsHalfExtent, low, high);
     segment.visible = low <= high;
-    if (!segment.visible) return segment;
-    segment.nearT = low;
-    segment.farT = high;
-    vec3 a = origin + low * direction;
-    vec3 b = origin + high * direction;
-    a.z = min(a.z, -view.tangents.z);
-    b.z = min(b.z, -view.tangents.z);
-    segment.nearPixel = pixelOf(a);
-    segment.farPixel = pixelOf(b);
-    segment.nearInverseZ = -1.0 / a.z;
-    segment.farInverseZ = -1.0 / b.z;
+    if (segment.visible) setEnds(segment, origin, direction, low, high);
     return segment;
-}
-
-FirstHit searchAllLayers(RaySegment segment, TracedRay ray, int steps) {
-    FirstHit first = noHit();
-    int end = steps;
-    for (int i = 0; i < end; ++i) {
-        FirstHit found = hitOfStep(segment, ray, i, steps);
-        if (found.hit.layer < 0) continue;
-        // A hit may lie half a step beyond its own, and the next step know a nearer one.
-        if (first.hit.layer < 0) {
-            end = min(end, i + 2);
-        } else if (found.hit.t >= first.hit.t) {
-            continue;
-        }
-        first = found;
-    }
-    return first;
 }
 
 // Whether the ray can meet the surface of a layer at this pixel at all, by its side; `t`: where it
@@ -69,8 +36,7 @@ bool meetsLayer(TracedRay ray, ivec2 texel, int layer, out float t) {
 // has the current layer is beyond its silhouette: the ray has left between two pixels.
 FirstHit searchBetweenLayers(RaySegment segment, TracedRay ray, int passed, int steps) {
     float count = float(steps);
-    uint medium = innerMedium(ray.media);
-    bool isInside = medium != 0u && !isOpen(medium - 1u);
+    bool isInside = isInsideClosed(ray.media);
     ivec2 before = ivec2(-1);
     for (int i = 0; i < steps; ++i) {
         float middle = float(i) + 0.5;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The scene's indirect draws once a layer; those of layers beyond the measured depth complexity draw
-// nothing, so that the processor need not wait for the measurement.
+// The scene's indirect draws once a layer; those of layers beyond the measured depth complexity, of
+// the scene or of their own object, draw nothing, so that the processor need not wait for the
+// measurement.
 #include "framework/transport/types.h"
 
 layout(local_size_x = 64) in;
@@ -18,9 +19,15 @@ layout(std430) readonly buffer SceneCommands {
 layout(std430) writeonly buffer LayerCommands {
     DrawCommand layerCommands[];
 };
+#ifdef PER_OBJECT
+layout(std430) readonly buffer Complexities {
+    uint complexities[];
+};
+#else
 layout(std430) readonly buffer Statistics {
     LayerStatistics statistics;
 };
+#endif
 uniform int commandCount;
 uniform int layerCount;
 
@@ -28,6 +35,11 @@ void main() {
     int index = int(gl_GlobalInvocationID.x);
     if (index >= commandCount * layerCount) return;
     DrawCommand command = sceneCommands[index % commandCount];
-    if (uint(index / commandCount) >= statistics.complexity) command.instanceCount = 0u;
+#ifdef PER_OBJECT
+    uint complexity = complexities[index % commandCount];
+#else
+    uint complexity = statistics.complexity;
+#endif
+    if (uint(index / commandCount) >= complexity) command.instanceCount = 0u;
     layerCommands[index] = command;
 }

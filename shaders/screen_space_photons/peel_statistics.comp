@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The maximum, the sum and the overflow of the fragment counts. Integer atomics: the same every run.
+// The maximum, the sum and the overflow of the fragment counts. Integer atomics: the same always.
 #include "framework/transport/types.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -77,18 +77,14 @@ SceneHit searchReceivers(vec3 origin, vec3 direction) {
     for (int look = 0; look < n; look += lookStride) {
         int last = min(look + lookStride, n) - 1;
         // At the stride's end, or one by one where the stride holds a change.
-        ivec2 there = clamp(ivec2(floor((segment.nearPixel * (count - float(last) - 0.5) +
-                                         segment.farPixel * (float(last) + 0.5)) / count)),
-                            ivec2(0), ivec2(view.sizePixels.xy) - 1);
+        ivec2 there = texelOfStep(segment, last, n);
         float depthThere = texelFetch(receiver, there, 0).x;
         float zThere = depthAtIndex(segment, float(last) + 1.0, count);
         bool isBeforeThere = depthThere <= 0.0 || zThere < depthThere;
         if (isBefore && !isBeforeThere) {
             for (int i = look; i <= last; ++i) {
                 float middle = float(i) + 0.5;
-                ivec2 texel = clamp(ivec2(floor((segment.nearPixel * (count - middle) +
-                                                 segment.farPixel * middle) / count)),
-                                    ivec2(0), ivec2(view.sizePixels.xy) - 1);
+                ivec2 texel = texelOfStep(segment, i, n);
                 float depth = texelFetch(receiver, texel, 0).x;
                 float z = depthAtIndex(segment, float(i) + 1.0, count);
                 if (depth <= 0.0 || z < depth) continue;
@@ -145,5 +141,5 @@ void writeMirror(ivec2 pixel, vec3 viewing, vec3 normal, vec3 reflectance) {
     SceneHit seen = lookIntoMirror(origin, reflected);
     radiance = vec4(reflectance * radianceAlong(origin, reflected, 0u, seen, pixel), 1.0);
     exitPosition = vec4(origin, 1.0);
-    exitDirection = vec4(reflected, 1.0);
+    exitDirection = vec4(reflected, kWayCameOut);
 }

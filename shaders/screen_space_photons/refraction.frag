@@ -24,7 +24,7 @@ struct EyePath {
     int refractions;
     int reflections;
     int passed;  // the layer that it has passed last
-    bool isLost;
+    float ending;  // kWay…
 };
 
 // At an interface: the path goes on refracted, or totally reflected.
@@ -47,11 +47,6 @@ Interface bend(inout EyePath path, vec3 normal, uint material, int layer) {
     return meeting;
 }
 
-bool isInsideClosed(uint media) {
-    uint medium = innerMedium(media);
-    return medium != 0u && !isOpen(medium - 1u);
-}
-
 // To the next interface before `reach`; false: there is none.
 bool advance(inout EyePath path, float reach) {
     RaySegment segment = clipToDielectrics(path.origin, path.direction, reach);
@@ -59,7 +54,7 @@ bool advance(inout EyePath path, float reach) {
     TracedRay ray = TracedRay(path.origin, path.direction, path.media);
     int steps = stepCount(segment, 4, 16384);
     FirstHit found = view_refraction_search == view_refraction_search_all
-                         ? searchAllLayers(segment, ray, steps)
+                         ? firstHitOfSteps(segment, ray, steps)
                          : searchBetweenLayers(segment, ray, path.passed, steps);
     if (found.hit.layer < 0) return false;
     vec4 surface = texelFetch(layerSurfaces, ivec3(found.pixel, found.hit.layer), 0);
@@ -97,7 +92,7 @@ void main() {
     bool isEyeInside = dot(direction, surface.normal) > 0.0;
     uint mediaAtEye = isEyeInside ? enterMedium(0u, material) : 0u;
 
-    EyePath path = EyePath(entry, direction, vec3(1.0), mediaAtEye, 0, 0, 0, -1, false);
+    EyePath path = EyePath(entry, direction, vec3(1.0), mediaAtEye, 0, 0, 0, -1, kWayCameOut);
     path.throughput *= mediumTransmittance(innerMedium(mediaAtEye), length(entry));
     vec3 reached = path.throughput;
     vec3 shading = texelFetch(layerSurfaces, ivec3(pixel, 0), 0).xyz;
@@ -106,24 +101,25 @@ void main() {
     SceneHit seen;
     for (;;) {
         bool isInside = isInsideClosed(path.media);
-        bool isLast = path.refractions >= view_refraction_interfaces ||
-                      path.reflections > view_refraction_reflections;
+        bool isReflected = path.reflections > view_refraction_reflections;
+        bool isLast = isReflected || path.refractions >= view_refraction_interfaces;
         seen = nothingThere();
 #ifndef RECEIVERS_INSIDE
         if (!isInside)
 #endif
             seen = lookThrough(path.origin, path.direction);
         if (isLast) {
-            path.isLost = path.reflections > view_refraction_reflections;
+            if (isInside && !seen.isFound) path.ending = kWayStoppedInside;
+            if (isReflected) path.ending = kWayReflectedTooOften;
             break;
         }
         if (!advance(path, seen.isFound ? seen.t : kFar)) {
-            path.isLost = isInside && !seen.isFound;
+            if (isInside && !seen.isFound) path.ending = kWayLost;
             break;
         }
     }
     exitPosition = vec4(path.origin, float(path.met));
-    exitDirection = vec4(path.direction, path.isLost ? 0.0 : 1.0);
+    exitDirection = vec4(path.direction, path.ending);
 
     // What was not traced out of an object is taken to see what one outside of it would.
     uint media = isInsideClosed(path.media) && !seen.isFound ? leaveMedium(path.media) : path.media;
@@ -132,8 +128,9 @@ void main() {
                    radianceAlong(path.origin, path.direction, openMedium(media), seen, pixel);
     if (first.reflectance < 1.0) {
         SceneHit mirrored = lookIntoMirror(entry, first.reflected);
-        radiance.rgb += reached * first.reflectance *
-                        radianceAlong(entry, first.reflected, openMedium(mediaAtEye), mirrored, pixel);
+        radiance.rgb +=
+            reached * first.reflectance *
+            radianceAlong(entry, first.reflected, openMedium(mediaAtEye), mirrored, pixel);
     }
     radiance.a = 1.0;
 }

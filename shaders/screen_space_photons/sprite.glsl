@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A photon's splat in the receiver's tangent plane, seen through each pixel (K06, section 3.1, Eq. 1
-// with D = N·C). The weight falls with the distance: from the centre, as in the paper, or from the
-// photon's path, so that light that grazes a wall leaves no gaps between its splats.
+// A photon's splat in the receiver's tangent plane, seen through each pixel (K06, section 3.1,
+// Eq. 1 with D = N·C). The weight falls with the distance: from the centre, as in the paper, or
+// from the photon's path, so that light that grazes a wall leaves no gaps between its splats.
 #include "common/transfer_map.glsl"
 #include "common/view.glsl"
 
@@ -96,7 +96,8 @@ SpritePixel spriteAt(Sprite sprite, ivec2 pixel) {
         return result;
     }
     vec3 seenNormal = texelFetch(receiverSurface, pixel, 0).xyz;
-    bool isOther = isMirror || seenDepth > depth + tolerance || dot(seenNormal, sprite.normal) <= 0.0;
+    bool isOther =
+        isMirror || seenDepth > depth + tolerance || dot(seenNormal, sprite.normal) <= 0.0;
     if (seenDepth > 0.0 && !isOther) {
         result.area = seen.y;
         result.where = kSpriteOn;
@@ -104,9 +105,9 @@ SpritePixel spriteAt(Sprite sprite, ivec2 pixel) {
     return result;
 }
 
-// A splat ends here however far perspective or grazing light stretch it: its cost is bounded, and so
-// is its loop (Mesa's software rasteriser silently ends a shader's loops after 65,535 turns). The
-// weights are summed and drawn over the same pixels, so that no flux is lost.
+// A splat ends here however far perspective or grazing light stretch it: its cost is bounded, and
+// so is its loop (Mesa's software rasteriser silently ends a shader's loops after 65,535 turns).
+// The weights are summed and drawn over the same pixels, so that no flux is lost.
 const int kMostReach = 120;
 
 // Half the sides of the pixel rectangle around the centre's pixel that the splat can cover.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What each splat's weights sum to over the pixels' areas, so that exactly the photon's flux is
-// deposited at every orientation, size and distance (METHODS.md, section 7: sampled at pixel centres
-// a kernel of few pixels does not sum to 1). The part hidden from the eye or off the screen goes to
-// the ledger; the part that hangs off the surface's edge is redistributed on it. One thread a photon.
+// deposited at every orientation, size and distance (METHODS.md, section 7: sampled at pixel
+// centres a kernel of few pixels does not sum to 1). The part hidden from the eye or off the screen
+// goes to the ledger; the part that hangs off the surface's edge is redistributed on it. One thread
+// a photon.
 #include "common/ledger.glsl"
 #include "common/surface_data.glsl"
 #include "screen_space_photons/sprite.glsl"
@@ -18,7 +19,8 @@ uniform sampler2D hitFlux;
 
 // Whether the eye looks at the side of the surface on which light arrives.
 bool seesLitSide(Sprite sprite) {
-    return (dot(sprite.normal, sprite.center) < 0.0) == (dot(sprite.normal, sprite.direction) < 0.0);
+    bool isEyeInFront = dot(sprite.normal, sprite.center) < 0.0;
+    return isEyeInFront == (dot(sprite.normal, sprite.direction) < 0.0);
 }
 
 void main() {
@@ -44,7 +46,8 @@ void main() {
                        ? reconstruct_sprites_radius
                        : reconstruct_sprites_footprints * texelFetch(photonPosition, texel, 0).w;
     float pixel = pixelFootprint(-sprite.center.z);
-    sprite.radius = clamp(wanted, pixel, float(reconstruct_sprites_maximum) * pixel);
+    float largest = float(reconstruct_sprites_maximum) * pixel;
+    sprite.radius = clamp(wanted, pixel, largest);
 
     float on = 0.0;
     float occluded = 0.0;
@@ -63,7 +66,8 @@ void main() {
     float total = on + occluded + offScreen;
     vec4 weights = vec4(0.0);
     if (total > 0.0) {
-        weights = vec4(1.0 / total, sprite.radius, on / total, 0.0);
+        float shrunkFrom = wanted > largest ? wanted / pixel : 0.0;
+        weights = vec4(1.0 / total, sprite.radius, on / total, shrunkFrom);
         if (occluded > 0.0) ledgerAdd(kAccountOccludedSplat, flux.rgb * (occluded / total));
         if (offScreen > 0.0) ledgerAdd(kAccountOffScreen, flux.rgb * (offScreen / total));
     } else {

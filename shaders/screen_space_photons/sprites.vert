@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One sprite a photon: a square on the screen around its disc. A strip of four vertices instead of a
-// point, since points end at a device's largest size and vanish with their centre.
+// One sprite a photon: a square on the screen around its disc. A strip of four vertices instead of
+// a point, since points end at a device's largest size and vanish with their centre.
 #include "screen_space_photons/sprite.glsl"
 
 uniform int firstPhoton;  // of the batch

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Radiance as a picture: exposure, a shoulder above which highlights are compressed (luminance only,
-// so that hues stay), sRGB.
+// Radiance as a picture: exposure, a shoulder above which highlights are compressed (luminance
+// only, so that hues stay), sRGB.
 layout(location = 0) out vec4 display;
 
 uniform sampler2D radiance;

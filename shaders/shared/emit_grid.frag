@@ -29,7 +29,8 @@ void main() {
         flux = light.power.rgb * (texel.x * texel.y);
         footprint = sqrt(texel.x * texel.y);
     } else {
-        vec2 onPlane = ((gl_FragCoord.xy - vec2(0.0, gridBottom)) * 2.0 / gridSize - 1.0) * halfExtent;
+        vec2 inGrid = gl_FragCoord.xy - vec2(0.0, gridBottom);
+        vec2 onPlane = (inGrid * 2.0 / gridSize - 1.0) * halfExtent;
         float cosine = inversesqrt(1.0 + dot(onPlane, onPlane));
         float solidAngle = texel.x * texel.y * cosine * cosine * cosine;
         float distance = length(positionVs - light.positionVs.xyz);
@@ -39,7 +40,8 @@ void main() {
     bool isPhoton = !isReceiver(materialKind(material)) && flux.r + flux.g + flux.b > 0.0;
     vec3 geometric = geometricNormal(positionVs, -direction);
     // A light whose rays first meet a dielectric from within is inside of it.
-    bool isInside = materialKind(material) == kMaterialDielectric && dot(direction, geometric) > 0.0;
+    bool isInside =
+        materialKind(material) == kMaterialDielectric && dot(direction, geometric) > 0.0;
     uint media = isInside ? enterMedium(0u, material + 1u) : 0u;
     if (uint(light.positionVs.w) != kLightDirectional) {
         flux *= mediumTransmittance(media, length(positionVs - light.positionVs.xyz));

@@ -21,8 +21,8 @@ void store(ivec2 texel, Photon photon) {
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(texel, textureSize(hitFlux, 0)))) return;
-    Photon photon = unpackPhoton(imageLoad(photonPosition, texel), imageLoad(photonDirection, texel),
-                                 imageLoad(photonFlux, texel));
+    Photon photon = unpackPhoton(imageLoad(photonPosition, texel),
+                                 imageLoad(photonDirection, texel), imageLoad(photonFlux, texel));
     Hit hit = unpackHit(texelFetch(hitPosition, texel, 0), texelFetch(hitSurface, texel, 0),
                         texelFetch(hitFlux, texel, 0));
     if (hit.fate != kFateSpecular) {

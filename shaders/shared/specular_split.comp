@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Both Fresnel branches of photons that have met a specular surface: one thread a texel of the map
 // before, which is the lower half of the new one. There the transmitted branch goes on, or the only
-// one; the reflected one begins a texel of the upper half. Without room for both, one is drawn by its
-// share, and carries all of the flux.
+// one; the reflected one begins a texel of the upper half. Without room for both, one is drawn by
+// its share, and carries all of the flux.
 #include "common/interaction.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -40,12 +40,14 @@ void main() {
     vec3 ray = viewRay(gl_FragCoord.xy);
     vec3 direction = normalize(ray);
     if (uint(data.albedo.w) == kMaterialMirror) {
-        radiance = vec4(data.albedo.rgb * surroundingRadiance(reflect(direction, surface.xyz)), 1.0);
+        vec3 mirrored = surroundingRadiance(reflect(direction, surface.xyz));
+        radiance = vec4(data.albedo.rgb * mirrored, 1.0);
         return;
     }
     float index = data.absorption.w;
     bool enters = dot(direction, surface.xyz) < 0.0;
-    Interface meeting = interactAt(direction, surface.xyz, enters ? 1.0 : index, enters ? index : 1.0);
+    Interface meeting =
+        interactAt(direction, surface.xyz, enters ? 1.0 : index, enters ? index : 1.0);
     vec3 entry = ray * depth;
     float receiverDepth = texelFetch(receiver, pixel, 0).x;
     vec3 through = vec3(0.0);

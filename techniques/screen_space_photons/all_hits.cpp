@@ -32,7 +32,7 @@ Hits traceAllHits(FrameBuilder& frame, const AllHitsParams& params, Photons phot
     const HitTesting testing = hitTesting(frame);
     previous.incoming = photons;
     AllHitsParams marching = params;
-    if (marching.steps == 0) marching.steps = std::max(frame.width(), frame.height());
+    if (marching.march.steps == 0) marching.march.steps = std::max(frame.width(), frame.height());
     return frame
         .pass<Data>(
             "trace.all_hits", "every receiver on a ray is lit, for comparison",

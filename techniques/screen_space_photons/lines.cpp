@@ -199,6 +199,15 @@ Reduced reduceRows(FrameBuilder& frame, const LinesParams& params, const Layered
         });
 }
 
+// Batches cost time and nothing else.
+void sayBatches(FrameBuilder& frame, const Layout& layout) {
+    const ReachedLimit limit{
+        "trace.lines.memory", "batches", static_cast<double>(layout.batches), 1.0,
+        fmt::format("{} passes over the photons of a tracing instead of one; no flux is lost to it",
+                    layout.batches)};
+    frame.keepsTo({"trace.lines", {}, [limit](const gl::Executor&) { return limit; }});
+}
+
 }  // namespace
 
 Hits traceLines(FrameBuilder& frame, const LinesParams& params, Photons photons,
@@ -211,6 +220,7 @@ Hits traceLines(FrameBuilder& frame, const LinesParams& params, Photons photons,
                         "long rays skip pixels.",
                         layout.width, longestSide));
     }
+    if (layout.batches > 1) sayBatches(frame, layout);
     RowTextures textures;
     Hits hits = previous;
     hits.incoming = photons;

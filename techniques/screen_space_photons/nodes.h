@@ -108,18 +108,11 @@ Hits traceHierarchicalCompute(FrameBuilder& frame, const MarchParams& params, Ph
 
 struct AllHitsParams {
     int slots = 4;
-    int steps = 0;
-    int minimum = 4;
+    MarchParams march;
     template <class R>
     void reflect(R& r) {
         r.field(slots, "slots", "Most hits of a ray that are kept", "", params::range(1, 16));
-        r.field(steps, "steps",
-                "Most steps of a photon's ray; 0: as many as the longer side of the picture has "
-                "pixels, so that no step skips one",
-                "", params::range(0, 16384));
-        r.field(minimum, "minimum",
-                "Fewest steps of a ray, for rays almost parallel to the view direction", "",
-                params::range(1, 64));
+        march.reflect(r);
     }
 };
 Hits traceAllHits(FrameBuilder& frame, const AllHitsParams& params, Photons photons,

@@ -9,16 +9,10 @@
 
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/screen_space_photons/nodes.h"
+#include "techniques/screen_space_photons/peel_resources.h"
 
 namespace kaustik {
 namespace {
-
-struct CountTexel {  // fragments in the pixel
-    static constexpr Format format = Format::r32f;
-};
-struct DrawCommandWords {
-    GLuint words[5];
-};
 
 struct ReducedCounts {  // x: most fragments in a pixel; y: all; z: left out; w: pixels with some
     static constexpr Format format = Format::rgba32f;

@@ -10,18 +10,13 @@
 
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/screen_space_photons/nodes.h"
+#include "techniques/screen_space_photons/peel_resources.h"
 
 namespace kaustik {
 namespace {
 
 struct ObjectComplexity {
     GLuint layers;
-};
-struct DrawCommandWords {
-    GLuint words[5];
-};
-struct CountTexel {  // fragments in the pixel
-    static constexpr Format format = Format::r32f;
 };
 
 // No pixel shows more layers of an object than it has triangles.
@@ -97,7 +92,8 @@ LayeredDepth peelObjects(FrameBuilder& frame, const params::NoParams&, Geometry 
                             .set("object", static_cast<int>(object))
                             .dispatchOver(inputs.view.width, 8, inputs.view.height, 8);
                     }
-                    context.compute("screen_space_photons/object_commands.comp")
+                    context.compute("screen_space_photons/peel_commands.comp")
+                        .define("PER_OBJECT")
                         .storage("SceneCommands", inputs.gpuScene.commands())
                         .storage("LayerCommands", data.commands)
                         .storage("Complexities", data.complexities)

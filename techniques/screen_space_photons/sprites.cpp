@@ -8,6 +8,8 @@
 //
 // A pixel at a focus takes a great many deposits, and a plain 32-bit sum drifts: 2^25 of 0.1 are 15
 // % off. Photons are therefore drawn in batches, whose sums are added up with compensation.
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "framework/pipeline/frame_builder.h"
@@ -17,7 +19,8 @@
 namespace kaustik {
 namespace {
 
-struct SpriteWeight {  // x: 1 / weighted area, 1/m²; y: radius, m; z: share that is seen
+struct SpriteWeight {  // x: 1 / weighted area, 1/m²; y: radius, m; z: share that is seen; w: the
+                       // radius that it was to have, px, where that is above the maximum, else 0
     static constexpr Format format = Format::rgba32f;
 };
 
@@ -63,11 +66,37 @@ Weights sumWeights(FrameBuilder& frame, const SpritesParams& params, Hits hits, 
         });
 }
 
+// Which splats are smaller than they were to be: their light is less spread, and none is lost.
+void keepToLimit(FrameBuilder& frame, const SpritesParams& params, const Weights& weights) {
+    frame.keepsTo({"reconstruct.sprites", weights.weights,
+                   [maximum = params.maximumPixels, handle = weights.weights](
+                       const gl::Executor& executor) -> std::optional<ReachedLimit> {
+                       const std::vector<float> texels = executor.texture(handle).read();
+                       std::size_t shrunk = 0;
+                       float largest = 0.0f;
+                       for (std::size_t i = 3; i < texels.size(); i += 4) {
+                           shrunk += texels[i] > 0.0f ? 1 : 0;
+                           largest = std::max(largest, texels[i]);
+                       }
+                       if (shrunk == 0) return {};
+                       return ReachedLimit{
+                           "reconstruct.sprites.maximum",
+                           "px",
+                           static_cast<double>(maximum),
+                           static_cast<double>(largest),
+                           fmt::format("{} splats are smaller than they were to be; no flux is "
+                                       "lost to it",
+                                       shrunk),
+                           0.0};
+                   }});
+}
+
 }  // namespace
 
 IrradianceMap splatSprites(FrameBuilder& frame, const SpritesParams& params, Hits hits,
                            EyeBuffer eye) {
     const Weights weights = sumWeights(frame, params, hits, eye);
+    keepToLimit(frame, params, weights);
     const bool isGlossy = frame.needs().glossyReceivers;
     const int photons = hits.incoming.count();
     const bool isBatched = photons > kBatchPhotons;

@@ -67,6 +67,14 @@ View createView(const FrameBuilder& frame, graph::PassSetup& setup, const EyeBuf
     return view;
 }
 
+std::size_t countExits(const gl::Texture& exitDirection, float ending) {
+    const std::vector<float> texels = exitDirection.read();
+    std::size_t count = 0;
+    for (std::size_t i = 3; i < texels.size(); i += 4)
+        count += texels[i] == ending ? 1 : 0;
+    return count;
+}
+
 void bindLook(const FrameInputs& inputs, gl::Command& command, const EyeBuffer& eye,
               const Radiance& receivers, const SceneLookParams& look, const View& seen) {
     command.texture("sceneImages", inputs.gpuScene.images())

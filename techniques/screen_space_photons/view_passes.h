@@ -21,6 +21,9 @@ struct DielectricsBox {
 [[nodiscard]] View createView(const FrameBuilder& frame, graph::PassSetup& setup,
                               const EyeBuffer& eye, const Radiance& receivers);
 
+// How many pixels' ways have ended so (transport::kWay…). Waits for the device.
+[[nodiscard]] std::size_t countExits(const gl::Texture& exitDirection, float ending);
+
 // Binds what createView has declared, the images, and its outputs as targets: what
 // screen_space_photons/refracted_scene.glsl needs besides the view and the materials.
 void bindLook(const FrameInputs& inputs, gl::Command& command, const EyeBuffer& eye,

@@ -77,22 +77,35 @@ TEST(LineSource, OfTheGeometryShaderFindsTheSameHits) {
         expectSame(placed, generated, name);
 }
 
-// Light at 60 degrees on flat water: a floor below it, and a screen where the reflected part
-// arrives.
-const char* const kMirroringWater = R"(
-name = "mirroring water"
-[camera]
-position = [1, 2.5, 7]
-target = [0.8, 0.2, 0]
+// A scene of grey receivers and more, under a sun of 100 W/m²; all vectors as TOML has them.
+struct SunlitScene {
+    std::string name;
+    std::string cameraPosition;
+    std::string cameraTarget;
+    std::string sunDirection;
+};
+scene::Scene sunlit(const SunlitScene& scene, const std::string& rest) {
+    return sceneFromText("name = '" + scene.name + "'\n[camera]\nposition = " +
+                         scene.cameraPosition + "\ntarget = " + scene.cameraTarget + R"(
 [[light]]
 name = "sun"
 type = "directional"
-direction = [0.8660254037844386, -0.5, 0]
 irradiance = 100
+direction = )" + scene.sunDirection +
+                         R"(
 [[material]]
 name = "grey"
 type = "lambertian"
 albedo = 0.5
+)" + rest);
+}
+
+// Light at 60 degrees on flat water: a floor below it, and a screen where the reflected part
+// arrives.
+scene::Scene mirroringWater() {
+    return sunlit(
+        {"mirroring water", "[1, 2.5, 7]", "[0.8, 0.2, 0]", "[0.8660254037844386, -0.5, 0]"},
+        R"(
 [[material]]
 name = "water"
 type = "dielectric"
@@ -103,18 +116,19 @@ shape = "plane"
 material = "water"
 size = [1, 1]
 [[object]]
-name = "object 1"
+name = "floor"
 shape = "plane"
 material = "grey"
 size = [6, 6]
 position = [0, -0.5, 0]
 [[object]]
-name = "object 2"
+name = "screen"
 shape = "plane"
 material = "grey"
 size = [3, 3]
 position = [2.2, 1, 0]
-)";
+)");
+}
 
 double reflectance(double cosine, double n) {
     const double sine = std::sqrt(1.0 - cosine * cosine) / n;
@@ -138,7 +152,7 @@ double arrivedIn(const Texels& flux, int first, int end) {
 }
 
 TEST(SplitBranches, CarryTheFresnelSharesAndLoseNothing) {
-    const scene::Scene scene = sceneFromText(kMirroringWater);
+    const scene::Scene scene = mirroringWater();
     const Frame frame(scene, 200, 150, {{"specular", "split"}, {"emit.photons", "64x64"}},
                       {"hits.flux_1"});
     const Texels flux = frame.read("hits.flux_1");
@@ -153,7 +167,7 @@ TEST(SplitBranches, CarryTheFresnelSharesAndLoseNothing) {
 }
 
 TEST(SplitBranches, AreDrawnByTheirShareWhereThereIsNoRoomForBoth) {
-    const scene::Scene scene = sceneFromText(kMirroringWater);
+    const scene::Scene scene = mirroringWater();
     const Frame frame(
         scene, 200, 150,
         {{"specular", "split"}, {"specular.split.levels", "0"}, {"emit.photons", "256x256"}},
@@ -176,27 +190,14 @@ TEST(SplitBranches, AreDrawnByTheirShareWhereThereIsNoRoomForBoth) {
 }
 
 TEST(ShadowRays, FindTheShadowOfABall) {
-    const scene::Scene scene = sceneFromText(R"(
-name = "ball"
-[camera]
-position = [0, 2.5, 3.5]
-target = [0, 0.3, 0]
-[[light]]
-name = "sun"
-type = "directional"
-direction = [0, -1, 0]
-irradiance = 100
-[[material]]
-name = "grey"
-type = "lambertian"
-albedo = 0.5
+    const scene::Scene scene = sunlit({"ball", "[0, 2.5, 3.5]", "[0, 0.3, 0]", "[0, -1, 0]"}, R"(
 [[object]]
-name = "object 3"
+name = "floor"
 shape = "plane"
 material = "grey"
 size = [4, 4]
 [[object]]
-name = "object 4"
+name = "ball"
 shape = "sphere"
 material = "grey"
 radius = 0.5
@@ -233,37 +234,24 @@ position = [0, 1, 0]
 
 TEST(AllHits, LightWhatLiesBehindAReceiver) {
     // Light falls through a sheet that does not bend it on a plate, and on the floor beneath.
-    const scene::Scene scene = sceneFromText(R"(
-name = "plate"
-[camera]
-position = [0, 1.5, 4]
-target = [0, 0, 0]
-[[light]]
-name = "sun"
-type = "directional"
-direction = [0, -1, 0]
-irradiance = 100
-[[material]]
-name = "grey"
-type = "lambertian"
-albedo = 0.5
+    const scene::Scene scene = sunlit({"plate", "[0, 1.5, 4]", "[0, 0, 0]", "[0, -1, 0]"}, R"(
 [[material]]
 name = "air"
 type = "dielectric"
 ior = 1
 [[object]]
-name = "object 5"
+name = "sheet"
 shape = "plane"
 material = "air"
 size = [1, 1]
 position = [0, 0.5, 0]
 [[object]]
-name = "object 6"
+name = "plate"
 shape = "plane"
 material = "grey"
 size = [0.5, 0.5]
 [[object]]
-name = "object 7"
+name = "floor"
 shape = "plane"
 material = "grey"
 size = [3, 3]
