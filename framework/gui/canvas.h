@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// Images as the window shows them: values of any range become colours on the device, by exposure or
+// by false colours; what is no number is flagged. Lives in the window's context.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "framework/gl/objects.h"
+#include "framework/gl/program.h"
+#include "framework/image/image.h"
+
+namespace kaustik::gui {
+
+enum class Channel : int { color, red, green, blue, alpha, luminance };
+
+// How values become colours.
+struct ToneMapping {
+    bool isEncoded = false;  // display-encoded already: shown as it is, but for the channel
+    Channel channel = Channel::color;
+    float exposureStops = 0.0f;  // linear values are multiplied by 2^exposure, then encoded
+    bool isFalseColor = false;   // of the channel, or the luminance, from low to high
+    float low = 0.0f;
+    float high = 1.0f;
+    friend bool operator==(const ToneMapping&, const ToneMapping&) = default;
+};
+
+class Canvas {
+  public:
+    Canvas();
+
+    // Shows `image` in a slot; uploads it only if `version` is another than before.
+    void show(std::size_t slot, const Image& image, std::uint64_t version,
+              const ToneMapping& mapping);
+    // For ImGui: the mapped texture, top row first.
+    [[nodiscard]] void* texture(std::size_t slot) const;
+    static constexpr std::size_t kSlots = 2;
+
+  private:
+    struct Slot {
+        gl::Object<gl::detail::deleteTexture> values;
+        gl::Object<gl::detail::deleteTexture> mapped;
+        gl::FramebufferObject framebuffer;
+        std::uint64_t version = 0;
+        int width = 0;
+        int height = 0;
+        int channels = 0;
+        ToneMapping mapping;
+    };
+    void upload(Slot& slot, const Image& image);
+    void map(Slot& slot);
+
+    std::array<Slot, kSlots> slots_;
+    gl::Object<gl::detail::deleteTexture> palette_;
+    gl::VertexArrayObject vertexArray_;
+    gl::Program program_;
+};
+
+}  // namespace kaustik::gui
