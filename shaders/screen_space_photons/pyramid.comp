@@ -9,12 +9,13 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(rgba32f) uniform image2DArray pyramid;
-uniform sampler2DArray layerDepths;
+// An image: a software rasteriser looks up no mip levels for one.
+layout(rgba32f) readonly uniform image2DArray layerDepths;
 uniform int layerCount;
 uniform int level;
 
 void main() {
-    ivec2 pixels = textureSize(layerDepths, 0).xy;
+    ivec2 pixels = imageSize(layerDepths).xy;
     ivec2 square = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(square, pyramidSize(pixels, level)))) return;
     ivec2 to = pyramidOffset(pixels, level) + square;
@@ -34,7 +35,7 @@ void main() {
             if (all(lessThan(at, count))) {
                 if (level == 1) {
                     ivec2 pixel = 4 * square + at;
-                    vec4 texel = texelFetch(layerDepths, ivec3(pixel, layer), 0);
+                    vec4 texel = imageLoad(layerDepths, ivec3(pixel, layer));
                     float depth = texel.x;
                     float margin = depthMargin(viewRay(vec2(pixel) + 0.5), depth,
                                                unpackUnitVector(texel.yz));
@@ -49,11 +50,7 @@ void main() {
             isEmpty = isEmpty && part.x <= 0.0;
             slope += (vec2(at) - 1.5) * part.x;
         }
-        if (isEmpty) {
-            for (int rest = layer; rest < layerCount; ++rest)
-                imageStore(pyramid, ivec3(to, rest), vec4(0.0));
-            return;
-        }
+        if (isEmpty) return;  // all deeper ones are; the texture has been cleared
         // Least squares over the middles of all parts; without some of them level.
         slope = isWhole ? slope / (20.0 * side) : vec2(0.0);
         vec2 bounds = vec2(3e38, -3e38);

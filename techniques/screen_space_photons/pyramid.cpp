@@ -34,11 +34,12 @@ LayeredDepth addPyramid(FrameBuilder& frame, const LayeredDepth& layers) {
                 std::max(squares(h, 1), squares(h, 2) + squares(h, 3)), layers.layers);
         },
         [&inputs = frame.inputs(), w, h](const LayeredDepth& data, gl::PassContext& context) {
-            context.texture(data.pyramid).clear({0, 0, 0, 0});  // the corners beside the levels
+            // Empty: a square's layers behind its last, and the corners beside the levels.
+            context.texture(data.pyramid).clear({0, 0, 0, 0});
             for (int level = 1; level <= kLevels; ++level) {
                 gl::Command command = context.compute("screen_space_photons/pyramid.comp");
                 inputs.bindView(command)
-                    .texture("layerDepths", data.depth)
+                    .image("layerDepths", data.depth)
                     .image("pyramid", data.pyramid)
                     .set("layerCount", data.layers)
                     .set("level", level)
