@@ -107,7 +107,7 @@ int fail(const std::string& message, int exitCode) {
 
 }  // namespace
 
-int runCommandLine(int argc, const char* const* argv, const Registry& registry) {
+int runCommandLine(int argc, const char* const* argv, const Registry& registry, GuiCommand gui) {
     // A file that grows past the shell's limit is then an error of the write, as a full disk is.
     std::signal(SIGXFSZ, SIG_IGN);
     CLI::App app("Real-time caustics by screen-space and image-space photon tracing.", "kaustik");
@@ -205,6 +205,13 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry) 
     experimentApp->add_option("--out", experiment.out, "Folder for the results of run");
     experimentApp->add_flag("--resume", experiment.resume, "Leaves finished runs alone");
 
+    GuiOptions guiOptions;
+    CLI::App* guiApp = app.add_subcommand("gui", "Opens the workbench");
+    guiApp->add_option("scene", guiOptions.scene,
+                       "A name from 'list scenes', a .toml, .gltf or .glb; else as it was left");
+    guiApp->add_option("--describe", guiOptions.describe,
+                       "A file that always says what is on the screen, as JSON, for tests");
+
     CLI::App* checkApp = app.add_subcommand("check", "Prints what this device offers");
 
     try {
@@ -224,6 +231,14 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry) 
         if (compareApp->parsed()) compareCommand(compare);
         if (experimentApp->parsed()) experimentCommand(experiment, registry);
         if (checkApp->parsed()) checkCommand();
+        if (guiApp->parsed()) {
+            if (gui == nullptr) {
+                throw ConfigError(
+                    "This program was built without the workbench (KAUSTIK_WITH_GUI); 'kaustik "
+                    "run' renders without it.");
+            }
+            gui(guiOptions, registry);
+        }
         requirePrinted();
         return kExitDone;
     } catch (const Error& error) {

@@ -17,9 +17,13 @@ void compareCommand(const CompareOptions& options);
 void experimentCommand(const ExperimentOptions& options, const Registry& registry);
 void checkCommand();
 
+// `kaustik gui`, which sits on top of this; null in a program that was built without it.
+using GuiCommand = void (*)(const GuiOptions& options, const Registry& registry);
+
 // The whole command line: parses, runs, prints errors; gives the exit code. A program that adds
 // techniques of its own passes its registry.
-[[nodiscard]] int runCommandLine(int argc, const char* const* argv, const Registry& registry);
+[[nodiscard]] int runCommandLine(int argc, const char* const* argv, const Registry& registry,
+                                 GuiCommand gui = nullptr);
 
 // Checks everything that the options name, before any device is asked for.
 [[nodiscard]] RenderSettings makeSettings(const SceneOptions& options, const Registry& registry);

@@ -1,7 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "framework/app/commands.h"
+#ifdef KAUSTIK_HAS_GUI
+#include "framework/gui/gui_command.h"
+#endif
 #include "techniques/register_all.h"
 
 int main(int argc, char** argv) {
-    return kaustik::app::runCommandLine(argc, argv, kaustik::registerAll());
+    kaustik::app::GuiCommand gui = nullptr;
+#ifdef KAUSTIK_HAS_GUI
+    gui = &kaustik::gui::guiCommand;
+#endif
+    return kaustik::app::runCommandLine(argc, argv, kaustik::registerAll(), gui);
 }

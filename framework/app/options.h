@@ -75,4 +75,9 @@ struct ExperimentOptions {
     bool resume = false;
 };
 
+struct GuiOptions {
+    std::string scene;     // "": as it was left, or the default
+    std::string describe;  // file that always says what is on the screen (gui/screen_map.h)
+};
+
 }  // namespace kaustik::app

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "framework/core/names.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstddef>
 
@@ -57,6 +59,20 @@ std::string joinNames(const std::vector<std::string>& names) {
         joined += names[i];
     }
     return joined;
+}
+
+std::string tomlString(std::string_view text) {
+    std::string result = "\"";
+    for (const char c : text) {
+        const auto code = static_cast<unsigned char>(c);
+        if (code < 0x20 || code == 0x7f) {
+            result += fmt::format("\\u{:04x}", code);
+        } else {
+            if (c == '"' || c == '\\') result += '\\';
+            result += c;
+        }
+    }
+    return result + "\"";
 }
 
 }  // namespace kaustik

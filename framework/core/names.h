@@ -20,4 +20,7 @@ namespace kaustik {
 // "a, b and c"; "" for none.
 [[nodiscard]] std::string joinNames(const std::vector<std::string>& names);
 
+// `text` as a string of a TOML file, quotes included.
+[[nodiscard]] std::string tomlString(std::string_view text);
+
 }  // namespace kaustik

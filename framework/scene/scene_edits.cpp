@@ -65,15 +65,6 @@ std::string list(const glm::vec3& v) {
     return fmt::format("[{}, {}, {}]", v.x, v.y, v.z);
 }
 
-std::string quoted(const std::string& text) {
-    std::string result = "\"";
-    for (const char c : text) {
-        if (c == '"' || c == '\\') result += '\\';
-        result += c;
-    }
-    return result + "\"";
-}
-
 std::string waveText(const Wave& wave) {
     std::string text = fmt::format(
         "    {{amplitude = {}, wavelength = {}, direction_degrees = {}, phase = {}",
@@ -104,7 +95,7 @@ void applyEdits(Scene& scene, const SceneEdits& edits) {
 std::string writeSceneFile(const std::string& name, const std::string& base,
                            const SceneEdits& edits) {
     std::string text = "# SPDX-License-Identifier: MIT\n";
-    text += fmt::format("name = {}\nextends = {}\n", quoted(name), quoted(base));
+    text += fmt::format("name = {}\nextends = {}\n", tomlString(name), tomlString(base));
     if (edits.timeSeconds) text += fmt::format("time = {}\n", *edits.timeSeconds);
     if (edits.camera) {
         const Camera& camera = *edits.camera;
@@ -121,13 +112,13 @@ std::string writeSceneFile(const std::string& name, const std::string& base,
             edits.medium->anisotropy);
     }
     for (const auto& [light, edit] : edits.lights) {
-        text += fmt::format("\n[[light]]\nname = {}\n", quoted(light));
+        text += fmt::format("\n[[light]]\nname = {}\n", tomlString(light));
         if (edit.direction) text += fmt::format("direction = {}\n", list(*edit.direction));
         if (edit.position) text += fmt::format("position = {}\n", list(*edit.position));
         if (edit.powerFactor) text += fmt::format("power_factor = {}\n", *edit.powerFactor);
     }
     for (const auto& [object, waves] : edits.waves) {
-        text += fmt::format("\n[[water]]\nobject = {}\nwaves = [\n", quoted(object));
+        text += fmt::format("\n[[water]]\nobject = {}\nwaves = [\n", tomlString(object));
         for (const Wave& wave : waves)
             text += waveText(wave);
         text += "]\n";

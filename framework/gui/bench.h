@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// What every panel of the workbench has at hand: the document that it edits, what is shown, what
+// the threads have found, and the means to ask them for more. A panel is a function `void
+// drawX(Bench&)` in panels/; it changes the document, and the workbench submits it.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "framework/gui/canvas.h"
+#include "framework/gui/document.h"
+#include "framework/gui/frame_result.h"
+#include "framework/gui/render_worker.h"
+#include "framework/gui/screen_map.h"
+#include "framework/gui/state.h"
+#include "framework/gui/truth_worker.h"
+#include "framework/scene/scene_file.h"
+
+namespace kaustik::gui {
+
+struct Bench {
+    const Registry& registry;
+    RenderWorker* renderer;  // another one after the device was lost
+    TruthWorker& truthWorker;
+    Canvas& canvas;
+    ScreenMap& map;
+    float scale;  // of the interface
+
+    Document document;
+    ViewState view;
+    PanelState panels;
+
+    // The newest of both threads; never null.
+    std::shared_ptr<const FrameResult> result;
+    std::shared_ptr<const TruthState> truth;
+    std::vector<scene::SceneListing> scenes;
+
+    // One line for the status bar.
+    std::string message{};
+    bool isMessageBad = false;
+
+    bool isPlaying = false;
+    // A value is being dragged; the camera, a light or the time by hand.
+    bool isDragging = false;
+    bool isTurning = false;
+    int sceneReloads = 0;
+    bool wantsScreenshot = false;
+    bool wantsRestart = false;  // of the renderer
+    bool showsHelp = false;
+
+    void say(std::string text, bool isBad = false) {
+        message = std::move(text);
+        isMessageBad = isBad;
+    }
+    // The variant that the panels edit, and what was rendered of it.
+    [[nodiscard]] Variant& edited() {
+        return panels.edited == 1 && document.other ? *document.other : document.variant;
+    }
+    [[nodiscard]] const VariantResult& editedResult() const {
+        return result->variants[panels.edited == 1 && document.other ? 1 : 0];
+    }
+    // As the document has it, which may be newer than what was rendered.
+    [[nodiscard]] scene::Camera camera() const {
+        if (document.edits.camera) return *document.edits.camera;
+        return result->scene ? result->scene->camera : scene::Camera();
+    }
+    [[nodiscard]] bool isSceneCurrent() const {
+        return result->scene && result->document.scene == document.scene;
+    }
+    [[nodiscard]] double px(double atScale1) const { return atScale1 * double(scale); }
+};
+
+}  // namespace kaustik::gui

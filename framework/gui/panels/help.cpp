@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#include <array>
+#include <utility>
+
+#include "framework/gui/panels/panels.h"
+#include "framework/gui/widgets.h"
+
+namespace kaustik::gui {
+
+void drawHelp(Bench& bench) {
+    static constexpr std::array<std::pair<const char*, const char*>, 19> kKeys = {{
+        {"F1", "this list"},
+        {"Space", "play and pause"},
+        {".", "a step of time"},
+        {"drag", "orbit about the camera's target"},
+        {"right drag", "look around"},
+        {"W A S D, Q E", "fly; with Shift four times as fast"},
+        {"Ctrl + wheel", "nearer and farther"},
+        {"wheel", "zoom into the picture; middle drag moves it"},
+        {"0", "the whole picture"},
+        {"R", "the scene's own camera"},
+        {"L", "handles of the lights"},
+        {"F", "false colours"},
+        {"+  -", "exposure"},
+        {"P", "probe photons; then click on the picture"},
+        {"Ctrl + Z, Ctrl + Y", "undo and redo"},
+        {"Ctrl + S", "save as experiment"},
+        {"F5", "read the scene's file again"},
+        {"F12", "screenshot of the window"},
+        {"Ctrl + Q", "quit"},
+    }};
+    const ImVec2 middle = ImGui::GetMainViewport()->GetCenter();
+    ImGui::SetNextWindowPos(middle, ImGuiCond_Appearing, {0.5f, 0.5f});
+    if (ImGui::Begin("Keys", &bench.showsHelp, ImGuiWindowFlags_AlwaysAutoResize)) {
+        if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) {
+            for (const auto& [key, meaning] : kKeys) {
+                ImGui::TableNextRow();
+                ImGui::TableNextColumn();
+                ImGui::TextUnformatted(key);
+                ImGui::TableNextColumn();
+                ImGui::TextUnformatted(meaning);
+            }
+            ImGui::EndTable();
+        }
+        bench.map.area("help", ImGui::GetWindowPos().x, ImGui::GetWindowPos().y,
+                       ImGui::GetWindowWidth(), ImGui::GetWindowHeight());
+    }
+    ImGui::End();
+}
+
+}  // namespace kaustik::gui

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cfloat>
+#include <cmath>
+
+#include "framework/gui/panels/panels.h"
+#include "framework/gui/widgets.h"
+
+namespace kaustik::gui {
+namespace {
+
+const std::vector<std::string>& channelNames() {
+    static const std::vector<std::string> names = {"colour", "red",   "green",
+                                                   "blue",   "alpha", "luminance"};
+    return names;
+}
+
+const std::vector<std::string>& besideNames() {
+    static const std::vector<std::string> names = {"nothing", "variant B", "the truth",
+                                                   "heat map of the error"};
+    return names;
+}
+
+void drawChoiceOfTexture(Bench& bench) {
+    const VariantResult& result = bench.editedResult();
+    std::vector<std::string> names = {"picture"};
+    int index = 0;
+    for (const ListedTexture& texture : result.textures) {
+        if (texture.name == bench.view.resource) index = static_cast<int>(names.size());
+        names.push_back(texture.name);
+    }
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    if (choose(bench, "##texture", names, index, "image.texture")) {
+        bench.view.resource = index == 0 ? "" : names[static_cast<std::size_t>(index)];
+        bench.view.layer = 0;
+    }
+    tooltip("Any texture of the graph. One whose pass nothing else needs makes that pass run.");
+    if (index == 0) return;
+    const graph::TextureDesc& desc = result.textures[static_cast<std::size_t>(index - 1)].desc;
+    ImGui::TextDisabled("%dx%d%s %s", desc.width, desc.height,
+                        desc.layers > 0 ? fmt::format("x{}", desc.layers).c_str() : "",
+                        graph::formatName(desc.format));
+    if (desc.layers > 1) {
+        ImGui::SliderInt("layer", &bench.view.layer, 0, desc.layers - 1, "%d",
+                         ImGuiSliderFlags_AlwaysClamp);
+        bench.map.control("image.layer", fmt::format("{}", bench.view.layer));
+    }
+}
+
+void drawMapping(Bench& bench, const ViewedTexture* viewed) {
+    ViewState& view = bench.view;
+    int channel = static_cast<int>(view.channel);
+    if (choose(bench, "channel", channelNames(), channel, "image.channel"))
+        view.channel = static_cast<Channel>(channel);
+    static_cast<void>(checkbox(bench, "false colours (F)", view.isFalseColor, "image.false_color"));
+    if (view.isFalseColor) {
+        static_cast<void>(checkbox(bench, "range from the image", view.isRangeAutomatic,
+                                   "image.range_automatic"));
+        if (!view.isRangeAutomatic) {
+            const float span = std::max(view.high - view.low, 1e-6f);
+            ImGui::DragFloatRange2("range", &view.low, &view.high, span * 0.005f, -1e9f, 1e9f,
+                                   "%.4g", "%.4g");
+            bench.map.control("image.range");
+        } else if (viewed != nullptr) {
+            view.low = std::min(viewed->histogram.low, 0.0f);
+            view.high = std::max(viewed->histogram.percentile99, view.low + 1e-6f);
+            ImGui::TextDisabled("%.4g to %.4g", double(view.low), double(view.high));
+        }
+    } else if (viewed == nullptr || !viewed->isEncoded) {
+        ImGui::SliderFloat("exposure (+ -)", &view.exposureStops, -20.0f, 20.0f, "%.1f stops");
+        bench.map.control("image.exposure", fmt::format("{}", view.exposureStops));
+    } else {
+        ImGui::TextDisabled("The picture is as it is written to beauty.png.");
+    }
+}
+
+void drawValues(Bench& bench, const ViewedTexture& viewed) {
+    if (viewed.notFinite) {
+        const measure::NotFinite& found = *viewed.notFinite;
+        ImGui::PushTextWrapPos(0.0f);
+        ImGui::TextColored(ImVec4(1.0f, 0.4f, 1.0f, 1.0f), "%s.", describe(found).c_str());
+        ImGui::PopTextWrapPos();
+        bench.map.control("image.not_finite",
+                          fmt::format("{}", found.nanCount + found.infinityCount));
+    } else {
+        ImGui::TextDisabled("All values are finite.");
+        bench.map.control("image.not_finite", "0");
+    }
+    const Histogram& histogram = viewed.histogram;
+    std::vector<float> counts;
+    for (const std::uint32_t count : histogram.counts)
+        counts.push_back(std::log2(1.0f + static_cast<float>(count)));
+    ImGui::PlotHistogram("##histogram", counts.data(), static_cast<int>(counts.size()), 0, nullptr,
+                         0.0f, FLT_MAX,
+                         {ImGui::GetContentRegionAvail().x, static_cast<float>(bench.px(70.0))});
+    bench.map.control("image.histogram");
+    tooltip("How many values (logarithm) lie where between the least and the greatest.");
+    ImGui::Text("%.5g", double(histogram.low));
+    ImGui::SameLine(ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize("0000000").x);
+    ImGui::Text("%.5g", double(histogram.high));
+}
+
+void drawProbe(Bench& bench) {
+    ViewState& view = bench.view;
+    ImGui::Separator();
+    static_cast<void>(checkbox(bench, "probe photons (P)", view.probes, "image.probe"));
+    tooltip("A click on the picture shows which photons landed there and the ways that they came.");
+    if (!view.probes) return;
+    ImGui::SliderFloat("radius", &view.probeRadius, 0.5f, 32.0f, "%.1f px",
+                       ImGuiSliderFlags_Logarithmic);
+    bench.map.control("image.probe_radius");
+    const auto& probe = bench.result->probe;
+    if (view.probePixel.x < 0) {
+        ImGui::TextDisabled("Click on a pixel.");
+    } else if (!probe || probe->pixel != view.probePixel) {
+        ImGui::TextDisabled("Looking at pixel (%d, %d) …", view.probePixel.x, view.probePixel.y);
+    } else {
+        ImGui::Text("%zu photons landed within %.1f px of (%d, %d): %.4g W", probe->landed,
+                    double(probe->radiusPixels), probe->pixel.x, probe->pixel.y,
+                    double(probe->fluxWatts.r + probe->fluxWatts.g + probe->fluxWatts.b));
+        bench.map.control("image.probe_landed", fmt::format("{}", probe->landed));
+        if (ImGui::BeginTable("photons", 4, ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY)) {
+            ImGui::TableSetupScrollFreeze(0, 1);
+            for (const char* name : {"photon", "px off", "µW", "surfaces"})
+                ImGui::TableSetupColumn(name);
+            ImGui::TableHeadersRow();
+            for (const PhotonPath& path : probe->paths) {
+                ImGui::TableNextRow();
+                ImGui::TableNextColumn();
+                ImGui::Text("%d, %d", path.photon.x, path.photon.y);
+                ImGui::TableNextColumn();
+                ImGui::Text("%.2f", double(path.pixels));
+                ImGui::TableNextColumn();
+                const glm::vec3& w = path.fluxWatts;
+                ImGui::Text("%.3g", 1e6 * double(w.r + w.g + w.b));
+                ImGui::TableNextColumn();
+                ImGui::Text("%zu", path.points.size());
+            }
+            ImGui::EndTable();
+        }
+    }
+}
+
+}  // namespace
+
+void drawImage(Bench& bench) {
+    const VariantResult& result = bench.editedResult();
+    const ViewedTexture* viewed = result.viewed ? &*result.viewed : nullptr;
+    drawChoiceOfTexture(bench);
+    drawMapping(bench, viewed);
+    int beside = static_cast<int>(bench.view.beside);
+    if (choose(bench, "beside it", besideNames(), beside, "image.beside"))
+        bench.view.beside = static_cast<Beside>(beside);
+    tooltip(
+        "What is seen to the right of the split, which can be dragged. The truth is of the "
+        "caustic irradiance, and shown beside that.");
+    ImGui::Separator();
+    if (viewed != nullptr) drawValues(bench, *viewed);
+    drawProbe(bench);
+}
+
+}  // namespace kaustik::gui

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// The panels of the workbench, a file each. Every one draws itself into the area at hand and
+// changes the bench's document or state; none waits for anything.
+#pragma once
+
+#include "framework/gui/bench.h"
+
+namespace kaustik::gui {
+
+void drawPasses(Bench& bench);      // what runs, what it costs, on and off
+void drawTimeChart(Bench& bench);   // the newest frames as stacks of their passes
+void drawTechnique(Bench& bench);   // technique, nodes, and a second variant beside the first
+void drawParameters(Bench& bench);  // of the nodes in use, from their declarations
+void drawImage(Bench& bench);       // which texture, and how its values become colours
+void drawPicture(Bench& bench);     // the picture itself, with what the hand does on it
+void drawError(Bench& bench);       // how wrong the frame is, and where the truth comes from
+void drawScene(Bench& bench);       // scene, camera, lights, water, time
+void drawRecord(Bench& bench);      // screenshots, sequences, reports, experiments
+void saveExperiment(Bench& bench);  // into the folder of recordings, under a new name
+void drawHelp(Bench& bench);        // keys
+
+}  // namespace kaustik::gui

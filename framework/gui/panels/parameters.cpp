@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "framework/core/error.h"
+#include "framework/gui/panels/panels.h"
+#include "framework/gui/widgets.h"
+
+namespace kaustik::gui {
+namespace {
+
+// Whether a node that the settings choose has the parameter, or all nodes of a stage share it.
+bool isInUse(const params::ParamSet& params, const std::string& name) {
+    const auto dot = name.find('.');
+    if (dot == std::string::npos) return false;  // the choice of a node: panel Technique
+    const auto second = name.find('.', dot + 1);
+    return second == std::string::npos ||
+           params.choice(name.substr(0, dot)) == name.substr(dot + 1, second - dot - 1);
+}
+
+bool matches(const params::NamedField& named, const std::string& search) {
+    const auto lower = [](std::string text) {
+        std::transform(text.begin(), text.end(), text.begin(),
+                       [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+        return text;
+    };
+    return lower(named.fullName + " " + named.field.sentence).find(lower(search)) !=
+           std::string::npos;
+}
+
+void drawRow(Bench& bench, const params::ParamSet& params, const params::NamedField& named) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::AlignTextToFramePadding();
+    const bool isChanged = params.isSetByUser(named.fullName);
+    const std::string label = named.fullName.substr(named.fullName.find('.') + 1);
+    if (isChanged) {
+        ImGui::TextColored(ImVec4(1.0f, 0.75f, 0.25f, 1.0f), "%s", label.c_str());
+    } else {
+        ImGui::TextUnformatted(label.c_str());
+    }
+    tooltip(named.field.sentence);
+    ImGui::TableNextColumn();
+    const float unitWidth =
+        named.field.unit.empty() ? 0.0f : ImGui::CalcTextSize(named.field.unit.c_str()).x + 6.0f;
+    const float markWidth = isChanged ? ImGui::GetFontSize() * 1.6f : 0.0f;
+    ImGui::SetNextItemWidth(
+        std::max(40.0f, ImGui::GetContentRegionAvail().x - unitWidth - markWidth));
+    const ParameterChange change = drawParameter(bench, named, "##value");
+    if (change.changed) bench.edited().assignments[named.fullName] = change.text;
+    if (!named.field.unit.empty()) {
+        ImGui::SameLine();
+        ImGui::TextDisabled("%s", named.field.unit.c_str());
+    }
+    if (isChanged) {
+        ImGui::SameLine();
+        if (resetMark(bench, named.fullName, named.defaultText))
+            bench.edited().assignments.erase(named.fullName);
+    }
+}
+
+}  // namespace
+
+void drawParameters(Bench& bench) {
+    PanelState& panels = bench.panels;
+    ImGui::SetNextItemWidth(-ImGui::CalcTextSize("  all nodes  ").x - ImGui::GetFrameHeight());
+    inputText(bench, "##search", "search names and sentences", panels.parameterSearch,
+              "parameters.search");
+    ImGui::SameLine();
+    static_cast<void>(checkbox(bench, "all nodes", panels.showsAllParameters, "parameters.all"));
+    tooltip("Also those of nodes that are not in use.");
+    try {
+        const params::ParamSet params =
+            settingsOf(bench.edited(), bench.document.size, bench.registry).params;
+        ImGui::BeginChild("list");
+        std::string stage;
+        bool isTable = false;
+        for (const params::NamedField& named : params.all()) {
+            if (named.fullName.find('.') == std::string::npos) continue;
+            if (!panels.showsAllParameters && !isInUse(params, named.fullName) &&
+                !params.isSetByUser(named.fullName)) {
+                continue;
+            }
+            if (!panels.parameterSearch.empty() && !matches(named, panels.parameterSearch))
+                continue;
+            if (stageOf(named.fullName) != stage) {
+                if (isTable) ImGui::EndTable();
+                stage = stageOf(named.fullName);
+                ImGui::TextColored(stageColor(stage), "%s", stage.c_str());
+                isTable = ImGui::BeginTable(stage.c_str(), 2, ImGuiTableFlags_Resizable);
+                if (isTable) {
+                    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 0.45f);
+                    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 0.55f);
+                }
+            }
+            if (isTable) drawRow(bench, params, named);
+        }
+        if (isTable) ImGui::EndTable();
+        ImGui::EndChild();
+    } catch (const Error& error) {
+        ImGui::TextWrapped("%s", error.what());
+    }
+}
+
+}  // namespace kaustik::gui

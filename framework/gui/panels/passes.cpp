@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "framework/gui/panels/panels.h"
+#include "framework/gui/widgets.h"
+
+namespace kaustik::gui {
+namespace {
+
+const ImVec4 kGrey(0.5f, 0.5f, 0.5f, 1.0f);
+const ImVec4 kBad(1.0f, 0.45f, 0.4f, 1.0f);
+
+const report::PassTimes* timesOf(const VariantResult& result, const std::string& pass) {
+    const auto found =
+        std::find_if(result.times.begin(), result.times.end(),
+                     [&](const report::PassTimes& times) { return times.name == pass; });
+    return found == result.times.end() || found->gpuMilliseconds.empty() ? nullptr : &*found;
+}
+
+void drawSwitch(Bench& bench, const graph::PassRecord& pass) {
+    const bool isNeeded =
+        pass.state == graph::PassState::ran || pass.state == graph::PassState::bypassed;
+    if (!isNeeded) return;
+    const bool isLocked = pass.bypass.empty();
+    bool isOn = !bench.edited().disabled.contains(pass.name);
+    ImGui::BeginDisabled(isLocked);
+    if (checkbox(bench, ("##on" + pass.name).c_str(), isOn, "passes.on." + pass.name)) {
+        if (isOn) {
+            bench.edited().disabled.erase(pass.name);
+        } else {
+            bench.edited().disabled.insert(pass.name);
+        }
+    }
+    ImGui::EndDisabled();
+    tooltip(isLocked ? "Required: nothing stands in for what it makes."
+                     : "When it is off: " + pass.bypass + ".");
+}
+
+void drawPassRow(Bench& bench, const VariantResult& result, const graph::PassRecord& pass,
+                 double frameMs) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    drawSwitch(bench, pass);
+    ImGui::TableNextColumn();
+    const std::string name = pass.name.substr(std::min(pass.name.find('.') + 1, pass.name.size()));
+    const std::string label = pass.repeats > 1 ? fmt::format("{} ×{}", name, pass.repeats) : name;
+    const report::PassTimes* times =
+        pass.state == graph::PassState::ran ? timesOf(result, pass.name) : nullptr;
+    if (pass.state == graph::PassState::ran) {
+        ImGui::TextUnformatted(label.c_str());
+    } else {
+        ImGui::TextColored(kGrey, "%s", label.c_str());
+    }
+    bench.map.control("passes.name." + pass.name,
+                      pass.state == graph::PassState::ran        ? "ran"
+                      : pass.state == graph::PassState::bypassed ? "bypassed"
+                      : pass.state == graph::PassState::culled   ? "culled"
+                                                                 : "left out");
+    tooltip(fmt::format("{}\n{}", pass.name, pass.why));
+    if (times == nullptr) {
+        ImGui::TableNextColumn();
+        ImGui::TextColored(kGrey, "%s", pass.why.c_str());
+        return;
+    }
+    const double median = medianOf(times->gpuMilliseconds);
+    ImGui::TableNextColumn();
+    ImGui::Text("%.2f", times->gpuMilliseconds.back());
+    ImGui::TableNextColumn();
+    ImGui::Text("%.2f", median);
+    bench.map.control("passes.median." + pass.name, fmt::format("{:.4f}", median));
+    ImGui::TableNextColumn();
+    ImGui::Text("%.2f", times->cpuMilliseconds.back());
+    ImGui::TableNextColumn();
+    ImGui::Text("%.0f%%", frameMs > 0.0 ? 100.0 * median / frameMs : 0.0);
+    ImGui::TableNextColumn();
+    const float height = ImGui::GetTextLineHeight();
+    sparkline(times->gpuMilliseconds, {ImGui::GetContentRegionAvail().x, height});
+}
+
+void drawSummary(Bench& bench, const VariantResult& result) {
+    const double median = medianOf(result.frameMs);
+    if (!result.frameMs.empty()) {
+        ImGui::Text("Frame %.1f ms  (median of %zu: %.1f ms)", result.frameMs.back(),
+                    result.frameMs.size(), median);
+    } else {
+        ImGui::TextUnformatted("No frame yet.");
+    }
+    bench.map.control("passes.frame", fmt::format("{:.4f}", median));
+    tooltip(fmt::format("Peak memory of textures and buffers: {:.1f} MiB.",
+                        static_cast<double>(result.peakBytes) / (1 << 20)));
+    static_cast<void>(checkbox(bench, "Keep rendering", bench.panels.isEndless, "passes.endless"));
+    tooltip(
+        "Renders on although nothing changes, to watch the times. Otherwise a few frames are "
+        "rendered after each change.");
+    ImGui::SameLine();
+    static_cast<void>(
+        checkbox(bench, "Finish each pass", bench.panels.isPrecise, "passes.precise"));
+    tooltip(
+        "Waits for the device around each pass instead of reading timestamps: what --precise "
+        "does, and what a software rasteriser needs for true times.");
+}
+
+}  // namespace
+
+void drawPasses(Bench& bench) {
+    const VariantResult& result = bench.editedResult();
+    drawSummary(bench, result);
+    if (!result.error.empty()) {
+        ImGui::PushTextWrapPos(0.0f);
+        ImGui::TextColored(kBad, "%s", result.error.c_str());
+        ImGui::PopTextWrapPos();
+        bench.map.control("passes.error", result.error);
+    }
+    constexpr ImGuiTableFlags kFlags = ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg |
+                                       ImGuiTableFlags_Resizable | ImGuiTableFlags_SizingFixedFit;
+    if (!ImGui::BeginTable("passes", 7, kFlags)) return;
+    ImGui::TableSetupScrollFreeze(0, 1);
+    const float number = ImGui::CalcTextSize("1000.00").x;
+    ImGui::TableSetupColumn("on", 0, ImGui::GetFrameHeight());
+    ImGui::TableSetupColumn("pass", 0, ImGui::GetFontSize() * 6.5f);
+    ImGui::TableSetupColumn("GPU ms", 0, number);
+    ImGui::TableSetupColumn("median", 0, number);
+    ImGui::TableSetupColumn("CPU ms", 0, number);
+    ImGui::TableSetupColumn("share", 0, ImGui::CalcTextSize("share").x);
+    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
+    ImGui::TableHeadersRow();
+    const double frameMs = medianOf(result.frameMs);
+    std::string stage;
+    for (const graph::PassRecord& pass : result.passes) {
+        if (stageOf(pass.name) != stage) {
+            stage = stageOf(pass.name);
+            ImGui::TableNextRow();
+            ImGui::TableSetColumnIndex(1);
+            ImGui::TextColored(stageColor(stage), "%s", stage.c_str());
+        }
+        drawPassRow(bench, result, pass, frameMs);
+    }
+    ImGui::EndTable();
+}
+
+}  // namespace kaustik::gui

@@ -1,0 +1,386 @@
+// SPDX-License-Identifier: MIT
+// The picture and what lies over it: the split, values of single pixels, handles of lights, the
+// ways of photons; and the hand on it.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "framework/gui/camera_control.h"
+#include "framework/gui/panels/panels.h"
+#include "framework/gui/widgets.h"
+
+namespace kaustik::gui {
+namespace {
+
+// Above so many window pixels a pixel, its values are written into it.
+constexpr float kPixelsForValues = 56.0f;
+
+// Where the picture lies in the window.
+struct Frame {
+    ImVec2 corner;  // of the area
+    ImVec2 size;
+    ImVec2 low;  // of the whole picture, which may be larger than the area
+    ImVec2 high;
+    float zoom = 1.0f;  // window pixels a pixel
+    int width = 1;      // of the picture
+    int height = 1;
+
+    [[nodiscard]] glm::vec2 pixelAt(ImVec2 p) const {
+        return {(p.x - low.x) / zoom, (p.y - low.y) / zoom};
+    }
+    [[nodiscard]] ImVec2 windowAt(glm::vec2 pixel) const {
+        return {low.x + pixel.x * zoom, low.y + pixel.y * zoom};
+    }
+    [[nodiscard]] bool contains(glm::ivec2 pixel) const {
+        return pixel.x >= 0 && pixel.y >= 0 && pixel.x < width && pixel.y < height;
+    }
+};
+
+Frame place(const ViewState& view, ImVec2 corner, ImVec2 size, const Image& image) {
+    Frame frame{corner, size, corner, corner, 1.0f, image.width, image.height};
+    const auto width = static_cast<float>(image.width);
+    const auto height = static_cast<float>(image.height);
+    frame.zoom = view.zoom > 0.0f ? view.zoom : std::min(size.x / width, size.y / height);
+    const glm::vec2 middle = view.zoom > 0.0f ? view.middle : glm::vec2(0.5f);
+    frame.low = {std::round(corner.x + 0.5f * size.x - middle.x * width * frame.zoom),
+                 std::round(corner.y + 0.5f * size.y - middle.y * height * frame.zoom)};
+    frame.high = {frame.low.x + width * frame.zoom, frame.low.y + height * frame.zoom};
+    return frame;
+}
+
+ToneMapping mappingOf(const ViewState& view, bool isEncoded) {
+    ToneMapping mapping;
+    mapping.isEncoded = isEncoded;
+    mapping.channel = view.channel;
+    mapping.exposureStops = view.exposureStops;
+    mapping.isFalseColor = view.isFalseColor;
+    mapping.low = view.low;
+    mapping.high = view.high;
+    return mapping;
+}
+
+// What is seen to the right of the split; null where there is nothing (yet).
+struct Other {
+    const Image* image = nullptr;
+    std::uint64_t version = 0;
+    bool isEncoded = false;
+    std::string name;
+};
+
+Other otherImage(const Bench& bench) {
+    const FrameResult& result = *bench.result;
+    const TruthState& truth = *bench.truth;
+    switch (bench.view.beside) {
+        case Beside::nothing:
+            break;
+        case Beside::other: {
+            const VariantResult& b = result.variants[1];
+            if (b.viewed) return {&b.viewed->values, 2 * b.frame + 1, b.viewed->isEncoded, "B"};
+            break;
+        }
+        case Beside::truth:
+            if (truth.irradiance)
+                return {truth.irradiance.get(), 1000000007ull + truth.photons, false, "truth"};
+            break;
+        case Beside::error:
+            if (truth.judgements[0].heatMap) {
+                return {truth.judgements[0].heatMap.get(),
+                        2000000011ull + truth.judgements[0].frame + truth.photons, true, "error"};
+            }
+            break;
+    }
+    return {};
+}
+
+void drawPixelValues(const Bench& bench, const Frame& frame, const Image& image) {
+    if (frame.zoom < kPixelsForValues * bench.scale) return;
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const glm::ivec2 first = glm::floor(frame.pixelAt(frame.corner));
+    const glm::ivec2 last =
+        glm::floor(frame.pixelAt({frame.corner.x + frame.size.x, frame.corner.y + frame.size.y}));
+    for (int y = std::max(first.y, 0); y <= std::min(last.y, image.height - 1); ++y) {
+        for (int x = std::max(first.x, 0); x <= std::min(last.x, image.width - 1); ++x) {
+            std::string text;
+            for (int c = 0; c < image.channels; ++c)
+                text += fmt::format("{}{:.4g}", c == 0 ? "" : "\n", image.at(x, y, c));
+            const ImVec2 at = frame.windowAt({x, y});
+            draw.AddText({at.x + 3.0f, at.y + 3.0f}, IM_COL32(0, 0, 0, 255), text.c_str());
+            draw.AddText({at.x + 2.0f, at.y + 2.0f}, IM_COL32(255, 255, 255, 255), text.c_str());
+        }
+    }
+}
+
+render::EyeView eyeViewOf(const Bench& bench, const Frame& frame) {
+    return render::makeEyeView(bench.camera(), frame.width, frame.height);
+}
+
+// The light whose handle is under the mouse, or that is being dragged; -1: none.
+int drawLights(Bench& bench, const Frame& frame, bool isHovered, int dragged) {
+    if (!bench.view.showsLights || !bench.isSceneCurrent()) return -1;
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const SceneFacts& facts = *bench.result->scene;
+    const render::EyeView view = eyeViewOf(bench, frame);
+    const auto at = [&](const glm::dvec3& world) {
+        return project(view, glm::vec3(view.worldToView * glm::dvec4(world, 1.0)));
+    };
+    const auto radius = static_cast<float>(bench.px(9.0));
+    int found = -1;
+    for (std::size_t i = 0; i < facts.lights.size(); ++i) {
+        const scene::Light& light = facts.lights[i];
+        const glm::dvec3 handle = lightHandle(light, facts.bounds);
+        const Projected seen = at(handle);
+        if (!seen.visible) continue;
+        // Kept within reach where the light itself is out of the picture.
+        const ImVec2 place = frame.windowAt(seen.pixel);
+        const ImVec2 shown(
+            std::clamp(place.x, frame.corner.x + radius, frame.corner.x + frame.size.x - radius),
+            std::clamp(place.y, frame.corner.y + radius, frame.corner.y + frame.size.y - radius));
+        const ImVec2 mouse = ImGui::GetIO().MousePos;
+        const bool isNear = std::hypot(mouse.x - shown.x, mouse.y - shown.y) < 1.5f * radius;
+        const bool isHeld = dragged == static_cast<int>(i);
+        if (isHovered && isNear) found = static_cast<int>(i);
+        const ImU32 color = isHeld || (isHovered && isNear) ? IM_COL32(255, 255, 160, 255)
+                                                            : IM_COL32(255, 210, 60, 230);
+        if (light.kind == scene::LightKind::directional) {
+            const Projected middle = at(0.5 * (facts.bounds.minimum + facts.bounds.maximum));
+            if (middle.visible) {
+                draw.AddLine(shown, frame.windowAt(middle.pixel), IM_COL32(255, 210, 60, 110),
+                             1.5f * bench.scale);
+            }
+        }
+        draw.AddCircleFilled(shown, radius, IM_COL32(0, 0, 0, 140));
+        draw.AddCircle(shown, radius, color, 0, 2.0f * bench.scale);
+        draw.AddCircleFilled(shown, 0.4f * radius, color);
+        bench.map.area("light." + light.name, shown.x - radius, shown.y - radius, 2.0f * radius,
+                       2.0f * radius);
+    }
+    return found;
+}
+
+void drawPhotons(const Bench& bench, const Frame& frame) {
+    const auto& probe = bench.result->probe;
+    const ViewState& state = bench.view;
+    if (!state.probes || state.probePixel.x < 0) return;
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const glm::vec2 middle = glm::vec2(state.probePixel) + 0.5f;
+    draw.AddCircle(frame.windowAt(middle), std::max(state.probeRadius * frame.zoom, 4.0f),
+                   IM_COL32(255, 60, 60, 255), 0, 1.5f * bench.scale);
+    if (!probe || probe->pixel != state.probePixel) return;
+    const render::EyeView view = eyeViewOf(bench, frame);
+    for (const PhotonPath& path : probe->paths) {
+        for (std::size_t i = 1; i < path.points.size(); ++i) {
+            const Projected from = project(view, path.points[i - 1]);
+            const Projected to = project(view, path.points[i]);
+            if (!from.visible || !to.visible) continue;
+            // Before the first surface, on the way, and the last stretch to where it landed.
+            const ImU32 color = i == 1                       ? IM_COL32(255, 220, 80, 60)
+                                : i + 1 < path.points.size() ? IM_COL32(80, 200, 255, 110)
+                                                             : IM_COL32(120, 255, 120, 110);
+            draw.AddLine(frame.windowAt(from.pixel), frame.windowAt(to.pixel), color,
+                         1.0f * bench.scale);
+        }
+    }
+}
+
+void zoomAt(ViewState& view, const Frame& frame, ImVec2 mouse, float factor) {
+    const glm::vec2 pixel = frame.pixelAt(mouse);
+    view.zoom = std::clamp(frame.zoom * factor, 0.05f, 256.0f);
+    // The pixel under the mouse stays there.
+    const glm::vec2 fromMiddle((mouse.x - frame.corner.x - 0.5f * frame.size.x) / view.zoom,
+                               (mouse.y - frame.corner.y - 0.5f * frame.size.y) / view.zoom);
+    view.middle = (pixel - fromMiddle) / glm::vec2(frame.width, frame.height);
+}
+
+void fly(Bench& bench) {
+    const ImGuiIO& io = ImGui::GetIO();
+    if (io.WantTextInput || io.KeyCtrl || !bench.isSceneCurrent()) return;
+    const auto key = [&](char c) { return ImGui::IsKeyDown(static_cast<int>(c)) ? 1.0 : 0.0; };
+    const glm::dvec3 way(key('D') - key('A'), key('E') - key('Q'), key('W') - key('S'));
+    if (way == glm::dvec3(0.0)) return;
+    const scene::Bounds& bounds = bench.result->scene->bounds;
+    const double speed =
+        0.25 * glm::length(bounds.maximum - bounds.minimum) * (io.KeyShift ? 4.0 : 1.0);
+    const double seconds = std::min(double(io.DeltaTime), 0.1);
+    bench.document.edits.camera = gui::fly(bench.camera(), speed * seconds * way);
+    bench.isTurning = true;
+}
+
+// What the mouse holds while a button is down.
+enum class Hold { nothing, camera, look, middle, split, light };
+
+struct Hand {
+    Hold hold = Hold::nothing;
+    int light = -1;
+    bool hasMoved = false;
+};
+
+void dragHeldLight(Bench& bench, const Frame& frame, int index, glm::dvec2 pixels) {
+    const SceneFacts& facts = *bench.result->scene;
+    scene::Light light = facts.lights[static_cast<std::size_t>(index)];
+    scene::LightEdit& edit = bench.document.edits.lights[light.name];
+    // Frames may lag behind the hand: go on from what it has done.
+    if (edit.direction) light.direction = glm::normalize(*edit.direction);
+    if (edit.position) light.position = *edit.position;
+    const scene::Light moved = dragLight(light, facts.bounds, eyeViewOf(bench, frame), pixels);
+    if (light.kind == scene::LightKind::directional) {
+        edit.direction = moved.direction;
+    } else {
+        edit.position = moved.position;
+    }
+}
+
+void useHand(Bench& bench, const Frame& frame, Hand& hand) {
+    const ImGuiIO& io = ImGui::GetIO();
+    const glm::dvec2 way(io.MouseDelta.x, io.MouseDelta.y);
+    const bool isMoving = io.MouseDelta.x != 0.0f || io.MouseDelta.y != 0.0f;
+    if (!isMoving || hand.hold == Hold::nothing) return;
+    hand.hasMoved = true;
+    ViewState& view = bench.view;
+    const double height = double(frame.high.y) - double(frame.low.y);
+    switch (hand.hold) {
+        case Hold::camera:
+            if (!bench.isSceneCurrent()) return;
+            bench.document.edits.camera = orbit(bench.camera(), way, height);
+            bench.isTurning = true;
+            break;
+        case Hold::look:
+            if (!bench.isSceneCurrent()) return;
+            bench.document.edits.camera = look(bench.camera(), way, height);
+            bench.isTurning = true;
+            break;
+        case Hold::middle:
+            if (view.zoom <= 0.0f) zoomAt(view, frame, io.MousePos, 1.0f);
+            view.middle -= glm::vec2(way) / (frame.zoom * glm::vec2(frame.width, frame.height));
+            break;
+        case Hold::split:
+            view.split = std::clamp(
+                (io.MousePos.x - frame.low.x) / std::max(frame.high.x - frame.low.x, 1.0f), 0.0f,
+                1.0f);
+            break;
+        case Hold::light:
+            dragHeldLight(bench, frame, hand.light, way / double(frame.zoom));
+            bench.isTurning = true;
+            break;
+        case Hold::nothing:
+            break;
+    }
+}
+
+void drawCursorValue(Bench& bench, const Frame& frame, const ViewedTexture& viewed,
+                     const Other& other, float splitX) {
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    const glm::ivec2 pixel = glm::floor(frame.pixelAt(mouse));
+    if (!frame.contains(pixel)) return;
+    const bool isOther = other.image != nullptr && mouse.x >= splitX;
+    const Image& image = isOther ? *other.image : viewed.values;
+    // The other image may have another size while a frame is on its way.
+    if (pixel.x >= image.width || pixel.y >= image.height) return;
+    std::string text = fmt::format("({}, {})", pixel.x, pixel.y);
+    for (int c = 0; c < image.channels; ++c)
+        text += fmt::format("  {:.5g}", image.at(pixel.x, pixel.y, c));
+    bench.map.area("picture.value", 0, 0, 0, 0, text);
+    const ImVec2 at(frame.corner.x + 6.0f,
+                    frame.corner.y + frame.size.y - 1.6f * ImGui::GetFontSize());
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    draw.AddRectFilled({at.x - 4.0f, at.y - 2.0f}, {at.x + size.x + 4.0f, at.y + size.y + 2.0f},
+                       IM_COL32(0, 0, 0, 170));
+    draw.AddText(at, IM_COL32(255, 255, 255, 255), text.c_str());
+}
+
+}  // namespace
+
+void drawPicture(Bench& bench) {
+    static thread_local Hand hand;  // of the one mouse that there is
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const ImVec2 size = ImGui::GetContentRegionAvail();
+    if (size.x < 16.0f || size.y < 16.0f) return;
+    ImGui::InvisibleButton("picture", size,
+                           ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
+                               ImGuiButtonFlags_MouseButtonMiddle);
+    const bool isHovered = ImGui::IsItemHovered();
+    const bool isActivated = ImGui::IsItemActivated();
+    const bool isActive = ImGui::IsItemActive();
+    const VariantResult& shown =
+        bench.document.other ? bench.result->variants[0] : bench.editedResult();
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    if (!shown.viewed) {
+        const char* text = bench.result->problem.empty() && shown.error.empty()
+                               ? "The first frame is being rendered …"
+                               : "There is nothing to show.";
+        draw.AddText({corner.x + 12.0f, corner.y + 12.0f}, IM_COL32(200, 200, 200, 255), text);
+        bench.map.area("picture", corner.x, corner.y, size.x, size.y, "empty");
+        return;
+    }
+    const ViewedTexture& viewed = *shown.viewed;
+    ViewState& view = bench.view;
+    const Frame frame = place(view, corner, size, viewed.values);
+    const Other other = otherImage(bench);
+    const float splitX = other.image != nullptr
+                             ? frame.low.x + view.split * (frame.high.x - frame.low.x)
+                             : corner.x + size.x;
+
+    bench.canvas.show(0, viewed.values, 2 * shown.frame, mappingOf(view, viewed.isEncoded));
+    draw.PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
+    draw.AddImage(bench.canvas.texture(0), frame.low, frame.high);
+    if (other.image != nullptr) {
+        bench.canvas.show(1, *other.image, other.version, mappingOf(view, other.isEncoded));
+        draw.PushClipRect({splitX, corner.y}, {corner.x + size.x, corner.y + size.y}, true);
+        draw.AddImage(bench.canvas.texture(1), frame.low, frame.high);
+        draw.PopClipRect();
+        draw.AddLine({splitX, corner.y}, {splitX, corner.y + size.y}, IM_COL32(255, 255, 255, 200),
+                     1.5f * bench.scale);
+        draw.AddText({splitX + 6.0f, corner.y + 4.0f}, IM_COL32(255, 255, 255, 255),
+                     other.name.c_str());
+        bench.map.area("picture.split", splitX - 3.0f, corner.y, 6.0f, size.y,
+                       fmt::format("{}", view.split));
+    }
+    drawPixelValues(bench, frame, viewed.values);
+    drawPhotons(bench, frame);
+    const int pointedLight =
+        drawLights(bench, frame, isHovered, hand.hold == Hold::light ? hand.light : -1);
+    draw.PopClipRect();
+    bench.map.area("picture", corner.x, corner.y, size.x, size.y,
+                   shown.isPreview ? "preview" : "whole");
+    bench.map.area("picture.image", frame.low.x, frame.low.y, frame.high.x - frame.low.x,
+                   frame.high.y - frame.low.y);
+    if (isHovered) drawCursorValue(bench, frame, viewed, other, splitX);
+
+    const ImGuiIO& io = ImGui::GetIO();
+    if (isActivated) {
+        hand = {};
+        const bool isNearSplit = other.image != nullptr && std::abs(io.MousePos.x - splitX) <
+                                                               static_cast<float>(bench.px(6.0));
+        if (ImGui::IsMouseDown(ImGuiMouseButton_Right)) {
+            hand.hold = Hold::look;
+        } else if (ImGui::IsMouseDown(ImGuiMouseButton_Middle)) {
+            hand.hold = Hold::middle;
+        } else if (pointedLight >= 0) {
+            hand.hold = Hold::light;
+            hand.light = pointedLight;
+        } else {
+            hand.hold = isNearSplit ? Hold::split : Hold::camera;
+        }
+    }
+    if (isActive) {
+        useHand(bench, frame, hand);
+        if (hand.hold != Hold::nothing && hand.hasMoved) bench.isDragging = true;
+    } else if (hand.hold != Hold::nothing) {
+        const glm::ivec2 pixel = glm::floor(frame.pixelAt(io.MousePos));
+        if (!hand.hasMoved && hand.hold == Hold::camera && view.probes && frame.contains(pixel))
+            view.probePixel = pixel;
+        hand = {};
+    }
+    if (isHovered && io.MouseWheel != 0.0f) {
+        if (io.KeyCtrl && bench.isSceneCurrent()) {
+            bench.document.edits.camera = dolly(bench.camera(), double(io.MouseWheel));
+            bench.isTurning = true;
+        } else {
+            zoomAt(view, frame, io.MousePos, std::pow(1.25f, io.MouseWheel));
+        }
+    }
+    if (isHovered) fly(bench);
+}
+
+}  // namespace kaustik::gui

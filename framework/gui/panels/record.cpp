@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <cfloat>
+#include <ctime>
+
+#include "framework/core/error.h"
+#include "framework/gui/experiment_file.h"
+#include "framework/gui/panels/panels.h"
+#include "framework/gui/widgets.h"
+
+namespace kaustik::gui {
+namespace {
+
+// A name that no earlier recording has: pool-20261121-143015.
+std::string freshName(const Bench& bench) {
+    const std::time_t now = std::time(nullptr);
+    std::tm local{};
+    localtime_r(&now, &local);
+    std::string scene = std::filesystem::path(bench.document.scene).stem().string();
+    for (char& c : scene) {
+        if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-' && c != '_') c = '_';
+    }
+    return fmt::format("{}-{:04}{:02}{:02}-{:02}{:02}{:02}", scene, local.tm_year + 1900,
+                       local.tm_mon + 1, local.tm_mday, local.tm_hour, local.tm_min, local.tm_sec);
+}
+
+}  // namespace
+
+void saveExperiment(Bench& bench) {
+    try {
+        const std::vector<std::filesystem::path> files =
+            writeExperiment(bench.document, bench.registry, bench.panels.recordFolder,
+                            freshName(bench), bench.panels.isPrecise);
+        bench.say(fmt::format("Wrote {}; 'kaustik experiment run {}' does it again.",
+                              files.front().string(), files.front().string()));
+    } catch (const Error& error) {
+        bench.say(error.what(), true);
+    }
+}
+
+void drawRecord(Bench& bench) {
+    ImGui::TextUnformatted("Folder");
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    inputText(bench, "##folder", "", bench.panels.recordFolder, "record.folder");
+    const std::filesystem::path folder = bench.panels.recordFolder;
+    const RenderWorker::Recording recording = bench.renderer->recording();
+
+    ImGui::Spacing();
+    if (button(bench, "Screenshot of the window (F12)", "record.screenshot"))
+        bench.wantsScreenshot = true;
+    if (button(bench, "Save as experiment (Ctrl S)", "record.experiment")) saveExperiment(bench);
+    tooltip(
+        "A .toml that 'kaustik experiment run' reproduces bit for bit on this device, with the "
+        "camera, lights and waves as they are now.");
+    ImGui::BeginDisabled(recording.isActive);
+    if (button(bench, "Report of 8 frames", "record.report")) {
+        RecordRequest request;
+        request.folder = folder / freshName(bench);
+        bench.renderer->record(request);
+    }
+    tooltip(
+        "What 'kaustik run' writes: pictures, caustic, report.json and the Chrome trace, of "
+        "variant A.");
+    ImGui::Spacing();
+    ImGui::InputInt("pictures", &bench.panels.sequenceFrames);
+    bench.map.control("record.frames", fmt::format("{}", bench.panels.sequenceFrames));
+    bench.panels.sequenceFrames = std::max(bench.panels.sequenceFrames, 1);
+    ImGui::InputFloat("seconds between", &bench.panels.sequenceStep, 0.0f, 0.0f, "%.4f");
+    if (button(bench, "Image sequence", "record.sequence")) {
+        RecordRequest request;
+        request.what = RecordRequest::What::sequence;
+        request.folder = folder / freshName(bench);
+        request.frames = bench.panels.sequenceFrames;
+        request.secondsPerFrame = double(bench.panels.sequenceStep);
+        bench.isPlaying = false;
+        bench.renderer->record(request);
+    }
+    ImGui::EndDisabled();
+    tooltip("0000.png and on, every picture whole, from the time at hand.");
+    if (recording.isActive && button(bench, "Cancel", "record.cancel"))
+        bench.renderer->cancelRecording();
+    ImGui::PushTextWrapPos(0.0f);
+    if (recording.hasFailed) {
+        ImGui::TextColored(ImVec4(1.0f, 0.45f, 0.4f, 1.0f), "%s", recording.message.c_str());
+    } else {
+        ImGui::TextUnformatted(recording.message.c_str());
+    }
+    ImGui::PopTextWrapPos();
+    bench.map.area("record.state", 0, 0, 0, 0,
+                   fmt::format("{}: {}", recording.isActive ? "busy" : "idle", recording.message));
+}
+
+}  // namespace kaustik::gui

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "framework/core/error.h"
+#include "framework/gui/panels/panels.h"
+#include "framework/gui/widgets.h"
+
+namespace kaustik::gui {
+namespace {
+
+std::string explain(const NodeDescription& description) {
+    return description.source.empty()
+               ? description.sentence
+               : fmt::format("{}\n{}", description.sentence, description.source);
+}
+
+void drawTechniqueChoice(Bench& bench) {
+    std::vector<std::string> names;
+    int index = 0;
+    for (const Technique& technique : bench.registry.techniques()) {
+        if (technique.name == bench.edited().technique) index = static_cast<int>(names.size());
+        names.push_back(technique.name);
+    }
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    if (choose(bench, "##technique", names, index, "technique")) {
+        // Another technique has other defaults; what was set by hand stays where it still exists.
+        bench.edited().technique = names[static_cast<std::size_t>(index)];
+    }
+    const Technique& technique = bench.registry.findTechnique(bench.edited().technique);
+    ImGui::PushTextWrapPos(0.0f);
+    ImGui::TextDisabled("%s %s", technique.sentence.c_str(), technique.source.c_str());
+    ImGui::PopTextWrapPos();
+}
+
+void drawStage(Bench& bench, const params::ParamSet& params, const Registry::Node& first) {
+    const std::string& stage = first.stage;
+    std::vector<std::string> names;
+    const std::string chosen = params.choice(stage);
+    int index = 0;
+    const Registry::Node* node = &first;
+    for (const Registry::Node& other : bench.registry.nodes()) {
+        if (other.stage != stage) continue;
+        if (other.name == chosen) {
+            index = static_cast<int>(names.size());
+            node = &other;
+        }
+        names.push_back(other.name);
+    }
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextColored(stageColor(stage), "%s", stage.c_str());
+    tooltip(first.question);
+    ImGui::TableNextColumn();
+    if (params.isSetByUser(stage)) {
+        if (resetMark(bench, stage, "the technique's own")) bench.edited().assignments.erase(stage);
+        ImGui::SameLine();
+    }
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    ImGui::BeginDisabled(names.size() == 1);
+    if (choose(bench, ("##stage" + stage).c_str(), names, index, "stage." + stage))
+        bench.edited().assignments[stage] = names[static_cast<std::size_t>(index)];
+    ImGui::EndDisabled();
+    tooltip(explain(node->description));
+}
+
+void drawVariants(Bench& bench) {
+    Document& document = bench.document;
+    ImGui::Separator();
+    ImGui::TextUnformatted("Side by side");
+    if (!document.other) {
+        if (button(bench, "Keep this as B and go on with A", "variant.keep")) {
+            document.other = document.variant;
+            bench.view.beside = Beside::other;
+        }
+        tooltip("Renders both from then on, A left and B right of the split.");
+        return;
+    }
+    int edited = bench.panels.edited;
+    ImGui::RadioButton("edit A", &edited, 0);
+    bench.map.control("variant.edit_a", edited == 0 ? "on" : "off");
+    ImGui::SameLine();
+    ImGui::RadioButton("edit B", &edited, 1);
+    bench.map.control("variant.edit_b", edited == 1 ? "on" : "off");
+    bench.panels.edited = edited;
+    if (button(bench, "Swap A and B", "variant.swap")) std::swap(document.variant, *document.other);
+    ImGui::SameLine();
+    if (button(bench, "Drop B", "variant.drop")) {
+        document.other.reset();
+        bench.panels.edited = 0;
+        if (bench.view.beside == Beside::other) bench.view.beside = Beside::nothing;
+    }
+    if (ImGui::BeginTable("variants", 3, ImGuiTableFlags_RowBg)) {
+        ImGui::TableSetupColumn("");
+        ImGui::TableSetupColumn("A");
+        ImGui::TableSetupColumn("B");
+        ImGui::TableHeadersRow();
+        const auto row = [&](const std::string& name, const std::string& a, const std::string& b) {
+            ImGui::TableNextRow();
+            for (const std::string& cell : {name, a, b}) {
+                ImGui::TableNextColumn();
+                ImGui::TextUnformatted(cell.c_str());
+            }
+        };
+        row("frame", fmt::format("{:.1f} ms", medianOf(bench.result->variants[0].frameMs)),
+            fmt::format("{:.1f} ms", medianOf(bench.result->variants[1].frameMs)));
+        bench.map.area("variant.table", 0, 0, 0, 0,
+                       fmt::format("{:.4f}", medianOf(bench.result->variants[1].frameMs)));
+        std::set<std::string> names;
+        for (const auto& [name, value] : document.variant.assignments)
+            names.insert(name);
+        for (const auto& [name, value] : document.other->assignments)
+            names.insert(name);
+        const auto valueIn = [](const Variant& variant, const std::string& name) {
+            const auto found = variant.assignments.find(name);
+            return found == variant.assignments.end() ? std::string("default") : found->second;
+        };
+        for (const std::string& name : names) {
+            const std::string a = valueIn(document.variant, name);
+            const std::string b = valueIn(*document.other, name);
+            if (a != b) row(name, a, b);
+        }
+        ImGui::EndTable();
+    }
+}
+
+}  // namespace
+
+void drawTechnique(Bench& bench) {
+    drawTechniqueChoice(bench);
+    try {
+        const params::ParamSet params =
+            settingsOf(bench.edited(), bench.document.size, bench.registry).params;
+        if (ImGui::BeginTable("stages", 2)) {
+            ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed,
+                                    ImGui::GetFontSize() * 7.0f);
+            ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
+            std::set<std::string> seen;
+            for (const Registry::Node& node : bench.registry.nodes()) {
+                if (seen.insert(node.stage).second) drawStage(bench, params, node);
+            }
+            ImGui::EndTable();
+        }
+    } catch (const Error& error) {
+        // A setting that this technique does not have.
+        ImGui::TextWrapped("%s", error.what());
+        if (button(bench, "Forget all settings", "technique.forget"))
+            bench.edited().assignments.clear();
+    }
+    drawVariants(bench);
+}
+
+}  // namespace kaustik::gui

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// What the workbench shows and how, besides the document itself: kept over a restart as far as it
+// is the user's choice.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+
+#include "framework/gui/canvas.h"
+#include "framework/gui/window.h"
+
+namespace kaustik::gui {
+
+// What is seen to the right of the split.
+enum class Beside : int { nothing, other, truth, error };
+
+struct ViewState {
+    std::string resource;  // "": the picture
+    int layer = 0;
+    Channel channel = Channel::color;
+    float exposureStops = 0.0f;
+    bool isFalseColor = false;
+    bool isRangeAutomatic = true;
+    float low = 0.0f;
+    float high = 1.0f;
+    Beside beside = Beside::nothing;
+    float split = 0.5f;      // of the picture's width
+    float zoom = 0.0f;       // window pixels a pixel; 0: fits
+    glm::vec2 middle{0.5f};  // of the view, in pictures
+    bool probes = false;
+    glm::ivec2 probePixel{-1};  // x < 0: none
+    float probeRadius = 1.0f;   // pixels
+    bool showsLights = true;
+};
+
+struct PanelState {
+    float leftWidth = 380.0f;  // at scale 1
+    float rightWidth = 400.0f;
+    float chartHeight = 120.0f;
+    std::string parameterSearch;
+    bool showsAllParameters = false;
+    int edited = 0;  // variant: 0 A, 1 B
+    bool isPrecise = false;
+    bool isEndless = false;  // frames go on although nothing changes
+    double truthPhotons = 8e6;
+    std::string recordFolder = "results/runs/workbench";
+    int sequenceFrames = 60;
+    float sequenceStep = 1.0f / 30.0f;  // s
+};
+
+struct Kept {
+    ViewState view;
+    PanelState panels;
+    Window::Placement window;
+    bool knowsDevice = false;  // isPrecise was chosen by or for the user
+};
+
+[[nodiscard]] nlohmann::json toJson(const Kept& kept);
+// What is missing or makes no sense is as at the first start.
+[[nodiscard]] Kept keptFromJson(const nlohmann::json& json);
+
+// $XDG_CONFIG_HOME/kaustik, else ~/.config/kaustik; made if it is not there. "" where there is no
+// such place, and nothing is kept then.
+[[nodiscard]] std::filesystem::path settingsFolder();
+
+}  // namespace kaustik::gui

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+#include "framework/gui/widgets.h"
+
+#include <fmt/format.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+
+namespace kaustik::gui {
+namespace {
+
+template <class... Ts>
+struct Overloaded : Ts... {
+    using Ts::operator()...;
+};
+
+// Where a range spans so many powers of ten that a straight slider would be useless.
+bool isLogarithmic(const params::Field& field) {
+    return field.minimum > 0.0 && field.maximum / field.minimum > 1e3;
+}
+
+}  // namespace
+
+ParameterChange drawParameter(Bench& bench, const params::NamedField& named,
+                              const std::string& label) {
+    const params::Field& field = named.field;
+    const std::string id = label + "##" + named.fullName;
+    const std::string control = "parameter." + named.fullName;
+    ParameterChange change;
+    const ImGuiSliderFlags flags =
+        ImGuiSliderFlags_AlwaysClamp |
+        (isLogarithmic(field) ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None);
+    std::visit(
+        Overloaded{[&](const bool* v) {
+                       bool value = *v;
+                       if (ImGui::Checkbox(id.c_str(), &value))
+                           change = {true, value ? "true" : "false"};
+                   },
+                   [&](const int* v) {
+                       int value = *v;
+                       if (ImGui::SliderInt(id.c_str(), &value, static_cast<int>(field.minimum),
+                                            static_cast<int>(field.maximum), "%d", flags)) {
+                           change = {true, fmt::format("{}", value)};
+                       }
+                   },
+                   [&](const float* v) {
+                       float value = *v;
+                       if (ImGui::SliderFloat(id.c_str(), &value, static_cast<float>(field.minimum),
+                                              static_cast<float>(field.maximum), "%.5g", flags)) {
+                           change = {true, fmt::format("{}", value)};
+                       }
+                   },
+                   [&](const params::Extent* v) {
+                       std::array<int, 2> sides = {v->width, v->height};
+                       ImGui::InputInt2(id.c_str(), sides.data());
+                       if (ImGui::IsItemDeactivatedAfterEdit()) {
+                           const auto side = [&](int s) {
+                               return std::clamp(s, static_cast<int>(field.minimum),
+                                                 static_cast<int>(field.maximum));
+                           };
+                           change = {true, fmt::format("{}x{}", side(sides[0]), side(sides[1]))};
+                       }
+                   },
+                   [&](params::ChoiceRef v) {
+                       int index = *v.index;
+                       if (choose(bench, id.c_str(), field.choices, index, control))
+                           change = {true, field.choices[static_cast<std::size_t>(index)]};
+                   }},
+        field.target);
+    bench.map.control(control, field.text());
+    std::string explanation = fmt::format("{}\n{}", named.fullName, field.sentence);
+    if (!field.unit.empty()) explanation += fmt::format("\nUnit: {}", field.unit);
+    if (!field.rangeText().empty()) explanation += fmt::format("\nRange: {}", field.rangeText());
+    explanation += fmt::format("\nDefault: {}", named.defaultText);
+    if (std::holds_alternative<float*>(field.target) || std::holds_alternative<int*>(field.target))
+        explanation += "\nCtrl and click to type a value.";
+    tooltip(explanation);
+    return change;
+}
+
+void sparkline(const std::vector<double>& values, ImVec2 size) {
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    ImGui::Dummy(size);
+    if (values.size() < 2) return;
+    const double most = std::max(*std::max_element(values.begin(), values.end()), 1e-9);
+    std::vector<ImVec2> points;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        points.emplace_back(
+            corner.x + size.x * static_cast<float>(i) / static_cast<float>(values.size() - 1),
+            corner.y + size.y * (1.0f - 0.9f * static_cast<float>(values[i] / most)));
+    }
+    ImGui::GetWindowDrawList()->AddPolyline(points.data(), static_cast<int>(points.size()),
+                                            ImGui::GetColorU32(ImGuiCol_PlotLines), 0, 1.0f);
+}
+
+void splitter(const char* name, bool isVertical, float length, float& size, float sign,
+              Bench& bench) {
+    const auto thickness = static_cast<float>(bench.px(5.0));
+    ImGui::InvisibleButton(name,
+                           isVertical ? ImVec2(thickness, length) : ImVec2(length, thickness));
+    if (ImGui::IsItemHovered() || ImGui::IsItemActive()) {
+        ImGui::SetMouseCursor(isVertical ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS);
+        ImGui::GetWindowDrawList()->AddRectFilled(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(),
+                                                  ImGui::GetColorU32(ImGuiCol_SeparatorHovered));
+    }
+    if (ImGui::IsItemActive()) {
+        const ImVec2 way = ImGui::GetIO().MouseDelta;
+        size += sign * (isVertical ? way.x : way.y) / bench.scale;
+    }
+    bench.map.control(fmt::format("splitter.{}", name + 2));
+}
+
+void tooltip(const std::string& text) {
+    if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(ImGui::GetFontSize() * 32.0f);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+}
+
+bool button(Bench& bench, const char* label, const std::string& name) {
+    const bool isPressed = ImGui::Button(label);
+    bench.map.control(name);
+    return isPressed;
+}
+
+bool checkbox(Bench& bench, const char* label, bool& value, const std::string& name) {
+    const bool isChanged = ImGui::Checkbox(label, &value);
+    bench.map.control(name, value ? "on" : "off");
+    return isChanged;
+}
+
+void inputText(Bench& bench, const char* label, const char* hint, std::string& text,
+               const std::string& name) {
+    ImGui::InputTextWithHint(label, hint, &text);
+    bench.map.control(name, text);
+}
+
+bool choose(Bench& bench, const char* label, const std::vector<std::string>& options, int& index,
+            const std::string& name) {
+    const auto current = static_cast<std::size_t>(index);
+    const char* shown = current < options.size() ? options[current].c_str() : "";
+    bool isChanged = false;
+    const bool isOpen = ImGui::BeginCombo(label, shown, ImGuiComboFlags_HeightLarge);
+    bench.map.control(name, shown);
+    if (!isOpen) return false;
+    for (std::size_t i = 0; i < options.size(); ++i) {
+        if (ImGui::Selectable(options[i].c_str(), i == current)) {
+            isChanged = i != current;
+            index = static_cast<int>(i);
+        }
+        bench.map.control(name + "=" + options[i]);
+        if (i == current) ImGui::SetItemDefaultFocus();
+    }
+    ImGui::EndCombo();
+    return isChanged;
+}
+
+bool resetMark(Bench& bench, const std::string& name, const std::string& before) {
+    ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(1.0f, 0.75f, 0.25f, 1.0f));
+    const bool isUsed = ImGui::SmallButton(fmt::format("×##{}", name).c_str());
+    ImGui::PopStyleColor();
+    bench.map.control("reset." + name);
+    tooltip(fmt::format("Changed; back to {}", before));
+    return isUsed;
+}
+
+std::string stageOf(const std::string& pass) {
+    return pass.substr(0, pass.find('.'));
+}
+
+ImVec4 stageColor(const std::string& stage) {
+    static constexpr std::array<const char*, 13> kStages = {
+        "geometry", "eye",   "layers", "emit", "specular", "trace",  "reconstruct",
+        "gather",   "media", "blur",   "view", "shadow",   "compose"};
+    const auto found = std::find(kStages.begin(), kStages.end(), stage);
+    // Hues a golden angle apart: neighbours in the chart differ most.
+    const auto place = found != kStages.end() ? static_cast<std::size_t>(found - kStages.begin())
+                                              : std::hash<std::string>()(stage) % 64;
+    const float hue = std::fmod(0.61803f * static_cast<float>(place) + 0.55f, 1.0f);
+    ImVec4 color(0.0f, 0.0f, 0.0f, 1.0f);
+    ImGui::ColorConvertHSVtoRGB(hue, 0.55f, 0.85f, color.x, color.y, color.z);
+    return color;
+}
+
+double medianOf(std::vector<double> values) {
+    if (values.empty()) return 0.0;
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+}  // namespace kaustik::gui

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// Small parts of panels.
+#pragma once
+
+#include <imgui.h>
+
+#include <string>
+#include <vector>
+
+#include "framework/gui/bench.h"
+#include "framework/params/param_set.h"
+
+namespace kaustik::gui {
+
+// A parameter with the control that its declaration asks for: true, with its new text, when the
+// user has changed it.
+struct ParameterChange {
+    bool changed = false;
+    std::string text;
+};
+[[nodiscard]] ParameterChange drawParameter(Bench& bench, const params::NamedField& named,
+                                            const std::string& label);
+
+// Values over time as a line, the newest at the right, from 0 to the largest.
+void sparkline(const std::vector<double>& values, ImVec2 size);
+
+// A bar to drag between two areas; changes `size` by the way along x (or y), times `sign`.
+void splitter(const char* name, bool isVertical, float length, float& size, float sign,
+              Bench& bench);
+
+// Text that explains the item before it.
+void tooltip(const std::string& text);
+
+// A button, checkbox or choice with its name in the screen map.
+[[nodiscard]] bool button(Bench& bench, const char* label, const std::string& name);
+[[nodiscard]] bool checkbox(Bench& bench, const char* label, bool& value, const std::string& name);
+void inputText(Bench& bench, const char* label, const char* hint, std::string& text,
+               const std::string& name);
+// One of several; true when another was chosen.
+[[nodiscard]] bool choose(Bench& bench, const char* label, const std::vector<std::string>& options,
+                          int& index, const std::string& name);
+// A small mark of a value that is not the default, which takes it back; true when used.
+[[nodiscard]] bool resetMark(Bench& bench, const std::string& name, const std::string& before);
+
+// A stage's colour in charts and lists.
+[[nodiscard]] ImVec4 stageColor(const std::string& stage);
+[[nodiscard]] std::string stageOf(const std::string& pass);
+
+[[nodiscard]] double medianOf(std::vector<double> values);
+
+}  // namespace kaustik::gui

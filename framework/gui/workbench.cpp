@@ -1,0 +1,493 @@
+// SPDX-License-Identifier: MIT
+#include "framework/gui/workbench.h"
+
+#include <GLFW/glfw3.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <ctime>
+#include <nlohmann/json.hpp>
+
+#include "framework/core/error.h"
+#include "framework/core/files.h"
+#include "framework/gui/panels/panels.h"
+#include "framework/gui/widgets.h"
+
+namespace kaustik::gui {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr std::size_t kHistory = 200;
+// A frame that takes longer is replaced by a quick one while the view is being turned.
+constexpr double kSlowFrameMs = 150.0;
+constexpr int kFramesUntilSettled = 8;
+
+bool isSoftware(const std::string& renderer) {
+    for (const char* name : {"llvmpipe", "softpipe", "SWR"}) {
+        if (renderer.find(name) != std::string::npos) return true;
+    }
+    return false;
+}
+
+json readKept(const fs::path& folder) {
+    if (folder.empty()) return {};
+    try {
+        return json::parse(readFile(folder / "workbench.json"), nullptr, false);
+    } catch (const Error&) {
+        return {};  // the first start
+    }
+}
+
+}  // namespace
+
+Workbench::Workbench(const Registry& registry, const WorkbenchOptions& options)
+    : registry_(registry),
+      folder_(settingsFolder()),
+      kept_(keptFromJson(readKept(folder_))),
+      window_("Kaustik", kept_.window, folder_.empty() ? fs::path() : folder_ / "imgui.ini"),
+      map_(options.describe),
+      renderer_(std::make_unique<RenderWorker>(registry, &Window::wake)),
+      truthWorker_(&Window::wake),
+      bench_{registry_,
+             renderer_.get(),
+             truthWorker_,
+             canvas_,
+             map_,
+             window_.scale(),
+             {},
+             kept_.view,
+             kept_.panels,
+             std::make_shared<const FrameResult>(),
+             truthWorker_.state(),
+             scene::listScenes()} {
+    loadKept(options.scene);
+}
+
+Workbench::~Workbench() {
+    keep();
+}
+
+void Workbench::loadKept(const std::string& scene) {
+    const json all = readKept(folder_);
+    if (all.is_object() && all.contains("document")) {
+        bench_.document = documentFromJson(all.at("document"));
+        try {
+            // Settings of a version that had other names.
+            static_cast<void>(settingsOf(bench_.document.variant, {1, 1}, registry_));
+            if (bench_.document.other)
+                static_cast<void>(settingsOf(*bench_.document.other, {1, 1}, registry_));
+        } catch (const Error& error) {
+            bench_.document.variant = {};
+            bench_.document.other.reset();
+            bench_.say(fmt::format("Some settings of the last time were dropped: {}", error.what()),
+                       true);
+        }
+    }
+    if (!scene.empty() && scene != bench_.document.scene) {
+        bench_.document.scene = scene;
+        bench_.document.edits = {};
+    }
+    if (bench_.view.beside == Beside::other && !bench_.document.other)
+        bench_.view.beside = Beside::nothing;
+    history_ = {bench_.document};
+}
+
+void Workbench::keep() {
+    if (folder_.empty()) return;
+    kept_.view = bench_.view;
+    kept_.panels = bench_.panels;
+    kept_.window = window_.placement();
+    json all = toJson(kept_);
+    all["document"] = toJson(bench_.document);
+    std::string text = all.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
+    if (text == keptText_) return;
+    keptText_ = std::move(text);
+    try {
+        writeFileWhole(folder_ / "workbench.json", keptText_);
+    } catch (const Error& error) {
+        bench_.say(error.what(), true);
+    }
+}
+
+// A crash or a power cut loses two seconds at most.
+void Workbench::keepNowAndThen() {
+    if (Clock::now() - keptAt_ < std::chrono::seconds(2)) return;
+    keptAt_ = Clock::now();
+    keep();
+}
+
+void Workbench::run() {
+    drawnAt_ = Clock::now();
+    while (!window_.isClosing()) {
+        window_.beginFrame(patience());
+        const Clock::time_point begin = Clock::now();
+        if (framesToDraw_ > 0) --framesToDraw_;
+        const ImGuiIO& io = ImGui::GetIO();
+        const bool hasInput = io.MouseDelta.x != 0.0f || io.MouseDelta.y != 0.0f ||
+                              io.MouseWheel != 0.0f || ImGui::IsAnyMouseDown() ||
+                              ImGui::IsAnyItemActive() || window_.hadInput();
+        // Dear ImGui needs a few frames to answer what it was told.
+        if (hasInput) framesToDraw_ = 3;
+        takeNews();
+        takeDropped();
+        bench_.isDragging = false;
+        bench_.isTurning = false;
+        map_.beginFrame();
+        draw();
+        rememberForUndo();
+        submitChanges();
+        aimTruth();
+        describe();
+        window_.endFrame();
+        map_.endFrame();
+        saveScreenshot();
+        keepNowAndThen();
+        longestGapMs_ = std::max(
+            longestGapMs_, std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
+        drawnAt_ = Clock::now();
+    }
+}
+
+// How long the window may sleep, s: while the hand is at work not at all.
+double Workbench::patience() const {
+    if (framesToDraw_ > 0 || bench_.isPlaying) return 1.0 / 60.0;
+    return bench_.renderer->progress().isBusy || bench_.truth->work == TruthState::Work::computing
+               ? 0.1
+               : 0.25;
+}
+
+void Workbench::takeNews() {
+    if (bench_.wantsRestart) {
+        bench_.wantsRestart = false;
+        renderer_.reset();
+        renderer_ = std::make_unique<RenderWorker>(registry_, &Window::wake);
+        bench_.renderer = renderer_.get();
+        bench_.result = std::make_shared<const FrameResult>();
+        hasSubmitted_ = false;
+        bench_.say("The renderer was started again.");
+    }
+    if (const auto latest = renderer_->latest(); latest && latest != bench_.result) {
+        bench_.result = latest;
+        framesToDraw_ = std::max(framesToDraw_, 2);
+        if (!kept_.knowsDevice && !latest->device.renderer.empty()) {
+            // What times mean on a software rasteriser is known without asking the user.
+            bench_.panels.isPrecise = isSoftware(latest->device.renderer);
+            kept_.knowsDevice = true;
+        }
+    }
+    if (const auto state = truthWorker_.state(); state != bench_.truth) {
+        bench_.truth = state;
+        framesToDraw_ = std::max(framesToDraw_, 2);
+    }
+    // The next step of an animation, once this one is seen.
+    const VariantResult& first = bench_.result->variants[0];
+    if (bench_.isPlaying && bench_.isSceneCurrent() && first.frame != playedFrame_ &&
+        bench_.result->order == orderNumber_) {
+        playedFrame_ = first.frame;
+        const double now =
+            bench_.document.edits.timeSeconds.value_or(bench_.result->scene->timeSeconds);
+        bench_.document.edits.timeSeconds = now + double(bench_.panels.sequenceStep);
+    }
+}
+
+void Workbench::takeDropped() {
+    const std::vector<std::string> dropped = window_.takeDropped();
+    if (dropped.empty()) return;
+    const std::string extension = fs::path(dropped.front()).extension().string();
+    if (extension != ".toml" && extension != ".gltf" && extension != ".glb") {
+        bench_.say(
+            fmt::format("'{}' is no scene: drop a .toml, .gltf or .glb file.", dropped.front()),
+            true);
+        return;
+    }
+    bench_.document.scene = dropped.front();
+    bench_.document.edits = {};
+    bench_.view.probePixel = glm::ivec2(-1);
+    bench_.say(fmt::format("Opened {}.", dropped.front()));
+}
+
+void Workbench::submitChanges() {
+    FrameOrder order;
+    order.document = bench_.document;
+    order.viewing.resource = bench_.view.beside == Beside::truth && bench_.view.resource.empty()
+                                 ? "caustic.irradiance"
+                                 : bench_.view.resource;
+    order.viewing.layer = bench_.view.layer;
+    order.viewing.readsOutputs = bench_.truth->photons > 0;
+    order.frames = bench_.panels.isEndless ? 0 : bench_.isPlaying ? 1 : kFramesUntilSettled;
+    order.isPrecise = bench_.panels.isPrecise;
+    order.sceneReloads = bench_.sceneReloads;
+    const double frameMs = medianOf(bench_.result->variants[0].frameMs);
+    const bool isHeld = bench_.isDragging || ImGui::IsAnyItemActive();
+    order.isPreview = bench_.isTurning && frameMs > kSlowFrameMs;
+    // Once the quick frames have begun they last until the hand lets go.
+    if (hasSubmitted_ && submitted_.isPreview && isHeld) order.isPreview = true;
+    order.isPassing = (isHeld && !order.isPreview) || bench_.isPlaying;
+    if (bench_.view.probes && bench_.view.probePixel.x >= 0 && !order.isPreview)
+        order.probe = {bench_.view.probePixel, bench_.view.probeRadius};
+    const bool isSame =
+        hasSubmitted_ && submitted_.document == order.document &&
+        submitted_.viewing == order.viewing && submitted_.frames == order.frames &&
+        submitted_.isPrecise == order.isPrecise && submitted_.isPreview == order.isPreview &&
+        submitted_.probe == order.probe && submitted_.sceneReloads == order.sceneReloads;
+    if (isSame) return;
+    submitted_ = order;
+    hasSubmitted_ = true;
+    orderNumber_ = renderer_->submit(std::move(order));
+}
+
+void Workbench::aimTruth() {
+    const FrameResult& result = *bench_.result;
+    const VariantResult& first = result.variants[0];
+    // Only of what has been rendered as it stands, and not of every step of a movement.
+    if (!first.isSettled || result.order != orderNumber_ || !first.error.empty()) return;
+    truthWorker_.aim(
+        {result.document.scene, result.document.edits, result.document.size, first.paths});
+    const bool isNew = first.frame != judgedFrame_ || bench_.truth->photons != judgedPhotons_;
+    if (bench_.truth->photons > 0 && first.outputs && isNew &&
+        bench_.truth->aim == TruthAim{result.document.scene, result.document.edits,
+                                      result.document.size, first.paths}) {
+        judgedFrame_ = first.frame;
+        judgedPhotons_ = bench_.truth->photons;
+        truthWorker_.judge({JudgedFrame{first.frame, first.outputs},
+                            JudgedFrame{result.variants[1].frame, result.variants[1].outputs}});
+    }
+}
+
+void Workbench::rememberForUndo() {
+    if (ImGui::IsAnyItemActive() || bench_.isDragging || bench_.isPlaying) return;
+    if (bench_.document == history_[historyPlace_]) return;
+    history_.resize(historyPlace_ + 1);
+    history_.push_back(bench_.document);
+    if (history_.size() > kHistory) history_.pop_front();
+    historyPlace_ = history_.size() - 1;
+}
+
+void Workbench::undo(int direction) {
+    const auto place = static_cast<std::ptrdiff_t>(historyPlace_) + direction;
+    if (place < 0 || place >= static_cast<std::ptrdiff_t>(history_.size())) return;
+    historyPlace_ = static_cast<std::size_t>(place);
+    bench_.document = history_[historyPlace_];
+    if (!bench_.document.other) bench_.panels.edited = 0;
+}
+
+void Workbench::useKeys() {
+    ImGuiIO& io = ImGui::GetIO();
+    const auto pressed = [](int key) { return ImGui::IsKeyPressed(key, false); };
+    if (pressed(GLFW_KEY_F1)) bench_.showsHelp = !bench_.showsHelp;
+    if (pressed(GLFW_KEY_F5)) ++bench_.sceneReloads;
+    if (pressed(GLFW_KEY_F12)) bench_.wantsScreenshot = true;
+    if (io.KeyCtrl) {
+        if (pressed(GLFW_KEY_S)) saveExperiment(bench_);
+        if (pressed(GLFW_KEY_Q)) window_.close();
+        if (!io.WantTextInput && pressed(GLFW_KEY_Z)) undo(io.KeyShift ? 1 : -1);
+        if (!io.WantTextInput && pressed(GLFW_KEY_Y)) undo(1);
+        return;
+    }
+    if (io.WantTextInput) return;
+    if (pressed(GLFW_KEY_SPACE) && !ImGui::IsAnyItemFocused()) bench_.isPlaying = !bench_.isPlaying;
+    if (pressed(GLFW_KEY_PERIOD) && bench_.result->scene) {
+        bench_.isPlaying = false;
+        bench_.document.edits.timeSeconds =
+            bench_.document.edits.timeSeconds.value_or(bench_.result->scene->timeSeconds) +
+            double(bench_.panels.sequenceStep);
+    }
+    if (pressed(GLFW_KEY_0)) bench_.view.zoom = 0.0f;
+    if (pressed(GLFW_KEY_R)) bench_.document.edits.camera.reset();
+    if (pressed(GLFW_KEY_L)) bench_.view.showsLights = !bench_.view.showsLights;
+    if (pressed(GLFW_KEY_F)) bench_.view.isFalseColor = !bench_.view.isFalseColor;
+    if (pressed(GLFW_KEY_P)) bench_.view.probes = !bench_.view.probes;
+    if (pressed(GLFW_KEY_EQUAL) || pressed(GLFW_KEY_KP_ADD)) bench_.view.exposureStops += 0.5f;
+    if (pressed(GLFW_KEY_MINUS) || pressed(GLFW_KEY_KP_SUBTRACT)) bench_.view.exposureStops -= 0.5f;
+}
+
+void Workbench::drawToolbar() {
+    if (button(bench_, bench_.isPlaying ? "Pause" : " Play ", "toolbar.play"))
+        bench_.isPlaying = !bench_.isPlaying;
+    ImGui::SameLine();
+    if (button(bench_, "Undo", "toolbar.undo")) undo(-1);
+    ImGui::SameLine();
+    if (button(bench_, "Redo", "toolbar.redo")) undo(1);
+    ImGui::SameLine();
+    if (button(bench_, "Whole picture", "toolbar.fit")) bench_.view.zoom = 0.0f;
+    ImGui::SameLine();
+    if (button(bench_, "1:1", "toolbar.one_to_one")) {
+        bench_.view.zoom = 1.0f;
+        bench_.view.middle = glm::vec2(0.5f);
+    }
+    ImGui::SameLine();
+    if (button(bench_, "Keys (F1)", "toolbar.keys")) bench_.showsHelp = !bench_.showsHelp;
+    ImGui::SameLine();
+    const RenderWorker::Progress progress = renderer_->progress();
+    if (progress.isBusy) {
+        const float share = progress.steps > 0 ? static_cast<float>(progress.step) /
+                                                     static_cast<float>(progress.steps)
+                                               : 0.0f;
+        const std::string text = fmt::format("{}  {:.1f} s", progress.what, progress.seconds);
+        ImGui::ProgressBar(share, {-FLT_MIN, 0.0f}, text.c_str());
+        bench_.map.control("toolbar.progress", progress.what);
+    } else {
+        ImGui::TextDisabled("%s", bench_.result->device.renderer.c_str());
+    }
+}
+
+void Workbench::drawStatusBar() {
+    const FrameResult& result = *bench_.result;
+    const ImVec4 bad(1.0f, 0.45f, 0.4f, 1.0f);
+    if (!result.problem.empty()) {
+        ImGui::TextColored(bad, "%s", result.problem.c_str());
+        bench_.map.control("status.problem", result.problem);
+        if (result.isLost) {
+            ImGui::SameLine();
+            if (button(bench_, "Start the renderer again", "status.restart"))
+                bench_.wantsRestart = true;
+            ImGui::SameLine();
+            ImGui::TextUnformatted("or render with 'kaustik run'.");
+        }
+        return;
+    }
+    if (!result.shaderProblem.empty()) {
+        ImGui::TextColored(
+            bad, "The last good shaders are in use: %s",
+            result.shaderProblem
+                .substr(0, result.shaderProblem.find('\n', result.shaderProblem.find('\n') + 1))
+                .c_str());
+        bench_.map.control("status.shader", result.shaderProblem);
+        tooltip(result.shaderProblem);
+        return;
+    }
+    if (bench_.isMessageBad) {
+        ImGui::TextColored(bad, "%s", bench_.message.c_str());
+    } else {
+        ImGui::TextUnformatted(bench_.message.c_str());
+    }
+    bench_.map.control("status.message", bench_.message);
+}
+
+void Workbench::draw() {
+    useKeys();
+    const ImGuiViewport* viewport = ImGui::GetMainViewport();
+    ImGui::SetNextWindowPos(viewport->WorkPos);
+    ImGui::SetNextWindowSize(viewport->WorkSize);
+    constexpr ImGuiWindowFlags kWhole =
+        ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+        ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoScrollWithMouse;
+    ImGui::Begin("workbench", nullptr, kWhole);
+    drawToolbar();
+    const float statusHeight = ImGui::GetTextLineHeightWithSpacing() + 4.0f;
+    const ImVec2 all = ImGui::GetContentRegionAvail();
+    const float height = std::max(all.y - statusHeight, 60.0f);
+    PanelState& panels = bench_.panels;
+    // Whatever the window's size, the picture keeps a part of it.
+    const float side = std::max(0.4f * all.x, 60.0f);
+    panels.leftWidth = std::clamp(panels.leftWidth, 150.0f, std::max(150.0f, side / bench_.scale));
+    panels.rightWidth =
+        std::clamp(panels.rightWidth, 150.0f, std::max(150.0f, side / bench_.scale));
+    panels.chartHeight =
+        std::clamp(panels.chartHeight, 30.0f, std::max(30.0f, 0.6f * height / bench_.scale));
+    const float left = panels.leftWidth * bench_.scale;
+    const float right = panels.rightWidth * bench_.scale;
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0.0f, 0.0f});
+
+    struct Tab {
+        const char* name;
+        void (*draw)(Bench&);
+    };
+    const auto tabs = [&](const char* name, float width, std::initializer_list<Tab> list) {
+        ImGui::BeginChild(name, {width, height}, true);
+        ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing,
+                            ImVec2(6.0f * bench_.scale, 4.0f * bench_.scale));
+        if (ImGui::BeginTabBar(name)) {
+            for (const Tab& tab : list) {
+                const bool isOpen = ImGui::BeginTabItem(tab.name);
+                bench_.map.control(std::string("tab.") + tab.name, isOpen ? "open" : "");
+                if (!isOpen) continue;
+                ImGui::BeginChild(tab.name);
+                tab.draw(bench_);
+                ImGui::EndChild();
+                ImGui::EndTabItem();
+            }
+            ImGui::EndTabBar();
+        }
+        ImGui::PopStyleVar();
+        ImGui::EndChild();
+    };
+    tabs("left", left,
+         {{"Passes", drawPasses}, {"Technique", drawTechnique}, {"Scene", drawScene}});
+    ImGui::SameLine();
+    splitter("##left_edge", true, height, panels.leftWidth, 1.0f, bench_);
+    ImGui::SameLine();
+    ImGui::BeginGroup();
+    const float bars = 2.0f * static_cast<float>(bench_.px(5.0));
+    const float middle = std::max(all.x - left - right - bars, 40.0f);
+    const float chart = panels.chartHeight * bench_.scale;
+    ImGui::BeginChild("middle", {middle, std::max(height - chart - 0.5f * bars, 30.0f)});
+    drawPicture(bench_);
+    ImGui::EndChild();
+    splitter("##chart_edge", false, middle, panels.chartHeight, -1.0f, bench_);
+    ImGui::BeginChild("chart", {middle, chart});
+    drawTimeChart(bench_);
+    ImGui::EndChild();
+    ImGui::EndGroup();
+    ImGui::SameLine();
+    splitter("##right_edge", true, height, panels.rightWidth, -1.0f, bench_);
+    ImGui::SameLine();
+    tabs("right", 0.0f,
+         {{"Parameters", drawParameters},
+          {"Image", drawImage},
+          {"Error", drawError},
+          {"Record", drawRecord}});
+    ImGui::PopStyleVar();
+    drawStatusBar();
+    ImGui::End();
+    if (bench_.showsHelp) drawHelp(bench_);
+}
+
+void Workbench::describe() {
+    if (!map_.isOn()) return;
+    const FrameResult& result = *bench_.result;
+    const VariantResult& first = result.variants[0];
+    map_.status("scene", bench_.document.scene);
+    map_.status("rendered_scene", result.scene ? result.scene->name : "");
+    map_.status("order", orderNumber_);
+    map_.status("rendered_order", result.order);
+    map_.status("frame", first.frame);
+    map_.status("settled", first.isSettled && result.order == orderNumber_);
+    map_.status("preview", first.isPreview);
+    map_.status("error", first.error);
+    map_.status("problem", result.problem);
+    map_.status("busy", renderer_->progress().isBusy);
+    map_.status("time_s", result.scene ? result.scene->timeSeconds : 0.0);
+    map_.status("playing", bench_.isPlaying);
+    map_.status("truth_photons", bench_.truth->photons);
+    map_.status("judged_frame", bench_.truth->judgements[0].frame);
+    map_.status("message", bench_.message);
+    map_.status("device", result.device.renderer);
+    map_.status("window_device", window_.renderer());
+    map_.status("longest_interface_frame_ms", longestGapMs_);
+    map_.status("document", toJson(bench_.document));
+}
+
+void Workbench::saveScreenshot() {
+    if (!bench_.wantsScreenshot) return;
+    bench_.wantsScreenshot = false;
+    Image image;
+    image.values = window_.readPixels(image.width, image.height);
+    image.channels = 3;
+    const std::time_t now = std::time(nullptr);
+    std::tm local{};
+    localtime_r(&now, &local);
+    const fs::path file = fs::path(bench_.panels.recordFolder) /
+                          fmt::format("workbench-{:02}{:02}{:02}{}", local.tm_hour, local.tm_min,
+                                      local.tm_sec, displayImageExtension());
+    try {
+        writeImage(file, image);
+        bench_.say(fmt::format("Wrote {}.", file.string()));
+    } catch (const Error& error) {
+        bench_.say(error.what(), true);
+    }
+}
+
+}  // namespace kaustik::gui

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// The workbench: a window, what is worked on in it, and the two threads that work.
+#pragma once
+
+#include <deque>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "framework/gui/bench.h"
+#include "framework/gui/window.h"
+
+namespace kaustik::gui {
+
+struct WorkbenchOptions {
+    std::string scene;               // "": as it was left, or the default scene
+    std::filesystem::path describe;  // file of the screen map; "" for none
+};
+
+class Workbench {
+  public:
+    // Throws DeviceError where no window can be opened.
+    Workbench(const Registry& registry, const WorkbenchOptions& options);
+    ~Workbench();
+    Workbench(const Workbench&) = delete;
+    Workbench& operator=(const Workbench&) = delete;
+
+    // Until the window is closed. Throws DeviceError when the window's context is lost; what was
+    // set up has been kept by then.
+    void run();
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    void loadKept(const std::string& scene);
+    void keep();
+    void keepNowAndThen();
+    void takeNews();
+    void takeDropped();
+    void submitChanges();
+    void aimTruth();
+    void draw();
+    void drawToolbar();
+    void drawStatusBar();
+    void useKeys();
+    void rememberForUndo();
+    void undo(int direction);
+    void describe();
+    void saveScreenshot();
+    [[nodiscard]] double patience() const;
+
+    const Registry& registry_;
+    std::filesystem::path folder_;  // of settings; "" where nothing can be kept
+    Kept kept_;
+    Window window_;
+    Canvas canvas_;
+    ScreenMap map_;
+    std::unique_ptr<RenderWorker> renderer_;
+    TruthWorker truthWorker_;
+    Bench bench_;
+
+    FrameOrder submitted_;
+    bool hasSubmitted_ = false;
+    std::uint64_t orderNumber_ = 0;
+    std::uint64_t judgedFrame_ = 0;
+    std::uint64_t judgedPhotons_ = 0;
+    std::uint64_t playedFrame_ = 0;
+    std::deque<Document> history_;  // what was worked on before, the newest last
+    std::size_t historyPlace_ = 0;
+    std::string keptText_;
+    Clock::time_point keptAt_;
+    int framesToDraw_ = 3;
+    Clock::time_point drawnAt_;
+    double longestGapMs_ = 0.0;  // between two frames of the interface, since the last description
+};
+
+}  // namespace kaustik::gui
