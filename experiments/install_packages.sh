@@ -14,10 +14,12 @@ packages=(
     libassimp-dev libtinygltf-dev zlib1g-dev libopenimageio-dev
     # The ray-traced reference
     libembree-dev libtbb-dev
+    # The workbench
+    libimgui-dev libglfw3-dev fonts-dejavu-core
     # Figures and pages of a study; OpenImageIO reads EXR there
     python3 python3-matplotlib python3-openimageio
-    # Tests; the page of a study is opened in a browser
-    libgtest-dev libgmock-dev chromium chromium-driver
+    # Tests; the page of a study is opened in a browser, the workbench on a display without a screen
+    libgtest-dev libgmock-dev chromium chromium-driver xvfb libxtst-dev
 )
 
 if ! command -v dpkg-query > /dev/null || ! command -v apt-get > /dev/null; then

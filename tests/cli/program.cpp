@@ -87,9 +87,7 @@ Program::~Program() {
 void Program::waitUntilItHandles(int signal) const {
     const fs::path status = fs::path("/proc") / std::to_string(process_) / "status";
     for (;;) {
-        siginfo_t ended{};
-        ::waitid(P_PID, static_cast<id_t>(process_), &ended, WEXITED | WNOHANG | WNOWAIT);
-        if (ended.si_pid == process_) return;
+        if (!isRunning()) return;
         std::ifstream lines(status);
         for (std::string line; std::getline(lines, line);) {
             if (!line.starts_with("SigCgt:")) continue;
@@ -102,6 +100,17 @@ void Program::waitUntilItHandles(int signal) const {
 
 void Program::send(int signal) const {
     ::kill(process_, signal);
+}
+
+bool Program::isRunning() const {
+    if (process_ <= 0) return false;
+    siginfo_t ended{};
+    ::waitid(P_PID, static_cast<id_t>(process_), &ended, WEXITED | WNOHANG | WNOWAIT);
+    return ended.si_pid != process_;
+}
+
+std::string Program::messages() const {
+    return contentsOf(captured_ / "err");
 }
 
 Outcome Program::wait() {

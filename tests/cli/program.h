@@ -39,6 +39,9 @@ class Program {
     // Returns once it handles `signal` by itself, or has ended.
     void waitUntilItHandles(int signal) const;
     void send(int signal) const;
+    [[nodiscard]] bool isRunning() const;
+    // What it has written to standard error so far.
+    [[nodiscard]] std::string messages() const;
     [[nodiscard]] Outcome wait();
 
   private:
