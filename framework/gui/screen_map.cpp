@@ -3,6 +3,8 @@
 
 #include <imgui.h>
 
+#include <algorithm>
+
 #include "framework/core/files.h"
 
 namespace kaustik::gui {
@@ -19,9 +21,16 @@ void ScreenMap::beginFrame() {
 
 void ScreenMap::control(const std::string& name, const std::string& value) {
     if (!isOn() || !ImGui::IsItemVisible()) return;
-    const ImVec2 corner = ImGui::GetItemRectMin();
-    const ImVec2 size = ImGui::GetItemRectSize();
-    area(name, corner.x, corner.y, size.x, size.y, value);
+    // Only what can be seen of it.
+    const ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const ImVec2 clipLow = draw.GetClipRectMin();
+    const ImVec2 clipHigh = draw.GetClipRectMax();
+    const ImVec2 low(std::max(ImGui::GetItemRectMin().x, clipLow.x),
+                     std::max(ImGui::GetItemRectMin().y, clipLow.y));
+    const ImVec2 high(std::min(ImGui::GetItemRectMax().x, clipHigh.x),
+                      std::min(ImGui::GetItemRectMax().y, clipHigh.y));
+    if (high.x > low.x && high.y > low.y)
+        area(name, low.x, low.y, high.x - low.x, high.y - low.y, value);
 }
 
 void ScreenMap::area(const std::string& name, float x, float y, float width, float height,

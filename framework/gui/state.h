@@ -36,8 +36,8 @@ struct ViewState {
 };
 
 struct PanelState {
-    float leftWidth = 380.0f;  // at scale 1
-    float rightWidth = 400.0f;
+    float leftWidth = 440.0f;  // at scale 1
+    float rightWidth = 360.0f;
     float chartHeight = 120.0f;
     std::string parameterSearch;
     bool showsAllParameters = false;

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 
 namespace kaustik::gui {
 namespace {
@@ -173,14 +172,17 @@ std::string stageOf(const std::string& pass) {
     return pass.substr(0, pass.find('.'));
 }
 
-ImVec4 stageColor(const std::string& stage) {
+std::size_t stageRank(const std::string& stage) {
     static constexpr std::array<const char*, 13> kStages = {
-        "geometry", "eye",   "layers", "emit", "specular", "trace",  "reconstruct",
-        "gather",   "media", "blur",   "view", "shadow",   "compose"};
-    const auto found = std::find(kStages.begin(), kStages.end(), stage);
+        "geometry", "eye",   "layers", "emit",   "specular", "trace",  "reconstruct",
+        "gather",   "media", "blur",   "shadow", "view",     "compose"};
+    return static_cast<std::size_t>(std::find(kStages.begin(), kStages.end(), stage) -
+                                    kStages.begin());
+}
+
+ImVec4 stageColor(const std::string& stage) {
     // Hues a golden angle apart: neighbours in the chart differ most.
-    const auto place = found != kStages.end() ? static_cast<std::size_t>(found - kStages.begin())
-                                              : std::hash<std::string>()(stage) % 64;
+    const std::size_t place = stageRank(stage);
     const float hue = std::fmod(0.61803f * static_cast<float>(place) + 0.55f, 1.0f);
     ImVec4 color(0.0f, 0.0f, 0.0f, 1.0f);
     ImGui::ColorConvertHSVtoRGB(hue, 0.55f, 0.85f, color.x, color.y, color.z);

@@ -45,6 +45,8 @@ void inputText(Bench& bench, const char* label, const char* hint, std::string& t
 // A stage's colour in charts and lists.
 [[nodiscard]] ImVec4 stageColor(const std::string& stage);
 [[nodiscard]] std::string stageOf(const std::string& pass);
+// Where a stage stands in the usual order; those that this knows nothing of come last.
+[[nodiscard]] std::size_t stageRank(const std::string& stage);
 
 [[nodiscard]] double medianOf(std::vector<double> values);
 

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "framework/core/error.h"
@@ -84,7 +85,10 @@ Window::Window(const std::string& title, const Placement& placement, const fs::p
     ImGui::GetIO().ConfigWindowsMoveFromTitleBarOnly = true;
     float scaleY = 1.0f;
     glfwGetWindowContentScale(window_, &scale_, &scaleY);
-    scale_ = std::clamp(scale_, 1.0f, 4.0f);
+    // A screen of 100 dpi is no reason to blur every line.
+    scale_ = std::clamp(std::round(scale_ * 4.0f) / 4.0f, 1.0f, 4.0f);
+    // Dear ImGui's 0.3 s is short where a frame takes long.
+    ImGui::GetIO().MouseDoubleClickTime = 0.5f;
     ImGui::StyleColorsDark();
     ImGuiStyle& style = ImGui::GetStyle();
     style.WindowRounding = 0.0f;

@@ -69,8 +69,7 @@ class Workbench {
     std::string keptText_;
     Clock::time_point keptAt_;
     int framesToDraw_ = 3;
-    Clock::time_point drawnAt_;
-    double longestGapMs_ = 0.0;  // between two frames of the interface, since the last description
+    std::deque<double> interfaceMs_;  // what the newest frames of the interface took
 };
 
 }  // namespace kaustik::gui

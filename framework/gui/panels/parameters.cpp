@@ -76,7 +76,11 @@ void drawParameters(Bench& bench) {
         ImGui::BeginChild("list");
         std::string stage;
         bool isTable = false;
-        for (const params::NamedField& named : params.all()) {
+        std::vector<params::NamedField> fields = params.all();
+        std::stable_sort(fields.begin(), fields.end(), [](const auto& a, const auto& b) {
+            return stageRank(stageOf(a.fullName)) < stageRank(stageOf(b.fullName));
+        });
+        for (const params::NamedField& named : fields) {
             if (named.fullName.find('.') == std::string::npos) continue;
             if (!panels.showsAllParameters && !isInUse(params, named.fullName) &&
                 !params.isSetByUser(named.fullName)) {

@@ -60,8 +60,14 @@ void drawPassRow(Bench& bench, const VariantResult& result, const graph::PassRec
                                                                  : "left out");
     tooltip(fmt::format("{}\n{}", pass.name, pass.why));
     if (times == nullptr) {
+        // The reason runs over all the columns that have no numbers here.
         ImGui::TableNextColumn();
-        ImGui::TextColored(kGrey, "%s", pass.why.c_str());
+        const ImVec2 corner = ImGui::GetCursorScreenPos();
+        ImDrawList& draw = *ImGui::GetWindowDrawList();
+        draw.PushClipRect(corner, {ImGui::GetWindowPos().x + ImGui::GetWindowWidth(),
+                                   corner.y + ImGui::GetTextLineHeight()});
+        draw.AddText(corner, ImGui::GetColorU32(kGrey), pass.why.c_str());
+        draw.PopClipRect();
         return;
     }
     const double median = medianOf(times->gpuMilliseconds);
@@ -113,8 +119,8 @@ void drawPasses(Bench& bench) {
         ImGui::PopTextWrapPos();
         bench.map.control("passes.error", result.error);
     }
-    constexpr ImGuiTableFlags kFlags = ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg |
-                                       ImGuiTableFlags_Resizable | ImGuiTableFlags_SizingFixedFit;
+    constexpr ImGuiTableFlags kFlags =
+        ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit;
     if (!ImGui::BeginTable("passes", 7, kFlags)) return;
     ImGui::TableSetupScrollFreeze(0, 1);
     const float number = ImGui::CalcTextSize("1000.00").x;

@@ -46,7 +46,7 @@ void drawChoiceOfScene(Bench& bench) {
     if (bench.result->scene) {
         const SceneFacts& facts = *bench.result->scene;
         ImGui::TextWrapped("%s", facts.description.c_str());
-        ImGui::TextDisabled("%zu triangles, %d specular interfaces on the longest chain",
+        ImGui::TextDisabled("%zu triangles; specular interfaces on the longest chain: %d",
                             facts.triangles, facts.needs.specularInterfaces);
     }
     std::array<int, 2> size = {bench.document.size.width, bench.document.size.height};

@@ -138,10 +138,16 @@ void drawTechnique(Bench& bench) {
             ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed,
                                     ImGui::GetFontSize() * 7.0f);
             ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
+            std::vector<const Registry::Node*> stages;  // the first node of each
             std::set<std::string> seen;
             for (const Registry::Node& node : bench.registry.nodes()) {
-                if (seen.insert(node.stage).second) drawStage(bench, params, node);
+                if (seen.insert(node.stage).second) stages.push_back(&node);
             }
+            std::stable_sort(stages.begin(), stages.end(), [](const auto* a, const auto* b) {
+                return stageRank(a->stage) < stageRank(b->stage);
+            });
+            for (const Registry::Node* first : stages)
+                drawStage(bench, params, *first);
             ImGui::EndTable();
         }
     } catch (const Error& error) {
