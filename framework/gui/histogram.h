@@ -13,8 +13,12 @@ struct Histogram {
     static constexpr std::size_t kBins = 96;
     float low = 0.0f;  // least and greatest finite value of any channel of colour
     float high = 0.0f;
-    float percentile99 = 0.0f;                  // of the values above 0, to a bin
-    std::array<std::uint32_t, kBins> counts{};  // values by even steps from low to high
+    // Below which 99 % of the values above 0 lie (of those below 0 where there are no others): a
+    // caustic's few brightest pixels would leave the rest black.
+    float bright = 0.0f;
+    // Values by even steps from low to twice `bright`; the last counts all above.
+    std::array<std::uint32_t, kBins> counts{};
+    float end = 0.0f;  // where the last bin begins to count all
 };
 
 // Of the first three channels (a fourth is alpha or a flag).

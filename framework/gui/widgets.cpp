@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cfloat>
 #include <cmath>
 
 namespace kaustik::gui {
@@ -15,6 +16,8 @@ template <class... Ts>
 struct Overloaded : Ts... {
     using Ts::operator()...;
 };
+
+constexpr std::size_t kOptionsToSearch = 16;
 
 // Where a range spans so many powers of ten that a straight slider would be useless.
 bool isLogarithmic(const params::Field& field) {
@@ -144,16 +147,27 @@ bool choose(Bench& bench, const char* label, const std::vector<std::string>& opt
     const auto current = static_cast<std::size_t>(index);
     const char* shown = current < options.size() ? options[current].c_str() : "";
     bool isChanged = false;
-    const bool isOpen = ImGui::BeginCombo(label, shown, ImGuiComboFlags_HeightLarge);
+    const bool isOpen = ImGui::BeginCombo(label, shown, ImGuiComboFlags_HeightLargest);
     bench.map.control(name, shown);
     if (!isOpen) return false;
+    // A long list is searched; only one can be open.
+    static thread_local std::string filter;
+    if (ImGui::IsWindowAppearing()) {
+        filter.clear();
+        if (options.size() > kOptionsToSearch) ImGui::SetKeyboardFocusHere();
+    }
+    if (options.size() > kOptionsToSearch) {
+        ImGui::SetNextItemWidth(-FLT_MIN);
+        inputText(bench, "##filter", "search", filter, name + ".search");
+    }
     for (std::size_t i = 0; i < options.size(); ++i) {
+        if (options[i].find(filter) == std::string::npos) continue;
         if (ImGui::Selectable(options[i].c_str(), i == current)) {
             isChanged = i != current;
             index = static_cast<int>(i);
         }
         bench.map.control(name + "=" + options[i]);
-        if (i == current) ImGui::SetItemDefaultFocus();
+        if (i == current && options.size() <= kOptionsToSearch) ImGui::SetItemDefaultFocus();
     }
     ImGui::EndCombo();
     return isChanged;

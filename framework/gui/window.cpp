@@ -93,6 +93,7 @@ Window::Window(const std::string& title, const Placement& placement, const fs::p
     ImGuiStyle& style = ImGui::GetStyle();
     style.WindowRounding = 0.0f;
     style.FrameRounding = 3.0f;
+    style.Colors[ImGuiCol_PopupBg].w = 1.0f;
     style.ScaleAllSizes(scale_);
     loadFont();
     ImGui_ImplGlfw_InitForOpenGL(window_, true);

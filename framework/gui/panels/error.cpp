@@ -115,8 +115,9 @@ void drawLedger(Bench& bench) {
     const EnergyLedger& ledger = *result.ledger;
     const double emitted = ledger.watts[kAccountEmitted];
     if (ImGui::BeginTable("ledger", 3, ImGuiTableFlags_RowBg)) {
-        for (const char* name : {"energy", "W", "%"})
-            ImGui::TableSetupColumn(name);
+        ImGui::TableSetupColumn("energy", ImGuiTableColumnFlags_WidthStretch, 0.5f);
+        ImGui::TableSetupColumn("W", ImGuiTableColumnFlags_WidthStretch, 0.28f);
+        ImGui::TableSetupColumn("%", ImGuiTableColumnFlags_WidthStretch, 0.22f);
         ImGui::TableHeadersRow();
         const auto row = [&](const std::string& name, double watts) {
             ImGui::TableNextRow();

@@ -65,7 +65,7 @@ void drawMapping(Bench& bench, const ViewedTexture* viewed) {
             bench.map.control("image.range");
         } else if (viewed != nullptr) {
             view.low = std::min(viewed->histogram.low, 0.0f);
-            view.high = std::max(viewed->histogram.percentile99, view.low + 1e-6f);
+            view.high = std::max(viewed->histogram.bright, view.low + 1e-6f);
             ImGui::TextDisabled("%.4g to %.4g", double(view.low), double(view.high));
         }
     } else if (viewed == nullptr || !viewed->isEncoded) {
@@ -96,10 +96,11 @@ void drawValues(Bench& bench, const ViewedTexture& viewed) {
                          0.0f, FLT_MAX,
                          {ImGui::GetContentRegionAvail().x, static_cast<float>(bench.px(70.0))});
     bench.map.control("image.histogram");
-    tooltip("How many values (logarithm) lie where between the least and the greatest.");
-    ImGui::Text("%.5g", double(histogram.low));
-    ImGui::SameLine(ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize("0000000").x);
-    ImGui::Text("%.5g", double(histogram.high));
+    tooltip(
+        fmt::format("How many values (logarithm) lie where, from {:.5g} to {:.5g}; the last bar "
+                    "has all above, up to {:.5g}.",
+                    histogram.low, histogram.end, histogram.high));
+    ImGui::Text("least %.5g, greatest %.5g", double(histogram.low), double(histogram.high));
 }
 
 void drawProbe(Bench& bench) {
@@ -117,9 +118,9 @@ void drawProbe(Bench& bench) {
     } else if (!probe || probe->pixel != view.probePixel) {
         ImGui::TextDisabled("Looking at pixel (%d, %d) …", view.probePixel.x, view.probePixel.y);
     } else {
-        ImGui::Text("%zu photons landed within %.1f px of (%d, %d): %.4g W", probe->landed,
-                    double(probe->radiusPixels), probe->pixel.x, probe->pixel.y,
-                    double(probe->fluxWatts.r + probe->fluxWatts.g + probe->fluxWatts.b));
+        ImGui::TextWrapped("%zu photons landed within %.1f px of (%d, %d): %.4g W", probe->landed,
+                           double(probe->radiusPixels), probe->pixel.x, probe->pixel.y,
+                           double(probe->fluxWatts.r + probe->fluxWatts.g + probe->fluxWatts.b));
         bench.map.control("image.probe_landed", fmt::format("{}", probe->landed));
         if (ImGui::BeginTable("photons", 4, ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY)) {
             ImGui::TableSetupScrollFreeze(0, 1);

@@ -140,6 +140,7 @@ int drawLights(Bench& bench, const Frame& frame, bool isHovered, int dragged) {
         const bool isNear = std::hypot(mouse.x - shown.x, mouse.y - shown.y) < 1.5f * radius;
         const bool isHeld = dragged == static_cast<int>(i);
         if (isHovered && isNear) found = static_cast<int>(i);
+        if (isHovered && isNear) tooltip(fmt::format("{}: drag to move it", light.name));
         const ImU32 color = isHeld || (isHovered && isNear) ? IM_COL32(255, 255, 160, 255)
                                                             : IM_COL32(255, 210, 60, 230);
         if (light.kind == scene::LightKind::directional) {
