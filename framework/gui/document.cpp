@@ -19,7 +19,8 @@ json vectorJson(const glm::vec3& v) {
 }
 template <class V>
 V vectorFrom(const json& j) {
-    return V(j.at(0), j.at(1), j.at(2));
+    using Number = typename V::value_type;
+    return {j.at(0).get<Number>(), j.at(1).get<Number>(), j.at(2).get<Number>()};
 }
 
 json variantJson(const Variant& variant) {
@@ -89,7 +90,8 @@ SceneEdits editsFrom(const json& j) {
             scene::Medium{vectorFrom<glm::vec3>(medium.at("scattering")),
                           vectorFrom<glm::vec3>(medium.at("absorption")), medium.at("anisotropy")};
     }
-    for (const auto& [name, light] : j.value("lights", json::object()).items()) {
+    const json lights = j.value("lights", json::object());
+    for (const auto& [name, light] : lights.items()) {
         scene::LightEdit& edit = edits.lights[name];
         if (light.contains("direction"))
             edit.direction = vectorFrom<glm::dvec3>(light.at("direction"));
@@ -97,10 +99,13 @@ SceneEdits editsFrom(const json& j) {
             edit.position = vectorFrom<glm::dvec3>(light.at("position"));
         if (light.contains("power_factor")) edit.powerFactor = light.at("power_factor");
     }
-    for (const auto& [name, list] : j.value("waves", json::object()).items()) {
+    const json waters = j.value("waves", json::object());
+    for (const auto& [name, list] : waters.items()) {
         std::vector<scene::Wave>& waves = edits.waves[name];
         for (const json& wave : list)
-            waves.push_back({wave.at(0), wave.at(1), wave.at(2), wave.at(3), wave.at(4)});
+            waves.push_back({wave.at(0).get<float>(), wave.at(1).get<float>(),
+                             wave.at(2).get<float>(), wave.at(3).get<float>(),
+                             wave.at(4).get<float>()});
     }
     return edits;
 }

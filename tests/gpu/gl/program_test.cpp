@@ -70,6 +70,33 @@ TEST_F(Shaders, AFileThatIncludesItselfIsAnErrorAndNotALoop) {
     EXPECT_NE(errorOf(file).find("includes itself"), std::string::npos);
 }
 
+TEST_F(Shaders, ReloadTakesWhatCompilesAndKeepsTheRest) {
+    const std::string good = write("good.comp",
+                                   "layout(local_size_x = 1) in;\nuniform int a;\n"
+                                   "layout(r32f) uniform image2D image;\nvoid main() {\n"
+                                   "    imageStore(image, ivec2(0), vec4(a));\n}\n");
+    const std::string bad = write("bad.comp", "layout(local_size_x = 1) in;\nvoid main() {}\n");
+    static_cast<void>(context());
+    gl::ProgramCache programs;
+    static_cast<void>(programs.get({{good}, ""}));
+    const GLuint kept = programs.get({{bad}, ""}).id();
+    EXPECT_TRUE(programs.reload().empty());
+
+    const GLuint before = programs.get({{bad}, ""}).id();
+    write("bad.comp", "layout(local_size_x = 1) in;\nvoid main() { mistake; }\n");
+    write("good.comp",
+          "layout(local_size_x = 1) in;\nuniform int b;\n"
+          "layout(r32f) uniform image2D image;\nvoid main() {\n"
+          "    imageStore(image, ivec2(0), vec4(b));\n}\n");
+    const std::vector<std::string> errors = programs.reload();
+    ASSERT_EQ(errors.size(), 1u);
+    EXPECT_NE(errors[0].find("bad.comp:2"), std::string::npos) << errors[0];
+    EXPECT_EQ(programs.get({{bad}, ""}).id(), before);
+    EXPECT_NE(kept, 0u);
+    EXPECT_GE(programs.get({{good}, ""}).uniform("b"), 0);
+    EXPECT_THROW(static_cast<void>(programs.get({{good}, ""}).uniform("a")), ShaderError);
+}
+
 TEST(ShaderLog, IsReadInTheFormatsOfTheDriversThatThereAre) {
     const std::vector<gl::SourceLine> lines = {{"a.glsl", 1}, {"b.glsl", 7}, {"b.glsl", 8}};
     EXPECT_EQ(gl::readableShaderLog("0:2(5): error: x", lines), "  b.glsl:7: error: x");

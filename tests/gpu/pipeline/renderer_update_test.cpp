@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// A renderer that takes over changes must show what a new one would.
+#include <gtest/gtest.h>
+
+#include "framework/scene/scene_edits.h"
+#include "tests/gpu/fixture.h"
+
+namespace kaustik::test {
+namespace {
+
+constexpr const char* kPond = R"(
+[camera]
+position = [0, 2, 1]
+[[light]]
+name = "sun"
+type = "directional"
+direction = [0.1, -1, 0]
+irradiance = 1000
+[[material]]
+name = "chalk"
+type = "lambertian"
+albedo = 0.5
+[[material]]
+name = "water"
+type = "dielectric"
+ior = 1.333
+[[object]]
+name = "floor"
+shape = "plane"
+material = "chalk"
+size = [2, 2]
+position = [0, -0.5, 0]
+[[object]]
+name = "pond"
+shape = "water"
+material = "water"
+size = [1, 1]
+cells = [16, 16]
+waves = [{amplitude = 0.02, wavelength = 0.5}]
+)";
+
+class RendererUpdate : public testing::Test {
+  protected:
+    [[nodiscard]] RenderSettings settings(const std::string& tracer, int width) const {
+        RenderSettings settings;
+        settings.technique = registry_.findTechnique("screen_space_photons");
+        settings.params = registry_.makeParams(settings.technique);
+        settings.params.set("trace", tracer, "test");
+        settings.params.set("emit.photons", "32x32", "test");
+        settings.params.set("shadow.map.size", "64", "test");
+        settings.width = width;
+        settings.height = 48;
+        return settings;
+    }
+    [[nodiscard]] static std::vector<float> picture(Renderer& renderer) {
+        renderer.build(Purpose::picture);
+        gl::PassTimer timer(gl::TimerMode::finish);
+        EXPECT_TRUE(renderer.renderFrame(timer));
+        return renderer.texture(renderer.outputs().picture.radiance).read();
+    }
+
+    Registry registry_ = registerAll();
+};
+
+TEST_F(RendererUpdate, ShowsTheSameBitsAsANewRenderer) {
+    scene::Scene scene = sceneFromText(kPond);
+    Renderer updated(context(), registry_, scene, settings("march", 64));
+    const std::vector<float> before = picture(updated);
+
+    scene::SceneEdits edits;
+    edits.camera = scene.camera;
+    edits.camera->position = {0.4, 1.7, 0.9};
+    edits.lights["sun"].direction = glm::dvec3(-0.3, -1.0, 0.2);
+    edits.waves["pond"] = {{0.03f, 0.4f, 30.0f, 1.0f, -1.0f}};
+    edits.timeSeconds = 0.7;
+    applyEdits(scene, edits);
+    updated.update(settings("hierarchical", 80));
+    Renderer fresh(context(), registry_, scene, settings("hierarchical", 80));
+    const std::vector<float> after = picture(updated);
+    EXPECT_EQ(after, picture(fresh));
+    EXPECT_NE(after, before);
+
+    // And back again.
+    applyEdits(scene, scene::SceneEdits());
+    scene = sceneFromText(kPond);
+    updated.update(settings("march", 64));
+    EXPECT_EQ(picture(updated), before);
+}
+
+TEST_F(RendererUpdate, AFrameThatIsEndedEarlyHasNoTimeAndTheNextOneIsWhole) {
+    const scene::Scene scene = sceneFromText(kPond);
+    Renderer renderer(context(), registry_, scene, settings("march", 64));
+    const std::vector<float> whole = picture(renderer);
+    gl::PassTimer timer(gl::TimerMode::finish);
+    std::size_t asked = 0;
+    EXPECT_FALSE(renderer.renderFrame(timer, [&](std::size_t step) {
+        asked = step;
+        return step < 3;
+    }));
+    EXPECT_EQ(asked, 3u);
+    EXPECT_TRUE(timer.takeFinished(true).empty());
+    EXPECT_TRUE(renderer.renderFrame(timer));
+    EXPECT_EQ(timer.takeFinished(true).size(), 1u);
+    EXPECT_EQ(renderer.texture(renderer.outputs().picture.radiance).read(), whole);
+}
+
+}  // namespace
+}  // namespace kaustik::test

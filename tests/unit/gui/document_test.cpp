@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "framework/gui/document.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "framework/gui/state.h"
+
+namespace kaustik::gui::test {
+namespace {
+
+using nlohmann::json;
+
+Document everything() {
+    Document document;
+    document.scene = "somewhere/ring.toml";
+    document.size = {321, 123};
+    document.variant.assignments = {{"trace", "march"}, {"trace.epsilon", "0.0123"}};
+    document.variant.disabled = {"compose.direct"};
+    document.other = Variant{"screen_space_photons", {{"trace", "lines"}}, {}};
+    scene::Camera camera;
+    camera.position = {1.0 / 3.0, 2.0, 3.0};
+    document.edits.camera = camera;
+    document.edits.timeSeconds = 0.1;
+    document.edits.medium = scene::Medium{glm::vec3(0.1f), glm::vec3(0.2f), 0.3f};
+    document.edits.lights["sun"] = {glm::dvec3(0.1, -1.0, 1.0 / 7.0), {}, 2.0f};
+    document.edits.lights["lamp"] = {{}, glm::dvec3(1.0, 2.0, 1.0 / 3.0), {}};
+    document.edits.waves["pond"] = {{0.1f, 0.3f, 10.0f, 0.5f, -1.0f}};
+    return document;
+}
+
+TEST(Document, IsTheSameAfterARestart) {
+    const std::string text = toJson(everything()).dump();
+    EXPECT_EQ(documentFromJson(json::parse(text)), everything());
+    EXPECT_EQ(documentFromJson(toJson(Document())), Document());
+}
+
+TEST(Document, ThatMakesNoSenseIsANewOne) {
+    for (const char* text : {"null", "[]", "3", "{}", R"({"scene": 5})",
+                             R"({"scene": "pool", "edits": {}, "size": [0, 600],
+                                 "variant": {"technique": "x", "set": {}, "disable": []}})"}) {
+        EXPECT_EQ(documentFromJson(json::parse(text)), Document()) << text;
+    }
+    json broken = toJson(everything());
+    broken["edits"]["waves"]["pond"][0] = "tall";
+    EXPECT_EQ(documentFromJson(broken), Document());
+}
+
+TEST(State, IsTheSameAfterARestart) {
+    Kept kept;
+    kept.view.resource = "layers.depth";
+    kept.view.layer = 3;
+    kept.view.isFalseColor = true;
+    kept.view.exposureStops = -2.5f;
+    kept.view.beside = Beside::truth;
+    kept.panels.leftWidth = 333.0f;
+    kept.panels.recordFolder = "elsewhere";
+    kept.window = {1000, 700, 10, 20};
+    kept.knowsDevice = true;
+    EXPECT_EQ(toJson(keptFromJson(toJson(kept))), toJson(kept));
+    EXPECT_NE(toJson(kept), toJson(Kept()));
+}
+
+TEST(State, ThatMakesNoSenseIsAsAtTheFirstStart) {
+    for (const char* text : {"null", "[1]", R"({"view": 3, "panels": "x"})",
+                             R"({"view": {"layer": "many", "split": null}})"}) {
+        EXPECT_EQ(toJson(keptFromJson(json::parse(text))), toJson(Kept())) << text;
+    }
+    const Kept kept = keptFromJson(json::parse(R"({"window": {"width": -5, "height": 1e9},
+                                                   "view": {"split": 7, "channel": 99}})"));
+    EXPECT_GE(kept.window.width, 400);
+    EXPECT_LE(kept.window.height, 16384);
+    EXPECT_EQ(kept.view.split, 1.0f);
+    EXPECT_EQ(kept.view.channel, Channel::luminance);
+}
+
+}  // namespace
+}  // namespace kaustik::gui::test
