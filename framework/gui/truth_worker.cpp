@@ -231,7 +231,7 @@ void TruthWorker::computeMore(Loaded& loaded, std::uint64_t photons) {
     if (isDone) stopComputing();
     takeOver(loaded);
     for (TruthState::Judgement& judgement : working_.judgements)
-        judgement.frame = 0;  // by a worse truth: frames are to be judged again
+        judgement.order = 0;  // by a worse truth: frames are to be judged again
     post();
 }
 
@@ -243,7 +243,7 @@ void TruthWorker::judgeFrames(Loaded& loaded, const std::array<JudgedFrame, 2>& 
             const Image& image = outputs.images.front().image;
             if (image.width != loaded.request.width || image.height != loaded.request.height)
                 continue;
-            judgement.frame = frames[i].frame;
+            judgement.order = frames[i].order;
             judgement.whole = errorsAgainst(outputs, *loaded.whole);
             if (loaded.modelled) judgement.modelled = errorsAgainst(outputs, *loaded.modelled);
             if (outputs.seesReceivers && !judgement.whole.at("caustic_irradiance").is_null()) {

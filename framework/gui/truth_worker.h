@@ -35,7 +35,7 @@ struct TruthAim {
 
 // A frame to be judged.
 struct JudgedFrame {
-    std::uint64_t frame = 0;
+    std::uint64_t order = 0;
     std::shared_ptr<const app::Outputs> outputs;
 };
 
@@ -50,7 +50,7 @@ struct TruthState {
     double relativeError = 0.0;
     std::shared_ptr<const Image> irradiance;  // W/m², top row first
     struct Judgement {
-        std::uint64_t frame = 0;  // 0: none yet
+        std::uint64_t order = 0;  // that the frame answered; 0: none yet
         nlohmann::json whole;     // as `error` of report.json
         nlohmann::json modelled;  // as `error.modelled_paths`; null where unknown
         std::shared_ptr<const Image> heatMap;

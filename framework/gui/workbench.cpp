@@ -218,7 +218,8 @@ void Workbench::submitChanges() {
                                  ? "caustic.irradiance"
                                  : bench_.view.resource;
     order.viewing.layer = bench_.view.layer;
-    order.viewing.readsOutputs = bench_.truth->photons > 0;
+    order.viewing.readsOutputs =
+        bench_.truth->photons > 0 || !(bench_.panels.isEndless || bench_.isPlaying);
     const double frameMs = medianOf(bench_.result->variants[0].frameMs);
     const bool isSlow = frameMs > kSlowFrameMs;
     order.frames = bench_.panels.isEndless ? 0
@@ -249,18 +250,24 @@ void Workbench::aimTruth() {
     const FrameResult& result = *bench_.result;
     const VariantResult& first = result.variants[0];
     // Only of what has been rendered as it stands, and not of every step of a movement.
-    if (!first.isSettled || result.order != orderNumber_ || !first.error.empty()) return;
-    truthWorker_.aim(
-        {result.document.scene, result.document.edits, result.document.size, first.paths});
-    const bool isNew = first.frame != judgedFrame_ || bench_.truth->photons != judgedPhotons_;
-    if (bench_.truth->photons > 0 && first.outputs && isNew &&
-        bench_.truth->aim == TruthAim{result.document.scene, result.document.edits,
-                                      result.document.size, first.paths}) {
-        judgedFrame_ = first.frame;
-        judgedPhotons_ = bench_.truth->photons;
-        truthWorker_.judge({JudgedFrame{first.frame, first.outputs},
-                            JudgedFrame{result.variants[1].frame, result.variants[1].outputs}});
+    if (bench_.isPlaying || bench_.isDragging || first.isPreview || first.frame == 0 ||
+        result.order != orderNumber_ || !first.error.empty() || !result.problem.empty()) {
+        return;
     }
+    const TruthAim aim{result.document.scene, result.document.edits, result.document.size,
+                       first.paths};
+    truthWorker_.aim(aim);
+    // Frames of one order are the same: one is judged.
+    const bool isNew = result.order != judgedOrder_ || bench_.truth->photons != judgedPhotons_;
+    const bool hasBoth = !result.document.other || result.variants[1].outputs;
+    if (bench_.truth->photons == 0 || !first.outputs || !hasBoth || !isNew ||
+        bench_.truth->aim != aim) {
+        return;
+    }
+    judgedOrder_ = result.order;
+    judgedPhotons_ = bench_.truth->photons;
+    truthWorker_.judge({JudgedFrame{result.order, first.outputs},
+                        JudgedFrame{result.order, result.variants[1].outputs}});
 }
 
 void Workbench::rememberForUndo() {
@@ -469,7 +476,7 @@ void Workbench::describe() {
     map_.status("time_s", result.scene ? result.scene->timeSeconds : 0.0);
     map_.status("playing", bench_.isPlaying);
     map_.status("truth_photons", bench_.truth->photons);
-    map_.status("judged_frame", bench_.truth->judgements[0].frame);
+    map_.status("judged_order", bench_.truth->judgements[0].order);
     map_.status("message", bench_.message);
     map_.status("device", result.device.renderer);
     map_.status("window_device", window_.renderer());

@@ -61,7 +61,7 @@ class Workbench {
     FrameOrder submitted_;
     bool hasSubmitted_ = false;
     std::uint64_t orderNumber_ = 0;
-    std::uint64_t judgedFrame_ = 0;
+    std::uint64_t judgedOrder_ = 0;
     std::uint64_t judgedPhotons_ = 0;
     std::uint64_t playedFrame_ = 0;
     std::deque<Document> history_;  // what was worked on before, the newest last

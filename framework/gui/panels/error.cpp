@@ -83,7 +83,7 @@ void drawTable(Bench& bench, const char* title, json TruthState::Judgement::*par
         Row{"encircled energy", "encircled_energy_radius_ratio"}};
     const auto& judgements = bench.truth->judgements;
     const bool hasOther = bench.document.other.has_value();
-    if (judgements[0].frame == 0 || !(judgements[0].*part).is_object()) return;
+    if (judgements[0].order == 0 || !(judgements[0].*part).is_object()) return;
     if (!ImGui::BeginTable(title, hasOther ? 3 : 2, ImGuiTableFlags_RowBg)) return;
     ImGui::TableSetupColumn(title);
     ImGui::TableSetupColumn(hasOther ? "A" : "");
@@ -152,10 +152,10 @@ void drawError(Bench& bench) {
     drawTruth(bench);
     const TruthState& truth = *bench.truth;
     if (truth.photons > 0) {
-        if (truth.judgements[0].frame == 0) {
+        if (truth.judgements[0].order == 0) {
             ImGui::TextDisabled("Measuring the frame …");
         } else {
-            const bool isOld = truth.judgements[0].frame != bench.result->variants[0].frame;
+            const bool isOld = truth.judgements[0].order != bench.result->order;
             ImGui::TextDisabled(isOld ? "Of a frame before this one." : "Of this frame.");
             bench.map.control("error.frame", isOld ? "old" : "new");
             drawTable(bench, "caustic, all paths", &TruthState::Judgement::whole);

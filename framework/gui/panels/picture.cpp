@@ -86,7 +86,7 @@ Other otherImage(const Bench& bench) {
         case Beside::error:
             if (truth.judgements[0].heatMap) {
                 return {truth.judgements[0].heatMap.get(),
-                        2000000011ull + truth.judgements[0].frame + truth.photons, true, "error"};
+                        2000000011ull + truth.judgements[0].order + truth.photons, true, "error"};
             }
             break;
     }
