@@ -45,6 +45,7 @@ struct ViewedTexture {
 // Of one way to render.
 struct VariantResult {
     std::uint64_t frame = 0;  // counts the frames of this variant
+    std::uint64_t order = 0;  // that the frame answers
     std::string error;        // why there is no newer picture; "" where all is well
     bool isPreview = false;   // smaller, and without caustics
     bool isSettled = false;   // the order's frames are done: nothing will change any more

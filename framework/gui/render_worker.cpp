@@ -214,10 +214,10 @@ void RenderWorker::serve(Device& device) {
                 device.number = number_;
                 working_.order = number_;
                 working_.document = device.order.document;
-                if (!isSame) {
-                    device.framesDone = 0;
-                    for (VariantResult& variant : working_.variants)
-                        variant.isSettled = false;
+                if (!isSame) device.framesDone = 0;
+                for (VariantResult& variant : working_.variants) {
+                    if (isSame) variant.order = number_;
+                    variant.isSettled = variant.isSettled && isSame;
                 }
                 device.hasExtras = false;
             } else if (!request && !hasWork) {
@@ -298,6 +298,7 @@ void RenderWorker::renderOnce(Device& device) {
                       order.isPrecise ? gl::TimerMode::finish : gl::TimerMode::timestamps, goesOn);
         if (!isWhole) return;  // there is a newer order
         working_.variants[i] = renderer->result();
+        working_.variants[i].order = device.number;
         hasFailed = hasFailed && !renderer->result().error.empty();
         post();
     }
@@ -327,6 +328,7 @@ void RenderWorker::renderExtras(Device& device) {
     for (std::size_t i = 0; i < device.variants(); ++i) {
         if (!device.renderers[i]) continue;
         working_.variants[i] = device.renderers[i]->result();
+        working_.variants[i].order = device.number;
         working_.variants[i].isSettled = device.order.frames != 0;
     }
     post();

@@ -187,7 +187,7 @@ void Workbench::takeNews() {
     // The next step of an animation, once this one is seen.
     const VariantResult& first = bench_.result->variants[0];
     if (bench_.isPlaying && bench_.isSceneCurrent() && first.frame != playedFrame_ &&
-        bench_.result->order == orderNumber_) {
+        first.order == orderNumber_) {
         playedFrame_ = first.frame;
         const double now =
             bench_.document.edits.timeSeconds.value_or(bench_.result->scene->timeSeconds);
@@ -251,7 +251,7 @@ void Workbench::aimTruth() {
     const VariantResult& first = result.variants[0];
     // Only of what has been rendered as it stands, and not of every step of a movement.
     if (bench_.isPlaying || bench_.isDragging || first.isPreview || first.frame == 0 ||
-        result.order != orderNumber_ || !first.error.empty() || !result.problem.empty()) {
+        first.order != orderNumber_ || !first.error.empty() || !result.problem.empty()) {
         return;
     }
     const TruthAim aim{result.document.scene, result.document.edits, result.document.size,
@@ -259,15 +259,16 @@ void Workbench::aimTruth() {
     truthWorker_.aim(aim);
     // Frames of one order are the same: one is judged.
     const bool isNew = result.order != judgedOrder_ || bench_.truth->photons != judgedPhotons_;
-    const bool hasBoth = !result.document.other || result.variants[1].outputs;
+    const VariantResult& second = result.variants[1];
+    const bool hasBoth = !result.document.other || (second.outputs && second.order == orderNumber_);
     if (bench_.truth->photons == 0 || !first.outputs || !hasBoth || !isNew ||
         bench_.truth->aim != aim) {
         return;
     }
     judgedOrder_ = result.order;
     judgedPhotons_ = bench_.truth->photons;
-    truthWorker_.judge({JudgedFrame{result.order, first.outputs},
-                        JudgedFrame{result.order, result.variants[1].outputs}});
+    truthWorker_.judge(
+        {JudgedFrame{result.order, first.outputs}, JudgedFrame{result.order, second.outputs}});
 }
 
 void Workbench::rememberForUndo() {
@@ -466,9 +467,9 @@ void Workbench::describe() {
     map_.status("scene", bench_.document.scene);
     map_.status("rendered_scene", result.scene ? result.scene->name : "");
     map_.status("order", orderNumber_);
-    map_.status("rendered_order", result.order);
+    map_.status("rendered_order", first.order);
     map_.status("frame", first.frame);
-    map_.status("settled", first.isSettled && result.order == orderNumber_);
+    map_.status("settled", first.isSettled && first.order == orderNumber_);
     map_.status("preview", first.isPreview);
     map_.status("error", first.error);
     map_.status("problem", result.problem);
