@@ -64,8 +64,10 @@ void drawPassRow(Bench& bench, const VariantResult& result, const graph::PassRec
         ImGui::TableNextColumn();
         const ImVec2 corner = ImGui::GetCursorScreenPos();
         ImDrawList& draw = *ImGui::GetWindowDrawList();
-        draw.PushClipRect(corner, {ImGui::GetWindowPos().x + ImGui::GetWindowWidth(),
-                                   corner.y + ImGui::GetTextLineHeight()});
+        const ImVec2 low = ImGui::GetWindowPos();
+        const ImVec2 high(low.x + ImGui::GetWindowWidth(), low.y + ImGui::GetWindowHeight());
+        draw.PushClipRect({corner.x, std::max(corner.y, low.y)},
+                          {high.x, std::min(corner.y + ImGui::GetTextLineHeight(), high.y)});
         draw.AddText(corner, ImGui::GetColorU32(kGrey), pass.why.c_str());
         draw.PopClipRect();
         return;
