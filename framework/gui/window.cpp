@@ -135,6 +135,11 @@ void Window::close() {
     glfwSetWindowShouldClose(window_, GLFW_TRUE);
 }
 
+void Window::hide() {
+    glfwHideWindow(window_);
+    glfwPollEvents();
+}
+
 void Window::beginFrame(double waitSeconds) {
     hadInput_ = !dropped_.empty();
     if (waitSeconds > 0.0) {

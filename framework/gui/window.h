@@ -30,6 +30,8 @@ class Window {
 
     [[nodiscard]] bool isClosing() const;
     void close();
+    // At once, whatever is still to be put away.
+    void hide();
     // Waits for input, but not longer than so many seconds; then begins a frame of the interface.
     void beginFrame(double waitSeconds);
     // Draws it. Throws DeviceError (exit code 3) when the window's context is lost.

@@ -8,6 +8,7 @@
 #include <ctime>
 #include <nlohmann/json.hpp>
 
+#include "framework/app/progress.h"
 #include "framework/core/error.h"
 #include "framework/core/files.h"
 #include "framework/gui/panels/panels.h"
@@ -132,6 +133,7 @@ void Workbench::run() {
                               ImGui::IsAnyItemActive() || window_.hadInput();
         // Dear ImGui needs a few frames to answer what it was told.
         if (hasInput) framesToDraw_ = 3;
+        if (app::isInterrupted()) window_.close();
         takeNews();
         takeDropped();
         bench_.isDragging = false;
@@ -145,11 +147,15 @@ void Workbench::run() {
         window_.endFrame();
         map_.endFrame();
         saveScreenshot();
+        finishScreenshot();
         keepNowAndThen();
         interfaceMs_.push_back(
             std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
         if (interfaceMs_.size() > kInterfaceFramesKept) interfaceMs_.pop_front();
     }
+    // The pass at hand may take seconds yet.
+    keep();
+    window_.hide();
 }
 
 // How long the window may sleep, s: while the hand is at work not at all.
@@ -486,7 +492,7 @@ void Workbench::describe() {
 }
 
 void Workbench::saveScreenshot() {
-    if (!bench_.wantsScreenshot) return;
+    if (!bench_.wantsScreenshot || screenshot_.valid()) return;
     bench_.wantsScreenshot = false;
     Image image;
     image.values = window_.readPixels(image.width, image.height);
@@ -497,12 +503,31 @@ void Workbench::saveScreenshot() {
     const fs::path file = fs::path(bench_.panels.recordFolder) /
                           fmt::format("workbench-{:02}{:02}{:02}{}", local.tm_hour, local.tm_min,
                                       local.tm_sec, displayImageExtension());
-    try {
-        writeImage(file, image);
-        bench_.say(fmt::format("Wrote {}.", file.string()));
-    } catch (const Error& error) {
-        bench_.say(error.what(), true);
+    // A large picture takes longer to compress than the window may be asleep.
+    screenshot_ =
+        std::async(std::launch::async, [file, picture = std::move(image)]() -> std::string {
+            try {
+                writeImage(file, picture);
+                return {};
+            } catch (const Error& error) {
+                return error.what();
+            }
+        });
+    bench_.say(fmt::format("Writing {}.", file.string()));
+}
+
+void Workbench::finishScreenshot() {
+    if (!screenshot_.valid() ||
+        screenshot_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+        return;
     }
+    const std::string problem = screenshot_.get();
+    if (!problem.empty()) {
+        bench_.say(problem, true);
+    } else if (bench_.message.starts_with("Writing ")) {
+        bench_.say("Wrote " + bench_.message.substr(8));
+    }
+    framesToDraw_ = std::max(framesToDraw_, 2);
 }
 
 }  // namespace kaustik::gui

@@ -4,6 +4,7 @@
 
 #include <deque>
 #include <filesystem>
+#include <future>
 #include <memory>
 #include <string>
 
@@ -46,6 +47,7 @@ class Workbench {
     void undo(int direction);
     void describe();
     void saveScreenshot();
+    void finishScreenshot();
     [[nodiscard]] double patience() const;
 
     const Registry& registry_;
@@ -69,7 +71,8 @@ class Workbench {
     std::string keptText_;
     Clock::time_point keptAt_;
     int framesToDraw_ = 3;
-    std::deque<double> interfaceMs_;  // what the newest frames of the interface took
+    std::future<std::string> screenshot_;  // being written; why it failed, or nothing
+    std::deque<double> interfaceMs_;       // what the newest frames of the interface took
 };
 
 }  // namespace kaustik::gui
