@@ -28,6 +28,21 @@ std::string& lastGlfwError() {
     return error;
 }
 
+// A window may have been left on a larger screen.
+void fitToScreen(GLFWwindow* window) {
+    GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+    int x = 0;
+    int y = 0;
+    int width = 0;
+    int height = 0;
+    if (monitor != nullptr) glfwGetMonitorWorkarea(monitor, &x, &y, &width, &height);
+    int ownWidth = 0;
+    int ownHeight = 0;
+    glfwGetWindowSize(window, &ownWidth, &ownHeight);
+    if (width > 0 && height > 0 && (ownWidth > width || ownHeight > height))
+        glfwSetWindowSize(window, std::min(ownWidth, width), std::min(ownHeight, height));
+}
+
 GLFWwindow* tryWindow(const std::string& title, const Window::Placement& placement, int api,
                       bool robust) {
     glfwDefaultWindowHints();
@@ -37,6 +52,9 @@ GLFWwindow* tryWindow(const std::string& title, const Window::Placement& placeme
     glfwWindowHint(GLFW_CONTEXT_CREATION_API, api);
     glfwWindowHint(GLFW_DEPTH_BITS, 0);
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
+    glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);  // until it has its size and place
+    // At the first start; later the size is the one that it was left with.
+    if (placement.x < 0) glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
     if (robust) glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);
     return glfwCreateWindow(placement.width, placement.height, title.c_str(), nullptr, nullptr);
 }
@@ -66,11 +84,13 @@ Window::Window(const std::string& title, const Placement& placement, const fs::p
                         lastGlfwError(), kWithoutWindow),
             kExitFailed);
     }
+    fitToScreen(window_);
+    if (placement.x >= 0 && placement.y >= 0) glfwSetWindowPos(window_, placement.x, placement.y);
+    glfwShowWindow(window_);
     glfwMakeContextCurrent(window_);
     glfwSwapInterval(1);
     const GLubyte* name = glGetString(GL_RENDERER);
     renderer_ = name != nullptr ? reinterpret_cast<const char*>(name) : "";
-    if (placement.x >= 0 && placement.y >= 0) glfwSetWindowPos(window_, placement.x, placement.y);
     glfwSetWindowUserPointer(window_, this);
     // Before Dear ImGui's own, which call these.
     glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** paths) {
