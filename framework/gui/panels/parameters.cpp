@@ -43,7 +43,9 @@ void drawRow(Bench& bench, const params::ParamSet& params, const params::NamedFi
     tooltip(named.field.sentence);
     ImGui::TableNextColumn();
     const float unitWidth =
-        named.field.unit.empty() ? 0.0f : ImGui::CalcTextSize(named.field.unit.c_str()).x + 6.0f;
+        named.field.unit.empty()
+            ? 0.0f
+            : ImGui::CalcTextSize(named.field.unit.c_str()).x + 8.0f * bench.scale;
     const float markWidth = isChanged ? ImGui::GetFontSize() * 1.6f : 0.0f;
     ImGui::SetNextItemWidth(
         std::max(40.0f, ImGui::GetContentRegionAvail().x - unitWidth - markWidth));
