@@ -142,9 +142,10 @@ void Workbench::run() {
         submitChanges();
         aimTruth();
         describe();
+        window_.drawFrame();
+        saveScreenshot();
         window_.endFrame();
         map_.endFrame();
-        saveScreenshot();
         keepNowAndThen();
         interfaceMs_.push_back(
             std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
