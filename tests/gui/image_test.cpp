@@ -86,6 +86,11 @@ TEST_F(ImagePanel, ChannelsExposureAndFalseColoursChangeHowItIsSeen) {
     start(showing("caustic.irradiance"));
     open("Image");
     const Image plain = seenPicture();
+    bench->click("image.fit");
+    // The brightest hundredth of what is lit is white, and hardly more.
+    const float brightest = 1000.0f;  // W/m², the sun's; the caustic's is up to twice as much
+    EXPECT_NEAR(std::stof(bench->value("image.exposure")), -std::log2(1.5f * brightest), 0.6f);
+    EXPECT_LT(meanOf(seenPicture()), meanOf(plain));
     bench->typeInto("image.exposure", "-6", Entry::controlClick);
     const Image darker = seenPicture();
     EXPECT_LT(meanOf(darker), meanOf(plain));
@@ -166,8 +171,9 @@ class EditedShaders : public ImagePanel {
         return original.find('\n', original.find("ivec2 pixel = ")) + 1;
     }
     void start() {
-        WorkbenchTest::start(showing("compose.receiver_radiance"),
-                             {{"KAUSTIK_ROOT", root.string()}});
+        json kept = showing("compose.receiver_radiance");
+        kept["view"]["exposure"] = -8.0;  // up to 256 W/m²/sr are told apart
+        WorkbenchTest::start(kept, {{"KAUSTIK_ROOT", root.string()}});
         open("Image");
     }
     void untilShaderIs(bool isBroken) {
@@ -214,7 +220,7 @@ TEST_F(EditedShaders, ABrokenShaderIsExplainedAndTheLastGoodOneStaysInUse) {
     untilSettled();
     EXPECT_EQ(largestDifference(seenPicture(), before), 0.0);
     bench->keepScreenshot("image-broken-shader");
-    edit("radiance = vec4(0.25); return;");
+    edit("radiance = vec4(64.0); return;");
     untilShaderIs(false);
     untilSettled();
     const Image grey = seenPicture();
