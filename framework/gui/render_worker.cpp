@@ -343,6 +343,8 @@ void RenderWorker::reloadShaders(Device& device) {
             problem += (problem.empty() ? "" : "\n") + error;
     }
     working_.shaderProblem = problem;
+    for (VariantResult& variant : working_.variants)
+        variant.isSettled = false;
     device.framesDone = 0;
     device.hasExtras = false;
     post();

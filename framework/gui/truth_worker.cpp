@@ -191,6 +191,7 @@ void TruthWorker::look(Loaded& loaded, const TruthAim& aim) {
 
 void TruthWorker::computeMore(Loaded& loaded, std::uint64_t photons) {
     if (!loaded.embree) loaded.embree.emplace(loaded.scene);
+    photons = std::max(photons, 2 * loaded.request.photonsPerBatch);  // else its error is unknown
     const std::uint64_t before = loaded.whole ? loaded.whole->photons : 0;
     const std::uint64_t target =
         std::min(photons, before + std::max(kPhotonsAtOnce / 8, std::min(before, kPhotonsAtOnce)));

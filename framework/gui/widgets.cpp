@@ -87,12 +87,15 @@ void sparkline(const std::vector<double>& values, ImVec2 size) {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     ImGui::Dummy(size);
     if (values.size() < 2) return;
-    const double most = std::max(*std::max_element(values.begin(), values.end()), 1e-9);
+    // One value that is far out, as of a frame that compiles, would leave the others no height.
+    const double most = std::max(
+        std::min(*std::max_element(values.begin(), values.end()), 3.0 * medianOf(values)), 1e-9);
     std::vector<ImVec2> points;
     for (std::size_t i = 0; i < values.size(); ++i) {
         points.emplace_back(
             corner.x + size.x * static_cast<float>(i) / static_cast<float>(values.size() - 1),
-            corner.y + size.y * (1.0f - 0.9f * static_cast<float>(values[i] / most)));
+            corner.y +
+                size.y * (1.0f - 0.9f * static_cast<float>(std::min(values[i] / most, 1.0))));
     }
     ImGui::GetWindowDrawList()->AddPolyline(points.data(), static_cast<int>(points.size()),
                                             ImGui::GetColorU32(ImGuiCol_PlotLines), 0, 1.0f);

@@ -172,7 +172,7 @@ void Window::beginFrame(double waitSeconds) {
     ImGui::NewFrame();
 }
 
-void Window::endFrame() {
+void Window::drawFrame() {
     ImGui::Render();
     int width = 0;
     int height = 0;
@@ -182,6 +182,9 @@ void Window::endFrame() {
     glClearColor(0.06f, 0.06f, 0.07f, 1.0f);
     glClear(GL_COLOR_BUFFER_BIT);
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+void Window::endFrame() {
     glfwSwapBuffers(window_);
     if (isRobust_ && glGetGraphicsResetStatus() != GL_NO_ERROR) {
         throw DeviceError(
@@ -212,7 +215,7 @@ std::vector<float> Window::readPixels(int& width, int& height) const {
     std::vector<GLubyte> bytes(3 * count);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
-    glReadBuffer(GL_FRONT);
+    glReadBuffer(GL_BACK);
     glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, bytes.data());
     std::vector<float> values(bytes.size());
     const std::size_t row = 3 * static_cast<std::size_t>(width);

@@ -34,7 +34,9 @@ class Window {
     void hide();
     // Waits for input, but not longer than so many seconds; then begins a frame of the interface.
     void beginFrame(double waitSeconds);
-    // Draws it. Throws DeviceError (exit code 3) when the window's context is lost.
+    // Draws it, not seen yet.
+    void drawFrame();
+    // Shows it. Throws DeviceError (exit code 3) when the window's context is lost.
     void endFrame();
     // Ends a wait from any thread.
     static void wake();
@@ -43,7 +45,8 @@ class Window {
     [[nodiscard]] std::vector<std::string> takeDropped();
     [[nodiscard]] Placement placement() const;
     [[nodiscard]] float scale() const { return scale_; }  // of the interface, 1 at 96 dpi
-    // What is seen now, 8 bits RGB, top row first; of the frame that was drawn last.
+    // What was drawn and is not shown yet, 8 bits RGB, top row first: what is seen is not readable
+    // on every platform.
     [[nodiscard]] std::vector<float> readPixels(int& width, int& height) const;
     // Whether anything has happened that needs more than one frame to settle.
     [[nodiscard]] bool hadInput() const { return hadInput_; }

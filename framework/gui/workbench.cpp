@@ -144,9 +144,10 @@ void Workbench::run() {
         submitChanges();
         aimTruth();
         describe();
+        window_.drawFrame();
+        saveScreenshot();
         window_.endFrame();
         map_.endFrame();
-        saveScreenshot();
         finishScreenshot();
         keepNowAndThen();
         interfaceMs_.push_back(

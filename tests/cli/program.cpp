@@ -109,6 +109,15 @@ bool Program::isRunning() const {
     return ended.si_pid != process_;
 }
 
+std::string Program::ending() const {
+    siginfo_t ended{};
+    if (process_ <= 0) return "";
+    ::waitid(P_PID, static_cast<id_t>(process_), &ended, WEXITED | WNOHANG | WNOWAIT);
+    if (ended.si_pid != process_) return "";
+    return (ended.si_code == CLD_EXITED ? "exit code " : "signal ") +
+           std::to_string(ended.si_status);
+}
+
 std::string Program::messages() const {
     return contentsOf(captured_ / "err");
 }

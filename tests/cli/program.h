@@ -40,6 +40,8 @@ class Program {
     void waitUntilItHandles(int signal) const;
     void send(int signal) const;
     [[nodiscard]] bool isRunning() const;
+    // How it has ended, before wait(): "exit code 0", "signal 11"; "" while it runs.
+    [[nodiscard]] std::string ending() const;
     // What it has written to standard error so far.
     [[nodiscard]] std::string messages() const;
     [[nodiscard]] Outcome wait();

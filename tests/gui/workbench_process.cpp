@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tests/gui/workbench_process.h"
 
+#include <signal.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -128,8 +130,8 @@ void WorkbenchProcess::waitFor(const std::string& what,
          (missing.empty() ? "" : "\n" + missing));
 }
 
-void WorkbenchProcess::hover(const std::string& control) {
-    const Place place = placeOf(control);
+void WorkbenchProcess::hover(const std::string& control, Spot spot) {
+    const Place place = placeOf(control, spot);
     desktop_.moveTo(place.x, place.y);
     untilTaken();
 }
@@ -157,8 +159,8 @@ void WorkbenchProcess::keyUp(const std::string& chord) {
     untilTaken();
 }
 
-void WorkbenchProcess::click(const std::string& control, unsigned button) {
-    hover(control);
+void WorkbenchProcess::click(const std::string& control, unsigned button, Spot spot) {
+    hover(control, spot);
     press(button);
     release(button);
 }
@@ -190,19 +192,20 @@ void WorkbenchProcess::doubleClick(const std::string& control) {
     untilTaken();
 }
 
-void WorkbenchProcess::drag(const std::string& control, int dx, int dy, unsigned button) {
+void WorkbenchProcess::drag(const std::string& control, int dx, int dy, unsigned button,
+                            Spot spot) {
     constexpr int steps = 10;
-    const Place from = placeOf(control);
-    hover(control);
+    const Place from = placeOf(control, spot);
+    hover(control, spot);
     press(button);
     desktop_.moveTo(from.x + dx, from.y + dy, steps);
     untilTaken();
     release(button);
 }
 
-void WorkbenchProcess::wheel(const std::string& control, int notches) {
-    hover(control);
-    const Place place = placeOf(control);
+void WorkbenchProcess::wheel(const std::string& control, int notches, Spot spot) {
+    const Place place = placeOf(control, spot);
+    hover(control, spot);
     desktop_.wheel(place.x, place.y, notches);
     untilTaken();
 }
@@ -226,13 +229,13 @@ void WorkbenchProcess::type(const std::string& text) {
 }
 
 void WorkbenchProcess::typeInto(const std::string& control, const std::string& text, Entry entry,
-                                const std::string& lastKey) {
+                                const std::string& lastKey, Spot spot) {
     if (entry == Entry::controlClick) {
         keyDown("ctrl");
-        click(control);
+        click(control, kLeftButton, spot);
         keyUp("ctrl");
     } else {
-        click(control);
+        click(control, kLeftButton, spot);
     }
     key("ctrl+a");
     type(text);
@@ -248,6 +251,11 @@ Outcome WorkbenchProcess::wait() {
     return program_.wait();
 }
 
+void WorkbenchProcess::kill() {
+    program_.send(SIGKILL);
+    static_cast<void>(program_.wait());
+}
+
 fs::path WorkbenchProcess::keepScreenshot(const std::string& name) {
     return desktop_.keepScreenshot(name);
 }
@@ -260,11 +268,11 @@ WindowId WorkbenchProcess::window() {
     return *window_;
 }
 
-Place WorkbenchProcess::placeOf(const std::string& control) {
+Place WorkbenchProcess::placeOf(const std::string& control, Spot spot) {
     const Rectangle rectangle = this->control(control);
     const Place origin = desktop_.originOf(window());
-    return {origin.x + static_cast<int>(std::floor(rectangle.x + rectangle.w / 2.0)),
-            origin.y + static_cast<int>(std::floor(rectangle.y + rectangle.h / 2.0))};
+    return {origin.x + static_cast<int>(std::floor(rectangle.x + spot.x * rectangle.w)),
+            origin.y + static_cast<int>(std::floor(rectangle.y + spot.y * rectangle.h))};
 }
 
 long WorkbenchProcess::frame() const {
@@ -297,8 +305,10 @@ bool WorkbenchProcess::poll(const std::string& what, const std::function<bool()>
 }
 
 void WorkbenchProcess::fail(const std::string& message) const {
-    const std::optional<Json> latest = description();
-    throw std::runtime_error(message +
+    std::optional<Json> latest = description();
+    if (latest) latest->at("status").erase("interface_ms");
+    const std::string ending = program_.ending();
+    throw std::runtime_error(message + (ending.empty() ? "" : "\nIt has ended with " + ending) +
                              "\nLast status: " + (latest ? latest->at("status").dump() : "none") +
                              "\nStandard error: " + program_.messages());
 }

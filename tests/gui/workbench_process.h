@@ -28,6 +28,12 @@ struct Rectangle {
     double h = 0.0;
 };
 
+// Where in a control, in parts of its width and height.
+struct Spot {
+    double x = 0.5;
+    double y = 0.5;
+};
+
 // How a control is made ready for typing.
 enum class Entry {
     click,         // a field for text: whatever is in it is selected, so that it is replaced
@@ -55,29 +61,35 @@ class WorkbenchProcess {
     // `what` completes "The workbench never showed ...".
     void waitFor(const std::string& what, const std::function<bool(const Json&)>& isSo);
 
-    // Mouse, in the middle of the control, which has to be in sight: the rectangle of one that is
-    // partly scrolled away is whole.
-    void hover(const std::string& control);
-    void click(const std::string& control, unsigned button = kLeftButton);
+    // Mouse, in the middle of what is in sight of the control or at another spot of it.
+    void hover(const std::string& control, Spot spot = {});
+    void click(const std::string& control, unsigned button = kLeftButton, Spot spot = {});
     // As a hand's, it takes an interface that is not too slow: 12 frames a second or more.
     void doubleClick(const std::string& control);
-    void drag(const std::string& control, int dx, int dy, unsigned button = kLeftButton);
-    void wheel(const std::string& control, int notches);
+    void drag(const std::string& control, int dx, int dy, unsigned button = kLeftButton,
+              Spot spot = {});
+    void wheel(const std::string& control, int notches, Spot spot = {});
     void dropFiles(const std::vector<std::filesystem::path>& files, const std::string& control);
 
     // Keyboard.
+    void keyDown(const std::string& chord);
+    void keyUp(const std::string& chord);
     void key(const std::string& chord);
     void type(const std::string& text);
     // Replaces what the control says, and ends with that key, "" for none.
     void typeInto(const std::string& control, const std::string& text, Entry entry = Entry::click,
-                  const std::string& lastKey = "Return");
+                  const std::string& lastKey = "Return", Spot spot = {});
 
     // The button in the window's frame, which is not there on this desktop.
     void close();
     [[nodiscard]] bool isRunning() const { return program_.isRunning(); }
     // Returns once it has ended by itself.
     [[nodiscard]] Outcome wait();
+    // Ends it at once, as a crash does.
+    void kill();
 
+    // Returns once everything that the workbench had been told by now is on the desktop.
+    void untilTaken();
     std::filesystem::path keepScreenshot(const std::string& name);
 
   private:
@@ -85,13 +97,9 @@ class WorkbenchProcess {
     [[nodiscard]] Json entryOf(const std::string& control);
     [[nodiscard]] long frame() const;  // of the latest description, -1 before the first
     [[nodiscard]] WindowId window();
-    // The middle of the control on the desktop.
-    [[nodiscard]] Place placeOf(const std::string& control);
-    void untilTaken();
+    [[nodiscard]] Place placeOf(const std::string& control, Spot spot = {});  // on the desktop
     void press(unsigned button);
     void release(unsigned button);
-    void keyDown(const std::string& chord);
-    void keyUp(const std::string& chord);
     // Polls until `isSo`, or until it has ended (false). Throws at the limit.
     bool poll(const std::string& what, const std::function<bool()>& isSo) const;
     [[noreturn]] void fail(const std::string& message) const;

@@ -26,6 +26,7 @@ void drawTruth(Bench& bench) {
     ImGui::PushTextWrapPos(0.0f);
     if (!truth.problem.empty())
         ImGui::TextColored(ImVec4(1.0f, 0.45f, 0.4f, 1.0f), "%s", truth.problem.c_str());
+    bench.map.area("error.problem", 0, 0, 0, 0, truth.problem);
     if (truth.work == TruthState::Work::looking) {
         ImGui::TextDisabled("Looking for a reference …");
     } else if (truth.photons > 0) {
@@ -42,7 +43,7 @@ void drawTruth(Bench& bench) {
 
     auto millions = static_cast<float>(bench.panels.truthPhotons * 1e-6);
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.5f);
-    if (ImGui::SliderFloat("million photons", &millions, 0.25f, 10000.0f, "%.3g",
+    if (ImGui::SliderFloat("million photons", &millions, 1.0f, 10000.0f, "%.3g",
                            ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp)) {
         bench.panels.truthPhotons = double(millions) * 1e6;
     }
@@ -115,9 +116,9 @@ void drawLedger(Bench& bench) {
     const EnergyLedger& ledger = *result.ledger;
     const double emitted = ledger.watts[kAccountEmitted];
     if (ImGui::BeginTable("ledger", 3, ImGuiTableFlags_RowBg)) {
-        ImGui::TableSetupColumn("energy", ImGuiTableColumnFlags_WidthStretch, 0.5f);
-        ImGui::TableSetupColumn("W", ImGuiTableColumnFlags_WidthStretch, 0.28f);
-        ImGui::TableSetupColumn("%", ImGuiTableColumnFlags_WidthStretch, 0.22f);
+        ImGui::TableSetupColumn("energy", ImGuiTableColumnFlags_WidthStretch, 2.0f);
+        ImGui::TableSetupColumn("W", ImGuiTableColumnFlags_WidthStretch, 1.0f);
+        ImGui::TableSetupColumn("%", ImGuiTableColumnFlags_WidthStretch, 1.0f);
         ImGui::TableHeadersRow();
         const auto row = [&](const std::string& name, double watts) {
             ImGui::TableNextRow();

@@ -71,6 +71,11 @@ void drawMapping(Bench& bench, const ViewedTexture* viewed) {
     } else if (viewed == nullptr || !viewed->isEncoded) {
         ImGui::SliderFloat("exposure (+ -)", &view.exposureStops, -20.0f, 20.0f, "%.1f stops");
         bench.map.control("image.exposure", fmt::format("{}", view.exposureStops));
+        // Irradiance is hundreds of W/m²: as it is, all of it is white.
+        if (viewed != nullptr && button(bench, "Expose for the image", "image.fit")) {
+            const float white = std::max(viewed->histogram.percentile99, 1e-6f);
+            view.exposureStops = std::clamp(-std::log2(white), -20.0f, 20.0f);
+        }
     } else {
         ImGui::TextDisabled("The picture is as it is written to beauty.png.");
     }
@@ -124,7 +129,7 @@ void drawProbe(Bench& bench) {
         bench.map.control("image.probe_landed", fmt::format("{}", probe->landed));
         if (ImGui::BeginTable("photons", 4, ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY)) {
             ImGui::TableSetupScrollFreeze(0, 1);
-            for (const char* name : {"photon", "px off", "µW", "surfaces"})
+            for (const char* name : {"photon", "px off", "W", "points"})
                 ImGui::TableSetupColumn(name);
             ImGui::TableHeadersRow();
             for (const PhotonPath& path : probe->paths) {
@@ -135,7 +140,7 @@ void drawProbe(Bench& bench) {
                 ImGui::Text("%.2f", double(path.pixels));
                 ImGui::TableNextColumn();
                 const glm::vec3& w = path.fluxWatts;
-                ImGui::Text("%.3g", 1e6 * double(w.r + w.g + w.b));
+                ImGui::Text("%.3g", double(w.r + w.g + w.b));
                 ImGui::TableNextColumn();
                 ImGui::Text("%zu", path.points.size());
             }

@@ -64,12 +64,15 @@ void drawPassRow(Bench& bench, const VariantResult& result, const graph::PassRec
         ImGui::TableNextColumn();
         const ImVec2 corner = ImGui::GetCursorScreenPos();
         ImDrawList& draw = *ImGui::GetWindowDrawList();
-        const ImVec2 low = ImGui::GetWindowPos();
-        const ImVec2 high(low.x + ImGui::GetWindowWidth(), low.y + ImGui::GetWindowHeight());
-        draw.PushClipRect({corner.x, std::max(corner.y, low.y)},
-                          {high.x, std::min(corner.y + ImGui::GetTextLineHeight(), high.y)});
+        const ImVec2 clipLow = draw.GetClipRectMin();  // of the column: below the header
+        const ImVec2 clipHigh = draw.GetClipRectMax();
+        draw.PushClipRect({corner.x, clipLow.y},
+                          {ImGui::GetWindowPos().x + ImGui::GetWindowWidth(), clipHigh.y});
         draw.AddText(corner, ImGui::GetColorU32(kGrey), pass.why.c_str());
         draw.PopClipRect();
+        bench.map.area("passes.why." + pass.name, corner.x, corner.y,
+                       ImGui::CalcTextSize(pass.why.c_str()).x, ImGui::GetTextLineHeight(),
+                       pass.why);
         return;
     }
     const double median = medianOf(times->gpuMilliseconds);
@@ -125,9 +128,9 @@ void drawPasses(Bench& bench) {
         ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit;
     if (!ImGui::BeginTable("passes", 7, kFlags)) return;
     ImGui::TableSetupScrollFreeze(0, 1);
-    const float number = ImGui::CalcTextSize("1000.00").x;
+    const float number = ImGui::CalcTextSize("GPU ms").x;
     ImGui::TableSetupColumn("on", 0, ImGui::GetFrameHeight());
-    ImGui::TableSetupColumn("pass", 0, ImGui::GetFontSize() * 6.5f);
+    ImGui::TableSetupColumn("pass", 0, ImGui::GetFontSize() * 8.0f);
     ImGui::TableSetupColumn("GPU ms", 0, number);
     ImGui::TableSetupColumn("median", 0, number);
     ImGui::TableSetupColumn("CPU ms", 0, number);

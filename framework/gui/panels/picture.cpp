@@ -95,6 +95,7 @@ Other otherImage(const Bench& bench) {
 
 void drawPixelValues(const Bench& bench, const Frame& frame, const Image& image) {
     if (frame.zoom < kPixelsForValues * bench.scale) return;
+    bench.map.area("picture.values", frame.corner.x, frame.corner.y, frame.size.x, frame.size.y);
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const glm::ivec2 first = glm::floor(frame.pixelAt(frame.corner));
     const glm::ivec2 last =
@@ -105,8 +106,11 @@ void drawPixelValues(const Bench& bench, const Frame& frame, const Image& image)
             for (int c = 0; c < image.channels; ++c)
                 text += fmt::format("{}{:.4g}", c == 0 ? "" : "\n", image.at(x, y, c));
             const ImVec2 at = frame.windowAt({x, y});
-            draw.AddText({at.x + 3.0f, at.y + 3.0f}, IM_COL32(0, 0, 0, 255), text.c_str());
-            draw.AddText({at.x + 2.0f, at.y + 2.0f}, IM_COL32(255, 255, 255, 255), text.c_str());
+            const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+            draw.AddRectFilled({at.x + 1.0f, at.y + 1.0f},
+                               {at.x + size.x + 5.0f, at.y + size.y + 1.0f},
+                               IM_COL32(0, 0, 0, 150));
+            draw.AddText({at.x + 3.0f, at.y + 1.0f}, IM_COL32(255, 255, 255, 255), text.c_str());
         }
     }
 }
@@ -334,6 +338,10 @@ void drawPicture(Bench& bench) {
                      1.5f * bench.scale);
         draw.AddText({splitX + 6.0f, corner.y + 4.0f}, IM_COL32(255, 255, 255, 255),
                      other.name.c_str());
+        if (view.beside == Beside::other) {
+            draw.AddText({splitX - 6.0f - ImGui::CalcTextSize("A").x, corner.y + 4.0f},
+                         IM_COL32(255, 255, 255, 255), "A");
+        }
         bench.map.area("picture.split", splitX - 3.0f, corner.y, 6.0f, size.y,
                        fmt::format("{}", view.split));
     }

@@ -45,7 +45,7 @@ void drawChoiceOfScene(Bench& bench) {
     }
     if (bench.result->scene) {
         const SceneFacts& facts = *bench.result->scene;
-        ImGui::TextWrapped("%s", facts.description.c_str());
+        if (!facts.description.empty()) ImGui::TextWrapped("%s", facts.description.c_str());
         ImGui::TextDisabled("%zu triangles; specular interfaces on the longest chain: %d",
                             facts.triangles, facts.needs.specularInterfaces);
     }
@@ -218,9 +218,12 @@ void drawScene(Bench& bench) {
         for (const scene::Light& light : facts.lights)
             drawLight(bench, light, speed);
     }
-    if (!facts.waters.empty() && ImGui::CollapsingHeader("Water")) {
-        for (const SceneFacts::Water& water : facts.waters)
-            drawWater(bench, water);
+    if (!facts.waters.empty()) {
+        const bool isOpen = ImGui::CollapsingHeader("Water");
+        bench.map.control("scene.header.water", isOpen ? "open" : "");
+        for (const SceneFacts::Water& water : facts.waters) {
+            if (isOpen) drawWater(bench, water);
+        }
     }
     if (facts.medium) drawMedium(bench, *facts.medium);
     ImGui::PopItemWidth();

@@ -123,6 +123,13 @@ void drawVariants(Bench& bench) {
             const std::string b = valueIn(*document.other, name);
             if (a != b) row(name, a, b);
         }
+        std::set<std::string> disabled = document.variant.disabled;
+        disabled.insert(document.other->disabled.begin(), document.other->disabled.end());
+        for (const std::string& pass : disabled) {
+            const bool isOffInA = document.variant.disabled.contains(pass);
+            const bool isOffInB = document.other->disabled.contains(pass);
+            if (isOffInA != isOffInB) row(pass, isOffInA ? "off" : "on", isOffInB ? "off" : "on");
+        }
         ImGui::EndTable();
     }
 }

@@ -10,6 +10,8 @@ namespace kaustik::gui {
 namespace {
 
 constexpr std::size_t kFramesShown = 64;
+// Frames that take longer, by this factor, reach beyond the chart.
+constexpr double kMostOfMedian = 3.0;
 
 }  // namespace
 
@@ -31,9 +33,12 @@ void drawTimeChart(Bench& bench) {
     double most = 1e-6;
     for (std::size_t frame = first; frame < frames; ++frame)
         most = std::max(most, result.frameMs[frame]);
+    // A frame that compiles takes many times as long, and would leave the others no height.
+    most = std::min(most, kMostOfMedian * medianOf(result.frameMs));
     const float width =
         std::min(size.x / static_cast<float>(frames - first), static_cast<float>(bench.px(24.0)));
     std::string pointed;
+    draw.PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
     for (std::size_t frame = first; frame < frames; ++frame) {
         // The newest at the right.
         const float x = corner.x + size.x - width * static_cast<float>(frames - frame);
@@ -53,6 +58,7 @@ void drawTimeChart(Bench& bench) {
             y -= height;
         }
     }
+    draw.PopClipRect();
     const std::string scale = fmt::format("{:.1f} ms", most);
     draw.AddText({corner.x + 4.0f, corner.y + 2.0f}, IM_COL32(200, 200, 200, 255), scale.c_str());
     if (!pointed.empty()) tooltip(pointed);

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+// The panel Error: the truth in the background, and how wrong the frame is beside it.
+#include <fmt/format.h>
+
+#include "framework/image/image.h"
+#include "tests/gui/workbench_fixture.h"
+
+namespace kaustik::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+class ErrorPanel : public WorkbenchTest {
+  protected:
+    static json withPhotons(double photons) {
+        json kept = keptWith(smallDocument());
+        kept["panels"]["truth_photons"] = photons;
+        return kept;
+    }
+    void untilJudged() {
+        bench->waitFor("the error of this frame", [](const json& screen) {
+            const json& controls = screen.at("controls");
+            // A reference that fails ends the wait, and the test.
+            return controls.at("error.problem").at("value") != "" ||
+                   (!controls.contains("error.progress") && controls.contains("error.rmse") &&
+                    controls.at("error.frame").at("value") == "new" &&
+                    screen.at("status").at("judged_frame") == screen.at("status").at("frame"));
+        });
+        ASSERT_EQ(bench->value("error.problem"), "");
+        untilSettled();
+    }
+    void computeReference() {
+        open("Error");
+        bench->click("error.compute");
+        untilJudged();
+    }
+    [[nodiscard]] std::uint64_t photons() { return bench->status().at("truth_photons"); }
+};
+
+TEST_F(ErrorPanel, TheInterfaceGoesOnWhileAReferenceIsComputed) {
+    start(withPhotons(2e8));
+    open("Error");
+    EXPECT_EQ(bench->value("error.reference"), "0");
+    bench->click("error.compute");
+    bench->waitFor("progress", [](const json& screen) {
+        return screen.at("controls").contains("error.progress");
+    });
+    const int before = bench->screen().at("frame");
+    bench->waitFor("twenty frames of the interface while it computes", [&](const json& screen) {
+        return screen.at("controls").contains("error.progress") &&
+               screen.at("frame").get<int>() > before + 20;
+    });
+    // What there is so far is shown and judged already.
+    bench->waitFor("an error while it computes", [](const json& screen) {
+        return screen.at("controls").contains("error.progress") &&
+               screen.at("controls").contains("error.rmse");
+    });
+    bench->keepScreenshot("error-computing");
+    // And the picture answers.
+    const json camera = document().at("edits");
+    bench->drag("picture", 30, 0);
+    EXPECT_NE(document().at("edits"), camera);
+    bench->key("r");
+}
+
+TEST_F(ErrorPanel, AReferenceThatIsStoppedStaysAndGoesOnLater) {
+    start(withPhotons(1e10));
+    open("Error");
+    bench->click("error.compute");
+    bench->waitFor("a first part", [](const json& screen) {
+        return screen.at("status").at("truth_photons").get<std::uint64_t>() > 0;
+    });
+    bench->click("error.stop");
+    bench->waitFor("the end of the work", [](const json& screen) {
+        return screen.at("controls").contains("error.compute");
+    });
+    const std::uint64_t stopped = photons();
+    EXPECT_GT(stopped, 0u);
+    endByClosing();
+
+    startAgain();
+    open("Error");
+    bench->waitFor("the reference of before", [&](const json& screen) {
+        return screen.at("status").at("truth_photons").get<std::uint64_t>() >= stopped;
+    });
+    bench->click("error.compute");
+    bench->waitFor("a better reference", [&](const json& screen) {
+        return screen.at("status").at("truth_photons").get<std::uint64_t>() > stopped;
+    });
+    // Closing in the middle loses nothing of it.
+    const std::uint64_t reached = photons();
+    endByClosing();
+    startAgain();
+    bench->waitFor("the reference of before", [&](const json& screen) {
+        return screen.at("status").at("truth_photons").get<std::uint64_t>() >= reached;
+    });
+}
+
+TEST_F(ErrorPanel, TheErrorsAreThoseOfARunAgainstTheSameReference) {
+    start();
+    computeReference();
+    bench->keepScreenshot("error");
+    EXPECT_GE(photons(), 1000000u);
+    const auto times = [&] {
+        std::map<std::string, fs::file_time_type> found;
+        for (const auto& entry : fs::directory_iterator(folder / "cache/references"))
+            found[entry.path().filename()] = entry.last_write_time();
+        return found;
+    };
+    const auto before = times();
+    renderSmall({"--reference", "auto", "--reference-photons", "1000000", "--out", "judged"});
+    EXPECT_EQ(times(), before) << "the run takes the reference that the workbench has computed";
+    const json error = readJson("judged/report.json").at("error");
+    const auto expectSame = [&](const json& errors, const std::string& prefix) {
+        for (const char* key : {"rmse", "rel_mse", "mae", "ssim", "flip_hdr", "energy_ratio"}) {
+            EXPECT_EQ(bench->value(prefix + key),
+                      fmt::format("{:.4g}", errors.at("caustic_irradiance").at(key).get<double>()))
+                << prefix << key;
+        }
+    };
+    expectSame(error, "error.");
+    expectSame(error.at("modelled_paths"), "error.modelled.");
+}
+
+TEST_F(ErrorPanel, AWorseFrameHasALargerError) {
+    start();
+    computeReference();
+    const double before = std::stod(bench->value("error.rmse"));
+    open("Parameters");
+    bench->typeInto("parameter.layers.count", "1", Entry::controlClick);
+    open("Error");
+    untilJudged();
+    EXPECT_GT(std::stod(bench->value("error.rmse")), 1.5 * before) << "the floor is not found";
+}
+
+TEST_F(ErrorPanel, TheHeatMapAndTheTruthAreSeenBesideThePicture) {
+    start();
+    computeReference();
+    const Image before = seenPicture();
+    bench->click("error.heat_map");
+    untilSettled();
+    ASSERT_TRUE(bench->has("picture.split"));
+    const Image beside = seenPicture();
+    bench->keepScreenshot("error-heat-map");
+    const int middle = before.width / 2;
+    EXPECT_EQ(largestDifference(columns(beside, 0, middle - 4), columns(before, 0, middle - 4)),
+              0.0);
+    EXPECT_GT(largestDifference(columns(beside, middle + 4, before.width),
+                                columns(before, middle + 4, before.width)),
+              0.2);
+    bench->click("error.heat_map");
+    EXPECT_FALSE(bench->has("picture.split"));
+
+    open("Image");
+    choose("image.beside", "the truth");
+    untilSettled();
+    ASSERT_TRUE(bench->has("picture.split"));
+    bench->keepScreenshot("error-truth");
+    // Irradiance on both sides: where the sun shines straight on the floor there is none of it.
+    bench->hover("picture.image", pixel(50, 44));
+    const std::string lit = bench->value("picture.value");
+    EXPECT_TRUE(lit.starts_with("(50, 44)  0  0  0")) << lit;
+}
+
+TEST_F(ErrorPanel, TheLedgerCloses) {
+    start();
+    open("Error");
+    EXPECT_LT(std::abs(std::stod(bench->value("error.balance"))), 1e-6);
+}
+
+}  // namespace
+}  // namespace kaustik::test

@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: MIT
+// The panel Image and what is read off the picture: textures, layers, values of pixels, values that
+// are no numbers, photons.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "framework/core/files.h"
+#include "framework/image/image.h"
+#include "tests/gui/workbench_fixture.h"
+
+namespace kaustik::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+class ImagePanel : public WorkbenchTest {
+  protected:
+    static json showing(const std::string& resource, int layer = 0) {
+        json kept = keptWith(smallDocument());
+        kept["view"]["resource"] = resource;
+        kept["view"]["layer"] = layer;
+        return kept;
+    }
+    // What the line under the picture says of the pixel that the mouse is on: "(x, y)  v v v".
+    [[nodiscard]] std::vector<double> valuesUnderMouse() {
+        std::istringstream line(bench->value("picture.value"));
+        line.ignore(100, ')');
+        std::vector<double> values;
+        for (double value = 0.0; line >> value;)
+            values.push_back(value);
+        return values;
+    }
+    // A texture as `kaustik run` saves it.
+    [[nodiscard]] Image saved(const std::string& resource, const std::string& file = "") {
+        renderSmall({"--save", resource, "--out", "saved"});
+        return readImage(folder / "saved" /
+                         ((file.empty() ? resource : file) + floatImageExtension()));
+    }
+};
+
+// Five digits are shown.
+constexpr double kShownDigits = 1e-4;
+
+TEST_F(ImagePanel, AnyTextureIsShownWithItsLayersAndValues) {
+    start();
+    open("Image");
+    const Image picture = seenPicture();
+    choose("image.texture", "layers.depth");
+    untilSettled();
+    EXPECT_EQ(bench->value("image.layer"), "0");
+    bench->typeInto("image.layer", "1", Entry::controlClick);
+    untilSettled();
+    EXPECT_GT(largestDifference(seenPicture(), picture), 0.1);
+    bench->keepScreenshot("image-layer");
+    const Image layer = saved("layers.depth", "layers.depth.1");
+    for (const auto& [x, y] : {std::pair{32, 26}, std::pair{24, 20}, std::pair{40, 34}}) {
+        bench->hover("picture.image", pixel(x, y));
+        EXPECT_TRUE(bench->value("picture.value").starts_with(fmt::format("({}, {})", x, y)));
+        const std::vector<double> values = valuesUnderMouse();
+        ASSERT_EQ(values.size(), 4u);
+        for (int c = 0; c < layer.channels; ++c) {
+            const auto expected = static_cast<double>(layer.at(x, y, c));
+            EXPECT_NEAR(values[static_cast<std::size_t>(c)], expected,
+                        kShownDigits * std::abs(expected));
+        }
+    }
+}
+
+TEST_F(ImagePanel, ATextureThatNothingNeedsIsMadeToBeSeen) {
+    json kept = keptWith(smallDocument());
+    kept["document"]["variant"]["disable"] = {"compose.direct"};
+    start(kept);
+    EXPECT_EQ(bench->value("passes.name.shadow.map"), "culled");
+    open("Image");
+    choose("image.texture", "shadow.visibility");
+    untilSettled();
+    EXPECT_EQ(bench->value("passes.name.shadow.map"), "ran");
+    EXPECT_EQ(bench->value("passes.name.shadow.lookup"), "ran");
+}
+
+TEST_F(ImagePanel, ChannelsExposureAndFalseColoursChangeHowItIsSeen) {
+    start(showing("caustic.irradiance"));
+    open("Image");
+    const Image plain = seenPicture();
+    bench->click("image.fit");
+    // The brightest hundredth of what is lit is white, and hardly more.
+    const float brightest = 1000.0f;  // W/m², the sun's; the caustic's is up to twice as much
+    EXPECT_NEAR(std::stof(bench->value("image.exposure")), -std::log2(1.5f * brightest), 0.6f);
+    EXPECT_LT(meanOf(seenPicture()), meanOf(plain));
+    bench->typeInto("image.exposure", "-6", Entry::controlClick);
+    const Image darker = seenPicture();
+    EXPECT_LT(meanOf(darker), meanOf(plain));
+    bench->key("+");
+    EXPECT_EQ(bench->value("image.exposure"), "-5.5");
+    EXPECT_GT(meanOf(seenPicture()), meanOf(darker));
+    bench->key("-");
+
+    bench->key("f");
+    EXPECT_EQ(bench->value("image.false_color"), "on");
+    const Image coloured = seenPicture();
+    bench->keepScreenshot("image-false-colours");
+    // White light on grey chalk has no hue; false colours have.
+    const auto hue = [](const Image& image) {
+        double largest = 0.0;
+        for (std::size_t i = 0; i + 2 < image.values.size(); i += 3) {
+            largest = std::max(
+                largest, static_cast<double>(std::abs(image.values[i] - image.values[i + 2])));
+        }
+        return largest;
+    };
+    EXPECT_LT(hue(darker), 0.02);
+    EXPECT_GT(hue(coloured), 0.3);
+    bench->click("image.range_automatic");
+    EXPECT_TRUE(bench->has("image.range"));
+    bench->key("f");
+    EXPECT_EQ(largestDifference(seenPicture(), darker), 0.0);
+    choose("image.channel", "alpha");
+    EXPECT_GT(largestDifference(seenPicture(), darker), 0.1);
+}
+
+TEST_F(ImagePanel, TheWheelZoomsToThePixelUnderTheMouseUntilItsValuesAreWritten) {
+    start(showing("caustic.irradiance"));
+    const Image whole = seenPicture();
+    const Spot spot = {0.6, 0.55};
+    bench->hover("picture", spot);
+    const std::string before = bench->value("picture.value");
+    EXPECT_FALSE(bench->has("picture.values"));
+    bench->wheel("picture", 9, spot);
+    EXPECT_EQ(bench->value("picture.value"), before);
+    EXPECT_TRUE(bench->has("picture.values"));
+    bench->keepScreenshot("image-values");
+    const double x = bench->control("picture.image").x;
+    bench->drag("picture", 70, 0, kMiddleButton);
+    EXPECT_NEAR(bench->control("picture.image").x, x + 70.0, 2.0);
+    EXPECT_FALSE(document().at("edits").contains("camera"));
+    bench->key("0");
+    EXPECT_FALSE(bench->has("picture.values"));
+    EXPECT_EQ(largestDifference(seenPicture(), whole), 0.0);
+    bench->click("toolbar.one_to_one");
+    EXPECT_EQ(bench->control("picture.image").w, 64.0);
+    bench->click("toolbar.fit");
+    EXPECT_EQ(largestDifference(seenPicture(), whole), 0.0);
+}
+
+// The framework's own files but for the shaders, of which there are copies to be edited.
+class EditedShaders : public ImagePanel {
+  protected:
+    EditedShaders() {
+        fs::create_directories(root);
+        for (const auto& entry : fs::directory_iterator(projectRoot())) {
+            if (entry.path().filename() != "shaders")
+                fs::create_symlink(entry.path(), root / entry.path().filename());
+        }
+        fs::copy(projectRoot() / "shaders", root / "shaders", fs::copy_options::recursive);
+        original = readFile(shader);
+    }
+    // Puts it at the beginning of what composes the receivers' radiance for a `pixel`.
+    void edit(const std::string& line) const {
+        writeFileWhole(shader,
+                       original.substr(0, place()) + line + "\n" + original.substr(place()));
+    }
+    [[nodiscard]] long lineOfEdit() const {
+        return 1 +
+               std::count(original.begin(), original.begin() + static_cast<long>(place()), '\n');
+    }
+    [[nodiscard]] std::size_t place() const {
+        return original.find('\n', original.find("ivec2 pixel = ")) + 1;
+    }
+    void start() {
+        json kept = showing("compose.receiver_radiance");
+        kept["view"]["exposure"] = -8.0;  // up to 256 W/m²/sr are told apart
+        WorkbenchTest::start(kept, {{"KAUSTIK_ROOT", root.string()}});
+        open("Image");
+    }
+    void untilShaderIs(bool isBroken) {
+        bench->waitFor(isBroken ? "the shader's error" : "a mended shader",
+                       [&](const json& screen) {
+                           return screen.at("controls").contains("status.shader") == isBroken;
+                       });
+    }
+
+    fs::path root = folder / "root";
+    fs::path shader = root / "shaders/shared/radiance.frag";
+    std::string original;
+};
+
+TEST_F(EditedShaders, ValuesThatAreNoNumbersAreFlaggedAndCounted) {
+    start();
+    EXPECT_EQ(bench->value("image.not_finite"), "0");
+    // A column of NaN in red, half of it of infinity in green: 48 + 24 values.
+    edit(
+        "if (pixel.x == 5) {\n"
+        "    radiance = vec4(intBitsToFloat(0x7fc00000), 1.0, 1.0, 1.0);\n"
+        "    if (pixel.y % 2 == 0) radiance.g = intBitsToFloat(0x7f800000);\n"
+        "    return;\n"
+        "}");
+    bench->waitFor("values that are not finite", [](const json& screen) {
+        return screen.at("controls").at("image.not_finite").at("value") == "72";
+    });
+    bench->keepScreenshot("image-not-finite");
+    edit("");
+    bench->waitFor("finite values", [](const json& screen) {
+        return screen.at("controls").at("image.not_finite").at("value") == "0";
+    });
+}
+
+TEST_F(EditedShaders, ABrokenShaderIsExplainedAndTheLastGoodOneStaysInUse) {
+    start();
+    const Image before = seenPicture();
+    edit("radiance = noSuchThing;");
+    untilShaderIs(true);
+    EXPECT_TRUE(says("status.shader", "shaders/shared/radiance.frag"));
+    EXPECT_TRUE(says("status.shader", fmt::format(":{}:", lineOfEdit())))
+        << bench->value("status.shader");
+    EXPECT_TRUE(says("status.shader", "noSuchThing"));
+    untilSettled();
+    EXPECT_EQ(largestDifference(seenPicture(), before), 0.0);
+    bench->keepScreenshot("image-broken-shader");
+    edit("radiance = vec4(64.0); return;");
+    untilShaderIs(false);
+    untilSettled();
+    const Image grey = seenPicture();
+    EXPECT_EQ(std::count(grey.values.begin(), grey.values.end(), grey.values.front()),
+              static_cast<std::ptrdiff_t>(grey.values.size()));
+    edit("");
+    bench->waitFor("the picture of before",
+                   [&](const json&) { return largestDifference(seenPicture(), before) == 0.0; });
+}
+
+// Where the photons of a run went that another process made, with the camera of the scene's file.
+class ProbedPhotons : public ImagePanel {
+  protected:
+    ProbedPhotons() {
+        renderSmall({"--save", "hits.position", "--save", "hits.flux", "--out", "hits"});
+        const Image positions = readImage(folder / "hits" / ("hits.position" + extension));
+        const Image fluxes = readImage(folder / "hits" / ("hits.flux" + extension));
+        constexpr float reachedReceiver = 2.0f;
+        const double tangent = std::tan(45.0 / 2.0 * std::acos(-1.0) / 180.0);
+        for (int y = 0; y < positions.height; ++y) {
+            for (int x = 0; x < positions.width; ++x) {
+                if (fluxes.at(x, y, 3) != reachedReceiver) continue;
+                const auto at = [&](int c) { return static_cast<double>(positions.at(x, y, c)); };
+                const double scale = 24.0 / (tangent * -at(2));
+                landings.emplace_back(32.0 + scale * at(0), 24.0 - scale * at(1));
+            }
+        }
+    }
+    [[nodiscard]] std::ptrdiff_t landedWithin(double radius, int x, int y) const {
+        return std::count_if(landings.begin(), landings.end(), [&](const auto& landing) {
+            return std::hypot(landing.first - x - 0.5, landing.second - y - 0.5) <= radius;
+        });
+    }
+    [[nodiscard]] long probed(int x, int y) {
+        bench->click("picture.image", kLeftButton, pixel(x, y));
+        untilSettled();
+        bench->waitFor("photons", [](const json& screen) {
+            return screen.at("controls").contains("image.probe_landed");
+        });
+        return std::stol(bench->value("image.probe_landed"));
+    }
+
+    std::string extension = floatImageExtension();
+    std::vector<std::pair<double, double>> landings;
+};
+
+TEST_F(ProbedPhotons, AreAsManyAsLandedNearThePixel) {
+    ASSERT_GT(landings.size(), 500u);
+    start();
+    open("Image");
+    bench->hover("picture");
+    bench->key("p");
+    EXPECT_EQ(bench->value("image.probe"), "on");
+    for (const auto& [x, y] : {std::pair{32, 25}, std::pair{26, 30}, std::pair{37, 20}}) {
+        EXPECT_EQ(probed(x, y), landedWithin(1.0, x, y)) << x << ", " << y;
+    }
+    EXPECT_EQ(probed(2, 2), 0) << "beside the scene";
+    bench->typeInto("image.probe_radius", "4", Entry::controlClick);
+    const long many = probed(32, 25);
+    EXPECT_EQ(many, landedWithin(4.0, 32, 25));
+    EXPECT_GT(many, landedWithin(1.0, 32, 25));
+    bench->keepScreenshot("image-photons");
+    // Their ways are drawn over the picture.
+    const Image ways = seenPicture();
+    bench->key("p");
+    EXPECT_GT(largestDifference(seenPicture(), ways), 0.1);
+    EXPECT_FALSE(document().at("edits").contains("camera"));
+}
+
+}  // namespace
+}  // namespace kaustik::test

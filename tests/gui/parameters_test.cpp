@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// The panel Parameters: values typed, dragged, found and taken back.
+#include "framework/image/image.h"
+#include "tests/gui/workbench_fixture.h"
+
+namespace kaustik::test {
+namespace {
+
+using nlohmann::json;
+
+class ParametersPanel : public WorkbenchTest {
+  protected:
+    [[nodiscard]] json set() { return document().at("variant").at("set"); }
+    [[nodiscard]] std::set<std::string> shown() {
+        std::set<std::string> names;
+        const json controls = bench->screen().at("controls");
+        for (const auto& [name, control] : controls.items()) {
+            if (name.starts_with("parameter.")) names.insert(name.substr(10));
+        }
+        return names;
+    }
+};
+
+TEST_F(ParametersPanel, AValueThatIsTypedIsMarkedAndCanBeTakenBack) {
+    start();
+    EXPECT_FALSE(bench->has("reset.trace.epsilon"));
+    bench->typeInto("parameter.trace.epsilon", "0.25", Entry::controlClick);
+    untilSettled();
+    EXPECT_EQ(set().at("trace.epsilon"), "0.25");
+    EXPECT_EQ(bench->value("parameter.trace.epsilon"), "0.25");
+    ASSERT_TRUE(bench->has("reset.trace.epsilon"));
+    bench->keepScreenshot("parameters");
+    bench->click("reset.trace.epsilon");
+    EXPECT_FALSE(set().contains("trace.epsilon"));
+    EXPECT_FALSE(bench->has("reset.trace.epsilon"));
+    EXPECT_EQ(bench->value("parameter.trace.epsilon"), "0.01");
+}
+
+TEST_F(ParametersPanel, AValueOutOfRangeBecomesTheNearestWithin) {
+    start();
+    bench->typeInto("parameter.layers.count", "1000", Entry::controlClick);
+    EXPECT_EQ(set().at("layers.count"), "64");
+    bench->typeInto("parameter.layers.count", "-3", Entry::controlClick);
+    EXPECT_EQ(set().at("layers.count"), "1");
+    bench->typeInto("parameter.emit.photons", "0", Entry::click, "Return", {0.2, 0.5});
+    EXPECT_EQ(set().at("emit.photons"), "1x32");
+    untilSettled();
+    EXPECT_EQ(bench->status().at("problem"), "");
+}
+
+TEST_F(ParametersPanel, ASliderThatIsDraggedChangesThePicture) {
+    start();
+    const Image before = seenPicture();
+    // To the left end: one layer, the water's surface, which leaves the photons no floor to hit.
+    bench->drag("parameter.layers.count", -400, 0, kLeftButton, {0.14, 0.5});
+    untilSettled();
+    EXPECT_EQ(set().at("layers.count"), "1");
+    EXPECT_GT(largestDifference(seenPicture(), before), 0.1);
+}
+
+// As another process renders it with the same value.
+TEST_F(ParametersPanel, AChangedParameterMeansWhatItMeansOnTheCommandLine) {
+    start();
+    choose("parameter.reconstruct.sprites.kernel", "epanechnikov");
+    bench->typeInto("parameter.emit.photons", "16", Entry::click, "Return", {0.2, 0.5});
+    bench->typeInto("parameter.emit.photons", "24", Entry::click, "Return", {0.8, 0.5});
+    untilSettled();
+    EXPECT_EQ(set().at("emit.photons"), "16x24");
+    open("Record");
+    bench->click("record.report");
+    untilRecorded();
+    renderSmall({"--set", "emit.photons=16x24", "--set", "reconstruct.sprites.kernel=epanechnikov",
+                 "--out", "expected"});
+    std::filesystem::path written;
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "out"))
+        written = entry.path();
+    EXPECT_EQ(readImage(written / ("caustic" + floatImageExtension())).values,
+              readImage(folder / "expected" / ("caustic" + floatImageExtension())).values);
+}
+
+TEST_F(ParametersPanel, TheSearchLeavesOnlyWhatMatches) {
+    start();
+    const std::set<std::string> all = shown();
+    EXPECT_GT(all.size(), 15u);
+    bench->typeInto("parameters.search", "EPSilon");
+    // By its name, and by a sentence that speaks of epsilon.
+    EXPECT_TRUE(shown().contains("trace.epsilon"));
+    for (const std::string& name : shown())
+        EXPECT_EQ(name.substr(0, 6), "trace.") << name;
+    bench->keepScreenshot("parameters-search");
+    bench->typeInto("parameters.search", "no such thing");
+    EXPECT_TRUE(shown().empty());
+    bench->typeInto("parameters.search", "march");
+    EXPECT_TRUE(shown().empty()) << "that node is not in use";
+    bench->click("parameters.all");
+    EXPECT_TRUE(shown().contains("trace.march.steps"));
+}
+
+TEST_F(ParametersPanel, TheParametersOfAChosenNodeAppear) {
+    start();
+    EXPECT_FALSE(bench->has("parameter.specular.split.levels"));
+    open("Technique");
+    choose("stage.specular", "split");
+    EXPECT_TRUE(bench->has("parameter.specular.split.levels"));
+}
+
+}  // namespace
+}  // namespace kaustik::test

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+// The panel Passes: what ran, in which order, what it cost, and switching it off.
+#include <algorithm>
+
+#include "tests/gui/workbench_fixture.h"
+
+namespace kaustik::test {
+namespace {
+
+using nlohmann::json;
+
+class PassesPanel : public WorkbenchTest {
+  protected:
+    // Names of passes on the screen that have a control of that kind, from top to bottom.
+    [[nodiscard]] std::vector<std::string> passesWith(const std::string& prefix) {
+        std::vector<std::pair<double, std::string>> found;
+        const json controls = bench->screen().at("controls");
+        for (const auto& [name, control] : controls.items()) {
+            if (name.starts_with(prefix))
+                found.emplace_back(control.at("y").get<double>(), name.substr(prefix.size()));
+        }
+        std::sort(found.begin(), found.end());
+        std::vector<std::string> names;
+        for (auto& [y, name] : found)
+            names.push_back(std::move(name));
+        return names;
+    }
+    // "" where it isn't on the screen.
+    [[nodiscard]] std::string state(const std::string& pass) {
+        return bench->has("passes.name." + pass) ? bench->value("passes.name." + pass) : "";
+    }
+};
+
+// The list is a report's, which another process writes of the same scene and settings.
+TEST_F(PassesPanel, ListsTheGraphInItsOrderWithTheReasonsOfWhatWasLeftOut) {
+    start();
+    bench->keepScreenshot("passes");
+    renderSmall({"--out", "report"});
+    std::vector<std::string> all;
+    const json report = readJson("report/report.json");
+    for (const json& pass : report.at("passes"))
+        all.push_back(pass.at("name"));
+    // The table is longer than its panel: a first part without gaps, then the rest.
+    const std::vector<std::string> seen = passesWith("passes.name.");
+    ASSERT_GE(seen.size(), 15u);
+    EXPECT_TRUE(std::equal(seen.begin(), seen.end(), all.begin()));
+    EXPECT_EQ(state("media.lines"), "left out");
+    EXPECT_EQ(bench->value("passes.why.media.lines"), "the scene has no medium that scatters");
+    EXPECT_FALSE(bench->has("passes.on.media.lines"));
+
+    bench->wheel("passes.name.trace.hierarchical", -20);
+    const std::vector<std::string> rest = passesWith("passes.name.");
+    ASSERT_LE(rest.size(), all.size());
+    EXPECT_TRUE(std::equal(rest.rbegin(), rest.rend(), all.rbegin()));
+    EXPECT_EQ(state("compose.display"), "ran");
+    EXPECT_GE(seen.size() + rest.size(), all.size());
+    bench->keepScreenshot("passes-end");
+}
+
+TEST_F(PassesPanel, HasATimeForEachPassThatRan) {
+    start();
+    const double frame = std::stod(bench->value("passes.frame"));
+    for (const std::string& pass : passesWith("passes.name.")) {
+        ASSERT_EQ(bench->has("passes.median." + pass), state(pass) == "ran") << pass;
+        if (state(pass) != "ran") continue;
+        const double time = std::stod(bench->value("passes.median." + pass));
+        EXPECT_GT(time, 0.0) << pass;
+        EXPECT_LT(time, frame) << pass;
+    }
+    EXPECT_EQ(bench->value("chart"), std::to_string(bench->status().at("frame").get<int>()));
+}
+
+TEST_F(PassesPanel, APassThatIsSwitchedOffChangesThePictureAndCostsNothing) {
+    start();
+    const Image before = seenPicture();
+    const std::vector<std::string> timed = passesWith("passes.median.");
+    bench->click("passes.on.compose.direct");
+    untilSettled();
+    const Image without = seenPicture();
+    bench->keepScreenshot("passes-off");
+    EXPECT_EQ(document().at("variant").at("disable"), json({"compose.direct"}));
+    EXPECT_EQ(state("compose.direct"), "bypassed");
+    EXPECT_EQ(bench->value("passes.on.compose.direct"), "off");
+    EXPECT_NE(bench->value("passes.why.compose.direct").find("'direct.irradiance' is 0"),
+              std::string::npos);
+    // Light is only taken away.
+    EXPECT_LT(meanOf(without), 0.5 * meanOf(before));
+    EXPECT_GT(meanOf(without), 0.0) << "the caustic stays";
+    // Shadows were looked up for it alone.
+    std::vector<std::string> expected = timed;
+    std::erase(expected, "compose.direct");
+    std::erase(expected, "shadow.map");
+    std::erase(expected, "shadow.lookup");
+    EXPECT_EQ(passesWith("passes.median."), expected);
+    EXPECT_EQ(state("shadow.map"), "culled");
+    EXPECT_NE(bench->value("passes.why.shadow.map").find("nothing asks for"), std::string::npos);
+
+    bench->click("passes.on.compose.direct");
+    untilSettled();
+    EXPECT_EQ(largestDifference(seenPicture(), before), 0.0);
+    EXPECT_EQ(passesWith("passes.median."), timed);
+}
+
+TEST_F(PassesPanel, ARequiredPassStaysOn) {
+    start();
+    const json before = bench->status();
+    bench->click("passes.on.eye.receivers");
+    EXPECT_EQ(bench->value("passes.on.eye.receivers"), "on");
+    EXPECT_EQ(document(), before.at("document"));
+    EXPECT_EQ(bench->status().at("order"), before.at("order"));
+}
+
+TEST_F(PassesPanel, FramesGoOnWhileTheyAreAskedFor) {
+    start();
+    bench->click("passes.endless");
+    const int before = bench->status().at("frame");
+    bench->waitFor("forty more frames", [&](const json& screen) {
+        return screen.at("status").at("frame").get<int>() > before + 40;
+    });
+    bench->click("passes.endless");
+    untilSettled();
+    const int after = bench->status().at("frame");
+    bench->untilTaken();
+    EXPECT_EQ(bench->status().at("frame"), after);
+}
+
+}  // namespace
+}  // namespace kaustik::test

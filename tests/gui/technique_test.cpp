@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// The panel Technique: other nodes, and two variants side by side.
+#include "tests/gui/workbench_fixture.h"
+
+namespace kaustik::test {
+namespace {
+
+using nlohmann::json;
+
+// 8 bits, of a hit whose distance two tracers round differently.
+constexpr double kTwoSteps = 2.01 / 255.0;
+
+class TechniquePanel : public WorkbenchTest {
+  protected:
+    [[nodiscard]] double split() { return std::stod(bench->value("picture.split")); }
+    // The columns of the seen picture left (or right) of the split, without the line itself.
+    [[nodiscard]] Image besideSplit(bool isLeft) {
+        const Image all = seenPicture();
+        const int at = static_cast<int>(split() * all.width);
+        return isLeft ? columns(all, 0, at - 4) : columns(all, at + 60, all.width);
+    }
+};
+
+TEST_F(TechniquePanel, AnotherTracerRunsAndFindsTheSamePicture) {
+    start();
+    const Image before = seenPicture();
+    open("Technique");
+    bench->keepScreenshot("technique");
+    EXPECT_FALSE(bench->has("reset.trace"));
+    choose("stage.trace", "march");
+    untilSettled();
+    EXPECT_EQ(document().at("variant").at("set").at("trace"), "march");
+    open("Passes");
+    EXPECT_EQ(bench->value("passes.name.trace.march"), "ran");
+    EXPECT_FALSE(bench->has("passes.name.trace.hierarchical"));
+    EXPECT_LE(largestDifference(seenPicture(), before), kTwoSteps);
+
+    open("Technique");
+    bench->click("reset.trace");
+    untilSettled();
+    EXPECT_FALSE(document().at("variant").at("set").contains("trace"));
+    open("Passes");
+    EXPECT_EQ(bench->value("passes.name.trace.hierarchical"), "ran");
+    EXPECT_EQ(largestDifference(seenPicture(), before), 0.0);
+}
+
+TEST_F(TechniquePanel, ANodeThatIsTheOnlyOneOfItsStageCannotBeChosen) {
+    start();
+    open("Technique");
+    bench->click("stage.emit");
+    EXPECT_FALSE(bench->has("stage.emit=grid"));
+}
+
+TEST_F(TechniquePanel, TwoVariantsAreSeenSideBySide) {
+    start();
+    const Image lit = seenPicture();
+    open("Technique");
+    bench->click("variant.keep");
+    open("Passes");
+    bench->click("passes.on.compose.direct");
+    untilSettled();
+    open("Technique");
+    EXPECT_EQ(document().at("variant").at("disable"), json({"compose.direct"}));
+    EXPECT_EQ(document().at("other").at("disable"), json::array());
+    bench->keepScreenshot("technique-side-by-side");
+    // B is as it was; A, left of the split, has lost its light.
+    const Image right = besideSplit(false);
+    EXPECT_EQ(largestDifference(right, columns(lit, lit.width - right.width, lit.width)), 0.0);
+    const Image left = besideSplit(true);
+    EXPECT_LT(meanOf(left), 0.5 * meanOf(columns(lit, 0, left.width)));
+    EXPECT_GT(std::stod(bench->value("variant.table")), 0.0);
+
+    const double before = split();
+    const double pixels = bench->control("picture.image").w;
+    bench->drag("picture.split", -100, 0, kLeftButton, {0.5, 0.9});
+    EXPECT_NEAR(split(), before - 100.0 / pixels, 2.0 / pixels);
+    const Image wider = besideSplit(false);
+    EXPECT_NEAR(wider.width, right.width + 100, 2);
+    EXPECT_EQ(largestDifference(wider, columns(lit, lit.width - wider.width, lit.width)), 0.0);
+    EXPECT_FALSE(document().at("edits").contains("camera")) << "the hand held the split";
+
+    bench->click("variant.swap");
+    untilSettled();
+    EXPECT_EQ(document().at("variant").at("disable"), json::array());
+    const Image swapped = besideSplit(true);
+    EXPECT_EQ(largestDifference(swapped, columns(lit, 0, swapped.width)), 0.0);
+
+    bench->click("variant.edit_b");
+    open("Passes");
+    EXPECT_EQ(bench->value("passes.on.compose.direct"), "off");
+    open("Technique");
+    bench->click("variant.drop");
+    untilSettled();
+    EXPECT_FALSE(document().contains("other"));
+    EXPECT_FALSE(bench->has("picture.split"));
+    EXPECT_EQ(largestDifference(seenPicture(), lit), 0.0);
+}
+
+}  // namespace
+}  // namespace kaustik::test

@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: MIT
+// The workbench as a whole: starting, keeping, closing, keys, and where it cannot be.
+#include <algorithm>
+
+#include "framework/core/files.h"
+#include "tests/gui/workbench_fixture.h"
+
+namespace kaustik::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+class Workbench : public WorkbenchTest {
+  protected:
+    // Of which a frame takes long: the interface is seen to go on in the meantime.
+    static json slowDocument() {
+        json slow = smallDocument();
+        slow["size"] = {400, 300};
+        slow["variant"]["set"]["emit.photons"] = "768x768";
+        return slow;
+    }
+    void startWithoutWaiting(const json& kept) {
+        writeKept(kept);
+        bench.emplace(desktop, folder / "");
+    }
+    [[nodiscard]] static json documentIn(const json& screen) {
+        return screen.at("status").at("document");
+    }
+};
+
+// Without a device there is no picture, and the mesh of the default scene may not be there: a scene
+// that needs none is asked for, but nothing is kept yet.
+TEST_F(Workbench, TheFirstStartShowsAPicture) {
+    bench.emplace(desktop, folder / "", std::vector<std::string>{"flat-water"});
+    bench->waitFor("a first picture", [](const json& screen) {
+        return screen.at("controls").contains("picture.image");
+    });
+    EXPECT_EQ(document().at("size"), json({800, 600}));
+    EXPECT_EQ(document().at("variant").at("set"), json::object());
+    EXPECT_EQ(bench->status().at("rendered_scene"), "flat-water");
+    EXPECT_GT(meanOf(seenPicture()), 0.05);
+    for (const char* tab : {"tab.Passes", "tab.Parameters"})
+        EXPECT_EQ(bench->value(tab), "open") << tab;
+    bench->keepScreenshot("workbench-first");
+}
+
+TEST_F(Workbench, ARestartFindsEverythingAsItWasLeft) {
+    start();
+    bench->drag("picture", 90, 20);
+    bench->typeInto("parameter.trace.epsilon", "0.25", Entry::controlClick);
+    bench->click("passes.on.compose.direct");
+    open("Image");
+    choose("image.texture", "caustic.irradiance");
+    bench->key("f");
+    open("Scene");
+    bench->click("scene.step");
+    bench->drag("splitter.right_edge", -60, 0);
+    untilSettled();
+    const json before = document();
+    const double edge = bench->control("splitter.right_edge").x;
+    const Image seen = seenPicture();
+    endByClosing();
+
+    startAgain();
+    EXPECT_EQ(document(), before);
+    EXPECT_EQ(before.at("variant").at("set").at("trace.epsilon"), "0.25");
+    EXPECT_TRUE(before.at("edits").contains("camera"));
+    EXPECT_NEAR(bench->control("splitter.right_edge").x, edge, 1.0);
+    EXPECT_EQ(largestDifference(seenPicture(), seen), 0.0);
+    open("Image");
+    EXPECT_EQ(bench->value("image.texture"), "caustic.irradiance");
+    EXPECT_EQ(bench->value("image.false_color"), "on");
+}
+
+TEST_F(Workbench, WhatWasKeptBeforeACrashIsThereAgain) {
+    start();
+    bench->typeInto("parameter.trace.epsilon", "0.25", Entry::controlClick);
+    const json changed = document();
+    // Nothing more is touched: it keeps by itself.
+    bench->waitFor("a file with the change",
+                   [&](const json&) { return readKept().at("document") == changed; });
+    bench->kill();
+    startAgain();
+    EXPECT_EQ(document(), changed);
+    EXPECT_EQ(bench->value("parameter.trace.epsilon"), "0.25");
+}
+
+TEST_F(Workbench, SettingsThatMakeNoSenseAreNoReasonNotToStart) {
+    const fs::path file = folder / "config/kaustik/workbench.json";
+    fs::create_directories(file.parent_path());
+    writeFileWhole(file, R"({"view": {"zoom": "x", "beside": 99}, "document": 7, "panels": [)");
+    bench.emplace(desktop, folder / "", std::vector<std::string>{"wavy.toml"});
+    bench->waitFor("a picture", [](const json& screen) {
+        return screen.at("controls").contains("picture.image");
+    });
+    EXPECT_EQ(bench->status().at("scene"), "wavy.toml");
+    endByClosing();
+
+    json kept = keptWith(smallDocument());
+    kept["document"]["variant"]["set"]["no.such.parameter"] = "1";
+    start(kept);
+    EXPECT_TRUE(says("status.message", "no.such.parameter"));
+    EXPECT_EQ(document().at("scene"), "wavy.toml");
+}
+
+TEST_F(Workbench, TheInterfaceGoesOnWhileAFrameIsRendered) {
+    startWithoutWaiting(keptWith(slowDocument()));
+    bench->waitFor("a first picture", [](const json& screen) {
+        return screen.at("controls").contains("picture.image");
+    });
+    bench->click("passes.endless");
+    json first;
+    int most = 0;
+    bench->waitFor("five frames of the interface during one of the picture", [&](const json& now) {
+        const bool isSameFrame = !first.is_null() && now.at("status").at("busy") == true &&
+                                 now.at("status").at("frame") == first.at("status").at("frame");
+        if (!isSameFrame) first = now;
+        most = std::max(most, now.at("frame").get<int>() - first.at("frame").get<int>());
+        return most >= 5;
+    });
+    // An order in the middle of a frame is taken at once.
+    bench->click("passes.endless");
+    bench->typeInto("parameter.emit.photons", "16", Entry::click, "Return", {0.2, 0.5});
+    EXPECT_EQ(document().at("variant").at("set").at("emit.photons"), "16x768");
+}
+
+TEST_F(Workbench, ClosingInTheMiddleOfAFrameLosesNothing) {
+    startWithoutWaiting(keptWith(slowDocument()));
+    bench->waitFor("a frame that is being rendered", [](const json& screen) {
+        return screen.at("status").at("busy") == true &&
+               screen.at("controls").contains("picture.image");
+    });
+    bench->drag("picture", 40, 0);
+    const json changed = document();
+    ASSERT_TRUE(changed.at("edits").contains("camera"));
+    endByClosing();
+    EXPECT_EQ(readKept().at("document"), changed);
+}
+
+TEST_F(Workbench, ClosingInTheMiddleOfARecordingEndsWell) {
+    json kept = keptWith(smallDocument());
+    kept["panels"]["sequence_frames"] = 100000;
+    start(kept);
+    open("Record");
+    bench->click("record.sequence");
+    bench->waitFor("a picture", [](const json& screen) {
+        return screen.at("controls")
+            .at("record.state")
+            .at("value")
+            .get<std::string>()
+            .starts_with("busy: picture");
+    });
+    endByClosing();
+}
+
+TEST_F(Workbench, CtrlQEndsIt) {
+    start();
+    bench->keyDown("ctrl");
+    bench->keyDown("q");
+    EXPECT_EQ(bench->wait().exitCode, 0);
+}
+
+TEST_F(Workbench, KeysAreListedWithF1) {
+    start();
+    bench->key("F1");
+    ASSERT_TRUE(bench->has("help"));
+    bench->keepScreenshot("workbench-keys");
+    bench->key("F1");
+    EXPECT_FALSE(bench->has("help"));
+    bench->click("toolbar.keys");
+    EXPECT_TRUE(bench->has("help"));
+}
+
+TEST_F(Workbench, ChangesAreUndoneAndDoneAgain) {
+    start();
+    const json first = document();
+    bench->typeInto("parameter.trace.epsilon", "0.25", Entry::controlClick);
+    const json second = document();
+    bench->drag("picture", 50, 10);
+    const json third = document();
+    bench->click("passes.on.compose.direct");
+    const json fourth = document();
+    for (const json& before : {third, second, first, first}) {
+        bench->key("ctrl+z");
+        EXPECT_EQ(document(), before) << "a drag is one step";
+    }
+    untilSettled();
+    for (const json& after : {second, third, fourth, fourth}) {
+        bench->key("ctrl+y");
+        EXPECT_EQ(document(), after);
+    }
+    bench->click("toolbar.undo");
+    EXPECT_EQ(document(), third);
+    bench->key("ctrl+shift+z");
+    EXPECT_EQ(document(), fourth);
+    // In a field the keys are the text's.
+    bench->click("parameters.search");
+    bench->type("abc");
+    bench->key("ctrl+z");
+    EXPECT_EQ(document(), fourth);
+}
+
+TEST_F(Workbench, TypingInAFieldIsNoCommand) {
+    start();
+    bench->click("parameters.search");
+    const json before = document();
+    bench->type("rflp 0.-+");
+    EXPECT_EQ(bench->value("parameters.search"), "rflp 0.-+");
+    EXPECT_EQ(document(), before);
+    EXPECT_EQ(bench->status().at("playing"), false);
+}
+
+TEST_F(Workbench, TooMuchMemoryIsExplainedAndAfterwardsItGoesOn) {
+    start();
+    json greedy = document();
+    bench->typeInto("parameter.emit.photons", "4096", Entry::click, "Return", {0.2, 0.5});
+    bench->typeInto("parameter.layers.count", "64", Entry::controlClick);
+    open("Scene");
+    bench->typeInto("scene.size", "16384", Entry::click, "Return", {0.1, 0.5});
+    bench->typeInto("scene.size", "16384", Entry::click, "Return", {0.5, 0.5});
+    bench->waitFor("the problem", [](const json& screen) {
+        return screen.at("controls").contains("status.problem");
+    });
+    bench->keepScreenshot("workbench-memory");
+    EXPECT_TRUE(says("status.problem", "Use fewer photons, layers or pixels"))
+        << bench->value("status.problem");
+    // The window lives on.
+    for (int step = 0; step < 8 && document() != greedy; ++step)
+        bench->key("ctrl+z");
+    EXPECT_EQ(document(), greedy);
+    if (bench->has("status.restart")) bench->click("status.restart");
+    untilSettled();
+    EXPECT_FALSE(bench->has("status.problem"));
+    EXPECT_GT(meanOf(seenPicture()), 0.1);
+}
+
+TEST_F(Workbench, ASmallWindowKeepsAPicture) {
+    json kept = keptWith(smallDocument());
+    kept["window"] = {{"width", 640}, {"height", 400}, {"x", 20}, {"y", 30}};
+    start(kept);
+    bench->keepScreenshot("workbench-small");
+    const Rectangle picture = bench->control("picture");
+    EXPECT_GT(picture.w, 60.0);
+    EXPECT_GT(picture.h, 60.0);
+    EXPECT_LE(picture.x + picture.w, 640.0);
+}
+
+// Nothing but a message: as many words as are needed to go on.
+class WithoutAWindow : public testing::Test {
+  protected:
+    void expectMessage(const std::map<std::string, std::string>& environment,
+                       const std::string& part) const {
+        Conditions conditions;
+        conditions.folder = folder / "";
+        conditions.environment = environment;
+        conditions.environment["XDG_CONFIG_HOME"] = (folder / "config").string();
+        const Outcome outcome = runKaustik({"gui"}, conditions);
+        EXPECT_EQ(outcome.exitCode, 1);
+        EXPECT_EQ(outcome.out, "");
+        EXPECT_TRUE(outcome.err.starts_with("kaustik: ")) << outcome.err;
+        EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+        EXPECT_NE(outcome.err.find("'kaustik run'"), std::string::npos) << outcome.err;
+        EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
+    }
+    TemporaryFolder folder;
+};
+
+TEST_F(WithoutAWindow, NoDisplayIsExplained) {
+    expectMessage({{"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}}, "no display");
+}
+
+TEST_F(WithoutAWindow, ADisplayThatDoesNotAnswerIsExplained) {
+    expectMessage({{"DISPLAY", ":98765"}, {"WAYLAND_DISPLAY", ""}}, ":98765");
+}
+
+// A driver that offers an older version only.
+TEST_F(WithoutAWindow, ADisplayWithoutOpenGL45IsExplained) {
+    const Desktop desktop(640, 480);
+    expectMessage({{"DISPLAY", desktop.name()}, {"MESA_GL_VERSION_OVERRIDE", "3.3"}}, "OpenGL 4.5");
+}
+
+TEST_F(WithoutAWindow, AnUnknownSceneIsAWrongRequest) {
+    Conditions conditions;
+    conditions.folder = folder / "";
+    conditions.environment = {{"DISPLAY", ""}};
+    const Outcome outcome = runKaustik({"gui", "pooool"}, conditions);
+    EXPECT_EQ(outcome.exitCode, 2);
+    EXPECT_NE(outcome.err.find("pool"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace kaustik::test
