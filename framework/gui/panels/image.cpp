@@ -73,7 +73,7 @@ void drawMapping(Bench& bench, const ViewedTexture* viewed) {
         bench.map.control("image.exposure", fmt::format("{}", view.exposureStops));
         // Irradiance is hundreds of W/m²: as it is, all of it is white.
         if (viewed != nullptr && button(bench, "Expose for the image", "image.fit")) {
-            const float white = std::max(viewed->histogram.percentile99, 1e-6f);
+            const float white = std::max(viewed->histogram.bright, 1e-6f);
             view.exposureStops = std::clamp(-std::log2(white), -20.0f, 20.0f);
         }
     } else {
