@@ -29,8 +29,8 @@ class Workbench : public WorkbenchTest {
     }
 };
 
-// Without a device there is no picture, and the mesh of the default scene may not be there: a scene
-// that needs none is asked for, but nothing is kept yet.
+// Nothing is kept yet, and all is as shipped but for the scene: the default one's mesh may be
+// missing.
 TEST_F(Workbench, TheFirstStartShowsAPicture) {
     bench.emplace(desktop, folder / "", std::vector<std::string>{"flat-water"});
     bench->waitFor("a first picture", [](const json& screen) {
@@ -213,7 +213,7 @@ TEST_F(Workbench, TypingInAFieldIsNoCommand) {
 
 TEST_F(Workbench, TooMuchMemoryIsExplainedAndAfterwardsItGoesOn) {
     start();
-    json greedy = document();
+    json modest = document();
     bench->typeInto("parameter.emit.photons", "4096", Entry::click, "Return", {0.2, 0.5});
     bench->typeInto("parameter.layers.count", "64", Entry::controlClick);
     open("Scene");
@@ -226,9 +226,9 @@ TEST_F(Workbench, TooMuchMemoryIsExplainedAndAfterwardsItGoesOn) {
     EXPECT_TRUE(says("status.problem", "Use fewer photons, layers or pixels"))
         << bench->value("status.problem");
     // The window lives on.
-    for (int step = 0; step < 8 && document() != greedy; ++step)
+    for (int step = 0; step < 8 && document() != modest; ++step)
         bench->key("ctrl+z");
-    EXPECT_EQ(document(), greedy);
+    EXPECT_EQ(document(), modest);
     if (bench->has("status.restart")) bench->click("status.restart");
     untilSettled();
     EXPECT_FALSE(bench->has("status.problem"));
