@@ -102,7 +102,7 @@ using reference::Reference;
 using reference::ReferenceRequest;
 
 // Between two looks at what else there is to do, and two pictures of the truth.
-constexpr std::uint64_t kPhotonsAtOnce = 1u << 23;
+constexpr std::uint64_t kPhotonsAtOnce = 1u << 22;
 
 std::filesystem::path cache() {
     return app::cacheFolder() / "references";

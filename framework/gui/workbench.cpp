@@ -404,13 +404,12 @@ void Workbench::draw() {
     PanelState& panels = bench_.panels;
     // Whatever the window's size, the picture keeps a part of it.
     const float side = std::max(0.4f * all.x, 60.0f);
-    panels.leftWidth = std::clamp(panels.leftWidth, 150.0f, std::max(150.0f, side / bench_.scale));
-    panels.rightWidth =
-        std::clamp(panels.rightWidth, 150.0f, std::max(150.0f, side / bench_.scale));
-    panels.chartHeight =
-        std::clamp(panels.chartHeight, 30.0f, std::max(30.0f, 0.6f * height / bench_.scale));
-    const float left = panels.leftWidth * bench_.scale;
-    const float right = panels.rightWidth * bench_.scale;
+    // What the user chose stays, for a larger window.
+    panels.leftWidth = std::max(panels.leftWidth, 150.0f);
+    panels.rightWidth = std::max(panels.rightWidth, 150.0f);
+    panels.chartHeight = std::max(panels.chartHeight, 30.0f);
+    const float left = std::min(panels.leftWidth * bench_.scale, side);
+    const float right = std::min(panels.rightWidth * bench_.scale, side);
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0.0f, 0.0f});
 
     struct Tab {
@@ -444,7 +443,7 @@ void Workbench::draw() {
     ImGui::BeginGroup();
     const float bars = 2.0f * static_cast<float>(bench_.px(5.0));
     const float middle = std::max(all.x - left - right - bars, 40.0f);
-    const float chart = panels.chartHeight * bench_.scale;
+    const float chart = std::min(panels.chartHeight * bench_.scale, 0.6f * height);
     ImGui::BeginChild("middle", {middle, std::max(height - chart - 0.5f * bars, 30.0f)});
     drawPicture(bench_);
     ImGui::EndChild();

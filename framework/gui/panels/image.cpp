@@ -37,7 +37,11 @@ void drawChoiceOfTexture(Bench& bench) {
         bench.view.layer = 0;
     }
     tooltip("Any texture of the graph. One whose pass nothing else needs makes that pass run.");
-    if (index == 0) return;
+    if (index == 0) {
+        if (bench.view.beside == Beside::truth)
+            ImGui::TextDisabled("caustic.irradiance, of which the truth is.");
+        return;
+    }
     const graph::TextureDesc& desc = result.textures[static_cast<std::size_t>(index - 1)].desc;
     ImGui::TextDisabled("%dx%d%s %s", desc.width, desc.height,
                         desc.layers > 0 ? fmt::format("x{}", desc.layers).c_str() : "",
