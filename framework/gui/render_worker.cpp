@@ -31,7 +31,7 @@ constexpr int kFramesBeforeExtras = 8;
 // On a software rasteriser the frame and the window want the same cores; the window goes first.
 // Threads that this one starts, the rasteriser's among them, inherit it.
 void lowerPriority() {
-    static_cast<void>(setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 10));
+    static_cast<void>(setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 15));
 }
 
 // Makes what can be edited as it is in the file, then as the document says.

@@ -121,7 +121,7 @@ struct TruthWorker::Loaded {
 };
 
 void TruthWorker::run() {
-    static_cast<void>(setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 15));
+    static_cast<void>(setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 19));
     std::unique_ptr<Loaded> loaded;
     for (;;) {
         bool hasNewAim = false;

@@ -125,7 +125,7 @@ void Workbench::keepNowAndThen() {
 void Workbench::run() {
     while (!window_.isClosing()) {
         window_.beginFrame(patience());
-        const Clock::time_point begin = Clock::now();
+        frameBegin_ = Clock::now();
         if (framesToDraw_ > 0) --framesToDraw_;
         const ImGuiIO& io = ImGui::GetIO();
         const bool hasInput = io.MouseDelta.x != 0.0f || io.MouseDelta.y != 0.0f ||
@@ -151,7 +151,7 @@ void Workbench::run() {
         finishScreenshot();
         keepNowAndThen();
         interfaceMs_.push_back(
-            std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
+            std::chrono::duration<double, std::milli>(Clock::now() - frameBegin_).count());
         if (interfaceMs_.size() > kInterfaceFramesKept) interfaceMs_.pop_front();
     }
     // The pass at hand may take seconds yet.
@@ -162,7 +162,10 @@ void Workbench::run() {
 // How long the window may sleep, s: while the hand is at work not at all.
 double Workbench::patience() const {
     // Who reads the description waits for it.
-    if (framesToDraw_ > 0 || bench_.isPlaying || map_.isOn()) return 1.0 / 60.0;
+    if (framesToDraw_ > 0 || bench_.isPlaying || map_.isOn()) {
+        const double since = std::chrono::duration<double>(Clock::now() - frameBegin_).count();
+        return std::max(1.0 / 60.0 - since, 0.0);
+    }
     return bench_.renderer->progress().isBusy || bench_.truth->work == TruthState::Work::computing
                ? 0.1
                : 0.25;
@@ -239,7 +242,9 @@ void Workbench::submitChanges() {
     order.isPreview = bench_.isTurning && isSlow;
     // Once the quick frames have begun they last until the hand lets go.
     if (hasSubmitted_ && submitted_.isPreview && isHeld) order.isPreview = true;
-    order.isPassing = (isHeld && !order.isPreview) || bench_.isPlaying;
+    // Else a hand that never rests would end every frame that it has asked for.
+    const bool isFollowUp = order.isPreview && hasSubmitted_ && submitted_.isPreview;
+    order.isPassing = (isHeld && !order.isPreview) || isFollowUp || bench_.isPlaying;
     if (bench_.view.probes && bench_.view.probePixel.x >= 0 && !order.isPreview)
         order.probe = {bench_.view.probePixel, bench_.view.probeRadius};
     const bool isSame =

@@ -72,6 +72,7 @@ class Workbench {
     Clock::time_point keptAt_;
     int framesToDraw_ = 3;
     std::future<std::string> screenshot_;  // being written; why it failed, or nothing
+    Clock::time_point frameBegin_;
     std::deque<double> interfaceMs_;       // what the newest frames of the interface took
 };
 
