@@ -75,5 +75,12 @@ TEST_F(Files, ErrorsNameTheFile) {
               std::string::npos);
 }
 
+TEST(TomlString, EscapesWhatWouldEndOrBreakIt) {
+    EXPECT_EQ(tomlString("pool"), "\"pool\"");
+    EXPECT_EQ(tomlString("a \"b\" c\\d"), "\"a \\\"b\\\" c\\\\d\"");
+    EXPECT_EQ(tomlString("line\nend\t"), "\"line\\u000aend\\u0009\"");
+    EXPECT_EQ(tomlString("Wasser \xc3\xa4"), "\"Wasser \xc3\xa4\"");
+}
+
 }  // namespace
 }  // namespace kaustik
