@@ -73,7 +73,7 @@ class Workbench {
     int framesToDraw_ = 3;
     std::future<std::string> screenshot_;  // being written; why it failed, or nothing
     Clock::time_point frameBegin_;
-    std::deque<double> interfaceMs_;       // what the newest frames of the interface took
+    std::deque<double> interfaceMs_;  // what the newest frames of the interface took
 };
 
 }  // namespace kaustik::gui

@@ -79,8 +79,8 @@ void writeReference(const std::filesystem::path& path, const Reference& referenc
 [[nodiscard]] Reference readReference(const std::filesystem::path& path,
                                       const std::string& expectedKey = "");
 
-// The reference that `cacheFolder` has, however good it is; nothing where there is none, or where it
-// is damaged.
+// The reference that `cacheFolder` has, however good it is; nothing where there is none, or where
+// it is damaged.
 [[nodiscard]] std::optional<Reference> findCached(const scene::Scene& scene,
                                                   const ReferenceRequest& request,
                                                   const std::filesystem::path& cacheFolder);

@@ -155,8 +155,8 @@ glm::dvec3 TableReader::uniformOrVector3(std::string_view key, const NumberRange
 }
 
 glm::dvec3 unitDirection(const glm::dvec3& vector) {
-    return glm::normalize(
-        vector / std::max({std::abs(vector.x), std::abs(vector.y), std::abs(vector.z)}));
+    return glm::normalize(vector /
+                          std::max({std::abs(vector.x), std::abs(vector.y), std::abs(vector.z)}));
 }
 
 glm::dvec3 TableReader::direction(std::string_view key) {

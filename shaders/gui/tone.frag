@@ -14,7 +14,8 @@ out vec4 mapped;
 
 vec3 encode(vec3 linear) {
     vec3 c = clamp(linear, 0.0, 1.0);
-    return mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, vec3(greaterThan(c, vec3(0.0031308))));
+    vec3 isBright = vec3(greaterThan(c, vec3(0.0031308)));
+    return mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, isBright);
 }
 
 void main() {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Follows one photon's ray over the screen to its first hit and leaves out what it cannot meet: over
-// squares of 64, 16 and 4 pixels the ranges of the layers' depths say so. What is left is asked step
-// by step, by the test of all tracers, so that the hits are those of a march over every step.
+// Follows one photon's ray over the screen to its first hit and leaves out what it cannot meet:
+// over squares of 64, 16 and 4 pixels planes through the layers, with how far these stray from
+// them, say so. What is left is asked step by step, by the test of all tracers, so that the hits
+// are those of a march over every step.
 #include "common/traced_photon.glsl"
 #include "screen_space_photons/pyramid_layout.glsl"
 
@@ -70,8 +71,8 @@ struct Asked {
     uvec2 layers;
 };
 
-// Which of the steps [first, end) may meet a layer of the square. Along the ray 1/z is linear, as on
-// the squares' planes, and so is the ray's distance from one.
+// Which of the steps [first, end) may meet a layer of the square. Along the ray 1/z is linear, as
+// on the squares' planes, and so is the ray's distance from one.
 Asked stepsThatMayMeet(Way way, ivec2 square, int level, int first, int end) {
     vec2 start = way.start - (vec2(square) + 0.5) * float(1 << (2 * level));
     ivec2 texel = pyramidOffset(ivec2(view.sizePixels.xy), level) + square;
@@ -118,7 +119,7 @@ FirstHit traverse(Photon photon, int minimumSteps, int maximumSteps) {
     Way way = wayOf(segment, steps);
 #ifdef CLOSED_DIELECTRICS
     uint medium = innerMedium(photon.media);
-    bool mayComeOut = medium != 0u && !isOpen(medium - 1u);
+    bool mayComeOut = isInsideClosed(photon.media);
 #endif
     int level = kPyramidLevels;
     int end = steps;
