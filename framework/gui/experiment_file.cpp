@@ -23,7 +23,11 @@ bool isSceneFile(const std::string& scene) {
 // The scene as a file in `folder` would name it.
 std::string seenFrom(const fs::path& folder, const std::string& scene) {
     if (!isSceneFile(scene)) return scene;
-    return fs::relative(fs::absolute(scene), fs::absolute(folder)).string();
+    std::error_code error;
+    const fs::path from = fs::absolute(folder.empty() ? "." : folder, error);
+    const fs::path relative = fs::relative(fs::absolute(scene), from, error);
+    // Where there is no way from one to the other, the scene is named as it is.
+    return error || relative.empty() ? fs::absolute(scene, error).string() : relative.string();
 }
 
 std::string listOf(const std::set<std::string>& texts) {

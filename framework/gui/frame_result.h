@@ -34,8 +34,9 @@ struct ListedTexture {
 
 // One layer of a texture, read back.
 struct ViewedTexture {
-    std::string name;        // of the resource; "" where it is the picture
-    bool isEncoded = false;  // display-encoded, not linear
+    std::string name;           // of the resource; "" where it is the picture
+    std::uint64_t version = 0;  // no other texture has it
+    bool isEncoded = false;     // display-encoded, not linear
     int layer = 0;
     Image values;  // all channels, top row first
     std::optional<measure::NotFinite> notFinite;
@@ -86,6 +87,7 @@ struct FrameResult {
     Document document;          // of that order
     std::string problem;        // with scene or device, so that there is no frame at all; else ""
     bool isLost = false;        // the device is gone: only another worker can go on
+    int shaderReloads = 0;      // frames before one are of other shaders
     std::string shaderProblem;  // the programs that failed to reload; the last good ones are used
     gl::DeviceInfo device;
     std::shared_ptr<const SceneFacts> scene;

@@ -81,6 +81,8 @@ struct RenderWorker::Device {
     std::optional<scene::SceneEdits> edits;  // that the scene has
     std::array<std::unique_ptr<VariantRenderer>, 2> renderers;
 
+    // Of textures: unlike those of any other device of this program.
+    std::uint64_t versions = static_cast<std::uint64_t>(Clock::now().time_since_epoch().count());
     FrameOrder order;
     std::uint64_t number = 0;
     int framesDone = 0;
@@ -227,7 +229,11 @@ void RenderWorker::serve(Device& device) {
             }
         }
         reloadShaders(device);
-        if (device.number == 0 || !loadScene(device)) continue;
+        if (device.number == 0 || !loadScene(device)) {
+            if (request)
+                setRecording({false, "There is nothing to record. " + working_.problem, true});
+            continue;
+        }
         if (request) {
             writeRecording(device, *request);
             continue;
@@ -258,6 +264,7 @@ bool RenderWorker::loadScene(Device& device) {
             working_.scene = factsOf(*device.scene);
         }
         if (device.edits != document.edits) {
+            device.edits.reset();  // of the scene as it is until this is whole
             takeEdits(*device.scene, *device.base, document.edits);
             device.edits = document.edits;
             for (const auto& renderer : device.renderers) {
@@ -285,7 +292,8 @@ void RenderWorker::renderOnce(Device& device) {
     for (std::size_t i = 0; i < device.variants(); ++i) {
         std::unique_ptr<VariantRenderer>& renderer = device.renderers[i];
         if (!renderer) {
-            renderer = std::make_unique<VariantRenderer>(*device.context, registry_, *device.scene);
+            renderer = std::make_unique<VariantRenderer>(*device.context, registry_, *device.scene,
+                                                         device.versions);
         }
         const VariantRenderer::GoesOn goesOn = watch(device.variants() == 1 ? ""
                                                      : i == 0               ? "A"
@@ -343,6 +351,7 @@ void RenderWorker::reloadShaders(Device& device) {
             problem += (problem.empty() ? "" : "\n") + error;
     }
     working_.shaderProblem = problem;
+    ++working_.shaderReloads;
     for (VariantResult& variant : working_.variants)
         variant.isSettled = false;
     device.framesDone = 0;

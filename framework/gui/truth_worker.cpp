@@ -21,7 +21,7 @@ namespace kaustik::gui {
 bool TruthAim::operator==(const TruthAim& other) const {
     return scene == other.scene && edits == other.edits && size == other.size &&
            paths.transmissionOnly == other.paths.transmissionOnly &&
-           paths.interactions == other.paths.interactions;
+           paths.interactions == other.paths.interactions && sceneReloads == other.sceneReloads;
 }
 
 TruthWorker::TruthWorker(std::function<void()> onNews)
@@ -166,6 +166,7 @@ void TruthWorker::run() {
 }
 
 void TruthWorker::takeOver(const Loaded& loaded) {
+    working_.version = ++versions_;
     working_.photons = loaded.whole ? loaded.whole->photons : 0;
     working_.relativeError = loaded.whole ? loaded.whole->relativeError : 0.0;
     working_.irradiance =
@@ -254,6 +255,7 @@ void TruthWorker::judgeFrames(Loaded& loaded, const std::array<JudgedFrame, 2>& 
         }
         working_.judgements[i] = std::move(judgement);
     }
+    working_.version = ++versions_;
     post();
 }
 

@@ -29,7 +29,8 @@ struct TruthAim {
     std::string scene;
     scene::SceneEdits edits;
     params::Extent size;
-    ModelledPaths paths;  // interactions 0: nothing is modelled
+    ModelledPaths paths;   // interactions 0: nothing is modelled
+    int sceneReloads = 0;  // FrameOrder::sceneReloads: another one, another scene of that name
     [[nodiscard]] bool operator==(const TruthAim& other) const;
 };
 
@@ -45,6 +46,7 @@ struct TruthState {
     double share = 0.0;   // computed of what was asked for
     std::string reached;  // "3.1 million photons, standard error 2.1 %"
     std::string problem;
+    std::uint64_t version = 0;    // of the pictures below: no other ones have it
     std::optional<TruthAim> aim;  // that all of the following is of
     std::uint64_t photons = 0;    // 0: there is no reference
     double relativeError = 0.0;
@@ -97,6 +99,7 @@ class TruthWorker {
     std::optional<std::array<JudgedFrame, 2>> wantedFrames_;
     std::shared_ptr<const TruthState> state_ = std::make_shared<const TruthState>();
     TruthState working_;  // the thread's own
+    std::uint64_t versions_ = 0;
     std::thread thread_;
 };
 

@@ -45,7 +45,11 @@ std::function<bool(std::size_t)> VariantRenderer::stepwise(const GoesOn& goesOn)
 void VariantRenderer::prepare(const Variant& variant, const params::Extent& size) {
     if (renderer_ && isUpToDate_ && variant == variant_ && size == size_) return;
     RenderSettings settings = settingsOf(variant, size, registry_);
-    if (!(variant == variant_ && size == size_)) record_.frames.clear();
+    if (!(variant == variant_ && size == size_)) {
+        record_.frames.clear();
+        // Nor is one that the device has still to finish of the new settings.
+        if (timer_) static_cast<void>(timer_->takeFinished(true));
+    }
     built_.clear();
     if (renderer_) {
         renderer_->update(std::move(settings));
@@ -130,6 +134,7 @@ void VariantRenderer::readBack(const Viewing& viewing) {
     result_.limits.clear();
 
     ViewedTexture viewed;
+    viewed.version = ++versions_;
     viewed.isEncoded = viewing.resource.empty();
     graph::ResourceRef handle = outputs.picture.display;
     if (!viewing.resource.empty() && isTexture(*renderer_, viewing.resource)) {
@@ -169,6 +174,7 @@ bool VariantRenderer::renderPreview(const Variant& variant, const params::Extent
         ++result_.frame;
         result_.isPreview = true;
         ViewedTexture viewed;
+        viewed.version = ++versions_;
         viewed.isEncoded = true;
         viewed.values =
             app::readTexture(renderer_->texture(renderer_->outputs().picture.display), 0, 3);

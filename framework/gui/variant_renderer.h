@@ -26,9 +26,10 @@ class VariantRenderer {
     // Asked before each pass, with its number, how many there are, and its name.
     using GoesOn = std::function<bool(std::size_t, std::size_t, const std::string&)>;
 
-    // All of these outlive the renderer.
-    VariantRenderer(gl::Context& context, const Registry& registry, const scene::Scene& scene)
-        : context_(context), registry_(registry), scene_(scene) {}
+    // All of these outlive the renderer. `versions` counts the textures that were read back.
+    VariantRenderer(gl::Context& context, const Registry& registry, const scene::Scene& scene,
+                    std::uint64_t& versions)
+        : context_(context), registry_(registry), scene_(scene), versions_(versions) {}
 
     // Renders a frame of the variant and reads it back into result(). False: it was ended early,
     // and the result is the one before. What is wrong with the variant becomes the result's error;
@@ -66,6 +67,7 @@ class VariantRenderer {
     gl::Context& context_;
     const Registry& registry_;
     const scene::Scene& scene_;
+    std::uint64_t& versions_;
     std::unique_ptr<Renderer> renderer_;
     Variant variant_;
     params::Extent size_;

@@ -56,14 +56,10 @@ ParameterChange drawParameter(Bench& bench, const params::NamedField& named,
                        }
                    },
                    [&](const params::Extent* v) {
-                       std::array<int, 2> sides = {v->width, v->height};
-                       ImGui::InputInt2(id.c_str(), sides.data());
-                       if (ImGui::IsItemDeactivatedAfterEdit()) {
-                           const auto side = [&](int s) {
-                               return std::clamp(s, static_cast<int>(field.minimum),
-                                                 static_cast<int>(field.maximum));
-                           };
-                           change = {true, fmt::format("{}x{}", side(sides[0]), side(sides[1]))};
+                       params::Extent value = *v;
+                       if (inputExtent(id.c_str(), value, static_cast<int>(field.minimum),
+                                       static_cast<int>(field.maximum))) {
+                           change = {true, fmt::format("{}x{}", value.width, value.height)};
                        }
                    },
                    [&](params::ChoiceRef v) {
@@ -81,6 +77,26 @@ ParameterChange drawParameter(Bench& bench, const params::NamedField& named,
         explanation += "\nCtrl and click to type a value.";
     tooltip(explanation);
     return change;
+}
+
+bool inputExtent(const char* label, params::Extent& value, int minimum, int maximum) {
+    // What is typed into one side must outlive the step to the other; only one is typed at a time.
+    static thread_local ImGuiID edited = 0;
+    static thread_local std::array<int, 2> typed = {};
+    const ImGuiID id = ImGui::GetID(label);
+    std::array<int, 2> sides = {value.width, value.height};
+    if (edited == id) sides = typed;
+    if (ImGui::InputInt2(label, sides.data())) {
+        edited = id;
+        typed = sides;
+    }
+    if (!ImGui::IsItemDeactivated()) return false;
+    const params::Extent entered{std::clamp(sides[0], minimum, maximum),
+                                 std::clamp(sides[1], minimum, maximum)};
+    const bool isChanged = edited == id && !(entered == value);
+    if (edited == id) value = entered;
+    edited = 0;
+    return isChanged;
 }
 
 void sparkline(const std::vector<double>& values, ImVec2 size) {

@@ -21,6 +21,9 @@ struct ParameterChange {
 [[nodiscard]] ParameterChange drawParameter(Bench& bench, const params::NamedField& named,
                                             const std::string& label);
 
+// A width and a height to type, taken over when both are done with; true when they have changed.
+[[nodiscard]] bool inputExtent(const char* label, params::Extent& value, int minimum, int maximum);
+
 // Values over time as a line, the newest at the right, from 0 to the largest.
 void sparkline(const std::vector<double>& values, ImVec2 size);
 

@@ -130,7 +130,8 @@ void Workbench::run() {
         const ImGuiIO& io = ImGui::GetIO();
         const bool hasInput = io.MouseDelta.x != 0.0f || io.MouseDelta.y != 0.0f ||
                               io.MouseWheel != 0.0f || ImGui::IsAnyMouseDown() ||
-                              ImGui::IsAnyItemActive() || window_.hadInput();
+                              ImGui::IsAnyItemActive() || window_.hadInput() || bench_.isTurning ||
+                              Clock::now() - turnedAt_ < std::chrono::milliseconds(500);
         // Dear ImGui needs a few frames to answer what it was told.
         if (hasInput) framesToDraw_ = 3;
         if (app::isInterrupted()) window_.close();
@@ -179,6 +180,7 @@ void Workbench::takeNews() {
         bench_.renderer = renderer_.get();
         bench_.result = std::make_shared<const FrameResult>();
         hasSubmitted_ = false;
+        judgedOrder_ = 0;
         bench_.say("The renderer was started again.");
     }
     if (const auto latest = renderer_->latest(); latest && latest != bench_.result) {
@@ -221,6 +223,13 @@ void Workbench::takeDropped() {
     bench_.say(fmt::format("Opened {}.", dropped.front()));
 }
 
+// Whether the hand is at work, or was a moment ago: wheels and keys have no end of their own.
+bool Workbench::isAtWork() {
+    if (bench_.isTurning) turnedAt_ = Clock::now();
+    return bench_.isDragging || ImGui::IsAnyItemActive() ||
+           Clock::now() - turnedAt_ < std::chrono::milliseconds(250);
+}
+
 void Workbench::submitChanges() {
     FrameOrder order;
     order.document = bench_.document;
@@ -238,7 +247,7 @@ void Workbench::submitChanges() {
                                            : kFramesUntilSettled;
     order.isPrecise = bench_.panels.isPrecise;
     order.sceneReloads = bench_.sceneReloads;
-    const bool isHeld = bench_.isDragging || ImGui::IsAnyItemActive();
+    const bool isHeld = isAtWork();
     order.isPreview = bench_.isTurning && isSlow;
     // Once the quick frames have begun they last until the hand lets go.
     if (hasSubmitted_ && submitted_.isPreview && isHeld) order.isPreview = true;
@@ -267,10 +276,11 @@ void Workbench::aimTruth() {
         return;
     }
     const TruthAim aim{result.document.scene, result.document.edits, result.document.size,
-                       first.paths};
+                       first.paths, submitted_.sceneReloads};
     truthWorker_.aim(aim);
-    // Frames of one order are the same: one is judged.
-    const bool isNew = result.order != judgedOrder_ || bench_.truth->photons != judgedPhotons_;
+    // Frames of one order and the same shaders are the same: one is judged.
+    const bool isNew = result.order != judgedOrder_ || bench_.truth->photons != judgedPhotons_ ||
+                       result.shaderReloads != judgedReloads_;
     const VariantResult& second = result.variants[1];
     const bool hasBoth = !result.document.other || (second.outputs && second.order == orderNumber_);
     if (bench_.truth->photons == 0 || !first.outputs || !hasBoth || !isNew ||
@@ -279,12 +289,13 @@ void Workbench::aimTruth() {
     }
     judgedOrder_ = result.order;
     judgedPhotons_ = bench_.truth->photons;
+    judgedReloads_ = result.shaderReloads;
     truthWorker_.judge(
         {JudgedFrame{result.order, first.outputs}, JudgedFrame{result.order, second.outputs}});
 }
 
 void Workbench::rememberForUndo() {
-    if (ImGui::IsAnyItemActive() || bench_.isDragging || bench_.isPlaying) return;
+    if (isAtWork() || bench_.isPlaying) return;
     if (bench_.document == history_[historyPlace_]) return;
     history_.resize(historyPlace_ + 1);
     history_.push_back(bench_.document);
@@ -514,7 +525,7 @@ void Workbench::saveScreenshot() {
             try {
                 writeImage(file, picture);
                 return {};
-            } catch (const Error& error) {
+            } catch (const std::exception& error) {
                 return error.what();
             }
         });

@@ -38,6 +38,7 @@ class Workbench {
     void takeNews();
     void takeDropped();
     void submitChanges();
+    [[nodiscard]] bool isAtWork();
     void aimTruth();
     void draw();
     void drawToolbar();
@@ -65,6 +66,7 @@ class Workbench {
     std::uint64_t orderNumber_ = 0;
     std::uint64_t judgedOrder_ = 0;
     std::uint64_t judgedPhotons_ = 0;
+    int judgedReloads_ = 0;
     std::uint64_t playedFrame_ = 0;
     std::deque<Document> history_;  // what was worked on before, the newest last
     std::size_t historyPlace_ = 0;
@@ -73,6 +75,7 @@ class Workbench {
     int framesToDraw_ = 3;
     std::future<std::string> screenshot_;  // being written; why it failed, or nothing
     Clock::time_point frameBegin_;
+    Clock::time_point turnedAt_;
     std::deque<double> interfaceMs_;  // what the newest frames of the interface took
 };
 

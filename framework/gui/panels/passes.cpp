@@ -90,6 +90,22 @@ void drawPassRow(Bench& bench, const VariantResult& result, const graph::PassRec
     sparkline(times->gpuMilliseconds, {ImGui::GetContentRegionAvail().x, height});
 }
 
+// Passes that are off and that the list does not have: those of a node that is no longer chosen.
+void drawSwitchedOff(Bench& bench, const VariantResult& result) {
+    std::string turnedOn;
+    for (const std::string& name : bench.edited().disabled) {
+        const bool isListed =
+            std::any_of(result.passes.begin(), result.passes.end(),
+                        [&](const graph::PassRecord& pass) { return pass.name == name; });
+        if (isListed && result.error.empty()) continue;
+        if (button(bench, fmt::format("Forget that {} is off", name).c_str(),
+                   "passes.forget." + name)) {
+            turnedOn = name;
+        }
+    }
+    if (!turnedOn.empty()) bench.edited().disabled.erase(turnedOn);
+}
+
 void drawSummary(Bench& bench, const VariantResult& result) {
     const double median = medianOf(result.frameMs);
     if (!result.frameMs.empty()) {
@@ -124,6 +140,7 @@ void drawPasses(Bench& bench) {
         ImGui::PopTextWrapPos();
         bench.map.control("passes.error", result.error);
     }
+    drawSwitchedOff(bench, result);
     constexpr ImGuiTableFlags kFlags =
         ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit;
     if (!ImGui::BeginTable("passes", 7, kFlags)) return;

@@ -22,8 +22,9 @@ struct Frame {
     ImVec2 size;
     ImVec2 low;  // of the whole picture, which may be larger than the area
     ImVec2 high;
-    float zoom = 1.0f;  // window pixels a pixel
-    int width = 1;      // of the picture
+    float zoom = 1.0f;  // window pixels a pixel of the image
+    float reduction = 1.0f;
+    int width = 1;  // of the picture
     int height = 1;
 
     [[nodiscard]] glm::vec2 pixelAt(ImVec2 p) const {
@@ -37,11 +38,14 @@ struct Frame {
     }
 };
 
-Frame place(const ViewState& view, ImVec2 corner, ImVec2 size, const Image& image) {
-    Frame frame{corner, size, corner, corner, 1.0f, image.width, image.height};
+// `reduction`: how many of the document's pixels a side of the image's pixels stands for.
+Frame place(const ViewState& view, ImVec2 corner, ImVec2 size, const Image& image,
+            float reduction) {
+    Frame frame{corner, size, corner, corner, 1.0f, reduction, image.width, image.height};
     const auto width = static_cast<float>(image.width);
     const auto height = static_cast<float>(image.height);
-    frame.zoom = view.zoom > 0.0f ? view.zoom : std::min(size.x / width, size.y / height);
+    frame.zoom =
+        view.zoom > 0.0f ? view.zoom * reduction : std::min(size.x / width, size.y / height);
     const glm::vec2 middle = view.zoom > 0.0f ? view.middle : glm::vec2(0.5f);
     frame.low = {std::round(corner.x + 0.5f * size.x - middle.x * width * frame.zoom),
                  std::round(corner.y + 0.5f * size.y - middle.y * height * frame.zoom)};
@@ -76,17 +80,16 @@ Other otherImage(const Bench& bench) {
             break;
         case Beside::other: {
             const VariantResult& b = result.variants[1];
-            if (b.viewed) return {&b.viewed->values, 2 * b.frame + 1, b.viewed->isEncoded, "B"};
+            if (b.viewed) return {&b.viewed->values, b.viewed->version, b.viewed->isEncoded, "B"};
             break;
         }
         case Beside::truth:
             if (truth.irradiance)
-                return {truth.irradiance.get(), 1000000007ull + truth.photons, false, "truth"};
+                return {truth.irradiance.get(), 2 * truth.version, false, "truth"};
             break;
         case Beside::error:
             if (truth.judgements[0].heatMap) {
-                return {truth.judgements[0].heatMap.get(),
-                        2000000011ull + truth.judgements[0].order + truth.photons, true, "error"};
+                return {truth.judgements[0].heatMap.get(), 2 * truth.version + 1, true, "error"};
             }
             break;
     }
@@ -189,6 +192,7 @@ void drawPhotons(const Bench& bench, const Frame& frame) {
 }
 
 void zoomAt(ViewState& view, const Frame& frame, ImVec2 mouse, float factor) {
+    if (frame.reduction != 1.0f) return;  // a moment later the whole picture is there
     const glm::vec2 pixel = frame.pixelAt(mouse);
     view.zoom = std::clamp(frame.zoom * factor, 0.05f, 256.0f);
     // The pixel under the mouse stays there.
@@ -221,6 +225,10 @@ struct Hand {
 };
 
 void dragHeldLight(Bench& bench, const Frame& frame, int index, glm::dvec2 pixels) {
+    if (!bench.isSceneCurrent() ||
+        static_cast<std::size_t>(index) >= bench.result->scene->lights.size()) {
+        return;  // another scene came under the hand
+    }
     const SceneFacts& facts = *bench.result->scene;
     scene::Light light = facts.lights[static_cast<std::size_t>(index)];
     scene::LightEdit& edit = bench.document.edits.lights[light.name];
@@ -320,13 +328,20 @@ void drawPicture(Bench& bench) {
     }
     const ViewedTexture& viewed = *shown.viewed;
     ViewState& view = bench.view;
-    const Frame frame = place(view, corner, size, viewed.values);
+    // A preview has fewer pixels, and lies where the whole picture does.
+    const params::Extent whole = bench.result->document.size;
+    const float reduction =
+        shown.isPreview ? static_cast<float>(whole.width) / static_cast<float>(viewed.values.width)
+                        : 1.0f;
+    const Frame frame = place(view, corner, size, viewed.values, reduction);
+    const bool hasPixelsOfDocument =
+        viewed.values.width == whole.width && viewed.values.height == whole.height;
     const Other other = otherImage(bench);
     const float splitX = other.image != nullptr
                              ? frame.low.x + view.split * (frame.high.x - frame.low.x)
                              : corner.x + size.x;
 
-    bench.canvas.show(0, viewed.values, 2 * shown.frame, mappingOf(view, viewed.isEncoded));
+    bench.canvas.show(0, viewed.values, viewed.version, mappingOf(view, viewed.isEncoded));
     draw.PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
     draw.AddImage(bench.canvas.texture(0), frame.low, frame.high);
     if (other.image != nullptr) {
@@ -377,7 +392,8 @@ void drawPicture(Bench& bench) {
         if (hand.hold != Hold::nothing && hand.hasMoved) bench.isDragging = true;
     } else if (hand.hold != Hold::nothing) {
         const glm::ivec2 pixel = glm::floor(frame.pixelAt(io.MousePos));
-        if (!hand.hasMoved && hand.hold == Hold::camera && view.probes && frame.contains(pixel))
+        if (!hand.hasMoved && hand.hold == Hold::camera && view.probes && hasPixelsOfDocument &&
+            frame.contains(pixel))
             view.probePixel = pixel;
         hand = {};
     }

@@ -34,7 +34,7 @@ void saveExperiment(Bench& bench) {
                             freshName(bench), bench.panels.isPrecise);
         bench.say(fmt::format("Wrote {}; 'kaustik experiment run {}' does it again.",
                               files.front().string(), files.front().string()));
-    } catch (const Error& error) {
+    } catch (const std::exception& error) {
         bench.say(error.what(), true);
     }
 }

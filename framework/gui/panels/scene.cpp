@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cfloat>
 #include <glm/gtc/type_ptr.hpp>
 
@@ -49,12 +48,9 @@ void drawChoiceOfScene(Bench& bench) {
         ImGui::TextDisabled("%zu triangles; specular interfaces on the longest chain: %d",
                             facts.triangles, facts.needs.specularInterfaces);
     }
-    std::array<int, 2> size = {bench.document.size.width, bench.document.size.height};
-    ImGui::InputInt2("picture size, px", size.data());
+    static_cast<void>(inputExtent("picture size, px", bench.document.size, 1, 16384));
     bench.map.control("scene.size",
                       fmt::format("{}x{}", bench.document.size.width, bench.document.size.height));
-    if (ImGui::IsItemDeactivatedAfterEdit())
-        bench.document.size = {std::clamp(size[0], 1, 16384), std::clamp(size[1], 1, 16384)};
 }
 
 void drawTime(Bench& bench, const SceneFacts& facts) {
@@ -86,7 +82,8 @@ void drawCamera(Bench& bench, const SceneFacts& facts) {
     bool isChanged = dragVector(bench, "position, m", camera.position, speed, "scene.camera");
     isChanged |= dragVector(bench, "target, m", camera.target, speed, "scene.target");
     auto angle = static_cast<float>(camera.verticalFovDegrees);
-    if (ImGui::SliderFloat("field of view", &angle, 5.0f, 150.0f, "%.1f°")) {
+    if (ImGui::SliderFloat("field of view", &angle, 5.0f, 150.0f, "%.1f°",
+                           ImGuiSliderFlags_AlwaysClamp)) {
         camera.verticalFovDegrees = double(angle);
         isChanged = true;
     }
@@ -137,7 +134,7 @@ void drawLight(Bench& bench, const scene::Light& light, float speed) {
     }
     float factor = edit.powerFactor.value_or(1.0f);
     if (ImGui::SliderFloat("times its power", &factor, 0.0f, 10.0f, "%.2f",
-                           ImGuiSliderFlags_Logarithmic)) {
+                           ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp)) {
         edit.powerFactor = factor;
         isChanged = true;
     }
@@ -165,8 +162,9 @@ void drawWater(Bench& bench, const SceneFacts::Water& water) {
         scene::Wave& wave = waves[i];
         ImGui::PushID(static_cast<int>(i));
         ImGui::TextDisabled("wave %zu", i + 1);
-        isChanged |= ImGui::SliderFloat("amplitude, m", &wave.amplitudeMeters, 0.0f,
-                                        0.2f * wave.wavelengthMeters, "%.4f");
+        isChanged |=
+            ImGui::SliderFloat("amplitude, m", &wave.amplitudeMeters, 0.0f,
+                               0.2f * wave.wavelengthMeters, "%.4f", ImGuiSliderFlags_AlwaysClamp);
         bench.map.control(fmt::format("scene.wave.{}.{}.amplitude", water.object, i),
                           fmt::format("{}", wave.amplitudeMeters));
         isChanged |= ImGui::DragFloat("length, m", &wave.wavelengthMeters, 0.005f, 0.01f, 1e4f,
@@ -196,7 +194,8 @@ void drawMedium(Bench& bench, const scene::Medium& own) {
                                        0.002f, 0.0f, 1e3f, "%.4f", ImGuiSliderFlags_AlwaysClamp);
     isChanged |= ImGui::DragFloat3("absorption, 1/m", glm::value_ptr(medium.absorptionPerMeter),
                                    0.002f, 0.0f, 1e3f, "%.4f", ImGuiSliderFlags_AlwaysClamp);
-    isChanged |= ImGui::SliderFloat("anisotropy", &medium.anisotropy, -0.99f, 0.99f, "%.2f");
+    isChanged |= ImGui::SliderFloat("anisotropy", &medium.anisotropy, -0.99f, 0.99f, "%.2f",
+                                    ImGuiSliderFlags_AlwaysClamp);
     if (isChanged) bench.document.edits.medium = medium;
 }
 
