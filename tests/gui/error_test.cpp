@@ -25,7 +25,7 @@ class ErrorPanel : public WorkbenchTest {
             return controls.at("error.problem").at("value") != "" ||
                    (!controls.contains("error.progress") && controls.contains("error.rmse") &&
                     controls.at("error.frame").at("value") == "new" &&
-                    screen.at("status").at("judged_frame") == screen.at("status").at("frame"));
+                    screen.at("status").at("judged_order") == screen.at("status").at("order"));
         });
         ASSERT_EQ(bench->value("error.problem"), "");
         untilSettled();
