@@ -5,13 +5,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <ctime>
 #include <nlohmann/json.hpp>
 
 #include "framework/app/progress.h"
 #include "framework/core/error.h"
 #include "framework/core/files.h"
 #include "framework/gui/panels/panels.h"
+#include "framework/gui/recording_name.h"
 #include "framework/gui/widgets.h"
 
 namespace kaustik::gui {
@@ -372,12 +372,9 @@ void Workbench::saveScreenshot() {
     Image image;
     image.values = window_.readPixels(image.width, image.height);
     image.channels = 3;
-    const std::time_t now = std::time(nullptr);
-    std::tm local{};
-    localtime_r(&now, &local);
-    const fs::path file = fs::path(bench_.panels.recordFolder) /
-                          fmt::format("workbench-{:02}{:02}{:02}{}", local.tm_hour, local.tm_min,
-                                      local.tm_sec, displayImageExtension());
+    const fs::path file =
+        fs::path(bench_.panels.recordFolder) /
+        (recordingName(bench_.document.scene) + "-window" + displayImageExtension());
     // A large picture takes longer to compress than the window may be asleep.
     screenshot_ =
         std::async(std::launch::async, [file, picture = std::move(image)]() -> std::string {

@@ -2,36 +2,20 @@
 #include <fmt/format.h>
 
 #include <cfloat>
-#include <ctime>
 
 #include "framework/core/error.h"
 #include "framework/gui/experiment_file.h"
 #include "framework/gui/panels/panels.h"
+#include "framework/gui/recording_name.h"
 #include "framework/gui/widgets.h"
 
 namespace kaustik::gui {
-namespace {
-
-// A name that no earlier recording has: pool-20261121-143015.
-std::string freshName(const Bench& bench) {
-    const std::time_t now = std::time(nullptr);
-    std::tm local{};
-    localtime_r(&now, &local);
-    std::string scene = std::filesystem::path(bench.document.scene).stem().string();
-    for (char& c : scene) {
-        if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-' && c != '_') c = '_';
-    }
-    return fmt::format("{}-{:04}{:02}{:02}-{:02}{:02}{:02}", scene, local.tm_year + 1900,
-                       local.tm_mon + 1, local.tm_mday, local.tm_hour, local.tm_min, local.tm_sec);
-}
-
-}  // namespace
 
 void saveExperiment(Bench& bench) {
     try {
         const std::vector<std::filesystem::path> files =
             writeExperiment(bench.document, bench.registry, bench.panels.recordFolder,
-                            freshName(bench), bench.panels.isPrecise);
+                            recordingName(bench.document.scene), bench.panels.isPrecise);
         bench.say(fmt::format("Wrote {}; 'kaustik experiment run {}' does it again.",
                               files.front().string(), files.front().string()));
     } catch (const std::exception& error) {
@@ -56,7 +40,7 @@ void drawRecord(Bench& bench) {
     ImGui::BeginDisabled(recording.isActive);
     if (button(bench, "Report of 8 frames", "record.report")) {
         RecordRequest request;
-        request.folder = folder / freshName(bench);
+        request.folder = folder / recordingName(bench.document.scene);
         bench.renderer->record(request);
     }
     tooltip(
@@ -70,7 +54,7 @@ void drawRecord(Bench& bench) {
     if (button(bench, "Image sequence", "record.sequence")) {
         RecordRequest request;
         request.what = RecordRequest::What::sequence;
-        request.folder = folder / freshName(bench);
+        request.folder = folder / recordingName(bench.document.scene);
         request.frames = bench.panels.sequenceFrames;
         request.secondsPerFrame = double(bench.panels.sequenceStep);
         bench.isPlaying = false;

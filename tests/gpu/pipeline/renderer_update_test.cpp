@@ -4,40 +4,10 @@
 
 #include "framework/scene/scene_edits.h"
 #include "tests/gpu/fixture.h"
+#include "tests/wavy_water.h"
 
 namespace kaustik::test {
 namespace {
-
-constexpr const char* kPond = R"(
-[camera]
-position = [0, 2, 1]
-[[light]]
-name = "sun"
-type = "directional"
-direction = [0.1, -1, 0]
-irradiance = 1000
-[[material]]
-name = "chalk"
-type = "lambertian"
-albedo = 0.5
-[[material]]
-name = "water"
-type = "dielectric"
-ior = 1.333
-[[object]]
-name = "floor"
-shape = "plane"
-material = "chalk"
-size = [2, 2]
-position = [0, -0.5, 0]
-[[object]]
-name = "pond"
-shape = "water"
-material = "water"
-size = [1, 1]
-cells = [16, 16]
-waves = [{amplitude = 0.02, wavelength = 0.5}]
-)";
 
 class RendererUpdate : public testing::Test {
   protected:
@@ -63,7 +33,7 @@ class RendererUpdate : public testing::Test {
 };
 
 TEST_F(RendererUpdate, ShowsTheSameBitsAsANewRenderer) {
-    scene::Scene scene = sceneFromText(kPond);
+    scene::Scene scene = sceneFromText(kWavyWater);
     Renderer updated(context(), registry_, scene, settings("march", 64));
     const std::vector<float> before = picture(updated);
 
@@ -71,7 +41,7 @@ TEST_F(RendererUpdate, ShowsTheSameBitsAsANewRenderer) {
     edits.camera = scene.camera;
     edits.camera->position = {0.4, 1.7, 0.9};
     edits.lights["sun"].direction = glm::dvec3(-0.3, -1.0, 0.2);
-    edits.waves["pond"] = {{0.03f, 0.4f, 30.0f, 1.0f, -1.0f}};
+    edits.waves["water"] = {{0.03f, 0.4f, 30.0f, 1.0f, -1.0f}};
     edits.timeSeconds = 0.7;
     applyEdits(scene, edits);
     updated.update(settings("hierarchical", 80));
@@ -82,13 +52,13 @@ TEST_F(RendererUpdate, ShowsTheSameBitsAsANewRenderer) {
 
     // And back again.
     applyEdits(scene, scene::SceneEdits());
-    scene = sceneFromText(kPond);
+    scene = sceneFromText(kWavyWater);
     updated.update(settings("march", 64));
     EXPECT_EQ(picture(updated), before);
 }
 
 TEST_F(RendererUpdate, AFrameThatIsEndedEarlyHasNoTimeAndTheNextOneIsWhole) {
-    const scene::Scene scene = sceneFromText(kPond);
+    const scene::Scene scene = sceneFromText(kWavyWater);
     Renderer renderer(context(), registry_, scene, settings("march", 64));
     const std::vector<float> whole = picture(renderer);
     gl::PassTimer timer(gl::TimerMode::finish);
