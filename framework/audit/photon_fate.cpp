@@ -61,13 +61,6 @@ Sight Layers::sightOf(const glm::dvec2& pixel, double depth, double footprint) c
     return last > 0.0 && depth > last ? Sight::beyondLayers : Sight::edgeOn;
 }
 
-std::optional<glm::dvec2> pixelOf(const render::EyeView& view, const glm::dvec3& positionVs) {
-    const double depth = -positionVs.z;
-    if (!(depth > 0.0)) return std::nullopt;
-    const glm::dvec2 size(view.width, view.height);
-    return (glm::dvec2(positionVs) / (depth * view.tangents) * 0.5 + 0.5) * size;
-}
-
 PhotonFate judgeFate(const render::EyeView& view, const Layers& layers, const glm::dvec3& origin,
                      const std::optional<glm::dvec3>& found, const reference::FirstHit& exact) {
     PhotonFate fate;

@@ -66,10 +66,6 @@ class Layers {
     std::vector<float> texels_;
 };
 
-// Where a point of view space falls in the picture; absent for one that is not before the eye.
-[[nodiscard]] std::optional<glm::dvec2> pixelOf(const render::EyeView& view,
-                                                const glm::dvec3& positionVs);
-
 // `found`: where the tracer says that the photon arrived. `exact` in eye view space.
 [[nodiscard]] PhotonFate judgeFate(const render::EyeView& view, const Layers& layers,
                                    const glm::dvec3& origin, const std::optional<glm::dvec3>& found,

@@ -151,9 +151,8 @@ const Resolver::KnownScene& Resolver::scene(const Setting& setting) {
     if (found != scenes_.end()) return found->second;
     // A file is looked for beside the experiment, wherever the program is started.
     KnownScene known;
-    const std::string extension = fs::path(name).extension().string();
-    const bool isFile = extension == ".toml" || extension == ".gltf" || extension == ".glb";
-    known.argument = isFile ? fs::absolute(specFile_.parent_path() / name).string() : name;
+    known.argument =
+        scene::isSceneFile(name) ? fs::absolute(specFile_.parent_path() / name).string() : name;
     try {
         const scene::Scene loaded = scene::loadScene(known.argument);
         known.timeSeconds = loaded.timeSeconds;

@@ -33,10 +33,15 @@ long long availableSystemBytes() {
     return 0;
 }
 
-long long availableDeviceBytes(const std::string& renderer) {
-    for (const char* software : {"llvmpipe", "softpipe", "SWR"}) {
-        if (renderer.find(software) != std::string::npos) return availableSystemBytes();
+bool isSoftwareRasteriser(const std::string& renderer) {
+    for (const char* name : {"llvmpipe", "softpipe", "SWR"}) {
+        if (renderer.find(name) != std::string::npos) return true;
     }
+    return false;
+}
+
+long long availableDeviceBytes(bool isSoftware) {
+    if (isSoftware) return availableSystemBytes();
     if (!epoxy_has_gl_extension("GL_NVX_gpu_memory_info")) return 0;
     GLint kibibytes = 0;
     glGetIntegerv(GL_GPU_MEMORY_INFO_CURRENT_AVAILABLE_VIDMEM_NVX, &kibibytes);
@@ -204,7 +209,8 @@ void Context::readInfo() {
     info_.version = text(GL_VERSION);
     info_.platform = egl_->platform;
     info_.robust = egl_->robust;
-    info_.availableBytes = availableDeviceBytes(info_.renderer);
+    info_.isSoftware = isSoftwareRasteriser(info_.renderer);
+    info_.availableBytes = availableDeviceBytes(info_.isSoftware);
     info_.maxTextureSize = integer(GL_MAX_TEXTURE_SIZE);
     info_.maxTextureLayers = integer(GL_MAX_ARRAY_TEXTURE_LAYERS);
     std::array<GLint, 2> viewport{};

@@ -23,6 +23,7 @@ struct DeviceInfo {
     // which the system would promise without having.
     long long availableBytes = 0;
     bool robust = false;
+    bool isSoftware = false;           // renders on the processor, as Mesa does without a GPU
     std::vector<std::string> missing;  // what the project needs and the device lacks
 };
 

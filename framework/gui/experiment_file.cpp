@@ -9,25 +9,21 @@
 #include "framework/core/error.h"
 #include "framework/core/files.h"
 #include "framework/core/names.h"
+#include "framework/scene/scene_file.h"
 
 namespace kaustik::gui {
 namespace {
 
 namespace fs = std::filesystem;
 
-bool isSceneFile(const std::string& scene) {
-    const std::string extension = fs::path(scene).extension().string();
-    return extension == ".toml" || extension == ".gltf" || extension == ".glb";
-}
-
 // The scene as a file in `folder` would name it.
-std::string seenFrom(const fs::path& folder, const std::string& scene) {
-    if (!isSceneFile(scene)) return scene;
+std::string seenFrom(const fs::path& folder, const std::string& name) {
+    if (!scene::isSceneFile(name)) return name;
     std::error_code error;
     const fs::path from = fs::absolute(folder.empty() ? "." : folder, error);
-    const fs::path relative = fs::relative(fs::absolute(scene), from, error);
+    const fs::path relative = fs::relative(fs::absolute(name), from, error);
     // Where there is no way from one to the other, the scene is named as it is.
-    return error || relative.empty() ? fs::absolute(scene, error).string() : relative.string();
+    return error || relative.empty() ? fs::absolute(name, error).string() : relative.string();
 }
 
 std::string listOf(const std::set<std::string>& texts) {

@@ -45,12 +45,9 @@ std::vector<glm::vec3> wayFromLight(const Renderer& renderer, const glm::vec3& p
 }  // namespace
 
 Projected project(const render::EyeView& view, const glm::vec3& pointVs) {
-    const double depth = -double(pointVs.z);
-    if (!(depth >= view.nearMeters)) return {};
-    const glm::dvec2 onScreen = glm::dvec2(pointVs) / (depth * view.tangents);
-    return {
-        glm::vec2((0.5 + 0.5 * onScreen.x) * view.width, (0.5 - 0.5 * onScreen.y) * view.height),
-        true};
+    if (!(-double(pointVs.z) >= view.nearMeters)) return {};
+    const glm::dvec2 pixel = pixelOf(view, pointVs).value();
+    return {glm::vec2(pixel.x, view.height - pixel.y), true};
 }
 
 PhotonProbe probePhotons(const Renderer& renderer, glm::ivec2 pixel, float radiusPixels) {

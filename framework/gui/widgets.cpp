@@ -8,6 +8,9 @@
 #include <array>
 #include <cfloat>
 #include <cmath>
+#include <utility>
+
+#include "framework/report/statistics.h"
 
 namespace kaustik::gui {
 namespace {
@@ -223,10 +226,7 @@ ImVec4 stageColor(const std::string& stage) {
 }
 
 double medianOf(std::vector<double> values) {
-    if (values.empty()) return 0.0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
+    return report::summarize(std::move(values)).median;
 }
 
 }  // namespace kaustik::gui

@@ -51,6 +51,7 @@ void inputText(Bench& bench, const char* label, const char* hint, std::string& t
 // Where a stage stands in the usual order; those that this knows nothing of come last.
 [[nodiscard]] std::size_t stageRank(const std::string& stage);
 
+// As the report has it.
 [[nodiscard]] double medianOf(std::vector<double> values);
 
 }  // namespace kaustik::gui

@@ -28,13 +28,6 @@ constexpr int kFramesUntilSettled = 8;
 constexpr int kSlowFramesUntilSettled = 3;
 constexpr std::size_t kInterfaceFramesKept = 1000;
 
-bool isSoftware(const std::string& renderer) {
-    for (const char* name : {"llvmpipe", "softpipe", "SWR"}) {
-        if (renderer.find(name) != std::string::npos) return true;
-    }
-    return false;
-}
-
 json readKept(const fs::path& folder) {
     if (folder.empty()) return {};
     try {
@@ -188,7 +181,7 @@ void Workbench::takeNews() {
         framesToDraw_ = std::max(framesToDraw_, 2);
         if (!kept_.knowsDevice && !latest->device.renderer.empty()) {
             // What times mean on a software rasteriser is known without asking the user.
-            bench_.panels.isPrecise = isSoftware(latest->device.renderer);
+            bench_.panels.isPrecise = latest->device.isSoftware;
             kept_.knowsDevice = true;
         }
     }
@@ -210,8 +203,7 @@ void Workbench::takeNews() {
 void Workbench::takeDropped() {
     const std::vector<std::string> dropped = window_.takeDropped();
     if (dropped.empty()) return;
-    const std::string extension = fs::path(dropped.front()).extension().string();
-    if (extension != ".toml" && extension != ".gltf" && extension != ".glb") {
+    if (!scene::isSceneFile(dropped.front())) {
         bench_.say(
             fmt::format("'{}' is no scene: drop a .toml, .gltf or .glb file.", dropped.front()),
             true);

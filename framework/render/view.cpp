@@ -50,6 +50,13 @@ glm::mat4 EyeView::projection() const {
     return glm::mat4(p);
 }
 
+std::optional<glm::dvec2> pixelOf(const EyeView& view, const glm::dvec3& positionVs) {
+    const double depth = -positionVs.z;
+    if (!(depth > 0.0)) return std::nullopt;
+    const glm::dvec2 size(view.width, view.height);
+    return (glm::dvec2(positionVs) / (depth * view.tangents) * 0.5 + 0.5) * size;
+}
+
 EyeView makeEyeView(const scene::Camera& camera, int width, int height) {
     EyeView view;
     view.worldToView = lookAlong(camera.position, camera.target - camera.position, camera.up);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <optional>
 
 #include "framework/scene/scene.h"
 #include "framework/transport/types.h"
@@ -21,6 +22,10 @@ struct EyeView {
     // Metres that a pixel covers at a depth of 1 m.
     [[nodiscard]] double footprintPerMeter() const { return 2.0 * tangents.y / height; }
 };
+
+// Where a point of eye view space is seen, in pixels from the lower left corner, on the screen or
+// beside it; nothing where it is not before the eye.
+[[nodiscard]] std::optional<glm::dvec2> pixelOf(const EyeView& view, const glm::dvec3& positionVs);
 
 // Square pixels: the horizontal field of view follows from the size.
 [[nodiscard]] EyeView makeEyeView(const scene::Camera& camera, int width, int height);

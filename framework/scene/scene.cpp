@@ -65,6 +65,17 @@ std::size_t triangleCount(const Scene& scene) {
     return count;
 }
 
+std::optional<glm::dvec3> topOfImage(const glm::dvec3& direction, const glm::dvec3& wanted) {
+    const glm::dvec3 up = wanted - glm::dot(wanted, direction) * direction;
+    if (!(glm::length(up) >= 1e-6)) return std::nullopt;
+    return glm::normalize(up);
+}
+
+glm::dvec3 defaultTopOfImage(const glm::dvec3& direction) {
+    const bool isVertical = std::abs(direction.y) > 1.0 - 1e-9;
+    return isVertical ? glm::dvec3(0, 0, -1) : glm::dvec3(0, 1, 0);
+}
+
 double spotFalloff(const Light& light, double cosine) {
     const double inner = std::cos(double(light.innerConeRadians));
     const double outer = std::cos(double(light.outerConeRadians));

@@ -162,6 +162,13 @@ struct Bounds {
 [[nodiscard]] Bounds sceneBounds(const Scene& scene);
 [[nodiscard]] std::size_t triangleCount(const Scene& scene);
 
+// The top of the image of a light that shines in `direction` (unit), as near to `wanted` as the
+// image's plane allows; nothing where that is along the direction.
+[[nodiscard]] std::optional<glm::dvec3> topOfImage(const glm::dvec3& direction,
+                                                   const glm::dvec3& wanted);
+// Where nothing is wanted: +Y, for a vertical light -Z.
+[[nodiscard]] glm::dvec3 defaultTopOfImage(const glm::dvec3& direction);
+
 // The share of a spot's intensity that it sends at `cosine` from its direction: 1 inside the inner
 // cone, 0 outside the outer one, between them the squared linear ramp in the cosine that
 // KHR_lights_punctual recommends. Its flux is I 2π ((1 - cos inner) + (cos inner - cos outer)/3).

@@ -46,12 +46,10 @@ void apply(Light& light, const LightEdit& edit) {
     if (edit.direction) {
         light.direction = unitDirection(*edit.direction);
         if (light.image >= 0) {
-            glm::dvec3 up = light.up - glm::dot(light.up, light.direction) * light.direction;
-            // The image's top was where the light now points.
-            if (glm::length(up) < 1e-6)
-                up = glm::dvec3(light.direction.y, light.direction.z, light.direction.x);
-            up -= glm::dot(up, light.direction) * light.direction;
-            light.up = glm::normalize(up);
+            // Its top stays as it is as far as it can.
+            const auto up = topOfImage(light.direction, light.up);
+            light.up =
+                up ? *up : topOfImage(light.direction, defaultTopOfImage(light.direction)).value();
         }
     }
     if (edit.position) light.position = *edit.position;

@@ -41,8 +41,6 @@ fs::path sceneFolder() {
 // A file that says `extends`: only what it changes is in it.
 Scene loadExtension(TableReader& top, const fs::path& path) {
     const std::string base = top.text("extends");
-    const std::string extension = lowerExtension(base);
-    const bool isFile = extension == ".toml" || extension == ".gltf" || extension == ".glb";
     const std::string name = top.text("name", path.stem().string());
     const std::string description = top.text("description", "");
     const SceneEdits edits = readEdits(top);
@@ -55,7 +53,7 @@ Scene loadExtension(TableReader& top, const fs::path& path) {
     if (depth > 16) top.fail("extends", "scenes extend each other without an end");
     Scene scene;
     try {
-        scene = loadScene(isFile ? (path.parent_path() / base).string() : base);
+        scene = loadScene(isSceneFile(base) ? (path.parent_path() / base).string() : base);
     } catch (const ConfigError& error) {
         top.fail("extends", error.what());
     }
@@ -123,10 +121,16 @@ Scene loadSceneFile(const fs::path& path) {
     return scene;
 }
 
+bool isSceneFile(const fs::path& path) {
+    const std::string extension = lowerExtension(path);
+    return extension == ".toml" || extension == ".gltf" || extension == ".glb";
+}
+
 Scene loadScene(const std::string& nameOrPath) {
-    const std::string extension = lowerExtension(nameOrPath);
-    if (extension == ".toml") return loadSceneFile(nameOrPath);
-    if (extension == ".gltf" || extension == ".glb") return importGltf(nameOrPath);
+    if (isSceneFile(nameOrPath)) {
+        return lowerExtension(nameOrPath) == ".toml" ? loadSceneFile(nameOrPath)
+                                                     : importGltf(nameOrPath);
+    }
     std::vector<std::string> names;
     for (const SceneListing& listing : listScenes()) {
         if (listing.name == nameOrPath) return loadSceneFile(listing.file);

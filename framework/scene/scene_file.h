@@ -14,6 +14,9 @@ namespace kaustik::scene {
 // that makes no sense, and IoError for a file that cannot be read, here or at a mesh or a texture.
 [[nodiscard]] Scene loadSceneFile(const std::filesystem::path& path);
 
+// Whether a path ends as those of scenes do: .toml, .gltf or .glb, in any case.
+[[nodiscard]] bool isSceneFile(const std::filesystem::path& path);
+
 // A scene by its name in experiments/scenes, or from a .toml, .gltf or .glb file. Throws
 // ConfigError for a name that does not exist, with the nearest one and all there are.
 [[nodiscard]] Scene loadScene(const std::string& nameOrPath);

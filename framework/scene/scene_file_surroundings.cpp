@@ -77,12 +77,11 @@ void readSpotImage(TableReader& reader, Light& light, Scene& scene) {
                                 "most {}, not {}",
                                 kWidestImageDegrees, glm::degrees(light.outerConeRadians)));
     }
-    const bool isVertical = std::abs(light.direction.y) > 1.0 - 1e-9;
-    glm::dvec3 up = isVertical ? glm::dvec3(0, 0, -1) : glm::dvec3(0, 1, 0);
-    if (reader.has("up")) up = reader.direction("up");
-    up -= glm::dot(up, light.direction) * light.direction;
-    if (glm::length(up) < 1e-6) reader.fail("up", "up must not be parallel to direction");
-    light.up = glm::normalize(up);
+    const std::optional<glm::dvec3> up =
+        topOfImage(light.direction,
+                   reader.has("up") ? reader.direction("up") : defaultTopOfImage(light.direction));
+    if (!up) reader.fail("up", "up must not be parallel to direction");
+    light.up = *up;
 }
 
 // A surface that reflects more than it receives is a slip.

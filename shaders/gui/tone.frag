@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Values of any range as colours for the window: exposure and sRGB, or false colours; NaN is
 // magenta, infinity cyan. Row 0 is the top of the image on both sides.
+#include "common/srgb.glsl"
+
 uniform sampler2D values;
 uniform sampler2D palette;
 uniform int channels;
@@ -11,12 +13,6 @@ uniform float gain;
 uniform vec2 range;
 
 out vec4 mapped;
-
-vec3 encode(vec3 linear) {
-    vec3 c = clamp(linear, 0.0, 1.0);
-    vec3 isBright = vec3(greaterThan(c, vec3(0.0031308)));
-    return mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, isBright);
-}
 
 void main() {
     vec4 value = texelFetch(values, ivec2(gl_FragCoord.xy), 0);
@@ -33,7 +29,7 @@ void main() {
         float t = clamp((single - range.x) / max(range.y - range.x, 1e-30), 0.0, 1.0);
         color = texelFetch(palette, ivec2(int(t * 255.0 + 0.5), 0), 0).rgb;
     } else if (!isEncoded) {
-        color = encode(gain * color);
+        color = encodeSrgb(gain * color);
     }
     if (hasInfinity) color = vec3(0.0, 1.0, 1.0);
     if (hasNan) color = vec3(1.0, 0.0, 1.0);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Radiance as a picture: exposure, a shoulder above which highlights are compressed (luminance
 // only, so that hues stay), sRGB.
+#include "common/srgb.glsl"
+
 layout(location = 0) out vec4 display;
 
 uniform sampler2D radiance;
@@ -15,7 +17,5 @@ void main() {
         float compressed = shoulder + (1.0 - shoulder) * over / (over + 1.0 - shoulder);
         color *= compressed / luminance;
     }
-    vec3 low = color * 12.92;
-    vec3 high = 1.055 * pow(max(color, vec3(1e-8)), vec3(1.0 / 2.4)) - 0.055;
-    display = vec4(clamp(mix(high, low, lessThanEqual(color, vec3(0.0031308))), 0.0, 1.0), 1.0);
+    display = vec4(encodeSrgb(color), 1.0);
 }
