@@ -61,10 +61,14 @@ struct Bench {
     [[nodiscard]] const VariantResult& editedResult() const {
         return result->variants[panels.edited == 1 && document.other ? 1 : 0];
     }
-    // As the document has it, which may be newer than what was rendered.
+    // As the document has them, which may be newer than what was rendered.
     [[nodiscard]] scene::Camera camera() const {
         if (document.edits.camera) return *document.edits.camera;
         return result->scene ? result->scene->camera : scene::Camera();
+    }
+    [[nodiscard]] double timeSeconds() const {
+        return document.edits.timeSeconds.value_or(result->scene ? result->scene->timeSeconds
+                                                                 : 0.0);
     }
     [[nodiscard]] bool isSceneCurrent() const {
         return result->scene && result->document.scene == document.scene;

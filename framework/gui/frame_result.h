@@ -69,12 +69,14 @@ struct SceneFacts {
     std::string name;
     std::string description;
     std::size_t triangles = 0;
+    // With the changes of the document that was rendered.
     scene::SceneNeeds needs;
-    scene::Camera camera;  // as are the next, with the document's changes
+    scene::Bounds bounds;
+    // As the scene's file says: the document at hand may say otherwise (Bench).
+    scene::Camera camera;
     std::vector<scene::Light> lights;
     std::optional<scene::Medium> medium;
     double timeSeconds = 0.0;
-    scene::Bounds bounds;
     struct Water {
         std::string object;
         std::vector<scene::Wave> waves;

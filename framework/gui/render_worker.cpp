@@ -50,19 +50,19 @@ void takeEdits(scene::Scene& scene, const scene::Scene& base, const scene::Scene
     if (moved && !edits.timeSeconds && edits.waves.empty()) setTime(scene, base.timeSeconds);
 }
 
-std::shared_ptr<const SceneFacts> factsOf(const scene::Scene& scene) {
+std::shared_ptr<const SceneFacts> factsOf(const scene::Scene& base, const scene::Scene& scene) {
     auto facts = std::make_shared<SceneFacts>();
     facts->name = scene.name;
     facts->description = scene.description;
     facts->triangles = triangleCount(scene);
     facts->needs = sceneNeeds(scene);
-    facts->camera = scene.camera;
-    facts->lights = scene.lights;
-    facts->medium = scene.medium;
-    facts->timeSeconds = scene.timeSeconds;
     facts->bounds = sceneBounds(scene);
-    for (const scene::Object& object : scene.objects) {
-        const scene::Mesh& mesh = scene.meshes[object.mesh];
+    facts->camera = base.camera;
+    facts->lights = base.lights;
+    facts->medium = base.medium;
+    facts->timeSeconds = base.timeSeconds;
+    for (const scene::Object& object : base.objects) {
+        const scene::Mesh& mesh = base.meshes[object.mesh];
         if (mesh.heightField) facts->waters.push_back({object.name, mesh.heightField->waves});
     }
     return facts;
@@ -261,7 +261,7 @@ bool RenderWorker::loadScene(Device& device) {
             device.sceneName = document.scene;
             device.sceneReloads = device.order.sceneReloads;
             device.edits = scene::SceneEdits();
-            working_.scene = factsOf(*device.scene);
+            working_.scene = factsOf(*device.base, *device.scene);
         }
         if (device.edits != document.edits) {
             device.edits.reset();  // of the scene as it is until this is whole
@@ -270,7 +270,7 @@ bool RenderWorker::loadScene(Device& device) {
             for (const auto& renderer : device.renderers) {
                 if (renderer) renderer->noteSceneChange();
             }
-            working_.scene = factsOf(*device.scene);
+            working_.scene = factsOf(*device.base, *device.scene);
         }
         working_.problem.clear();
         return true;

@@ -194,9 +194,8 @@ void Workbench::takeNews() {
     if (bench_.isPlaying && bench_.isSceneCurrent() && first.frame != playedFrame_ &&
         first.order == orderNumber_) {
         playedFrame_ = first.frame;
-        const double now =
-            bench_.document.edits.timeSeconds.value_or(bench_.result->scene->timeSeconds);
-        bench_.document.edits.timeSeconds = now + double(bench_.panels.sequenceStep);
+        bench_.document.edits.timeSeconds =
+            bench_.timeSeconds() + double(bench_.panels.sequenceStep);
     }
 }
 
@@ -321,8 +320,7 @@ void Workbench::useKeys() {
     if (pressed(GLFW_KEY_PERIOD) && bench_.result->scene) {
         bench_.isPlaying = false;
         bench_.document.edits.timeSeconds =
-            bench_.document.edits.timeSeconds.value_or(bench_.result->scene->timeSeconds) +
-            double(bench_.panels.sequenceStep);
+            bench_.timeSeconds() + double(bench_.panels.sequenceStep);
     }
     if (pressed(GLFW_KEY_0)) bench_.view.zoom = 0.0f;
     if (pressed(GLFW_KEY_R)) bench_.document.edits.camera.reset();
@@ -347,7 +345,9 @@ void Workbench::describe() {
     map_.status("error", first.error);
     map_.status("problem", result.problem);
     map_.status("busy", renderer_->progress().isBusy);
-    map_.status("time_s", result.scene ? result.scene->timeSeconds : 0.0);
+    map_.status(
+        "time_s",
+        result.scene ? result.document.edits.timeSeconds.value_or(result.scene->timeSeconds) : 0.0);
     map_.status("playing", bench_.isPlaying);
     map_.status("truth_photons", bench_.truth->photons);
     map_.status("judged_order", bench_.truth->judgements[0].order);

@@ -42,20 +42,6 @@ void check(const Scene& scene, const SceneEdits& edits) {
         static_cast<void>(waterOf(scene, name));
 }
 
-void apply(Light& light, const LightEdit& edit) {
-    if (edit.direction) {
-        light.direction = unitDirection(*edit.direction);
-        if (light.image >= 0) {
-            // Its top stays as it is as far as it can.
-            const auto up = topOfImage(light.direction, light.up);
-            light.up =
-                up ? *up : topOfImage(light.direction, defaultTopOfImage(light.direction)).value();
-        }
-    }
-    if (edit.position) light.position = *edit.position;
-    if (edit.powerFactor) light.power *= *edit.powerFactor;
-}
-
 std::string list(const glm::dvec3& v) {
     return fmt::format("[{}, {}, {}]", v.x, v.y, v.z);
 }
@@ -78,16 +64,32 @@ void applyEdits(Scene& scene, const SceneEdits& edits) {
     check(scene, edits);
     if (edits.camera) scene.camera = *edits.camera;
     if (edits.medium) scene.medium = *edits.medium;
-    for (Light& light : scene.lights) {
-        const auto edit = edits.lights.find(light.name);
-        if (edit != edits.lights.end()) apply(light, edit->second);
-    }
+    for (Light& light : scene.lights)
+        light = withEdits(light, edits);
     for (const auto& [name, waves] : edits.waves) {
         const Object& object = findNamed(scene.objects, name, "object");
         scene.meshes[object.mesh].heightField->waves = waves;
     }
     if (edits.timeSeconds || !edits.waves.empty())
         setTime(scene, edits.timeSeconds.value_or(scene.timeSeconds));
+}
+
+Light withEdits(Light light, const SceneEdits& edits) {
+    const auto found = edits.lights.find(light.name);
+    if (found == edits.lights.end()) return light;
+    const LightEdit& edit = found->second;
+    if (edit.direction) {
+        light.direction = unitDirection(*edit.direction);
+        if (light.image >= 0) {
+            // Its top stays as it is as far as it can.
+            const auto up = topOfImage(light.direction, light.up);
+            light.up =
+                up ? *up : topOfImage(light.direction, defaultTopOfImage(light.direction)).value();
+        }
+    }
+    if (edit.position) light.position = *edit.position;
+    if (edit.powerFactor) light.power *= *edit.powerFactor;
+    return light;
 }
 
 std::string writeSceneFile(const std::string& name, const std::string& base,

@@ -33,6 +33,8 @@ struct SceneEdits {
 // Takes the edits over. Throws ConfigError, and changes nothing, for a light or a water that the
 // scene does not have (with the nearest that it has) and for what the kind of light does not take.
 void applyEdits(Scene& scene, const SceneEdits& edits);
+// A light of the scene with what the edits say of it.
+[[nodiscard]] Light withEdits(Light light, const SceneEdits& edits);
 
 // A scene file that extends `base` (a name, or a path as seen from the file's folder) by the edits.
 // Loading it gives the same bits as applyEdits on the scene of `base`.

@@ -76,7 +76,11 @@ TEST_F(ScenePanel, CtrlAndTheWheelComeNearer) {
 }
 
 TEST_F(ScenePanel, KeysFly) {
-    start();
+    // Frames that take a while: what is on the screen is older than what the keys have done.
+    Json slow = smallDocument();
+    slow["size"] = {320, 240};
+    slow["variant"]["set"]["emit.photons"] = "256x256";
+    start(keptWith(slow));
     bench->hover("picture");
     bench->key("w");
     const glm::dvec3 forward = position() - kPosition;

@@ -134,7 +134,7 @@ int drawLights(Bench& bench, const Frame& frame, bool isHovered, int dragged) {
     const auto radius = static_cast<float>(bench.px(9.0));
     int found = -1;
     for (std::size_t i = 0; i < facts.lights.size(); ++i) {
-        const scene::Light& light = facts.lights[i];
+        const scene::Light light = withEdits(facts.lights[i], bench.document.edits);
         const glm::dvec3 handle = lightHandle(light, facts.bounds);
         const Projected seen = at(handle);
         if (!seen.visible) continue;
@@ -230,12 +230,10 @@ void dragHeldLight(Bench& bench, const Frame& frame, int index, glm::dvec2 pixel
         return;  // another scene came under the hand
     }
     const SceneFacts& facts = *bench.result->scene;
-    scene::Light light = facts.lights[static_cast<std::size_t>(index)];
-    scene::LightEdit& edit = bench.document.edits.lights[light.name];
-    // Frames may lag behind the hand: go on from what it has done.
-    if (edit.direction) light.direction = glm::normalize(*edit.direction);
-    if (edit.position) light.position = *edit.position;
+    const scene::Light light =
+        withEdits(facts.lights[static_cast<std::size_t>(index)], bench.document.edits);
     const scene::Light moved = dragLight(light, facts.bounds, eyeViewOf(bench, frame), pixels);
+    scene::LightEdit& edit = bench.document.edits.lights[light.name];
     if (light.kind == scene::LightKind::directional) {
         edit.direction = moved.direction;
     } else {

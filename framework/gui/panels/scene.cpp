@@ -56,7 +56,7 @@ void drawChoiceOfScene(Bench& bench) {
 void drawTime(Bench& bench, const SceneFacts& facts) {
     ImGui::Separator();
     scene::SceneEdits& edits = bench.document.edits;
-    double time = edits.timeSeconds.value_or(facts.timeSeconds);
+    double time = bench.timeSeconds();
     if (button(bench, bench.isPlaying ? "Pause" : "Play", "scene.play"))
         bench.isPlaying = !bench.isPlaying;
     tooltip("Space. Every picture is rendered; time goes on by the step below.");
