@@ -2,6 +2,8 @@
 // A cap that a node keeps to, and what it says of a frame in which that was reached.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -10,7 +12,8 @@
 
 namespace kaustik::gl {
 class Executor;
-}
+class Texture;
+}  // namespace kaustik::gl
 
 namespace kaustik {
 
@@ -31,5 +34,10 @@ struct NodeLimit {
     // Asked after such a frame; may wait for the device.
     std::function<std::optional<ReachedLimit>(const gl::Executor&)> reached;
 };
+
+// How many texels of a transfer map's hits or photons have that fate, from a row on. `fated` is the
+// texture that holds it in its fourth channel: HitFlux or PhotonDirection. Waits for the device.
+[[nodiscard]] std::size_t countWithFate(const gl::Texture& fated, std::uint32_t fate,
+                                        int firstRow = 0);
 
 }  // namespace kaustik

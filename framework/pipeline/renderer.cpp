@@ -222,7 +222,8 @@ std::vector<ReachedLimit> Renderer::reachedLimits() const {
         });
         if (same == all.end()) {
             all.push_back(*reached);
-        } else if (reached->value > same->value) {
+        } else if (std::pair(reached->value, reached->needed) >
+                   std::pair(same->value, same->needed)) {
             *same = *reached;
         }
     }

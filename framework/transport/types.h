@@ -161,6 +161,12 @@ struct LayerStatistics {
     uint pixelsLeftOut;  // pixels that have such fragments
 };
 
+// Lines or splats that were drawn narrower than their photons' footprints asked for.
+struct Narrowed {
+    uint count;
+    uint widestBits;  // px, the bits of a float: those above 0 are ordered as their values are
+};
+
 #ifdef __cplusplus
 }  // namespace kaustik::transport
 #endif

@@ -18,12 +18,12 @@ RaySegment clipWay(vec3 origin, vec3 direction, float end, float marginPixels) {
     return way;
 }
 
-// Half of the line's width across it, px, where the way is at this 1/depth. A footprint's width
-// goes with 1/depth, so it is linear along the line as 1/depth is.
+// The line's width across it, px, where the way is at this 1/depth, as far as nothing keeps it from
+// that. A footprint's width goes with 1/depth, so it is linear along the line as 1/depth is.
+float wantedWidth(float footprintMeters, float inverseZ) {
+    if (media_lines_width > 0.0) return media_lines_width;
+    return media_lines_footprints * footprintMeters * inverseZ / view.tangents.w;
+}
 float halfWidth(float footprintMeters, float inverseZ) {
-    float wanted = media_lines_width;
-    if (media_lines_width <= 0.0) {
-        wanted = media_lines_footprints * footprintMeters * inverseZ / view.tangents.w;
-    }
-    return 0.5 * clamp(wanted, 1.0, float(media_lines_maximum));
+    return 0.5 * clamp(wantedWidth(footprintMeters, inverseZ), 1.0, float(media_lines_maximum));
 }

@@ -4,6 +4,9 @@
 // (hard case 6), nor how far beyond the line the parallelogram reaches. A strip of four vertices.
 #include "screen_space_photons/god_rays.glsl"
 
+layout(std430) buffer NarrowedLines {
+    Narrowed narrowed;
+};
 uniform int firstPhoton;  // of the batch
 uniform sampler2D photonPosition;
 uniform sampler2D photonDirection;
@@ -62,6 +65,11 @@ void main() {
     float forward = along.x < 0.0 ? -1.0 : 1.0;
     float beyond = (0.5 + rounding) * (isEnd ? forward : -forward);
     float nearest = max(way.nearInverseZ, way.farInverseZ);
+    float wanted = wantedWidth(photon.footprintMeters, nearest);
+    if (gl_VertexID == 0 && wanted > float(media_lines_maximum)) {
+        atomicAdd(narrowed.count, 1u);
+        atomicMax(narrowed.widestBits, floatBitsToUint(wanted));
+    }
     float reach = halfWidth(photon.footprintMeters, nearest) * wayWidth.y + 1.0 + rounding;
     if (slope == 0.0) reach += abs(along.y);
     vec2 corner = isEnd ? way.farPixel : way.nearPixel;

@@ -16,12 +16,37 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/screen_space_photons/batch_sum.h"
 #include "techniques/screen_space_photons/nodes.h"
 
 namespace kaustik {
+namespace {
+
+// Which lines are narrower than they were to be: their light is less spread, and none is lost.
+void keepToWidth(FrameBuilder& frame, const GodRayParams& params,
+                 const graph::Buffer<transport::Narrowed>& narrowed) {
+    frame.keepsTo({"media.lines", narrowed,
+                   [maximum = params.maximum,
+                    narrowed](const gl::Executor& executor) -> std::optional<ReachedLimit> {
+                       const transport::Narrowed found =
+                           executor.buffer(narrowed).read<transport::Narrowed>().front();
+                       if (found.count == 0) return {};
+                       return ReachedLimit{
+                           "media.lines.maximum",
+                           "px",
+                           static_cast<double>(maximum),
+                           static_cast<double>(std::bit_cast<float>(found.widestBits)),
+                           fmt::format("{} lines are narrower than they were to be; no flux is "
+                                       "lost to it",
+                                       found.count),
+                           0.0};
+                   }});
+}
+
+}  // namespace
 
 InScattered drawGodRays(FrameBuilder& frame, const GodRayParams& params, Hits hits, EyeBuffer eye,
                         InScattered before) {
@@ -34,58 +59,64 @@ InScattered drawGodRays(FrameBuilder& frame, const GodRayParams& params, Hits hi
         Hits hits;
         EyeBuffer eye;
         BatchSum<RadianceTexel> parts;
+        graph::Buffer<transport::Narrowed> narrowed;
     };
-    return frame
-        .pass<Data>(
-            "media.lines", "the medium scatters what photons carry",
-            [&](graph::PassSetup& setup, Data& data) {
-                data.hits = hits;
-                data.eye = eye;
-                setup.read(hits.position);
-                setup.read(hits.flux);
-                setup.read(hits.incoming.position);
-                setup.read(hits.incoming.direction);
-                setup.read(hits.incoming.flux);
-                setup.read(eye.receiver);
-                if (isFirst) {
-                    data.out.radiance = setup.create<RadianceTexel>("media.in_scattered",
-                                                                    frame.width(), frame.height());
-                    setup.bypass(data.out.radiance, {0, 0, 0, 0});
-                } else {
-                    data.out.radiance = setup.write(before.radiance);
-                    setup.bypass(data.out.radiance, before.radiance);
-                }
-                if (isBatched) {
-                    data.parts = createBatchSum<RadianceTexel>(
-                        setup, frame, "media",
-                        run == 1 ? "in_scattered" : fmt::format("in_scattered_{}", run));
-                }
-            },
-            [&inputs = frame.inputs(), params, photons, isBatched, isFirst](
-                const Data& data, gl::PassContext& context) {
-                if (isFirst) context.texture(data.out.radiance).clear({0, 0, 0, 0});
-                clear(context, data.parts);
-                const Photons& incoming = data.hits.incoming;
-                gl::Command command = context.shaders(
-                    {"screen_space_photons/god_rays.vert", "screen_space_photons/god_rays.frag"});
-                inputs.bindView(command)
-                    .params("media.lines", params)
-                    .storage("Materials", inputs.gpuScene.materials())
-                    .texture("photonPosition", incoming.position)
-                    .texture("photonDirection", incoming.direction)
-                    .texture("photonFlux", incoming.flux)
-                    .texture("hitPosition", data.hits.position)
-                    .texture("hitFlux", data.hits.flux)
-                    .texture("receiver", data.eye.receiver)
-                    .target(isBatched ? data.parts.batch : data.out.radiance)
-                    .blend(gl::Blend::add);
-                for (int first = 0; first < photons; first += kBatchPhotons) {
-                    command.set("firstPhoton", first)
-                        .drawArrays(GL_TRIANGLE_STRIP, 4, std::min(kBatchPhotons, photons - first));
-                    if (isBatched) addBatch(context, inputs, data.out.radiance, data.parts);
-                }
-            })
-        .out;
+    const Data& drawn = frame.pass<Data>(
+        "media.lines", "the medium scatters what photons carry",
+        [&](graph::PassSetup& setup, Data& data) {
+            data.hits = hits;
+            data.eye = eye;
+            setup.read(hits.position);
+            setup.read(hits.flux);
+            setup.read(hits.incoming.position);
+            setup.read(hits.incoming.direction);
+            setup.read(hits.incoming.flux);
+            setup.read(eye.receiver);
+            if (isFirst) {
+                data.out.radiance = setup.create<RadianceTexel>("media.in_scattered", frame.width(),
+                                                                frame.height());
+                setup.bypass(data.out.radiance, {0, 0, 0, 0});
+            } else {
+                data.out.radiance = setup.write(before.radiance);
+                setup.bypass(data.out.radiance, before.radiance);
+            }
+            data.narrowed = setup.createBuffer<transport::Narrowed>(
+                run == 1 ? "media.narrowed" : fmt::format("media.narrowed_{}", run), 1);
+            setup.bypass(data.narrowed, {0, 0, 0, 0});
+            if (isBatched) {
+                data.parts = createBatchSum<RadianceTexel>(
+                    setup, frame, "media",
+                    run == 1 ? "in_scattered" : fmt::format("in_scattered_{}", run));
+            }
+        },
+        [&inputs = frame.inputs(), params, photons, isBatched, isFirst](const Data& data,
+                                                                        gl::PassContext& context) {
+            if (isFirst) context.texture(data.out.radiance).clear({0, 0, 0, 0});
+            clear(context, data.parts);
+            context.buffer(data.narrowed).clear();
+            const Photons& incoming = data.hits.incoming;
+            gl::Command command = context.shaders(
+                {"screen_space_photons/god_rays.vert", "screen_space_photons/god_rays.frag"});
+            inputs.bindView(command)
+                .params("media.lines", params)
+                .storage("Materials", inputs.gpuScene.materials())
+                .storage("NarrowedLines", data.narrowed)
+                .texture("photonPosition", incoming.position)
+                .texture("photonDirection", incoming.direction)
+                .texture("photonFlux", incoming.flux)
+                .texture("hitPosition", data.hits.position)
+                .texture("hitFlux", data.hits.flux)
+                .texture("receiver", data.eye.receiver)
+                .target(isBatched ? data.parts.batch : data.out.radiance)
+                .blend(gl::Blend::add);
+            for (int first = 0; first < photons; first += kBatchPhotons) {
+                command.set("firstPhoton", first)
+                    .drawArrays(GL_TRIANGLE_STRIP, 4, std::min(kBatchPhotons, photons - first));
+                if (isBatched) addBatch(context, inputs, data.out.radiance, data.parts);
+            }
+        });
+    keepToWidth(frame, params, drawn.narrowed);
+    return drawn.out;
 }
 
 }  // namespace kaustik

@@ -9,6 +9,29 @@
 #include "techniques/shared/nodes.h"
 
 namespace kaustik {
+namespace {
+
+// Which photons go one way for want of room. Nothing is lost to it, and what is drawn is noise.
+void keepToLevels(FrameBuilder& frame, const SplitParams& params, const Hits& before) {
+    frame.keepsTo({"specular.split", before.flux,
+                   [levels = params.levels, handle = before.flux](
+                       const gl::Executor& executor) -> std::optional<ReachedLimit> {
+                       const std::size_t met =
+                           countWithFate(executor.texture(handle), transport::kFateSpecular);
+                       if (met == 0) return {};
+                       return ReachedLimit{
+                           "specular.split.levels",
+                           "interactions",
+                           static_cast<double>(levels),
+                           0.0,
+                           fmt::format("{} photons met another specular surface and went one way, "
+                                       "drawn by its share; no flux is lost to it",
+                                       met),
+                           0.0};
+                   }});
+}
+
+}  // namespace
 
 Hits splitAtInterface(FrameBuilder& frame, const SplitParams& params, Hits hits) {
     struct Data {
@@ -17,6 +40,7 @@ Hits splitAtInterface(FrameBuilder& frame, const SplitParams& params, Hits hits)
     };
     const int run = frame.runsOf(SpecularStage::name);
     const bool splits = run <= params.levels;
+    if (run == params.levels + 1) keepToLevels(frame, params, hits);
     return frame
         .pass<Data>(
             "specular.split",

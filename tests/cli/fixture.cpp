@@ -2,6 +2,7 @@
 #include "tests/cli/fixture.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "framework/core/files.h"
 
@@ -9,6 +10,16 @@ namespace kaustik::test {
 
 std::string CommandLine::contents(const std::string& name) const {
     return readFile(folder / name);
+}
+
+const nlohmann::json& CommandLine::passNamed(const nlohmann::json& report,
+                                             const std::string& name) {
+    const nlohmann::json& passes = report.at("passes");
+    const auto found = std::find_if(passes.begin(), passes.end(), [&](const nlohmann::json& pass) {
+        return pass.at("name") == name;
+    });
+    if (found == passes.end()) throw std::runtime_error("the report has no pass " + name);
+    return *found;
 }
 
 void CommandLine::expectFailure(const Outcome& outcome, int exitCode,

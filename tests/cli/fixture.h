@@ -49,6 +49,10 @@ class CommandLine : public testing::Test {
         return nlohmann::json::parse(contents(out + "/report.json"));
     }
 
+    // Throws std::runtime_error where there is none.
+    [[nodiscard]] static const nlohmann::json& passNamed(const nlohmann::json& report,
+                                                         const std::string& name);
+
     // Nothing on standard output, and on standard error one message that says all of `parts`.
     static void expectFailure(const Outcome& outcome, int exitCode,
                               const std::vector<std::string>& parts);

@@ -2,8 +2,6 @@
 // report.json, schema kaustik.report/1 (design, section 7), and how --set and --disable show in it.
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <stdexcept>
 
 #include "framework/image/image.h"
 #include "tests/cli/fixture.h"
@@ -32,14 +30,6 @@ void expectNoNull(const json& value, const std::string& path) {
     if (!value.is_structured()) return;
     for (const auto& [key, child] : value.items())
         expectNoNull(child, path + "/" + key);
-}
-
-const json& passNamed(const json& report, const std::string& name) {
-    const json& passes = report.at("passes");
-    const auto found = std::find_if(passes.begin(), passes.end(),
-                                    [&](const json& pass) { return pass.at("name") == name; });
-    if (found == passes.end()) throw std::runtime_error("the report has no pass " + name);
-    return *found;
 }
 
 bool isBlack(const Image& image) {
@@ -149,152 +139,6 @@ TEST_F(Report, KeepsTimedFramesOnlyAndWarmsUpBefore) {
         if (name.starts_with("frame ")) frames.insert(name);
     }
     EXPECT_EQ(frames, (Keys{"frame 2", "frame 3", "frame 4"}));
-}
-
-TEST_F(Report, SaysWhatWasLostToEveryLimitThatWasReached) {
-    static_cast<void>(renderWater({"--set", "layers.count=1"}));
-    const json report = this->report();
-    ASSERT_EQ(report.at("limits").size(), 1u) << report.at("limits");
-    const json& limit = report.at("limits")[0];
-    EXPECT_EQ(limit.at("limit"), "layers.count");
-    EXPECT_EQ(limit.at("unit"), "layers");
-    EXPECT_EQ(limit.at("value"), 1);
-    EXPECT_EQ(limit.at("needed"), report.at("layers").at("complexity"));
-    EXPECT_NE(limit.at("lost").get<std::string>().find(
-                  report.at("layers").at("fragments_left_out").dump() + " of "),
-              std::string::npos)
-        << limit;
-    EXPECT_EQ(report.at("layers").at("allowed"), 1);
-    EXPECT_GT(report.at("layers").at("fragments_left_out"), 0);
-}
-
-TEST_F(Report, CountsTheBatchesOfALimitedMemory) {
-    static_cast<void>(renderWater({"--set", "trace=lines", "--set", "lines.rows=64"}));
-    const json report = this->report();
-    ASSERT_EQ(report.at("limits").size(), 1u) << report.at("limits");
-    EXPECT_EQ(report.at("limits")[0].at("limit"), "trace.lines.memory");
-    EXPECT_EQ(report.at("limits")[0].at("unit"), "batches");
-    EXPECT_EQ(report.at("limits")[0].at("value"), 32 * 32 / 64);
-    EXPECT_EQ(report.at("limits")[0].at("lost_w"), 0.0);
-}
-
-// The entries of `limits` by their names.
-std::map<std::string, json> limitsOf(const json& report) {
-    std::map<std::string, json> limits;
-    for (const json& limit : report.at("limits"))
-        limits[limit.at("limit")] = limit;
-    return limits;
-}
-
-TEST_F(Report, TakesOneTracingABounceForNoBatches) {
-    const std::vector<std::string> arguments =
-        smallRun("glass-sphere", {"--set", "trace=lines", "--out", "out"});
-    ASSERT_EQ(run(arguments).exitCode, 0);
-    EXPECT_GT(passNamed(report(), "trace.lines").at("repeats"), 1);
-    std::map<std::string, json> limits = limitsOf(report());
-    EXPECT_FALSE(limits.contains("trace.lines.memory")) << report().at("limits");
-    // What goes to and fro in the sphere is cut off.
-    ASSERT_TRUE(limits.contains("specular.bounces")) << report().at("limits");
-    EXPECT_EQ(limits["specular.bounces"].at("unit"), "bounces");
-
-    std::vector<std::string> batched = arguments;
-    batched.insert(batched.end(), {"--set", "lines.rows=64"});
-    ASSERT_EQ(run(batched).exitCode, 0);
-    limits = limitsOf(report());
-    ASSERT_TRUE(limits.contains("trace.lines.memory")) << report().at("limits");
-    EXPECT_EQ(limits["trace.lines.memory"].at("value"), 32 * 32 / 64);  // of each tracing
-}
-
-TEST_F(Report, SaysWhereTheEyesRaysWereCutOff) {
-    const auto limitsWith = [&](const std::vector<std::string>& settings) {
-        std::vector<std::string> arguments = smallRun("glass-sphere", {"--out", "out"});
-        for (const std::string& setting : settings)
-            arguments.insert(arguments.end(), {"--set", setting});
-        EXPECT_EQ(run(arguments).exitCode, 0);
-        return limitsOf(report());
-    };
-    // Through a ball the eye's ray is refracted twice, and its two layers are looked for in as
-    // many.
-    for (const auto& [name, limit] : limitsWith({"refraction.interfaces=2"}))
-        EXPECT_FALSE(name.starts_with("view.")) << limit;
-
-    std::map<std::string, json> limits = limitsWith({"refraction.interfaces=1"});
-    ASSERT_TRUE(limits.contains("view.refraction.interfaces")) << report().at("limits");
-    EXPECT_EQ(limits["view.refraction.interfaces"].at("unit"), "refractions");
-    EXPECT_EQ(limits["view.refraction.interfaces"].at("value"), 1);
-    EXPECT_EQ(limits["view.refraction.interfaces"].at("lost_w"), 0.0);
-    EXPECT_FALSE(limits.contains("view.refraction.layers"));
-
-    limits = limitsWith({"refraction.layers=1"});
-    ASSERT_TRUE(limits.contains("view.refraction.layers")) << report().at("limits");
-    EXPECT_EQ(limits["view.refraction.layers"].at("unit"), "layers");
-    EXPECT_EQ(limits["view.refraction.layers"].at("value"), 1);
-    EXPECT_EQ(limits["view.refraction.layers"].at("needed"), 2);
-    limits = limitsWith({"refraction.layers=1", "refraction.search=all"});
-    EXPECT_TRUE(limits.contains("view.refraction.layers")) << report().at("limits");
-    // A pass that is left out reaches nothing.
-    const std::vector<std::string> disabled =
-        smallRun("glass-sphere",
-                 {"--out", "out", "--set", "refraction.layers=1", "--disable", "view.refraction"});
-    ASSERT_EQ(run(disabled).exitCode, 0);
-    EXPECT_FALSE(limitsOf(report()).contains("view.refraction.layers"));
-}
-
-// An eye in front of a cube of glass: through its side it sees others only by total reflection.
-TEST_F(Report, CountsRaysThatAreReflectedTooOften) {
-    static_cast<void>(folder.file("cube.toml", R"(
-name = "cube"
-[camera]
-position = [1.5, 1.2, 2.5]
-target = [0, 0.5, 0]
-[[light]]
-name = "sun"
-type = "directional"
-direction = [0.1, -1, 0]
-irradiance = 1000
-[[material]]
-name = "chalk"
-type = "lambertian"
-albedo = 0.5
-[[material]]
-name = "glass"
-type = "dielectric"
-ior = 1.5
-[[object]]
-name = "floor"
-shape = "plane"
-material = "chalk"
-size = [4, 4]
-[[object]]
-name = "cube"
-shape = "box"
-material = "glass"
-size = [1, 1, 1]
-position = [0, 0.6, 0]
-)"));
-    const auto isReached = [&](const std::string& reflections) {
-        const std::string setting = "refraction.reflections=" + reflections;
-        EXPECT_EQ(run(smallRun("cube.toml", {"--out", "out", "--set", setting, "--set",
-                                             "refraction.search=all"}))
-                      .exitCode,
-                  0);
-        return limitsOf(report()).contains("view.refraction.reflections");
-    };
-    EXPECT_TRUE(isReached("0")) << report().at("limits");
-    EXPECT_FALSE(isReached("64")) << report().at("limits");
-}
-
-TEST_F(Report, CountsSplatsThatAreSmallerThanTheyWereToBe) {
-    static_cast<void>(renderWater({"--set", "sprites.maximum=100"}));
-    EXPECT_FALSE(limitsOf(report()).contains("reconstruct.sprites.maximum"));
-    static_cast<void>(renderWater({"--set", "sprites.maximum=1", "--set", "sprites.radius=0.2"}));
-    std::map<std::string, json> limits = limitsOf(report());
-    ASSERT_TRUE(limits.contains("reconstruct.sprites.maximum")) << report().at("limits");
-    const json& limit = limits["reconstruct.sprites.maximum"];
-    EXPECT_EQ(limit.at("unit"), "px");
-    EXPECT_EQ(limit.at("value"), 1);
-    EXPECT_GT(limit.at("needed"), 2.0);
-    EXPECT_EQ(limit.at("lost_w"), 0.0);
 }
 
 TEST_F(Set, TakesAnyUniqueShortFormAndReportsTheFullName) {

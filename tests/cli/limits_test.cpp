@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+// `limits` in report.json: every cap that was reached, and what was lost to it.
+#include <cmath>
+#include <map>
+
+#include "tests/cli/fixture.h"
+
+namespace kaustik::test {
+namespace {
+
+using nlohmann::json;
+
+class Limits : public CommandLine {
+  protected:
+    // The entries of `limits` of a small run of the scene, by their names.
+    std::map<std::string, json> limitsOf(const std::string& scene,
+                                         const std::vector<std::string>& settings,
+                                         const std::vector<std::string>& disabled = {}) {
+        static_cast<void>(folder.file("wavy.toml", kWavyWater));
+        std::vector<std::string> arguments = smallRun(scene, {"--out", "out"});
+        for (const std::string& setting : settings)
+            arguments.insert(arguments.end(), {"--set", setting});
+        for (const std::string& pass : disabled)
+            arguments.insert(arguments.end(), {"--disable", pass});
+        const Outcome outcome = run(arguments);
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+        std::map<std::string, json> limits;
+        const json entries = report().at("limits");
+        for (const json& limit : entries)
+            EXPECT_TRUE(limits.emplace(limit.at("limit"), limit).second) << "twice: " << limit;
+        return limits;
+    }
+    // The one of that name; that there is none fails the test.
+    json limitOf(const std::string& name, const std::string& scene,
+                 const std::vector<std::string>& settings) {
+        const std::map<std::string, json> limits = limitsOf(scene, settings);
+        const auto found = limits.find(name);
+        if (found != limits.end()) return found->second;
+        ADD_FAILURE() << name << " is not in " << report().at("limits");
+        return {};
+    }
+    bool isReached(const std::string& name, const std::string& scene,
+                   const std::vector<std::string>& settings) {
+        return limitsOf(scene, settings).contains(name);
+    }
+};
+
+TEST_F(Limits, SayWhatLayersWereLeftOut) {
+    const auto limits = limitsOf("wavy.toml", {"layers.count=1"});
+    ASSERT_EQ(limits.size(), 1u) << report().at("limits");
+    const json& limit = limits.at("layers.count");
+    const json layers = report().at("layers");
+    EXPECT_EQ(limit.at("unit"), "layers");
+    EXPECT_EQ(limit.at("value"), 1);
+    EXPECT_EQ(limit.at("needed"), layers.at("complexity"));
+    EXPECT_NE(
+        limit.at("lost").get<std::string>().find(layers.at("fragments_left_out").dump() + " of "),
+        std::string::npos)
+        << limit;
+    EXPECT_EQ(layers.at("allowed"), 1);
+    EXPECT_GT(layers.at("fragments_left_out"), 0);
+}
+
+TEST_F(Limits, CountTheBatchesOfALimitedMemory) {
+    const auto limits = limitsOf("wavy.toml", {"trace=lines", "lines.rows=64"});
+    ASSERT_EQ(limits.size(), 1u) << report().at("limits");
+    const json& limit = limits.at("trace.lines.memory");
+    EXPECT_EQ(limit.at("unit"), "batches");
+    EXPECT_EQ(limit.at("value"), 32 * 32 / 64);
+    EXPECT_EQ(limit.at("lost_w"), 0.0);
+}
+
+TEST_F(Limits, TakeOneTracingABounceForNoBatches) {
+    const auto limits = limitsOf("glass-sphere", {"trace=lines"});
+    EXPECT_GT(passNamed(report(), "trace.lines").at("repeats"), 1);
+    EXPECT_FALSE(limits.contains("trace.lines.memory")) << report().at("limits");
+    // What goes to and fro in the sphere is cut off.
+    ASSERT_TRUE(limits.contains("specular.bounces")) << report().at("limits");
+    EXPECT_EQ(limits.at("specular.bounces").at("unit"), "bounces");
+
+    const json limit =
+        limitOf("trace.lines.memory", "glass-sphere", {"trace=lines", "lines.rows=64"});
+    EXPECT_EQ(limit.at("value"), 32 * 32 / 64);  // of each tracing
+}
+
+TEST_F(Limits, SayWhereTheEyesRaysWereCutOff) {
+    // Through a ball the eye's ray is refracted twice, and its two layers are looked for in as
+    // many.
+    for (const auto& [name, limit] : limitsOf("glass-sphere", {"refraction.interfaces=2"}))
+        EXPECT_FALSE(name.starts_with("view.")) << limit;
+
+    auto limits = limitsOf("glass-sphere", {"refraction.interfaces=1"});
+    ASSERT_TRUE(limits.contains("view.refraction.interfaces")) << report().at("limits");
+    EXPECT_EQ(limits["view.refraction.interfaces"].at("unit"), "refractions");
+    EXPECT_EQ(limits["view.refraction.interfaces"].at("value"), 1);
+    EXPECT_EQ(limits["view.refraction.interfaces"].at("lost_w"), 0.0);
+    EXPECT_FALSE(limits.contains("view.refraction.layers"));
+
+    const json limit = limitOf("view.refraction.layers", "glass-sphere", {"refraction.layers=1"});
+    EXPECT_EQ(limit.at("unit"), "layers");
+    EXPECT_EQ(limit.at("value"), 1);
+    EXPECT_EQ(limit.at("needed"), 2);
+    EXPECT_TRUE(isReached("view.refraction.layers", "glass-sphere",
+                          {"refraction.layers=1", "refraction.search=all"}));
+    // A pass that is left out reaches nothing.
+    limits = limitsOf("glass-sphere", {"refraction.layers=1"}, {"view.refraction"});
+    EXPECT_FALSE(limits.contains("view.refraction.layers"));
+}
+
+// An eye in front of a cube of glass: through its side it sees others only by total reflection.
+TEST_F(Limits, CountRaysThatAreReflectedTooOften) {
+    static_cast<void>(folder.file("cube.toml", R"(
+name = "cube"
+[camera]
+position = [1.5, 1.2, 2.5]
+target = [0, 0.5, 0]
+[[light]]
+name = "sun"
+type = "directional"
+direction = [0.1, -1, 0]
+irradiance = 1000
+[[material]]
+name = "chalk"
+type = "lambertian"
+albedo = 0.5
+[[material]]
+name = "glass"
+type = "dielectric"
+ior = 1.5
+[[object]]
+name = "floor"
+shape = "plane"
+material = "chalk"
+size = [4, 4]
+[[object]]
+name = "cube"
+shape = "box"
+material = "glass"
+size = [1, 1, 1]
+position = [0, 0.6, 0]
+)"));
+    const auto reachedWith = [&](const std::string& reflections) {
+        return isReached("view.refraction.reflections", "cube.toml",
+                         {"refraction.reflections=" + reflections, "refraction.search=all"});
+    };
+    EXPECT_TRUE(reachedWith("0")) << report().at("limits");
+    EXPECT_FALSE(reachedWith("64")) << report().at("limits");
+}
+
+TEST_F(Limits, CountSplatsThatAreSmallerThanTheyWereToBe) {
+    EXPECT_FALSE(isReached("reconstruct.sprites.maximum", "wavy.toml", {"sprites.maximum=100"}));
+    const json limit = limitOf("reconstruct.sprites.maximum", "wavy.toml",
+                               {"sprites.maximum=1", "sprites.radius=0.2"});
+    EXPECT_EQ(limit.at("unit"), "px");
+    EXPECT_EQ(limit.at("value"), 1);
+    EXPECT_GT(limit.at("needed"), 2.0);
+    EXPECT_EQ(limit.at("lost_w"), 0.0);
+}
+
+TEST_F(Limits, CountLinesInTheMediumThatAreNarrowerThanTheyWereToBe) {
+    EXPECT_FALSE(isReached("media.lines.maximum", "god-rays", {"media.lines.maximum=256"}));
+    const json limit = limitOf("media.lines.maximum", "god-rays", {"media.lines.maximum=2"});
+    EXPECT_EQ(limit.at("unit"), "px");
+    EXPECT_EQ(limit.at("value"), 2);
+    EXPECT_GT(limit.at("needed"), 2.0);
+    EXPECT_EQ(limit.at("lost_w"), 0.0);
+    // A pass that is left out reaches nothing.
+    EXPECT_FALSE(limitsOf("god-rays", {"media.lines.maximum=2"}, {"media.lines"})
+                     .contains("media.lines.maximum"));
+    // As wide as the widest was to be: none is narrower any more.
+    const double enough = std::ceil(limit.at("needed").get<double>());
+    EXPECT_FALSE(isReached("media.lines.maximum", "god-rays",
+                           {"media.lines.maximum=" + std::to_string(static_cast<int>(enough))}));
+}
+
+TEST_F(Limits, CountPhotonsForWhichTheMapCouldNotGrow) {
+    // Into the ball, out of it, and what is reflected in it again and again.
+    const json limit =
+        limitOf("specular.split.levels", "glass-sphere", {"specular=split", "split.levels=1"});
+    EXPECT_EQ(limit.at("unit"), "interactions");
+    EXPECT_EQ(limit.at("value"), 1);
+    EXPECT_EQ(limit.at("lost_w"), 0.0);
+    // The light meets the water once.
+    EXPECT_FALSE(
+        isReached("specular.split.levels", "wavy.toml", {"specular=split", "split.levels=1"}));
+    EXPECT_TRUE(
+        isReached("specular.split.levels", "wavy.toml", {"specular=split", "split.levels=0"}));
+}
+
+TEST_F(Limits, CountRaysThatMeetMoreThanTheyCanKeep) {
+    // Under the water there is the floor alone.
+    const json limit =
+        limitOf("trace.all_hits.slots", "wavy.toml", {"trace=all_hits", "all_hits.slots=1"});
+    EXPECT_EQ(limit.at("unit"), "hits");
+    EXPECT_EQ(limit.at("value"), 1);
+    EXPECT_FALSE(
+        isReached("trace.all_hits.slots", "wavy.toml", {"trace=all_hits", "all_hits.slots=2"}));
+}
+
+}  // namespace
+}  // namespace kaustik::test
