@@ -9,6 +9,7 @@ namespace {
 using namespace transport;
 
 struct TracedTexels {
+    int height = 0;                // rows of the map
     std::vector<float> origin;     // xyz
     std::vector<float> direction;  // w: fate
     std::vector<float> hit;        // xyz
@@ -17,7 +18,7 @@ struct TracedTexels {
 
 TracedTexels readTexels(const Renderer& renderer, const TraceRecord& record) {
     const Hits& hits = record.hits;
-    return {renderer.texture(hits.incoming.position).read(),
+    return {hits.incoming.height, renderer.texture(hits.incoming.position).read(),
             renderer.texture(hits.incoming.direction).read(),
             renderer.texture(hits.position).read(), renderer.texture(hits.flux).read()};
 }
@@ -30,11 +31,13 @@ unsigned fateAt(const std::vector<float>& texels, std::size_t i) {
     return fate >= 0.0f && fate < 16.0f ? static_cast<unsigned>(fate) : kFateNone;
 }
 
-// Whence the light came to a point: only a single light's way is known.
-std::vector<glm::vec3> wayFromLight(const Renderer& renderer, const glm::vec3& point) {
+// Whence the light came to the point where the photon of that row first met a surface.
+std::vector<glm::vec3> wayFromLight(const Renderer& renderer, int row, const glm::vec3& point) {
     const std::vector<scene::Light>& lights = renderer.scene().lights;
-    if (lights.size() != 1) return {};
-    const LightData light = lightData(lights.front(), renderer.view());
+    const int rows = renderer.traces().front().hits.incoming.rowsPerLight;
+    if (rows <= 0 || lights.empty()) return {};
+    const auto index = static_cast<std::size_t>(row / rows) % lights.size();
+    const LightData light = lightData(lights[index], renderer.view());
     if (light.positionVs.w != static_cast<float>(kLightDirectional))
         return {glm::vec3(light.positionVs)};
     const scene::Bounds bounds = sceneBounds(renderer.scene());
@@ -61,31 +64,40 @@ PhotonProbe probePhotons(const Renderer& renderer, glm::ivec2 pixel, float radiu
     const int width = renderer.traces().front().hits.incoming.width;
     const glm::vec2 middle = glm::vec2(pixel) + 0.5f;
 
-    // Where each photon ended its way: the last tracing that it took part in.
-    const std::size_t count = traced.front().hit.size() / 4;
+    // Photons are told by their texel of the last map. Where that has grown by copies of what came
+    // before, the first part of a photon's way is its ancestor's.
+    const std::size_t count = traced.back().hit.size() / 4;
     for (std::size_t i = 0; i < count; ++i) {
+        const glm::ivec2 photon(static_cast<int>(i) % width, static_cast<int>(i) / width);
+        if (fateAt(traced.back().direction, i) == kFateNone) continue;
+        const auto texelIn = [&](const TracedTexels& texels) {
+            return static_cast<std::size_t>(photon.y % texels.height * width + photon.x);
+        };
         PhotonPath path;
+        // Where it ended its way: the last tracing that it took part in.
         unsigned fate = kFateNone;
         for (const TracedTexels& texels : traced) {
-            if (fateAt(texels.direction, i) != kFateInFlight) continue;
-            fate = fateAt(texels.flux, i);
+            const std::size_t texel = texelIn(texels);
+            if (fateAt(texels.direction, texel) != kFateInFlight) continue;
+            fate = fateAt(texels.flux, texel);
             if (fate != kFateReceiver) continue;
-            const Projected landing = project(renderer.view(), vectorAt(texels.hit, i));
+            const Projected landing = project(renderer.view(), vectorAt(texels.hit, texel));
             path.pixels = landing.visible ? glm::distance(landing.pixel, middle) : 1e9f;
-            path.fluxWatts = vectorAt(texels.flux, i);
+            path.fluxWatts = vectorAt(texels.flux, texel);
         }
         if (fate != kFateReceiver || !(path.pixels <= radiusPixels)) continue;
         ++probe.landed;
         probe.fluxWatts += path.fluxWatts;
-        path.photon = {static_cast<int>(i) % width, static_cast<int>(i) / width};
+        path.photon = photon;
         for (const TracedTexels& texels : traced) {
-            if (fateAt(texels.direction, i) != kFateInFlight) continue;
-            const glm::vec3 origin = vectorAt(texels.origin, i);
-            if (path.points.empty()) path.points = wayFromLight(renderer, origin);
+            const std::size_t texel = texelIn(texels);
+            if (fateAt(texels.direction, texel) != kFateInFlight) continue;
+            const glm::vec3 origin = vectorAt(texels.origin, texel);
+            if (path.points.empty()) path.points = wayFromLight(renderer, photon.y, origin);
             path.points.push_back(origin);
-            const unsigned met = fateAt(texels.flux, i);
+            const unsigned met = fateAt(texels.flux, texel);
             if (met == kFateReceiver || met == kFateSpecular)
-                path.points.push_back(vectorAt(texels.hit, i));
+                path.points.push_back(vectorAt(texels.hit, texel));
         }
         probe.paths.push_back(std::move(path));
     }

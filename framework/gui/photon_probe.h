@@ -11,7 +11,7 @@
 namespace kaustik::gui {
 
 struct PhotonPath {
-    glm::ivec2 photon{0};  // its texel of the transfer map
+    glm::ivec2 photon{0};  // its texel of the last tracing's transfer map
     // Eye view space, m: a point of the light's way before the first surface, each interaction,
     // and where it landed.
     std::vector<glm::vec3> points;

@@ -119,6 +119,9 @@ struct Photons {
     ModelledPaths paths;
     int width = 0;
     int height = 0;
+    // Each light has so many rows of the map, one light above the other; a map that has grown
+    // repeats them. 0: not known.
+    int rowsPerLight = 0;
     [[nodiscard]] int count() const { return width * height; }
 };
 

@@ -82,6 +82,7 @@ Hits emitGrid(FrameBuilder& frame, const params::NoParams&, Geometry geometry) {
                     setup.createBuffer<transport::LedgerEntry>("ledger", transport::kAccountCount);
                 photons.width = w;
                 photons.height = rows;
+                photons.rowsPerLight = grid.height;
                 data.depth = setup.create<DepthBuffer>("emit.depth_buffer", w, rows);
             },
             [&inputs = frame.inputs(), grids, grid](const Data& data, gl::PassContext& context) {
