@@ -42,7 +42,7 @@ void runSuite(const ExperimentOptions& options, const experiment::Spec& spec,
     table.cases = chosenCases(suite, spec);
     const fs::path out = options.out.empty() ? fs::path("results/runs/experiments") / spec.name
                                              : fs::path(options.out);
-    requireWritable(out);
+    requireWritable(out, "--out");
     const std::unique_ptr<gl::Context> context = gl::Context::createHeadless();
     table.device = context->info().renderer;
     numerics::Lab lab(*context, registry, suite);

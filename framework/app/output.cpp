@@ -39,19 +39,19 @@ std::vector<fs::path> writeAnyChannels(const fs::path& path, const Image& image)
 
 }  // namespace
 
-void requireWritable(const fs::path& folder) {
+void requireWritable(const fs::path& folder, const std::string& askedBy) {
     std::error_code error;
     fs::create_directories(folder, error);
     if (error) {
-        throw IoError(fmt::format("--out: the folder {} cannot be made: {}.", folder.string(),
+        throw IoError(fmt::format("{}: the folder {} cannot be made: {}.", askedBy, folder.string(),
                                   error.message()));
     }
     // Only a file that is made proves it: permissions say nothing of a full or odd file system.
     std::string probe = (folder / ".kaustik-XXXXXX").string();
     const int descriptor = ::mkstemp(probe.data());
     if (descriptor < 0) {
-        throw IoError(fmt::format("--out: nothing can be written into {}: {}.", folder.string(),
-                                  std::strerror(errno)));
+        throw IoError(fmt::format("{}: nothing can be written into {}: {}.", askedBy,
+                                  folder.string(), std::strerror(errno)));
     }
     ::close(descriptor);
     ::unlink(probe.c_str());

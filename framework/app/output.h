@@ -11,8 +11,9 @@
 
 namespace kaustik::app {
 
-// Makes the folder and throws IoError if nothing can be written there, before the long work.
-void requireWritable(const std::filesystem::path& folder);
+// Makes the folder and throws IoError if nothing can be written there, before the long work. The
+// message begins with who wants it: an option, say.
+void requireWritable(const std::filesystem::path& folder, const std::string& askedBy);
 
 // Throws ConfigError for a resource that is not a texture and hence no picture.
 void requireTextures(const Renderer& renderer, const std::vector<std::string>& saved);

@@ -112,7 +112,7 @@ void referenceCommand(const ReferenceOptions& options) {
     const std::string extension = file.extension().string();
     if (extension != ".exr" && extension != ".pfm")
         throw ConfigError(fmt::format("--out: {} must end in .exr or .pfm.", file.string()));
-    requireWritable(file.parent_path().empty() ? fs::path(".") : file.parent_path());
+    requireWritable(file.parent_path().empty() ? fs::path(".") : file.parent_path(), "--out");
     const EmbreeScene embree(scene);
     const Reference result = obtainReference(embree, request, run);
     writeReference(file, result);

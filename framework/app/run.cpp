@@ -73,7 +73,7 @@ void runCommand(const RunOptions& options, const Registry& registry) {
     renderer.build(Purpose::measurement, options.saved);  // finds every mistake before the work
     requireTextures(renderer, options.saved);
     renderer.build(Purpose::picture);
-    requireWritable(folder);
+    requireWritable(folder, "--out");
     catchInterrupts();
 
     report::RunRecord record =

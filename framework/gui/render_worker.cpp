@@ -361,7 +361,7 @@ void RenderWorker::reloadShaders(Device& device) {
 
 void RenderWorker::writeRecording(Device& device, const RecordRequest& request) {
     try {
-        app::requireWritable(request.folder);
+        app::requireWritable(request.folder, "Recording");
         if (request.what == RecordRequest::What::report) {
             writeReport(device, request);
         } else {

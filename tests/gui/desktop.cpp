@@ -102,6 +102,14 @@ Desktop::Desktop(int width, int height) : server_(width, height) {
     XSync(display_.get(), False);
 }
 
+void Desktop::setDensity(int pixelsPerInch) {
+    const std::string resources = "Xft.dpi: " + std::to_string(pixelsPerInch) + "\n";
+    XChangeProperty(display_.get(), root_, XA_RESOURCE_MANAGER, XA_STRING, 8, PropModeReplace,
+                    reinterpret_cast<const unsigned char*>(resources.data()),
+                    static_cast<int>(resources.size()));
+    XSync(display_.get(), False);
+}
+
 void Desktop::moveTo(int x, int y, int steps) {
     Window window = 0;
     Place from;

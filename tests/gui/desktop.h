@@ -36,6 +36,10 @@ class Desktop {
   public:
     explicit Desktop(int width = 1440, int height = 900);
 
+    // What windows that come from now on take for the screen's pixels to the inch; it is 96 at
+    // first.
+    void setDensity(int pixelsPerInch);
+
     // For the variable DISPLAY.
     [[nodiscard]] const std::string& name() const { return server_.display(); }
 

@@ -205,6 +205,7 @@ TEST_F(RecordPanel, AFolderThatCannotBeWrittenIsSaidSo) {
     bench->click("record.report");
     untilRecorded();
     EXPECT_TRUE(says("record.state", "occupied"));
+    EXPECT_FALSE(says("record.state", "--out"));
     bench->keepScreenshot("record-refused");
     untilSettled();
     EXPECT_EQ(bench->status().at("error"), "");

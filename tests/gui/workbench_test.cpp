@@ -246,6 +246,34 @@ TEST_F(Workbench, ASmallWindowKeepsAPicture) {
     EXPECT_LE(picture.x + picture.w, 640.0);
 }
 
+// Twice as many pixels for the same thing, but for the picture, which keeps its own.
+TEST_F(Workbench, OnADenseScreenEverythingIsLarger) {
+    start();
+    const Rectangle tab = bench->control("tab.Passes");
+    const Rectangle button = bench->control("toolbar.one_to_one");
+    const Rectangle before = bench->control("picture");
+    bench.reset();
+
+    desktop.setDensity(192);
+    start();
+    bench->keepScreenshot("workbench-dense");
+    for (const auto& [name, small] :
+         {std::pair{"tab.Passes", tab}, std::pair{"toolbar.one_to_one", button}}) {
+        EXPECT_NEAR(bench->control(name).h, 2.0 * small.h, 0.1 * small.h) << name;
+        EXPECT_NEAR(bench->control(name).w, 2.0 * small.w, 0.2 * small.w) << name;
+    }
+    EXPECT_LT(bench->control("picture").w, before.w);
+    // The mouse is where it is seen to be, and a pixel of the picture is one of the screen.
+    bench->click("toolbar.one_to_one");
+    EXPECT_EQ(bench->control("picture.image").w, 64.0);
+    bench->hover("picture.image", pixel(20, 30));
+    EXPECT_TRUE(bench->value("picture.value").starts_with("(20, 30)"));
+    bench->drag("picture", 40, 0);
+    EXPECT_TRUE(document().at("edits").contains("camera"));
+    open("Scene");
+    EXPECT_TRUE(bench->has("scene.play"));
+}
+
 // Nothing but a message: as many words as are needed to go on.
 class WithoutAWindow : public testing::Test {
   protected:

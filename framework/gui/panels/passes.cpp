@@ -77,17 +77,36 @@ void drawPassRow(Bench& bench, const VariantResult& result, const graph::PassRec
     }
     const double median = medianOf(times->gpuMilliseconds);
     ImGui::TableNextColumn();
-    ImGui::Text("%.2f", times->gpuMilliseconds.back());
-    ImGui::TableNextColumn();
     ImGui::Text("%.2f", median);
     bench.map.control("passes.median." + pass.name, fmt::format("{:.4f}", median));
-    ImGui::TableNextColumn();
-    ImGui::Text("%.2f", times->cpuMilliseconds.back());
-    ImGui::TableNextColumn();
-    ImGui::Text("%.0f%%", frameMs > 0.0 ? 100.0 * median / frameMs : 0.0);
-    ImGui::TableNextColumn();
-    const float height = ImGui::GetTextLineHeight();
-    sparkline(times->gpuMilliseconds, {ImGui::GetContentRegionAvail().x, height});
+    if (ImGui::TableNextColumn()) ImGui::Text("%.2f", times->gpuMilliseconds.back());
+    if (ImGui::TableNextColumn())
+        ImGui::Text("%.0f%%", frameMs > 0.0 ? 100.0 * median / frameMs : 0.0);
+    if (ImGui::TableNextColumn()) ImGui::Text("%.2f", times->cpuMilliseconds.back());
+    if (ImGui::TableNextColumn()) {
+        const float height = ImGui::GetTextLineHeight();
+        sparkline(times->gpuMilliseconds, {ImGui::GetContentRegionAvail().x, height});
+    }
+}
+
+// As many columns as there is room for, the most telling first.
+void setUpColumns() {
+    const float number = ImGui::CalcTextSize("GPU ms").x;
+    const float gap = 2.0f * ImGui::GetStyle().CellPadding.x;
+    float room = ImGui::GetContentRegionAvail().x;
+    const auto column = [&](const char* name, float width) {
+        room -= width + gap;
+        ImGui::TableSetupColumn(name, room < 0.0f ? ImGuiTableColumnFlags_Disabled : 0, width);
+    };
+    column("on", ImGui::GetFrameHeight());
+    column("pass", ImGui::GetFontSize() * 8.0f);
+    column("median", number);
+    column("GPU ms", number);
+    column("share", ImGui::CalcTextSize("share").x);
+    column("CPU ms", number);
+    const bool hasRoom = room > 2.0f * ImGui::GetFontSize();
+    ImGui::TableSetupColumn(
+        "", hasRoom ? ImGuiTableColumnFlags_WidthStretch : ImGuiTableColumnFlags_Disabled);
 }
 
 // Passes that are off and that the list does not have: those of a node that is no longer chosen.
@@ -145,14 +164,7 @@ void drawPasses(Bench& bench) {
         ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit;
     if (!ImGui::BeginTable("passes", 7, kFlags)) return;
     ImGui::TableSetupScrollFreeze(0, 1);
-    const float number = ImGui::CalcTextSize("GPU ms").x;
-    ImGui::TableSetupColumn("on", 0, ImGui::GetFrameHeight());
-    ImGui::TableSetupColumn("pass", 0, ImGui::GetFontSize() * 8.0f);
-    ImGui::TableSetupColumn("GPU ms", 0, number);
-    ImGui::TableSetupColumn("median", 0, number);
-    ImGui::TableSetupColumn("CPU ms", 0, number);
-    ImGui::TableSetupColumn("share", 0, ImGui::CalcTextSize("share").x);
-    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
+    setUpColumns();
     ImGui::TableHeadersRow();
     const double frameMs = medianOf(result.frameMs);
     std::string stage;
