@@ -3,6 +3,8 @@
 // every resource; kaustik check: what this device offers.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "framework/app/commands.h"
 #include "framework/core/error.h"
 #include "framework/core/files.h"
@@ -61,9 +63,12 @@ void explainCommand(const ExplainOptions& options, const Registry& registry) {
     if (!options.dotFile.empty()) writeFileWhole(options.dotFile, renderer.graph().toDot());
     printNeeds(scene, renderer.needs());
     fmt::print("technique {}\n", renderer.settings().technique.name);
-    for (const graph::PassRecord& pass : renderer.compiled().records) {
-        fmt::print("  {:<22}{:<10}{}\n", pass.name, stateName(pass.state), pass.why);
-    }
+    const std::vector<graph::PassRecord>& passes = renderer.compiled().records;
+    std::size_t longest = 0;
+    for (const graph::PassRecord& pass : passes)
+        longest = std::max(longest, pass.name.size());
+    for (const graph::PassRecord& pass : passes)
+        fmt::print("  {:<{}}  {:<10}{}\n", pass.name, longest, stateName(pass.state), pass.why);
     fmt::print("resources (--save takes the textures)\n");
     for (const std::string& name : renderer.graph().resourceNames()) {
         fmt::print("  {:<30}{}\n", name,

@@ -110,7 +110,7 @@ std::string viewLine(const json& view) {
         return value.is_null() ? std::string("none")
                                : fmt::format("{:.4g}", factor * value.get<double>());
     };
-    std::string line = fmt::format("{:<22}", "view");
+    std::string line = fmt::format("{:<24}", "view");
     if (view.contains("exit_direction_deg")) {
         const json& direction = view.at("exit_direction_deg");
         line += fmt::format(
@@ -134,7 +134,7 @@ std::string shadowLine(const json& shadow) {
     if (shadow.at("misclassified").is_null()) return "";
     const auto percent = [&](const char* key) { return 100.0 * shadow.at(key).get<double>(); };
     return fmt::format(
-        "{:<22}{:.3g}% of {} pixels misclassified: {:.3g}% lit taken for shadow, {:.3g}% shadow "
+        "{:<24}{:.3g}% of {} pixels misclassified: {:.3g}% lit taken for shadow, {:.3g}% shadow "
         "taken for lit\n",
         "shadow", percent("misclassified"), shadow.at("pixels").get<std::uint64_t>(),
         percent("lit_taken_for_shadow"), percent("shadow_taken_for_lit"));
@@ -148,7 +148,7 @@ std::string truthTable(const RunRecord& record) {
                                : fmt::format("{:.4g}{}", factor * value.get<double>(), unit);
     };
     if (!record.hits.is_null()) {
-        table += fmt::format("{:<22}agreement {}, of visible {}; ", "hits",
+        table += fmt::format("{:<24}agreement {}, of visible {}; ", "hits",
                              orNone(record.hits.at("agreement"), 100.0, "%"),
                              orNone(record.hits.at("agreement_visible"), 100.0, "%"));
         for (const char* kind : {"missed", "false_hits"}) {
@@ -173,7 +173,7 @@ std::string truthTable(const RunRecord& record) {
                                  ? errors.at("truth_noise").at("rmse").get<double>()
                                  : 0.0;
         table += fmt::format(
-            "{:<22}RMSE {} {} (the truth's own {:.2g}), relMSE {}, SSIM {}, FLIP {}, energy "
+            "{:<24}RMSE {} {} (the truth's own {:.2g}), relMSE {}, SSIM {}, FLIP {}, energy "
             "ratio {}\n",
             name, value("rmse"), unit, noise, value("rel_mse"), value("ssim"), value("flip_ldr"),
             value("energy_ratio"));
@@ -270,24 +270,24 @@ json makeReport(const RunRecord& record, const Renderer& renderer, const gl::Dev
 std::string makeTable(const RunRecord& record) {
     const double frame = summarize(frameSamples(record)).median;
     std::string table =
-        fmt::format("{:<22}{:>10}{:>9}{:>10}{:>8}\n", "pass", "ms", "±", "CPU ms", "share");
+        fmt::format("{:<24}{:>10}{:>9}{:>10}{:>8}\n", "pass", "ms", "±", "CPU ms", "share");
     double sum = 0.0;
     const std::vector<PassTimes> times = timesByPass(record);
     for (const PassTimes& pass : times) {
         const Summary gpu = summarize(pass.gpuMilliseconds);
         sum += gpu.median;
-        table += fmt::format("{:<22}{:>10.3f}{:>9.3f}{:>10.3f}{:>7.1f}%\n", pass.name, gpu.median,
+        table += fmt::format("{:<24}{:>10.3f}{:>9.3f}{:>10.3f}{:>7.1f}%\n", pass.name, gpu.median,
                              gpu.standardDeviation, summarize(pass.cpuMilliseconds).median,
                              frame > 0.0 ? 100.0 * gpu.median / frame : 0.0);
     }
-    table += fmt::format("{:<22}{:>10.3f}\n", "all passes", sum);
-    table += fmt::format("{:<22}{:>10.3f}{:>9.3f}   median of {}, bookkeeping {:.3f} ms\n", "frame",
+    table += fmt::format("{:<24}{:>10.3f}\n", "all passes", sum);
+    table += fmt::format("{:<24}{:>10.3f}{:>9.3f}   median of {}, bookkeeping {:.3f} ms\n", "frame",
                          frame, summarize(frameSamples(record)).standardDeviation,
                          record.frames.size(), summarize(bookkeepingSamples(record)).median);
     for (const graph::PassRecord& pass : record.passes) {
         if (pass.state == graph::PassState::ran) continue;
         const char* state = pass.state == graph::PassState::bypassed ? "bypassed" : "left out";
-        table += fmt::format("{:<22}{:>10}   {}\n", pass.name, state, pass.why);
+        table += fmt::format("{:<24}{:>10}   {}\n", pass.name, state, pass.why);
     }
     const EnergyLedger& ledger = record.ledger;
     const double emitted = ledger.watts[kAccountEmitted];

@@ -21,7 +21,8 @@ struct LayersRequest {
     std::string name;
     render::DrawSet set = render::DrawSet::all;
     int layers = 8;
-    bool reducesCounts = false;  // by a texture reduce instead of atomics
+    bool reducesCounts = false;               // by a texture reduce instead of atomics
+    std::string reader = "the tracer needs";  // that needs them, for people
 };
 // Adds the pass that counts the fragments of every pixel (K06, section 2.2).
 [[nodiscard]] graph::Buffer<transport::LayerStatistics> measureComplexity(

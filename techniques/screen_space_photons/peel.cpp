@@ -115,7 +115,8 @@ LayeredDepth peel(FrameBuilder& frame, Geometry geometry, const LayersRequest& r
         frame
             .pass<Data>(
                 "layers.peel",
-                fmt::format("the tracer needs hidden surfaces; at most {} layers", layers),
+                fmt::format("{} hidden surfaces; at most {} layer{}", request.reader, layers,
+                            layers == 1 ? "" : "s"),
                 [&](graph::PassSetup& setup, Data& data) {
                     data.geometry = geometry;
                     if (geometry.heightFields.valid()) setup.read(geometry.heightFields);

@@ -116,7 +116,10 @@ View traceRefraction(FrameBuilder& frame, const RefractionViewParams& wanted, Ge
         const FrameBuilder::Within within(frame, "view");
         // The n-th interface is looked for in the n-th layer, and no deeper.
         layers = peel(frame, geometry,
-                      {"view.layers", render::DrawSet::dielectrics, usefulLayers(params)});
+                      {.name = "view.layers",
+                       .set = render::DrawSet::dielectrics,
+                       .layers = usefulLayers(params),
+                       .reader = "the eye's rays need"});
     }
     struct Data {
         EyeBuffer eye;
