@@ -134,8 +134,8 @@ Buffer::Buffer(std::size_t bytes, const void* data, const std::string& label)
     : object_(createBuffer()), bytes_(bytes) {
     // A buffer of no bytes is an OpenGL error; an empty scene has empty lists.
     const std::size_t stored = std::max<std::size_t>(bytes, 16);
-    glNamedBufferStorage(id(), static_cast<GLsizeiptr>(stored), bytes == 0 ? nullptr : data,
-                         GL_DYNAMIC_STORAGE_BIT);
+    glNamedBufferStorage(id(), static_cast<GLsizeiptr>(stored), nullptr, GL_DYNAMIC_STORAGE_BIT);
+    if (bytes > 0 && data != nullptr) upload(0, bytes, data);
     glObjectLabel(GL_BUFFER, id(), static_cast<GLsizei>(label.size()), label.c_str());
 }
 
