@@ -92,6 +92,7 @@ void drawVariants(Bench& bench) {
         document.other.reset();
         bench.panels.edited = 0;
         if (bench.view.beside == Beside::other) bench.view.beside = Beside::nothing;
+        return;
     }
     if (ImGui::BeginTable("variants", 3, ImGuiTableFlags_RowBg)) {
         ImGui::TableSetupColumn("");
