@@ -43,10 +43,7 @@ Conditions conditionsIn(const fs::path& folder, const std::string& display,
     Conditions conditions;
     conditions.folder = folder;
     conditions.environment = more;
-    // GLFW unloads the driver before AddressSanitizer looks for leaks, all of which are then in an
-    // unknown module.
-    conditions.environment.insert({{"ASAN_OPTIONS", "detect_leaks=0"},
-                                   {"DISPLAY", display},
+    conditions.environment.insert({{"DISPLAY", display},
                                    {"XDG_CONFIG_HOME", folder / "config"},
                                    {"KAUSTIK_CACHE", folder / "cache"}});
     return conditions;
