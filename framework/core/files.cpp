@@ -2,6 +2,7 @@
 #include "framework/core/files.h"
 
 #include <fmt/format.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <array>
@@ -11,7 +12,10 @@
 #include <cstring>
 #include <fstream>
 #include <memory>
+#include <mutex>
+#include <set>
 #include <system_error>
+#include <vector>
 
 #include "framework/core/error.h"
 
@@ -63,6 +67,52 @@ std::string readFile(const fs::path& path) {
     return bytes;
 }
 
+namespace {
+
+std::string hostName() {
+    std::array<char, 65> name{};
+    if (::gethostname(name.data(), name.size() - 1) != 0) return "host";
+    return name.data();
+}
+
+// Beside the file, of this process alone, also where several machines write into a folder.
+fs::path temporaryFor(const fs::path& folder, const fs::path& file) {
+    return folder / fmt::format(".{}.{}.{}.part{}", file.stem().string(), hostName(), ::getpid(),
+                                file.extension().string());
+}
+
+// Whether temporaryFor() made that name in a process of this machine that is no more.
+bool isLeftBehind(const std::string& name) {
+    const std::string host = fmt::format(".{}.", hostName());
+    const std::size_t part = name.rfind(".part");
+    if (!name.starts_with('.') || part == std::string::npos) return false;
+    const std::size_t number = name.rfind('.', part - 1);
+    if (number == std::string::npos || number + 1 == part) return false;
+    const std::string digits = name.substr(number + 1, part - number - 1);
+    if (digits.find_first_not_of("0123456789") != std::string::npos || digits.size() > 9)
+        return false;
+    if (!name.substr(0, number + 1).ends_with(host)) return false;
+    return ::kill(std::stoi(digits), 0) != 0 && errno == ESRCH;
+}
+
+// Once a folder: afterwards only this process's own files and those of others at work are there.
+void removeLeftBehind(const fs::path& folder) {
+    static std::mutex mutex;
+    static std::set<fs::path> cleaned;
+    const std::lock_guard lock(mutex);
+    std::error_code error;
+    if (!cleaned.insert(fs::absolute(folder, error)).second) return;
+    std::vector<fs::path> found;
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+         entry.increment(error)) {
+        if (isLeftBehind(entry->path().filename().string())) found.push_back(entry->path());
+    }
+    for (const fs::path& file : found)
+        fs::remove(file, error);
+}
+
+}  // namespace
+
 void writeFileWhole(const fs::path& path, const std::function<void(const fs::path&)>& write) {
     std::error_code error;
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
@@ -71,8 +121,8 @@ void writeFileWhole(const fs::path& path, const std::function<void(const fs::pat
         throw IoError(
             fmt::format("The folder {} cannot be made: {}.", folder.string(), error.message()));
     }
-    const fs::path temporary = folder / fmt::format(".{}.{}.part{}", path.stem().string(),
-                                                    ::getpid(), path.extension().string());
+    removeLeftBehind(folder);
+    const fs::path temporary = temporaryFor(folder, path);
     struct Cleanup {
         const fs::path& file;
         ~Cleanup() {

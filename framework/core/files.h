@@ -22,7 +22,8 @@ namespace kaustik {
 [[nodiscard]] std::string readFile(const std::filesystem::path& path);
 
 // Calls `write` with a temporary path beside `path` (same extension), then renames it over `path`.
-// When `write` throws, or the disk is full, nothing is left behind and `path` is untouched.
+// When `write` throws, or the disk is full, nothing is left behind and `path` is untouched. What a
+// process of this machine has left in the folder because it was killed is removed first.
 // Creates missing parent folders. Throws IoError naming the file.
 void writeFileWhole(const std::filesystem::path& path,
                     const std::function<void(const std::filesystem::path& temporary)>& write);

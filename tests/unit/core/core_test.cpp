@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -55,6 +57,36 @@ TEST_F(Files, AFailedWriteKeepsTheOldFileAndLeavesNoTemporary) {
     EXPECT_THROW(writeFileWhole(folder_ / "a.txt", failing), IoError);
     EXPECT_EQ(readFile(folder_ / "a.txt"), "old");
     EXPECT_EQ(fileCount(), 1u);
+}
+
+TEST_F(Files, WhatAKilledProcessHasLeftIsRemovedAndNothingElse) {
+    // Of its own: a folder is looked through once in a process.
+    const fs::path folder = folder_ / "killed";
+    std::string left;  // the name of the child's temporary
+    const pid_t child = fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+        writeFileWhole(folder / "a.txt", [](const fs::path& temporary) {
+            std::ofstream(temporary) << "half";
+            kill(getpid(), SIGKILL);
+        });
+    }
+    ASSERT_EQ(waitpid(child, nullptr, 0), child);
+    for (const auto& entry : fs::directory_iterator(folder))
+        left = entry.path().filename().string();
+    const std::string number = "." + std::to_string(child) + ".";
+    const std::size_t at = left.find(number);
+    ASSERT_NE(at, std::string::npos) << left;
+    // One of a process that lives, one of another machine's.
+    std::string living = left;
+    living.replace(at, number.size(), "." + std::to_string(getppid()) + ".");
+    std::ofstream(folder / living) << "at work";
+    std::ofstream(folder / (".a.elsewhere" + left.substr(at))) << "at work";
+    std::ofstream(folder / ".part.txt") << "a user's";
+    writeFileWhole(folder / "b.txt", "whole");
+    EXPECT_FALSE(fs::exists(folder / left));
+    EXPECT_TRUE(fs::exists(folder / living));
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 4);
 }
 
 TEST_F(Files, ErrorsNameTheFile) {
