@@ -236,7 +236,9 @@ void Command::bindState() {
     } else {
         glEnable(GL_DEPTH_TEST);
         glDepthMask(GL_TRUE);
-        glDepthFunc(depthTest_ == DepthTest::nearer ? GL_LESS : GL_GREATER);
+        glDepthFunc(depthTest_ == DepthTest::nearer           ? GL_LESS
+                    : depthTest_ == DepthTest::nearerReversed ? GL_GREATER
+                                                              : GL_GEQUAL);
     }
     if (blend_ == Blend::none) {
         glDisable(GL_BLEND);

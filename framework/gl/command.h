@@ -23,8 +23,9 @@ namespace kaustik::gl {
 class PassContext;
 
 enum class Blend { none, add };
-// nearer: the smaller value wins (distances); nearerReversed: the larger one (reversed z).
-enum class DepthTest { none, nearer, nearerReversed };
+// nearer: the smaller value wins (distances); nearerReversed: the larger one (reversed z);
+// atReversed: that or the same one, for surfaces that the buffer holds already.
+enum class DepthTest { none, nearer, nearerReversed, atReversed };
 
 class Command {
   public:

@@ -253,6 +253,8 @@ std::pair<std::size_t, std::size_t> GpuScene::runOf(const Group& group, DrawSet 
             return run(0, 3);
         case DrawSet::receivers:
             return run(0, 1);
+        case DrawSet::mirrors:
+            return run(1, 2);
         case DrawSet::specular:
             return run(1, 3);
         case DrawSet::dielectrics:

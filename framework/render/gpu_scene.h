@@ -14,7 +14,7 @@
 namespace kaustik::render {
 
 // Which surfaces a pass draws.
-enum class DrawSet { all, receivers, specular, dielectrics, nonDielectrics };
+enum class DrawSet { all, receivers, mirrors, dielectrics, specular, nonDielectrics };
 
 // Placed meshes as one view sees them.
 struct ViewInstances {

@@ -87,7 +87,7 @@ struct Geometry {
 // being invisible to it (design, section 1); a pixel that ends on a mirror has none.
 struct EyeBuffer {
     graph::Texture<ReceiverTexel> receiver;
-    graph::Texture<SurfaceTexel> receiverSurface;
+    graph::Texture<SurfaceTexel> receiverSurface;  // where the ray ends on a mirror, the mirror's
     graph::Texture<AlbedoTexel> receiverAlbedo;
     // The first specular surface before the receiver; invalid where the scene has none.
     graph::Texture<ViewDepth> interface;

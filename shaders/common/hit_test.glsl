@@ -98,19 +98,10 @@ bool isInSolid(TracedRay ray, RayStep at, int layer, LayerSurface surface) {
 }
 #endif
 
-// Where the ray meets the surface that a layer has at the step's pixel, whichever side that shows;
-// m, 0: nowhere in this step.
-float meetLayer(TracedRay ray, RayStep at, int layer, LayerSurface surface) {
+// Where the ray crosses the plane of the surface that a layer has at the step's pixel, whichever
+// side that shows; m, 0: nowhere in this step.
+float crossLayer(TracedRay ray, RayStep at, LayerSurface surface) {
     float depth = surface.depth;
-    if (depth <= 0.0) return 0.0;
-#ifdef EPSILON_TEST
-    // The paper's: a layer is met where it lies within a distance of the fragment's depth.
-    bool isMet = abs(depth - at.zMiddle) <= trace_epsilon;
-#ifdef IN_OUT_TEST
-    isMet = isMet || isInSolid(ray, at, layer, surface);
-#endif
-    return isMet ? at.tMiddle : 0.0;
-#else
     // The depths that the surface and the ray have over this pixel must overlap …
     if (depth + surface.margin < min(at.zBegin, at.zEnd) ||
         depth - surface.margin > max(at.zBegin, at.zEnd)) {
@@ -123,6 +114,20 @@ float meetLayer(TracedRay ray, RayStep at, int layer, LayerSurface surface) {
     float t = -heightAbove(ray.origin, surface.normal, at.texel, depth) / closing;
     float slack = 0.5 * (at.tEnd - at.tBegin) + 1e-6 * depth;
     return t < at.tBegin - slack || t > at.tEnd + slack ? 0.0 : max(t, 0.0);
+}
+
+// Where the ray meets that surface by the test that is chosen; m, 0: nowhere in this step.
+float meetLayer(TracedRay ray, RayStep at, int layer, LayerSurface surface) {
+    if (surface.depth <= 0.0) return 0.0;
+#ifdef EPSILON_TEST
+    // The paper's: a layer is met where it lies within a distance of the fragment's depth.
+    bool isMet = abs(surface.depth - at.zMiddle) <= trace_epsilon;
+#ifdef IN_OUT_TEST
+    isMet = isMet || isInSolid(ray, at, layer, surface);
+#endif
+    return isMet ? at.tMiddle : 0.0;
+#else
+    return crossLayer(ray, at, surface);
 #endif
 }
 

@@ -4,9 +4,13 @@
 // eye's ray, d_V, and that along the inverse normal, d_N. The weight of d_V is the ratio of the
 // angles of refraction and incidence: right for an index of 1, where the ray goes straight on, and
 // for one without limit, where it follows the normal.
-#include "common/fresnel.glsl"
-#include "screen_space_photons/refracted_scene.glsl"
+#include "common/scene_look.glsl"
 
+layout(location = 0) out vec4 radiance;
+layout(location = 1) out vec4 exitPosition;
+layout(location = 2) out vec4 exitDirection;
+
+#ifdef DIELECTRICS
 uniform sampler2D backDepth;
 uniform sampler2D backSurface;
 
@@ -65,23 +69,11 @@ vec3 backNormalAround(vec3 positionVs, ivec2 fallback) {
     return size > 1e-3 ? sum / size : texelFetch(backSurface, fallback, 0).xyz;
 }
 
-void main() {
-    ivec2 pixel = ivec2(gl_FragCoord.xy);
-    radiance = texelFetch(receiverRadiance, pixel, 0);
-    exitPosition = vec4(0.0);
-    exitDirection = vec4(0.0);
-    float depth = texelFetch(interfaceDepth, pixel, 0).x;
-    if (depth <= 0.0) return;
-    vec3 viewing = viewRay(gl_FragCoord.xy);
+// What is seen at an interface: all outputs.
+void lookThroughInterfaces(ivec2 pixel, vec3 viewing, float depth, vec4 surface) {
     vec3 direction = normalize(viewing);
-    vec4 surface = texelFetch(interfaceSurface, pixel, 0);
     uint material = uint(surface.w);
-    MaterialData data = materials[material - 1u];
-    if (uint(data.albedo.w) == kMaterialMirror) {
-        writeMirror(pixel, viewing, surface.xyz, data.albedo.rgb);
-        return;
-    }
-    float index = data.absorption.w;
+    float index = mediumIndex(material);
     vec3 entry = viewing * depth;
     bool enters = dot(direction, surface.xyz) < 0.0;
     Interface first =
@@ -128,19 +120,42 @@ void main() {
         }
         isInMedium = false;
     }
-    exitPosition = vec4(origin, met);
-    exitDirection = vec4(onward, ending);
-
     uint medium = isInMedium && isOpen(material - 1u) ? material : 0u;
     float ratio = mediumIndex(mediumAtEye) / mediumIndex(isInMedium ? material : 0u);
-    SceneHit seen = lookThrough(origin, onward);
-    radiance.rgb = throughput * ratio * ratio * radianceAlong(origin, onward, medium, seen, pixel);
+    MirrorPath path = MirrorPath(origin, onward, vec3(1.0), 0u, 0);
+    SceneHit seen = lookThrough(origin, onward, 0u);
+    if (followMirrors(path, seen, medium)) ending = kWayMirroredTooOften;
+    exitPosition = vec4(path.origin, met + float(path.mirrors));
+    exitDirection = vec4(path.direction, ending);
+
+    radiance.rgb = throughput * path.share * ratio * ratio *
+                   radianceAlong(path.origin, path.direction, medium, seen, pixel);
     if (!isTotal) {
-        SceneHit mirrored = lookIntoMirror(entry, first.reflected);
-        radiance.rgb +=
-            reached * first.reflectance *
-            radianceAlong(entry, first.reflected, isOpen(material - 1u) ? mediumAtEye : 0u,
-                          mirrored, pixel);
+        uint outside = isOpen(material - 1u) ? mediumAtEye : 0u;
+        radiance.rgb += reached * first.reflectance *
+                        radianceReflected(entry, first.reflected, outside, 0u, pixel);
     }
     radiance.a = 1.0;
+}
+#endif
+
+void main() {
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    radiance = texelFetch(receiverRadiance, pixel, 0);
+    exitPosition = vec4(0.0);
+    exitDirection = vec4(0.0);
+    float depth = texelFetch(interfaceDepth, pixel, 0).x;
+    if (depth <= 0.0) return;
+    vec3 viewing = viewRay(gl_FragCoord.xy);
+    vec4 surface = texelFetch(interfaceSurface, pixel, 0);
+    if (materialKind(uint(surface.w) - 1u) == kMaterialMirror) {
+        MirrorView mirrored = lookIntoMirror(pixel, viewing);
+        radiance = vec4(mirrored.radiance, 1.0);
+        exitPosition = mirrored.exitPosition;
+        exitDirection = mirrored.exitDirection;
+        return;
+    }
+#ifdef DIELECTRICS
+    lookThroughInterfaces(pixel, viewing, depth, surface);
+#endif
 }

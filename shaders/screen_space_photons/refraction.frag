@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: MIT
 // What the eye sees in and through specular surfaces (K06, section 4): its ray is bent at the first
-// interface and then traced on the screen through the layers of the transmitting objects. Radiance
-// changes by T at every interface and by 1/n² where what is seen lies in a medium of index n (hard
-// case 28a), and is absorbed on the way.
+// interface and then traced on the screen through the layers of the transmitting objects, and from
+// mirror to mirror. Radiance changes by T at every interface and by 1/n² where what is seen lies in
+// a medium of index n (hard case 28a), and is absorbed on the way.
+#include "common/scene_look.glsl"
+#ifdef DIELECTRICS
 #include "screen_space_photons/next_interface.glsl"
-#include "screen_space_photons/refracted_scene.glsl"
+#endif
 
+layout(location = 0) out vec4 radiance;
+layout(location = 1) out vec4 exitPosition;
+layout(location = 2) out vec4 exitDirection;
+
+#ifdef DIELECTRICS
 const float kFar = 1e30;
 
 // The medium of an open surface that a ray is in, or 0: what is inside of a closed object and is
@@ -16,11 +23,8 @@ uint openMedium(uint media) {
 }
 
 struct EyePath {
-    vec3 origin;     // of its last piece
-    vec3 direction;
-    vec3 throughput;  // what interfaces and media leave of the radiance, without 1/n²
-    uint media;
-    int met;  // interfaces
+    MirrorPath at;  // its last piece; its share: also what interfaces leave, without 1/n²
+    int interfaces;  // of dielectrics that it has met
     int refractions;
     int reflections;
     int passed;  // the layer that it has passed last
@@ -29,45 +33,83 @@ struct EyePath {
 
 // At an interface: the path goes on refracted, or totally reflected.
 Interface bend(inout EyePath path, vec3 normal, uint material, int layer) {
-    bool enters = dot(path.direction, normal) < 0.0;
-    vec2 indices = indicesAt(material, path.media, enters);
-    Interface meeting = interactAt(path.direction, normal, indices.x, indices.y);
-    ++path.met;
+    bool enters = dot(path.at.direction, normal) < 0.0;
+    vec2 indices = indicesAt(material, path.at.media, enters);
+    Interface meeting = interactAt(path.at.direction, normal, indices.x, indices.y);
+    ++path.interfaces;
+    path.at.media = withLeftSide(path.at.media, kLeftNothing);
     if (meeting.reflectance >= 1.0) {
         ++path.reflections;
-        path.direction = meeting.reflected;
+        path.at.direction = meeting.reflected;
         return meeting;
     }
     ++path.refractions;
-    path.direction = meeting.refracted;
-    path.throughput *= 1.0 - meeting.reflectance;
-    path.media = enters ? enterMedium(path.media, material) : leaveMedium(path.media);
+    path.at.direction = meeting.refracted;
+    path.at.share *= 1.0 - meeting.reflectance;
+    path.at.media =
+        enters ? enterMedium(path.at.media, material) : leaveMedium(path.at.media);
     // Behind the layer when it comes from before it, and the other way round.
     path.passed = layer > path.passed ? layer : layer - 1;
     return meeting;
 }
 
-// To the next interface before `reach`; false: there is none.
+// To the next interface before `reach`; false: there is none. Behind a mirror nothing is known of
+// the order of the layers: all are asked.
 bool advance(inout EyePath path, float reach) {
-    RaySegment segment = clipToDielectrics(path.origin, path.direction, reach);
+    RaySegment segment = clipToDielectrics(path.at.origin, path.at.direction, reach);
     if (!segment.visible) return false;
-    TracedRay ray = TracedRay(path.origin, path.direction, path.media);
+    TracedRay ray = TracedRay(path.at.origin, path.at.direction, path.at.media);
     int steps = stepCount(segment, 4, 16384);
-    FirstHit found = view_refraction_search == view_refraction_search_all
-                         ? firstHitOfSteps(segment, ray, steps)
-                         : searchBetweenLayers(segment, ray, path.passed, steps);
+    bool asksAll = view_refraction_search == view_refraction_search_all || path.at.mirrors > 0;
+    FirstHit found = asksAll ? firstHitOfSteps(segment, ray, steps)
+                             : searchBetweenLayers(segment, ray, path.passed, steps);
     if (found.hit.layer < 0) return false;
     vec4 surface = texelFetch(layerSurfaces, ivec3(found.pixel, found.hit.layer), 0);
     LayerSurface met = layerAt(found.pixel, found.hit.layer);
-    path.throughput *= mediumTransmittance(innerMedium(path.media), found.hit.t);
-    path.origin += found.hit.t * path.direction;
+    path.at.share *= mediumTransmittance(innerMedium(path.at.media), found.hit.t);
+    path.at.origin += found.hit.t * path.at.direction;
     vec3 shading =
-        found.isExit ? normalAtExit(path.origin, found.pixel, found.hit.layer)
-                     : normalAtHit(path.origin, surface, met, false);
-    vec3 normal = bendingNormal(path.direction, shading, met.normal, met.material, path.media);
+        found.isExit ? normalAtExit(path.at.origin, found.pixel, found.hit.layer)
+                     : normalAtHit(path.at.origin, surface, met, false);
+    vec3 normal =
+        bendingNormal(path.at.direction, shading, met.normal, met.material, path.at.media);
     bend(path, normal, met.material, found.hit.layer);
     return true;
 }
+
+// The path to what it sees at last.
+SceneHit follow(inout EyePath path) {
+    SceneHit seen;
+    for (;;) {
+        bool isInside = isInsideClosed(path.at.media);
+        bool isReflected = path.reflections > view_refraction_reflections;
+        bool isLast = isReflected || path.refractions >= view_refraction_interfaces;
+        seen = nothingThere();
+#ifndef SCENE_INSIDE
+        if (!isInside)
+#endif
+            seen = lookThrough(path.at.origin, path.at.direction, path.at.media);
+        bool isFound = seen.material != 0u;
+        if (isReflected) {
+            path.ending = kWayReflectedTooOften;
+            return seen;
+        }
+        if (!isLast && advance(path, isFound ? seen.t : kFar)) continue;
+        if (isFound && seen.isMirror) {
+            if (path.at.mirrors >= lookMirrors) {
+                path.ending = kWayMirroredTooOften;
+                return nothingThere();
+            }
+            path.at.share *= mediumTransmittance(innerMedium(path.at.media), seen.t);
+            reflectAt(path.at, path.at.origin + seen.t * path.at.direction, seen.normal,
+                      seen.material);
+            continue;
+        }
+        if (isInside && !isFound) path.ending = isLast ? kWayStoppedInside : kWayLost;
+        return seen;
+    }
+}
+#endif
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
@@ -76,61 +118,54 @@ void main() {
     exitDirection = vec4(0.0);
     if (texelFetch(interfaceDepth, pixel, 0).x <= 0.0) return;
     vec3 viewing = viewRay(gl_FragCoord.xy);
+#ifndef DIELECTRICS
+    MirrorView mirrored = lookIntoMirror(pixel, viewing);
+    radiance = vec4(mirrored.radiance, 1.0);
+    exitPosition = mirrored.exitPosition;
+    exitDirection = mirrored.exitDirection;
+#else
     vec3 direction = normalize(viewing);
     vec4 mirror = texelFetch(interfaceSurface, pixel, 0);
-    MaterialData data = materials[uint(mirror.w) - 1u];
-    if (uint(data.albedo.w) == kMaterialMirror) {
-        writeMirror(pixel, viewing, mirror.xyz, data.albedo.rgb);
-        return;
-    }
-    // The first layer is what the eye sees first.
-    LayerSurface surface = layerAt(pixel, 0);
-    uint material = surface.material;
-    if (surface.depth <= 0.0) return;
-    vec3 entry = viewing * surface.depth;
-    // An eye that looks at a dielectric from within is inside of it.
-    bool isEyeInside = dot(direction, surface.normal) > 0.0;
-    uint mediaAtEye = isEyeInside ? enterMedium(0u, material) : 0u;
-
-    EyePath path = EyePath(entry, direction, vec3(1.0), mediaAtEye, 0, 0, 0, -1, kWayCameOut);
-    path.throughput *= mediumTransmittance(innerMedium(mediaAtEye), length(entry));
-    vec3 reached = path.throughput;
-    vec3 shading = texelFetch(layerSurfaces, ivec3(pixel, 0), 0).xyz;
-    vec3 normal = bendingNormal(direction, shading, surface.normal, material, mediaAtEye);
-    Interface first = bend(path, normal, material, 0);
-    SceneHit seen;
-    for (;;) {
-        bool isInside = isInsideClosed(path.media);
-        bool isReflected = path.reflections > view_refraction_reflections;
-        bool isLast = isReflected || path.refractions >= view_refraction_interfaces;
-        seen = nothingThere();
-#ifndef RECEIVERS_INSIDE
-        if (!isInside)
-#endif
-            seen = lookThrough(path.origin, path.direction);
-        if (isLast) {
-            if (isInside && !seen.isFound) path.ending = kWayStoppedInside;
-            if (isReflected) path.ending = kWayReflectedTooOften;
-            break;
-        }
-        if (!advance(path, seen.isFound ? seen.t : kFar)) {
-            if (isInside && !seen.isFound) path.ending = kWayLost;
-            break;
+    EyePath path = EyePath(MirrorPath(vec3(0.0), direction, vec3(1.0), 0u, 0), 0, 0, 0, -1,
+                           kWayCameOut);
+    uint mediaAtEye = 0u;
+    vec3 reflected = vec3(0.0);
+    if (materialKind(uint(mirror.w) - 1u) == kMaterialMirror) {
+        reflectAt(path.at, viewing * texelFetch(interfaceDepth, pixel, 0).x, mirror.xyz,
+                  uint(mirror.w));
+    } else {
+        // The first layer is what the eye sees first.
+        LayerSurface surface = layerAt(pixel, 0);
+        if (surface.depth <= 0.0) return;
+        vec3 entry = viewing * surface.depth;
+        // An eye that looks at a dielectric from within is inside of it.
+        bool isEyeInside = dot(direction, surface.normal) > 0.0;
+        if (isEyeInside) mediaAtEye = enterMedium(0u, surface.material);
+        path.at.origin = entry;
+        path.at.media = mediaAtEye;
+        path.at.share = mediumTransmittance(innerMedium(mediaAtEye), length(entry));
+        vec3 reached = path.at.share;
+        vec3 shading = texelFetch(layerSurfaces, ivec3(pixel, 0), 0).xyz;
+        vec3 normal =
+            bendingNormal(direction, shading, surface.normal, surface.material, mediaAtEye);
+        Interface first = bend(path, normal, surface.material, 0);
+        if (first.reflectance < 1.0) {
+            reflected = reached * first.reflectance *
+                        radianceReflected(entry, first.reflected, openMedium(mediaAtEye),
+                                          mediaAtEye, pixel);
         }
     }
-    exitPosition = vec4(path.origin, float(path.met));
-    exitDirection = vec4(path.direction, path.ending);
+    SceneHit seen = follow(path);
+    exitPosition = vec4(path.at.origin, float(path.interfaces + path.at.mirrors));
+    exitDirection = vec4(path.at.direction, path.ending);
 
     // What was not traced out of an object is taken to see what one outside of it would.
-    uint media = isInsideClosed(path.media) && !seen.isFound ? leaveMedium(path.media) : path.media;
+    uint media = isInsideClosed(path.at.media) && seen.material == 0u ? leaveMedium(path.at.media)
+                                                                      : path.at.media;
     float ratio = mediumIndex(innerMedium(mediaAtEye)) / mediumIndex(innerMedium(media));
-    radiance.rgb = path.throughput * ratio * ratio *
-                   radianceAlong(path.origin, path.direction, openMedium(media), seen, pixel);
-    if (first.reflectance < 1.0) {
-        SceneHit mirrored = lookIntoMirror(entry, first.reflected);
-        radiance.rgb +=
-            reached * first.reflectance *
-            radianceAlong(entry, first.reflected, openMedium(mediaAtEye), mirrored, pixel);
-    }
+    radiance.rgb = reflected + path.at.share * ratio * ratio *
+                                   radianceAlong(path.at.origin, path.at.direction,
+                                                 openMedium(media), seen, pixel);
     radiance.a = 1.0;
+#endif
 }

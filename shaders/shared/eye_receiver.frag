@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The receiver of each pixel: depth, the area seen, normal, material, reflectance. A mirror is none
-// but hides what is behind it: its depth is negative.
+// but hides what is behind it: its depth is negative, and the normal and the material are its own.
 #include "common/scene_fragment.glsl"
 #include "common/surface.glsl"
 #include "common/view.glsl"
@@ -17,7 +17,6 @@ void main() {
     vec3 ray = viewRay(gl_FragCoord.xy);
     receiver = isLit ? vec4(depth, pixelArea(ray, depth, geometric), 0.0, 0.0)
                      : vec4(-depth, 0.0, 0.0, 0.0);
-    receiverSurface =
-        isLit ? vec4(shadingNormal(normalVs, geometric), float(material + 1u)) : vec4(0.0);
+    receiverSurface = vec4(shadingNormal(normalVs, geometric), float(material + 1u));
     receiverAlbedo = isLit ? vec4(albedo, 1.0) : vec4(0.0);
 }

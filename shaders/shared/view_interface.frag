@@ -2,20 +2,16 @@
 // What the eye sees in the first specular surface of a pixel: one refraction and one reflection.
 // The refracted ray is taken as far as the receiver lies straight behind the surface, and what the
 // picture shows there is looked up; the reflected one sees what surrounds the scene. Radiance
-// changes by T/n² where it leaves the medium that the receiver lies in (hard case 28a).
-#include "common/fresnel.glsl"
-#include "common/surface_data.glsl"
-#include "common/surroundings.glsl"
+// changes by T/n² where it leaves the medium that the receiver lies in (hard case 28a). A mirror
+// shows the scene.
+#include "common/scene_look.glsl"
 
 layout(location = 0) out vec4 radiance;
-
-uniform sampler2D interfaceDepth;
-uniform sampler2D interfaceSurface;
-uniform sampler2D receiver;
-uniform sampler2D receiverRadiance;
+layout(location = 1) out vec4 exitPosition;
+layout(location = 2) out vec4 exitDirection;
 
 // Where the refracted ray meets the receivers, as a pixel.
-ivec2 lookThrough(vec3 entry, vec3 direction, float distanceBehind, ivec2 pixel) {
+ivec2 pixelBehind(vec3 entry, vec3 direction, float distanceBehind, ivec2 pixel) {
     if (view_interface_refract == false) return pixel;
     vec3 there = entry + direction * distanceBehind;
     if (there.z > -view.tangents.z) return pixel;
@@ -32,6 +28,8 @@ ivec2 lookThrough(vec3 entry, vec3 direction, float distanceBehind, ivec2 pixel)
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     radiance = texelFetch(receiverRadiance, pixel, 0);
+    exitPosition = vec4(0.0);
+    exitDirection = vec4(0.0);
     float depth = texelFetch(interfaceDepth, pixel, 0).x;
     if (depth <= 0.0) return;
     vec4 surface = texelFetch(interfaceSurface, pixel, 0);
@@ -40,8 +38,10 @@ void main() {
     vec3 ray = viewRay(gl_FragCoord.xy);
     vec3 direction = normalize(ray);
     if (uint(data.albedo.w) == kMaterialMirror) {
-        vec3 mirrored = surroundingRadiance(reflect(direction, surface.xyz));
-        radiance = vec4(data.albedo.rgb * mirrored, 1.0);
+        MirrorView mirrored = lookIntoMirror(pixel, ray);
+        radiance = vec4(mirrored.radiance, 1.0);
+        exitPosition = mirrored.exitPosition;
+        exitDirection = mirrored.exitDirection;
         return;
     }
     float index = data.absorption.w;
@@ -53,7 +53,7 @@ void main() {
     vec3 through = vec3(0.0);
     if (meeting.reflectance < 1.0) {
         float behind = receiverDepth > depth ? (receiverDepth - depth) * length(ray) : 0.0;
-        ivec2 found = lookThrough(entry, meeting.refracted, behind, pixel);
+        ivec2 found = pixelBehind(entry, meeting.refracted, behind, pixel);
         bool isOpen = data.uv.w > 0.0;
         // Behind an open surface the receiver lies inside the medium; a closed object is left
         // again.
@@ -64,6 +64,11 @@ void main() {
         through = factor * texelFetch(receiverRadiance, found, 0).rgb;
         if (isOpen && enters) through *= mediumTransmittance(material + 1u, behind);
     }
+    bool goesThrough = meeting.reflectance < 1.0;
+    vec3 onward = goesThrough ? meeting.refracted : meeting.reflected;
+    exitPosition = vec4(entry, 1.0);
+    exitDirection =
+        vec4(goesThrough && !view_interface_refract ? direction : onward, kWayCameOut);
     radiance =
         vec4(through + meeting.reflectance * surroundingRadiance(meeting.reflected), 1.0);
 }

@@ -11,7 +11,6 @@
 // interface is told apart and goes on unbent.
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/screen_space_photons/nodes.h"
-#include "techniques/screen_space_photons/view_passes.h"
 
 namespace kaustik {
 namespace {
@@ -57,39 +56,47 @@ BackFaces drawBackFaces(FrameBuilder& frame, Geometry geometry) {
 }  // namespace
 
 View refractInImageSpace(FrameBuilder& frame, const ImageSpaceViewParams& params, Geometry geometry,
-                         EyeBuffer eye, LayeredDepth /*layers*/, Radiance receivers) {
+                         EyeBuffer eye, LayeredDepth layers, Radiance receivers) {
     if (!eye.interface.valid()) {
         frame.leaveOut("view.image_space", "the scene has no specular surface");
         return {receivers.radiance, {}, {}};
     }
-    const BackFaces faces = drawBackFaces(frame, geometry);
+    BackFaces faces;
+    if (frame.needs().refractors > 0) {
+        faces = drawBackFaces(frame, geometry);
+    } else {
+        frame.leaveOut("view.back_faces", "the scene has no dielectric");
+    }
     struct Data {
-        EyeBuffer eye;
+        ViewPass look;
         BackFaces faces;
-        Radiance receivers;
-        View seen;
     };
-    return frame
-        .pass<Data>(
-            "view.image_space", "the eye looks through specular surfaces",
-            [&](graph::PassSetup& setup, Data& data) {
-                data.eye = eye;
-                data.faces = faces;
-                data.receivers = receivers;
-                setup.read(faces.depth);
-                setup.read(faces.surface);
-                data.seen = createView(frame, setup, eye, receivers);
-            },
-            [&inputs = frame.inputs(), params](const Data& data, gl::PassContext& context) {
-                gl::Command command = context.fullscreen("screen_space_photons/image_space.frag");
-                inputs.bindView(command).storage("Materials", inputs.gpuScene.materials());
-                bindLook(inputs, command, data.eye, data.receivers, params.look, data.seen);
-                command.params("view.image_space", params)
-                    .texture("backDepth", data.faces.depth)
-                    .texture("backSurface", data.faces.surface)
-                    .draw();
-            })
-        .seen;
+    const View view =
+        frame
+            .pass<Data>(
+                "view.image_space", "the eye looks at specular surfaces",
+                [&](graph::PassSetup& setup, Data& data) {
+                    data.faces = faces;
+                    if (faces.depth.valid()) {
+                        setup.read(faces.depth);
+                        setup.read(faces.surface);
+                    }
+                    data.look = declareLook(frame, setup, params.look, eye, layers, receivers);
+                },
+                [&inputs = frame.inputs(), params](const Data& data, gl::PassContext& context) {
+                    gl::Command command =
+                        context.fullscreen("screen_space_photons/image_space.frag");
+                    command.params("view.image_space", params);
+                    bindLook(inputs, command, data.look, params.look);
+                    if (data.faces.depth.valid()) {
+                        command.texture("backDepth", data.faces.depth)
+                            .texture("backSurface", data.faces.surface);
+                    }
+                    command.draw();
+                })
+            .look.seen;
+    keepToMirrors(frame, "view.image_space", view, params.look);
+    return view;
 }
 
 }  // namespace kaustik

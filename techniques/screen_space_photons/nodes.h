@@ -6,6 +6,7 @@
 #include "framework/pipeline/registry.h"
 #include "framework/pipeline/stage_params.h"
 #include "framework/render/gpu_scene.h"
+#include "techniques/shared/view_passes.h"
 
 namespace kaustik {
 
@@ -194,29 +195,10 @@ enum class RefractionSearch : int { monotonic, all };
 // When the monotonic search takes a layer for met.
 enum class RefractionStop : int { crossing, depth };
 
-// How rays that have left the specular surfaces look for what they see; the nodes share it.
-struct SceneLookParams {
-    bool scene = true;
-    bool reflection = true;
-    int stride = 4;
-    template <class R>
-    void reflect(R& r) {
-        r.field(scene, "scene",
-                "Look for the receivers that the ray meets where the picture shows them (the "
-                "paper's Fig. 10); off: only what surrounds the scene");
-        r.field(reflection, "reflection",
-                "The same for the reflection at the first interface; off: it sees what surrounds "
-                "the scene");
-        r.field(stride, "stride",
-                "Pixels between two looks of a ray at the receivers; thinner ones may be missed",
-                "px", params::range(1, 64));
-    }
-};
-
 struct RefractionViewParams {
     RefractionSearch search = RefractionSearch::monotonic;
     RefractionStop stop = RefractionStop::crossing;
-    int interfaces = 4;
+    int interfaces = 0;
     int reflections = 4;
     int layers = 8;
     SceneLookParams look;
@@ -234,8 +216,9 @@ struct RefractionViewParams {
                  {"crossing", "depth"});
         r.field(
             interfaces, "interfaces",
-            "Most refractions of an eye ray; the paper's table has 2, and 1 is its Fig. 9, left",
-            "", params::range(1, 16));
+            "Most refractions of an eye ray; the paper's table has 2, and 1 is its Fig. 9, left. 0: "
+            "4, or 2 for each closed dielectric of those that lie in one another",
+            "", params::range(0, 16));
         r.field(reflections, "reflections",
                 "Most total internal reflections of an eye ray; what needs more is lost", "",
                 params::range(0, 64));

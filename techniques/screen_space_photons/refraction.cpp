@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // view.refraction: screen-space refraction tracing (K06, section 4). The passes "view.layers.…"
 // peel the transmitting objects alone; "view.refraction" follows the eye's transmitted ray of every
-// pixel through them and looks up what it sees: the receivers that the eye buffer shows (the
-// refracted scene, Fig. 10), else what surrounds the scene. The reflection at the first interface
-// is looked up the same way; later partial reflections are left out. In: eye buffer, radiance of
-// the receivers; out: radiance, W/m²/sr, and where each ray left for good, view space, m.
+// pixel through them, and from mirror to mirror, and looks up what it sees: the refracted scene
+// (Fig. 10; common/scene_look.glsl), else what surrounds it. The reflection at the first interface
+// is looked up the same way; later partial reflections are left out. In: eye buffer, layers,
+// radiance of the receivers; out: radiance, W/m²/sr, and where each ray left for good, view space,
+// m.
 //
 // The paper does not say what happens at total internal reflection (here the ray goes on, between
 // the same two layers), nor when a ray leaves through the layer that it has entered by (here it is
@@ -17,7 +18,6 @@
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/screen_space_photons/hit_testing.h"
 #include "techniques/screen_space_photons/nodes.h"
-#include "techniques/screen_space_photons/view_passes.h"
 
 namespace kaustik {
 
@@ -35,9 +35,10 @@ bool isSheet(const scene::Mesh& mesh) {
                        [&](const glm::vec3& normal) { return glm::dot(normal, mean) > 0.0f; });
 }
 
-// A path crosses a sheet once: where there is nothing else, no more interfaces are looked for, nor
-// peeled, than there are sheets.
-RefractionViewParams forScene(const scene::Scene& scene, RefractionViewParams params) {
+// As many interfaces as the scene needs. A path crosses a sheet once: where there is nothing else,
+// no more are looked for, nor peeled, than there are sheets.
+RefractionViewParams forScene(const scene::Scene& scene, int nested, RefractionViewParams params) {
+    if (params.interfaces == 0) params.interfaces = std::max(4, 2 * nested);
     int sheets = 0;
     for (const scene::Object& object : scene.objects) {
         if (scene.materials[object.material].kind != scene::MaterialKind::dielectric) continue;
@@ -54,31 +55,14 @@ int usefulLayers(const RefractionViewParams& params) {
     return isMonotonic ? std::min(params.layers, params.interfaces) : params.layers;
 }
 
-// What rays that end at a cap are told by.
-void keepToLimit(FrameBuilder& frame, const View& seen, const std::string& parameter,
-                 const std::string& unit, int value, float ending, const std::string& fate) {
-    frame.keepsTo({"view.refraction", seen.exitDirection,
-                   [=, exits = seen.exitDirection](
-                       const gl::Executor& executor) -> std::optional<ReachedLimit> {
-                       const std::size_t rays = countExits(executor.texture(exits), ending);
-                       if (rays == 0) return {};
-                       return ReachedLimit{
-                           parameter,
-                           unit,
-                           static_cast<double>(value),
-                           0.0,
-                           fmt::format("the eye's rays of {} pixels {}", rays, fate),
-                           0.0};
-                   }});
-}
-
 void keepToLimits(FrameBuilder& frame, const RefractionViewParams& params,
                   const LayeredDepth& layers, const View& seen) {
-    keepToLimit(frame, seen, "view.refraction.interfaces", "refractions", params.interfaces,
-                transport::kWayStoppedInside,
-                "end inside of an object and are taken to see what they would outside");
-    keepToLimit(frame, seen, "view.refraction.reflections", "reflections", params.reflections,
-                transport::kWayReflectedTooOften, "are lost between total reflections");
+    keepToExitLimit(frame, "view.refraction", seen, "view.refraction.interfaces", "refractions",
+                    params.interfaces, transport::kWayStoppedInside,
+                    "end inside of an object and are taken to see what they would outside");
+    keepToExitLimit(frame, "view.refraction", seen, "view.refraction.reflections", "reflections",
+                    params.reflections, transport::kWayReflectedTooOften,
+                    "are lost between total reflections");
     // Fewer layers than there are interfaces to be met in them.
     const bool isMonotonic = params.search == RefractionSearch::monotonic;
     if (isMonotonic && params.layers >= params.interfaces) return;
@@ -104,55 +88,56 @@ void keepToLimits(FrameBuilder& frame, const RefractionViewParams& params,
 }  // namespace
 
 View traceRefraction(FrameBuilder& frame, const RefractionViewParams& wanted, Geometry geometry,
-                     EyeBuffer eye, LayeredDepth /*layers*/, Radiance receivers) {
+                     EyeBuffer eye, LayeredDepth sceneLayers, Radiance receivers) {
     if (!eye.interface.valid()) {
         frame.leaveOut("view.refraction", "the scene has no specular surface");
         return {receivers.radiance, {}, {}};
     }
-    const RefractionViewParams params = forScene(frame.scene(), wanted);
-    const HitTesting testing = hitTesting(frame);
-    LayeredDepth layers;
-    {
+    const DielectricsBox box = boxOfDielectrics(frame);
+    const RefractionViewParams params = forScene(frame.scene(), box.nested, wanted);
+    LayeredDepth dielectrics;
+    if (frame.needs().refractors > 0) {
         const FrameBuilder::Within within(frame, "view");
         // The n-th interface is looked for in the n-th layer, and no deeper.
-        layers = peel(frame, geometry,
-                      {.name = "view.layers",
-                       .set = render::DrawSet::dielectrics,
-                       .layers = usefulLayers(params),
-                       .reader = "the eye's rays need"});
+        dielectrics = peel(frame, geometry,
+                           {.name = "view.layers",
+                            .set = render::DrawSet::dielectrics,
+                            .layers = usefulLayers(params),
+                            .reader = "the eye's rays need"});
+    } else {
+        for (const char* pass : {"view.layers.complexity", "view.layers.peel"})
+            frame.leaveOut(pass, "the scene has no dielectric");
     }
     struct Data {
-        EyeBuffer eye;
-        LayeredDepth layers;
-        Radiance receivers;
-        View seen;
+        ViewPass look;
+        LayeredDepth dielectrics;
     };
-    const DielectricsBox box = boxOfDielectrics(frame);
     const View view =
         frame
             .pass<Data>(
-                "view.refraction", "the eye looks through specular surfaces",
+                "view.refraction", "the eye looks at specular surfaces",
                 [&](graph::PassSetup& setup, Data& data) {
-                    data.eye = eye;
-                    data.layers = layers;
-                    data.receivers = receivers;
-                    readLayers(setup, layers);
-                    data.seen = createView(frame, setup, eye, receivers);
+                    data.dielectrics = dielectrics;
+                    if (dielectrics.depth.valid()) readLayers(setup, dielectrics);
+                    data.look = declareLook(frame, setup, params.look, eye, sceneLayers, receivers);
                 },
-                [&inputs = frame.inputs(), params, testing, box](const Data& data,
-                                                                 gl::PassContext& context) {
+                [&inputs = frame.inputs(), params, box, testing = hitTesting(frame)](
+                    const Data& data, gl::PassContext& context) {
                     gl::Command command =
                         context.fullscreen("screen_space_photons/refraction.frag");
-                    if (box.holdsReceivers) command.define("RECEIVERS_INSIDE");
-                    bindHitTesting(command, testing, inputs, data.layers);
-                    bindLook(inputs, command, data.eye, data.receivers, params.look, data.seen);
-                    command.params("view.refraction", params)
-                        .set("dielectricsCenterVs", box.centerVs)
-                        .set("dielectricsHalfExtent", box.halfExtentMeters)
-                        .draw();
+                    command.params("view.refraction", params);
+                    bindLook(inputs, command, data.look, params.look);
+                    if (data.dielectrics.depth.valid()) {
+                        if (box.holdsScene) command.define("SCENE_INSIDE");
+                        bindHitTesting(command, testing, inputs, data.dielectrics);
+                        command.set("dielectricsCenterVs", box.centerVs)
+                            .set("dielectricsHalfExtent", box.halfExtentMeters);
+                    }
+                    command.draw();
                 })
-            .seen;
-    keepToLimits(frame, params, layers, view);
+            .look.seen;
+    keepToMirrors(frame, "view.refraction", view, params.look);
+    if (dielectrics.depth.valid()) keepToLimits(frame, params, dielectrics, view);
     return view;
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // eye.surfaces: the eye buffer (design, section 1). `eye.receivers` draws all but dielectrics,
-// which are invisible to the straight ray; `eye.interface` the first specular surface before them,
-// with the receivers' depth buffer. View space, m; receiver areas in m².
+// which are invisible to the straight ray; `eye.interface` the first specular surface of each
+// pixel, with that depth buffer: dielectrics before what it holds, and the mirrors that it holds
+// (B16: geometry drawn twice has the same depth). View space, m; receiver areas in m².
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/shared/nodes.h"
 
@@ -65,7 +66,16 @@ EyeBuffer renderEye(FrameBuilder& frame, const params::NoParams&, Geometry geome
                 command.target(data.eye.interfaceSurface).clear();
                 command.depth(data.depth, gl::DepthTest::nearerReversed);
                 inputs.gpuScene.draw(command, context, data.geometry, inputs.instances,
-                                     render::DrawSet::specular);
+                                     render::DrawSet::dielectrics);
+                if (inputs.needs.reflectors == 0) return;
+                gl::Command mirrors =
+                    context.shaders({"shared/eye.vert", "shared/eye_interface.frag"});
+                mirrors.set("projection", projection)
+                    .target(data.eye.interface)
+                    .target(data.eye.interfaceSurface)
+                    .depth(data.depth, gl::DepthTest::atReversed);
+                inputs.gpuScene.draw(mirrors, context, data.geometry, inputs.instances,
+                                     render::DrawSet::mirrors);
             })
         .eye;
 }

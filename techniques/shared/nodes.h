@@ -4,6 +4,7 @@
 
 #include "framework/pipeline/registry.h"
 #include "framework/pipeline/stage_params.h"
+#include "techniques/shared/view_passes.h"
 
 namespace kaustik {
 
@@ -38,10 +39,12 @@ Hits splitAtInterface(FrameBuilder& frame, const SplitParams& params, Hits hits)
 
 struct InterfaceViewParams {
     bool refract = true;
+    SceneLookParams look;
     template <class R>
     void reflect(R& r) {
         r.field(refract, "refract",
                 "Bend the eye's ray at the surface; off: look straight through");
+        look.reflect(r);
     }
 };
 View viewThroughInterface(FrameBuilder& frame, const InterfaceViewParams& params, Geometry geometry,

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// What the nodes that look through specular surfaces share.
+#pragma once
+
+#include "framework/pipeline/frame_builder.h"
+
+namespace kaustik {
+
+// Where rays look for what they see.
+enum class LookSurfaces : int { receivers, layers };
+
+// How rays that have left the dielectrics look for what they see; the nodes share it.
+struct SceneLookParams {
+    bool scene = true;
+    bool reflection = true;
+    LookSurfaces surfaces = LookSurfaces::receivers;
+    int stride = 4;
+    int mirrors = 4;
+    template <class R>
+    void reflect(R& r) {
+        r.field(scene, "scene",
+                "Look for the surfaces that the ray meets where the picture shows them (the "
+                "paper's Fig. 10); off: only what surrounds the scene");
+        r.field(reflection, "reflection",
+                "The same for the reflection at the first interface and for mirrors; off: they see "
+                "what surrounds the scene");
+        r.choice(surfaces, "surfaces",
+                 "receivers: the first receiver or mirror of every pixel; layers: the paper's, all "
+                 "surfaces of the scene's layered depth, of which those that the picture does not "
+                 "show are lit through the layers",
+                 {"receivers", "layers"});
+        r.field(stride, "stride",
+                "Pixels between two looks of a ray at the receivers; thinner ones may be missed. "
+                "Layers are looked at in every pixel",
+                "px", params::range(1, 64));
+        r.field(mirrors, "mirrors", "Most mirrors that a ray meets one after the other", "",
+                params::range(1, 64));
+    }
+};
+
+// The box around all dielectrics, along the world's axes, with a margin of two pixels.
+struct DielectricsBox {
+    glm::vec3 centerVs{0.0f};  // m
+    glm::vec3 halfExtentMeters{0.0f};
+    // The box of a receiver or a mirror overlaps that of a closed dielectric: it may lie within.
+    bool holdsScene = false;
+    // Most closed dielectrics that may lie in one another, by their boxes.
+    int nested = 0;
+};
+[[nodiscard]] DielectricsBox boxOfDielectrics(const FrameBuilder& frame);
+
+// What such a pass is given and gives.
+struct ViewPass {
+    EyeBuffer eye;
+    LayeredDepth sceneLayers;  // invalid where the picture's receivers are looked at
+    Radiance receivers;
+    View seen;
+};
+
+// Declares what such a pass reads and the outputs of its View. A pass that is disabled shows the
+// receivers and no exits.
+[[nodiscard]] ViewPass declareLook(const FrameBuilder& frame, graph::PassSetup& setup,
+                                   const SceneLookParams& look, const EyeBuffer& eye,
+                                   const LayeredDepth& sceneLayers, const Radiance& receivers);
+
+// Binds what declareLook has declared, the view, the materials, the images and the outputs as
+// targets: what common/scene_look.glsl needs.
+void bindLook(const FrameInputs& inputs, gl::Command& command, const ViewPass& pass,
+              const SceneLookParams& look);
+
+// How many pixels' ways have ended so (transport::kWay…). Waits for the device.
+[[nodiscard]] std::size_t countExits(const gl::Texture& exitDirection, float ending);
+
+// What pixels whose rays end at a cap of a view node are told by. `fate`: what becomes of them.
+void keepToExitLimit(FrameBuilder& frame, const std::string& pass, const View& seen,
+                     const std::string& parameter, const std::string& unit, int value,
+                     float ending, const std::string& fate);
+// The cap on mirrors, of the node `pass`; nothing where the scene has none.
+void keepToMirrors(FrameBuilder& frame, const std::string& pass, const View& seen,
+                   const SceneLookParams& look);
+
+}  // namespace kaustik
