@@ -288,9 +288,31 @@ bool followMirrors(inout MirrorPath path, inout SceneHit seen, uint medium) {
     return false;
 }
 
+// Mean radiance of one material's receivers around a pixel: what its pattern does there says nothing
+// of a place beside the screen. False: the pixel has none.
+bool meanRadianceAround(ivec2 pixel, out vec3 mean) {
+    const int kReach = 3;
+    const int kStep = 5;  // px
+    mean = vec3(0.0);
+    bool isThere = pixel.x >= 0 && texelFetch(receiver, pixel, 0).x > 0.0;
+    float material = isThere ? texelFetch(receiverSurface, pixel, 0).w : 0.0;
+    float count = 0.0;
+    int side = isThere ? 2 * kReach + 1 : 0;  // devices without branches still leave a loop out
+    for (int i = 0; i < side * side; ++i) {
+        ivec2 step = kStep * (ivec2(i % side, i / side) - kReach);
+        ivec2 other = clamp(pixel + step, ivec2(0), ivec2(view.sizePixels.xy) - 1);
+        if (texelFetch(receiver, other, 0).x <= 0.0) continue;
+        if (texelFetch(receiverSurface, other, 0).w != material) continue;
+        mean += texelFetch(receiverRadiance, other, 0).rgb;
+        count += 1.0;
+    }
+    mean /= max(count, 1.0);
+    return isThere;
+}
+
 // Radiance along a ray that starts at `origin` within the medium `medium` (material index + 1) of
 // an open surface, or 0, of which `seen` is known. Where nothing is known of what it meets: in
-// water, which has no end to see, the receiver straight behind the surface at `pixel`, else the one
+// water, which has no end to see, the receiver straight behind the surface at `pixel`, else those
 // that the screen shows next to where the ray leaves the scene; in the open what surrounds it.
 vec3 radianceAlong(vec3 origin, vec3 direction, uint medium, SceneHit seen, ivec2 pixel) {
     if (seen.material != 0u) return seen.radiance * mediumTransmittance(medium, seen.t);
@@ -300,10 +322,9 @@ vec3 radianceAlong(vec3 origin, vec3 direction, uint medium, SceneHit seen, ivec
             float behind = (straight + origin.z) * length(viewRay(vec2(pixel) + 0.5));
             return texelFetch(receiverRadiance, pixel, 0).rgb * mediumTransmittance(medium, behind);
         }
-        if (seen.lastPixel.x >= 0 && texelFetch(receiver, seen.lastPixel, 0).x > 0.0) {
-            return texelFetch(receiverRadiance, seen.lastPixel, 0).rgb *
-                   mediumTransmittance(medium, seen.t);
-        }
+        vec3 mean;
+        if (meanRadianceAround(seen.lastPixel, mean))
+            return mean * mediumTransmittance(medium, seen.t);
     }
     return surroundingRadiance(direction) * mediumTransmittance(medium, 1e30);
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Planar depth from the light, m, and half of its extent over the texel: how far the map's surface
-// may differ from a point that the texel also covers.
+// Planar depth from the light, m, and what it grows by from texel to texel, as a share of it.
 in vec3 positionVs;
 
 layout(location = 0) out vec4 lightDepth;
 
 void main() {
     float depth = -positionVs.z;
-    lightDepth = vec4(depth, fwidth(depth), 0.0, 0.0);
+    vec2 growth = vec2(dFdx(depth), dFdy(depth)) / depth;
+    lightDepth = vec4(depth, clamp(growth, vec2(-1.0), vec2(1.0)), 0.0);
 }

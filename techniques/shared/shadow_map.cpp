@@ -9,8 +9,9 @@
 namespace kaustik {
 namespace {
 
-struct LightDepth {  // x: planar depth from the light, m, 0 none; y: its extent over the texel, m
-    static constexpr Format format = Format::rg32f;
+// x: planar depth from the light, m, 0 none; yz: its growth a texel, as a share of it.
+struct LightDepth {
+    static constexpr Format format = Format::rgba32f;
 };
 
 struct ShadowView {
@@ -103,6 +104,7 @@ Shadows lookUpShadowMaps(FrameBuilder& frame, const ShadowMapParams& params, Geo
                 data.eye = eye;
                 setup.read(maps.map);
                 setup.read(eye.receiver);
+                setup.read(eye.receiverSurface);
                 data.shadows.visibility =
                     setup.create<VisibilityTexel>("shadow.visibility", frame.width(),
                                                   frame.height(), static_cast<int>(views.size()));
@@ -113,6 +115,7 @@ Shadows lookUpShadowMaps(FrameBuilder& frame, const ShadowMapParams& params, Geo
                     gl::Command command = context.fullscreen("shared/shadow_lookup.frag");
                     inputs.bindView(command)
                         .texture("receiver", data.eye.receiver)
+                        .texture("receiverSurface", data.eye.receiverSurface)
                         .texture("shadowMap", data.maps.map)
                         .set("firstLayer", views[light].firstLayer)
                         .set("faceCount", static_cast<int>(views[light].eyeToLight.size()))
