@@ -97,56 +97,54 @@ vec3 mirrorNormalAround(vec3 hitVs, vec4 surface) {
 }
 
 #ifndef LOOK_IN_LAYERS
-// The first receiver or mirror that the eye sees: by the ray's depth at the end of each step, since
-// the last one ends just behind the scene's last surface. `lookStride` pixels are looked at
-// together: where the ray is before the surfaces at one look and behind them at the next, all
-// pixels between are asked.
+// The first receiver or mirror of a pixel, by its shading normal; depth 0: there is none.
+LayerSurface seenAt(ivec2 texel) {
+    vec4 surface = texelFetch(receiverSurface, texel, 0);
+    float depth = abs(texelFetch(receiver, texel, 0).x);
+    float margin = depthMargin(viewRay(vec2(texel) + 0.5), depth, surface.xyz);
+    return LayerSurface(depth, margin, surface.xyz, uint(surface.w));
+}
+
+const int kBefore = 0;
+const int kAround = 1;  // so near that the pixel's depth in its middle does not tell
+const int kBehind = 2;
+
+// The first receiver or mirror that the eye sees. `lookStride` pixels are looked at together: where
+// the ray comes from before the surfaces to behind them, or is near one, all pixels between are
+// asked, and the last ones, since the ray ends just behind the scene's last surface.
 SceneHit searchScene(TracedRay ray) {
     RaySegment segment = clipRay(ray.origin, ray.direction);
     if (!segment.visible) return nothingFound(ray.origin, ray.direction, false);
     int n = stepCount(segment, 4, 16384);
-    float count = float(n);
-    bool isBefore = true;
+    int before = kBefore;
     for (int look = 0; look < n; look += lookStride) {
         int last = min(look + lookStride, n) - 1;
-        // At the stride's end, or one by one where the stride holds a change.
-        ivec2 there = texelOfStep(segment, last, n);
-        float depthThere = abs(texelFetch(receiver, there, 0).x);
-        float zThere = depthAtIndex(segment, float(last) + 1.0, count);
-        bool isBeforeThere = depthThere <= 0.0 || zThere < depthThere;
-        if (isBefore && !isBeforeThere) {
-            for (int i = look; i <= last; ++i) {
-                float middle = float(i) + 0.5;
-                ivec2 texel = texelOfStep(segment, i, n);
-                float seen = texelFetch(receiver, texel, 0).x;
-                float depth = abs(seen);
-                float z = depthAtIndex(segment, float(i) + 1.0, count);
-                if (depth <= 0.0 || z < depth) continue;
-                // Behind: through the surface's tangent plane, or past its edge.
-                vec4 surface = texelFetch(receiverSurface, texel, 0);
-                float height = heightAbove(ray.origin, surface.xyz, texel, depth);
-                float closing = dot(surface.xyz, ray.direction);
-                float t = abs(closing) > 1e-6 ? -height / closing : -1.0;
-                float from = parameterAtIndex(segment, max(middle - 1.5, 0.0), count);
-                float to = parameterAtIndex(segment, min(middle + 1.5, count), count);
-                if (t < from - 1e-5 * depth || t > to + 1e-5 * depth) continue;
-                uint material = uint(surface.w);
-                float resolved =
-                    depthMargin(viewRay(vec2(texel) + 0.5), depth, surface.xyz);
-                if (!isFacing(ray, material, surface.xyz, height, resolved)) continue;
-                vec3 hitVs = ray.origin + t * ray.direction;
-                if (seen < 0.0) {
-                    return SceneHit(material, true, false, t, texel,
-                                    mirrorNormalAround(hitVs, surface), vec3(0.0));
-                }
-                return SceneHit(material, false, false, t, texel, vec3(0.0),
-                                radianceAround(hitVs, texel, surface.xyz));
+        LayerSurface there = seenAt(texelOfStep(segment, last, n));
+        float beyond = depthAtIndex(segment, float(last) + 1.0, float(n)) - there.depth;
+        int place = there.depth <= 0.0 || beyond < -there.margin ? kBefore
+                    : beyond > there.margin                      ? kBehind
+                                                                 : kAround;
+        bool isAsked = before == kAround || place == kAround || last == n - 1 ||
+                       (before == kBefore && place == kBehind);
+        before = place;
+        for (int i = isAsked ? look : last + 1; i <= last; ++i) {
+            RayStep at = rayStep(segment, i, n);
+            LayerSurface surface = seenAt(at.texel);
+            if (surface.depth <= 0.0) continue;
+            float t = crossLayer(ray, at, surface);
+            if (t <= 0.0 || !isFacingAt(ray, at.texel, surface)) continue;
+            vec3 hitVs = ray.origin + t * ray.direction;
+            if (materialKind(surface.material - 1u) == kMaterialMirror) {
+                vec4 shaded = vec4(surface.normal, float(surface.material));
+                return SceneHit(surface.material, true, false, t, at.texel,
+                                mirrorNormalAround(hitVs, shaded), vec3(0.0));
             }
+            return SceneHit(surface.material, false, false, t, at.texel, vec3(0.0),
+                            radianceAround(hitVs, at.texel, surface.normal));
         }
-        isBefore = isBeforeThere;
     }
     return nothingFound(ray.origin, ray.direction,
-                        isBefore && segment.cause == kAccountUnresolved);
+                        before != kBehind && segment.cause == kAccountUnresolved);
 }
 #else
 LayerSurface sceneLayerAt(ivec2 texel, int layer) {

@@ -214,11 +214,11 @@ struct RefractionViewParams {
                  "that one which passes behind another part of the object goes on. For the "
                  "monotonic search",
                  {"crossing", "depth"});
-        r.field(
-            interfaces, "interfaces",
-            "Most refractions of an eye ray; the paper's table has 2, and 1 is its Fig. 9, left. 0: "
-            "4, or 2 for each closed dielectric of those that lie in one another",
-            "", params::range(0, 16));
+        r.field(interfaces, "interfaces",
+                "Most refractions of an eye ray; the paper's table has 2, and 1 is its Fig. 9, "
+                "left. 0: "
+                "4, or 2 for each closed dielectric of those that lie in one another",
+                "", params::range(0, 16));
         r.field(reflections, "reflections",
                 "Most total internal reflections of an eye ray; what needs more is lost", "",
                 params::range(0, 64));

@@ -136,8 +136,8 @@ std::size_t countExits(const gl::Texture& exitDirection, float ending) {
 }
 
 void keepToExitLimit(FrameBuilder& frame, const std::string& pass, const View& seen,
-                     const std::string& parameter, const std::string& unit, int value,
-                     float ending, const std::string& fate) {
+                     const std::string& parameter, const std::string& unit, int value, float ending,
+                     const std::string& fate) {
     frame.keepsTo({pass, seen.exitDirection,
                    [=, exits = seen.exitDirection](
                        const gl::Executor& executor) -> std::optional<ReachedLimit> {

@@ -73,8 +73,8 @@ void bindLook(const FrameInputs& inputs, gl::Command& command, const ViewPass& p
 
 // What pixels whose rays end at a cap of a view node are told by. `fate`: what becomes of them.
 void keepToExitLimit(FrameBuilder& frame, const std::string& pass, const View& seen,
-                     const std::string& parameter, const std::string& unit, int value,
-                     float ending, const std::string& fate);
+                     const std::string& parameter, const std::string& unit, int value, float ending,
+                     const std::string& fate);
 // The cap on mirrors, of the node `pass`; nothing where the scene has none.
 void keepToMirrors(FrameBuilder& frame, const std::string& pass, const View& seen,
                    const SceneLookParams& look);
