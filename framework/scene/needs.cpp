@@ -18,6 +18,16 @@ bool moves(const Mesh& mesh) {
 
 }  // namespace
 
+bool isSheet(const Mesh& mesh) {
+    if (mesh.closed) return false;
+    if (mesh.heightField) return true;
+    glm::vec3 mean(0.0f);
+    for (const glm::vec3& normal : mesh.normals)
+        mean += normal;
+    return std::all_of(mesh.normals.begin(), mesh.normals.end(),
+                       [&](const glm::vec3& normal) { return glm::dot(normal, mean) > 0.0f; });
+}
+
 SceneNeeds sceneNeeds(const Scene& scene) {
     SceneNeeds needs;
     for (const Object& object : scene.objects) {

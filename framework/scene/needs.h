@@ -24,6 +24,10 @@ struct SceneNeeds {
     int measuredDepthComplexity = -1;  // most layers behind one pixel; -1 until a renderer counts
 };
 
+// Whether a surface bounds no volume and does not turn back: water, a pane, but not a teapot with
+// open seams.
+[[nodiscard]] bool isSheet(const Mesh& mesh);
+
 [[nodiscard]] SceneNeeds sceneNeeds(const Scene& scene);
 
 }  // namespace kaustik::scene

@@ -13,7 +13,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <glm/glm.hpp>
 
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/screen_space_photons/hit_testing.h"
@@ -22,18 +21,6 @@
 namespace kaustik {
 
 namespace {
-
-// Whether a surface bounds no volume and does not turn back: water, a pane, but not a teapot with
-// open seams.
-bool isSheet(const scene::Mesh& mesh) {
-    if (mesh.closed) return false;
-    if (mesh.heightField) return true;
-    glm::vec3 mean(0.0f);
-    for (const glm::vec3& normal : mesh.normals)
-        mean += normal;
-    return std::all_of(mesh.normals.begin(), mesh.normals.end(),
-                       [&](const glm::vec3& normal) { return glm::dot(normal, mean) > 0.0f; });
-}
 
 // As many interfaces as the scene needs. A path crosses a sheet once: where there is nothing else,
 // no more are looked for, nor peeled, than there are sheets.
