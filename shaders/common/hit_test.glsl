@@ -137,6 +137,22 @@ bool isFacingAt(TracedRay ray, ivec2 texel, LayerSurface surface) {
     return isFacing(ray, surface.material, surface.normal, height, surface.margin);
 }
 
+// Whether a hit on a layer's plane may lie on the solid that it bounds. Where a solid is about a pixel
+// thick its planes are those of its silhouette, and go on far before and behind it; but a front and
+// the back behind it meet half-way.
+bool isOnSolid(TracedRay ray, ivec2 texel, int layer, LayerSurface surface, float t) {
+    vec3 eyeRay = viewRay(vec2(texel) + 0.5);
+    bool isFront = dot(surface.normal, eyeRay) < 0.0;
+    int next = isFront ? layer + 1 : layer - 1;
+    if (next < 0 || next >= layerCount) return true;
+    LayerSurface other = layerAt(texel, next);
+    if (other.depth <= 0.0 || other.material != surface.material) return true;
+    if ((dot(other.normal, eyeRay) < 0.0) == isFront) return true;
+    float middle = 0.5 * (surface.depth + other.depth);
+    float beyond = -(ray.origin.z + t * ray.direction.z) - middle;
+    return (isFront ? beyond : -beyond) <= pixelFootprint(middle);
+}
+
 // Of two surfaces the one nearer along the ray (hard case 11). The paper's test cannot tell those
 // of one step apart by t: where the ray comes nearer to the eye, the deeper layer is.
 bool isNearer(float t, float before, RayStep at, bool isSameStep) {
@@ -152,7 +168,8 @@ LayerHit testStep(RaySegment segment, TracedRay ray, int i, int n) {
         if (surface.depth <= 0.0) break;
         float t = meetLayer(ray, at, layer, surface);
         if (t <= 0.0 || (best.layer >= 0 && !isNearer(t, best.t, at, true))) continue;
-        if (isFacingAt(ray, at.texel, surface)) best = LayerHit(t, layer);
+        if (isFacingAt(ray, at.texel, surface) && isOnSolid(ray, at.texel, layer, surface, t))
+            best = LayerHit(t, layer);
     }
     return best;
 }

@@ -192,7 +192,8 @@ FirstHit traverse(Photon photon, int minimumSteps, int maximumSteps) {
             RayStep at = rayStep(segment, step, steps);
             bool isFirst = first.hit.layer < 0;
             if ((isFirst || isNearer(t, first.hit.t, at, step == firstStep)) &&
-                isFacingAt(ray, at.texel, surface)) {
+                isFacingAt(ray, at.texel, surface) &&
+                isOnSolid(ray, at.texel, layer, surface, t)) {
                 // The next step's surfaces are met at most half a step before it begins.
                 float next = parameterAtIndex(segment, float(step) + 2.0, float(steps));
                 bool mayBeNearer = t > at.tEnd - 0.51 * (next - at.tEnd) - 2e-6 * at.zEnd;
