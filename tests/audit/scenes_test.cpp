@@ -4,14 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
-#include <set>
 
 #include "framework/audit/hit_audit.h"
-#include "framework/core/files.h"
 #include "framework/measure/image_errors.h"
 #include "framework/reference/reference.h"
 #include "framework/scene/scene_file.h"
+#include "tests/audit/shipped_scenes.h"
 #include "tests/gpu/fixture.h"
 
 namespace kaustik::test {
@@ -21,20 +19,6 @@ using transport::kAccountEmitted;
 
 constexpr int kWidth = 320;
 constexpr int kHeight = 240;
-
-// Scenes without a caustic, and those of meshes that are fetched on request only.
-const std::set<std::string> kNotHere = {"tree", "glass-dragon", "glass-dragon-low", "glass-teapot"};
-
-std::vector<std::string> shippedScenes() {
-    std::vector<std::string> names;
-    for (const auto& entry :
-         std::filesystem::directory_iterator(projectRoot() / "experiments/scenes")) {
-        const std::string name = entry.path().stem().string();
-        if (entry.path().extension() == ".toml" && kNotHere.count(name) == 0) names.push_back(name);
-    }
-    std::sort(names.begin(), names.end());
-    return names;
-}
 
 // What a scene's photons and caustic are held to.
 struct Bounds {
@@ -62,21 +46,6 @@ reference::Reference truthOf(const reference::EmbreeScene& scene, const Modelled
     reference::PixelSums sums = makeSums(scene, request);
     addBatches(scene, request, options, sums);
     return makeReference(scene.scene(), request, sums, 0.0);
-}
-
-Image imageOf(const gl::Texture& texture, int channel, int channels) {
-    const int stored = gl::formatInfo(texture.desc().format).channels;
-    const std::vector<float> texels = texture.read();
-    Image image(texture.desc().width, texture.desc().height, channels);
-    for (int y = 0; y < image.height; ++y) {
-        for (int x = 0; x < image.width; ++x) {
-            for (int c = 0; c < channels; ++c) {
-                const int texel = (image.height - 1 - y) * image.width + x;
-                image.at(x, y, c) = texels[static_cast<std::size_t>(texel * stored + channel + c)];
-            }
-        }
-    }
-    return image;
 }
 
 class ShippedScene : public testing::TestWithParam<std::string> {};
@@ -131,12 +100,7 @@ TEST_P(ShippedScene, HasTheCausticOfTheTruth) {
                 bounds.radiusPixels + 0.02 * radius);
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, ShippedScene, testing::ValuesIn(shippedScenes()),
-                         [](const testing::TestParamInfo<std::string>& scene) {
-                             std::string name = scene.param;
-                             std::replace(name.begin(), name.end(), '-', '_');
-                             return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(Every, ShippedScene, testing::ValuesIn(shippedScenes()), nameOfScene);
 
 }  // namespace
 }  // namespace kaustik::test

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// The scenes that the project ships, for tests that hold each of them against the truth.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "framework/core/files.h"
+#include "framework/gl/objects.h"
+#include "framework/image/image.h"
+
+namespace kaustik::test {
+
+// All but those without a specular surface, and those of meshes that are fetched on request only.
+inline std::vector<std::string> shippedScenes() {
+    const std::set<std::string> notHere = {"tree", "glass-dragon", "glass-dragon-low",
+                                           "glass-teapot"};
+    std::vector<std::string> names;
+    for (const auto& entry :
+         std::filesystem::directory_iterator(projectRoot() / "experiments/scenes")) {
+        const std::string name = entry.path().stem().string();
+        if (entry.path().extension() == ".toml" && notHere.count(name) == 0) names.push_back(name);
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+// For the names of tests.
+inline std::string nameOfScene(const testing::TestParamInfo<std::string>& scene) {
+    std::string name = scene.param;
+    std::replace(name.begin(), name.end(), '-', '_');
+    return name;
+}
+
+// `channels` of a texture from `channel` on, rows from the top.
+inline Image imageOf(const gl::Texture& texture, int channel, int channels) {
+    const int stored = gl::formatInfo(texture.desc().format).channels;
+    const std::vector<float> texels = texture.read();
+    Image image(texture.desc().width, texture.desc().height, channels);
+    for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < image.width; ++x) {
+            for (int c = 0; c < channels; ++c) {
+                const int texel = (image.height - 1 - y) * image.width + x;
+                image.at(x, y, c) = texels[static_cast<std::size_t>(texel * stored + channel + c)];
+            }
+        }
+    }
+    return image;
+}
+
+}  // namespace kaustik::test

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// What the eye sees in and through specular surfaces, in every scene that the project ships, beside
+// ray tracing: as many surfaces met, and the truth's energy. Caustics are left out of both.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "framework/audit/view_audit.h"
+#include "framework/scene/scene_file.h"
+#include "tests/audit/shipped_scenes.h"
+#include "tests/gpu/fixture.h"
+
+namespace kaustik::test {
+namespace {
+
+constexpr int kWidth = 160;
+constexpr int kHeight = 120;
+
+// What a scene's view is held to. The default is for scenes of one or two interfaces, whose edges
+// take a part of the pixels at this size.
+struct Bounds {
+    double interfacesRight = 0.95;
+    double energy = 0.08;
+};
+Bounds boundsOf(const std::string& scene) {
+    // Light that is reflected at a later interface is left out, and there are many.
+    if (scene == "concave-glass") return {0.9, 0.16};
+    // Triangles of the bunny are smaller than these pixels.
+    if (scene == "glass-bunny") return {0.7, 0.14};
+    // A mirror that is lost is black.
+    if (scene == "ring") return {0.95, 0.03};
+    // What is seen through glass is the radiance that the table sends to the eye, and the polished
+    // table sends its highlight elsewhere.
+    if (scene == "glossy-table") return {0.94, 0.5};
+    return {};
+}
+
+std::vector<std::string> scenesToLookInto() {
+    std::vector<std::string> names = shippedScenes();
+    // The truth of the view knows no medium.
+    names.erase(std::remove(names.begin(), names.end(), "god-rays"), names.end());
+    return names;
+}
+
+class ShippedView : public testing::TestWithParam<std::string> {};
+
+TEST_P(ShippedView, ShowsWhatTheTruthShows) {
+    const scene::Scene scene = scene::loadScene(GetParam());
+    const Registry registry = registerAll();
+    RenderSettings settings;
+    settings.technique = registry.findTechnique("screen_space_photons");
+    settings.params = registry.makeParams(settings.technique);
+    settings.width = kWidth;
+    settings.height = kHeight;
+    Renderer renderer(context(), registry, scene, std::move(settings));
+    renderer.build(Purpose::view);
+    gl::PassTimer timer(gl::TimerMode::finish);
+    renderer.renderFrame(timer);
+
+    const reference::EmbreeScene embree(scene);
+    reference::ViewTruthRequest request;
+    request.width = kWidth;
+    request.height = kHeight;
+    request.samplesPerSide = 2;
+    const reference::ViewTruth truth = reference::traceView(embree, request);
+    ASSERT_GT(truth.pixels, 300u);
+    const View& seen = renderer.outputs().picture.view;
+    const audit::ViewAudit audit =
+        audit::auditView(imageOf(renderer.texture(seen.exitPosition), 0, 4),
+                         imageOf(renderer.texture(seen.exitDirection), 0, 4), truth,
+                         render::makeEyeView(scene.camera, kWidth, kHeight));
+    const Bounds bounds = boundsOf(GetParam());
+    const double pixels = static_cast<double>(audit.pixels);
+    EXPECT_EQ(audit.notANumber, 0u);
+    EXPECT_GT(static_cast<double>(audit.interfacesRight) / pixels, bounds.interfacesRight);
+
+    const Image radiance = imageOf(renderer.texture(seen.radiance), 0, 3);
+    double found = 0.0;
+    double expected = 0.0;
+    for (std::size_t i = 0; i < truth.mask.values.size(); ++i) {
+        if (truth.mask.values[i] == 0.0f) continue;
+        found += static_cast<double>(radiance.values[3 * i + 1]);
+        expected += static_cast<double>(truth.radiance.values[3 * i + 1]);
+    }
+    EXPECT_NEAR(found / expected, 1.0, bounds.energy);
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, ShippedView, testing::ValuesIn(scenesToLookInto()), nameOfScene);
+
+}  // namespace
+}  // namespace kaustik::test
