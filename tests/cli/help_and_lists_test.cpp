@@ -135,6 +135,22 @@ TEST_F(Explain, SaysOfEveryNodeWhyItRunsOrNot) {
     EXPECT_TRUE(files().empty());
 }
 
+TEST_F(Explain, LeavesOutOfAMirrorsViewWhatOnlyDielectricsNeed) {
+    for (const std::string view : {"refraction", "image_space"}) {
+        const Outcome outcome =
+            run({"explain", "ring", "--size", "64x48", "--set", "view=" + view});
+        ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+        const std::string passes =
+            view == "refraction" ? "layers\\.(complexity|peel)" : "back_faces";
+        EXPECT_TRUE(std::regex_search(
+            outcome.out,
+            std::regex("view\\." + passes + " +left out +the scene has no dielectric")))
+            << outcome.out;
+        EXPECT_TRUE(std::regex_search(outcome.out, std::regex("view\\." + view + " +runs")))
+            << outcome.out;
+    }
+}
+
 TEST_F(Explain, ShowsADisabledPassAsBypassed) {
     const Outcome outcome = run({"explain", "ring", "--size", "64x48", "--disable", "sprites"});
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
