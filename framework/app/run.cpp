@@ -63,6 +63,7 @@ void runCommand(const RunOptions& options, const Registry& registry) {
     checkOptions(options);
     const scene::Scene scene = loadRequestedScene(options.scene.scene, options.scene.time);
     RenderSettings settings = makeSettings(options.scene, registry);
+    settings.seed = static_cast<std::uint64_t>(options.seed);
     const fs::path folder =
         options.out.empty()
             ? fs::path("results/runs") / fmt::format("{}-{}", scene.name, settings.technique.name)
@@ -80,6 +81,10 @@ void runCommand(const RunOptions& options, const Registry& registry) {
         startRecord(renderer, options.precise ? gl::TimerMode::finish : gl::TimerMode::timestamps);
     record.warmup = options.warmup;
     record.seed = options.seed;
+    if (!renderer.isRandom() && options.seed != RunOptions{}.seed) {
+        record.warnings.push_back(fmt::format(
+            "--seed {} has no effect: nothing in this frame is drawn at random.", options.seed));
+    }
     gl::PassTimer timer(record.timer);
     record.startupMilliseconds =
         std::chrono::duration<double, std::milli>(Clock::now() - begin).count();

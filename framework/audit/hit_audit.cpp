@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "framework/audit/hit_audit.h"
+#include "framework/transport/watts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -132,8 +133,7 @@ class Counter {
         if (fate.distanceMeters && !fate.distancePixels) ++audit_.unplaced;
         if (!traced.found) {
             const unsigned account = accountOf(fate.sight);
-            audit_.missedWatts[account] +=
-                traced.fluxWatts.x + traced.fluxWatts.y + traced.fluxWatts.z;
+            audit_.missedWatts[account] += transport::wattsOf(traced.fluxWatts);
             ++audit_.missedPhotons[account];
         }
         if (isRight) return;

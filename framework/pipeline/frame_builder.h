@@ -3,6 +3,7 @@
 // needs, and the view.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <utility>
@@ -30,6 +31,7 @@ struct FrameInputs {
     const gl::Buffer& lights;                // transport::LightData
     // Watts that one unit of the ledger stands for, a power of two.
     float ledgerQuantumWatts;
+    const std::uint64_t& seed;  // of whatever a node draws at random
 
     // Bind what common/view.glsl and common/ledger.glsl declare.
     gl::Command& bindView(gl::Command& command) const;
@@ -117,6 +119,9 @@ class FrameBuilder {
     // For the report.
     void warn(std::string warning) { warnings_.push_back(std::move(warning)); }
     [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
+    // Says that the frame depends on FrameInputs::seed.
+    void drawsAtRandom() { isRandom_ = true; }
+    [[nodiscard]] bool isRandom() const { return isRandom_; }
     // Also for the report, where a frame is measured; the pass's name as it was given to pass().
     void keepsTo(NodeLimit limit) {
         limit.pass = prefix_ + limit.pass;
@@ -136,6 +141,7 @@ class FrameBuilder {
     std::string prefix_;
     bool recordsTraces_ = false;
     bool leavesOutCaustic_ = false;
+    bool isRandom_ = false;
     std::vector<TraceRecord> traces_;
 };
 

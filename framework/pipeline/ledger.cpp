@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "framework/transport/watts.h"
+
 namespace kaustik {
 
 using namespace transport;
@@ -91,7 +93,7 @@ EnergyLedger readLedger(const gl::Buffer& buffer, float quantumWatts) {
     for (std::size_t account = 0; account < entries.size(); ++account) {
         const double units = std::ldexp(static_cast<double>(entries[account].high), 32) +
                              static_cast<double>(entries[account].low);
-        ledger.watts[account] = units * static_cast<double>(quantumWatts);
+        ledger.watts[account] = units * static_cast<double>(quantumWatts) / kChannels;
         ledger.events[account] = entries[account].events;
     }
     return ledger;

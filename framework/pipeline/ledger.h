@@ -14,7 +14,7 @@
 namespace kaustik {
 
 struct EnergyLedger {
-    // Watts of the three channels together, and how many additions made them; by kAccount….
+    // Watts as transport/watts.h counts them, and how many additions made them; by kAccount….
     std::array<double, transport::kAccountCount> watts{};
     std::array<std::uint64_t, transport::kAccountCount> events{};
 
@@ -26,8 +26,8 @@ struct EnergyLedger {
 // The causes of loss with the names that the report gives them.
 [[nodiscard]] const std::vector<std::pair<unsigned, std::string>>& lossCauses();
 
-// Watts that one unit of the ledger stands for: a power of two so small that the flux of all lights
-// fits into 2^50 units.
+// Watts of one channel that one unit of the ledger stands for: a power of two so small that the
+// flux of all lights fits into 2^50 units.
 [[nodiscard]] float ledgerQuantum(const scene::Scene& scene);
 
 // Adds the pass that sums what was deposited and what was still on its way; gives the final ledger.

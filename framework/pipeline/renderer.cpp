@@ -92,8 +92,8 @@ Renderer::Renderer(gl::Context& context, const Registry& registry, const scene::
       instances_(gpuScene_.makeInstances(view_.worldToView)),
       needs_(sceneNeeds(scene)),
       ledgerQuantumWatts_(ledgerQuantum(scene)),
-      inputs_{registry_,  settings_.params, gpuScene_,          needs_, view_, viewBlock_,
-              instances_, lights_,          ledgerQuantumWatts_},
+      inputs_{registry_,  settings_.params, gpuScene_,           needs_,        view_, viewBlock_,
+              instances_, lights_,          ledgerQuantumWatts_, settings_.seed},
       executor_(context, programs_) {
     context_.check();
 }
@@ -153,6 +153,7 @@ graph::Compiled Renderer::compile(Purpose purpose, const std::vector<std::string
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
     kept_ = frame.takeKept();
     warnings_ = frame.warnings();
+    isRandom_ = frame.isRandom();
     return compiled;
 }
 

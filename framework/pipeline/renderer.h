@@ -23,6 +23,7 @@ struct RenderSettings {
     std::set<std::string> disabledPasses;
     int width = 800;
     int height = 600;
+    std::uint64_t seed = 1;  // of everything random; equal ones give equal bits
 };
 
 // What a frame is asked for.
@@ -62,6 +63,8 @@ class Renderer {
     [[nodiscard]] const FrameOutputs& outputs() const { return outputs_; }
     [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
     [[nodiscard]] double buildMilliseconds() const { return buildMilliseconds_; }
+    // Whether the frame depends on the settings' seed.
+    [[nodiscard]] bool isRandom() const { return isRandom_; }
 
     // Of the last build for Purpose::audit.
     [[nodiscard]] const std::vector<TraceRecord>& traces() const { return traces_; }
@@ -119,6 +122,7 @@ class Renderer {
     std::vector<NodeLimit> limits_;
     std::vector<std::string> warnings_;
     double buildMilliseconds_ = 0.0;
+    bool isRandom_ = false;
 };
 
 }  // namespace kaustik

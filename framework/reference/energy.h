@@ -8,17 +8,18 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "framework/transport/types.h"
+#include "framework/transport/watts.h"
 
 namespace kaustik::reference {
 
-// Watts of the three channels together.
+// Watts as transport/watts.h counts them.
 struct Energy {
     std::array<double, transport::kAccountCount> watts{};
     // The part of what was deposited that a pixel of the picture sees; not part of the balance.
     double visibleWatts = 0.0;
 
     void add(unsigned account, const glm::dvec3& fluxWatts) {
-        watts[account] += fluxWatts.x + fluxWatts.y + fluxWatts.z;
+        watts[account] += transport::wattsOf(fluxWatts);
     }
     [[nodiscard]] double lostWatts() const;
     // (emitted - deposited - absorbed - left the scene - lost) / emitted; 0 where nothing was

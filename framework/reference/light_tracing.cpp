@@ -12,6 +12,7 @@
 #include "framework/reference/eye.h"
 #include "framework/reference/light_sampling.h"
 #include "framework/scene/needs.h"
+#include "framework/transport/watts.h"
 
 namespace kaustik::reference {
 namespace {
@@ -65,7 +66,7 @@ class Camera {
             return;
         ++result_.rays;
         if (!eye_.isVisible(scene_, hit.position, hit.triangle, at.depth)) return;
-        result_.energy.visibleWatts += flux.x + flux.y + flux.z;
+        result_.energy.visibleWatts += transport::wattsOf(flux);
         const glm::dvec3 irradiance =
             flux * eye_.coverage(hit.position, hit.geometricNormal, at.depth);
         splat(at.pixel * std::size_t{3}, irradiance);

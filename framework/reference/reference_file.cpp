@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// References in files: float images and a JSON sidecar (schema kaustik.reference/1).
+// References in files: float images and a JSON sidecar (schema kaustik.reference/2).
 #include <fmt/format.h>
 
 #include <array>
@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr const char* kSchema = "kaustik.reference/1";
+constexpr const char* kSchema = "kaustik.reference/2";
 
 struct Part {
     const char* name;    // in the sidecar

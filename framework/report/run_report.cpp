@@ -294,8 +294,11 @@ std::string makeTable(const RunRecord& record) {
     if (emitted > 0.0) {
         const auto share = [&](double watts) { return 100.0 * watts / emitted; };
         table += fmt::format(
-            "energy                emitted {:.4g} W: deposited {:.2f}%, absorbed {:.2f}%", emitted,
-            share(ledger.watts[kAccountDeposited]), share(ledger.watts[kAccountAbsorbed]));
+            "energy                emitted {:.4g} W: deposited {:.2f}%, absorbed {:.2f}%, "
+            "left_scene "
+            "{:.2f}%",
+            emitted, share(ledger.watts[kAccountDeposited]), share(ledger.watts[kAccountAbsorbed]),
+            share(ledger.watts[kAccountLeftScene]));
         for (const auto& [account, name] : lossCauses()) {
             if (ledger.watts[account] != 0.0) {
                 table += fmt::format(", {} {:.2f}%", name, share(ledger.watts[account]));

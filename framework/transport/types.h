@@ -123,7 +123,8 @@ const float kWayReflectedTooOften = -1.0f;
 const float kWayMirroredTooOften = -2.0f;  // by mirrors; it is taken to see what surrounds the scene
 const float kWayStoppedInside = 2.0f;
 
-// Accounts of the energy ledger (design, section 5). Watts are summed over the three channels.
+// Accounts of the energy ledger (design, section 5). The device sums the three channels; reports say
+// their mean (transport/watts.h).
 const uint kAccountEmitted = 0u;
 const uint kAccountDeposited = 1u;
 const uint kAccountAbsorbed = 2u;

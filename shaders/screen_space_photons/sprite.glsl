@@ -105,16 +105,10 @@ SpritePixel spriteAt(Sprite sprite, ivec2 pixel) {
     return result;
 }
 
-// A splat ends here however far perspective or grazing light stretch it: its cost is bounded, and
-// so is its loop (Mesa's software rasteriser silently ends a shader's loops after 65,535 turns).
-// The weights are summed and drawn over the same pixels, so that no flux is lost.
-const int kMostReach = 120;
-
-// Half the sides of the pixel rectangle around the centre's pixel that the splat can cover.
-ivec2 spriteReach(Sprite sprite) {
+// Half the sides of the pixel rectangle around the centre's pixel that the splat can cover, px.
+vec2 wholeReach(Sprite sprite) {
     if (reconstruct_sprites_shape == reconstruct_sprites_shape_screen) {
-        return min(ivec2(ceil(sprite.radius / pixelFootprint(-sprite.center.z))) + 1,
-                   ivec2(kMostReach));
+        return vec2(ceil(sprite.radius / pixelFootprint(-sprite.center.z)) + 1.0);
     }
     vec3 along = vec3(0.0);
     if (reconstruct_sprites_shape == reconstruct_sprites_shape_beam) {
@@ -135,5 +129,11 @@ ivec2 spriteReach(Sprite sprite) {
     float centerDepth = -sprite.center.z;
     float depth = max(centerDepth - extent.z, 0.25 * centerDepth);
     vec2 shift = abs(sprite.center.xy) / centerDepth * extent.z;
-    return min(ivec2(ceil((extent.xy + shift) / pixelFootprint(depth))) + 1, ivec2(kMostReach));
+    return ceil((extent.xy + shift) / pixelFootprint(depth)) + 1.0;
+}
+
+// A splat ends there however far perspective or grazing light stretch it: its cost is bounded. The
+// weights are summed and drawn over the same pixels, so that no flux is lost.
+ivec2 spriteReach(Sprite sprite) {
+    return ivec2(min(wholeReach(sprite), vec2(reconstruct_sprites_reach)));
 }

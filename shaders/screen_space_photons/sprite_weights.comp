@@ -11,6 +11,9 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(rgba32f) writeonly uniform image2D spriteWeights;
+layout(std430) buffer CutSprites {
+    Narrowed cutSprites;
+};
 uniform sampler2D photonPosition;
 uniform sampler2D photonDirection;
 uniform sampler2D hitPosition;
@@ -68,6 +71,12 @@ void main() {
     if (total > 0.0) {
         float shrunkFrom = wanted > largest ? wanted / pixel : 0.0;
         weights = vec4(1.0 / total, sprite.radius, on / total, shrunkFrom);
+        vec2 whole = wholeReach(sprite);
+        float farther = max(whole.x, whole.y);
+        if (farther > float(reconstruct_sprites_reach)) {
+            atomicAdd(cutSprites.count, 1u);
+            atomicMax(cutSprites.widestBits, floatBitsToUint(farther));
+        }
         if (occluded > 0.0) ledgerAdd(kAccountOccludedSplat, flux.rgb * (occluded / total));
         if (offScreen > 0.0) ledgerAdd(kAccountOffScreen, flux.rgb * (offScreen / total));
     } else {

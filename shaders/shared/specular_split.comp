@@ -22,6 +22,8 @@ layout(rgba32f) writeonly uniform image2D keptFlux;
 uniform int isFirst;   // the photons come straight from the light
 uniform int splits;    // the new map has an upper half
 uniform uint drawing;  // tells one draw of branches from the next
+uniform uint seedLow;
+uniform uint seedHigh;
 
 void store(ivec2 texel, Photon photon) {
     imageStore(nextPosition, texel, photonPositionTexel(photon));
@@ -34,12 +36,19 @@ void keep(ivec2 texel, Hit hit) {
     imageStore(keptFlux, texel, hitFluxTexel(hit));
 }
 
-// [0, 1), from a hash of the texel (PCG, Jarzynski and Olano 2020).
-float uniformAt(ivec2 texel) {
-    uint state = uint(texel.x) + 65536u * uint(texel.y) + 0x9e3779b9u * drawing;
-    state = state * 747796405u + 2891336453u;
+// A hash of a number (PCG, Jarzynski and Olano 2020).
+uint hashOf(uint number) {
+    uint state = number * 747796405u + 2891336453u;
     uint word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
-    return float(((word >> 22u) ^ word) >> 8u) / 16777216.0;
+    return (word >> 22u) ^ word;
+}
+
+// [0, 1), from the seed, the draw and the texel.
+float uniformAt(ivec2 texel) {
+    uint number = hashOf(hashOf(seedLow) + seedHigh);
+    number = hashOf(number + drawing);
+    number = hashOf(number + uint(texel.x) + 65536u * uint(texel.y));
+    return float(number >> 8u) / 16777216.0;
 }
 
 void main() {

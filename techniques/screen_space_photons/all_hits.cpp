@@ -59,6 +59,7 @@ Hits traceAllHits(FrameBuilder& frame, const AllHitsParams& params, Photons phot
     previous.incoming = photons;
     AllHitsParams marching = params;
     if (marching.march.steps == 0) marching.march.steps = std::max(frame.width(), frame.height());
+    keepToSteps(frame, "trace.all_hits", "trace.all_hits.steps", marching.march.steps);
     const Data& traced = frame.pass<Data>(
         "trace.all_hits", "every receiver on a ray is lit, for comparison",
         [&](graph::PassSetup& setup, Data& data) {

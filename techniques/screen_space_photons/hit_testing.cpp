@@ -1,10 +1,30 @@
 // SPDX-License-Identifier: MIT
 #include "techniques/screen_space_photons/hit_testing.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 namespace kaustik {
 
 HitTesting hitTesting(const FrameBuilder& frame) {
     return {frame.params<TraceParams>("trace"), frame.needs().closedDielectrics};
+}
+
+void keepToSteps(FrameBuilder& frame, const std::string& pass, const std::string& parameter,
+                 int steps) {
+    const int longerSide = std::max(frame.width(), frame.height());
+    if (steps >= longerSide) return;
+    const ReachedLimit limit{
+        parameter,
+        "steps",
+        static_cast<double>(steps),
+        static_cast<double>(longerSide),
+        fmt::format("rays of more than {} pixels on the screen skip some of them, and what is "
+                    "seen there alone is missed",
+                    steps),
+        0.0};
+    frame.keepsTo({pass, {}, [limit](const gl::Executor&) { return limit; }});
 }
 
 void readLayers(graph::PassSetup& setup, const LayeredDepth& layers) {

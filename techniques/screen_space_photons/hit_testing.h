@@ -13,6 +13,11 @@ struct HitTesting {
 };
 [[nodiscard]] HitTesting hitTesting(const FrameBuilder& frame);
 
+// Says that the pass `pass` asks a ray in so many steps at most, its parameter `parameter`, where
+// that is fewer than the picture's longer side has pixels.
+void keepToSteps(FrameBuilder& frame, const std::string& pass, const std::string& parameter,
+                 int steps);
+
 // Declares that a pass looks layers up, and binds them for common/hit_test.glsl.
 void readLayers(graph::PassSetup& setup, const LayeredDepth& layers);
 gl::Command& bindHitTesting(gl::Command& command, const HitTesting& testing,

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/screen_space_photons/hit_testing.h"
@@ -40,22 +41,36 @@ struct Layout {
     int width;
     int rows;
     int batches;
+    ReachedLimit limit;  // what makes more than one batch
 };
 
+constexpr int kMostRows = 16384;  // of a texture, on every device of OpenGL 4.5
+
 Layout makeLayout(const FrameBuilder& frame, const LinesParams& params, int photonCount) {
-    const int deviceLimit = 16384;
     const int width = params.width > 0 ? params.width
                                        : std::clamp(std::max(frame.width(), frame.height()),
-                                                    params.minimum, deviceLimit);
+                                                    params.minimum, kMostRows);
     const auto bytesPerRow =
         static_cast<std::size_t>(width + halved(width) + halved(halved(width))) *
         graph::bytesPerTexel(RowTexel::format);
     const std::size_t memory = static_cast<std::size_t>(params.memoryMebibytes) << 20;
     const auto affordable =
-        static_cast<int>(std::clamp<std::size_t>(memory / bytesPerRow, 1, deviceLimit));
+        static_cast<int>(std::clamp<std::size_t>(memory / bytesPerRow, 1, kMostRows));
     const int wanted = params.rows > 0 ? params.rows : photonCount;
     const int rows = std::clamp(std::min(wanted, photonCount), 1, affordable);
-    return {width, rows, (photonCount + rows - 1) / rows};
+    const int batches = (photonCount + rows - 1) / rows;
+    // Batches cost time and nothing else.
+    const std::string lost = fmt::format(
+        "{} passes over the photons of a tracing instead of one; no flux is lost to it", batches);
+    const double needed = static_cast<double>(photonCount);
+    const double mebibytes = needed * static_cast<double>(bytesPerRow) / 1048576.0;
+    const ReachedLimit byRows{
+        "trace.lines.rows", "rows", static_cast<double>(rows), needed, lost, 0.0};
+    const ReachedLimit byMemory{
+        "trace.lines.memory", "MiB", static_cast<double>(params.memoryMebibytes),
+        std::ceil(mebibytes), lost,  0.0};
+    const bool isByRows = rows == wanted || rows == kMostRows;
+    return {width, rows, batches, isByRows ? byRows : byMemory};
 }
 
 // `run` counts the tracings of a frame: after each specular interaction there is one.
@@ -199,28 +214,14 @@ Reduced reduceRows(FrameBuilder& frame, const LinesParams& params, const Layered
         });
 }
 
-// Batches cost time and nothing else.
-void sayBatches(FrameBuilder& frame, const Layout& layout) {
-    const ReachedLimit limit{
-        "trace.lines.memory", "batches", static_cast<double>(layout.batches), 1.0,
-        fmt::format("{} passes over the photons of a tracing instead of one; no flux is lost to it",
-                    layout.batches)};
-    frame.keepsTo({"trace.lines", {}, [limit](const gl::Executor&) { return limit; }});
-}
-
 }  // namespace
 
 Hits traceLines(FrameBuilder& frame, const LinesParams& params, Photons photons,
                 LayeredDepth layers, Hits previous) {
     const Layout layout = makeLayout(frame, params, photons.count());
-    const int longestSide = std::max(frame.width(), frame.height());
-    if (layout.width < longestSide) {
-        frame.warn(
-            fmt::format("trace.lines.width of {} is below the picture's longer side of {}: "
-                        "long rays skip pixels.",
-                        layout.width, longestSide));
-    }
-    if (layout.batches > 1) sayBatches(frame, layout);
+    keepToSteps(frame, "trace.lines", "trace.lines.width", layout.width);
+    if (layout.batches > 1)
+        frame.keepsTo({"trace.lines", {}, [=](const gl::Executor&) { return layout.limit; }});
     RowTextures textures;
     Hits hits = previous;
     hits.incoming = photons;

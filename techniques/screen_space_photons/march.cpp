@@ -22,9 +22,11 @@ struct Marched {
 // `issue` sets what differs: the parameters, the outputs and the last call.
 template <class Issue>
 Hits addMarch(FrameBuilder& frame, const std::string& name, const std::string& why,
-              const std::vector<std::string>& shaders, bool isHierarchical, const Photons& photons,
-              const LayeredDepth& layers, const Hits& previous, Issue issue) {
+              const std::vector<std::string>& shaders, bool isHierarchical, int steps,
+              const Photons& photons, const LayeredDepth& layers, const Hits& previous,
+              Issue issue) {
     const HitTesting testing = hitTesting(frame);
+    keepToSteps(frame, name, name + ".steps", steps);
     return frame
         .pass<Marched>(
             name, why,
@@ -67,16 +69,16 @@ Hits inFragments(FrameBuilder& frame, const std::string& node, const std::string
                  bool isHierarchical, const MarchParams& params, const Photons& photons,
                  const LayeredDepth& layers, const Hits& previous) {
     const std::string name = "trace." + node;
-    return addMarch(
-        frame, name, why, {"screen_space_photons/" + node + ".frag"}, isHierarchical, photons,
-        layers, previous,
-        [name, params = withSteps(frame, params)](gl::Command& command, const Marched& data) {
-            command.params(name, params)
-                .target(data.hits.position)
-                .target(data.hits.surface)
-                .target(data.hits.flux)
-                .draw();
-        });
+    const MarchParams marching = withSteps(frame, params);
+    return addMarch(frame, name, why, {"screen_space_photons/" + node + ".frag"}, isHierarchical,
+                    marching.steps, photons, layers, previous,
+                    [name, marching](gl::Command& command, const Marched& data) {
+                        command.params(name, marching)
+                            .target(data.hits.position)
+                            .target(data.hits.surface)
+                            .target(data.hits.flux)
+                            .draw();
+                    });
 }
 
 // One compute thread a photon.
@@ -84,17 +86,17 @@ Hits inThreads(FrameBuilder& frame, const std::string& node, const std::string& 
                bool isHierarchical, const MarchParams& params, const Photons& photons,
                const LayeredDepth& layers, const Hits& previous) {
     const std::string name = "trace." + node + "_compute";
-    return addMarch(
-        frame, name, why, {"screen_space_photons/" + node + ".comp"}, isHierarchical, photons,
-        layers, previous,
-        [name, params = withSteps(frame, params)](gl::Command& command, const Marched& data) {
-            const Photons& incoming = data.hits.incoming;
-            command.params(name, params)
-                .image("hitPosition", data.hits.position)
-                .image("hitSurface", data.hits.surface)
-                .image("hitFlux", data.hits.flux)
-                .dispatchOver(incoming.width, 8, incoming.height, 8);
-        });
+    const MarchParams marching = withSteps(frame, params);
+    return addMarch(frame, name, why, {"screen_space_photons/" + node + ".comp"}, isHierarchical,
+                    marching.steps, photons, layers, previous,
+                    [name, marching](gl::Command& command, const Marched& data) {
+                        const Photons& incoming = data.hits.incoming;
+                        command.params(name, marching)
+                            .image("hitPosition", data.hits.position)
+                            .image("hitSurface", data.hits.surface)
+                            .image("hitFlux", data.hits.flux)
+                            .dispatchOver(incoming.width, 8, incoming.height, 8);
+                    });
 }
 
 }  // namespace

@@ -135,6 +135,7 @@ struct SpritesParams {
     float radiusMeters = 0.0f;
     float footprints = 2.5f;
     int maximumPixels = 64;
+    int reachPixels = 120;
     template <class R>
     void reflect(R& r) {
         r.choice(
@@ -155,6 +156,12 @@ struct SpritesParams {
                 params::range(0.1f, 100.0f));
         r.field(maximumPixels, "maximum", "Largest radius on the screen; splats shrink to it", "px",
                 params::range(1, 100));
+        // Mesa's software rasteriser silently ends a shader's loops after 65,535 turns, and a
+        // splat's weights are summed in one of (2 reach + 1)².
+        r.field(reachPixels, "reach",
+                "Farthest from its middle that a splat goes on the screen where perspective or "
+                "grazing light stretch it; it is cut off there, and keeps its flux",
+                "px", params::range(1, 127));
     }
 };
 IrradianceMap splatSprites(FrameBuilder& frame, const SpritesParams& params, Hits hits,

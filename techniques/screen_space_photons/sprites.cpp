@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/screen_space_photons/batch_sum.h"
@@ -26,6 +27,7 @@ struct SpriteWeight {  // x: 1 / weighted area, 1/m²; y: radius, m; z: share th
 
 struct Weights {
     graph::Texture<SpriteWeight> weights;
+    graph::Buffer<transport::Narrowed> cut;
     Hits hits;
     EyeBuffer eye;
     Ledger ledger;
@@ -47,14 +49,17 @@ Weights sumWeights(FrameBuilder& frame, const SpritesParams& params, Hits hits, 
             data.ledger = setup.write(hits.incoming.ledger);
             data.weights = setup.create<SpriteWeight>("reconstruct.weights", hits.incoming.width,
                                                       hits.incoming.height);
+            data.cut = setup.createBuffer<transport::Narrowed>("reconstruct.cut", 1);
         },
         [&inputs = frame.inputs(), params](const Weights& data, gl::PassContext& context) {
+            context.buffer(data.cut).clear();
             gl::Command command = context.compute("screen_space_photons/sprite_weights.comp");
             inputs.bindView(command);
             inputs.bindLedger(command, data.ledger)
                 .params("reconstruct.sprites", params)
                 .storage("Materials", inputs.gpuScene.materials())
                 .image("spriteWeights", data.weights)
+                .storage("CutSprites", data.cut)
                 .texture("receiver", data.eye.receiver)
                 .texture("receiverSurface", data.eye.receiverSurface)
                 .texture("photonPosition", data.hits.incoming.position)
@@ -66,8 +71,23 @@ Weights sumWeights(FrameBuilder& frame, const SpritesParams& params, Hits hits, 
         });
 }
 
-// Which splats are smaller than they were to be: their light is less spread, and none is lost.
-void keepToLimit(FrameBuilder& frame, const SpritesParams& params, const Weights& weights) {
+// Which splats are cut off, or smaller than they were to be: their light is less spread, and none
+// is lost.
+void keepToLimits(FrameBuilder& frame, const SpritesParams& params, const Weights& weights) {
+    frame.keepsTo({"reconstruct.sprites", weights.cut,
+                   [reach = params.reachPixels, handle = weights.cut](
+                       const gl::Executor& executor) -> std::optional<ReachedLimit> {
+                       const transport::Narrowed found =
+                           executor.buffer(handle).read<transport::Narrowed>().front();
+                       if (found.count == 0) return {};
+                       return ReachedLimit{
+                           "reconstruct.sprites.reach",
+                           "px",
+                           static_cast<double>(reach),
+                           static_cast<double>(std::bit_cast<float>(found.widestBits)),
+                           fmt::format("{} splats are cut off; no flux is lost to it", found.count),
+                           0.0};
+                   }});
     frame.keepsTo({"reconstruct.sprites", weights.weights,
                    [maximum = params.maximumPixels, handle = weights.weights](
                        const gl::Executor& executor) -> std::optional<ReachedLimit> {
@@ -96,7 +116,7 @@ void keepToLimit(FrameBuilder& frame, const SpritesParams& params, const Weights
 IrradianceMap splatSprites(FrameBuilder& frame, const SpritesParams& params, Hits hits,
                            EyeBuffer eye) {
     const Weights weights = sumWeights(frame, params, hits, eye);
-    keepToLimit(frame, params, weights);
+    keepToLimits(frame, params, weights);
     const bool isGlossy = frame.needs().glossyReceivers;
     const int photons = hits.incoming.count();
     const bool isBatched = photons > kBatchPhotons;

@@ -41,6 +41,7 @@ Hits splitAtInterface(FrameBuilder& frame, const SplitParams& params, Hits hits)
     const int run = frame.runsOf(SpecularStage::name);
     const bool splits = run <= params.levels;
     if (run == params.levels + 1) keepToLevels(frame, params, hits);
+    if (!splits) frame.drawsAtRandom();
     return frame
         .pass<Data>(
             "specular.split",
@@ -93,6 +94,8 @@ Hits splitAtInterface(FrameBuilder& frame, const SplitParams& params, Hits hits)
                     .set("isFirst", run == 1 ? 1 : 0)
                     .set("splits", splits ? 1 : 0)
                     .set("drawing", static_cast<unsigned>(run))
+                    .set("seedLow", static_cast<unsigned>(inputs.seed))
+                    .set("seedHigh", static_cast<unsigned>(inputs.seed >> 32))
                     .dispatchOver(from.width, 8, from.height, 8);
             })
         .after;

@@ -53,8 +53,8 @@ TEST(Spot, SendsOutTheClosedFormFluxOfItsCone) {
     RunOptions options;
     options.stop.batches = 4;
     lightTrace(embree, settings, options, sums);
-    EXPECT_NEAR(sums.energy().watts[transport::kAccountEmitted], 3.0 * kFlux,
-                kFalloffTolerance * 3.0 * kFlux);
+    EXPECT_NEAR(sums.energy().watts[transport::kAccountEmitted], kFlux,
+                kFalloffTolerance * kFlux);
 }
 
 class TexturedSpot : public testing::Test {

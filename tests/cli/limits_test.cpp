@@ -64,23 +64,60 @@ TEST_F(Limits, SayWhatLayersWereLeftOut) {
 TEST_F(Limits, CountTheBatchesOfALimitedMemory) {
     const auto limits = limitsOf("wavy.toml", {"trace=lines", "lines.rows=64"});
     ASSERT_EQ(limits.size(), 1u) << report().at("limits");
-    const json& limit = limits.at("trace.lines.memory");
-    EXPECT_EQ(limit.at("unit"), "batches");
-    EXPECT_EQ(limit.at("value"), 32 * 32 / 64);
+    const json& limit = limits.at("trace.lines.rows");
+    EXPECT_EQ(limit.at("unit"), "rows");
+    EXPECT_EQ(limit.at("value"), 64);
+    EXPECT_EQ(limit.at("needed"), 32 * 32);
+    EXPECT_TRUE(limit.at("lost").get<std::string>().starts_with("16 passes")) << limit;
+    EXPECT_EQ(limit.at("lost_w"), 0.0);
+
+    // A row of 16,384 texels and its halves take 448 KiB: two are what a mebibyte holds.
+    const json memory = limitOf("trace.lines.memory", "wavy.toml",
+                                {"trace=lines", "lines.width=16384", "lines.memory=1"});
+    EXPECT_EQ(memory.at("unit"), "MiB");
+    EXPECT_EQ(memory.at("value"), 1);
+    EXPECT_GT(memory.at("needed"), 1);
+}
+
+TEST_F(Limits, NameTheStepsOfEveryTracer) {
+    const std::vector<std::pair<std::string, std::string>> caps = {
+        {"march", "steps"},        {"march_compute", "steps"},
+        {"hierarchical", "steps"}, {"hierarchical_compute", "steps"},
+        {"all_hits", "steps"},     {"lines", "width"}};
+    for (const auto& [tracer, cap] : caps) {
+        const std::string name = "trace." + tracer + "." + cap;
+        const json limit = limitOf(name, "glass-sphere", {"trace=" + tracer, name + "=16"});
+        EXPECT_EQ(limit.at("unit"), "steps") << name;
+        EXPECT_EQ(limit.at("value"), 16) << name;
+        EXPECT_EQ(limit.at("needed"), 64) << name;  // the picture's longer side
+        EXPECT_FALSE(isReached(name, "glass-sphere", {"trace=" + tracer, name + "=64"}));
+    }
+    EXPECT_TRUE(report().at("warnings").empty()) << report().at("warnings");
+}
+
+TEST_F(Limits, CountSplatsThatAreCutOff) {
+    EXPECT_FALSE(isReached("reconstruct.sprites.reach", "wavy.toml", {"sprites.maximum=8"}));
+    const json limit = limitOf("reconstruct.sprites.reach", "wavy.toml",
+                               {"sprites.maximum=100", "sprites.radius=1", "sprites.reach=20"});
+    EXPECT_EQ(limit.at("unit"), "px");
+    EXPECT_EQ(limit.at("value"), 20);
+    EXPECT_GT(limit.at("needed"), 20.0);
     EXPECT_EQ(limit.at("lost_w"), 0.0);
 }
 
 TEST_F(Limits, TakeOneTracingABounceForNoBatches) {
     const auto limits = limitsOf("glass-sphere", {"trace=lines"});
     EXPECT_GT(passNamed(report(), "trace.lines").at("repeats"), 1);
+    EXPECT_FALSE(limits.contains("trace.lines.rows")) << report().at("limits");
     EXPECT_FALSE(limits.contains("trace.lines.memory")) << report().at("limits");
     // What goes to and fro in the sphere is cut off.
     ASSERT_TRUE(limits.contains("specular.bounces")) << report().at("limits");
     EXPECT_EQ(limits.at("specular.bounces").at("unit"), "bounces");
 
     const json limit =
-        limitOf("trace.lines.memory", "glass-sphere", {"trace=lines", "lines.rows=64"});
-    EXPECT_EQ(limit.at("value"), 32 * 32 / 64);  // of each tracing
+        limitOf("trace.lines.rows", "glass-sphere", {"trace=lines", "lines.rows=64"});
+    EXPECT_TRUE(limit.at("lost").get<std::string>().starts_with("16 passes over the photons of a"))
+        << limit;
 }
 
 TEST_F(Limits, SayWhereTheEyesRaysWereCutOff) {

@@ -97,9 +97,9 @@ TEST_F(Report, CountsPhotonsAndEnergyThatAddUp) {
     EXPECT_EQ(photons.at("emitted").get<int>(),
               photons.at("hit").get<int>() + photons.at("missed").get<int>());
     const json energy = report().at("energy");
-    // Of each of the three colours, what falls on the square metre of water; the grid's texels
-    // cover it to within one row and column at either side.
-    const double expected = 3.0 * 1000.0;
+    // What falls on the square metre of water; the grid's texels cover it to within one row and
+    // column at either side.
+    const double expected = 1000.0;
     EXPECT_NEAR(energy.at("emitted_w").get<double>(), expected, expected * 4.0 / 32.0);
     // Each account is rounded to the ledger's quantum, a part in a million or less of the whole.
     EXPECT_LT(std::abs(energy.at("balance").get<double>()), 1e-5);

@@ -7,6 +7,7 @@
 
 #include "framework/gui/panels/panels.h"
 #include "framework/gui/widgets.h"
+#include "framework/transport/watts.h"
 
 namespace kaustik::gui {
 namespace {
@@ -129,7 +130,7 @@ void drawProbe(Bench& bench) {
     } else {
         ImGui::TextWrapped("%zu photons landed within %.1f px of (%d, %d): %.4g W", probe->landed,
                            double(probe->radiusPixels), probe->pixel.x, probe->pixel.y,
-                           double(probe->fluxWatts.r + probe->fluxWatts.g + probe->fluxWatts.b));
+                           transport::wattsOf(probe->fluxWatts));
         bench.map.control("image.probe_landed", fmt::format("{}", probe->landed));
         if (ImGui::BeginTable("photons", 4, ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY)) {
             ImGui::TableSetupScrollFreeze(0, 1);
@@ -143,8 +144,7 @@ void drawProbe(Bench& bench) {
                 ImGui::TableNextColumn();
                 ImGui::Text("%.2f", double(path.pixels));
                 ImGui::TableNextColumn();
-                const glm::vec3& w = path.fluxWatts;
-                ImGui::Text("%.3g", double(w.r + w.g + w.b));
+                ImGui::Text("%.3g", transport::wattsOf(path.fluxWatts));
                 ImGui::TableNextColumn();
                 ImGui::Text("%zu", path.points.size());
             }

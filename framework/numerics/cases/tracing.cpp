@@ -7,6 +7,7 @@
 #include "framework/numerics/bench.h"
 #include "framework/numerics/cases/common_cases.h"
 #include "framework/numerics/cases/scene_text.h"
+#include "framework/transport/watts.h"
 
 namespace kaustik::numerics {
 namespace {
@@ -37,7 +38,7 @@ double exactDistance(const BenchPhoton& photon, const glm::dvec3& normal, double
 double totalFlux(const std::vector<BenchPhoton>& photons) {
     double total = 0.0;
     for (const BenchPhoton& p : photons)
-        total += p.fluxWatts.x + p.fluxWatts.y + p.fluxWatts.z;
+        total += wattsOf(p.fluxWatts);
     return total;
 }
 

@@ -7,6 +7,7 @@
 #include "framework/pipeline/ledger.h"
 #include "framework/scene/scene_file.h"
 #include "framework/transport/types.h"
+#include "framework/transport/watts.h"
 #include "tests/gpu/fixture.h"
 
 namespace kaustik::test {
@@ -138,14 +139,13 @@ double reflectance(double cosine, double n) {
     return 0.5 * (s * s + p * p);
 }
 
-// Flux that arrived at receivers in rows [first, end) of the map.
+// Watts that arrived at receivers in rows [first, end) of the map.
 double arrivedIn(const Texels& flux, int first, int end) {
     double sum = 0.0;
     for (int y = first; y < end; ++y) {
         for (int x = 0; x < flux.width; ++x) {
             if (static_cast<unsigned>(flux.at(x, y, 3)) != kFateReceiver) continue;
-            const glm::dvec3 rgb = flux.rgb(x, y);
-            sum += rgb.r + rgb.g + rgb.b;
+            sum += transport::wattsOf(flux.rgb(x, y));
         }
     }
     return sum;
@@ -181,8 +181,8 @@ TEST(SplitBranches, AreDrawnByTheirShareWhereThereIsNoRoomForBoth) {
     for (int y = 0; y < flux.height; ++y) {
         for (int x = 0; x < flux.width; ++x) {
             if (static_cast<unsigned>(flux.at(x, y, 3)) != kFateReceiver) continue;
-            const glm::dvec3 rgb = flux.rgb(x, y);
-            if (frame.toWorld(position.rgb(x, y)).y > 0.5) reflected += rgb.r + rgb.g + rgb.b;
+            if (frame.toWorld(position.rgb(x, y)).y > 0.5)
+                reflected += transport::wattsOf(flux.rgb(x, y));
         }
     }
     // 65,536 draws: four standard errors of a share of 0.06.
