@@ -35,6 +35,8 @@ void addSceneOptions(CLI::App& command, SceneOptions& options) {
         ->allow_extra_args(false);
     command.add_option("--size", options.size, "Picture size, WIDTHxHEIGHT")->capture_default_str();
     command.add_option("--time", options.time, "Time of the animation in seconds");
+    command.add_flag("--gl-debug", options.glDebug,
+                     "Has OpenGL check every pass, which takes time; an error then names its pass");
 }
 
 std::string unknown(const char* what, const std::string& word,

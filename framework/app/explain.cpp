@@ -56,7 +56,7 @@ std::string describe(const graph::ResourceDesc& desc) {
 void explainCommand(const ExplainOptions& options, const Registry& registry) {
     const scene::Scene scene = loadRequestedScene(options.scene.scene, options.scene.time);
     RenderSettings settings = makeSettings(options.scene, registry);
-    const std::unique_ptr<gl::Context> context = gl::Context::createHeadless();
+    const std::unique_ptr<gl::Context> context = gl::Context::createHeadless(options.scene.glDebug);
     Renderer renderer(*context, registry, scene, std::move(settings));
     renderer.measureDepthComplexity();
     renderer.build(Purpose::picture);
@@ -70,8 +70,12 @@ void explainCommand(const ExplainOptions& options, const Registry& registry) {
     for (const graph::PassRecord& pass : passes)
         fmt::print("  {:<{}}  {:<10}{}\n", pass.name, longest, stateName(pass.state), pass.why);
     fmt::print("resources (--save takes the textures)\n");
-    for (const std::string& name : renderer.graph().resourceNames()) {
-        fmt::print("  {:<30}{}\n", name,
+    const std::vector<std::string> resources = renderer.graph().resourceNames();
+    longest = 0;
+    for (const std::string& name : resources)
+        longest = std::max(longest, name.size());
+    for (const std::string& name : resources) {
+        fmt::print("  {:<{}}  {}\n", name, longest,
                    describe(renderer.graph().descOf(renderer.graph().find(name))));
     }
     for (const std::string& warning : renderer.warnings())

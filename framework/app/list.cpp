@@ -2,6 +2,7 @@
 // kaustik list: scenes, techniques, nodes and parameters, for people or as JSON.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "framework/app/commands.h"
@@ -79,7 +80,8 @@ json listParams(const Registry& registry, const std::string& techniqueName) {
     return entries;
 }
 
-void print(const json& entry) {
+// `width`: of the column of names.
+void print(const json& entry, std::size_t width) {
     if (entry.contains("range")) {
         const json& value = entry.at("default");
         const std::string unit = entry.at("unit").get<std::string>();
@@ -91,7 +93,7 @@ void print(const json& entry) {
         return;
     }
     const std::string source = entry.value("source", "");
-    fmt::print("{:<24}{}{}\n", entry.at("name").get<std::string>(),
+    fmt::print("{:<{}}  {}{}\n", entry.at("name").get<std::string>(), width,
                entry.at("description").get<std::string>(),
                source.empty() ? "" : " [" + source + "]");
 }
@@ -121,8 +123,11 @@ void listCommand(const ListOptions& options, const Registry& registry) {
     if (options.json) {
         fmt::print("{}\n", entries.dump(2));
     } else {
+        std::size_t width = 0;
         for (const json& entry : entries)
-            print(entry);
+            width = std::max(width, entry.at("name").get_ref<const std::string&>().size());
+        for (const json& entry : entries)
+            print(entry, width);
     }
 }
 

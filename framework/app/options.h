@@ -16,6 +16,7 @@ struct SceneOptions {
     std::vector<std::string> disabled;
     std::string size = "800x600";
     std::string time;  // seconds; "" for the scene's own
+    bool glDebug = false;
 };
 
 struct RunOptions {

@@ -69,7 +69,7 @@ void runCommand(const RunOptions& options, const Registry& registry) {
             ? fs::path("results/runs") / fmt::format("{}-{}", scene.name, settings.technique.name)
             : fs::path(options.out);
 
-    const std::unique_ptr<gl::Context> context = gl::Context::createHeadless();
+    const std::unique_ptr<gl::Context> context = gl::Context::createHeadless(options.scene.glDebug);
     Renderer renderer(*context, registry, scene, std::move(settings));
     renderer.build(Purpose::measurement, options.saved);  // finds every mistake before the work
     requireTextures(renderer, options.saved);
@@ -95,8 +95,9 @@ void runCommand(const RunOptions& options, const Registry& registry) {
     const std::vector<fs::path> files =
         finishRun(renderer, truth, record, folder, options.saved, context->info());
 
-    fmt::print("{} with {}, {}x{}, on {}\n", scene.name, renderer.settings().technique.name,
-               renderer.settings().width, renderer.settings().height, context->info().renderer);
+    fmt::print("{} with {}, {}x{}, on {}{}\n", scene.name, renderer.settings().technique.name,
+               renderer.settings().width, renderer.settings().height, context->info().renderer,
+               context->info().debugs ? ", debugged" : "");
     fmt::print("{}", report::makeTable(record));
     for (const ReachedLimit& limit : report::reachedLimits(record, renderer))
         fmt::print("limit   {} = {:g}: {}\n", limit.parameter, limit.value, limit.sentence);

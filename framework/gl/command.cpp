@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cassert>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "framework/core/error.h"
 #include "framework/gl/executor.h"
 
 namespace kaustik::gl {
@@ -52,8 +52,13 @@ Command::Command(PassContext& context, std::vector<std::string> files) : context
     key_.files = std::move(files);
 }
 
+const Texture& Command::textureToUse(const graph::ResourceRef& handle, Use use) {
+    accesses_.push_back(context_.access(handle, use));
+    return context_.textureOf(accesses_.back());
+}
+
 Command& Command::texture(const std::string& name, const graph::ResourceRef& handle) {
-    textures_.push_back({name, context_.texture(handle).id()});
+    textures_.push_back({name, textureToUse(handle, Use::fetch).id()});
     return *this;
 }
 
@@ -63,12 +68,15 @@ Command& Command::texture(const std::string& name, const Texture& texture) {
 }
 
 Command& Command::image(const std::string& name, const graph::ResourceRef& handle) {
-    images_.push_back({name, &context_.texture(handle)});
+    const Texture& texture = textureToUse(handle, Use::image);
+    const GLenum access = accesses_.back().stores ? GL_READ_WRITE : GL_READ_ONLY;
+    images_.push_back({name, &texture, access});
     return *this;
 }
 
 Command& Command::storage(const std::string& block, const graph::ResourceRef& handle) {
-    storage_.push_back({block, context_.buffer(handle).id()});
+    accesses_.push_back(context_.access(handle, Use::storage));
+    storage_.push_back({block, context_.bufferOf(accesses_.back()).id()});
     return *this;
 }
 
@@ -131,19 +139,25 @@ Command& Command::define(const std::string& name) {
 }
 
 Command& Command::target(const graph::ResourceRef& handle, int layer) {
-    targets_.push_back({&context_.texture(handle), layer, false, {}});
+    targets_.push_back({&textureToUse(handle, Use::target), layer, false, {}});
     lastIsDepth_ = false;
     return *this;
 }
 
 Command& Command::depth(const graph::ResourceRef& handle, DepthTest test) {
-    depth_ = {&context_.texture(handle), 0, false, {}};
+    depth_ = {&textureToUse(handle, Use::target), 0, false, {}};
     depthTest_ = test;
     lastIsDepth_ = true;
     return *this;
 }
 
 Command& Command::clear(graph::ClearValue value) {
+    if (!lastIsDepth_ && targets_.empty()) {
+        throw GraphError(
+            fmt::format("Pass '{}' clears before it has named what: target() or "
+                        "depth() comes first.",
+                        context_.passName()));
+    }
     Target& last = lastIsDepth_ ? depth_ : targets_.back();
     last.clear = true;
     last.value = value;
@@ -162,6 +176,7 @@ Command& Command::viewport(int x, int y, int width, int height) {
 
 Program& Command::bind() {
     Program& program = context_.programs().get(key_);
+    context_.order(accesses_);
     glUseProgram(program.id());
     for (const Uniform& uniform : uniforms_) {
         const GLint location = program.uniform(uniform.name);
@@ -177,8 +192,8 @@ Program& Command::bind() {
     for (std::size_t unit = 0; unit < images_.size(); ++unit) {
         const GLint location = program.uniform(images_[unit].name);
         const Texture& texture = *images_[unit].texture;
-        glBindImageTexture(static_cast<GLuint>(unit), texture.id(), 0, GL_TRUE, 0, GL_READ_WRITE,
-                           formatInfo(texture.desc().format).internalFormat);
+        glBindImageTexture(static_cast<GLuint>(unit), texture.id(), 0, GL_TRUE, 0,
+                           images_[unit].access, formatInfo(texture.desc().format).internalFormat);
         if (location >= 0) {
             glProgramUniform1i(program.id(), location, static_cast<GLint>(unit));
         }
@@ -206,7 +221,11 @@ void Command::bindTargets() {
         attachments.push_back({target.texture, target.layer, false});
     }
     if (depth_.texture != nullptr) attachments.push_back({depth_.texture, 0, true});
-    assert(!attachments.empty() && "a draw needs a target");
+    if (attachments.empty()) {
+        throw GraphError(
+            fmt::format("Pass '{}' draws {} to nothing: target() or depth() is missing.",
+                        context_.passName(), fmt::join(key_.files, " + ")));
+    }
     const GLuint framebuffer = context_.framebuffer(attachments);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     for (std::size_t i = 0; i < targets_.size(); ++i) {
@@ -249,10 +268,6 @@ void Command::bindState() {
     }
 }
 
-void Command::finish() {
-    if (!images_.empty() || !storage_.empty()) glMemoryBarrier(GL_ALL_BARRIER_BITS);
-}
-
 void Command::draw() {
     key_.files.insert(key_.files.begin(), "common/fullscreen.vert");
     drawArrays(GL_TRIANGLES, 3);
@@ -264,7 +279,6 @@ void Command::drawArrays(GLenum mode, int count, int instances) {
     bindState();
     glBindVertexArray(context_.emptyVertexArray());
     glDrawArraysInstanced(mode, 0, count, instances);
-    finish();
 }
 
 void Command::drawIndexedIndirect(GLuint vertexArray, const Buffer& commands, std::size_t first,
@@ -280,7 +294,6 @@ void Command::drawIndexedIndirect(GLuint vertexArray, const Buffer& commands, st
                                     reinterpret_cast<const void*>(first * kCommandBytes),
                                     static_cast<GLsizei>(count), 0);
     }
-    finish();
 }
 
 void Command::dispatch(int groupsX, int groupsY, int groupsZ) {
@@ -289,10 +302,14 @@ void Command::dispatch(int groupsX, int groupsY, int groupsZ) {
         glDispatchCompute(static_cast<GLuint>(groupsX), static_cast<GLuint>(groupsY),
                           static_cast<GLuint>(groupsZ));
     }
-    glMemoryBarrier(GL_ALL_BARRIER_BITS);
 }
 
 void Command::dispatchOver(int countX, int localX, int countY, int localY) {
+    if (localX < 1 || localY < 1) {
+        throw GraphError(fmt::format("Pass '{}' dispatches {} in groups of {}x{}.",
+                                     context_.passName(), fmt::join(key_.files, " + "), localX,
+                                     localY));
+    }
     dispatch(groups(countX, localX), groups(countY, localY));
 }
 

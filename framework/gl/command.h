@@ -7,7 +7,8 @@
 //         .target(data.halved)
 //         .draw();
 //
-// A command sets all the state it depends on and leaves none behind.
+// A command sets all the state it depends on and leaves none behind, and waits for what it depends
+// on (barriers.h). Textures and buffers that are not of the graph are only read.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -15,6 +16,7 @@
 #include <variant>
 #include <vector>
 
+#include "framework/gl/barriers.h"
 #include "framework/gl/program.h"
 #include "framework/params/field.h"
 
@@ -34,7 +36,8 @@ class Command {
     // Inputs. Texture samplers, images and blocks are named as in the shader.
     Command& texture(const std::string& name, const graph::ResourceRef& handle);
     Command& texture(const std::string& name, const Texture& texture);
-    Command& image(const std::string& name, const graph::ResourceRef& handle);  // read and write
+    // To read, and to write where the pass has declared that it writes; so has a storage block.
+    Command& image(const std::string& name, const graph::ResourceRef& handle);
     Command& storage(const std::string& block, const graph::ResourceRef& handle);
     Command& storage(const std::string& block, const Buffer& buffer);
     Command& uniforms(const std::string& block, const Buffer& buffer);
@@ -54,13 +57,13 @@ class Command {
     // Outputs, in the order of the fragment shader's locations; `layer` of an array texture.
     Command& target(const graph::ResourceRef& handle, int layer = 0);
     Command& depth(const graph::ResourceRef& handle, DepthTest test);
-    // Clears the last target (or depth) before drawing.
+    // Clears the last target (or depth) before drawing; GraphError where there is none yet.
     Command& clear(graph::ClearValue value = {0.0f, 0.0f, 0.0f, 0.0f});
     Command& blend(Blend blend);
     // Default: the whole of the first target.
     Command& viewport(int x, int y, int width, int height);
 
-    // The last calls.
+    // The last calls. A draw without a target is a GraphError.
     void draw();  // fullscreen
     void drawArrays(GLenum mode, int count, int instances = 1);
     // Indexed triangles with the vertex array bound by the caller-supplied function.
@@ -78,6 +81,7 @@ class Command {
     struct BoundImage {
         std::string name;
         const Texture* texture;
+        GLenum access;
     };
     struct Target {
         const Texture* texture;
@@ -90,13 +94,14 @@ class Command {
         Value value;
     };
     Command& fields(const std::string& scope, const std::vector<params::Field>& fields);
+    const Texture& textureToUse(const graph::ResourceRef& handle, Use use);
     Program& bind();
     void bindTargets();
     void bindState();
-    void finish();
 
     PassContext& context_;
     ProgramKey key_;
+    std::vector<Access> accesses_;  // of the graph's memory
     std::vector<Bound> textures_;
     std::vector<BoundImage> images_;
     std::vector<Bound> storage_;

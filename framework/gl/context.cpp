@@ -84,12 +84,17 @@ std::vector<Candidate> candidateDisplays(std::vector<std::string>& tried) {
     return candidates;
 }
 
-EGLContext createContext(EGLDisplay display, bool robust) {
+bool environmentDebugs() {
+    const char* text = std::getenv("KAUSTIK_GL_DEBUG");
+    return text != nullptr && std::strcmp(text, "") != 0 && std::strcmp(text, "0") != 0;
+}
+
+EGLContext createContext(EGLDisplay display, bool robust, bool debugs) {
     std::vector<EGLint> attributes = {
         EGL_CONTEXT_MAJOR_VERSION,       4,
         EGL_CONTEXT_MINOR_VERSION,       5,
         EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-        EGL_CONTEXT_OPENGL_DEBUG,        EGL_TRUE};
+        EGL_CONTEXT_OPENGL_DEBUG,        debugs ? EGL_TRUE : EGL_FALSE};
     if (robust) {
         attributes.insert(attributes.end(), {EGL_CONTEXT_OPENGL_ROBUST_ACCESS, EGL_TRUE,
                                              EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY,
@@ -139,7 +144,8 @@ void requireLibraries() {
 
 }  // namespace
 
-std::unique_ptr<Context> Context::createHeadless() {
+std::unique_ptr<Context> Context::createHeadless(bool debugs) {
+    debugs = debugs || environmentDebugs();
     // Mesa says "DISPLAY" things on standard error when it is asked about drivers; keep it quiet.
     ::setenv("EGL_LOG_LEVEL", "fatal", 0);
     requireLibraries();
@@ -157,7 +163,7 @@ std::unique_ptr<Context> Context::createHeadless() {
         egl->platform = candidate.platform;
         eglBindAPI(EGL_OPENGL_API);
         for (const bool robust : {true, false}) {
-            egl->context = createContext(egl->display, robust);
+            egl->context = createContext(egl->display, robust, debugs);
             egl->robust = robust;
             if (egl->context != EGL_NO_CONTEXT) break;
         }
@@ -180,7 +186,8 @@ std::unique_ptr<Context> Context::createHeadless() {
                                         fmt::join(context->info_.missing, ", ")));
             continue;
         }
-        context->enableDebugOutput();
+        context->info_.debugs = debugs;
+        if (debugs) context->enableDebugOutput();
         return context;
     }
     throw DeviceError(
@@ -242,8 +249,7 @@ void Context::enableDebugOutput() {
         [](GLenum, GLenum, GLuint, GLenum, GLsizei, const GLchar* message, const void* user) {
             auto* self = static_cast<Context*>(const_cast<void*>(user));
             if (self->firstError_.empty()) {
-                self->firstError_ =
-                    fmt::format("OpenGL error in pass '{}': {}", self->scope_, message);
+                self->firstError_ = fmt::format("OpenGL error {}: {}", self->scope_, message);
             }
             if (std::strstr(message, "OUT_OF_MEMORY") != nullptr) self->outOfMemory_ = true;
         },
@@ -254,25 +260,26 @@ void Context::check() {
     const GLenum status = egl_->robust ? glGetGraphicsResetStatus() : GL_NO_ERROR;
     if (status != GL_NO_ERROR) {
         throw DeviceError(
-            fmt::format("The device was lost in pass '{}'. Nothing of this run is "
-                        "kept; start it again, with less work a pass if it repeats.",
+            fmt::format("The device was lost {}. Nothing of this run is kept; start it again, with "
+                        "less work a pass if it repeats.",
                         scope_));
     }
     for (GLenum error = glGetError(); error != GL_NO_ERROR; error = glGetError()) {
         if (error == GL_OUT_OF_MEMORY) outOfMemory_ = true;
         if (firstError_.empty()) {
-            firstError_ = fmt::format("OpenGL error 0x{:x} in pass '{}'", error, scope_);
+            firstError_ = fmt::format("OpenGL error 0x{:x} {}", error, scope_);
         }
     }
     if (firstError_.empty()) return;
     const std::string message = std::exchange(firstError_, "");
     if (std::exchange(outOfMemory_, false)) {
         throw DeviceError(
-            fmt::format("The device is out of memory in pass '{}'. Use fewer photons, "
-                        "layers or pixels. ({})",
+            fmt::format("The device is out of memory {}. Use fewer photons, layers or pixels. ({})",
                         scope_, message));
     }
-    throw DeviceError(message + ".", kExitFailed);
+    throw DeviceError(
+        message + (info_.debugs ? "." : "; --gl-debug names the pass and says what is wrong."),
+        kExitFailed);
 }
 
 void Context::finish() {

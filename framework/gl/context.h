@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // An OpenGL 4.5 core context without a window or a display: EGL surfaceless, else the device
-// platform. Debug output is on: an OpenGL error is remembered and fails the run by the name of the
-// pass in which it was raised. The context is robust: a lost device is a DeviceError.
+// platform. An OpenGL error fails the run; where the context debugs, by the name of the pass in
+// which it was raised and in the driver's words. The context is robust: a lost device is a
+// DeviceError.
 #pragma once
 
 #include <memory>
@@ -23,6 +24,7 @@ struct DeviceInfo {
     // which the system would promise without having.
     long long availableBytes = 0;
     bool robust = false;
+    bool debugs = false;               // a debug context with synchronous output
     bool isSoftware = false;           // renders on the processor, as Mesa does without a GPU
     std::vector<std::string> missing;  // what the project needs and the device lacks
 };
@@ -31,15 +33,16 @@ class Context {
   public:
     // Makes the context current on this thread. Throws DeviceError (exit code 1) that says what was
     // tried when there is no EGL, no OpenGL 4.5, or something that every node needs is missing.
-    [[nodiscard]] static std::unique_ptr<Context> createHeadless();
+    // It debugs where `debugs` or the environment's KAUSTIK_GL_DEBUG=1 says so, which takes time.
+    [[nodiscard]] static std::unique_ptr<Context> createHeadless(bool debugs = false);
     ~Context();
     Context(const Context&) = delete;
     Context& operator=(const Context&) = delete;
 
     [[nodiscard]] const DeviceInfo& info() const { return info_; }
 
-    // What the error messages will name: the pass that issues commands from now on.
-    void setScope(std::string name) { scope_ = std::move(name); }
+    // What the error messages will name: where commands are issued from now on ("in pass 'x'").
+    void setScope(std::string where) { scope_ = std::move(where); }
 
     // Throws if an OpenGL error was raised since the last call, or the device was lost:
     // out of memory and a reset are exit code 3, every other error 1.
@@ -56,7 +59,7 @@ class Context {
 
     std::unique_ptr<Egl> egl_;
     DeviceInfo info_;
-    std::string scope_ = "start-up";
+    std::string scope_ = "at start-up";
     std::string firstError_;
     bool outOfMemory_ = false;
 };

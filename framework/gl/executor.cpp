@@ -2,7 +2,6 @@
 #include "framework/gl/executor.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cstdint>
 #include <limits>
 #include <utility>
@@ -39,11 +38,39 @@ Command PassContext::shaders(std::vector<std::string> files) {
 }
 
 const Texture& PassContext::texture(const graph::ResourceRef& handle) const {
-    return executor_.texture(handle);
+    const Access update = access(handle, Use::updateTexture);
+    order({update});
+    return textureOf(update);
 }
 
-const Buffer& PassContext::buffer(const graph::ResourceRef& handle) const {
-    return executor_.buffer(handle);
+const Buffer& PassContext::buffer(const graph::ResourceRef& handle, Use use) const {
+    const Access used = access(handle, use);
+    order({used});
+    return bufferOf(used);
+}
+
+Access PassContext::access(const graph::ResourceRef& handle, Use use) const {
+    using Kind = graph::Compiled::Kind;
+    const graph::Compiled& compiled = executor_.compiled_;
+    const bool isTexture =
+        use == Use::fetch || use == Use::image || use == Use::target || use == Use::updateTexture;
+    const Kind kind = isTexture ? Kind::texture : Kind::buffer;
+    const bool isStored = use == Use::image || use == Use::storage;
+    return {use == Use::target ? compiled.slotToWrite(step_, handle, kind)
+                               : compiled.slotToUse(step_, handle, kind),
+            use, isStored && compiled.writes(step_, handle)};
+}
+
+const Texture& PassContext::textureOf(const Access& access) const {
+    return executor_.slots_[access.slot].texture;
+}
+
+const Buffer& PassContext::bufferOf(const Access& access) const {
+    return executor_.slots_[access.slot].buffer;
+}
+
+void PassContext::order(const std::vector<Access>& accesses) const {
+    executor_.order(accesses);
 }
 
 ProgramCache& PassContext::programs() {
@@ -83,7 +110,7 @@ void Executor::prepare(graph::Compiled compiled) {
             old.erase(kept);
             continue;
         }
-        context_.setScope("allocating '" + slot.firstName + "'");
+        context_.setScope("while allocating '" + slot.firstName + "'");
         Physical physical;
         physical.desc = slot.desc;
         if (const auto* texture = std::get_if<graph::TextureDesc>(&slot.desc)) {
@@ -104,59 +131,69 @@ void Executor::prepare(graph::Compiled compiled) {
         context_.check();
         slots_.push_back(std::move(physical));
     }
+    // Slots that were kept have seen another graph's stores.
+    glMemoryBarrier(GL_ALL_BARRIER_BITS);
+    barriers_ = Barriers(slots_.size());
 }
 
 const Texture& Executor::texture(const graph::ResourceRef& handle) const {
-    const std::size_t slot = compiled_.slotOf(handle);
-    assert(slot < slots_.size() && slots_[slot].texture.id() != 0);
-    return slots_[slot].texture;
+    return slots_[compiled_.slotAfterwards(handle, graph::Compiled::Kind::texture)].texture;
 }
 
 const Buffer& Executor::buffer(const graph::ResourceRef& handle) const {
-    const std::size_t slot = compiled_.slotOf(handle);
-    assert(slot < slots_.size() && slots_[slot].buffer.id() != 0);
-    return slots_[slot].buffer;
+    return slots_[compiled_.slotAfterwards(handle, graph::Compiled::Kind::buffer)].buffer;
 }
 
-void Executor::clearSlot(std::size_t slot, const graph::ClearValue& value) const {
+void Executor::order(const std::vector<Access>& accesses) {
+    const GLbitfield bits = barriers_.before(accesses);
+    if (bits != 0) glMemoryBarrier(bits);
+}
+
+void Executor::clearSlot(std::size_t slot, const graph::ClearValue& value) {
     if (std::holds_alternative<graph::TextureDesc>(slots_[slot].desc)) {
+        order({{slot, Use::updateTexture}});
         slots_[slot].texture.clear(value);
     } else {
+        order({{slot, Use::updateBuffer}});
         slots_[slot].buffer.clear();
     }
 }
 
+void Executor::poison(const graph::Step& step) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const std::uint32_t ones = ~0u;
+    for (const std::size_t slot : step.births) {
+        if (const auto* texture = std::get_if<graph::TextureDesc>(&slots_[slot].desc)) {
+            const bool isDepth = texture->format == graph::Format::depth32f;
+            clearSlot(slot, isDepth ? graph::ClearValue{} : graph::ClearValue{nan, nan, nan, nan});
+        } else {
+            order({{slot, Use::updateBuffer}});
+            glClearNamedBufferData(slots_[slot].buffer.id(), GL_R32UI, GL_RED_INTEGER,
+                                   GL_UNSIGNED_INT, &ones);
+        }
+    }
+}
+
 bool Executor::runFrame(PassTimer& timer, const std::function<bool(std::size_t)>& goesOn) {
-    PassContext context(*this);
+    const bool debugs = context_.info().debugs;
     timer.beginFrame(compiled_.steps.size());
+    context_.setScope("in a frame");
     for (std::size_t i = 0; i < compiled_.steps.size(); ++i) {
         const graph::Step& step = compiled_.steps[i];
         if (goesOn && !goesOn(i)) return false;  // the timer begins this frame again
-        context_.setScope(step.name);
+        if (debugs) context_.setScope("in pass '" + step.name + "'");
+        PassContext context(*this, step);
         const DebugGroup group(i, step.name);
-        if (poison_) {
-            const float nan = std::numeric_limits<float>::quiet_NaN();
-            const std::uint32_t ones = ~0u;
-            for (const std::size_t slot : step.births) {
-                if (slots_[slot].texture.id() != 0) {
-                    const bool isDepth =
-                        slots_[slot].texture.desc().format == graph::Format::depth32f;
-                    slots_[slot].texture.clear(isDepth ? graph::ClearValue{}
-                                                       : graph::ClearValue{nan, nan, nan, nan});
-                } else {
-                    glClearNamedBufferData(slots_[slot].buffer.id(), GL_R32UI, GL_RED_INTEGER,
-                                           GL_UNSIGNED_INT, &ones);
-                }
-            }
-        }
+        if (poison_) poison(step);
         timer.beginPass(i);
         for (const graph::Step::Clear& clear : step.clears)
             clearSlot(clear.slot, clear.value);
         if (step.execute) step.execute(context);
         timer.endPass(i);
-        context_.check();
+        if (debugs) context_.check();
     }
     timer.endFrame();
+    context_.check();
     return true;
 }
 

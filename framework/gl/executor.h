@@ -9,6 +9,7 @@
 #include <tuple>
 #include <vector>
 
+#include "framework/gl/barriers.h"
 #include "framework/gl/command.h"
 #include "framework/gl/context.h"
 #include "framework/gl/objects.h"
@@ -26,25 +27,35 @@ struct Attachment {
 
 class Executor;
 
-// What an execute function is handed.
+// What an execute function is handed. Whatever it asks for must be what its pass has declared; else
+// a GraphError names the pass and the resource.
 class PassContext : public graph::ExecuteContext {
   public:
-    explicit PassContext(Executor& executor) : executor_(executor) {}
+    PassContext(Executor& executor, const graph::Step& step) : executor_(executor), step_(step) {}
 
     [[nodiscard]] Command fullscreen(const std::string& fragmentShader);
     [[nodiscard]] Command compute(const std::string& computeShader);
     [[nodiscard]] Command shaders(std::vector<std::string> files);
 
+    // To be cleared or copied at once, or used as `use` says by what is issued next.
     [[nodiscard]] const Texture& texture(const graph::ResourceRef& handle) const;
-    [[nodiscard]] const Buffer& buffer(const graph::ResourceRef& handle) const;
+    [[nodiscard]] const Buffer& buffer(const graph::ResourceRef& handle,
+                                       Use use = Use::updateBuffer) const;
 
     // For Command.
+    [[nodiscard]] const std::string& passName() const { return step_.name; }
+    [[nodiscard]] Access access(const graph::ResourceRef& handle, Use use) const;
+    [[nodiscard]] const Texture& textureOf(const Access& access) const;
+    [[nodiscard]] const Buffer& bufferOf(const Access& access) const;
+    // Waits for what the accesses depend on; to be called just before they happen.
+    void order(const std::vector<Access>& accesses) const;
     [[nodiscard]] ProgramCache& programs();
     [[nodiscard]] GLuint framebuffer(const std::vector<Attachment>& attachments);
     [[nodiscard]] GLuint emptyVertexArray() const;
 
   private:
     Executor& executor_;
+    const graph::Step& step_;
 };
 
 class Executor {
@@ -60,11 +71,13 @@ class Executor {
     // runs, so that a test sees who reads what nobody wrote.
     void poisonTransients(bool poison) { poison_ = poison; }
 
-    // Runs all passes once. Throws what a pass throws, and DeviceError for OpenGL errors. `goesOn`
+    // Runs all passes once. Throws what a pass throws, and DeviceError for OpenGL errors: after the
+    // pass that made one where the context debugs, else at the frame's end. `goesOn`
     // is asked before each pass, by its number; where it says no, the frame ends there and has no
     // time, and the result is false.
     bool runFrame(PassTimer& timer, const std::function<bool(std::size_t)>& goesOn = {});
 
+    // What was asked for, as the last frame has left it; GraphError for the rest.
     [[nodiscard]] const Texture& texture(const graph::ResourceRef& handle) const;
     [[nodiscard]] const Buffer& buffer(const graph::ResourceRef& handle) const;
 
@@ -75,13 +88,16 @@ class Executor {
         Buffer buffer;
         graph::ResourceDesc desc;
     };
-    void clearSlot(std::size_t slot, const graph::ClearValue& value) const;
+    void clearSlot(std::size_t slot, const graph::ClearValue& value);
+    void poison(const graph::Step& step);
+    void order(const std::vector<Access>& accesses);
     GLuint framebuffer(const std::vector<Attachment>& attachments);
 
     Context& context_;
     ProgramCache& programs_;
     graph::Compiled compiled_;
     std::vector<Physical> slots_;
+    Barriers barriers_;
     std::map<std::vector<std::tuple<GLuint, int, bool>>, FramebufferObject> framebuffers_;
     VertexArrayObject emptyVertexArray_;
     bool poison_ = false;

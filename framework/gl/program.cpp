@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdlib>
 #include <regex>
 #include <sstream>
 
@@ -16,7 +17,11 @@ namespace {
 namespace fs = std::filesystem;
 
 fs::path findShader(const std::string& file) {
-    for (const fs::path& folder : {projectRoot() / "shaders", projectRoot()}) {
+    std::vector<fs::path> folders{projectRoot() / "shaders", projectRoot()};
+    if (const char* fromEnvironment = std::getenv("KAUSTIK_SHADERS")) {
+        if (*fromEnvironment != '\0') folders.emplace_back(fromEnvironment);
+    }
+    for (const fs::path& folder : folders) {
         const fs::path path = folder / file;
         if (fs::is_regular_file(path)) return path;
     }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Shader programs from files with includes. `#include "path"` is looked up in shaders/, then from
-// the project's root (for the headers that C++ and GLSL share). A compile error names the file and
-// line as written. Programs are cached by their files and declarations.
+// Shader programs from files with includes. A file is looked up in shaders/, then from the
+// project's root (for the headers that C++ and GLSL share), then in the folder that KAUSTIK_SHADERS
+// names (for a technique that lives elsewhere). A compile error names the file and line as written.
+// Programs are cached by their files and declarations.
 #pragma once
 
 #include <filesystem>

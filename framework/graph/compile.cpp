@@ -24,11 +24,6 @@ struct Graph::Plan {
     std::vector<std::vector<std::uint32_t>> home;
 };
 
-std::size_t Compiled::slotOf(const ResourceRef& handle) const {
-    if (!handle.valid() || handle.index >= home_.size()) return kNoSlot;
-    return slotOfResource[home_[handle.index][handle.version]];
-}
-
 // A disabled pass needs a bypass for every output; forwarded outputs then live in their input.
 void Graph::planBypasses(Plan& plan) const {
     plan.home.resize(resources_.size());
@@ -200,7 +195,11 @@ void Graph::assignSlots(const Plan& plan, Compiled& compiled) const {
         Step compiledStep;
         compiledStep.name = pass.info.name;
         const bool bypassed = plan.bypassed[passOfStep[step]];
-        if (!bypassed) compiledStep.execute = pass.execute;
+        if (!bypassed) {
+            compiledStep.execute = pass.execute;
+            compiledStep.reads = pass.reads;
+            compiledStep.outputs = pass.outputs;
+        }
 
         std::size_t alive = 0;
         for (std::size_t r = 0; r < resources_.size(); ++r) {
@@ -240,6 +239,8 @@ void Graph::assignSlots(const Plan& plan, Compiled& compiled) const {
     }
     for (std::uint32_t r = 0; r < resources_.size(); ++r) {
         const bool aliveAtEnd = lives[r].first != kNoSlot && lives[r].last == passOfStep.size();
+        compiled.names_.push_back(resources_[r].name);
+        compiled.isKept_.push_back(aliveAtEnd);
         if (!aliveAtEnd) continue;
         const auto newest = static_cast<std::uint32_t>(resources_[r].writers.size() - 1);
         compiled.resources.push_back(

@@ -5,7 +5,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cassert>
+
+#include "framework/core/error.h"
 
 namespace kaustik::graph {
 
@@ -34,8 +35,13 @@ void PassSetup::readResource(const ResourceRef& handle) {
 
 ResourceRef PassSetup::writeResource(const ResourceRef& handle) {
     if (!graph_.check(handle, pass_, "writes")) return handle;
-    graph_.passes_[pass_].reads.push_back(handle);
     Graph::Resource& resource = graph_.resources_[handle.index];
+    if (handle.version + 1 != resource.writers.size()) {
+        graph_.problems_.push_back(fmt::format("pass '{}' writes '{}' twice from one version",
+                                               graph_.passes_[pass_].info.name, resource.name));
+        return handle;
+    }
+    graph_.passes_[pass_].reads.push_back(handle);
     resource.writers.push_back(pass_);
     const ResourceRef next{handle.index, handle.version + 1};
     graph_.passes_[pass_].outputs.push_back(next);
@@ -43,7 +49,7 @@ ResourceRef PassSetup::writeResource(const ResourceRef& handle) {
 }
 
 void PassSetup::bypassForward(const ResourceRef& output, const ResourceRef& input) {
-    if (!graph_.check(input, pass_, "forwards") && input.index != output.index) return;
+    if (!graph_.checkBypassed(output, pass_) || !graph_.check(input, pass_, "forwards")) return;
     Graph::Pass& pass = graph_.passes_[pass_];
     if (graph_.resources_[output.index].desc != graph_.resources_[input.index].desc) {
         graph_.problems_.push_back(
@@ -55,6 +61,7 @@ void PassSetup::bypassForward(const ResourceRef& output, const ResourceRef& inpu
 }
 
 void PassSetup::bypass(const ResourceRef& output, ClearValue value) {
+    if (!graph_.checkBypassed(output, pass_)) return;
     graph_.passes_[pass_].bypasses.push_back({output, {}, value});
 }
 
@@ -72,9 +79,14 @@ void Graph::setExecute(std::size_t pass, std::function<void(ExecuteContext&)> ex
     passes_[pass].execute = std::move(execute);
 }
 
+bool Graph::isMade(const ResourceRef& handle) const {
+    return handle.valid() && handle.index < resources_.size() &&
+           handle.version < resources_[handle.index].writers.size();
+}
+
 bool Graph::check(const ResourceRef& handle, std::size_t pass, const char* verb) {
     const std::string& passName = passes_[pass].info.name;
-    if (!handle.valid() || handle.index >= resources_.size()) {
+    if (!isMade(handle)) {
         problems_.push_back(
             fmt::format("pass '{}' {} a handle that no pass has made", passName, verb));
         return false;
@@ -92,28 +104,43 @@ bool Graph::check(const ResourceRef& handle, std::size_t pass, const char* verb)
     return false;
 }
 
+bool Graph::checkBypassed(const ResourceRef& output, std::size_t pass) {
+    const std::vector<ResourceRef>& outputs = passes_[pass].outputs;
+    if (std::find(outputs.begin(), outputs.end(), output) != outputs.end()) return true;
+    problems_.push_back(fmt::format(
+        "pass '{}' says what stands in for {}, which it does not make", passes_[pass].info.name,
+        isMade(output) ? "'" + resources_[output.index].name + "'"
+                       : std::string("a handle that no pass has made")));
+    return false;
+}
+
 void Graph::leaveOut(std::string name, std::string why) {
     passes_.push_back({});
     passes_.back().info = {std::move(name), std::move(why)};
     passes_.back().isLeftOut = true;
 }
 
-void Graph::request(const ResourceRef& handle) {
-    if (!handle.valid() || handle.index >= resources_.size()) {
-        problems_.push_back("a resource is asked for that no pass has made");
+void Graph::request(const ResourceRef& handle, const std::string& what) {
+    if (!isMade(handle)) {
+        problems_.push_back(fmt::format("{} is asked for that no pass has made", what));
         return;
     }
     requested_.push_back(handle);
 }
 
+const Graph::Resource& Graph::resourceOf(const ResourceRef& handle) const {
+    if (!isMade(handle)) {
+        throw GraphError("The graph is asked about a handle that none of its passes has made.");
+    }
+    return resources_[handle.index];
+}
+
 const std::string& Graph::nameOf(const ResourceRef& handle) const {
-    assert(handle.valid() && handle.index < resources_.size());
-    return resources_[handle.index].name;
+    return resourceOf(handle).name;
 }
 
 const ResourceDesc& Graph::descOf(const ResourceRef& handle) const {
-    assert(handle.valid() && handle.index < resources_.size());
-    return resources_[handle.index].desc;
+    return resourceOf(handle).desc;
 }
 
 std::vector<std::string> Graph::resourceNames() const {

@@ -105,6 +105,9 @@ struct Slot {
 struct Step {
     std::string name;
     std::function<void(ExecuteContext&)> execute;  // empty: only clears
+    // What the pass has declared, and so may use.
+    std::vector<ResourceRef> reads;
+    std::vector<ResourceRef> outputs;
     struct Clear {
         std::size_t slot;
         ClearValue value;
@@ -130,11 +133,30 @@ struct Compiled {
         std::size_t slot;
     };
     std::vector<Named> resources;  // everything that is alive at the end or was kept by name
-    // (resource, version) → resource whose memory holds it, through bypasses.
+    // (resource, version) → resource whose memory holds it, through bypasses; SIZE_MAX where it
+    // has none.
     [[nodiscard]] std::size_t slotOf(const ResourceRef& handle) const;
+
+    // What an execute asks for must be what its setup has declared, and of the kind that it is:
+    // these give the slot, or throw a GraphError that names pass and resource.
+    enum class Kind { texture, buffer };
+    [[nodiscard]] std::size_t slotToUse(const Step& step, const ResourceRef& handle,
+                                        Kind kind) const;
+    [[nodiscard]] std::size_t slotToWrite(const Step& step, const ResourceRef& handle,
+                                          Kind kind) const;
+    // Whether the step may write what is behind a handle, whichever version of it that names.
+    [[nodiscard]] bool writes(const Step& step, const ResourceRef& handle) const;
+    // The same after the last step, for what was asked for; the rest's memory others have by then.
+    [[nodiscard]] std::size_t slotAfterwards(const ResourceRef& handle, Kind kind) const;
 
   private:
     friend class Graph;
+    [[nodiscard]] bool isKnown(const ResourceRef& handle) const;
+    [[nodiscard]] std::size_t slotOfKind(const ResourceRef& handle, Kind kind,
+                                         const std::string& user) const;
+    // By resource: its name, and whether it lives until the end.
+    std::vector<std::string> names_;
+    std::vector<bool> isKept_;
     std::vector<std::vector<std::uint32_t>> home_;
 };
 
@@ -157,8 +179,9 @@ class Graph {
     // Records a node that the scene does not need, with the reason, for `explain`.
     void leaveOut(std::string name, std::string why);
 
-    // Asks for a resource: it and all that leads to it runs, and it lives until the end.
-    void request(const ResourceRef& handle);
+    // Asks for a resource: it and all that leads to it runs, and it lives until the end. `what`
+    // names it where nobody has made it.
+    void request(const ResourceRef& handle, const std::string& what = "a resource");
     // Keeps every resource alive until the end (to view or scan), without asking for its passes.
     void keepAll() { keepAll_ = true; }
 
@@ -168,7 +191,8 @@ class Graph {
     // Throws GraphError with every problem found, one a line.
     [[nodiscard]] Compiled compile() const;
 
-    // The name of a resource, and all names.
+    // The name of a resource, and all names. A handle that no pass has made is a GraphError, here
+    // and in descOf.
     [[nodiscard]] const std::string& nameOf(const ResourceRef& handle) const;
     [[nodiscard]] std::vector<std::string> resourceNames() const;
     [[nodiscard]] const ResourceDesc& descOf(const ResourceRef& handle) const;
@@ -206,6 +230,9 @@ class Graph {
     std::size_t beginPass(PassInfo info);
     void setExecute(std::size_t pass, std::function<void(ExecuteContext&)> execute);
     bool check(const ResourceRef& handle, std::size_t pass, const char* verb);
+    bool checkBypassed(const ResourceRef& output, std::size_t pass);
+    [[nodiscard]] bool isMade(const ResourceRef& handle) const;
+    [[nodiscard]] const Resource& resourceOf(const ResourceRef& handle) const;
     [[nodiscard]] Plan plan() const;
     void planRequired(Plan& plan) const;
     void planBypasses(Plan& plan) const;

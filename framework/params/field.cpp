@@ -176,6 +176,11 @@ void FieldList::field(Extent& value, std::string name, std::string sentence, std
 
 void FieldList::addChoice(int& index, std::string name, std::string sentence,
                           std::vector<std::string> names) {
+    if (index < 0 || static_cast<std::size_t>(index) >= names.size()) {
+        throw ConfigError(
+            fmt::format("The default of the choice '{}' is number {} of its {} names.", name, index,
+                        names.size()));
+    }
     fields_.push_back(
         {std::move(name), std::move(sentence), "", ChoiceRef{&index}, 0.0, 0.0, std::move(names)});
 }

@@ -77,7 +77,8 @@ class FieldList {
     void field(bool& value, std::string name, std::string sentence);
     void field(Extent& value, std::string name, std::string sentence, std::string unit,
                Range<int> allowedSide);
-    // Enum must be an int-backed enum whose values index `names`.
+    // Enum must be an int-backed enum whose values index `names`; a value that has none is a
+    // ConfigError.
     template <class Enum>
     void choice(Enum& value, std::string name, std::string sentence,
                 std::initializer_list<const char*> names) {

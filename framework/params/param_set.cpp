@@ -3,8 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <cxxabi.h>
+
 #include <algorithm>
 #include <cassert>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "framework/core/error.h"
@@ -39,6 +42,18 @@ bool abbreviates(std::string_view shortened, std::string_view full) {
     return matched == wanted.size();
 }
 
+std::string endOfMessage(std::string_view name, const std::vector<std::string>& candidates) {
+    const std::string suggestion = didYouMean(name, candidates);
+    return suggestion.empty() ? "." : suggestion;
+}
+
+// As written in the source.
+std::string nameOf(const std::type_info& type) {
+    const std::unique_ptr<char, void (*)(void*)> name(
+        abi::__cxa_demangle(type.name(), nullptr, nullptr, nullptr), std::free);
+    return name ? name.get() : type.name();
+}
+
 }  // namespace
 
 ParamSet::ParamSet(const ParamSet& other)
@@ -53,13 +68,17 @@ ParamSet& ParamSet::operator=(const ParamSet& other) {
 }
 
 void ParamSet::add(const std::string& scope, std::unique_ptr<HeldBase> value) {
-    for (const Field& field : value->fields()) {
-        const std::string fullName = fullNameOf(scope, field);
-        [[maybe_unused]] const bool isNew = defaults_.emplace(fullName, field.text()).second;
-        assert(isNew && "a parameter is declared once");
-    }
     // A stage's choice and its shared parameters live side by side under the same name.
     const std::string key = value->type() == typeid(NodeChoice) ? scope + "=" : scope;
+    if (scopes_.contains(key)) {
+        throw ConfigError(fmt::format("The parameters '{}' are declared twice.", scope));
+    }
+    for (const Field& field : value->fields()) {
+        const std::string fullName = fullNameOf(scope, field);
+        if (!defaults_.emplace(fullName, field.text()).second) {
+            throw ConfigError(fmt::format("The parameter '{}' is declared twice.", fullName));
+        }
+    }
     scopes_[key] = std::move(value);
 }
 
@@ -73,9 +92,18 @@ void ParamSet::declareChoice(const std::string& name, std::string sentence,
 
 ParamSet::HeldBase& ParamSet::held(const std::string& scope, const std::type_info& type) const {
     const auto found = scopes_.find(scope);
-    assert(found != scopes_.end() && "the scope was declared");
-    assert(found->second->type() == type && "the scope was declared with this type");
-    static_cast<void>(type);
+    if (found == scopes_.end()) {
+        std::vector<std::string> names;
+        for (const auto& [name, value] : scopes_) {
+            if (value->type() != typeid(NodeChoice)) names.push_back(name);
+        }
+        throw ConfigError(fmt::format("No node or stage has declared the parameters '{}'{}", scope,
+                                      endOfMessage(scope, names)));
+    }
+    if (found->second->type() != type) {
+        throw ConfigError(fmt::format("The parameters '{}' are a {}, and are asked for as a {}.",
+                                      scope, nameOf(found->second->type()), nameOf(type)));
+    }
     return *found->second;
 }
 
@@ -91,7 +119,11 @@ Field ParamSet::find(const std::string& fullName) const {
             if (fullNameOf(scope, field) == fullName) return field;
         }
     }
-    throw ConfigError(fmt::format("There is no parameter '{}'.", fullName));
+    std::vector<std::string> names;
+    for (const auto& [name, text] : defaults_)
+        names.push_back(name);
+    throw ConfigError(
+        fmt::format("There is no parameter '{}'{}", fullName, endOfMessage(fullName, names)));
 }
 
 std::string ParamSet::resolve(std::string_view name, std::string_view where) const {
@@ -128,10 +160,10 @@ void ParamSet::setAssignment(std::string_view assignment, std::string_view where
     set(assignment.substr(0, equals), assignment.substr(equals + 1), where);
 }
 
-void ParamSet::setDefault(std::string_view name, std::string_view value) {
-    const std::string fullName = resolve(name, "a technique's default");
+void ParamSet::setDefault(std::string_view name, std::string_view value, std::string_view where) {
+    const std::string fullName = resolve(name, where);
     const Field field = find(fullName);
-    field.set(value, fullName, "a technique's default");
+    field.set(value, fullName, where);
     defaults_[fullName] = field.text();
 }
 

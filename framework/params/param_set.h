@@ -33,7 +33,8 @@ class ParamSet {
     ParamSet& operator=(ParamSet&&) noexcept = default;
     ~ParamSet() = default;
 
-    // Adds the parameters of `scope` ("trace" or "trace.lines") with their defaults.
+    // Adds the parameters of `scope` ("trace" or "trace.lines") with their defaults. One that is
+    // there already is a ConfigError.
     template <class Params>
     void declare(const std::string& scope, const Params& defaults = {}) {
         add(scope, std::make_unique<Held<Params>>(defaults));
@@ -43,7 +44,8 @@ class ParamSet {
     void declareChoice(const std::string& name, std::string sentence,
                        std::vector<std::string> options, const std::string& initial);
 
-    // The values of a declared scope; the type must be the declared one (asserted).
+    // The values of a declared scope, of the declared type. Throws ConfigError with the nearest
+    // scope, or with both types.
     template <class Params>
     [[nodiscard]] const Params& get(const std::string& scope) const {
         return static_cast<const Held<Params>&>(held(scope, typeid(Params))).value;
@@ -57,7 +59,7 @@ class ParamSet {
     // "name=value", as in --set.
     void setAssignment(std::string_view assignment, std::string_view where);
     // A technique's own default: range-checked like `set`, but does not count as the user's.
-    void setDefault(std::string_view name, std::string_view value);
+    void setDefault(std::string_view name, std::string_view value, std::string_view where);
 
     [[nodiscard]] std::string resolve(std::string_view name, std::string_view where) const;
     [[nodiscard]] bool isSetByUser(const std::string& fullName) const;

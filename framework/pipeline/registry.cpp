@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cassert>
 
 #include "framework/core/error.h"
 #include "framework/core/names.h"
@@ -12,15 +11,19 @@
 namespace kaustik {
 
 void Registry::addNode(Node node) {
-    assert(std::none_of(nodes_.begin(), nodes_.end(),
-                        [&](const Node& other) {
-                            return other.stage == node.stage && other.name == node.name;
-                        }) &&
-           "a node is registered once");
+    for (const Node& other : nodes_) {
+        if (other.stage != node.stage || other.name != node.name) continue;
+        throw ConfigError(
+            fmt::format("The node '{}.{}' is registered twice.", node.stage, node.name));
+    }
     nodes_.push_back(std::move(node));
 }
 
 void Registry::technique(Technique technique) {
+    for (const Technique& other : techniques_) {
+        if (other.name != technique.name) continue;
+        throw ConfigError(fmt::format("The technique '{}' is registered twice.", technique.name));
+    }
     techniques_.push_back(std::move(technique));
 }
 
@@ -35,11 +38,15 @@ const Technique& Registry::findTechnique(const std::string& name) const {
 }
 
 const Registry::Node& Registry::findNode(const std::string& stage, const std::string& name) const {
-    const auto found = std::find_if(nodes_.begin(), nodes_.end(), [&](const Node& node) {
-        return node.stage == stage && node.name == name;
-    });
-    assert(found != nodes_.end() && "the choice of a stage is one of its nodes");
-    return *found;
+    std::vector<std::string> names;
+    for (const Node& node : nodes_) {
+        if (node.stage == stage && node.name == name) return node;
+        names.push_back(node.stage + "." + node.name);
+    }
+    const std::string full = stage + "." + name;
+    const std::string suggestion = didYouMean(full, names);
+    throw ConfigError(
+        fmt::format("There is no node '{}'{}", full, suggestion.empty() ? "." : suggestion));
 }
 
 params::ParamSet Registry::makeParams(const Technique& technique) const {
@@ -57,7 +64,7 @@ params::ParamSet Registry::makeParams(const Technique& technique) const {
     for (const auto& declare : declarations_)
         declare(set);
     for (const auto& [name, value] : technique.defaults)
-        set.setDefault(name, value);
+        set.setDefault(name, value, fmt::format("technique '{}'", technique.name));
     return set;
 }
 

@@ -122,9 +122,9 @@ graph::Compiled Renderer::compile(Purpose purpose, const std::vector<std::string
     const auto begin = std::chrono::steady_clock::now();
     FrameBuilder frame = declareFrame(purpose == Purpose::audit, purpose == Purpose::view);
     if (purpose != Purpose::picture) closedLedger_ = closeLedger(frame, outputs_);
-    graph_->request(outputs_.picture.radiance);
-    graph_->request(outputs_.picture.display);
-    graph_->request(outputs_.caustic.irradiance);
+    graph_->request(outputs_.picture.radiance, "the picture's radiance");
+    graph_->request(outputs_.picture.display, "the picture");
+    graph_->request(outputs_.caustic.irradiance, "the caustic's irradiance");
     if (outputs_.caustic.radiance.valid()) graph_->request(outputs_.caustic.radiance);
     if (outputs_.inScattered.radiance.valid()) graph_->request(outputs_.inScattered.radiance);
     if (purpose != Purpose::picture) {

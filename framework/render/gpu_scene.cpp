@@ -275,7 +275,8 @@ void GpuScene::draw(gl::Command& command, const gl::PassContext& context, const 
     const auto [fieldFirst, fieldCount] = runOf(heightFieldGroup_, set);
     if (fieldCount == 0 || !geometry.heightFields.valid()) return;
     glVertexArrayVertexBuffer(heightFieldVertexArray_.id(), 0,
-                              context.buffer(geometry.heightFields).id(), 0, sizeof(VertexData));
+                              context.buffer(geometry.heightFields, gl::Use::vertices).id(), 0,
+                              sizeof(VertexData));
     command.drawIndexedIndirect(heightFieldVertexArray_.id(), list, firstCommand + fieldFirst,
                                 fieldCount);
 }
@@ -288,7 +289,7 @@ void GpuScene::drawOne(gl::Command& command, const gl::PassContext& context,
     const bool isHeightField = index >= heightFieldGroup_.kindBegin[0];
     if (isHeightField) {
         glVertexArrayVertexBuffer(heightFieldVertexArray_.id(), 0,
-                                  context.buffer(geometry.heightFields).id(), 0,
+                                  context.buffer(geometry.heightFields, gl::Use::vertices).id(), 0,
                                   sizeof(VertexData));
     }
     command.drawIndexedIndirect(

@@ -225,6 +225,7 @@ json makeReport(const RunRecord& record, const Renderer& renderer, const gl::Dev
          {{"renderer", device.renderer},
           {"vendor", device.vendor},
           {"gl", device.version},
+          {"gl_debug", device.debugs},
           {"cpu", processorName()},
           {"threads", std::thread::hardware_concurrency()}}},
         {"scene",

@@ -76,6 +76,20 @@ glm::dmat4 placeInWorld(const Placement& placement, const Scene& scene, const Ob
     return glm::translate(glm::dmat4(1.0), placement.position - anchor) * matrix;
 }
 
+// What to do about a mesh that is not there: those of the papers are fetched by a command.
+std::string howToGet(const std::string& mesh) {
+    const auto fetch = [](const char* option) {
+        return fmt::format("run experiments/fetch_meshes.sh{} to get it.", option);
+    };
+    if (mesh.starts_with("dragon_vrip")) return fetch(" --dragons");
+    if (mesh == "teapot.obj") return fetch(" --teapot");
+    for (const char* fetched : {"bunny.obj", "horse.3ds", "cat.3ds", "asteroid-high.3ds"}) {
+        if (mesh == fetched) return fetch("");
+    }
+    return "put it there, or name its folder in KAUSTIK_MESHES (experiments/fetch_meshes.sh gets "
+           "the papers' meshes).";
+}
+
 fs::path findMesh(TableReader& reader) {
     const fs::path name = reader.text("mesh");
     std::vector<fs::path> folders{reader.file().parent_path(), projectRoot() / "meshes"};
@@ -90,9 +104,9 @@ fs::path findMesh(TableReader& reader) {
         searched.push_back(folder.empty() ? "." : folder.string());
         if (name.is_absolute()) searched = {"/"};
     }
-    throw IoError(fmt::format(
-        "{}: {}: mesh '{}' was not found in {}; run experiments/fetch_meshes.sh to get it.",
-        reader.place("mesh"), reader.subject(), name.string(), joinNames(searched)));
+    throw IoError(fmt::format("{}: {}: mesh '{}' was not found in {}; {}", reader.place("mesh"),
+                              reader.subject(), name.string(), joinNames(searched),
+                              howToGet(name.string())));
 }
 
 // The index of the mesh in the scene; a file that another object uses is read once.

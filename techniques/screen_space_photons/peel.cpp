@@ -156,7 +156,8 @@ LayeredDepth peel(FrameBuilder& frame, Geometry geometry, const LayersRequest& r
                         command.target(data.layers.surface, layer).clear();
                         command.depth(data.depth, gl::DepthTest::nearer).clear({1, 0, 0, 0});
                         inputs.gpuScene.draw(command, context, data.geometry, inputs.instances,
-                                             request.set, &context.buffer(data.commands),
+                                             request.set,
+                                             &context.buffer(data.commands, gl::Use::drawCommands),
                                              static_cast<std::size_t>(layer) * commandCount);
                     }
                 })

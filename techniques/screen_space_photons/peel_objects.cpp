@@ -115,10 +115,10 @@ LayeredDepth peelObjects(FrameBuilder& frame, const params::NoParams&, Geometry 
                             command.target(data.objectDepth, layer % 2).clear();
                             command.target(data.objectSurface).clear();
                             command.depth(data.depth, gl::DepthTest::nearer).clear({1, 0, 0, 0});
-                            inputs.gpuScene.drawOne(command, context, data.geometry,
-                                                    inputs.instances, object,
-                                                    &context.buffer(data.commands),
-                                                    static_cast<std::size_t>(layer) * commandCount);
+                            inputs.gpuScene.drawOne(
+                                command, context, data.geometry, inputs.instances, object,
+                                &context.buffer(data.commands, gl::Use::drawCommands),
+                                static_cast<std::size_t>(layer) * commandCount);
                             context.compute("screen_space_photons/merge_layer.comp")
                                 .texture("objectDepths", data.objectDepth)
                                 .texture("objectSurface", data.objectSurface)

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Requests that make no sense: each gets one message that says what is wrong, where, and what to do
 // instead, and leaves nothing behind.
+#include <map>
+#include <sstream>
+
+#include "framework/core/files.h"
 #include "tests/cli/fixture.h"
 
 namespace kaustik::test {
@@ -191,7 +195,38 @@ class BadMesh : public CommandLine {
 
 TEST_F(BadMesh, ThatIsMissingIsNamedWithTheLineAndHowToGetIt) {
     expectFailure(run({"run", "scene.toml"}), 1,
-                  {"scene.toml:8:", "'thing.obj'", "experiments/fetch_meshes.sh"});
+                  {"scene.toml:8:", "'thing.obj'", "put it there", "experiments/fetch_meshes.sh"});
+}
+
+// The option of experiments/fetch_meshes.sh that gets each of the meshes in its lists.
+std::map<std::string, std::string> fetchedMeshes() {
+    const std::string script = readFile(projectRoot() / "experiments/fetch_meshes.sh");
+    std::map<std::string, std::string> options;
+    for (const auto& [list, option] : {std::pair<std::string, std::string>("GLMARK2_MESHES=(", ""),
+                                       {"DRAGON_MESHES=(", " --dragons"},
+                                       {"TEAPOT_MESHES=(", " --teapot"}}) {
+        const std::size_t begin = script.find(list) + list.size();
+        std::istringstream names(script.substr(begin, script.find(')', begin) - begin));
+        for (std::string name; names >> name;)
+            options[name] = option;
+    }
+    return options;
+}
+
+TEST_F(BadMesh, OfThePapersThatIsMissingIsAnsweredWithTheCommandThatFetchesIt) {
+    const std::map<std::string, std::string> meshes = fetchedMeshes();
+    EXPECT_EQ(meshes.at("dragon_vrip_res2.ply.gz"), " --dragons");
+    Conditions conditions;
+    // A project without meshes, whatever this machine has.
+    conditions.environment["KAUSTIK_ROOT"] = (folder / "").string();
+    for (const auto& [name, option] : meshes) {
+        std::string scene = kSceneWithMesh;
+        scene.replace(scene.find("thing.obj"), std::string("thing.obj").size(), name);
+        static_cast<void>(folder.file("scene.toml", scene));
+        expectFailure(
+            run({"run", "scene.toml"}, conditions), 1,
+            {"'" + name + "'", "run experiments/fetch_meshes.sh" + option + " to get it."});
+    }
 }
 
 TEST_F(BadMesh, ThatIsCutOffInALineIsNamedWithItsLine) {

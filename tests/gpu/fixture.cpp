@@ -18,7 +18,7 @@ numerics::FrameRequest request(int width, int height, const Settings& settings,
 }  // namespace
 
 gl::Context& context() {
-    static const std::unique_ptr<gl::Context> instance = gl::Context::createHeadless();
+    static const std::unique_ptr<gl::Context> instance = gl::Context::createHeadless(true);
     return *instance;
 }
 

@@ -1,100 +1,60 @@
 // SPDX-License-Identifier: MIT
-// A technique from outside framework/ and techniques/: one node with parameters and a shader of its
-// own, one registration line each. It is listed, takes --set, runs and is timed like the others.
+// The README's example technique, compiled and run as it stands there: from outside framework/ and
+// techniques/, with shaders of its own. It is listed, takes --set, runs and is timed like the
+// others, and what it deposits is right.
 #include <gtest/gtest.h>
 
-#include <filesystem>
+#include <cmath>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "framework/app/commands.h"
 #include "framework/core/files.h"
-#include "framework/pipeline/frame_builder.h"
+#include "framework/numerics/frame.h"
+#include "framework/scene/scene_file.h"
+#include "readme_example/techniques/my_family/points.cpp"
 #include "techniques/register_all.h"
+#include "tests/gpu/app/command_line.h"
+#include "tests/gpu/fixture.h"
+#include "tests/unit/temporary_folder.h"
 
 namespace kaustik::test {
 namespace {
 
-struct PointsParams {
-    float gain = 1.0f;
-    template <class R>
-    void reflect(R& r) {
-        r.field(gain, "gain", "Factor on the flux", "", params::range(0.0f, 10.0f));
-    }
-};
-
-IrradianceMap splatPoints(FrameBuilder& frame, const PointsParams& params, Hits hits,
-                          EyeBuffer eye) {
-    struct Data {
-        IrradianceMap map;
-        Hits hits;
-        EyeBuffer eye;
-    };
-    return frame
-        .pass<Data>(
-            "reconstruct.points", "a test",
-            [&](graph::PassSetup& setup, Data& data) {
-                data.hits = hits;
-                data.eye = eye;
-                setup.read(hits.position);
-                setup.read(hits.flux);
-                setup.read(eye.receiver);
-                data.map.irradiance = setup.create<IrradianceTexel>("caustic.irradiance",
-                                                                    frame.width(), frame.height());
-                data.map.ledger = setup.read(hits.incoming.ledger);
-            },
-            [&inputs = frame.inputs(), params](const Data& data, gl::PassContext& context) {
-                context.texture(data.map.irradiance).clear({0, 0, 0, 0});
-                gl::Command command = context.compute("tests/gpu/shaders/flat_splat.comp");
-                inputs.bindView(command);
-                inputs.bindLedger(command, data.map.ledger)
-                    .params("reconstruct.points", params)
-                    .texture("receiver", data.eye.receiver)
-                    .texture("hitPosition", data.hits.position)
-                    .texture("hitFlux", data.hits.flux)
-                    .image("irradiance", data.map.irradiance)
-                    .dispatchOver(data.hits.incoming.count(), 64);
-            })
-        .map;
-}
-
 Registry registryWithPoints() {
     Registry registry = registerAll();
-    registry.node<ReconstructStage>("points", {"One pixel a photon.", "a test"}, &splatPoints);
-    registry.technique({"points", "Photons as points.", "a test", {{"reconstruct", "points"}}, {}});
+#include "readme_example/techniques/register_all.cpp"
     return registry;
 }
 
-// Runs a command line in this process; gives the exit code and standard output.
-std::pair<int, std::string> commandLine(std::vector<const char*> arguments) {
-    arguments.insert(arguments.begin(), "kaustik");
-    testing::internal::CaptureStdout();
-    const Registry registry = registryWithPoints();
-    const int code =
-        app::runCommandLine(static_cast<int>(arguments.size()), arguments.data(), registry);
-    return {code, testing::internal::GetCapturedStdout()};
-}
+class OwnTechnique : public testing::Test {
+  protected:
+    OwnTechnique() { ::setenv("KAUSTIK_SHADERS", KAUSTIK_README_EXAMPLE "/shaders", 1); }
+    ~OwnTechnique() override { ::unsetenv("KAUSTIK_SHADERS"); }
+    [[nodiscard]] CommandResult command(const std::vector<const char*>& arguments) const {
+        return runCommandLine(registry, arguments);
+    }
+    Registry registry = registryWithPoints();
+};
 
-TEST(OwnTechnique, IsListedWithItsNodeAndParameters) {
-    const auto [code, techniques] = commandLine({"list", "techniques"});
-    EXPECT_EQ(code, 0);
-    EXPECT_NE(techniques.find("points"), std::string::npos);
-    EXPECT_NE(commandLine({"list", "nodes"}).second.find("reconstruct.points"), std::string::npos);
-    const std::string params = commandLine({"list", "params", "--technique", "points"}).second;
+TEST_F(OwnTechnique, IsListedWithItsNodeAndParameters) {
+    const CommandResult techniques = command({"list", "techniques"});
+    EXPECT_EQ(techniques.exitCode, 0);
+    EXPECT_NE(techniques.out.find("points"), std::string::npos);
+    EXPECT_NE(command({"list", "nodes"}).out.find("reconstruct.points"), std::string::npos);
+    const std::string params = command({"list", "params", "--technique", "points"}).out;
     EXPECT_NE(params.find("reconstruct.points.gain = 1"), std::string::npos);
     EXPECT_EQ(params.find("reconstruct.sprites"), std::string::npos);
 }
 
-TEST(OwnTechnique, TakesSettingsAndIsTimed) {
-    const std::filesystem::path out =
-        std::filesystem::temp_directory_path() / "kaustik-own-technique";
-    const std::string folder = out.string();
+TEST_F(OwnTechnique, TakesSettingsAndIsTimed) {
+    const TemporaryFolder folder;
+    const std::string out = (folder / "out").string();
     const auto run = [&](const char* gain) {
-        EXPECT_EQ(
-            commandLine({"run", "flat-water", "--technique", "points", "--size", "64x48", "--set",
-                         "photons=32x32", "--set", gain, "--frames", "2", "--out", folder.c_str()})
-                .first,
-            0);
-        return nlohmann::json::parse(readFile(out / "report.json"));
+        const CommandResult result =
+            command({"run", "flat-water", "--technique", "points", "--size", "64x48", "--set",
+                     "photons=32x32", "--set", gain, "--frames", "2", "--out", out.c_str()});
+        EXPECT_EQ(result.exitCode, 0) << result.err;
+        return nlohmann::json::parse(readFile(folder / "out/report.json"));
     };
     const nlohmann::json report = run("points.gain=0.5");
     EXPECT_EQ(report.at("technique"), "points");
@@ -111,15 +71,27 @@ TEST(OwnTechnique, TakesSettingsAndIsTimed) {
     const double whole = run("points.gain=1").at("energy").at("deposited_w").get<double>();
     EXPECT_GT(half, 0.0);
     EXPECT_NEAR(whole / half, 2.0, 1e-4);
-    std::filesystem::remove_all(out);
 }
 
-TEST(OwnTechnique, RefusesWhatItsParameterDoesNotAllow) {
-    testing::internal::CaptureStderr();
-    EXPECT_EQ(commandLine({"run", "flat-water", "--technique", "points", "--set", "gain=11"}).first,
-              2);
-    EXPECT_NE(testing::internal::GetCapturedStderr().find("reconstruct.points.gain"),
-              std::string::npos);
+TEST_F(OwnTechnique, RefusesWhatItsParameterDoesNotAllow) {
+    const CommandResult result =
+        command({"run", "flat-water", "--technique", "points", "--set", "gain=11"});
+    EXPECT_EQ(result.exitCode, 2);
+    EXPECT_NE(result.err.find("reconstruct.points.gain"), std::string::npos);
+}
+
+TEST_F(OwnTechnique, AddsPhotonsOfOnePixelUpInMemoryThatItHasCleared) {
+    // Dozens of photons for each pixel. Memory starts as NaN.
+    const scene::Scene scene = scene::loadScene("flat-water");
+    numerics::FrameRequest request{16, 12, {{"emit.photons", "64x64"}}, {}, false, true};
+    const numerics::Frame frame(context(), registry, scene, registry.findTechnique("points"),
+                                request);
+    EXPECT_EQ(frame.countNotFinite("caustic.irradiance"), 0u);
+    const EnergyLedger ledger = frame.renderer().ledger();
+    const double arrived = ledger.watts[transport::kAccountArrived];
+    EXPECT_GT(arrived, 0.0);
+    // A pixel is a sum of at most 64² floats, each rounded to half a unit in the last place.
+    EXPECT_NEAR(ledger.watts[transport::kAccountDeposited], arrived, 4096.0 * 0x1p-24 * arrived);
 }
 
 }  // namespace

@@ -131,11 +131,82 @@ TEST(ParamSet, WritesFullNamesAndNumbersThatReadBackAsTheSameFloat) {
 
 TEST(ParamSet, ATechniquesDefaultIsNotCountedAsTheUsers) {
     ParamSet set = makeSet();
-    set.setDefault("trace", "march");
+    set.setDefault("trace", "march", "a test");
     EXPECT_EQ(set.choice("trace"), "march");
     EXPECT_FALSE(set.isSetByUser("trace"));
     set.setAssignment("trace=lines", "--set");
     EXPECT_TRUE(set.isSetByUser("trace"));
+}
+
+// What a technique's author can get wrong about parameters is an error with names, in every build.
+template <class Action>
+std::string errorOf(Action action) {
+    try {
+        action();
+    } catch (const ConfigError& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+TEST(ParamSet, AMistypedScopeIsAnsweredWithTheNearest) {
+    const ParamSet set = makeSet();
+    EXPECT_EQ(errorOf([&] { static_cast<void>(set.get<LinesParams>("trace.lins")); }),
+              "No node or stage has declared the parameters 'trace.lins'; did you mean "
+              "'trace.lines'?");
+    EXPECT_NE(errorOf([&] { static_cast<void>(set.get<LinesParams>("")); }).find("''"),
+              std::string::npos);
+    EXPECT_NE(errorOf([&] { static_cast<void>(set.choice("trase")); }).find("mean 'trace'?"),
+              std::string::npos);
+}
+
+TEST(ParamSet, AScopeAskedForAsAnotherStructNamesBoth) {
+    const ParamSet set = makeSet();
+    const std::string message =
+        errorOf([&] { static_cast<void>(set.get<TraceParams>("trace.lines")); });
+    for (const char* part : {"'trace.lines'", "LinesParams", "TraceParams"})
+        EXPECT_NE(message.find(part), std::string::npos) << message;
+}
+
+struct TwiceParams {
+    int one = 1;
+    int two = 2;
+    template <class R>
+    void reflect(R& r) {
+        r.field(one, "size", "A size", "", range(1, 9));
+        r.field(two, "size", "The same name", "", range(1, 9));
+    }
+};
+
+TEST(ParamSet, AParameterThatIsDeclaredTwiceIsNamed) {
+    ParamSet set = makeSet();
+    EXPECT_EQ(errorOf([&] { set.declare<LinesParams>("trace.lines"); }),
+              "The parameters 'trace.lines' are declared twice.");
+    EXPECT_EQ(errorOf([&] { set.declare<TwiceParams>("emit.twice"); }),
+              "The parameter 'emit.twice.size' is declared twice.");
+}
+
+struct NamelessParams {
+    Kernel kernel = Kernel::gaussian;
+    template <class R>
+    void reflect(R& r) {
+        r.choice(kernel, "kernel", "Shape of the splat", {"linear"});
+    }
+};
+
+TEST(ParamSet, AChoiceWhoseDefaultHasNoNameIsNamed) {
+    ParamSet set;
+    EXPECT_NE(errorOf([&] { set.declare<NamelessParams>("splat"); }).find("'kernel'"),
+              std::string::npos);
+}
+
+TEST(ParamSet, ATechniquesMistypedDefaultNamesTheTechnique) {
+    ParamSet set = makeSet();
+    const std::string message =
+        errorOf([&] { set.setDefault("trace", "marhc", "technique 'mine'"); });
+    EXPECT_NE(message.find("technique 'mine': trace cannot be 'marhc'; did you mean 'march'?"),
+              std::string::npos)
+        << message;
 }
 
 TEST(ParamSet, ACopyHasValuesOfItsOwn) {

@@ -5,6 +5,7 @@
 
 #include <cstdlib>
 
+#include "framework/core/files.h"
 #include "tests/unit/scene/mesh_import_fixture.h"
 
 namespace kaustik::scene::test {
@@ -171,10 +172,10 @@ TEST_F(MeshImport, A3dsWhoseChunksDoNotFitIsAnError) {
     EXPECT_THAT(errorOf("a.3ds", "not a 3ds file"), HasSubstr("is no 3DS file"));
 }
 
-// The papers' own bunny, where Debian's glmark2-data is installed.
+// The papers' own bunny, which experiments/fetch_meshes.sh gets.
 TEST_F(MeshImport, TheBunnyHas69666TrianglesAndIsClosed) {
-    const std::filesystem::path bunny = "/usr/share/glmark2/models/bunny.obj";
-    if (!std::filesystem::exists(bunny)) GTEST_SKIP() << "glmark2-data is not installed";
+    const std::filesystem::path bunny = projectRoot() / "meshes/bunny.obj";
+    if (!std::filesystem::exists(bunny)) GTEST_SKIP() << bunny << " is not there";
     const ImportedMesh imported = importMeshWithWarnings(bunny);
     EXPECT_EQ(imported.mesh.triangles.size(), 69666u);
     EXPECT_TRUE(imported.mesh.closed);

@@ -260,7 +260,8 @@ TEST_F(SceneFileMistakes, AMissingMeshSaysWhereItWasSoughtAndWhatToDo) {
     ::unsetenv("KAUSTIK_MESHES");
     EXPECT_TRUE(message.starts_with((folder / "scene.toml").string() + ":8: ")) << message;
     EXPECT_NE(message.find("mesh 'no-such-mesh.obj' was not found in "), std::string::npos);
-    EXPECT_NE(message.find("run experiments/fetch_meshes.sh to get it."), std::string::npos);
+    EXPECT_NE(message.find("put it there, or name its folder in KAUSTIK_MESHES"),
+              std::string::npos);
     EXPECT_NE(message.find("rabbit"), std::string::npos);
     EXPECT_NE(message.find(folder.string() + ","), std::string::npos);
     EXPECT_NE(message.find((projectRoot() / "meshes").string()), std::string::npos);
