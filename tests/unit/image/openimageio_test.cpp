@@ -12,6 +12,7 @@
 
 #include "framework/core/error.h"
 #include "framework/image/image.h"
+#include "framework/image/openimageio_images.h"
 #include "tests/unit/temporary_folder.h"
 
 // OpenImageIO 2.4 loses the message of a PNG that cannot be opened: 31 bytes, not ours to free.
@@ -133,7 +134,8 @@ void expectWholeOrError(const std::string& bytes) {
         const std::vector<char> cut(bytes.begin(),
                                     bytes.begin() + static_cast<std::ptrdiff_t>(length));
         try {
-            const Image image = decodeImage(std::string_view(cut.data(), cut.size()), "cut");
+            const Image image =
+                decodeByOpenImageIo(std::string_view(cut.data(), cut.size()), "cut");
             EXPECT_EQ(image.values, whole.values) << "cut after byte " << length;
         } catch (const IoError& error) {
             EXPECT_THAT(error.what(), HasSubstr("cut cannot be read")) << length;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/unit/scene/gltf_import_fixture.h"
+#include "tests/unit/importers/gltf_file_fixture.h"
 
 namespace kaustik::scene::test {
 namespace {
@@ -18,7 +18,7 @@ TEST_F(GltfImport, AGlbCutOffAtAnyByteIsAnError) {
     const std::string whole = glb(tetrahedronScene(), tetrahedronBytes());
     for (std::size_t length = 0; length < whole.size(); ++length) {
         const auto path = folder_.file("cut.glb", std::string_view(whole).substr(0, length));
-        EXPECT_THAT(kaustik::test::messageOf<IoError>([&] { (void)importGltf(path); }),
+        EXPECT_THAT(kaustik::test::messageOf<IoError>([&] { (void)readGltfFile(path); }),
                     HasSubstr("cut.glb"))
             << "cut after byte " << length;
     }
@@ -29,10 +29,10 @@ TEST_F(GltfImport, ATextFileCutOffAtAnyByteIsAnError) {
     document["buffers"][0]["uri"] = "buffer.bin";
     (void)folder_.file("buffer.bin", tetrahedronBytes());
     const std::string whole = document.dump();
-    ASSERT_NO_THROW((void)importGltf(folder_.file("cut.gltf", whole)));
+    ASSERT_NO_THROW((void)readGltfFile(folder_.file("cut.gltf", whole)));
     for (std::size_t length = 0; length < whole.size(); ++length) {
         const auto path = folder_.file("cut.gltf", std::string_view(whole).substr(0, length));
-        EXPECT_THAT(kaustik::test::messageOf<IoError>([&] { (void)importGltf(path); }),
+        EXPECT_THAT(kaustik::test::messageOf<IoError>([&] { (void)readGltfFile(path); }),
                     HasSubstr("cut.gltf"))
             << "cut after byte " << length;
     }
@@ -48,7 +48,7 @@ TEST_F(GltfImport, AGlbWithAnyByteChangedIsReadOrRefused) {
         std::string damaged = whole;
         damaged[i] = kValues[i % kValues.size()];
         try {
-            (void)importGltf(folder_.file("damaged.glb", damaged));
+            (void)readGltfFile(folder_.file("damaged.glb", damaged));
         } catch (const Error& error) {
             EXPECT_THAT(error.what(), HasSubstr("damaged.glb")) << "byte " << i;
         }
@@ -128,7 +128,7 @@ TEST_F(GltfImport, AMissingOrShortBufferFileIsAnErrorThatNamesBoth) {
     document["buffers"][0]["uri"] = "buffer.bin";
     const auto path = folder_.file("a.gltf", document.dump());
     const auto message = [&] {
-        return kaustik::test::messageOf<IoError>([&] { (void)importGltf(path); });
+        return kaustik::test::messageOf<IoError>([&] { (void)readGltfFile(path); });
     };
     EXPECT_THAT(message(), AllOf(HasSubstr("a.gltf: buffers[0].uri"), HasSubstr("buffer.bin")));
     (void)folder_.file("buffer.bin", tetrahedronBytes().substr(0, 71));
@@ -147,7 +147,7 @@ TEST_F(GltfImport, NodesThatGoInACircleAreAnError) {
 TEST_F(GltfImport, JsonThatIsNestedBeyondReasonIsAnError) {
     const auto path =
         folder_.file("deep.gltf", std::string(100000, '[') + std::string(100000, ']'));
-    EXPECT_THAT(kaustik::test::messageOf<IoError>([&] { (void)importGltf(path); }),
+    EXPECT_THAT(kaustik::test::messageOf<IoError>([&] { (void)readGltfFile(path); }),
                 HasSubstr("nested"));
 }
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "framework/core/error.h"
-#include "framework/scene/mesh_import.h"
+#include "framework/importers/mesh_file.h"
 #include "tests/unit/temporary_folder.h"
 
 namespace kaustik::scene::test {
@@ -95,7 +95,7 @@ inline std::string gzip(const std::string& bytes) {
 class MeshImport : public ::testing::Test {
   protected:
     ImportedMesh import(const std::string& name, std::string_view bytes) const {
-        return importMeshWithWarnings(folder_.file(name, bytes));
+        return readMeshFile(folder_.file(name, bytes));
     }
     // The message of the IoError that the import of these bytes ends with, or "".
     std::string errorOf(const std::string& name, std::string_view bytes) const {
@@ -108,7 +108,8 @@ class MeshImport : public ::testing::Test {
         for (std::size_t length = 0; length < bytes.size(); ++length) {
             const auto path = folder_.file(name, std::string_view(bytes).substr(0, length));
             try {
-                EXPECT_EQ(importMesh(path).triangles.size(), 4u) << "cut after byte " << length;
+                EXPECT_EQ(readMeshFile(path).mesh.triangles.size(), 4u)
+                    << "cut after byte " << length;
                 EXPECT_GE(length, bytes.size() - optionalBytes);
             } catch (const IoError& error) {
                 EXPECT_NE(std::string(error.what()).find(path.string()), std::string::npos)

@@ -11,7 +11,7 @@
 #include <cstdint>
 
 #include "framework/core/error.h"
-#include "framework/scene/mesh_file_checks.h"
+#include "framework/importers/mesh_file_checks.h"
 
 namespace kaustik::scene {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "framework/scene/gltf_materials.h"
-#include "tests/unit/scene/gltf_import_fixture.h"
+#include "framework/importers/gltf_materials.h"
+#include "tests/unit/importers/gltf_file_fixture.h"
 
 namespace kaustik::scene::test {
 namespace {

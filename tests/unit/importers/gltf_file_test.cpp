@@ -6,7 +6,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "tests/unit/scene/gltf_import_fixture.h"
+#include "tests/unit/importers/gltf_file_fixture.h"
 
 namespace kaustik::scene::test {
 namespace {
@@ -162,7 +162,7 @@ Scene importSquare(const kaustik::test::TemporaryFolder& folder, int mode,
     document["buffers"][0]["byteLength"] = 48 + 2 * indices.size();
     const std::string binary =
         floatBytes({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}) + shortBytes(indices);
-    return importGltf(folder.file("square.glb", glb(document, binary)));
+    return readGltfFile(folder.file("square.glb", glb(document, binary)));
 }
 
 TEST_F(GltfImport, StripsAndFansKeepTheirWinding) {
@@ -223,7 +223,7 @@ TEST_F(GltfImport, ATextFileWithABufferBesideItOrInItIsRead) {
     Json document = tetrahedronScene();
     document["buffers"][0]["uri"] = "a%20buffer.bin";
     (void)folder_.file("a buffer.bin", tetrahedronBytes());
-    EXPECT_EQ(importGltf(folder_.file("a.gltf", document.dump())).meshes.at(0).triangles.size(),
+    EXPECT_EQ(readGltfFile(folder_.file("a.gltf", document.dump())).meshes.at(0).triangles.size(),
               4u);
     // Three vertices, without indices: 36 zero bytes but for 1.0f (0000803f) at x of the second and
     // at y of the third.
@@ -235,7 +235,7 @@ TEST_F(GltfImport, ATextFileWithABufferBesideItOrInItIsRead) {
     document["accessors"] = {
         {{"bufferView", 0}, {"componentType", 5126}, {"count", 3}, {"type", "VEC3"}}};
     document["meshes"][0]["primitives"][0].erase("indices");
-    const Scene scene = importGltf(folder_.file("b.gltf", document.dump()));
+    const Scene scene = readGltfFile(folder_.file("b.gltf", document.dump()));
     EXPECT_EQ(scene.meshes.at(0).origin, glm::dvec3(0.5, 0.5, 0.0));
 }
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "framework/core/error.h"
-#include "framework/scene/gltf_import.h"
+#include "framework/importers/gltf_file.h"
 #include "tests/unit/temporary_folder.h"
 
 namespace kaustik::scene::test {
@@ -94,7 +94,7 @@ inline std::string glb(const Json& document, const std::string& binary) {
 class GltfImport : public ::testing::Test {
   protected:
     Scene import(const Json& document, const std::string& binary = tetrahedronBytes()) const {
-        return importGltf(folder_.file("scene.glb", glb(document, binary)));
+        return readGltfFile(folder_.file("scene.glb", glb(document, binary)));
     }
     // The scene with the value at a JSON pointer changed.
     static Json changed(const std::string& pointer, const Json& value) {

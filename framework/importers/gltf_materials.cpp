@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "framework/scene/gltf_materials.h"
+#include "framework/importers/gltf_materials.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "framework/scene/triangle_soup.h"
+#include "framework/importers/triangle_soup.h"
 
 #include <fmt/format.h>
 

@@ -5,9 +5,9 @@
 
 #include <cmath>
 
+#include "framework/importers/triangle_soup.h"
 #include "framework/scene/mesh_checks.h"
-#include "framework/scene/triangle_soup.h"
-#include "tests/unit/scene/mesh_import_fixture.h"
+#include "tests/unit/importers/mesh_file_fixture.h"
 
 namespace kaustik::scene::test {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "framework/core/error.h"
-#include "framework/scene/mesh_file_checks.h"
+#include "framework/importers/mesh_file_checks.h"
 
 namespace kaustik::scene {
 namespace {

@@ -13,7 +13,7 @@
 
 #include "framework/core/error.h"
 #include "framework/core/files.h"
-#include "framework/scene/gltf_document.h"
+#include "framework/importers/gltf_document.h"
 
 namespace kaustik::scene {
 namespace {

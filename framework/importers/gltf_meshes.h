@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/scene/gltf_document.h"
+#include "framework/importers/gltf_document.h"
 #include "framework/scene/scene.h"
 
 namespace kaustik::scene {

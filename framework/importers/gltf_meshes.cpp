@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "framework/scene/gltf_meshes.h"
+#include "framework/importers/gltf_meshes.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "framework/core/error.h"
-#include "framework/scene/triangle_soup.h"
+#include "framework/importers/triangle_soup.h"
 
 namespace kaustik::scene {
 namespace {

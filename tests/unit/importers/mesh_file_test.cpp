@@ -5,7 +5,7 @@
 
 #include <cstdlib>
 
-#include "tests/unit/scene/mesh_import_fixture.h"
+#include "tests/unit/importers/mesh_file_fixture.h"
 
 namespace kaustik::scene::test {
 namespace {
@@ -61,13 +61,13 @@ TEST_F(MeshImport, A3dsIsTurnedFromZUpToYUp) {
 
 TEST_F(MeshImport, AnUnknownKindOfFileIsAWrongRequest) {
     const auto file = folder_.file("mesh.stl", "solid");
-    EXPECT_THROW((void)importMesh(file), ConfigError);
+    EXPECT_THROW((void)readMeshFile(file), ConfigError);
 }
 
 TEST_F(MeshImport, AMissingFileAndADirectoryAreErrors) {
     std::filesystem::create_directory(folder_ / "folder.obj");
-    EXPECT_THROW((void)importMesh(folder_ / "none.ply"), IoError);
-    EXPECT_THROW((void)importMesh(folder_ / "folder.obj"), IoError);
+    EXPECT_THROW((void)readMeshFile(folder_ / "none.ply"), IoError);
+    EXPECT_THROW((void)readMeshFile(folder_ / "folder.obj"), IoError);
 }
 
 TEST_F(MeshImport, AFileWithoutFacesIsAnError) {
@@ -175,7 +175,7 @@ TEST_F(MeshImport, A3dsWhoseChunksDoNotFitIsAnError) {
 TEST_F(MeshImport, TheBunnyHas69666TrianglesAndIsClosed) {
     const std::filesystem::path bunny = "/usr/share/glmark2/models/bunny.obj";
     if (!std::filesystem::exists(bunny)) GTEST_SKIP() << "glmark2-data is not installed";
-    const ImportedMesh imported = importMeshWithWarnings(bunny);
+    const ImportedMesh imported = readMeshFile(bunny);
     EXPECT_EQ(imported.mesh.triangles.size(), 69666u);
     EXPECT_TRUE(imported.mesh.closed);
     EXPECT_TRUE(imported.warnings.empty());
