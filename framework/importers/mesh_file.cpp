@@ -15,10 +15,10 @@
 #include "framework/core/error.h"
 #include "framework/core/files.h"
 #include "framework/importers/mesh_file_checks.h"
+#include "framework/importers/polygon.h"
 #include "framework/importers/triangle_soup.h"
 
 // After the project's own headers: Assimp's define macros of common names.
-#include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
 namespace kaustik::scene {
@@ -38,6 +38,9 @@ class Flattener {
   public:
     Flattener(const aiScene& scene, bool trustNormals, const std::string& name)
         : scene_(scene), trustNormals_(trustNormals), name_(name) {}
+
+    // Polygons whose triangles may overlap, after run().
+    [[nodiscard]] std::size_t crossingPolygons() const { return crossingPolygons_; }
 
     TriangleSoup run() {
         node(*scene_.mRootNode, glm::dmat4(1.0));
@@ -74,26 +77,46 @@ class Flattener {
                                                          : glm::vec2(0.0f));
         }
         for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
-            const aiFace& face = mesh.mFaces[i];
-            if (face.mNumIndices != 3) continue;  // points and lines
-            glm::uvec3 triangle(0);
-            for (unsigned corner = 0; corner < 3; ++corner) {
-                const unsigned index = face.mIndices[mirrored ? 2 - corner : corner];
-                if (index >= mesh.mNumVertices) {
-                    throw IoError(fmt::format("{}: a face uses vertex {}, but there are only {}.",
-                                              name_, index, mesh.mNumVertices));
-                }
-                triangle[static_cast<glm::length_t>(corner)] =
-                    static_cast<std::uint32_t>(first) + index;
-            }
-            soup_.triangles.push_back(triangle);
+            if (mesh.mFaces[i].mNumIndices < 3) continue;  // points and lines
+            appendPolygon(mesh.mFaces[i], mesh.mNumVertices, static_cast<std::uint32_t>(first),
+                          mirrored);
         }
+    }
+
+    void appendPolygon(const aiFace& face, unsigned vertexCount, std::uint32_t first,
+                       bool mirrored) {
+        vertices_.clear();
+        corners_.clear();
+        for (unsigned corner = 0; corner < face.mNumIndices; ++corner) {
+            const unsigned index = face.mIndices[corner];
+            if (index >= vertexCount) {
+                throw IoError(fmt::format("{}: a face uses vertex {}, but there are only {}.",
+                                          name_, index, vertexCount));
+            }
+            vertices_.push_back(first + index);
+            corners_.push_back(soup_.positions[vertices_.back()]);
+        }
+        if (vertices_.size() == 3) return appendTriangle({0, 1, 2}, mirrored);
+        const CutPolygon cut = cutPolygon(corners_);
+        if (!cut.isSimple) ++crossingPolygons_;
+        for (const glm::uvec3& triangle : cut.triangles)
+            appendTriangle(triangle, mirrored);
+    }
+
+    // `corners` of the polygon at hand.
+    void appendTriangle(const glm::uvec3& corners, bool mirrored) {
+        glm::uvec3 triangle(vertices_[corners.x], vertices_[corners.y], vertices_[corners.z]);
+        if (mirrored) std::swap(triangle.x, triangle.z);
+        soup_.triangles.push_back(triangle);
     }
 
     const aiScene& scene_;
     bool trustNormals_;
     const std::string& name_;
     TriangleSoup soup_;
+    std::vector<std::uint32_t> vertices_;  // of the polygon at hand
+    std::vector<glm::dvec3> corners_;
+    std::size_t crossingPolygons_ = 0;
 };
 
 // A polygon of n corners counts as n - 2 triangles.
@@ -150,14 +173,17 @@ MeshFileContents checkStructure(const MeshFile& file, const std::string& name) {
 
 ImportedMesh readMeshFile(const std::filesystem::path& path) {
     const std::string name = path.string();
-    const MeshFile file = openMeshFile(path);
-    const MeshFileContents contents = checkStructure(file, name);
-    if (contents.triangles == std::size_t{0}) {
+    MeshFile file = openMeshFile(path);
+    MeshFileContents contents = checkStructure(file, name);
+    if (contents.triangles == 0) {
         throw IoError(fmt::format("{}: the file has no faces, so that it makes no mesh.", name));
     }
+    if (contents.geometry) file.bytes = std::move(*contents.geometry);
     Assimp::Importer importer;
-    // Nothing but the triangulation is left to Assimp: it joins vertices within an absolute
-    // distance of 1e-5, which bends a mesh that is measured in metres but a millimetre large.
+    // Nothing after the reading is left to Assimp. It joins vertices within an absolute distance of
+    // 1e-5, which bends a mesh that is measured in metres but a millimetre large; and it cuts
+    // polygons in a time that grows with the square of their corners, and gives up the process for
+    // one without any.
     const aiScene* const scene = importer.ReadFileFromMemory(file.bytes.data(), file.bytes.size(),
                                                              0, file.extension.c_str());
     if (scene == nullptr || scene->mRootNode == nullptr) {
@@ -165,25 +191,26 @@ ImportedMesh readMeshFile(const std::filesystem::path& path) {
                                   name, importer.GetErrorString()));
     }
     const std::size_t found = countTriangles(*scene);
-    if (contents.triangles.value_or(found) != found) {
+    if (contents.triangles != found) {
         throw IoError(
             fmt::format("{} declares {} triangles, but {} can be read. Export it again, "
                         "with triangles only.",
-                        name, *contents.triangles, found));
+                        name, contents.triangles, found));
     }
-    if (importer.ApplyPostProcessing(aiProcess_Triangulate) == nullptr) {
-        throw IoError(
-            fmt::format("{} cannot be cut into triangles: {}.", name, importer.GetErrorString()));
-    }
-    const TriangleSoup soup = Flattener(*scene, contents.trustNormals, name).run();
+    Flattener flattener(*scene, contents.trustNormals, name);
+    const TriangleSoup soup = flattener.run();
     BuiltMesh built = buildMesh(soup, file.meshName, name);
 
     ImportedMesh imported{std::move(built.mesh), contents.warnings};
     if (soup.triangles.size() < found) {
         imported.warnings.push_back(
-            fmt::format("{}: {} triangles are missing, because polygons could not be cut or are "
-                        "used by no node.",
+            fmt::format("{}: {} triangles are missing, because no node of the file uses them.",
                         name, found - soup.triangles.size()));
+    }
+    if (flattener.crossingPolygons() > 0) {
+        imported.warnings.push_back(
+            fmt::format("{}: {} polygons cross themselves, so that their triangles may overlap.",
+                        name, flattener.crossingPolygons()));
     }
     if (built.degenerateCount > 0) {
         imported.warnings.push_back(fmt::format("{}: {} triangles without an area were dropped.",

@@ -13,6 +13,8 @@ namespace kaustik::scene {
 namespace {
 
 constexpr std::size_t kChunkHeaderBytes = 6;
+// Smoothing groups lie six deep; readers recurse.
+constexpr int kDeepest = 16;
 constexpr unsigned kMain = 0x4d4d;
 constexpr unsigned kEditor = 0x3d3d;
 constexpr unsigned kObject = 0x4000;
@@ -57,9 +59,12 @@ class Checker {
 
     // The chunks that fill `bytes`.
     void children(std::string_view bytes) {
+        if (++depth_ > kDeepest) {
+            fail(fmt::format("is damaged: its chunks are nested more than {} deep", kDeepest));
+        }
         while (!bytes.empty()) {
             // Some writers pad the end of a chunk.
-            if (bytes.size() < kChunkHeaderBytes) return;
+            if (bytes.size() < kChunkHeaderBytes) break;
             const unsigned kind = number16(bytes);
             const std::uint32_t length = number32(bytes.substr(2));
             if (length < kChunkHeaderBytes || length > bytes.size()) {
@@ -69,6 +74,7 @@ class Checker {
             chunk(kind, bytes.substr(kChunkHeaderBytes, length - kChunkHeaderBytes));
             bytes.remove_prefix(length);
         }
+        --depth_;
     }
 
     void chunk(unsigned kind, std::string_view bytes) {
@@ -129,6 +135,7 @@ class Checker {
     }
 
     const std::string& name_;
+    int depth_ = 0;
     unsigned vertexCount_ = 0;  // of the current mesh
     unsigned indicesUsed_ = 0;  // one more than the largest index of the current mesh
     std::size_t triangleCount_ = 0;

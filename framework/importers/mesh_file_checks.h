@@ -13,8 +13,9 @@
 namespace kaustik::scene {
 
 struct MeshFileContents {
-    // Triangles, a polygon of n corners counted as n - 2; none where the file cannot tell.
-    std::optional<std::size_t> triangles;
+    std::size_t triangles = 0;  // a polygon of n corners counted as n - 2, and so a strip
+    // What Assimp gets in place of the file: the part of it that makes triangles.
+    std::optional<std::string> geometry;
     // False where the reader invents normals that the file does not give.
     bool trustNormals = true;
     std::vector<std::string> warnings;
@@ -26,7 +27,9 @@ struct MeshFileContents {
 [[nodiscard]] MeshFileContents checkPly(std::string_view bytes, const std::string& name);
 [[nodiscard]] MeshFileContents check3ds(std::string_view bytes, const std::string& name);
 
-// The contents of a gzip file (RFC 1952). Throws IoError when it is damaged or cut off at any byte.
+// The contents of a gzip file (RFC 1952). Throws IoError when it is damaged or cut off at any byte,
+// and, before memory is taken, when it holds more than a mesh can: 2 GiB, or 64 MiB and 200 times
+// the bytes of the file.
 [[nodiscard]] std::string gunzip(std::string_view bytes, const std::string& name);
 
 }  // namespace kaustik::scene

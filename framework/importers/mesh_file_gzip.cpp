@@ -14,6 +14,13 @@ namespace {
 
 // A mesh of this size has some 50 million triangles; more is a damaged file or a bomb.
 constexpr std::size_t kLargestContents = std::size_t{2} << 30;
+// Meshes shrink to a third or, as text with many zeros, to a twentieth; a bomb to a thousandth.
+constexpr std::size_t kLargestRatio = 200;
+constexpr std::size_t kAlwaysAllowed = std::size_t{64} << 20;
+
+std::size_t largestContents(std::size_t zippedBytes) {
+    return std::clamp(zippedBytes * kLargestRatio, kAlwaysAllowed, kLargestContents);
+}
 
 class Inflater {
   public:
@@ -25,8 +32,10 @@ class Inflater {
     Inflater(const Inflater&) = delete;
     Inflater& operator=(const Inflater&) = delete;
 
-    std::string run(std::string_view bytes) {
-        std::string contents;
+    // Hands the contents on in pieces.
+    template <class Take>
+    void run(std::string_view bytes, const Take& take) {
+        if (::inflateReset(&stream_) != Z_OK) fail("out of memory");
         std::vector<char> block(std::size_t{1} << 18);
         std::size_t consumed = 0;
         bool ended = false;
@@ -43,8 +52,7 @@ class Inflater {
             const int status = ::inflate(&stream_, Z_NO_FLUSH);
             const std::size_t produced = block.size() - stream_.avail_out;
             consumed += available - stream_.avail_in;
-            contents.append(block.data(), produced);
-            if (contents.size() > kLargestContents) fail("it holds more than 2 GiB");
+            take(std::string_view(block.data(), produced));
             ended = status == Z_STREAM_END;
             // No progress: all is read and the end has not come.
             if (status == Z_BUF_ERROR) fail("it is cut off");
@@ -52,15 +60,14 @@ class Inflater {
                 fail(stream_.msg != nullptr ? stream_.msg : "it is damaged");
             }
         }
-        return contents;
     }
 
-  private:
     [[noreturn]] void fail(const std::string& reason) {
         throw IoError(fmt::format("{} is not a whole gzip file: {}. Fetch or export it again.",
                                   name_, reason));
     }
 
+  private:
     const std::string& name_;
     z_stream stream_{};
 };
@@ -68,7 +75,22 @@ class Inflater {
 }  // namespace
 
 std::string gunzip(std::string_view bytes, const std::string& name) {
-    return Inflater(name).run(bytes);
+    Inflater inflater(name);
+    // How long it is comes before any memory for it.
+    const std::size_t most = largestContents(bytes.size());
+    std::size_t length = 0;
+    inflater.run(bytes, [&](std::string_view piece) {
+        length += piece.size();
+        if (length <= most) return;
+        throw IoError(fmt::format(
+            "{}: its {} bytes hold more than {} MiB, which no mesh of that size does. Fetch or "
+            "export it again.",
+            name, bytes.size(), most >> 20));
+    });
+    std::string contents;
+    contents.reserve(length);
+    inflater.run(bytes, [&](std::string_view piece) { contents += piece; });
+    return contents;
 }
 
 }  // namespace kaustik::scene

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The structure of a PLY file (Greg Turk's polygon file format, 1.0): a header in text that
-// declares elements with their counts and properties, then their data as text or binary of either
-// byte order.
+// declares elements with their counts and properties, then their data as text, a line an element,
+// or binary of either byte order. Assimp believes the header, reads text by lines, and takes what a
+// line lacks from wherever it finds it.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <charconv>
@@ -24,6 +26,14 @@ struct ScalarType {
     std::size_t bytes;
     bool isSigned;
     bool isFloat;
+
+    // Of whole numbers.
+    [[nodiscard]] double least() const {
+        return isSigned ? -std::ldexp(1.0, static_cast<int>(8 * bytes) - 1) : 0.0;
+    }
+    [[nodiscard]] double most() const {
+        return std::ldexp(1.0, static_cast<int>(8 * bytes) - (isSigned ? 1 : 0)) - 1.0;
+    }
 };
 
 constexpr std::array kScalarTypes{
@@ -51,11 +61,8 @@ class Checker {
 
     MeshFileContents run() {
         header();
-        bool strips = false;
-        for (const Element& element : elements_) {
+        for (const Element& element : elements_)
             data(element);
-            strips = strips || (element.name == "tristrips" && element.count > 0);
-        }
         // Text whose last number may have lost digits.
         if (encoding_ == Encoding::ascii && at_ > 0 && at_ == bytes_.size() &&
             !isBlank(bytes_.back())) {
@@ -63,11 +70,11 @@ class Checker {
                 "may be cut off: no line break follows its last number. Add one if it is complete");
         }
         MeshFileContents contents;
-        // How many triangles a strip makes is up to the reader.
-        if (!strips) contents.triangles = triangleCount_;
+        contents.triangles = triangleCount_;
         if (shortFaces_ > 0) {
-            contents.warnings.push_back(fmt::format(
-                "{}: {} faces with fewer than three corners were left out.", name_, shortFaces_));
+            contents.warnings.push_back(
+                fmt::format("{}: {} faces or strips with fewer than three corners were left out.",
+                            name_, shortFaces_));
         }
         while (at_ < bytes_.size() && isBlank(bytes_[at_]))
             ++at_;
@@ -141,6 +148,17 @@ class Checker {
             }
         }
         if (!hasFormat) fail("has no format in its header");
+        checkElements();
+    }
+
+    // What has no properties takes no bytes, so that any number of it would fit into the file.
+    void checkElements() const {
+        for (const Element& element : elements_) {
+            if (element.properties.empty() && element.count > 0) {
+                fail(fmt::format("has {} elements '{}' without properties in its header",
+                                 element.count, element.name));
+            }
+        }
     }
 
     void declareElement(std::string_view line) {
@@ -162,6 +180,9 @@ class Checker {
         std::string_view type = nextWord(line);
         if (type == "list") {
             property.countType = scalarType(nextWord(line));
+            if (property.countType->isFloat) {
+                fail("has a list in its header whose length is no whole number");
+            }
             type = nextWord(line);
         }
         property.type = scalarType(type);
@@ -170,8 +191,8 @@ class Checker {
     }
 
     void data(const Element& element) {
-        if (element.properties.empty()) return;
         for (std::uint64_t i = 0; i < element.count; ++i) {
+            if (encoding_ == Encoding::ascii) beginLine(element, i);
             for (const Property& property : element.properties) {
                 if (property.countType == nullptr) {
                     const double value = scalar(*property.type, element, i);
@@ -180,7 +201,20 @@ class Checker {
                 }
                 list(property, element, i);
             }
+            if (encoding_ == Encoding::ascii && !nextWord(line_).empty()) {
+                fail(
+                    fmt::format("has more on the line of element '{}' ({}) than that element; each "
+                                "takes a line of its own",
+                                element.name, i));
+            }
         }
+    }
+
+    void beginLine(const Element& element, std::uint64_t index) {
+        if (at_ >= bytes_.size()) failCutOff(element, index);
+        const std::size_t end = std::min(bytes_.find('\n', at_), bytes_.size());
+        line_ = bytes_.substr(at_, end - at_);
+        at_ = std::min(end + 1, bytes_.size());
     }
 
     void checkVertex(const Property& property, std::uint64_t index) const {
@@ -191,22 +225,35 @@ class Checker {
 
     void list(const Property& property, const Element& element, std::uint64_t index) {
         const double count = scalar(*property.countType, element, index);
-        if (!(count >= 0.0) || count != std::floor(count)) {
+        if (count < 0.0) {
             fail(fmt::format("has an element '{}' ({}) whose list has {} entries", element.name,
                              index, count));
         }
         const bool corners = property.name == "vertex_indices" || property.name == "vertex_index";
         const bool isFace = element.name == "face" && corners;
+        const bool isStrips = element.name == "tristrips";
+        std::size_t stripCorners = 0;
+        const auto endStrip = [&] {
+            if (stripCorners == 1 || stripCorners == 2) ++shortFaces_;
+            if (stripCorners > 2) triangleCount_ += stripCorners - 2;
+            stripCorners = 0;
+        };
         for (double i = 0.0; i < count; ++i) {
             const double value = scalar(*property.type, element, index);
             // -1 ends a strip.
-            const bool endsStrip = element.name == "tristrips" && value == -1.0;
+            const bool endsStrip = isStrips && value == -1.0;
+            ++stripCorners;
+            if (endsStrip) {
+                --stripCorners;
+                endStrip();
+            }
             if (corners && !endsStrip &&
                 !(value >= 0.0 && value < static_cast<double>(vertexCount_))) {
                 fail(fmt::format("has a face {} that uses vertex {}, but there are only {}", index,
                                  value, vertexCount_));
             }
         }
+        if (isStrips && corners) endStrip();
         if (!isFace) return;
         if (count < 3.0) {
             ++shortFaces_;
@@ -217,21 +264,7 @@ class Checker {
 
     // The next number; element and index are for the message when there is none.
     double scalar(const ScalarType& type, const Element& element, std::uint64_t index) {
-        if (encoding_ == Encoding::ascii) {
-            std::string_view rest = bytes_.substr(at_);
-            std::string_view word = nextWord(rest);
-            if (word.empty()) failCutOff(element, index);
-            at_ = bytes_.size() - rest.size();
-            if (word.starts_with('+')) word.remove_prefix(1);
-            double value = 0.0;
-            const auto [end, problem] =
-                std::from_chars(word.data(), word.data() + word.size(), value);
-            if (problem == std::errc::invalid_argument || end != word.data() + word.size()) {
-                fail(fmt::format("has '{}' in place of a number in element '{}' ({})", word,
-                                 element.name, index));
-            }
-            return value;
-        }
+        if (encoding_ == Encoding::ascii) return number(type, element, index);
         if (bytes_.size() - at_ < type.bytes) failCutOff(element, index);
         std::uint64_t bits = 0;
         for (std::size_t i = 0; i < type.bytes; ++i) {
@@ -249,9 +282,36 @@ class Checker {
                              : static_cast<double>(bits);
     }
 
+    double number(const ScalarType& type, const Element& element, std::uint64_t index) {
+        std::string_view word = nextWord(line_);
+        if (word.empty()) {
+            if (at_ == bytes_.size()) failCutOff(element, index);
+            fail(fmt::format("has too few numbers on the line of element '{}' ({})", element.name,
+                             index));
+        }
+        if (word.starts_with('+')) word.remove_prefix(1);
+        double value = 0.0;
+        const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), value);
+        const bool isNumber =
+            problem != std::errc::invalid_argument && end == word.data() + word.size();
+        // 1e3 is the whole number 1 to some readers.
+        const bool isRight =
+            isNumber && (type.isFloat || word.find_first_not_of("-0123456789") == word.npos);
+        if (!isRight) {
+            fail(fmt::format("has '{}' in place of a {}number in element '{}' ({})", word,
+                             type.isFloat ? "" : "whole ", element.name, index));
+        }
+        if (!type.isFloat && !(value >= type.least() && value <= type.most())) {
+            fail(fmt::format("has '{}' in element '{}' ({}), which its type {} cannot hold", word,
+                             element.name, index, type.name));
+        }
+        return value;
+    }
+
     std::string_view bytes_;
     const std::string& name_;
     std::size_t at_ = 0;
+    std::string_view line_;  // what is left of the element's line, in text
     Encoding encoding_ = Encoding::ascii;
     std::vector<Element> elements_;
     std::uint64_t vertexCount_ = 0;
