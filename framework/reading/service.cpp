@@ -25,6 +25,17 @@ void setLimit(decltype(RLIMIT_AS) resource, rlim_t soft) {
     ::setrlimit(resource, &limit);
 }
 
+// Memory is taken in large steps and given back after the request: page by page it would cost as
+// much time as the process itself.
+void keepMemory() {
+    constexpr int kMebibyte = 1 << 20;
+    ::mallopt(M_TOP_PAD, 64 * kMebibyte);
+    ::mallopt(M_TRIM_THRESHOLD, 1024 * kMebibyte);
+    ::mallopt(M_MMAP_THRESHOLD, 32 * kMebibyte);  // the most that glibc takes
+    // An arena a thread would take 64 MiB of address space each.
+    ::mallopt(M_ARENA_MAX, 1);
+}
+
 // Each request has all of the time.
 void allowSeconds(rlim_t seconds) {
     rusage used{};
@@ -34,8 +45,6 @@ void allowSeconds(rlim_t seconds) {
 }
 
 void limitMemory([[maybe_unused]] rlim_t mebibytes) {
-    // An arena a thread would take 64 MiB of address space each.
-    ::mallopt(M_ARENA_MAX, 1);
 #ifndef __SANITIZE_ADDRESS__
     setLimit(RLIMIT_AS, mebibytes << 20);
 #endif
@@ -57,6 +66,7 @@ int serve(int argc, const char* const* argv,
         return kExitNotByHand;
     }
     setLimit(RLIMIT_CORE, 0);
+    keepMemory();
     limitMemory(std::strtoull(argv[2], nullptr, 10));
     const rlim_t seconds = std::strtoull(argv[1], nullptr, 10);
     Channel channel(STDIN_FILENO);
