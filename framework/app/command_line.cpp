@@ -4,9 +4,11 @@
 
 #include <CLI/CLI.hpp>
 #include <cerrno>
+#include <charconv>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <limits>
 #include <new>
 #include <system_error>
 
@@ -37,6 +39,17 @@ void addSceneOptions(CLI::App& command, SceneOptions& options) {
     command.add_option("--time", options.time, "Time of the animation in seconds");
     command.add_flag("--gl-debug", options.glDebug,
                      "Has OpenGL check every pass, which takes time; an error then names its pass");
+}
+
+// CLI11 takes a whole number beyond 64 bits for the largest that there is.
+std::string beyondWholeNumbers(const std::string& text) {
+    long long number = 0;
+    const char* const first = text.data() + (text.starts_with('+') ? 1 : 0);
+    const auto [end, problem] = std::from_chars(first, text.data() + text.size(), number);
+    if (problem != std::errc::result_out_of_range) return "";  // else it is told as no number
+    return fmt::format("{} is not a whole number from {} to {}", text,
+                       std::numeric_limits<long long>::min(),
+                       std::numeric_limits<long long>::max());
 }
 
 std::string unknown(const char* what, const std::string& word,
@@ -121,7 +134,9 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry, 
     addSceneOptions(*runApp, run.scene);
     runApp->add_option("--frames", run.frames, "Frames that are timed")->capture_default_str();
     runApp->add_option("--warmup", run.warmup, "Frames before them")->capture_default_str();
-    runApp->add_option("--seed", run.seed, "Seed of everything random")->capture_default_str();
+    runApp->add_option("--seed", run.seed, "Seed of everything random")
+        ->check(beyondWholeNumbers)
+        ->capture_default_str();
     runApp->add_flag("--precise", run.precise,
                      "Times each pass with the device finished around it (software rasterisers)");
     runApp
@@ -132,6 +147,7 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry, 
     runApp
         ->add_option("--reference-photons", run.referencePhotons,
                      "Photons that the reference of auto has at least")
+        ->check(beyondWholeNumbers)
         ->capture_default_str();
     runApp->add_option("--save", run.saved, "A resource to save, by a name from 'explain'")
         ->take_all()
@@ -158,7 +174,8 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry, 
     referenceApp
         ->add_option("scene", reference.scene, "A name from 'list scenes', a .toml, .gltf or .glb")
         ->required();
-    referenceApp->add_option("--photons", reference.photons, "Stops at this number of photons");
+    referenceApp->add_option("--photons", reference.photons, "Stops at this number of photons")
+        ->check(beyondWholeNumbers);
     referenceApp->add_option("--seconds", reference.seconds, "Stops after this time");
     referenceApp->add_option("--error", reference.standardError,
                              "Stops at this standard error, as a share of a lit pixel's mean");
@@ -168,6 +185,7 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry, 
         ->capture_default_str();
     referenceApp->add_option("--time", reference.time, "Time of the animation in seconds");
     referenceApp->add_option("--seed", reference.seed, "Seed of everything random")
+        ->check(beyondWholeNumbers)
         ->capture_default_str();
     referenceApp->add_option("--threads", reference.threads, "Threads; 0: all; changes no value")
         ->capture_default_str();

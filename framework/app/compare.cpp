@@ -14,6 +14,7 @@
 
 #include "framework/app/commands.h"
 #include "framework/core/error.h"
+#include "framework/core/json_text.h"
 #include "framework/image/image.h"
 #include "framework/measure/color.h"
 #include "framework/measure/heat_map.h"
@@ -169,7 +170,7 @@ void compareCommand(const CompareOptions& options) {
                               {"brightest_at", scale}};
     }
     if (options.json) {
-        fmt::print("{}\n", result.dump(2));
+        fmt::print("{}\n", jsonText(result, 2));
         return;
     }
     printTable(options, pair, result.at("error"));

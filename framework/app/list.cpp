@@ -7,6 +7,7 @@
 
 #include "framework/app/commands.h"
 #include "framework/core/error.h"
+#include "framework/core/json_text.h"
 #include "framework/core/names.h"
 #include "framework/scene/scene_file.h"
 
@@ -121,7 +122,7 @@ void listCommand(const ListOptions& options, const Registry& registry) {
                                       joinNames(kinds)));
     }
     if (options.json) {
-        fmt::print("{}\n", entries.dump(2));
+        fmt::print("{}\n", jsonText(entries, 2));
     } else {
         std::size_t width = 0;
         for (const json& entry : entries)

@@ -13,6 +13,7 @@
 #include "framework/app/progress.h"
 #include "framework/core/error.h"
 #include "framework/core/files.h"
+#include "framework/core/json_text.h"
 #include "framework/numerics/lab.h"
 #include "framework/numerics/table.h"
 
@@ -59,7 +60,7 @@ void runSuite(const ExperimentOptions& options, const experiment::Spec& spec,
     }
     throwIfInterrupted();
     writeFileWhole(out / "numerics.csv", numerics::makeCsv(table));
-    writeFileWhole(out / "numerics.json", numerics::makeJson(table).dump(2) + "\n");
+    writeFileWhole(out / "numerics.json", jsonText(numerics::makeJson(table), 2) + "\n");
     writeFileWhole(out / "numerics.md", numerics::makeMarkdown(table));
     fmt::print("{}", numerics::makeText(table));
     for (const char* name : {"numerics.csv", "numerics.json", "numerics.md"})

@@ -7,7 +7,9 @@
 
 #include "framework/app/output.h"
 #include "framework/app/progress.h"
+#include "framework/core/error.h"
 #include "framework/core/files.h"
+#include "framework/core/json_text.h"
 
 namespace kaustik::app {
 namespace fs = std::filesystem;
@@ -44,19 +46,29 @@ std::vector<fs::path> finishRun(Renderer& renderer, const Truth& truth, report::
     }
 
     throwIfInterrupted();
-    std::vector<fs::path> files = writePictures(folder, renderer, saved);
-    const std::vector<fs::path> judged = truth.judge(renderer, folder, record);
-    files.insert(files.end(), judged.begin(), judged.end());
-    const std::vector<fs::path> seen = truth.judgeView(renderer, folder, record);
-    files.insert(files.end(), seen.begin(), seen.end());
-    const auto write = [&](const char* name, const std::string& text) {
-        writeFileWhole(folder / name, text);
-        files.push_back(folder / name);
-    };
-    write("trace.json", report::makeChromeTrace(record).dump());
-    write("samples.json", report::makeSamples(record).dump());
-    write("report.json", report::makeReport(record, renderer, device).dump(2) + "\n");
-    return files;
+    // A report beside the pictures of another run would be worse than none.
+    FilesTogether together(folder);
+    try {
+        const fs::path& work = together.workFolder();
+        std::vector<fs::path> files = writePictures(work, renderer, saved);
+        const std::vector<fs::path> judged = truth.judge(renderer, work, record);
+        files.insert(files.end(), judged.begin(), judged.end());
+        const std::vector<fs::path> seen = truth.judgeView(renderer, work, record);
+        files.insert(files.end(), seen.begin(), seen.end());
+        const auto write = [&](const char* name, const std::string& text) {
+            files.push_back(work / name);
+            writeFileWhole(files.back(), text);
+        };
+        write("trace.json", jsonText(report::makeChromeTrace(record)));
+        write("samples.json", jsonText(report::makeSamples(record)));
+        write("report.json", jsonText(report::makeReport(record, renderer, device), 2) + "\n");
+        together.publish("report.json");
+        for (fs::path& file : files)
+            file = together.placeOf(file);
+        return files;
+    } catch (const IoError& error) {
+        throw IoError(together.withPlaces(error.what()));
+    }
 }
 
 }  // namespace kaustik::app

@@ -16,8 +16,8 @@ namespace kaustik::app {
 [[nodiscard]] report::RunRecord startRecord(const Renderer& renderer, gl::TimerMode timer);
 
 // Renders one more frame, which is not timed, for the ledger, the pictures, the resources `saved`
-// and the truth's judgement; completes the record and writes everything into `folder`, report.json
-// last. Gives the files. The renderer is left built for something else.
+// and the truth's judgement; completes the record and writes everything into `folder`: all of it
+// or nothing. Gives the files. The renderer is left built for something else.
 std::vector<std::filesystem::path> finishRun(Renderer& renderer, const Truth& truth,
                                              report::RunRecord& record,
                                              const std::filesystem::path& folder,

@@ -15,6 +15,7 @@
 #include <mutex>
 #include <set>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "framework/core/error.h"
@@ -108,19 +109,27 @@ void removeLeftBehind(const fs::path& folder) {
         if (isLeftBehind(entry->path().filename().string())) found.push_back(entry->path());
     }
     for (const fs::path& file : found)
-        fs::remove(file, error);
+        fs::remove_all(file, error);
 }
 
-}  // namespace
-
-void writeFileWhole(const fs::path& path, const std::function<void(const fs::path&)>& write) {
+void makeFolder(const fs::path& folder) {
     std::error_code error;
-    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
     fs::create_directories(folder, error);
     if (error) {
         throw IoError(
             fmt::format("The folder {} cannot be made: {}.", folder.string(), error.message()));
     }
+}
+
+[[noreturn]] void failToWrite(const fs::path& path, const std::string& reason) {
+    throw IoError(fmt::format("{} cannot be written: {}.", path.string(), reason));
+}
+
+}  // namespace
+
+void writeFileWhole(const fs::path& path, const std::function<void(const fs::path&)>& write) {
+    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+    makeFolder(folder);
     removeLeftBehind(folder);
     const fs::path temporary = temporaryFor(folder, path);
     struct Cleanup {
@@ -131,10 +140,9 @@ void writeFileWhole(const fs::path& path, const std::function<void(const fs::pat
         }
     } cleanup{temporary};
     write(temporary);
+    std::error_code error;
     fs::rename(temporary, path, error);
-    if (error) {
-        throw IoError(fmt::format("{} cannot be written: {}.", path.string(), error.message()));
-    }
+    if (error) failToWrite(path, error.message());
 }
 
 void writeFileWhole(const fs::path& path, std::string_view bytes) {
@@ -143,11 +151,56 @@ void writeFileWhole(const fs::path& path, std::string_view bytes) {
         std::ofstream stream(temporary, std::ios::binary);
         stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
         stream.flush();
-        if (!stream) {
-            throw IoError(
-                fmt::format("{} cannot be written: {}.", path.string(), std::strerror(errno)));
-        }
+        if (!stream) failToWrite(path, std::strerror(errno));
     });
+}
+
+FilesTogether::FilesTogether(fs::path folder)
+    : folder_(std::move(folder)), work_(temporaryFor(folder_, "files")) {
+    makeFolder(folder_);
+    removeLeftBehind(folder_);
+    std::error_code error;
+    fs::remove_all(work_, error);  // of this process, which has failed to
+    makeFolder(work_);
+}
+
+FilesTogether::~FilesTogether() {
+    std::error_code ignored;
+    fs::remove_all(work_, ignored);
+}
+
+fs::path FilesTogether::placeOf(const fs::path& file) const {
+    return folder_ / file.lexically_relative(work_);
+}
+
+std::string FilesTogether::withPlaces(std::string text) const {
+    const std::string from = work_.string();
+    const std::string to = folder_.string();
+    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at)) {
+        text.replace(at, from.size(), to);
+        at += to.size();
+    }
+    return text;
+}
+
+void FilesTogether::publish(const std::string& seal) {
+    std::vector<fs::path> files;
+    std::error_code error;
+    for (const fs::directory_entry& entry : fs::directory_iterator(work_)) {
+        if (entry.path().filename() != seal) files.push_back(entry.path());
+    }
+    files.push_back(work_ / seal);
+    // What could fail must not fail half-way.
+    for (const fs::path& file : files) {
+        if (fs::is_directory(placeOf(file), error)) {
+            failToWrite(placeOf(file), "it is a folder");
+        }
+    }
+    fs::remove(folder_ / seal, error);
+    for (const fs::path& file : files) {
+        fs::rename(file, placeOf(file), error);
+        if (error) failToWrite(placeOf(file), error.message());
+    }
 }
 
 }  // namespace kaustik

@@ -31,4 +31,29 @@ void writeFileWhole(const std::filesystem::path& path,
 // The same for bytes that are at hand.
 void writeFileWhole(const std::filesystem::path& path, std::string_view bytes);
 
+// Several files that appear together or not at all: they are written into a folder of their own,
+// hidden beside their places, and then moved. What a full disk or an error leaves unfinished is
+// removed, and the older files stay as they were.
+class FilesTogether {
+  public:
+    // Makes the hidden folder in `folder`, with missing parents. Throws IoError naming the folder.
+    explicit FilesTogether(std::filesystem::path folder);
+    ~FilesTogether();
+    FilesTogether(const FilesTogether&) = delete;
+    FilesTogether& operator=(const FilesTogether&) = delete;
+
+    // Where to write them.
+    [[nodiscard]] const std::filesystem::path& workFolder() const { return work_; }
+    // Their final names, from those in the work folder; in a text, too.
+    [[nodiscard]] std::filesystem::path placeOf(const std::filesystem::path& file) const;
+    [[nodiscard]] std::string withPlaces(std::string text) const;
+    // Moves all that is in the work folder. An older file called `seal` goes before anything else
+    // is moved and the new one comes last, so that it never stands beside files of another run.
+    void publish(const std::string& seal);
+
+  private:
+    std::filesystem::path folder_;
+    std::filesystem::path work_;
+};
+
 }  // namespace kaustik

@@ -16,6 +16,7 @@
 
 #include "framework/core/error.h"
 #include "framework/core/files.h"
+#include "framework/core/json_text.h"
 
 namespace kaustik::experiment {
 namespace {
@@ -109,7 +110,7 @@ void sealRun(const fs::path& folder, const PlannedRun& run, int repeat, double w
                          {"finished", fmt::format("{:%FT%TZ}", fmt::gmtime(std::time(nullptr)))},
                          {"wall_s", wallSeconds},
                          {"files", manifestOf(folder)}};
-    writeFileWhole(folder / kRecord, record.dump(2) + "\n");
+    writeFileWhole(folder / kRecord, jsonText(record, 2) + "\n");
 }
 
 void putInPlace(const fs::path& fresh, const fs::path& folder) {

@@ -16,6 +16,7 @@
 
 #include "framework/core/error.h"
 #include "framework/core/files.h"
+#include "framework/core/json_text.h"
 #include "framework/experiment/process.h"
 #include "framework/experiment/run_folder.h"
 #include "framework/experiment/table.h"
@@ -106,7 +107,7 @@ class Runner {
                 tasks_.push_back({&run, repeat, {}, {}});
         }
         summary_.planned = static_cast<int>(tasks_.size());
-        writeFileWhole(options_.out / "experiment.json", describe(plan).dump(2) + "\n");
+        writeFileWhole(options_.out / "experiment.json", jsonText(describe(plan), 2) + "\n");
     }
 
     RunnerSummary run() {
@@ -203,7 +204,7 @@ class Runner {
                               {"exit_code", exitCode},
                               {"message", problem},
                               {"settings", task.run->settings}};
-        writeFileWhole(failureOf(task), failure.dump(2) + "\n");
+        writeFileWhole(failureOf(task), jsonText(failure, 2) + "\n");
         task.row = identityColumns(*task.run, task.repeat, problem);
         ++summary_.failed;
         if (summary_.firstFailure.empty()) summary_.firstFailure = problem;
@@ -244,7 +245,7 @@ class Runner {
             if (!task->samples.is_null()) runs.push_back(task->samples);
         }
         const json all = {{"schema", "kaustik.experiment-samples/1"}, {"runs", std::move(runs)}};
-        writeFileWhole(options_.out / "samples.json", all.dump() + "\n");
+        writeFileWhole(options_.out / "samples.json", jsonText(all) + "\n");
     }
 
     const RunnerOptions& options_;

@@ -2,7 +2,6 @@
 #include "framework/experiment/spec.h"
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <cctype>
@@ -10,7 +9,6 @@
 #include <tuple>
 
 #include "framework/core/error.h"
-#include "framework/core/files.h"
 #include "framework/experiment/value_range.h"
 #include "framework/scene/table_reader.h"
 
@@ -19,19 +17,18 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using scene::TomlNode;
+using scene::TomlTable;
 
-toml::table parse(const fs::path& file) {
-    const std::string text = readFile(file);
+TomlNode parse(const fs::path& file) {
     try {
-        return toml::parse(text, file.string());
-    } catch (const toml::parse_error& error) {
-        const std::string what(error.description());
+        return scene::readToml(file);
+    } catch (const ConfigError& error) {
+        const std::string what = error.what();
         // TOML has no table and value of one name: trace = "lines" beside trace.epsilon.
         const bool isBoth = what.find("redefine") != std::string::npos;
         throw ConfigError(
-            fmt::format("{}:{}: This is not valid TOML: {}.{}", file.string(),
-                        unsigned(error.source().begin.line), what,
-                        isBoth ? " Write dotted names in quotes: \"trace.epsilon\" = 0.01." : ""));
+            what + (isBoth ? " Write dotted names in quotes: \"trace.epsilon\" = 0.01." : ""));
     }
 }
 
@@ -40,82 +37,81 @@ class Reader {
   public:
     explicit Reader(const fs::path& file) : file_(file) {}
 
-    [[nodiscard]] std::vector<Setting> settings(const toml::table& table) const {
+    [[nodiscard]] std::vector<Setting> settings(const TomlNode& table) const {
         std::vector<Setting> settings;
-        visit(table, "", true, [&](const std::string& key, const toml::node& node) {
+        visit(table, "", true, [&](const std::string& key, const TomlNode& node) {
             settings.push_back({key, value(key, node), place(node)});
         });
         return settings;
     }
 
-    [[nodiscard]] Product product(const toml::table& table) const {
+    [[nodiscard]] Product product(const TomlNode& table) const {
         Product product;
-        visit(table, "", false, [&](const std::string& key, const toml::node& node) {
+        visit(table, "", false, [&](const std::string& key, const TomlNode& node) {
             product.push_back({key, values(key, node), place(node)});
         });
         return product;
     }
 
   private:
-    using Visitor = std::function<void(const std::string& key, const toml::node& node)>;
+    using Visitor = std::function<void(const std::string& key, const TomlNode& node)>;
 
-    [[nodiscard]] std::string place(const toml::node& node) const {
-        return fmt::format("{}:{}", file_.string(), unsigned(node.source().begin.line));
+    [[nodiscard]] std::string place(const TomlNode& node) const {
+        return fmt::format("{}:{}", file_.string(), node.line);
     }
 
-    [[noreturn]] void fail(const toml::node& node, const std::string& message) const {
+    [[noreturn]] void fail(const TomlNode& node, const std::string& message) const {
         throw ConfigError(fmt::format("{}: {}.", place(node), message));
     }
 
     // The leaves by dotted name, in the order of the file.
-    void visit(const toml::table& table, const std::string& prefix, bool entersInline,
+    void visit(const TomlNode& table, const std::string& prefix, bool entersInline,
                const Visitor& visitor) const {
-        std::vector<std::pair<std::string, const toml::node*>> entries;
-        for (const auto& [key, node] : table)
-            entries.emplace_back(prefix + std::string(key.str()), &node);
+        std::vector<std::pair<std::string, const TomlNode*>> entries;
+        for (const auto& [key, node] : table.entries())
+            entries.emplace_back(prefix + key, &node);
         std::sort(entries.begin(), entries.end(), [](const auto& a, const auto& b) {
-            const toml::source_position& left = a.second->source().begin;
-            const toml::source_position& right = b.second->source().begin;
-            return std::tie(left.line, left.column) < std::tie(right.line, right.column);
+            return std::tie(a.second->line, a.second->column) <
+                   std::tie(b.second->line, b.second->column);
         });
         for (const auto& [name, node] : entries) {
-            const toml::table* inner = node->as_table();
-            if (inner != nullptr && (entersInline || !inner->is_inline())) {
-                visit(*inner, name + ".", entersInline, visitor);
+            const TomlTable* inner = node->as<TomlTable>();
+            if (inner != nullptr && (entersInline || !inner->isInline)) {
+                visit(*node, name + ".", entersInline, visitor);
             } else {
                 visitor(name, *node);
             }
         }
     }
 
-    [[nodiscard]] json value(const std::string& key, const toml::node& node) const {
-        if (const auto* text = node.as_string()) return text->get();
-        if (const auto* integer = node.as_integer()) return integer->get();
-        if (const auto* number = node.as_floating_point()) return number->get();
-        if (const auto* flag = node.as_boolean()) return flag->get();
-        const toml::array* list = node.as_array();
+    [[nodiscard]] json value(const std::string& key, const TomlNode& node) const {
+        if (const auto* text = node.as<std::string>()) return *text;
+        if (const auto* integer = node.as<std::int64_t>()) return *integer;
+        if (const auto* number = node.as<double>()) return *number;
+        if (const auto* flag = node.as<bool>()) return *flag;
+        const std::vector<TomlNode>* list = node.list();
         if (list == nullptr) {
             fail(node, fmt::format("{} must be text, a number, true or false", key));
         }
         json texts = json::array();
-        for (const toml::node& element : *list) {
-            if (!element.is_string()) {
+        for (const TomlNode& element : *list) {
+            const auto* text = element.as<std::string>();
+            if (text == nullptr) {
                 fail(element, fmt::format("{} cannot be a list; only disable can, of texts", key));
             }
-            texts.push_back(element.as_string()->get());
+            texts.push_back(*text);
         }
         return texts;
     }
 
-    [[nodiscard]] std::vector<Setting> values(const std::string& key,
-                                              const toml::node& node) const {
+    [[nodiscard]] std::vector<Setting> values(const std::string& key, const TomlNode& node) const {
         std::vector<Setting> values;
-        if (const toml::table* range = node.as_table()) {
-            for (json& number : readRange(*range, key, file_))
+        if (node.as<TomlTable>() != nullptr) {
+            for (json& number : readRange(node, key, file_))
                 values.push_back({key, std::move(number), place(node)});
             return values;
         }
-        const toml::array* list = node.as_array();
+        const std::vector<TomlNode>* list = node.list();
         if (list == nullptr) {
             fail(node, fmt::format("permute: {} must be a list of values or a range such as "
                                    "{{from = 1, to = 8, factor = 2}}",
@@ -126,7 +122,7 @@ class Reader {
                                    "leave it out",
                                    key));
         }
-        for (const toml::node& element : *list)
+        for (const TomlNode& element : *list)
             values.push_back({key, value(key, element), place(element)});
         return values;
     }
@@ -157,7 +153,7 @@ void readSuite(scene::TableReader& top, Spec& spec) {
 }  // namespace
 
 Spec readSpec(const fs::path& file) {
-    const toml::table document = parse(file);
+    const TomlNode document = parse(file);
     scene::TableReader top(document, file, "");
     Spec spec;
     spec.file = file;
@@ -169,8 +165,8 @@ Spec readSpec(const fs::path& file) {
     }
     spec.repeats = static_cast<int>(top.count("repeats", 1, kMostRepeats, 1));
     static_cast<void>(top.table("base"));
-    const toml::node* permute = document.get("permute");
-    const bool isList = permute != nullptr && permute->is_array();
+    const TomlNode* permute = document.find("permute");
+    const bool isList = permute != nullptr && permute->list() != nullptr;
     if (isList) {
         static_cast<void>(top.tables("permute"));
     } else {
@@ -180,14 +176,13 @@ Spec readSpec(const fs::path& file) {
     checkName(top, spec.name);
 
     const Reader reader(file);
-    if (const toml::table* base = document["base"].as_table()) spec.base = reader.settings(*base);
+    if (const TomlNode* base = document.find("base")) spec.base = reader.settings(*base);
     if (!isList) {
-        spec.products.push_back(permute == nullptr ? Product{}
-                                                   : reader.product(*permute->as_table()));
+        spec.products.push_back(permute == nullptr ? Product{} : reader.product(*permute));
         return spec;
     }
-    for (const toml::node& table : *permute->as_array())
-        spec.products.push_back(reader.product(*table.as_table()));
+    for (const TomlNode& table : *permute->list())
+        spec.products.push_back(reader.product(table));
     if (spec.products.empty()) top.fail("permute", "permute is an empty list");
     return spec;
 }

@@ -65,7 +65,7 @@ std::vector<double> divided(double from, double to, unsigned count) {
 
 }  // namespace
 
-std::vector<json> readRange(const toml::table& table, const std::string& key,
+std::vector<json> readRange(const scene::TomlNode& table, const std::string& key,
                             const std::filesystem::path& file) {
     TableReader reader(table, file, fmt::format("permute: {}", key));
     const double from = reader.number("from", scene::kAnyNumber);
@@ -87,8 +87,8 @@ std::vector<json> readRange(const toml::table& table, const std::string& key,
     }
 
     bool isWhole = true;
-    for (const auto& [name, node] : table)
-        isWhole = isWhole && node.is_integer();
+    for (const auto& [name, node] : table.entries())
+        isWhole = isWhole && node.as<std::int64_t>() != nullptr;
     for (double& value : values) {
         value = rounded(value);
         isWhole = isWhole && value == std::round(value);

@@ -2,12 +2,12 @@
 // {from, to, factor | step | steps} of an experiment file: a list of values, ends included.
 #pragma once
 
-#include <toml++/toml.h>
-
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
+
+#include "framework/scene/toml_node.h"
 
 namespace kaustik::experiment {
 
@@ -16,7 +16,7 @@ inline constexpr int kMostValues = 10000;
 // Whole numbers where all that is given and all that comes out are whole, else numbers rounded to
 // twelve digits, so that 0.1 + 0.2 is 0.3. `key` is for messages. Throws ConfigError "file:line: …"
 // for an unknown key, a range without values and one with more than kMostValues.
-[[nodiscard]] std::vector<nlohmann::json> readRange(const toml::table& table,
+[[nodiscard]] std::vector<nlohmann::json> readRange(const scene::TomlNode& table,
                                                     const std::string& key,
                                                     const std::filesystem::path& file);
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "framework/core/files.h"
+#include "framework/core/json_text.h"
 
 namespace kaustik::gui {
 namespace {
@@ -43,7 +44,7 @@ void ScreenMap::endFrame() {
     if (!isOn() || Clock::now() - written_ < kEvery) return;
     written_ = Clock::now();
     // Names of files may be no UTF-8.
-    writeFileWhole(file_, json_.dump(1, ' ', false, nlohmann::json::error_handler_t::replace));
+    writeFileWhole(file_, jsonText(json_, 1));
 }
 
 }  // namespace kaustik::gui

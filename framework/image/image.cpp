@@ -6,75 +6,37 @@
 #include <algorithm>
 #include <cassert>
 #include <cctype>
-#include <exception>
-#include <functional>
+#include <mutex>
 
 #include "framework/core/error.h"
 #include "framework/core/files.h"
 #include "framework/image/eight_bits.h"
 #include "framework/image/image_limits.h"
+#include "framework/image/image_wire.h"
+#include "framework/image/openimageio_images.h"
 #include "framework/image/openimageio_loader.h"
 #include "framework/image/pfm.h"
+#include "framework/reading/reader_process.h"
 
 namespace kaustik {
 namespace fs = std::filesystem;
 namespace {
 
-// Receives what the module makes; see KaustikImageSink.
-struct Received {
-    Image image;
-    std::string bytes;
-    std::string problem;
-};
-
-// No exception may cross the module's C frames, so that running out of memory is a return value
-// here.
-KaustikImageSink sinkFor(Received& received) {
-    KaustikImageSink sink{};
-    sink.context = &received;
-    sink.allocate = [](void* context, int width, int height, int channels) -> float* {
-        try {
-            Image& image = static_cast<Received*>(context)->image;
-            image = Image(width, height, channels);
-            return image.values.data();
-        } catch (const std::exception&) {
-            return nullptr;
-        }
-    };
-    sink.append = [](void* context, const unsigned char* bytes, std::size_t count) {
-        try {
-            static_cast<Received*>(context)->bytes.append(reinterpret_cast<const char*>(bytes),
-                                                          count);
-            return true;
-        } catch (const std::exception&) {
-            return false;
-        }
-    };
-    sink.fail = [](void* context, const char* message) {
-        try {
-            static_cast<Received*>(context)->problem = message;
-        } catch (const std::exception&) {
-            // The caller still learns that it failed.
-        }
-    };
-    return sink;
-}
-
-using ModuleCall = std::function<bool(const KaustikOpenImageIoFunctions&, const KaustikImageSink&)>;
-
-// Calls the module; an IoError that names the file where it is missing or fails.
-Received callOpenImageIo(const std::string& name, const char* verb, const ModuleCall& call) {
-    const OpenImageIoModule& module = openImageIo();
-    if (module.functions == nullptr) {
-        throw IoError(fmt::format("{} cannot be {}: {}.", name, verb, module.problem));
+// The process that reads the images that need OpenImageIO. It is kept, since OpenImageIO takes a
+// quarter of a second to load; images of several threads wait for one another.
+Image readElsewhere(const reading::Request& request) {
+    static std::mutex mutex;
+    static reading::ReaderProcess reader;
+    const std::lock_guard lock(mutex);
+    Image image = reader.ask<Image>(request);
+    const std::string problem = imageSizeProblem(image.width, image.height, image.channels);
+    const auto count = static_cast<std::size_t>(image.width) *
+                       static_cast<std::size_t>(image.height) *
+                       static_cast<std::size_t>(image.channels);
+    if (!problem.empty() || image.values.size() != count) {
+        throw IoError(fmt::format("{} cannot be read: it is damaged.", request.name));
     }
-    Received received;
-    const KaustikImageSink sink = sinkFor(received);
-    if (!call(*module.functions, sink)) {
-        throw IoError(fmt::format("{} cannot be {}: {}.", name, verb,
-                                  received.problem.empty() ? "out of memory" : received.problem));
-    }
-    return received;
+    return image;
 }
 
 std::string lowerCaseExtension(const fs::path& path) {
@@ -92,23 +54,8 @@ std::string encodeImage(const std::string& extension, const Image& image, const 
         }
         return extension == ".pfm" ? encodePfm(image) : encodePpm(image);
     }
-    if (extension == ".exr") {
-        return callOpenImageIo(name, "written",
-                               [&](const auto& functions, const auto& sink) {
-                                   return functions.encodeExr(image.values.data(), image.width,
-                                                              image.height, image.channels, &sink);
-                               })
-            .bytes;
-    }
-    if (extension == ".png") {
-        const std::vector<unsigned char> values = toEightBits(image);
-        return callOpenImageIo(name, "written",
-                               [&](const auto& functions, const auto& sink) {
-                                   return functions.encodePng(values.data(), image.width,
-                                                              image.height, image.channels, &sink);
-                               })
-            .bytes;
-    }
+    if (extension == ".exr") return encodeExr(image, name);
+    if (extension == ".png") return encodePng(image, toEightBits(image), name);
     throw IoError(
         fmt::format("{} cannot be written: '{}' is not a kind of image that is written "
                     "here; use .exr or .pfm (float), .png or .ppm (8 bits).",
@@ -155,23 +102,13 @@ Image readImage(const fs::path& path) {
     // Looked at first, because OpenImageIO says little about a directory or a missing file.
     std::error_code error;
     if (!fs::is_regular_file(path, error)) (void)readFile(path);
-    return callOpenImageIo(name, "read",
-                           [&](const auto& functions, const auto& sink) {
-                               return functions.readFile(path.c_str(), &sink);
-                           })
-        .image;
+    return readElsewhere({reading::RequestKind::image, name, path, ""});
 }
 
 Image decodeImage(std::string_view bytes, const std::string& name) {
     if (bytes.starts_with("PF") || bytes.starts_with("Pf")) return decodePfm(bytes, name);
     if (bytes.starts_with("P6")) return decodePpm(bytes, name);
-    return callOpenImageIo(name, "read",
-                           [&](const auto& functions, const auto& sink) {
-                               return functions.readMemory(
-                                   reinterpret_cast<const unsigned char*>(bytes.data()),
-                                   bytes.size(), &sink);
-                           })
-        .image;
+    return readElsewhere({reading::RequestKind::image, name, "", std::string(bytes)});
 }
 
 void writeImage(const fs::path& path, const Image& image) {

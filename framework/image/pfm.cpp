@@ -116,10 +116,11 @@ Image decodePfm(std::string_view bytes, const std::string& name) {
     const bool littleEndian = scale < 0.0;
     const auto factor = static_cast<float>(std::abs(scale));
 
-    Image image(static_cast<int>(width), static_cast<int>(height), channels);
-    const std::string_view pixels = header.pixels(4 * image.values.size());
     const std::size_t rowValues =
         static_cast<std::size_t>(width) * static_cast<std::size_t>(channels);
+    // Before memory is taken for them.
+    const std::string_view pixels = header.pixels(4 * rowValues * static_cast<std::size_t>(height));
+    Image image(static_cast<int>(width), static_cast<int>(height), channels);
     for (std::size_t row = 0; row < static_cast<std::size_t>(height); ++row) {
         float* const target = image.values.data() + row * rowValues;
         const char* const source =
@@ -141,8 +142,10 @@ Image decodePpm(std::string_view bytes, const std::string& name) {
     if (maximum < 1 || maximum > 65535) header.fail("its maximum is not in 1 to 65535");
     const std::size_t bytesPerValue = maximum > 255 ? 2 : 1;
 
+    const std::size_t values =
+        3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    const std::string_view pixels = header.pixels(bytesPerValue * values);
     Image image(static_cast<int>(width), static_cast<int>(height), 3);
-    const std::string_view pixels = header.pixels(bytesPerValue * image.values.size());
     for (std::size_t i = 0; i < image.values.size(); ++i) {
         std::int64_t value = 0;
         for (std::size_t byte = 0; byte < bytesPerValue; ++byte) {  // most significant first

@@ -73,8 +73,10 @@ class Run {
         // Nor will an error ever be known where no pixel is lit.
         isDone = isDone || (stop.relativeError && !stop.photons && !stop.seconds &&
                             std::isinf(relativeError_) && count >= kBatchesForALitPixel);
-        isDone = isDone || (stop.photons && sums_.photons() >= *stop.photons);
-        isDone = isDone || (stop.seconds && secondsSince(start_) >= *stop.seconds);
+        // However little was asked for: one batch has no error, and is no reference.
+        const bool hasError = count >= kBatchesForAnError;
+        isDone = isDone || (hasError && stop.photons && sums_.photons() >= *stop.photons);
+        isDone = isDone || (hasError && stop.seconds && secondsSince(start_) >= *stop.seconds);
         if (options_.progress) {
             const Progress progress{.batches = count,
                                     .batchesWanted = stop.batches.value_or(0),

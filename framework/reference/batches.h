@@ -14,8 +14,8 @@ namespace kaustik::reference {
 // When to stop; what is met first counts. At least one of them must be given.
 struct StopWhen {
     std::optional<std::uint64_t> batches;  // in all, those of earlier runs included
-    std::optional<std::uint64_t> photons;  // in all, rounded up to whole batches
-    std::optional<double> seconds;         // of this run
+    std::optional<std::uint64_t> photons;  // in all, rounded up to whole batches, two at least
+    std::optional<double> seconds;         // of this run; two batches at least
     // PixelSums::relativeStandardError of layer 0; where no pixel is lit after 64 batches it is
     // given up, unless there is another end.
     std::optional<double> relativeError;

@@ -109,6 +109,9 @@ EmbreeScene::EmbreeScene(const scene::Scene& scene, Filters filters)
         for (const scene::Object& object : scene.objects)
             addObject(object);
         attach(filters);
+        const glm::dvec3 farthest = glm::max(glm::abs(bounds_.minimum), glm::abs(bounds_.maximum));
+        roundingMeters_ = 4.0 * static_cast<double>(std::numeric_limits<float>::epsilon()) *
+                          std::max({farthest.x, farthest.y, farthest.z});
     } catch (...) {
         rtcReleaseScene(everything_);
         rtcReleaseScene(opaque_);
@@ -236,12 +239,26 @@ bool EmbreeScene::intersect(const Ray& ray, SurfaceHit& hit) const {
     context.reachMeters = static_cast<float>(ray.reachMeters);
     RTCRayHit query;
     setRay(query.ray, ray.origin, ray.direction);
+    query.ray.tnear = static_cast<float>(ray.fromMeters);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(everything_, &context.embree, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
     refine(ray.origin, ray.direction, query.hit, query.ray.tfar, hit);
     return true;
+}
+
+bool EmbreeScene::intersectFromLight(const Ray& ray, SurfaceHit& hit) const {
+    // More planes than that through one light are no accident of rounding.
+    constexpr int kMostPlanes = 16;
+    Ray onward = ray;
+    for (int plane = 0; plane < kMostPlanes; ++plane) {
+        if (!intersect(onward, hit)) return false;
+        const double height = std::abs(glm::dot(hit.position - ray.origin, hit.geometricNormal));
+        if (height > roundingMeters_) return true;
+        onward.fromMeters = hit.distance + roundingMeters_;
+    }
+    return false;
 }
 
 bool EmbreeScene::intersectStraight(const glm::dvec3& origin, const glm::dvec3& direction,

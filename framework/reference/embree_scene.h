@@ -47,6 +47,7 @@ struct Ray {
     // (transport::kLeft…), which they cannot meet from that side within this height above it, m.
     std::uint32_t leftSide = transport::kLeftNothing;
     double reachMeters = 0.0;
+    double fromMeters = 0.0;  // what is nearer is not met
 };
 
 struct SurfaceHit {
@@ -73,6 +74,11 @@ class EmbreeScene {
 
     // The first surface that the ray meets by its side rule; false: none.
     [[nodiscard]] bool intersect(const Ray& ray, SurfaceHit& hit) const;
+
+    // The same for light that leaves a point or spot light. A surface that the light lies in,
+    // within the rounding of coordinates, does not stand in its way: it is lit at grazing
+    // incidence, which is not at all, and throws no shadow.
+    [[nodiscard]] bool intersectFromLight(const Ray& ray, SurfaceHit& hit) const;
 
     // The first receiver or mirror on the eye's straight ray, dielectrics being invisible to it.
     [[nodiscard]] bool intersectStraight(const glm::dvec3& origin, const glm::dvec3& direction,
@@ -117,6 +123,7 @@ class EmbreeScene {
     Appearance appearance_;
     glm::dvec3 center_{0.0};
     scene::Bounds bounds_;
+    double roundingMeters_ = 0.0;  // that coordinates may be off by, as 32-bit floats
     std::vector<std::unique_ptr<ObjectMesh>> objects_;  // addresses stay: Embree reads them
     std::vector<glm::dvec3> specularVertices_;
     RTCDevice device_ = nullptr;

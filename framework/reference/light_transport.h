@@ -132,7 +132,7 @@ class LightTransport {
     void follow(PhotonState photon, double rangeMeters, Random& random, Sink& sink) const {
         Ray ray{photon.origin, photon.direction, {}, 0, SideRule::any};
         SurfaceHit hit;
-        if (!scene_.intersect(ray, hit) || hit.distance > rangeMeters) return;
+        if (!scene_.intersectFromLight(ray, hit) || hit.distance > rangeMeters) return;
         const scene::Material& material = scene_.scene().materials[hit.material];
         if (isReceiver(material.kind)) return;
         // A light whose rays first meet a dielectric from within is inside of it.

@@ -8,6 +8,7 @@
 
 #include "framework/core/error.h"
 #include "framework/core/files.h"
+#include "framework/core/json_text.h"
 #include "framework/reference/content_hash.h"
 #include "framework/reference/reference.h"
 
@@ -138,7 +139,7 @@ void writeReference(const fs::path& path, const Reference& reference) {
                           {"relative_stderr", number(reference.relativeError)},
                           {"compute_s", reference.seconds},
                           {"energy", toJson(reference.energy)}};
-    writeFileWhole(sidecarPath(path), sidecar.dump(2) + "\n");
+    writeFileWhole(sidecarPath(path), jsonText(sidecar, 2) + "\n");
 }
 
 Reference readReference(const fs::path& path, const std::string& expectedKey) {

@@ -16,16 +16,6 @@ namespace kaustik::scene {
 namespace {
 namespace fs = std::filesystem;
 
-toml::table parseToml(const fs::path& path) {
-    const std::string text = readFile(path);
-    try {
-        return toml::parse(text, path.string());
-    } catch (const toml::parse_error& error) {
-        throw ConfigError(fmt::format("{}:{}: This is not valid TOML: {}.", path.string(),
-                                      unsigned(error.source().begin.line), error.description()));
-    }
-}
-
 template <class Named>
 void requireNewName(const std::vector<Named>& others, const std::string& name,
                     const TableReader& reader) {
@@ -36,6 +26,20 @@ void requireNewName(const std::vector<Named>& others, const std::string& name,
 
 fs::path sceneFolder() {
     return projectRoot() / "experiments" / "scenes";
+}
+
+// By name.
+std::vector<fs::path> shippedSceneFiles() {
+    std::vector<fs::path> files;
+    std::error_code error;
+    for (const fs::directory_entry& entry : fs::directory_iterator(sceneFolder(), error)) {
+        const fs::path file = entry.path();
+        if (file.extension() == ".toml" && !file.filename().string().starts_with('.'))
+            files.push_back(file);
+    }
+    std::sort(files.begin(), files.end(),
+              [](const fs::path& a, const fs::path& b) { return a.stem() < b.stem(); });
+    return files;
 }
 
 // A file that says `extends`: only what it changes is in it.
@@ -79,7 +83,7 @@ std::string lowerExtension(const fs::path& path) {
 }
 
 Scene loadSceneFile(const fs::path& path) {
-    const toml::table document = parseToml(path);
+    const TomlNode document = readToml(path);
     TableReader top(document, path, "");
     if (top.has("extends")) return loadExtension(top, path);
     Scene scene;
@@ -132,9 +136,9 @@ Scene loadScene(const std::string& nameOrPath) {
                                                      : importGltf(nameOrPath);
     }
     std::vector<std::string> names;
-    for (const SceneListing& listing : listScenes()) {
-        if (listing.name == nameOrPath) return loadSceneFile(listing.file);
-        names.push_back(listing.name);
+    for (const fs::path& file : shippedSceneFiles()) {
+        names.push_back(file.stem().string());
+        if (names.back() == nameOrPath) return loadSceneFile(file);
     }
     if (names.empty()) {
         throw ConfigError(fmt::format("There is no scene '{}': {} has no scene files.", nameOrPath,
@@ -149,20 +153,19 @@ Scene loadScene(const std::string& nameOrPath) {
 
 std::vector<SceneListing> listScenes() {
     std::vector<SceneListing> listings;
-    std::error_code error;
-    for (const fs::directory_entry& entry : fs::directory_iterator(sceneFolder(), error)) {
-        const fs::path file = entry.path();
-        if (file.extension() != ".toml" || file.filename().string().starts_with('.')) continue;
+    reading::ReaderProcess reader;
+    for (const fs::path& file : shippedSceneFiles()) {
         SceneListing listing{file.stem().string(), "", file};
         try {
-            listing.description = parseToml(file)["description"].value_or(std::string());
+            const TomlNode document = readToml(file, reader);
+            const TomlNode* const found = document.find("description");
+            const auto* const text = found != nullptr ? found->as<std::string>() : nullptr;
+            if (text != nullptr) listing.description = *text;
         } catch (const Error& problem) {
             listing.description = problem.what();
         }
         listings.push_back(std::move(listing));
     }
-    std::sort(listings.begin(), listings.end(),
-              [](const SceneListing& a, const SceneListing& b) { return a.name < b.name; });
     return listings;
 }
 

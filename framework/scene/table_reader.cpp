@@ -13,13 +13,13 @@ namespace kaustik::scene {
 namespace {
 
 // What a wrong value looks like in a message: short, whatever it is.
-std::string shown(const toml::node& node) {
-    if (const auto* text = node.as_string()) return fmt::format("'{}'", text->get().substr(0, 40));
-    if (const auto* integer = node.as_integer()) return fmt::format("{}", integer->get());
-    if (const auto* number = node.as_floating_point()) return fmt::format("{}", number->get());
-    if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
-    if (const auto* array = node.as_array()) return fmt::format("a list of {}", array->size());
-    return node.is_table() ? "a table" : "a date or time";
+std::string shown(const TomlNode& node) {
+    if (const auto* text = node.as<std::string>()) return fmt::format("'{}'", text->substr(0, 40));
+    if (const auto* integer = node.as<std::int64_t>()) return fmt::format("{}", *integer);
+    if (const auto* number = node.as<double>()) return fmt::format("{}", *number);
+    if (const auto* flag = node.as<bool>()) return *flag ? "true" : "false";
+    if (const auto* list = node.list()) return fmt::format("a list of {}", list->size());
+    return node.as<TomlTable>() ? "a table" : "a date or time";
 }
 
 std::string sentence(const std::string& text) {
@@ -42,59 +42,59 @@ std::string NumberRange::description() const {
                        withoutMaximum ? "less than" : "at most", maximum);
 }
 
-TableReader::TableReader(const toml::table& table, std::filesystem::path file, std::string subject)
+TableReader::TableReader(const TomlNode& table, std::filesystem::path file, std::string subject)
     : table_(&table), file_(std::move(file)), subject_(std::move(subject)) {}
 
-const toml::node* TableReader::find(std::string_view key) {
+const TomlNode* TableReader::find(std::string_view key) {
     if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.emplace_back(key);
-    return table_->get(key);
+    return table_->find(key);
 }
 
-const toml::node* TableReader::require(std::string_view key, bool optional) {
-    const toml::node* node = find(key);
+const TomlNode* TableReader::require(std::string_view key, bool optional) {
+    const TomlNode* node = find(key);
     if (node == nullptr && !optional) missing_.emplace_back(key);
     return node;
 }
 
-double TableReader::checkedNumber(std::string_view key, const toml::node& node,
+double TableReader::checkedNumber(std::string_view key, const TomlNode& node,
                                   const NumberRange& range) const {
-    if (!node.is_number()) fail(key, fmt::format("{} must be a number, not {}", key, shown(node)));
-    const double value = node.is_integer() ? static_cast<double>(node.as_integer()->get())
-                                           : node.as_floating_point()->get();
+    if (!node.isNumber()) fail(key, fmt::format("{} must be a number, not {}", key, shown(node)));
+    const auto* const integer = node.as<std::int64_t>();
+    const double value = integer != nullptr ? static_cast<double>(*integer) : *node.as<double>();
     if (!std::isfinite(value) || !range.contains(value)) {
         fail(key, fmt::format("{} must be {}, not {}", key, range.description(), shown(node)));
     }
     return value;
 }
 
-std::vector<double> TableReader::numbers(std::string_view key, const toml::node& node,
+std::vector<double> TableReader::numbers(std::string_view key, const TomlNode& node,
                                          std::size_t size, bool uniform,
                                          const NumberRange& range) const {
-    if (uniform && node.is_number()) return std::vector(size, checkedNumber(key, node, range));
-    const toml::array* array = node.as_array();
+    if (uniform && node.isNumber()) return std::vector(size, checkedNumber(key, node, range));
+    const std::vector<TomlNode>* array = node.list();
     if (array == nullptr || array->size() != size) {
         fail(key, fmt::format("{} must be {}a list of {} numbers, not {}", key,
                               uniform ? "a number or " : "", size, shown(node)));
     }
     std::vector<double> values;
-    for (const toml::node& element : *array)
+    for (const TomlNode& element : *array)
         values.push_back(checkedNumber(key, element, range));
     return values;
 }
 
-unsigned TableReader::checkedCount(std::string_view key, const toml::node& node, unsigned minimum,
+unsigned TableReader::checkedCount(std::string_view key, const TomlNode& node, unsigned minimum,
                                    unsigned maximum) const {
-    const toml::value<std::int64_t>* integer = node.as_integer();
-    if (integer == nullptr || integer->get() < minimum || integer->get() > maximum) {
+    const auto* const integer = node.as<std::int64_t>();
+    if (integer == nullptr || *integer < minimum || *integer > maximum) {
         fail(key, fmt::format("{} must be a whole number from {} to {}, not {}", key, minimum,
                               maximum, shown(node)));
     }
-    return static_cast<unsigned>(integer->get());
+    return static_cast<unsigned>(*integer);
 }
 
 double TableReader::number(std::string_view key, const NumberRange& range,
                            std::optional<double> fallback) {
-    const toml::node* node = require(key, fallback.has_value());
+    const TomlNode* node = require(key, fallback.has_value());
     return node ? checkedNumber(key, *node, range) : fallback.value_or(validNumber(range));
 }
 
@@ -105,26 +105,26 @@ float TableReader::numberAsFloat(std::string_view key, const NumberRange& range,
 
 unsigned TableReader::count(std::string_view key, unsigned minimum, unsigned maximum,
                             std::optional<unsigned> fallback) {
-    const toml::node* node = require(key, fallback.has_value());
+    const TomlNode* node = require(key, fallback.has_value());
     return node ? checkedCount(key, *node, minimum, maximum) : fallback.value_or(minimum);
 }
 
 glm::uvec2 TableReader::counts(std::string_view key, unsigned minimum, unsigned maximum,
                                std::optional<glm::uvec2> fallback) {
-    const toml::node* node = require(key, fallback.has_value());
+    const TomlNode* node = require(key, fallback.has_value());
     if (node == nullptr) return fallback.value_or(glm::uvec2(minimum));
-    const toml::array* array = node->as_array();
+    const std::vector<TomlNode>* array = node->list();
     if (array == nullptr) return glm::uvec2(checkedCount(key, *node, minimum, maximum));
     if (array->size() != 2) {
         fail(key, fmt::format("{} must be one or two whole numbers, not {}", key, shown(*node)));
     }
-    return {checkedCount(key, *array->get(0), minimum, maximum),
-            checkedCount(key, *array->get(1), minimum, maximum)};
+    return {checkedCount(key, array->front(), minimum, maximum),
+            checkedCount(key, array->back(), minimum, maximum)};
 }
 
 glm::dvec2 TableReader::vector2(std::string_view key, const NumberRange& range,
                                 std::optional<glm::dvec2> fallback) {
-    const toml::node* node = require(key, fallback.has_value());
+    const TomlNode* node = require(key, fallback.has_value());
     if (node == nullptr) return fallback.value_or(glm::dvec2(validNumber(range)));
     const std::vector<double> v = numbers(key, *node, 2, false, range);
     return {v[0], v[1]};
@@ -132,7 +132,7 @@ glm::dvec2 TableReader::vector2(std::string_view key, const NumberRange& range,
 
 glm::dvec3 TableReader::vector3(std::string_view key, const NumberRange& range,
                                 std::optional<glm::dvec3> fallback) {
-    const toml::node* node = require(key, fallback.has_value());
+    const TomlNode* node = require(key, fallback.has_value());
     if (node == nullptr) return fallback.value_or(glm::dvec3(validNumber(range)));
     const std::vector<double> v = numbers(key, *node, 3, false, range);
     return {v[0], v[1], v[2]};
@@ -140,7 +140,7 @@ glm::dvec3 TableReader::vector3(std::string_view key, const NumberRange& range,
 
 glm::dvec2 TableReader::uniformOrVector2(std::string_view key, const NumberRange& range,
                                          std::optional<glm::dvec2> fallback) {
-    const toml::node* node = require(key, fallback.has_value());
+    const TomlNode* node = require(key, fallback.has_value());
     if (node == nullptr) return fallback.value_or(glm::dvec2(validNumber(range)));
     const std::vector<double> v = numbers(key, *node, 2, true, range);
     return {v[0], v[1]};
@@ -148,7 +148,7 @@ glm::dvec2 TableReader::uniformOrVector2(std::string_view key, const NumberRange
 
 glm::dvec3 TableReader::uniformOrVector3(std::string_view key, const NumberRange& range,
                                          std::optional<glm::dvec3> fallback) {
-    const toml::node* node = require(key, fallback.has_value());
+    const TomlNode* node = require(key, fallback.has_value());
     if (node == nullptr) return fallback.value_or(glm::dvec3(validNumber(range)));
     const std::vector<double> v = numbers(key, *node, 3, true, range);
     return {v[0], v[1], v[2]};
@@ -166,34 +166,37 @@ glm::dvec3 TableReader::direction(std::string_view key) {
 }
 
 bool TableReader::flag(std::string_view key, bool fallback) {
-    const toml::node* node = find(key);
+    const TomlNode* node = find(key);
     if (node == nullptr) return fallback;
-    if (!node->is_boolean()) {
+    const bool* const value = node->as<bool>();
+    if (value == nullptr) {
         fail(key, fmt::format("{} must be true or false, not {}", key, shown(*node)));
     }
-    return node->as_boolean()->get();
+    return *value;
 }
 
 std::string TableReader::text(std::string_view key, std::optional<std::string> fallback) {
-    const toml::node* node = require(key, fallback.has_value());
+    const TomlNode* node = require(key, fallback.has_value());
     if (node == nullptr) return fallback.value_or("");
-    if (!node->is_string()) fail(key, fmt::format("{} must be text, not {}", key, shown(*node)));
-    return node->as_string()->get();
+    const auto* const value = node->as<std::string>();
+    if (value == nullptr) fail(key, fmt::format("{} must be text, not {}", key, shown(*node)));
+    return *value;
 }
 
 std::vector<std::string> TableReader::texts(std::string_view key) {
-    const toml::node* node = find(key);
+    const TomlNode* node = find(key);
     if (node == nullptr) return {};
-    const toml::array* array = node->as_array();
+    const std::vector<TomlNode>* array = node->list();
     if (array == nullptr) {
         fail(key, fmt::format("{} must be a list of texts, not {}", key, shown(*node)));
     }
     std::vector<std::string> values;
-    for (const toml::node& element : *array) {
-        if (!element.is_string()) {
+    for (const TomlNode& element : *array) {
+        const auto* const value = element.as<std::string>();
+        if (value == nullptr) {
             fail(key, fmt::format("{} must hold texts only, not {}", key, shown(element)));
         }
-        values.push_back(element.as_string()->get());
+        values.push_back(*value);
     }
     return values;
 }
@@ -206,29 +209,30 @@ std::string TableReader::name() {
 }
 
 std::optional<TableReader> TableReader::table(std::string_view key) {
-    const toml::node* node = find(key);
+    const TomlNode* node = find(key);
     if (node == nullptr) return std::nullopt;
-    if (!node->is_table()) {
+    if (node->as<TomlTable>() == nullptr) {
         fail(key, fmt::format("{0} must be one table, [{0}], not {1}", key, shown(*node)));
     }
-    return TableReader(*node->as_table(), file_,
+    return TableReader(*node, file_,
                        subject_.empty() ? std::string(key) : fmt::format("{}: {}", subject_, key));
 }
 
 std::vector<TableReader> TableReader::tables(std::string_view key) {
-    const toml::node* node = find(key);
+    const TomlNode* node = find(key);
     if (node == nullptr) return {};
-    const toml::array* array = node->as_array();
-    const bool right = array != nullptr &&
-                       std::all_of(array->begin(), array->end(),
-                                   [](const toml::node& element) { return element.is_table(); });
+    const std::vector<TomlNode>* array = node->list();
+    const bool right =
+        array != nullptr && std::all_of(array->begin(), array->end(), [](const TomlNode& element) {
+            return element.as<TomlTable>() != nullptr;
+        });
     if (!right) {
         fail(key, fmt::format("{0} must be a list of tables, [[{0}]], not {1}", key, shown(*node)));
     }
     std::vector<TableReader> readers;
-    for (const toml::node& element : *array) {
+    for (const TomlNode& element : *array) {
         readers.emplace_back(
-            *element.as_table(), file_,
+            element, file_,
             subject_.empty() ? std::string(key) : fmt::format("{}: {}", subject_, key));
     }
     return readers;
@@ -239,8 +243,7 @@ bool TableReader::has(std::string_view key) {
 }
 
 void TableReader::finish() const {
-    for (const auto& [key, node] : *table_) {
-        const std::string_view name = key.str();
+    for (const auto& [name, node] : table_->entries()) {
         if (std::find(known_.begin(), known_.end(), name) != known_.end()) continue;
         const std::string suggestion = didYouMean(name, known_);
         fail(name,
@@ -251,20 +254,18 @@ void TableReader::finish() const {
 }
 
 void TableReader::failMissing(std::string_view key) const {
-    for (const auto& [other, node] : *table_) {
-        const bool unknown = std::find(known_.begin(), known_.end(), other.str()) == known_.end();
-        if (unknown && !nearestName(other.str(), {std::string(key)}).empty()) {
-            fail(other.str(),
-                 fmt::format("'{}' is not a key; did you mean '{}'?", other.str(), key));
+    for (const auto& [other, node] : table_->entries()) {
+        const bool unknown = std::find(known_.begin(), known_.end(), other) == known_.end();
+        if (unknown && !nearestName(other, {std::string(key)}).empty()) {
+            fail(other, fmt::format("'{}' is not a key; did you mean '{}'?", other, key));
         }
     }
     fail(key, fmt::format("'{}' is missing", key));
 }
 
 std::string TableReader::place(std::string_view key) const {
-    const toml::node* node = key.empty() ? nullptr : table_->get(key);
-    const toml::source_region& source = node ? node->source() : table_->source();
-    return fmt::format("{}:{}", file_.string(), std::max(1u, unsigned(source.begin.line)));
+    const TomlNode* node = key.empty() ? nullptr : table_->find(key);
+    return fmt::format("{}:{}", file_.string(), std::max(1u, (node ? node : table_)->line));
 }
 
 void TableReader::fail(std::string_view key, const std::string& message) const {

@@ -4,8 +4,6 @@
 // what is allowed", with the nearest name that exists.
 #pragma once
 
-#include <toml++/toml.h>
-
 #include <cstdint>
 #include <filesystem>
 #include <glm/glm.hpp>
@@ -14,6 +12,8 @@
 #include <string_view>
 #include <utility>
 #include <vector>
+
+#include "framework/scene/toml_node.h"
 
 namespace kaustik::scene {
 
@@ -43,7 +43,7 @@ inline constexpr NumberRange kUnitInterval{0.0, 1.0, false, false};
 class TableReader {
   public:
     // `table` must outlive the reader. subject: what the table describes, for messages: "light".
-    TableReader(const toml::table& table, std::filesystem::path file, std::string subject);
+    TableReader(const TomlNode& table, std::filesystem::path file, std::string subject);
 
     // Getters. Without a fallback the key is required: its absence is reported by `finish`, after
     // the unknown keys, since a misspelt key is both; until then the getter gives a valid value.
@@ -100,18 +100,18 @@ class TableReader {
                                               const std::vector<std::string>& names);
 
   private:
-    [[nodiscard]] const toml::node* find(std::string_view key);
-    [[nodiscard]] const toml::node* require(std::string_view key, bool optional);
-    [[nodiscard]] double checkedNumber(std::string_view key, const toml::node& node,
+    [[nodiscard]] const TomlNode* find(std::string_view key);
+    [[nodiscard]] const TomlNode* require(std::string_view key, bool optional);
+    [[nodiscard]] double checkedNumber(std::string_view key, const TomlNode& node,
                                        const NumberRange& range) const;
-    [[nodiscard]] std::vector<double> numbers(std::string_view key, const toml::node& node,
+    [[nodiscard]] std::vector<double> numbers(std::string_view key, const TomlNode& node,
                                               std::size_t size, bool uniform,
                                               const NumberRange& range) const;
-    [[nodiscard]] unsigned checkedCount(std::string_view key, const toml::node& node,
+    [[nodiscard]] unsigned checkedCount(std::string_view key, const TomlNode& node,
                                         unsigned minimum, unsigned maximum) const;
     [[noreturn]] void failMissing(std::string_view key) const;
 
-    const toml::table* table_;
+    const TomlNode* table_;
     std::filesystem::path file_;
     std::string subject_;
     std::vector<std::string> known_;

@@ -5,6 +5,7 @@
 #include <sys/mount.h>
 
 #include <algorithm>
+#include <map>
 
 #include "framework/image/image.h"
 #include "tests/cli/fixture.h"
@@ -94,6 +95,30 @@ TEST_F(Output, PastTheLimitOnFilesIsAMessageAndNoHalfFile) {
     const Outcome outcome = run(smallRun("ring", {"--out", "out"}), limited);
     expectFailure(outcome, 1, {"out/", "cannot be written"});
     EXPECT_TRUE(files().empty());
+}
+
+TEST_F(Output, ThatCannotBeWrittenWholeLeavesTheOlderRunAsItWas) {
+    ASSERT_EQ(run(smallRun("ring", {"--out", "out"})).exitCode, 0);
+    std::map<std::string, std::string> before;
+    for (const std::string& file : files())
+        before[file] = contents(file);
+    // The first picture fits, the next does not.
+    Conditions limited;
+    limited.largestFileBytes = before.at("out/beauty.png").size() + 2000;
+    ASSERT_LT(*limited.largestFileBytes, before.at("out/beauty.exr").size());
+    const Outcome outcome =
+        run(smallRun("ring", {"--out", "out", "--set", "exposure=0.1"}), limited);
+    expectFailure(outcome, 1, {"out/beauty.exr", "cannot be written"});
+    std::map<std::string, std::string> after;
+    for (const std::string& file : files())
+        after[file] = contents(file);
+    EXPECT_EQ(before.size(), after.size());
+    EXPECT_TRUE(before == after) << "a picture of the new run is beside the old report";
+    // And where it can, it takes its place.
+    ASSERT_EQ(run(smallRun("ring", {"--out", "out", "--set", "exposure=0.1"})).exitCode, 0);
+    EXPECT_NE(contents("out/beauty.png"), before.at("out/beauty.png"));
+    EXPECT_NE(contents("out/report.json"), before.at("out/report.json"));
+    EXPECT_EQ(files().size(), before.size());
 }
 
 TEST_F(Output, WhoseFolderIsAFileIsRefusedAndTheFileKept) {

@@ -53,7 +53,8 @@ bool redirect(int descriptor, const char* file) {
 
 Program::Program(const std::vector<std::string>& arguments, const Conditions& conditions) {
     // All memory is had before the fork: the child may only make system calls.
-    std::vector<std::string> words = {KAUSTIK_BINARY};
+    std::vector<std::string> words = {conditions.program.empty() ? KAUSTIK_BINARY
+                                                                 : conditions.program.string()};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<std::string> environment = environmentWith(conditions.environment);
     const std::vector<char*> wordPointers = pointersTo(words);

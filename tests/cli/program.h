@@ -26,6 +26,7 @@ struct Conditions {
     std::map<std::string, std::string> environment;  // besides the test's own
     std::optional<rlim_t> largestFileBytes;          // that it may write
     std::filesystem::path standardOutput;            // instead of Outcome::out
+    std::filesystem::path program;                   // a copy of it; "" for the one that was built
 };
 
 class Program {

@@ -113,6 +113,19 @@ TEST_F(Reference, StopsAtATimeOrAnError) {
     EXPECT_LT(json::parse(contents("b.json")).at("photons").get<double>(), 1e15);
 }
 
+TEST_F(Reference, OfFewerPhotonsThanABatchHasTwoBatchesFromTheFirstTimeOn) {
+    for (int time = 1; time <= 2; ++time) {
+        const Outcome outcome = runCached(
+            {"reference", "wavy.toml", "--size", "16x12", "--photons", "1000", "--out", "few.exr"});
+        EXPECT_EQ(outcome.exitCode, 0) << "time " << time << ": " << outcome.err;
+        EXPECT_EQ(json::parse(contents("few.json")).at("batches"), 2);
+    }
+    const Outcome outcome = runCached({"reference", "wavy.toml", "--size", "16x12", "--seed", "2",
+                                       "--seconds", "1e-9", "--out", "short.exr"});
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_EQ(json::parse(contents("short.json")).at("batches"), 2);
+}
+
 TEST_F(Reference, ThatNoPixelSeesIsGivenUpWhereOnlyAnErrorWouldEndIt) {
     std::string away = kWavyWater;
     away.insert(away.find("position = [0, 2, 1]"), "target = [0, 4, 2]\n");

@@ -12,6 +12,8 @@
 
 #include "framework/core/error.h"
 #include "framework/image/image.h"
+#include "framework/image/openimageio_images.h"
+#include "tests/unit/peak_memory.h"
 #include "tests/unit/temporary_folder.h"
 
 // OpenImageIO 2.4 loses the message of a PNG that cannot be opened: 31 bytes, not ours to free.
@@ -45,6 +47,11 @@ const std::string kPng = fromHex(
 const std::string kHugePng = fromHex(
     "89504e470d0a1a0a0000000d49484452000186a0000186a00806000000a8520bc8000000164944415478da63f8"
     "cfc0f01f081b1840b471da4c6300394405e25640e6570000000049454e44ae426082");
+
+// 16384x10000 RGB, which is allowed, in 69 bytes, which is not.
+const std::string kHollowPng = fromHex(
+    "89504e470d0a1a0a0000000d49484452000040000000271008020000006b6df7230000000c49444154789c6360"
+    "a03d00000064000186643c350000000049454e44ae426082");
 
 // 8x8 grey: the left half black, the right half white.
 const std::string kJpeg = fromHex(
@@ -133,7 +140,8 @@ void expectWholeOrError(const std::string& bytes) {
         const std::vector<char> cut(bytes.begin(),
                                     bytes.begin() + static_cast<std::ptrdiff_t>(length));
         try {
-            const Image image = decodeImage(std::string_view(cut.data(), cut.size()), "cut");
+            const Image image =
+                decodeByOpenImageIo(std::string_view(cut.data(), cut.size()), "cut");
             EXPECT_EQ(image.values, whole.values) << "cut after byte " << length;
         } catch (const IoError& error) {
             EXPECT_THAT(error.what(), HasSubstr("cut cannot be read")) << length;
@@ -166,6 +174,18 @@ TEST_F(OpenImageIo, AnExrFileCutOffAnywhereIsAnError) {
 TEST_F(OpenImageIo, AHeaderThatClaimsTooManyPixelsIsAnErrorBeforeMemoryIsTaken) {
     EXPECT_THAT(messageOf<IoError>([] { (void)decodeImage(kHugePng, "huge"); }),
                 HasSubstr("huge cannot be read"));
+}
+
+TEST_F(OpenImageIo, AHeaderThatClaimsMoreThanItsBytesCanHoldIsAnErrorBeforeMemoryIsTaken) {
+    const std::size_t before = test::peakBytes();
+    EXPECT_THAT(messageOf<IoError>([] { (void)decodeByOpenImageIo(kHollowPng, "hollow"); }),
+                AllOf(HasSubstr("hollow cannot be read"),
+                      HasSubstr("69 bytes cannot hold the 16384x10000 pixels")));
+    // OpenImageIO itself; the image would take 1875 MiB.
+    EXPECT_LT(test::peakBytes() - before, std::size_t{100} << 20);
+    const auto file = folder_.file("hollow.png", kHollowPng);
+    EXPECT_THAT(messageOf<IoError>([&] { (void)readImage(file); }),
+                HasSubstr("69 bytes cannot hold"));
 }
 
 TEST_F(OpenImageIo, BytesThatAreNoImageAreAnError) {

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "framework/core/error.h"
+#include "tests/unit/peak_memory.h"
 #include "tests/unit/temporary_folder.h"
 
 namespace kaustik {
@@ -50,6 +51,23 @@ TEST(Pfm, IsWrittenAsLittleEndianWithThreeInterleavedChannels) {
     Image image(1, 1, 3);
     image.values = {1.0f, 2.0f, -0.5f};
     EXPECT_EQ(encodePfm(image), "PF\n1 1\n-1.0\n" + kOneLittle + kTwoLittle + kMinusHalfLittle);
+}
+
+// A mebibyte is what reading a small file may take; an image of that size takes 2047.
+constexpr std::size_t kNextToNothing = std::size_t{1} << 20;
+
+TEST(Pfm, AHeaderAloneTakesNoMemoryForThePixelsThatItClaims) {
+    const std::size_t before = test::peakBytes();
+    EXPECT_THAT(messageOf<IoError>([] { (void)decodePfm("PF\n16384 10922\n-1.0\n", "a.pfm"); }),
+                HasSubstr("a.pfm is not a whole PFM file: it is cut off"));
+    EXPECT_LT(test::peakBytes() - before, kNextToNothing);
+}
+
+TEST(Ppm, AHeaderAloneTakesNoMemoryForThePixelsThatItClaims) {
+    const std::size_t before = test::peakBytes();
+    EXPECT_THAT(messageOf<IoError>([] { (void)decodePpm("P6\n16384 10922\n255\n", "a.ppm"); }),
+                HasSubstr("a.ppm is not a whole PPM file: it is cut off"));
+    EXPECT_LT(test::peakBytes() - before, kNextToNothing);
 }
 
 TEST(Pfm, AFileCutOffAtAnyByteIsAnErrorThatNamesIt) {

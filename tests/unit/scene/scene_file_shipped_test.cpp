@@ -11,7 +11,7 @@
 #include "framework/scene/height_field.h"
 #include "framework/scene/needs.h"
 #include "framework/scene/scene_file.h"
-#include "tests/unit/scene/mesh_import_fixture.h"
+#include "tests/unit/importers/mesh_file_fixture.h"
 #include "tests/unit/scene/scene_file_fixture.h"
 
 namespace kaustik::scene {

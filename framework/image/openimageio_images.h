@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// Images by OpenImageIO, in this process. What it reads comes from anyone, so that only a reader
+// process calls the first two (`readImage` and `decodeImage` have it do so). All throw IoError that
+// begins with `name`, and says so where this build has no OpenImageIO.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "framework/image/image.h"
+
+namespace kaustik {
+
+[[nodiscard]] Image readByOpenImageIo(const std::filesystem::path& path, const std::string& name);
+[[nodiscard]] Image decodeByOpenImageIo(std::string_view bytes, const std::string& name);
+
+// The bytes of an OpenEXR file, 32-bit float.
+[[nodiscard]] std::string encodeExr(const Image& image, const std::string& name);
+// The bytes of a PNG file; `values` as of toEightBits(image).
+[[nodiscard]] std::string encodePng(const Image& image, const std::vector<unsigned char>& values,
+                                    const std::string& name);
+
+}  // namespace kaustik

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// glTF files by tinygltf, in this process: what scene::importGltf has a reader process do.
+#pragma once
+
+#include <filesystem>
+
+#include "framework/scene/scene.h"
+
+namespace kaustik::scene {
+
+// As importGltf (framework/scene/gltf_import.h).
+[[nodiscard]] Scene readGltfFile(const std::filesystem::path& path);
+
+}  // namespace kaustik::scene

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// Mesh files by Assimp, in this process: what scene::importMesh has a reader process do.
+#pragma once
+
+#include <filesystem>
+
+#include "framework/scene/mesh_import.h"
+
+namespace kaustik::scene {
+
+// As importMeshWithWarnings (framework/scene/mesh_import.h).
+[[nodiscard]] ImportedMesh readMeshFile(const std::filesystem::path& path);
+
+}  // namespace kaustik::scene

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// What is asked of a reader process, and how its answer begins.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <tuple>
+#include <type_traits>
+
+namespace kaustik::reading {
+
+enum class RequestKind : std::uint32_t { toml, mesh, gltf, image };
+
+struct Request {
+    RequestKind kind = RequestKind::toml;
+    std::string name;            // for messages
+    std::filesystem::path file;  // empty when `bytes` is used
+    std::string bytes;           // a file that lies in memory
+};
+
+template <class R>
+requires std::is_same_v<std::remove_const_t<R>, Request>
+auto partsOf(R& request) {
+    auto& [kind, name, file, bytes] = request;
+    return std::tie(kind, name, file, bytes);
+}
+
+// After `done` follows what was read, after the others the message.
+enum class Answer : std::uint32_t { done, wrongRequest, damagedFile };
+
+// How a reader process ends by itself.
+inline constexpr int kExitNobodyAsks = 0;
+inline constexpr int kExitNotByHand = 2;
+inline constexpr int kExitOutOfMemory = 77;
+
+}  // namespace kaustik::reading
