@@ -66,6 +66,7 @@ void drawRow(Bench& bench, const params::ParamSet& params, const params::NamedFi
 
 void drawParameters(Bench& bench) {
     PanelState& panels = bench.panels;
+    chooseVariant(bench, "parameters");
     ImGui::SetNextItemWidth(-ImGui::CalcTextSize("  all nodes  ").x - ImGui::GetFrameHeight());
     inputText(bench, "##search", "search names and sentences", panels.parameterSearch,
               "parameters.search");
@@ -79,8 +80,9 @@ void drawParameters(Bench& bench) {
         std::string stage;
         bool isTable = false;
         std::vector<params::NamedField> fields = params.all();
-        std::stable_sort(fields.begin(), fields.end(), [](const auto& a, const auto& b) {
-            return stageRank(stageOf(a.fullName)) < stageRank(stageOf(b.fullName));
+        std::stable_sort(fields.begin(), fields.end(), [&](const auto& a, const auto& b) {
+            return stageRank(bench.registry, stageOf(a.fullName)) <
+                   stageRank(bench.registry, stageOf(b.fullName));
         });
         for (const params::NamedField& named : fields) {
             if (named.fullName.find('.') == std::string::npos) continue;
@@ -93,7 +95,7 @@ void drawParameters(Bench& bench) {
             if (stageOf(named.fullName) != stage) {
                 if (isTable) ImGui::EndTable();
                 stage = stageOf(named.fullName);
-                ImGui::TextColored(stageColor(stage), "%s", stage.c_str());
+                ImGui::TextColored(stageColor(bench.registry, stage), "%s", stage.c_str());
                 isTable = ImGui::BeginTable(stage.c_str(), 2, ImGuiTableFlags_Resizable);
                 if (isTable) {
                     ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 0.45f);
