@@ -55,7 +55,8 @@ void drawTruth(Bench& bench) {
         bench.map.control("error.progress", fmt::format("{}", progress.share));
         ImGui::BeginDisabled(progress.isEnding);
         const char* label = progress.isEnding ? "Stopping …" : "Stop (what there is stays)";
-        if (button(bench, label, "error.stop")) bench.truthWorker.stopComputing();
+        if (ImGui::Button(label)) bench.truthWorker.stopComputing();
+        bench.map.control("error.stop", progress.isEnding ? "stopping" : "");
         ImGui::EndDisabled();
     } else if (truth.aim) {
         const bool isEnough = static_cast<double>(truth.photons) >= bench.panels.truthPhotons;
@@ -113,7 +114,9 @@ void drawLedger(Bench& bench) {
     ImGui::Separator();
     chooseVariant(bench, "error");
     if (!result.ledger) {
+        ImGui::PushTextWrapPos(0.0f);
         ImGui::TextDisabled("The energy ledger follows once the frames have settled.");
+        ImGui::PopTextWrapPos();
         return;
     }
     using namespace transport;

@@ -46,7 +46,9 @@ void drawRow(Bench& bench, const params::ParamSet& params, const params::NamedFi
         named.field.unit.empty()
             ? 0.0f
             : ImGui::CalcTextSize(named.field.unit.c_str()).x + 8.0f * bench.scale;
-    const float markWidth = isChanged ? ImGui::GetFontSize() * 1.6f : 0.0f;
+    // There is room for the mark before there is one: a slider that becomes shorter under the hand
+    // would jump.
+    const float markWidth = ImGui::GetFontSize() * 1.6f;
     ImGui::SetNextItemWidth(
         std::max(40.0f, ImGui::GetContentRegionAvail().x - unitWidth - markWidth));
     const ParameterChange change = drawParameter(bench, named, "##value");
