@@ -26,7 +26,7 @@ std::string oneLine(std::string text) {
 }
 
 Shown stale(const std::string& why, Shown::WayOut wayOut) {
-    return {Shown::Kind::stale, oneLine(why), wayOut};
+    return {Shown::Kind::stale, "Not what was asked for: " + oneLine(why), wayOut};
 }
 
 bool hasSettings(const Document& document) {
@@ -146,7 +146,7 @@ Shown shownOf(const Asked& asked, const FrameResult& result, const TruthState& t
     }
     if (!result.shaderProblem.empty()) {
         return stale(
-            "The last good shaders are in use, until this is mended: " + result.shaderProblem,
+            "the last good shaders are in use, until this is mended: " + result.shaderProblem,
             Shown::WayOut::none);
     }
     const std::string missing = missingBeside(asked, result, truth);

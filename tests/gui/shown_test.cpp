@@ -53,11 +53,11 @@ TEST_F(ShownLine, APassThatIsNoLongerThereIsForgottenWithNotice) {
 
 TEST_F(ShownLine, ChangesThatAreBeingRenderedAreSaidSo) {
     json slow = smallDocument();
-    slow["size"] = {400, 300};
-    slow["variant"]["set"]["emit.photons"] = "768x768";
+    slow["size"] = {240, 180};
+    slow["variant"]["set"]["emit.photons"] = "384x384";
     start(keptWith(slow));
     EXPECT_EQ(bench->value("shown"), "asked");
-    bench->typeInto("parameter.emit.photons", "767", Entry::click, "Return", {0.2, 0.5});
+    bench->typeInto("parameter.emit.photons", "383", Entry::click, "Return", {0.2, 0.5});
     EXPECT_EQ(bench->value("shown"), "rendering");
     // What is not known to run is saved once it is.
     bench->key("ctrl+s");

@@ -63,7 +63,10 @@ TEST_F(Workbench, WhereNothingIsSeenYetAQuickPictureComesFirst) {
 }
 
 TEST_F(Workbench, TheProgressOfAnOrderNeverGoesBack) {
-    startWithoutWaiting(keptWith(slowDocument()));
+    json document = smallDocument();
+    document["size"] = {240, 180};
+    document["variant"]["set"]["emit.photons"] = "256x256";
+    startWithoutWaiting(keptWith(document));
     json order;
     double most = 0.0;
     std::set<double> seen;

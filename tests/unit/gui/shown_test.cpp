@@ -79,7 +79,7 @@ TEST_F(ShownTest, IsStaleWhereAVariantCannotBeRendered) {
     result.variants[0].error = "There is no pass 'x'.\nNor 'y'.";
     document.variant.disabled = {"x"};
     EXPECT_EQ(shown().kind, Shown::Kind::stale);
-    EXPECT_EQ(shown().sentence, "There is no pass 'x'. Nor 'y'.") << "in one line";
+    EXPECT_TRUE(says(": There is no pass 'x'. Nor 'y'.")) << "in one line";
     EXPECT_EQ(shown().wayOut, Shown::WayOut::forget) << "nothing to go back to";
     EXPECT_FALSE(isRendered(asked(), result));
     EXPECT_NE(whyItCannotRun(asked(), result), "");
@@ -93,7 +93,7 @@ TEST_F(ShownTest, IsStaleWhereAVariantCannotBeRendered) {
 TEST_F(ShownTest, NamesTheVariantThatCannotBeRendered) {
     addOther();
     result.variants[1].error = "No.";
-    EXPECT_EQ(shown().sentence, "B: No.");
+    EXPECT_TRUE(says("B: No."));
     EXPECT_EQ(whyItCannotRun(asked(), result), "B: No.");
     // One that the document does not have is no reason.
     document.other.reset();
