@@ -19,7 +19,7 @@ packages=(
     # Figures and pages of a study; OpenImageIO reads EXR there
     python3 python3-matplotlib python3-openimageio
     # Tests; the page of a study is opened in a browser, the workbench on a display without a screen
-    libgtest-dev libgmock-dev chromium chromium-driver xvfb libxtst-dev
+    libgtest-dev libgmock-dev chromium chromium-driver xvfb x11-xkb-utils libxtst-dev
 )
 
 if ! command -v dpkg-query > /dev/null || ! command -v apt-get > /dev/null; then

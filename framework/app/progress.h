@@ -4,6 +4,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <string>
 
 namespace kaustik::app {
@@ -29,6 +30,12 @@ class Progress {
     bool written_ = false;
     Clock::time_point begin_;
     Clock::time_point last_;
+};
+
+// Who watches long work instead of a terminal, and may end it.
+struct Watch {
+    std::function<bool()> goesOn;  // asked on any thread, often
+    std::function<void(double share, const std::string& reached)> tell;  // one call at a time
 };
 
 // From now on Ctrl-C and SIGTERM are noted instead of ending the program; a second one ends it.

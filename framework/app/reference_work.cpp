@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 #include "framework/app/progress.h"
 #include "framework/core/error.h"
@@ -64,14 +65,23 @@ Reference obtainReference(const EmbreeScene& scene, const ReferenceRequest& requ
     catchInterrupts();
     Progress progress(request.filter.transmissionOnly ? "reference of the modelled paths:"
                                                       : "reference:");
+    return obtainReference(
+        scene, request, std::move(options),
+        {[] { return !isInterrupted(); },
+         [&](double share, const std::string& reached) { progress.updateShare(share, reached); }});
+}
+
+Reference obtainReference(const EmbreeScene& scene, const ReferenceRequest& request,
+                          RunOptions options, const Watch& watch) {
     std::uint64_t photons = 0;
     options.progress = [&](const reference::Progress& now) {
         photons = now.photons;
-        progress.updateShare(shareOf(now, options.stop), reachedBy(now));
-        return !isInterrupted();
+        watch.tell(shareOf(now, options.stop), reachedBy(now));
+        return watch.goesOn();
     };
+    options.pulse = [&](std::uint64_t) { return watch.goesOn(); };
     const auto failIfInterrupted = [&] {
-        if (!isInterrupted()) return;
+        if (watch.goesOn()) return;
         throw Error(
             fmt::format("Interrupted after {} photons; the same command goes on from there.",
                         photons),

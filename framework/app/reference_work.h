@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "framework/app/progress.h"
 #include "framework/reference/reference.h"
 
 namespace kaustik::app {
@@ -17,5 +18,10 @@ namespace kaustik::app {
 [[nodiscard]] reference::Reference obtainReference(const reference::EmbreeScene& scene,
                                                    const reference::ReferenceRequest& request,
                                                    reference::RunOptions options);
+// The same for who watches it in another way.
+[[nodiscard]] reference::Reference obtainReference(const reference::EmbreeScene& scene,
+                                                   const reference::ReferenceRequest& request,
+                                                   reference::RunOptions options,
+                                                   const Watch& watch);
 
 }  // namespace kaustik::app

@@ -24,7 +24,9 @@ namespace fs = std::filesystem;
 #ifndef KAUSTIK_HAS_EMBREE
 
 struct Truth::Loaded {};
-Truth::Truth(const std::string& wanted, std::uint64_t, const Renderer&) {
+Truth::Truth(const std::string& wanted, std::uint64_t photons, const Renderer& renderer)
+    : Truth(wanted, photons, renderer, {}) {}
+Truth::Truth(const std::string& wanted, std::uint64_t, const Renderer&, const Watch&) {
     if (wanted != "none") {
         throw ConfigError("--reference: this program was built without Embree and knows no truth.");
     }
@@ -97,7 +99,11 @@ struct Truth::Loaded {
     ModelledPaths paths;
 };
 
-Truth::Truth(const std::string& wanted, std::uint64_t photons, const Renderer& renderer) {
+Truth::Truth(const std::string& wanted, std::uint64_t photons, const Renderer& renderer)
+    : Truth(wanted, photons, renderer, {}) {}
+
+Truth::Truth(const std::string& wanted, std::uint64_t photons, const Renderer& renderer,
+             const Watch& watch) {
     if (wanted == "none") return;
     std::optional<Reference> fromFile;
     if (wanted != "auto") fromFile = readFor(wanted, renderer);
@@ -109,13 +115,17 @@ Truth::Truth(const std::string& wanted, std::uint64_t photons, const Renderer& r
     }
     reference::RunOptions options;
     options.stop.photons = photons;
+    const auto obtain = [&](const ReferenceRequest& request) {
+        return watch.goesOn ? obtainReference(loaded_->scene, request, options, watch)
+                            : obtainReference(loaded_->scene, request, options);
+    };
     ReferenceRequest request = requestFor(renderer);
-    loaded_->whole = obtainReference(loaded_->scene, request, options);
+    loaded_->whole = obtain(request);
     loaded_->paths = renderer.outputs().hits.incoming.paths;
     if (loaded_->paths.interactions == 0) return;  // nothing is modelled: there is no caustic
     request.filter.transmissionOnly = loaded_->paths.transmissionOnly;
     request.filter.maximumInteractions = loaded_->paths.interactions;
-    loaded_->modelled = obtainReference(loaded_->scene, request, options);
+    loaded_->modelled = obtain(request);
 }
 
 Truth::~Truth() = default;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "framework/app/progress.h"
 #include "framework/pipeline/renderer.h"
 #include "framework/report/run_report.h"
 
@@ -20,6 +21,9 @@ class Truth {
     // build. Throws ConfigError for a reference of another scene or size, IoError for a damaged
     // one.
     Truth(const std::string& wanted, std::uint64_t photons, const Renderer& renderer);
+    // The same for who watches in another way how it is computed.
+    Truth(const std::string& wanted, std::uint64_t photons, const Renderer& renderer,
+          const Watch& watch);
     ~Truth();
     Truth(const Truth&) = delete;
     Truth& operator=(const Truth&) = delete;

@@ -14,6 +14,7 @@
 #include "framework/gui/frame_result.h"
 #include "framework/gui/render_worker.h"
 #include "framework/gui/screen_map.h"
+#include "framework/gui/shown.h"
 #include "framework/gui/state.h"
 #include "framework/gui/truth_worker.h"
 #include "framework/scene/scene_file.h"
@@ -37,6 +38,10 @@ struct Bench {
     std::shared_ptr<const TruthState> truth;
     std::vector<scene::SceneListing> scenes;
 
+    // Of the newest order, and the last document that was rendered without an error.
+    std::uint64_t order = 0;
+    std::optional<Document> whole{};
+
     // One line for the status bar.
     std::string message{};
     bool isMessageBad = false;
@@ -47,7 +52,8 @@ struct Bench {
     bool isTurning = false;
     int sceneReloads = 0;
     bool wantsScreenshot = false;
-    bool wantsRestart = false;  // of the renderer
+    bool wantsExperiment = false;  // once the document is known to run
+    bool wantsRestart = false;     // of the renderer
     bool showsHelp = false;
 
     void say(std::string text, bool isBad = false) {
@@ -55,12 +61,16 @@ struct Bench {
         isMessageBad = isBad;
     }
     // The variant that the panels edit, and what was rendered of it.
+    [[nodiscard]] std::size_t editedIndex() const {
+        return panels.edited == 1 && document.other ? 1 : 0;
+    }
     [[nodiscard]] Variant& edited() {
-        return panels.edited == 1 && document.other ? *document.other : document.variant;
+        return editedIndex() == 1 ? *document.other : document.variant;
     }
     [[nodiscard]] const VariantResult& editedResult() const {
-        return result->variants[panels.edited == 1 && document.other ? 1 : 0];
+        return result->variants[editedIndex()];
     }
+    [[nodiscard]] Asked asked() const { return {document, order, view, editedIndex()}; }
     // As the document has them, which may be newer than what was rendered.
     [[nodiscard]] scene::Camera camera() const {
         if (document.edits.camera) return *document.edits.camera;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "framework/gui/document.h"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 #include "framework/scene/scene_file.h"
@@ -140,7 +142,7 @@ json toJson(const Document& document) {
     return result;
 }
 
-Document documentFromJson(const json& j) {
+Document documentFromJson(const json& j, std::vector<std::string>& problems) {
     try {
         Document document;
         document.scene = j.at("scene").get<std::string>();
@@ -150,10 +152,13 @@ Document documentFromJson(const json& j) {
         if (j.contains("other")) document.other = variantFrom(j.at("other"));
         const bool isSize = document.size.width >= 1 && document.size.width <= 16384 &&
                             document.size.height >= 1 && document.size.height <= 16384;
-        return isSize ? document : Document();
-    } catch (const json::exception&) {
-        return {};
+        if (isSize) return document;
+        problems.push_back(
+            fmt::format("a picture of {}x{} cannot be", document.size.width, document.size.height));
+    } catch (const json::exception& error) {
+        problems.push_back(fmt::format("the document makes no sense ({})", error.what()));
     }
+    return {};
 }
 
 }  // namespace kaustik::gui

@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "framework/params/field.h"
 #include "framework/pipeline/renderer.h"
@@ -41,7 +42,9 @@ struct Document {
 [[nodiscard]] scene::Scene sceneOf(const Document& document);
 
 [[nodiscard]] nlohmann::json toJson(const Document& document);
-// What is missing or makes no sense is as in a new document: a restart must never fail for it.
-[[nodiscard]] Document documentFromJson(const nlohmann::json& json);
+// What makes no sense gives a new document, and a sentence that says so: a restart must never fail
+// for it.
+[[nodiscard]] Document documentFromJson(const nlohmann::json& json,
+                                        std::vector<std::string>& problems);
 
 }  // namespace kaustik::gui

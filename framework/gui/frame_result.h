@@ -39,17 +39,28 @@ struct ViewedTexture {
     bool isEncoded = false;     // display-encoded, not linear
     int layer = 0;
     Image values;  // all channels, top row first
+    // What was asked for and is not there; the picture is shown in the place of another texture,
+    // and nothing in the place of a layer.
+    enum class Missing { nothing, texture, layer };
+    Missing missing = Missing::nothing;
+    int layers = 1;  // of the texture
+    // The texture whose values were looked at: the picture has none but colours, so that it is what
+    // the picture is made of.
+    std::string checked;
     std::optional<measure::NotFinite> notFinite;
     Histogram histogram;
 };
 
 // Of one way to render.
 struct VariantResult {
-    std::uint64_t frame = 0;  // counts the frames of this variant
-    std::uint64_t order = 0;  // that the frame answers
-    std::string error;        // why there is no newer picture; "" where all is well
-    bool isPreview = false;   // smaller, and without caustics
-    bool isSettled = false;   // the order's frames are done: nothing will change any more
+    std::uint64_t frame = 0;     // counts the frames of this variant
+    std::uint64_t previews = 0;  // the same
+    std::uint64_t order = 0;     // that the newest of them answers
+    std::string error;           // why there is no newer picture; "" where all is well
+    bool isPreview = false;      // smaller, and without caustics
+    // Passes that the variant switches off and that it does not have: they were left out of it.
+    std::vector<std::string> absentPasses;
+    bool isSettled = false;  // the order's frames are done: nothing will change any more
     std::vector<graph::PassRecord> passes;
     std::vector<report::PassTimes> times;  // of the newest frames, oldest first
     std::vector<double> frameMs;

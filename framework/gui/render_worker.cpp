@@ -87,7 +87,24 @@ struct RenderWorker::Device {
     std::uint64_t number = 0;
     int framesDone = 0;
     bool hasExtras = false;
+    // Frames and the like that the order has had rendered, and those that it takes in all; 0 before
+    // they are counted.
+    int rendered = 0;
+    int toRender = 0;
 
+    // Begins to count for the order at hand.
+    void countFrames() {
+        const auto count = static_cast<int>(variants());
+        int previews = 0;
+        for (int i = 0; i < count; ++i)
+            previews += hasPicture(static_cast<std::size_t>(i)) ? 0 : 1;
+        const int extras = count + (order.probe ? 1 : 0);
+        rendered = framesDone * count;
+        toRender = order.isPreview ? count : previews + order.frames * count + extras;
+    }
+    [[nodiscard]] bool hasPicture(std::size_t variant) const {
+        return renderers[variant] && renderers[variant]->result().viewed;
+    }
     [[nodiscard]] std::size_t variants() const { return order.document.other ? 2 : 1; }
     [[nodiscard]] const Variant& variant(std::size_t i) const {
         return i == 0 ? order.document.variant : *order.document.other;
@@ -163,14 +180,19 @@ void RenderWorker::post() {
     onNews_();
 }
 
-VariantRenderer::GoesOn RenderWorker::watch(const std::string& what) {
+VariantRenderer::GoesOn RenderWorker::watch(const Device& device, const std::string& what) {
     const std::lock_guard lock(mutex_);
     frameBegin_ = Clock::now();
     const std::uint64_t number = working_.order;
-    return [this, what, number](std::size_t step, std::size_t steps, const std::string& pass) {
+    const bool isEndless = device.order.frames == 0 && !device.order.isPreview;
+    const int before = device.rendered;
+    const int all = std::max(device.toRender, 1);
+    return [=, this](std::size_t step, std::size_t steps, const std::string& pass) {
         if (stop_ || endsFramesBefore_ > number) return false;
+        const double ofThis = static_cast<double>(step) / static_cast<double>(steps);
         const std::lock_guard inside(mutex_);
-        progress_ = {true, what.empty() ? pass : what + ": " + pass, step, steps, 0.0};
+        progress_ = {true, what.empty() ? pass : what + ": " + pass, {}, 0.0};
+        if (!isEndless) progress_.share = std::min((before + ofThis) / all, 1.0);
         return true;
     };
 }
@@ -222,6 +244,7 @@ void RenderWorker::serve(Device& device) {
                     variant.isSettled = variant.isSettled && isSame;
                 }
                 device.hasExtras = false;
+                device.toRender = 0;
             } else if (!request && !hasWork) {
                 lock.unlock();
                 reloadShaders(device);
@@ -238,6 +261,7 @@ void RenderWorker::serve(Device& device) {
             writeRecording(device, *request);
             continue;
         }
+        if (device.toRender == 0) device.countFrames();
         const bool isEndless = device.order.frames == 0;
         const int wanted = isEndless ? kFramesBeforeExtras : device.order.frames;
         if (!device.order.isPreview && device.framesDone >= wanted && !device.hasExtras) {
@@ -288,16 +312,20 @@ bool RenderWorker::loadScene(Device& device) {
 void RenderWorker::renderOnce(Device& device) {
     const FrameOrder& order = device.order;
     if (device.variants() == 1) working_.variants[1] = {};
-    bool hasFailed = true;
     for (std::size_t i = 0; i < device.variants(); ++i) {
         std::unique_ptr<VariantRenderer>& renderer = device.renderers[i];
         if (!renderer) {
             renderer = std::make_unique<VariantRenderer>(*device.context, registry_, *device.scene,
                                                          device.versions);
         }
-        const VariantRenderer::GoesOn goesOn = watch(device.variants() == 1 ? ""
-                                                     : i == 0               ? "A"
-                                                                            : "B");
+    }
+    if (!order.isPreview && !renderFirstPictures(device)) return;
+    bool hasFailed = true;
+    for (std::size_t i = 0; i < device.variants(); ++i) {
+        const std::unique_ptr<VariantRenderer>& renderer = device.renderers[i];
+        const VariantRenderer::GoesOn goesOn = watch(device, device.variants() == 1 ? ""
+                                                             : i == 0               ? "A"
+                                                                                    : "B");
         const bool isWhole =
             order.isPreview
                 ? renderer->renderPreview(device.variant(i), order.document.size, goesOn)
@@ -305,6 +333,7 @@ void RenderWorker::renderOnce(Device& device) {
                       device.variant(i), order.document.size, order.viewing,
                       order.isPrecise ? gl::TimerMode::finish : gl::TimerMode::timestamps, goesOn);
         if (!isWhole) return;  // there is a newer order
+        ++device.rendered;
         working_.variants[i] = renderer->result();
         working_.variants[i].order = device.number;
         hasFailed = hasFailed && !renderer->result().error.empty();
@@ -318,18 +347,38 @@ void RenderWorker::renderOnce(Device& device) {
     }
 }
 
+// Where nothing is seen yet a quick picture is worth more than a whole one later, whose programs
+// may take long to compile. False: there is a newer order.
+bool RenderWorker::renderFirstPictures(Device& device) {
+    for (std::size_t i = 0; i < device.variants(); ++i) {
+        if (device.hasPicture(i)) continue;
+        VariantRenderer& renderer = *device.renderers[i];
+        if (!renderer.renderPreview(device.variant(i), device.order.document.size,
+                                    watch(device, "quick picture"))) {
+            return false;
+        }
+        ++device.rendered;
+        if (!renderer.result().viewed) continue;  // the whole frame will say why
+        working_.variants[i] = renderer.result();
+        working_.variants[i].order = device.number;
+        post();
+    }
+    return true;
+}
+
 void RenderWorker::renderExtras(Device& device) {
     for (std::size_t i = 0; i < device.variants(); ++i) {
         VariantRenderer* renderer = device.renderers[i].get();
         if (renderer != nullptr && renderer->result().error.empty() &&
-            !renderer->measure(watch("energy"))) {
+            !renderer->measure(watch(device, "energy"))) {
             return;
         }
+        ++device.rendered;
     }
     working_.probe.reset();
     if (const auto& probe = device.order.probe; probe && device.renderers[0]) {
         working_.probe =
-            device.renderers[0]->probe(probe->pixel, probe->radiusPixels, watch("photons"));
+            device.renderers[0]->probe(probe->pixel, probe->radiusPixels, watch(device, "photons"));
         if (!working_.probe && device.renderers[0]->result().error.empty()) return;
     }
     device.hasExtras = true;
@@ -355,6 +404,7 @@ void RenderWorker::reloadShaders(Device& device) {
     for (VariantResult& variant : working_.variants)
         variant.isSettled = false;
     device.framesDone = 0;
+    device.toRender = 0;
     device.hasExtras = false;
     post();
 }
@@ -371,10 +421,12 @@ void RenderWorker::writeRecording(Device& device, const RecordRequest& request) 
         setRecording({false, error.what(), true});
         throw;
     } catch (const Error& error) {
-        setRecording({false, error.what(), true});
+        // A reference that is ended in the middle is an error for others.
+        setRecording({false, cancelRecording_ ? "The report was cancelled." : error.what(), true});
     }
     // The picture that is shown comes back by a frame of its own.
     device.framesDone = 0;
+    device.toRender = 0;
     device.hasExtras = false;
     if (device.renderers[0]) device.renderers[0]->noteSceneChange();
 }
@@ -386,6 +438,15 @@ void RenderWorker::writeReport(Device& device, const RecordRequest& request) {
     Renderer renderer(*device.context, registry_, *device.scene,
                       settingsOf(document.variant, document.size, registry_));
     renderer.build(Purpose::picture);
+    const app::Watch watch{
+        [this] { return !stop_ && !cancelRecording_; },
+        [this](double share, const std::string& reached) {
+            setRecording(
+                {true, fmt::format("reference, {:.0f} %: {}", 100.0 * share, reached), false});
+        }};
+    if (request.truthPhotons > 0) setRecording({true, "looking for a reference", false});
+    const app::Truth truth(request.truthPhotons > 0 ? "auto" : "none", request.truthPhotons,
+                           renderer, watch);
     report::RunRecord record = app::startRecord(renderer, mode);
     record.warmup = 1;
     gl::PassTimer timer(mode);
@@ -398,10 +459,10 @@ void RenderWorker::writeReport(Device& device, const RecordRequest& request) {
             record.frames.push_back(std::move(time));
     }
     record.frames.erase(record.frames.begin());  // the first one compiles
-    setRecording({true, "writing", false});
-    const app::Truth none("none", 0, renderer);
+    setRecording(
+        {true, truth.purpose() == Purpose::audit ? "measuring and writing" : "writing", false});
     const std::vector<fs::path> files =
-        app::finishRun(renderer, none, record, request.folder, {}, device.context->info());
+        app::finishRun(renderer, truth, record, request.folder, {}, device.context->info());
     setRecording({false,
                   fmt::format("Wrote {} files into {}.", files.size(), request.folder.string()),
                   false});

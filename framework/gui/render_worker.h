@@ -43,7 +43,10 @@ struct RecordRequest {
     enum class What { report, sequence };
     What what = What::report;
     std::filesystem::path folder;
-    int frames = 8;                       // timed, or of the sequence
+    int frames = 8;  // timed, or of the sequence
+    // Photons at least of the reference that a report is judged by, computed where there is none; 0
+    // for a report without `error` and `hits`.
+    std::uint64_t truthPhotons = 0;
     double secondsPerFrame = 1.0 / 30.0;  // sequence
 };
 
@@ -63,8 +66,9 @@ class RenderWorker {
     struct Progress {
         bool isBusy = false;
         std::string what;  // "A: layers.peel"
-        std::size_t step = 0;
-        std::size_t steps = 0;
+        // Of all that the order asks for; never less than before until there is another order.
+        // Nothing where frames go on for ever.
+        std::optional<double> share;
         double seconds = 0.0;  // since this frame began
     };
     [[nodiscard]] Progress progress() const;
@@ -86,6 +90,7 @@ class RenderWorker {
     void serve(Device& device);
     // Each does one piece of work; the next order is looked for between them.
     void renderOnce(Device& device);
+    bool renderFirstPictures(Device& device);
     void renderExtras(Device& device);
     bool loadScene(Device& device);
     void reloadShaders(Device& device);
@@ -94,7 +99,7 @@ class RenderWorker {
     void writeSequence(Device& device, const RecordRequest& request);
     void post();
     void setRecording(Recording state);
-    [[nodiscard]] VariantRenderer::GoesOn watch(const std::string& what);
+    [[nodiscard]] VariantRenderer::GoesOn watch(const Device& device, const std::string& what);
 
     const Registry& registry_;
     std::function<void()> onNews_;

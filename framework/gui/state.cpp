@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "framework/gui/state.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -13,23 +15,57 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-float between(const json& j, const char* key, float fallback, float low, float high) {
-    const auto found = j.find(key);
-    if (found == j.end() || !found->is_number()) return fallback;
-    const float value = found->get<float>();
-    return std::isfinite(value) ? std::clamp(value, low, high) : fallback;
-}
-
-template <class T>
-void take(const json& j, const char* key, T& value) {
-    const auto found = j.find(key);
-    if (found == j.end()) return;
-    try {
-        value = found->get<T>();
-    } catch (const json::exception&) {
-        // As it was: a restart must never fail for what was kept.
+// One of the parts of what is kept. What cannot be taken stays as it was: a restart must never fail
+// for it.
+class Part {
+  public:
+    Part(const json& all, const char* name, std::vector<std::string>& problems)
+        : name_(name), problems_(problems) {
+        const auto found = all.find(name);
+        if (found == all.end()) return;
+        if (found->is_object()) {
+            values_ = *found;
+        } else {
+            problems_.push_back(fmt::format("'{}' is no object", name));
+        }
     }
-}
+
+    template <class T>
+    void take(const char* key, T& value) {
+        const auto found = values_.find(key);
+        if (found == values_.end()) return;
+        try {
+            value = found->template get<T>();
+        } catch (const json::exception&) {
+            addProblem(key);
+        }
+    }
+
+    [[nodiscard]] float between(const char* key, float fallback, float low, float high) {
+        const auto found = values_.find(key);
+        // What was not finite is written as null.
+        if (found == values_.end() || found->is_null()) return fallback;
+        if (!found->is_number()) {
+            addProblem(key);
+            return fallback;
+        }
+        const float value = found->get<float>();
+        return std::isfinite(value) ? std::clamp(value, low, high) : fallback;
+    }
+    [[nodiscard]] int between(const char* key, int fallback, int low, int high) {
+        return static_cast<int>(between(key, static_cast<float>(fallback), static_cast<float>(low),
+                                        static_cast<float>(high)));
+    }
+
+  private:
+    void addProblem(const char* key) {
+        problems_.push_back(fmt::format("'{}.{}' makes no sense", name_, key));
+    }
+
+    json values_ = json::object();
+    const char* name_;
+    std::vector<std::string>& problems_;
+};
 
 }  // namespace
 
@@ -55,6 +91,7 @@ json toJson(const Kept& kept) {
               {"all_parameters", panels.showsAllParameters},
               {"precise", panels.isPrecise},
               {"endless", panels.isEndless},
+              {"judged_reports", panels.judgesReports},
               {"truth_photons", panels.truthPhotons},
               {"record_folder", panels.recordFolder},
               {"sequence_frames", panels.sequenceFrames},
@@ -67,44 +104,43 @@ json toJson(const Kept& kept) {
             {"knows_device", kept.knowsDevice}};
 }
 
-Kept keptFromJson(const json& j) {
+Kept keptFromJson(const json& j, std::vector<std::string>& problems) {
     Kept kept;
-    const json none = json::object();
-    const auto part = [&](const char* name) -> const json& {
-        const auto found = j.find(name);
-        return found != j.end() && found->is_object() ? *found : none;
-    };
-    if (!j.is_object()) return kept;
-    const json& view = part("view");
-    take(view, "resource", kept.view.resource);
-    kept.view.layer = static_cast<int>(between(view, "layer", 0.0f, 0.0f, 63.0f));
-    kept.view.channel = static_cast<Channel>(static_cast<int>(between(view, "channel", 0, 0, 5)));
-    kept.view.exposureStops = between(view, "exposure", 0.0f, -20.0f, 20.0f);
-    take(view, "false_color", kept.view.isFalseColor);
-    take(view, "range_automatic", kept.view.isRangeAutomatic);
-    kept.view.low = between(view, "low", 0.0f, -1e9f, 1e9f);
-    kept.view.high = between(view, "high", 1.0f, -1e9f, 1e9f);
-    kept.view.beside = static_cast<Beside>(static_cast<int>(between(view, "beside", 0, 0, 3)));
-    kept.view.split = between(view, "split", 0.5f, 0.0f, 1.0f);
-    take(view, "shows_lights", kept.view.showsLights);
-    const json& panels = part("panels");
-    kept.panels.leftWidth = between(panels, "left", kept.panels.leftWidth, 150.0f, 1200.0f);
-    kept.panels.rightWidth = between(panels, "right", kept.panels.rightWidth, 150.0f, 1200.0f);
-    kept.panels.chartHeight = between(panels, "chart", kept.panels.chartHeight, 40.0f, 800.0f);
-    take(panels, "all_parameters", kept.panels.showsAllParameters);
-    take(panels, "precise", kept.panels.isPrecise);
-    take(panels, "endless", kept.panels.isEndless);
-    kept.panels.truthPhotons = double(between(panels, "truth_photons", 8e6f, 1e5f, 1e12f));
-    take(panels, "record_folder", kept.panels.recordFolder);
-    kept.panels.sequenceFrames =
-        static_cast<int>(between(panels, "sequence_frames", 60.0f, 1.0f, 100000.0f));
-    kept.panels.sequenceStep = between(panels, "sequence_step", 1.0f / 30.0f, 1e-4f, 10.0f);
-    const json& window = part("window");
-    kept.window.width = static_cast<int>(between(window, "width", 1440.0f, 400.0f, 16384.0f));
-    kept.window.height = static_cast<int>(between(window, "height", 900.0f, 300.0f, 16384.0f));
-    kept.window.x = static_cast<int>(between(window, "x", -1.0f, -1.0f, 16384.0f));
-    kept.window.y = static_cast<int>(between(window, "y", -1.0f, -1.0f, 16384.0f));
-    take(j, "knows_device", kept.knowsDevice);
+    if (!j.is_object()) {
+        problems.emplace_back("it is no object");
+        return kept;
+    }
+    Part view(j, "view", problems);
+    view.take("resource", kept.view.resource);
+    kept.view.layer = view.between("layer", 0, 0, 63);
+    kept.view.channel = static_cast<Channel>(view.between("channel", 0, 0, 5));
+    kept.view.exposureStops = view.between("exposure", 0.0f, -20.0f, 20.0f);
+    view.take("false_color", kept.view.isFalseColor);
+    view.take("range_automatic", kept.view.isRangeAutomatic);
+    kept.view.low = view.between("low", 0.0f, -1e9f, 1e9f);
+    kept.view.high = view.between("high", 1.0f, -1e9f, 1e9f);
+    kept.view.beside = static_cast<Beside>(view.between("beside", 0, 0, 3));
+    kept.view.split = view.between("split", 0.5f, 0.0f, 1.0f);
+    view.take("shows_lights", kept.view.showsLights);
+    Part panels(j, "panels", problems);
+    kept.panels.leftWidth = panels.between("left", kept.panels.leftWidth, 150.0f, 1200.0f);
+    kept.panels.rightWidth = panels.between("right", kept.panels.rightWidth, 150.0f, 1200.0f);
+    kept.panels.chartHeight = panels.between("chart", kept.panels.chartHeight, 40.0f, 800.0f);
+    panels.take("all_parameters", kept.panels.showsAllParameters);
+    panels.take("precise", kept.panels.isPrecise);
+    panels.take("endless", kept.panels.isEndless);
+    panels.take("judged_reports", kept.panels.judgesReports);
+    kept.panels.truthPhotons = double(panels.between("truth_photons", 8e6f, 1e5f, 1e12f));
+    panels.take("record_folder", kept.panels.recordFolder);
+    kept.panels.sequenceFrames = panels.between("sequence_frames", 60, 1, 100000);
+    kept.panels.sequenceStep = panels.between("sequence_step", 1.0f / 30.0f, 1e-4f, 10.0f);
+    Part window(j, "window", problems);
+    kept.window.width = window.between("width", 1440, 400, 16384);
+    kept.window.height = window.between("height", 900, 300, 16384);
+    kept.window.x = window.between("x", -1, -1, 16384);
+    kept.window.y = window.between("y", -1, -1, 16384);
+    const auto knows = j.find("knows_device");
+    if (knows != j.end() && knows->is_boolean()) kept.knowsDevice = knows->get<bool>();
     return kept;
 }
 

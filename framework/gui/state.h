@@ -7,6 +7,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "framework/gui/canvas.h"
 #include "framework/gui/window.h"
@@ -43,7 +44,8 @@ struct PanelState {
     bool showsAllParameters = false;
     int edited = 0;  // variant: 0 A, 1 B
     bool isPrecise = false;
-    bool isEndless = false;  // frames go on although nothing changes
+    bool isEndless = false;     // frames go on although nothing changes
+    bool judgesReports = true;  // against the truth
     double truthPhotons = 8e6;
     std::string recordFolder = "results/runs/workbench";
     int sequenceFrames = 60;
@@ -58,8 +60,8 @@ struct Kept {
 };
 
 [[nodiscard]] nlohmann::json toJson(const Kept& kept);
-// What is missing or makes no sense is as at the first start.
-[[nodiscard]] Kept keptFromJson(const nlohmann::json& json);
+// What is missing is as at the first start; so is what makes no sense, and a sentence says which.
+[[nodiscard]] Kept keptFromJson(const nlohmann::json& json, std::vector<std::string>& problems);
 
 // $XDG_CONFIG_HOME/kaustik, else ~/.config/kaustik; made if it is not there. "" where there is no
 // such place, and nothing is kept then.

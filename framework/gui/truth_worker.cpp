@@ -51,6 +51,7 @@ void TruthWorker::compute(std::uint64_t photons) {
     {
         const std::lock_guard lock(mutex_);
         wantedPhotons_ = photons;
+        progress_.reset();
     }
     wake_.notify_all();
 }
@@ -58,6 +59,27 @@ void TruthWorker::compute(std::uint64_t photons) {
 void TruthWorker::stopComputing() {
     const std::lock_guard lock(mutex_);
     wantedPhotons_ = 0;
+}
+
+TruthWorker::Progress TruthWorker::progress() const {
+    const std::lock_guard lock(mutex_);
+    Progress now;
+    now.isComputing = wantedPhotons_ > 0;
+    now.isEnding = !now.isComputing && isAtWork_;
+    if (!progress_) {
+        now.reached = "beginning";
+        return now;
+    }
+    // What is traced beyond the run's end is not kept.
+    const Run& run = *progress_;
+    const std::uint64_t done = run.before + std::min<std::uint64_t>(traced_, run.more);
+    now.share = std::min(1.0, static_cast<double>(done) / static_cast<double>(run.wanted));
+    const double each = 1e-6 / static_cast<double>(run.references);
+    now.reached = fmt::format("{:.1f} of {:.1f} million photons", static_cast<double>(done) * each,
+                              static_cast<double>(run.wanted) * each);
+    if (std::isfinite(run.relativeError))
+        now.reached += fmt::format(", standard error {:.2f} %", 100.0 * run.relativeError);
+    return now;
 }
 
 void TruthWorker::judge(const std::array<JudgedFrame, 2>& frames) {
@@ -104,6 +126,23 @@ using reference::ReferenceRequest;
 // Between two looks at what else there is to do, and two pictures of the truth.
 constexpr std::uint64_t kPhotonsAtOnce = 1u << 22;
 
+// While it lives something is at work.
+class AtWork {
+  public:
+    AtWork(std::mutex& mutex, bool& isAtWork) : mutex_(mutex), isAtWork_(isAtWork) { set(true); }
+    ~AtWork() { set(false); }
+    AtWork(const AtWork&) = delete;
+    AtWork& operator=(const AtWork&) = delete;
+
+  private:
+    void set(bool isAtWork) {
+        const std::lock_guard lock(mutex_);
+        isAtWork_ = isAtWork;
+    }
+    std::mutex& mutex_;
+    bool& isAtWork_;
+};
+
 std::filesystem::path cache() {
     return app::cacheFolder() / "references";
 }
@@ -144,7 +183,7 @@ void TruthWorker::run() {
             if (hasNewAim) {
                 loaded.reset();
                 working_ = {};
-                working_.work = TruthState::Work::looking;
+                working_.isLooking = true;
                 post();
                 loaded = std::make_unique<Loaded>(
                     sceneOf({currentAim_->scene, currentAim_->edits, currentAim_->size, {}, {}}));
@@ -158,7 +197,7 @@ void TruthWorker::run() {
             }
         } catch (const std::exception& error) {
             working_.problem = error.what();
-            working_.work = TruthState::Work::none;
+            working_.isLooking = false;
             stopComputing();
             post();
         }
@@ -185,52 +224,59 @@ void TruthWorker::look(Loaded& loaded, const TruthAim& aim) {
     if (loaded.modelledRequest)
         loaded.modelled = findCached(loaded.scene, *loaded.modelledRequest, cache());
     working_.aim = aim;
-    working_.work = TruthState::Work::none;
+    working_.isLooking = false;
     takeOver(loaded);
     post();
 }
 
+void TruthWorker::beginRun(const Loaded& loaded, std::uint64_t photonsMore, std::uint64_t photons) {
+    const auto done = [&](const std::optional<Reference>& reference) {
+        return reference ? std::min(reference->photons, photons) : std::uint64_t{0};
+    };
+    const std::uint64_t references = loaded.modelledRequest ? 2 : 1;
+    const std::lock_guard lock(mutex_);
+    traced_ = 0;
+    progress_ = {done(loaded.whole) + done(loaded.modelled), photonsMore, references * photons,
+                 references, loaded.whole ? loaded.whole->relativeError : HUGE_VAL};
+}
+
 void TruthWorker::computeMore(Loaded& loaded, std::uint64_t photons) {
+    const AtWork atWork(mutex_, isAtWork_);
     if (!loaded.embree) loaded.embree.emplace(loaded.scene);
     photons = std::max(photons, 2 * loaded.request.photonsPerBatch);  // else its error is unknown
-    const std::uint64_t before = loaded.whole ? loaded.whole->photons : 0;
+    const auto photonsOf = [](const std::optional<Reference>& reference) {
+        return reference ? reference->photons : std::uint64_t{0};
+    };
+    const std::uint64_t before = photonsOf(loaded.whole);
     const std::uint64_t target =
         std::min(photons, before + std::max(kPhotonsAtOnce / 8, std::min(before, kPhotonsAtOnce)));
-    working_.work = TruthState::Work::computing;
     working_.problem.clear();
-    auto lastPost = std::chrono::steady_clock::now();
     reference::RunOptions options;
     options.stop.photons = target;
-    options.progress = [&](const reference::Progress& now) {
-        working_.share =
-            std::min(1.0, static_cast<double>(now.photons) / static_cast<double>(photons));
-        working_.reached =
-            fmt::format("{:.1f} of {:.1f} million photons", static_cast<double>(now.photons) * 1e-6,
-                        static_cast<double>(photons) * 1e-6);
-        if (std::isfinite(now.relativeError))
-            working_.reached += fmt::format(", standard error {:.2f} %", 100.0 * now.relativeError);
-        if (std::chrono::steady_clock::now() - lastPost > std::chrono::milliseconds(100)) {
-            lastPost = std::chrono::steady_clock::now();
-            post();
-        }
+    options.progress = [&](const reference::Progress&) { return !isSuperseded(); };
+    options.pulse = [&](std::uint64_t traced) {
+        traced_ = traced;
         return !isSuperseded();
     };
     const auto ignore = [](const std::string&) {};
+    const auto bring = [&](std::optional<Reference>& reference, const ReferenceRequest& request) {
+        const std::uint64_t has = photonsOf(reference);
+        if (has >= target || isSuperseded()) return;
+        beginRun(loaded, target - has, photons);
+        reference = loadOrCompute(*loaded.embree, request, cache(), options, ignore);
+    };
     try {
-        if (before < photons) {
-            loaded.whole = loadOrCompute(*loaded.embree, loaded.request, cache(), options, ignore);
-        }
-        if (loaded.modelledRequest && !isSuperseded()) {
-            loaded.modelled =
-                loadOrCompute(*loaded.embree, *loaded.modelledRequest, cache(), options, ignore);
-        }
+        bring(loaded.whole, loaded.request);
+        if (loaded.modelledRequest) bring(loaded.modelled, *loaded.modelledRequest);
     } catch (const ConfigError&) {
         if (!isSuperseded())
             throw;  // else: ended below two batches, of which there is no reference
     }
-    const bool isDone = loaded.whole && loaded.whole->photons >= photons;
-    working_.work = isDone || isSuperseded() ? TruthState::Work::none : TruthState::Work::computing;
-    if (isDone) stopComputing();
+    const std::uint64_t after = photonsOf(loaded.whole);
+    // Where no light meets a specular surface there are no photons, however long it takes.
+    if (loaded.whole && after == 0)
+        working_.problem = "No light meets a specular surface: there is no caustic to compare.";
+    if (after >= photons || (loaded.whole && after == 0)) stopComputing();
     takeOver(loaded);
     for (TruthState::Judgement& judgement : working_.judgements)
         judgement.order = 0;  // by a worse truth: frames are to be judged again

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
@@ -41,10 +42,7 @@ struct JudgedFrame {
 };
 
 struct TruthState {
-    enum class Work { none, looking, computing };
-    Work work = Work::none;
-    double share = 0.0;   // computed of what was asked for
-    std::string reached;  // "3.1 million photons, standard error 2.1 %"
+    bool isLooking = false;  // in the cache
     std::string problem;
     std::uint64_t version = 0;    // of the pictures below: no other ones have it
     std::optional<TruthAim> aim;  // that all of the following is of
@@ -72,7 +70,16 @@ class TruthWorker {
     void aim(const TruthAim& aim);
     // Goes on computing until there are so many photons.
     void compute(std::uint64_t photons);
+    // Ends it within a moment; what there is by whole batches stays.
     void stopComputing();
+    // Answers compute() and stopComputing() at once, whatever the thread is doing.
+    struct Progress {
+        bool isComputing = false;  // or will, after what is at hand
+        bool isEnding = false;
+        double share = 0.0;   // of what was asked for; never less than before
+        std::string reached;  // "3.1 of 8.0 million photons, standard error 2.1 %"
+    };
+    [[nodiscard]] Progress progress() const;
     // The newest frames of A and B; those before are forgotten.
     void judge(const std::array<JudgedFrame, 2>& frames);
 
@@ -85,6 +92,9 @@ class TruthWorker {
     void post();
     void look(Loaded& loaded, const TruthAim& aim);
     void computeMore(Loaded& loaded, std::uint64_t photons);
+    // From here on photons are traced to have so many of both references, of which there are
+    // `photons` each in the end.
+    void beginRun(const Loaded& loaded, std::uint64_t photonsMore, std::uint64_t photons);
     void judgeFrames(Loaded& loaded, const std::array<JudgedFrame, 2>& frames);
     void takeOver(const Loaded& loaded);
     [[nodiscard]] bool isSuperseded() const;
@@ -97,6 +107,17 @@ class TruthWorker {
     std::optional<TruthAim> currentAim_;
     std::uint64_t wantedPhotons_ = 0;  // 0: none
     std::optional<std::array<JudgedFrame, 2>> wantedFrames_;
+    bool isAtWork_ = false;  // in computeMore()
+    // Photons: before the run at hand, that it may add, that are asked for; of all references.
+    struct Run {
+        std::uint64_t before = 0;
+        std::uint64_t more = 0;
+        std::uint64_t wanted = 0;
+        std::uint64_t references = 1;
+        double relativeError = 0.0;  // not finite where unknown
+    };
+    std::optional<Run> progress_;           // nothing before the first
+    std::atomic<std::uint64_t> traced_{0};  // in the run at hand
     std::shared_ptr<const TruthState> state_ = std::make_shared<const TruthState>();
     TruthState working_;  // the thread's own
     std::uint64_t versions_ = 0;

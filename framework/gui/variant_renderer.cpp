@@ -56,6 +56,7 @@ void VariantRenderer::prepare(const Variant& variant, const params::Extent& size
     } else {
         renderer_ = std::make_unique<Renderer>(context_, registry_, scene_, std::move(settings));
     }
+    result_.absentPasses = renderer_->forgetAbsentPasses();
     variant_ = variant;
     size_ = size;
     isUpToDate_ = true;
@@ -115,6 +116,45 @@ bool VariantRenderer::render(const Variant& variant, const params::Extent& size,
     });
 }
 
+ViewedTexture VariantRenderer::viewPicture() {
+    const Picture& picture = renderer_->outputs().picture;
+    ViewedTexture viewed;
+    viewed.version = ++versions_;
+    viewed.isEncoded = true;
+    viewed.values = app::readTexture(renderer_->texture(picture.display), 0, 3);
+    // What is no number is black in a picture, and no other black.
+    viewed.checked = renderer_->graph().nameOf(picture.radiance);
+    viewed.notFinite =
+        measure::findNotFinite(app::readTexture(renderer_->texture(picture.radiance), 0, 3));
+    viewed.histogram = histogramOf(viewed.values);
+    return viewed;
+}
+
+ViewedTexture VariantRenderer::view(const Viewing& viewing) {
+    if (viewing.resource.empty()) return viewPicture();
+    if (!isTexture(*renderer_, viewing.resource)) {
+        ViewedTexture picture = viewPicture();
+        picture.missing = ViewedTexture::Missing::texture;
+        return picture;
+    }
+    const gl::Texture& texture = renderer_->texture(renderer_->graph().find(viewing.resource));
+    ViewedTexture viewed;
+    viewed.name = viewing.resource;
+    viewed.version = ++versions_;
+    viewed.layer = viewing.layer;
+    viewed.layers = std::max(texture.desc().layers, 1);
+    viewed.checked = viewing.resource;
+    if (viewing.layer >= viewed.layers) {
+        viewed.missing = ViewedTexture::Missing::layer;
+        return viewed;
+    }
+    viewed.values =
+        app::readTexture(texture, viewing.layer, gl::formatInfo(texture.desc().format).channels);
+    viewed.notFinite = measure::findNotFinite(viewed.values);
+    viewed.histogram = histogramOf(viewed.values);
+    return viewed;
+}
+
 void VariantRenderer::readBack(const Viewing& viewing) {
     const FrameOutputs& outputs = renderer_->outputs();
     ++result_.frame;
@@ -133,24 +173,7 @@ void VariantRenderer::readBack(const Viewing& viewing) {
     result_.ledger.reset();
     result_.limits.clear();
 
-    ViewedTexture viewed;
-    viewed.version = ++versions_;
-    viewed.isEncoded = viewing.resource.empty();
-    graph::ResourceRef handle = outputs.picture.display;
-    if (!viewing.resource.empty() && isTexture(*renderer_, viewing.resource)) {
-        viewed.name = viewing.resource;
-        handle = renderer_->graph().find(viewing.resource);
-    } else {
-        viewed.isEncoded = true;
-    }
-    const gl::Texture& texture = renderer_->texture(handle);
-    const int layers = std::max(texture.desc().layers, 1);
-    viewed.layer = std::clamp(viewing.layer, 0, layers - 1);
-    const int channels = viewed.isEncoded ? 3 : gl::formatInfo(texture.desc().format).channels;
-    viewed.values = app::readTexture(texture, viewed.layer, channels);
-    viewed.notFinite = measure::findNotFinite(viewed.values);
-    viewed.histogram = histogramOf(viewed.values);
-    result_.viewed = std::move(viewed);
+    result_.viewed = view(viewing);
     result_.outputs.reset();
 #ifdef KAUSTIK_HAS_EMBREE
     if (viewing.readsOutputs && outputs.eye.receiver.valid())
@@ -171,14 +194,9 @@ bool VariantRenderer::renderPreview(const Variant& variant, const params::Extent
         built_.clear();
         gl::PassTimer untimed(gl::TimerMode::finish);
         if (!renderer_->renderFrame(untimed, stepwise(goesOn))) return false;
-        ++result_.frame;
+        ++result_.previews;
         result_.isPreview = true;
-        ViewedTexture viewed;
-        viewed.version = ++versions_;
-        viewed.isEncoded = true;
-        viewed.values =
-            app::readTexture(renderer_->texture(renderer_->outputs().picture.display), 0, 3);
-        result_.viewed = std::move(viewed);
+        result_.viewed = viewPicture();
         result_.outputs.reset();
         // The next whole frame is of the same settings: its times go on from these.
         variant_ = variant;

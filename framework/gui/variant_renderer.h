@@ -61,6 +61,8 @@ class VariantRenderer {
     void prepare(const Variant& variant, const params::Extent& size);
     void restartTimes(gl::TimerMode timer);
     void readBack(const Viewing& viewing);
+    [[nodiscard]] ViewedTexture viewPicture();
+    [[nodiscard]] ViewedTexture view(const Viewing& viewing);
     bool guarded(const std::function<bool()>& work);
     [[nodiscard]] std::function<bool(std::size_t)> stepwise(const GoesOn& goesOn) const;
 

@@ -22,11 +22,6 @@ struct Overloaded : Ts... {
 
 constexpr std::size_t kOptionsToSearch = 16;
 
-// Where a range spans so many powers of ten that a straight slider would be useless.
-bool isLogarithmic(const params::Field& field) {
-    return field.minimum > 0.0 && field.maximum / field.minimum > 1e3;
-}
-
 }  // namespace
 
 ParameterChange drawParameter(Bench& bench, const params::NamedField& named,
@@ -195,6 +190,29 @@ bool choose(Bench& bench, const char* label, const std::vector<std::string>& opt
     return isChanged;
 }
 
+bool isLogarithmic(const params::Field& field) {
+    // A range that begins at 0 does so for "none" or "as needed"; 1 is its first step.
+    const double least = field.minimum == 0.0 ? 1.0 : field.minimum;
+    constexpr double kWide = 10.0;
+    return least > 0.0 && field.maximum > kWide * least;
+}
+
+void chooseVariant(Bench& bench, const std::string& panel) {
+    if (!bench.document.other) return;
+    int edited = bench.panels.edited;
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted("This panel is of variant");
+    for (const int variant : {0, 1}) {
+        ImGui::SameLine();
+        const char* name = variant == 0 ? "A" : "B";
+        ImGui::RadioButton(fmt::format("{}##{}", name, panel).c_str(), &edited, variant);
+        bench.map.control(fmt::format("{}.edit_{}", panel, variant == 0 ? "a" : "b"),
+                          edited == variant ? "on" : "off");
+    }
+    bench.panels.edited = edited;
+    ImGui::Separator();
+}
+
 bool resetMark(Bench& bench, const std::string& name, const std::string& before) {
     ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(1.0f, 0.75f, 0.25f, 1.0f));
     const bool isUsed = ImGui::SmallButton(fmt::format("×##{}", name).c_str());
@@ -208,17 +226,17 @@ std::string stageOf(const std::string& pass) {
     return pass.substr(0, pass.find('.'));
 }
 
-std::size_t stageRank(const std::string& stage) {
-    static constexpr std::array<const char*, 13> kStages = {
-        "geometry", "eye",   "layers", "emit",   "specular", "trace",  "reconstruct",
-        "gather",   "media", "blur",   "shadow", "view",     "compose"};
-    return static_cast<std::size_t>(std::find(kStages.begin(), kStages.end(), stage) -
-                                    kStages.begin());
+std::size_t stageRank(const Registry& registry, const std::string& stage) {
+    const std::vector<Registry::StageEntry>& stages = registry.stages();
+    const auto found =
+        std::find_if(stages.begin(), stages.end(),
+                     [&](const Registry::StageEntry& other) { return other.name == stage; });
+    return static_cast<std::size_t>(found - stages.begin());
 }
 
-ImVec4 stageColor(const std::string& stage) {
+ImVec4 stageColor(const Registry& registry, const std::string& stage) {
     // Hues a golden angle apart: neighbours in the chart differ most.
-    const std::size_t place = stageRank(stage);
+    const std::size_t place = stageRank(registry, stage);
     const float hue = std::fmod(0.61803f * static_cast<float>(place) + 0.55f, 1.0f);
     ImVec4 color(0.0f, 0.0f, 0.0f, 1.0f);
     ImGui::ColorConvertHSVtoRGB(hue, 0.55f, 0.85f, color.x, color.y, color.z);

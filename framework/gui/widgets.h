@@ -46,10 +46,18 @@ void inputText(Bench& bench, const char* label, const char* hint, std::string& t
 [[nodiscard]] bool resetMark(Bench& bench, const std::string& name, const std::string& before);
 
 // A stage's colour in charts and lists.
-[[nodiscard]] ImVec4 stageColor(const std::string& stage);
+[[nodiscard]] ImVec4 stageColor(const Registry& registry, const std::string& stage);
 [[nodiscard]] std::string stageOf(const std::string& pass);
-// Where a stage stands in the usual order; those that this knows nothing of come last.
-[[nodiscard]] std::size_t stageRank(const std::string& stage);
+// Where a stage stands among those of the registry; what is none of them comes last.
+[[nodiscard]] std::size_t stageRank(const Registry& registry, const std::string& stage);
+
+// Which of the two variants the panel is of, where there are two: a line that says so and changes
+// it. `panel` begins its names in the screen map.
+void chooseVariant(Bench& bench, const std::string& panel);
+
+// Whether a parameter's range is so wide that the middle of a straight slider would be far from all
+// that is usual.
+[[nodiscard]] bool isLogarithmic(const params::Field& field);
 
 // As the report has it.
 [[nodiscard]] double medianOf(std::vector<double> values);

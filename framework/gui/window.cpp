@@ -117,6 +117,15 @@ Window::Window(const std::string& title, const Placement& placement, const fs::p
     style.ScaleAllSizes(scale_);
     loadFont();
     ImGui_ImplGlfw_InitForOpenGL(window_, true);
+    // Instead of Dear ImGui's own, which takes keys by their place: Ctrl + A in a field is a short
+    // cut, too.
+    glfwSetKeyCallback(window_,
+                       [](GLFWwindow* window, int place, int scancode, int action, int modifiers) {
+                           auto& self = *static_cast<Window*>(glfwGetWindowUserPointer(window));
+                           const int key = self.keyNames_(place, scancode, action);
+                           if (key != GLFW_KEY_UNKNOWN)
+                               ImGui_ImplGlfw_KeyCallback(window, key, scancode, action, modifiers);
+                       });
     ImGui_ImplOpenGL3_Init("#version 450 core");
 }
 

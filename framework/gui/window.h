@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "framework/gui/keys.h"
+
 struct GLFWwindow;
 
 namespace kaustik::gui {
@@ -59,6 +61,7 @@ class Window {
     std::string iniFile_;
     std::string renderer_;
     std::vector<std::string> dropped_;
+    KeyNames keyNames_;
     float scale_ = 1.0f;
     bool hadInput_ = true;
     bool isRobust_ = false;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "framework/gui/workbench.h"
 
-#include <GLFW/glfw3.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +8,7 @@
 
 #include "framework/app/progress.h"
 #include "framework/core/error.h"
-#include "framework/core/files.h"
+#include "framework/core/names.h"
 #include "framework/gui/panels/panels.h"
 #include "framework/gui/recording_name.h"
 #include "framework/gui/widgets.h"
@@ -28,22 +27,14 @@ constexpr int kFramesUntilSettled = 8;
 constexpr int kSlowFramesUntilSettled = 3;
 constexpr std::size_t kInterfaceFramesKept = 1000;
 
-json readKept(const fs::path& folder) {
-    if (folder.empty()) return {};
-    try {
-        return json::parse(readFile(folder / "workbench.json"), nullptr, false);
-    } catch (const Error&) {
-        return {};  // the first start
-    }
-}
-
 }  // namespace
 
 Workbench::Workbench(const Registry& registry, const WorkbenchOptions& options)
     : registry_(registry),
       folder_(settingsFolder()),
-      kept_(keptFromJson(readKept(folder_))),
-      window_("Kaustik", kept_.window, folder_.empty() ? fs::path() : folder_ / "imgui.ini"),
+      settings_(readSettings(folder_, registry)),
+      window_("Kaustik", settings_.kept.window,
+              folder_.empty() ? fs::path() : folder_ / "imgui.ini"),
       map_(options.describe),
       renderer_(std::make_unique<RenderWorker>(registry, &Window::wake)),
       truthWorker_(&Window::wake),
@@ -53,37 +44,19 @@ Workbench::Workbench(const Registry& registry, const WorkbenchOptions& options)
              canvas_,
              map_,
              window_.scale(),
-             {},
-             kept_.view,
-             kept_.panels,
+             settings_.document,
+             settings_.kept.view,
+             settings_.kept.panels,
              std::make_shared<const FrameResult>(),
              truthWorker_.state(),
              scene::listScenes()} {
-    loadKept(options.scene);
-}
-
-Workbench::~Workbench() {
-    keep();
-}
-
-void Workbench::loadKept(const std::string& scene) {
-    const json all = readKept(folder_);
-    if (all.is_object() && all.contains("document")) {
-        bench_.document = documentFromJson(all.at("document"));
-        try {
-            // Settings of a version that had other names.
-            static_cast<void>(settingsOf(bench_.document.variant, {1, 1}, registry_));
-            if (bench_.document.other)
-                static_cast<void>(settingsOf(*bench_.document.other, {1, 1}, registry_));
-        } catch (const Error& error) {
-            bench_.document.variant = {};
-            bench_.document.other.reset();
-            bench_.say(fmt::format("Some settings of the last time were dropped: {}", error.what()),
-                       true);
-        }
+    if (!settings_.problems.empty()) {
+        const PutAside aside = putSettingsAside(folder_, settings_.problems);
+        canKeep_ = aside.isDone;
+        bench_.say(aside.notice, true);
     }
-    if (!scene.empty() && scene != bench_.document.scene) {
-        bench_.document.scene = scene;
+    if (!options.scene.empty() && options.scene != bench_.document.scene) {
+        bench_.document.scene = options.scene;
         bench_.document.edits = {};
     }
     if (bench_.view.beside == Beside::other && !bench_.document.other)
@@ -91,18 +64,23 @@ void Workbench::loadKept(const std::string& scene) {
     history_ = {bench_.document};
 }
 
+Workbench::~Workbench() {
+    keep();
+}
+
 void Workbench::keep() {
-    if (folder_.empty()) return;
-    kept_.view = bench_.view;
-    kept_.panels = bench_.panels;
-    kept_.window = window_.placement();
-    json all = toJson(kept_);
+    if (folder_.empty() || !canKeep_) return;
+    Kept& kept = settings_.kept;
+    kept.view = bench_.view;
+    kept.panels = bench_.panels;
+    kept.window = window_.placement();
+    json all = toJson(kept);
     all["document"] = toJson(bench_.document);
     std::string text = all.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
     if (text == keptText_) return;
     keptText_ = std::move(text);
     try {
-        writeFileWhole(folder_ / "workbench.json", keptText_);
+        writeSettings(folder_, keptText_);
     } catch (const Error& error) {
         bench_.say(error.what(), true);
     }
@@ -136,6 +114,7 @@ void Workbench::run() {
         draw();
         rememberForUndo();
         submitChanges();
+        saveExperimentOnceRendered();
         aimTruth();
         describe();
         window_.drawFrame();
@@ -160,9 +139,7 @@ double Workbench::patience() const {
         const double since = std::chrono::duration<double>(Clock::now() - frameBegin_).count();
         return std::max(1.0 / 60.0 - since, 0.0);
     }
-    return bench_.renderer->progress().isBusy || bench_.truth->work == TruthState::Work::computing
-               ? 0.1
-               : 0.25;
+    return bench_.renderer->progress().isBusy || truthWorker_.progress().isComputing ? 0.1 : 0.25;
 }
 
 void Workbench::takeNews() {
@@ -173,16 +150,20 @@ void Workbench::takeNews() {
         bench_.renderer = renderer_.get();
         bench_.result = std::make_shared<const FrameResult>();
         hasSubmitted_ = false;
+        bench_.order = 0;
         judgedOrder_ = 0;
         bench_.say("The renderer was started again.");
     }
     if (const auto latest = renderer_->latest(); latest && latest != bench_.result) {
         bench_.result = latest;
         framesToDraw_ = std::max(framesToDraw_, 2);
-        if (!kept_.knowsDevice && !latest->device.renderer.empty()) {
+        dropAbsentPasses();
+        if (isRendered({latest->document, latest->order, bench_.view}, *latest))
+            bench_.whole = latest->document;
+        if (!settings_.kept.knowsDevice && !latest->device.renderer.empty()) {
             // What times mean on a software rasteriser is known without asking the user.
             bench_.panels.isPrecise = latest->device.isSoftware;
-            kept_.knowsDevice = true;
+            settings_.kept.knowsDevice = true;
         }
     }
     if (const auto state = truthWorker_.state(); state != bench_.truth) {
@@ -191,11 +172,53 @@ void Workbench::takeNews() {
     }
     // The next step of an animation, once this one is seen.
     const VariantResult& first = bench_.result->variants[0];
-    if (bench_.isPlaying && bench_.isSceneCurrent() && first.frame != playedFrame_ &&
-        first.order == orderNumber_) {
-        playedFrame_ = first.frame;
+    const std::uint64_t frame = first.frame + first.previews;
+    if (bench_.isPlaying && bench_.isSceneCurrent() && frame != playedFrame_ &&
+        first.order == bench_.order) {
+        playedFrame_ = frame;
         bench_.document.edits.timeSeconds =
             bench_.timeSeconds() + double(bench_.panels.sequenceStep);
+    }
+}
+
+// Those that were left out of what was rendered, because the settings have no such pass any more.
+void Workbench::dropAbsentPasses() {
+    const FrameResult& result = *bench_.result;
+    if (result.order != bench_.order || !(result.document == bench_.document)) return;
+    const Document before = bench_.document;
+    std::set<std::string> dropped;
+    for (std::size_t i = 0; i < result.variants.size(); ++i) {
+        const VariantResult& rendered = result.variants[i];
+        if (rendered.order != bench_.order || (i == 1 && !bench_.document.other)) continue;
+        Variant& variant = i == 0 ? bench_.document.variant : *bench_.document.other;
+        for (const std::string& name : rendered.absentPasses) {
+            if (variant.disabled.erase(name) > 0) dropped.insert(name);
+        }
+    }
+    if (dropped.empty()) return;
+    // A part of the change that it comes from: else undo would lead to where it comes back.
+    if (history_[historyPlace_] == before) history_[historyPlace_] = bench_.document;
+    bench_.say(fmt::format(
+        "Forgot that {} off: with these settings there is no such pass.",
+        joinNames({dropped.begin(), dropped.end()}) + (dropped.size() == 1 ? " is" : " are")));
+}
+
+// What cannot run is not saved, and whether it can is known once it has been rendered.
+void Workbench::saveExperimentOnceRendered() {
+    if (!bench_.wantsExperiment) return;
+    bench_.isPlaying = false;
+    if (isRendered(bench_.asked(), *bench_.result)) {
+        bench_.wantsExperiment = false;
+        saveExperiment(bench_);
+        return;
+    }
+    const bool isKnown = bench_.result->order == bench_.order || bench_.result->isLost;
+    const std::string why = isKnown ? whyItCannotRun(bench_.asked(), *bench_.result) : "";
+    if (!why.empty()) {
+        bench_.wantsExperiment = false;
+        bench_.say("Not saved, for it would not run: " + why, true);
+    } else {
+        bench_.say("The experiment is saved once it has been rendered.");
     }
 }
 
@@ -255,7 +278,7 @@ void Workbench::submitChanges() {
     if (isSame) return;
     submitted_ = order;
     hasSubmitted_ = true;
-    orderNumber_ = renderer_->submit(std::move(order));
+    bench_.order = renderer_->submit(std::move(order));
 }
 
 void Workbench::aimTruth() {
@@ -263,7 +286,7 @@ void Workbench::aimTruth() {
     const VariantResult& first = result.variants[0];
     // Only of what has been rendered as it stands, and not of every step of a movement.
     if (bench_.isPlaying || bench_.isDragging || first.isPreview || first.frame == 0 ||
-        first.order != orderNumber_ || !first.error.empty() || !result.problem.empty()) {
+        first.order != bench_.order || !first.error.empty() || !result.problem.empty()) {
         return;
     }
     const TruthAim aim{result.document.scene, result.document.edits, result.document.size,
@@ -273,7 +296,7 @@ void Workbench::aimTruth() {
     const bool isNew = result.order != judgedOrder_ || bench_.truth->photons != judgedPhotons_ ||
                        result.shaderReloads != judgedReloads_;
     const VariantResult& second = result.variants[1];
-    const bool hasBoth = !result.document.other || (second.outputs && second.order == orderNumber_);
+    const bool hasBoth = !result.document.other || (second.outputs && second.order == bench_.order);
     if (bench_.truth->photons == 0 || !first.outputs || !hasBoth || !isNew ||
         bench_.truth->aim != aim) {
         return;
@@ -302,45 +325,16 @@ void Workbench::undo(int direction) {
     if (!bench_.document.other) bench_.panels.edited = 0;
 }
 
-void Workbench::useKeys() {
-    ImGuiIO& io = ImGui::GetIO();
-    const auto pressed = [](int key) { return ImGui::IsKeyPressed(key, false); };
-    if (pressed(GLFW_KEY_F1)) bench_.showsHelp = !bench_.showsHelp;
-    if (pressed(GLFW_KEY_F5)) ++bench_.sceneReloads;
-    if (pressed(GLFW_KEY_F12)) bench_.wantsScreenshot = true;
-    if (io.KeyCtrl) {
-        if (pressed(GLFW_KEY_S)) saveExperiment(bench_);
-        if (pressed(GLFW_KEY_Q)) window_.close();
-        if (!io.WantTextInput && pressed(GLFW_KEY_Z)) undo(io.KeyShift ? 1 : -1);
-        if (!io.WantTextInput && pressed(GLFW_KEY_Y)) undo(1);
-        return;
-    }
-    if (io.WantTextInput) return;
-    if (pressed(GLFW_KEY_SPACE) && !ImGui::IsAnyItemFocused()) bench_.isPlaying = !bench_.isPlaying;
-    if (pressed(GLFW_KEY_PERIOD) && bench_.result->scene) {
-        bench_.isPlaying = false;
-        bench_.document.edits.timeSeconds =
-            bench_.timeSeconds() + double(bench_.panels.sequenceStep);
-    }
-    if (pressed(GLFW_KEY_0)) bench_.view.zoom = 0.0f;
-    if (pressed(GLFW_KEY_R)) bench_.document.edits.camera.reset();
-    if (pressed(GLFW_KEY_L)) bench_.view.showsLights = !bench_.view.showsLights;
-    if (pressed(GLFW_KEY_F)) bench_.view.isFalseColor = !bench_.view.isFalseColor;
-    if (pressed(GLFW_KEY_P)) bench_.view.probes = !bench_.view.probes;
-    if (pressed(GLFW_KEY_EQUAL) || pressed(GLFW_KEY_KP_ADD)) bench_.view.exposureStops += 0.5f;
-    if (pressed(GLFW_KEY_MINUS) || pressed(GLFW_KEY_KP_SUBTRACT)) bench_.view.exposureStops -= 0.5f;
-}
-
 void Workbench::describe() {
     if (!map_.isOn()) return;
     const FrameResult& result = *bench_.result;
     const VariantResult& first = result.variants[0];
     map_.status("scene", bench_.document.scene);
     map_.status("rendered_scene", result.scene ? result.scene->name : "");
-    map_.status("order", orderNumber_);
+    map_.status("order", bench_.order);
     map_.status("rendered_order", first.order);
     map_.status("frame", first.frame);
-    map_.status("settled", first.isSettled && first.order == orderNumber_);
+    map_.status("settled", first.isSettled && first.order == bench_.order);
     map_.status("preview", first.isPreview);
     map_.status("error", first.error);
     map_.status("problem", result.problem);

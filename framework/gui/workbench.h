@@ -9,6 +9,7 @@
 #include <string>
 
 #include "framework/gui/bench.h"
+#include "framework/gui/settings_file.h"
 #include "framework/gui/window.h"
 
 namespace kaustik::gui {
@@ -32,11 +33,12 @@ class Workbench {
 
   private:
     using Clock = std::chrono::steady_clock;
-    void loadKept(const std::string& scene);
     void keep();
     void keepNowAndThen();
     void takeNews();
     void takeDropped();
+    void dropAbsentPasses();
+    void saveExperimentOnceRendered();
     void submitChanges();
     [[nodiscard]] bool isAtWork();
     void aimTruth();
@@ -44,6 +46,7 @@ class Workbench {
     void drawToolbar();
     void drawStatusBar();
     void useKeys();
+    void useSign(unsigned character);
     void rememberForUndo();
     void undo(int direction);
     void describe();
@@ -53,7 +56,8 @@ class Workbench {
 
     const Registry& registry_;
     std::filesystem::path folder_;  // of settings; "" where nothing can be kept
-    Kept kept_;
+    bool canKeep_ = true;
+    Settings settings_;
     Window window_;
     Canvas canvas_;
     ScreenMap map_;
@@ -63,7 +67,6 @@ class Workbench {
 
     FrameOrder submitted_;
     bool hasSubmitted_ = false;
-    std::uint64_t orderNumber_ = 0;
     std::uint64_t judgedOrder_ = 0;
     std::uint64_t judgedPhotons_ = 0;
     int judgedReloads_ = 0;

@@ -31,44 +31,19 @@ void Workbench::drawToolbar() {
     ImGui::SameLine();
     const RenderWorker::Progress progress = renderer_->progress();
     if (progress.isBusy) {
-        const float share = progress.steps > 0 ? static_cast<float>(progress.step) /
-                                                     static_cast<float>(progress.steps)
-                                               : 0.0f;
         const std::string text = fmt::format("{}  {:.1f} s", progress.what, progress.seconds);
-        ImGui::ProgressBar(share, {-FLT_MIN, 0.0f}, text.c_str());
-        bench_.map.control("toolbar.progress", progress.what);
+        ImGui::ProgressBar(static_cast<float>(progress.share.value_or(0.0)), {-FLT_MIN, 0.0f},
+                           text.c_str());
+        bench_.map.control("toolbar.progress",
+                           progress.share ? fmt::format("{}", *progress.share) : "");
     } else {
         ImGui::TextDisabled("%s", bench_.result->device.renderer.c_str());
     }
 }
 
 void Workbench::drawStatusBar() {
-    const FrameResult& result = *bench_.result;
-    const ImVec4 bad(1.0f, 0.45f, 0.4f, 1.0f);
-    if (!result.problem.empty()) {
-        ImGui::TextColored(bad, "%s", result.problem.c_str());
-        bench_.map.control("status.problem", result.problem);
-        if (result.isLost) {
-            ImGui::SameLine();
-            if (button(bench_, "Start the renderer again", "status.restart"))
-                bench_.wantsRestart = true;
-            ImGui::SameLine();
-            ImGui::TextUnformatted("or render with 'kaustik run'.");
-        }
-        return;
-    }
-    if (!result.shaderProblem.empty()) {
-        ImGui::TextColored(
-            bad, "The last good shaders are in use: %s",
-            result.shaderProblem
-                .substr(0, result.shaderProblem.find('\n', result.shaderProblem.find('\n') + 1))
-                .c_str());
-        bench_.map.control("status.shader", result.shaderProblem);
-        tooltip(result.shaderProblem);
-        return;
-    }
     if (bench_.isMessageBad) {
-        ImGui::TextColored(bad, "%s", bench_.message.c_str());
+        ImGui::TextColored({1.0f, 0.45f, 0.4f, 1.0f}, "%s", bench_.message.c_str());
     } else {
         ImGui::TextUnformatted(bench_.message.c_str());
     }
@@ -85,6 +60,7 @@ void Workbench::draw() {
         ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoScrollWithMouse;
     ImGui::Begin("workbench", nullptr, kWhole);
     drawToolbar();
+    drawShown(bench_);
     const float statusHeight = ImGui::GetTextLineHeightWithSpacing() + 4.0f;
     const ImVec2 all = ImGui::GetContentRegionAvail();
     const float height = std::max(all.y - statusHeight, 60.0f);

@@ -16,7 +16,15 @@ void Registry::addNode(Node node) {
         throw ConfigError(
             fmt::format("The node '{}.{}' is registered twice.", node.stage, node.name));
     }
+    addStage({node.stage, node.question});
     nodes_.push_back(std::move(node));
+}
+
+void Registry::addStage(StageEntry stage) {
+    const bool isKnown = std::any_of(stages_.begin(), stages_.end(), [&](const StageEntry& other) {
+        return other.name == stage.name;
+    });
+    if (!isKnown) stages_.push_back(std::move(stage));
 }
 
 void Registry::technique(Technique technique) {
@@ -51,15 +59,13 @@ const Registry::Node& Registry::findNode(const std::string& stage, const std::st
 
 params::ParamSet Registry::makeParams(const Technique& technique) const {
     params::ParamSet set;
-    std::vector<std::string> done;
-    for (const Node& node : nodes_) {
-        if (std::find(done.begin(), done.end(), node.stage) != done.end()) continue;
-        done.push_back(node.stage);
+    for (const StageEntry& stage : stages_) {
         std::vector<std::string> options;
-        for (const Node& other : nodes_) {
-            if (other.stage == node.stage) options.push_back(other.name);
+        for (const Node& node : nodes_) {
+            if (node.stage == stage.name) options.push_back(node.name);
         }
-        set.declareChoice(node.stage, node.question, options, options.front());
+        if (!options.empty())
+            set.declareChoice(stage.name, stage.question, options, options.front());
     }
     for (const auto& declare : declarations_)
         declare(set);

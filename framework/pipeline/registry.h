@@ -59,6 +59,13 @@ struct Technique {
 
 class Registry {
   public:
+    // Says where a stage comes in lists: after those that were named before. One that nobody names
+    // comes with its first node.
+    template <class Stage>
+    void stage() {
+        addStage({Stage::name, Stage::question});
+    }
+
     // Declares the parameters that all nodes of a stage share.
     template <class Stage, class Params>
     void sharedParams() {
@@ -92,6 +99,12 @@ class Registry {
         return hardCases_;
     }
 
+    struct StageEntry {
+        std::string name;
+        std::string question;
+    };
+    [[nodiscard]] const std::vector<StageEntry>& stages() const { return stages_; }
+
     struct Node {
         std::string stage;
         std::string question;
@@ -112,8 +125,10 @@ class Registry {
   private:
     template <class Params>
     static const Params& paramsOf(FrameBuilder& frame, const std::string& scope);
+    void addStage(StageEntry stage);
     void addNode(Node node);
 
+    std::vector<StageEntry> stages_;
     std::vector<Node> nodes_;
     std::vector<Technique> techniques_;
     std::vector<std::function<void(params::ParamSet&)>> declarations_;

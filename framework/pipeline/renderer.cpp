@@ -25,14 +25,27 @@ gl::Buffer makeLights(const scene::Scene& scene, const render::EyeView& view) {
     return {lights, "lights"};
 }
 
-// The pass that a user means by `name`: its full name, or the end of just one after a dot.
-// Throws ConfigError with the nearest name.
-std::string fullPassName(const std::string& name, const std::vector<std::string>& passes) {
+std::vector<std::string> namesOf(const graph::Compiled& compiled) {
+    std::vector<std::string> passes;
+    for (const graph::PassRecord& pass : compiled.records)
+        passes.push_back(pass.name);
+    return passes;
+}
+
+// The passes that a user may mean by `name`: its full name, or the ends of some after a dot.
+std::vector<std::string> passesMeant(const std::string& name,
+                                     const std::vector<std::string>& passes) {
     std::vector<std::string> matches;
     for (const std::string& pass : passes) {
-        if (pass == name) return pass;
+        if (pass == name) return {pass};
         if (pass.ends_with("." + name)) matches.push_back(pass);
     }
+    return matches;
+}
+
+// The only one. Throws ConfigError with the nearest name.
+std::string fullPassName(const std::string& name, const std::vector<std::string>& passes) {
+    const std::vector<std::string> matches = passesMeant(name, passes);
     if (matches.size() == 1) return matches.front();
     if (matches.empty()) {
         throw ConfigError(
@@ -55,10 +68,8 @@ bool compiles(const graph::Graph& graph) {
 // Compiles the graph without the passes that `disabled` names, and puts their full names there.
 // Throws ConfigError for a name that does not exist and for a pass that is required.
 graph::Compiled compileWithout(graph::Graph& graph, std::set<std::string>& disabled) {
-    const graph::Compiled whole = graph.compile();  // what fails here is not the user's mistake
-    std::vector<std::string> passes;
-    for (const graph::PassRecord& pass : whole.records)
-        passes.push_back(pass.name);
+    // What fails here is not the user's mistake.
+    const std::vector<std::string> passes = namesOf(graph.compile());
     std::set<std::string> fullNames;
     for (const std::string& name : disabled)
         fullNames.insert(fullPassName(name, passes));
@@ -109,6 +120,19 @@ void Renderer::update(RenderSettings settings) {
     needs_.measuredDepthComplexity = measuredDepthComplexity;
     ledgerQuantumWatts_ = ledgerQuantum(scene_);
     context_.check();
+}
+
+std::vector<std::string> Renderer::forgetAbsentPasses() {
+    if (settings_.disabledPasses.empty()) return {};
+    static_cast<void>(declareFrame());
+    const std::vector<std::string> passes = namesOf(graph_->compile());
+    std::vector<std::string> absent;
+    for (const std::string& name : settings_.disabledPasses) {
+        if (passesMeant(name, passes).empty()) absent.push_back(name);
+    }
+    for (const std::string& name : absent)
+        settings_.disabledPasses.erase(name);
+    return absent;
 }
 
 FrameBuilder Renderer::declareFrame(bool recordsTraces, bool leavesOutCaustic) {

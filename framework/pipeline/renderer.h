@@ -46,6 +46,10 @@ class Renderer {
     // still fit are kept. build() must follow.
     void update(RenderSettings settings);
 
+    // Forgets the passes that the settings switch off and that no frame of them has, as those of a
+    // node that is no longer chosen, and gives their names: build() refuses them. It must follow.
+    std::vector<std::string> forgetAbsentPasses();
+
     // Builds and compiles the graph, and allocates its memory. `resources` are kept until the
     // frame's end so that they can be saved: those that nothing asks for are asked for; an unknown
     // name is a ConfigError with the nearest one. Throws GraphError, ConfigError and DeviceError.

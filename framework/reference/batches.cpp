@@ -29,7 +29,7 @@ struct Job {
 };
 
 // One run; the first and the last stage of the pipeline are serial, so that this needs no lock but
-// for the flag that tells the first stage to stop.
+// for what the batches in between tell and ask.
 class Run {
   public:
     Run(PixelSums& sums, const RunOptions& options) : sums_(sums), options_(options) {
@@ -56,6 +56,13 @@ class Run {
         }
         result->clear();
         return Job{next_++, std::move(result)};
+    }
+
+    // On any thread.
+    [[nodiscard]] bool goesOn(std::uint64_t photonsMore) {
+        const std::uint64_t photons = traced_ += photonsMore;
+        if (options_.pulse && !options_.pulse(photons)) stopped_.store(true);
+        return !stopped_.load();
     }
 
     // In the order of the batches.
@@ -111,6 +118,7 @@ class Run {
     std::uint64_t taken_ = 0;
     std::uint64_t batchesAtStart_ = 0;
     std::atomic<bool> stopped_{false};
+    std::atomic<std::uint64_t> traced_{0};  // photons, those of unfinished batches too
     tbb::concurrent_queue<std::unique_ptr<BatchResult>> spare_;
     double relativeError_ = std::numeric_limits<double>::infinity();
     Clock::time_point start_ = Clock::now();
@@ -119,14 +127,14 @@ class Run {
 
 }  // namespace
 
-void runBatches(PixelSums& sums, const RunOptions& options,
-                const std::function<void(std::uint64_t, BatchResult&)>& compute) {
+void runBatches(PixelSums& sums, const RunOptions& options, const ComputeBatch& compute) {
     const bool endsByShard = options.shard.end != UINT64_MAX;
     const StopWhen& stop = options.stop;
     if (!stop.batches && !stop.photons && !stop.seconds && !stop.relativeError && !endsByShard) {
         throw ConfigError("A reference needs a number of photons, a time or an error to stop at.");
     }
     Run run(sums, options);
+    const TracedMore tracedMore = [&](std::uint64_t photons) { return run.goesOn(photons); };
     runWithThreads(options.threads, [&] {
         // One more in flight than threads, so that none waits for the sums.
         tbb::parallel_pipeline(static_cast<std::size_t>(threadCount(options.threads)) + 1,
@@ -143,7 +151,7 @@ void runBatches(PixelSums& sums, const RunOptions& options,
                                    tbb::make_filter<std::shared_ptr<Job>, std::shared_ptr<Job>>(
                                        tbb::filter_mode::parallel,
                                        [&](std::shared_ptr<Job> job) {
-                                           compute(job->batch, *job->result);
+                                           compute(job->batch, *job->result, tracedMore);
                                            return job;
                                        }) &
                                    tbb::make_filter<std::shared_ptr<Job>, void>(

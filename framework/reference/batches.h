@@ -37,15 +37,24 @@ struct RunOptions {
     int threads = 0;                  // 0: all
     // Called after each batch, in order; false ends the run with what it has.
     std::function<bool(const Progress&)> progress;
+    // Called on any thread in the middle of a batch, which may take seconds, with how many photons
+    // this run has traced; false ends it at once, without the batches at hand.
+    std::function<bool(std::uint64_t photons)> pulse;
     // Called with the sums after a batch when at least `saveEverySeconds` have passed, and at the
     // end.
     std::function<void(const PixelSums&)> save;
     double saveEverySeconds = 30.0;
 };
 
+// What a batch says of itself now and then while it is computed: so many photons more. False: it is
+// not wanted any longer, and may end as it is.
+using TracedMore = std::function<bool(std::uint64_t photons)>;
+inline constexpr std::uint64_t kPhotonsBetweenPulses = 1u << 11;
+
 // `compute` fills a cleared result for a batch and is called on several threads; batches that the
 // sums hold already are skipped. Throws ConfigError when nothing says where to stop.
-void runBatches(PixelSums& sums, const RunOptions& options,
-                const std::function<void(std::uint64_t batch, BatchResult& result)>& compute);
+using ComputeBatch =
+    std::function<void(std::uint64_t batch, BatchResult& result, const TracedMore& tracedMore)>;
+void runBatches(PixelSums& sums, const RunOptions& options, const ComputeBatch& compute);
 
 }  // namespace kaustik::reference

@@ -137,10 +137,13 @@ class Camera {
 };
 
 void traceBatch(const EmbreeScene& scene, const Eye& eye, const LightSampler& sampler,
-                const LightTraceSettings& settings, std::uint64_t batch, BatchResult& result) {
+                const LightTraceSettings& settings, std::uint64_t batch, BatchResult& result,
+                const TracedMore& tracedMore) {
     const LightTransport transport(scene, settings.filter);
     Camera camera(scene, eye, result);
     for (std::uint64_t i = 0; i < sampler.photonsPerBatch(); ++i) {
+        if (i % kPhotonsBetweenPulses == 0 && !tracedMore(i == 0 ? 0 : kPhotonsBetweenPulses))
+            return;
         Random random(settings.seed, batch, i);
         const EmittedPhoton emitted = sampler.sample(i, random);
         ++result.rays;
@@ -202,16 +205,17 @@ void lightTrace(const EmbreeScene& scene, const LightTraceSettings& settings,
                 const RunOptions& options, PixelSums& sums) {
     const LightSampler sampler(scene, settings.photonsPerBatch);
     const Eye eye(scene, settings.width, settings.height);
-    runBatches(sums, options, [&](std::uint64_t batch, BatchResult& result) {
-        traceBatch(scene, eye, sampler, settings, batch, result);
-    });
+    runBatches(sums, options,
+               [&](std::uint64_t batch, BatchResult& result, const TracedMore& tracedMore) {
+                   traceBatch(scene, eye, sampler, settings, batch, result, tracedMore);
+               });
 }
 
 void lightTraceBatch(const EmbreeScene& scene, const LightTraceSettings& settings,
                      std::uint64_t batch, BatchResult& result) {
     const LightSampler sampler(scene, settings.photonsPerBatch);
     const Eye eye(scene, settings.width, settings.height);
-    traceBatch(scene, eye, sampler, settings, batch, result);
+    traceBatch(scene, eye, sampler, settings, batch, result, [](std::uint64_t) { return true; });
 }
 
 }  // namespace kaustik::reference

@@ -213,16 +213,20 @@ void photonMapping(const EmbreeScene& scene, const PhotonMappingSettings& settin
     const LightSampler sampler(scene, settings.photonsPerBatch);
     const Eye eye(scene, settings.width, settings.height);
     const LightTransport transport(scene, settings.filter);
-    runBatches(sums, options, [&](std::uint64_t pass, BatchResult& result) {
-        Gatherer gatherer(scene, eye, settings, pass, result);
-        for (std::uint64_t i = 0; i < sampler.photonsPerBatch(); ++i) {
-            Random random(settings.seed, pass, i);
-            const EmittedPhoton emitted = sampler.sample(i, random);
-            ++result.rays;
-            transport.follow(stateOf(emitted), emitted.rangeMeters, random, gatherer);
-        }
-        result.photons = sampler.photonsPerBatch();
-    });
+    runBatches(sums, options,
+               [&](std::uint64_t pass, BatchResult& result, const TracedMore& tracedMore) {
+                   Gatherer gatherer(scene, eye, settings, pass, result);
+                   for (std::uint64_t i = 0; i < sampler.photonsPerBatch(); ++i) {
+                       if (i % kPhotonsBetweenPulses == 0 &&
+                           !tracedMore(i == 0 ? 0 : kPhotonsBetweenPulses))
+                           return;
+                       Random random(settings.seed, pass, i);
+                       const EmittedPhoton emitted = sampler.sample(i, random);
+                       ++result.rays;
+                       transport.follow(stateOf(emitted), emitted.rangeMeters, random, gatherer);
+                   }
+                   result.photons = sampler.photonsPerBatch();
+               });
 }
 
 }  // namespace kaustik::reference

@@ -4,6 +4,20 @@
 namespace kaustik {
 
 void registerSharedNodes(Registry& registry) {
+    // In the order in which buildFrame() asks for them.
+    registry.stage<GeometryStage>();
+    registry.stage<EyeStage>();
+    registry.stage<LayersStage>();
+    registry.stage<ShadowStage>();
+    registry.stage<EmitStage>();
+    registry.stage<SpecularStage>();
+    registry.stage<TraceStage>();
+    registry.stage<MediaStage>();
+    registry.stage<BlurStage>();
+    registry.stage<ReconstructStage>();
+    registry.stage<ViewStage>();
+    registry.stage<ComposeStage>();
+
     registry.sharedParams<LayersStage, LayersParams>();
     registry.sharedParams<EmitStage, EmitParams>();
     registry.sharedParams<SpecularStage, SpecularParams>();

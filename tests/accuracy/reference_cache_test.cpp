@@ -2,6 +2,8 @@
 // References in files and in the cache: whole, of the right scene, or made again.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -99,6 +101,27 @@ TEST_F(ReferenceCache, MoreBatchesGoOnFromTheOnesThatAreThere) {
     };
     EXPECT_EQ(load().irradiance.values, whole.irradiance.values);
     EXPECT_EQ(computed, 5u);
+}
+
+TEST_F(ReferenceCache, AnEndInTheMiddleOfABatchKeepsTheWholeOnes) {
+    request_.photonsPerBatch = 8 * kPhotonsBetweenPulses;
+    options_.stop.batches = 3;
+    options_.threads = 1;
+    const Reference three = load();
+    options_.stop.batches = 1000;
+    std::atomic<std::uint64_t> most = 0;
+    std::atomic<int> calls = 0;
+    // A batch of a thousand is ended after a quarter of it.
+    options_.pulse = [&](std::uint64_t photons) {
+        most = std::max(most.load(), photons);
+        ++calls;
+        return photons < 2 * kPhotonsBetweenPulses;
+    };
+    const Reference ended = load();
+    EXPECT_EQ(ended.irradiance.values, three.irradiance.values);
+    EXPECT_EQ(ended.batches, 3u);
+    EXPECT_EQ(most, 2 * kPhotonsBetweenPulses);
+    EXPECT_LT(calls, 10);
 }
 
 TEST_F(ReferenceCache, DamagedEntriesAreReportedAndMadeAgain) {

@@ -91,6 +91,10 @@ void Desktop::Disconnect::operator()(_XDisplay* display) const {
 
 Desktop::Desktop(int width, int height) : server_(width, height) {
     XSetErrorHandler(onError);
+    connect();
+}
+
+void Desktop::connect() {
     display_.reset(XOpenDisplay(name().c_str()));
     if (!display_) throw std::runtime_error("Xvfb takes no connection on " + name() + ".");
     int ignored = 0;
@@ -161,6 +165,13 @@ void Desktop::wheel(int x, int y, int notches) {
         press(notches > 0 ? up : down);
         release(notches > 0 ? up : down);
     }
+}
+
+void Desktop::setLayout(const std::string& layout) {
+    const std::string command = "setxkbmap -display " + name() + " -layout " + layout;
+    if (std::system(command.c_str()) != 0)
+        throw std::runtime_error("'" + command + "' fails; is it installed (x11-xkb-utils)?");
+    connect();  // which keeps what the keys say
 }
 
 void Desktop::sendKey(unsigned keyCode, bool isDown) {

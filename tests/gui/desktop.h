@@ -51,8 +51,11 @@ class Desktop {
     void drag(int x0, int y0, int x1, int y1, unsigned button = kLeftButton, int steps = 10);
     void wheel(int x, int y, int notches);  // away from the hand (up) is positive
 
-    // The keyboard, a US one on which no key repeats. A chord is the name of a key (a character or
-    // X's name of it, as "F1", "Escape", "Return"), after modifiers: "ctrl+shift+s", "ctrl++".
+    // The keyboard, a US one at first, on which no key repeats. Another layout ("fr", "de") prints
+    // other characters on the same keys, also for programs that run already. A chord is the name of
+    // a key (a character or X's name of it, as "F1", "Escape", "Return"), after modifiers:
+    // "ctrl+shift+s", "ctrl++".
+    void setLayout(const std::string& layout);
     void keyDown(const std::string& chord);
     void keyUp(const std::string& chord);
     void key(const std::string& chord);
@@ -83,6 +86,7 @@ class Desktop {
         void operator()(_XDisplay* display) const;
     };
 
+    void connect();
     void sendKey(unsigned keyCode, bool isDown);
 
     XServer server_;

@@ -139,6 +139,28 @@ TEST_F(DesktopTest, TheWheelTurnsBothWays) {
     EXPECT_EQ(notches, (std::map<unsigned, int>{{4, 2}, {5, 3}}));
 }
 
+TEST_F(DesktopTest, OnAnotherLayoutOtherKeysSayTheSame) {
+    const auto codes = [&](const char* character) {
+        static_cast<void>(plain.events());
+        desktop.key(character);
+        std::vector<unsigned> pressed;
+        for (const XEvent& event : plain.events({KeyPress}))
+            pressed.push_back(event.xkey.keycode);
+        return pressed;
+    };
+    focusPlain();
+    const std::vector<unsigned> q = codes("q");
+    const std::vector<unsigned> a = codes("a");
+    const std::vector<unsigned> zero = codes("0");
+    desktop.setLayout("fr");
+    EXPECT_EQ(codes("a"), q);
+    EXPECT_EQ(codes("q"), a);
+    EXPECT_EQ(codes("0").size(), 2u) << "with Shift";
+    EXPECT_EQ(codes("0").back(), zero.back());
+    desktop.setLayout("us");
+    EXPECT_EQ(codes("a"), a);
+}
+
 TEST_F(DesktopTest, TextArrivesAsTyped) {
     focusPlain();
     const std::string text = "Set photons=64x32 ../a_b-c/~{\"x\": 0.5e+3}?";

@@ -2,6 +2,8 @@
 // The panel Error: the truth in the background, and how wrong the frame is beside it.
 #include <fmt/format.h>
 
+#include <set>
+
 #include "framework/image/image.h"
 #include "tests/gui/workbench_fixture.h"
 
@@ -62,6 +64,59 @@ TEST_F(ErrorPanel, TheInterfaceGoesOnWhileAReferenceIsComputed) {
     bench->drag("picture", 30, 0);
     EXPECT_NE(document().at("edits"), camera);
     bench->key("r");
+}
+
+// However long a batch of photons takes, and whatever the frame at hand: what is seen two frames of
+// the interface after the press (untilTaken) is the answer to it.
+TEST_F(ErrorPanel, ComputeAndStopAreAnsweredAtOnce) {
+    json kept = withPhotons(1e10);
+    kept["document"]["size"] = {800, 600};
+    start(kept);
+    open("Error");
+    bench->waitFor("the button", [](const json& screen) {
+        return screen.at("controls").contains("error.compute");
+    });
+    bench->click("error.compute");
+    const json pressed = bench->screen();
+    EXPECT_TRUE(pressed.at("controls").contains("error.progress"));
+    EXPECT_EQ(pressed.at("status").at("truth_photons"), 0) << "long before there are any";
+    bench->waitFor("progress within the first batch", [](const json& screen) {
+        EXPECT_EQ(screen.at("status").at("truth_photons"), 0);
+        return std::stod(
+                   screen.at("controls").at("error.progress").at("value").get<std::string>()) > 0.0;
+    });
+    bench->click("error.stop");
+    const json stopped = bench->screen().at("controls");
+    EXPECT_TRUE(stopped.contains("error.compute") ||
+                stopped.at("error.stop").at("value") == "stopping");
+    bench->waitFor("the end of the work", [](const json& screen) {
+        return screen.at("controls").contains("error.compute");
+    });
+    EXPECT_EQ(photons(), 0u) << "the first batch was ended in its middle";
+}
+
+TEST_F(ErrorPanel, TheProgressOfAReferenceNeverGoesBack) {
+    start(withPhotons(3e6));
+    open("Error");
+    bench->click("error.compute");
+    double most = 0.0;
+    std::set<double> seen;
+    bench->waitFor("the end of the work", [&](const json& screen) {
+        const json& controls = screen.at("controls");
+        if (!controls.contains("error.progress")) return true;
+        const double share =
+            std::stod(controls.at("error.progress").at("value").get<std::string>());
+        EXPECT_GE(share, most);
+        EXPECT_LE(share, 1.0);
+        most = share;
+        seen.insert(share);
+        return false;
+    });
+    EXPECT_GT(seen.size(), 3u);
+    EXPECT_GE(photons(), 3000000u);
+    // Both references are in it.
+    untilJudged();
+    EXPECT_TRUE(bench->has("error.modelled.rmse"));
 }
 
 TEST_F(ErrorPanel, AReferenceThatIsStoppedStaysAndGoesOnLater) {

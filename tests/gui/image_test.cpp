@@ -9,12 +9,12 @@
 
 #include "framework/core/files.h"
 #include "framework/image/image.h"
+#include "tests/gui/shader_copies.h"
 #include "tests/gui/workbench_fixture.h"
 
 namespace kaustik::test {
 namespace {
 
-namespace fs = std::filesystem;
 using nlohmann::json;
 
 class ImagePanel : public WorkbenchTest {
@@ -68,6 +68,43 @@ TEST_F(ImagePanel, AnyTextureIsShownWithItsLayersAndValues) {
                         kShownDigits * std::abs(expected));
         }
     }
+}
+
+TEST_F(ImagePanel, ALayerThatIsNotThereIsNotShownUnderItsNumber) {
+    json kept = showing("layers.depth", 6);
+    kept["document"]["variant"]["set"]["layers.count"] = "8";
+    start(kept);
+    open("Image");
+    EXPECT_EQ(bench->value("shown"), "asked");
+    EXPECT_EQ(bench->value("picture.caption"), "layers.depth, layer 6");
+    open("Parameters");
+    bench->typeInto("parameter.layers.count", "4", Entry::controlClick);
+    untilSettled();
+    EXPECT_EQ(bench->value("picture"), "empty");
+    EXPECT_EQ(bench->value("shown"), "stale");
+    EXPECT_TRUE(says("shown.sentence", "'layers.depth' has no layer 6"));
+    EXPECT_TRUE(says("shown.sentence", "0 to 3"));
+    bench->keepScreenshot("image-no-layer");
+    bench->click("shown.way_out");
+    untilSettled();
+    EXPECT_EQ(bench->value("shown"), "asked");
+    EXPECT_EQ(bench->value("picture.caption"), "layers.depth, layer 3");
+    open("Image");
+    EXPECT_EQ(bench->value("image.layer"), "3");
+}
+
+TEST_F(ImagePanel, ATextureThatIsNoLongerThereIsSaidToBeGone) {
+    start(showing("shadow.maps"));
+    EXPECT_EQ(bench->value("shown"), "asked");
+    open("Technique");
+    choose("stage.shadow", "rays");
+    untilSettled();
+    EXPECT_EQ(bench->value("shown"), "stale");
+    EXPECT_TRUE(says("shown.sentence", "no texture 'shadow.maps'"));
+    bench->click("shown.way_out");
+    untilSettled();
+    EXPECT_EQ(bench->value("shown"), "asked");
+    EXPECT_EQ(bench->value("picture.caption"), "");
 }
 
 TEST_F(ImagePanel, ATextureThatNothingNeedsIsMadeToBeSeen) {
@@ -148,22 +185,13 @@ TEST_F(ImagePanel, TheWheelZoomsToThePixelUnderTheMouseUntilItsValuesAreWritten)
     EXPECT_EQ(largestDifference(seenPicture(), whole), 0.0);
 }
 
-// The framework's own files but for the shaders, of which there are copies to be edited.
+// What composes the receivers' radiance for a `pixel`, edited while it is looked at.
 class EditedShaders : public ImagePanel {
   protected:
-    EditedShaders() {
-        fs::create_directories(root);
-        for (const auto& entry : fs::directory_iterator(projectRoot())) {
-            if (entry.path().filename() != "shaders")
-                fs::create_symlink(entry.path(), root / entry.path().filename());
-        }
-        fs::copy(projectRoot() / "shaders", root / "shaders", fs::copy_options::recursive);
-        original = readFile(shader);
-    }
-    // Puts it at the beginning of what composes the receivers' radiance for a `pixel`.
+    // Puts a line at its beginning.
     void edit(const std::string& line) const {
-        writeFileWhole(shader,
-                       original.substr(0, place()) + line + "\n" + original.substr(place()));
+        shaders.write(kShader,
+                      original.substr(0, place()) + line + "\n" + original.substr(place()));
     }
     [[nodiscard]] long lineOfEdit() const {
         return 1 +
@@ -172,10 +200,10 @@ class EditedShaders : public ImagePanel {
     [[nodiscard]] std::size_t place() const {
         return original.find('\n', original.find("ivec2 pixel = ")) + 1;
     }
-    void start() {
-        json kept = showing("compose.receiver_radiance");
+    void start(const std::string& resource = "compose.receiver_radiance") {
+        json kept = showing(resource);
         kept["view"]["exposure"] = -8.0;  // up to 256 W/m²/sr are told apart
-        WorkbenchTest::start(kept, {{"KAUSTIK_ROOT", root.string()}});
+        WorkbenchTest::start(kept, shaders.environment());
         open("Image");
     }
     void untilShaderIs(bool isBroken) {
@@ -184,30 +212,46 @@ class EditedShaders : public ImagePanel {
                            return screen.at("controls").contains("status.shader") == isBroken;
                        });
     }
+    void untilNotFinite(const std::string& count) {
+        bench->waitFor("so many values that are not finite: " + count, [&](const json& screen) {
+            return screen.at("controls").at("image.not_finite").at("value") == count;
+        });
+    }
+    // A column of NaN in red, half of it of infinity in green: 48 + 24 values.
+    static constexpr const char* kNotFinite =
+        "if (pixel.x == 5) {\n"
+        "    radiance = vec4(intBitsToFloat(0x7fc00000), 1.0, 1.0, 1.0);\n"
+        "    if (pixel.y % 2 == 0) radiance.g = intBitsToFloat(0x7f800000);\n"
+        "    return;\n"
+        "}";
 
-    fs::path root = folder / "root";
-    fs::path shader = root / "shaders/shared/radiance.frag";
-    std::string original;
+    static constexpr const char* kShader = "shared/radiance.frag";
+    ShaderCopies shaders{folder / "root"};
+    std::string original = shaders.read(kShader);
 };
 
 TEST_F(EditedShaders, ValuesThatAreNoNumbersAreFlaggedAndCounted) {
     start();
     EXPECT_EQ(bench->value("image.not_finite"), "0");
-    // A column of NaN in red, half of it of infinity in green: 48 + 24 values.
-    edit(
-        "if (pixel.x == 5) {\n"
-        "    radiance = vec4(intBitsToFloat(0x7fc00000), 1.0, 1.0, 1.0);\n"
-        "    if (pixel.y % 2 == 0) radiance.g = intBitsToFloat(0x7f800000);\n"
-        "    return;\n"
-        "}");
-    bench->waitFor("values that are not finite", [](const json& screen) {
-        return screen.at("controls").at("image.not_finite").at("value") == "72";
-    });
+    edit(kNotFinite);
+    untilNotFinite("72");
     bench->keepScreenshot("image-not-finite");
     edit("");
-    bench->waitFor("finite values", [](const json& screen) {
-        return screen.at("controls").at("image.not_finite").at("value") == "0";
+    untilNotFinite("0");
+}
+
+// Whose own values are colours, of which all are numbers.
+TEST_F(EditedShaders, ThePictureOfSuchValuesIsNotSaidToBeFinite) {
+    start("");
+    EXPECT_EQ(bench->value("image.not_finite"), "0");
+    edit(kNotFinite);
+    // As many, or more where they are seen through the water, too.
+    bench->waitFor("values that are not finite", [](const json& screen) {
+        return std::stoi(
+                   screen.at("controls").at("image.not_finite").at("value").get<std::string>()) >=
+               72;
     });
+    bench->keepScreenshot("image-not-finite-picture");
 }
 
 TEST_F(EditedShaders, ABrokenShaderIsExplainedAndTheLastGoodOneStaysInUse) {

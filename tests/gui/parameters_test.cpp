@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The panel Parameters: values typed, dragged, found and taken back.
+#include <cmath>
+
 #include "framework/image/image.h"
 #include "tests/gui/workbench_fixture.h"
 
@@ -56,6 +58,22 @@ TEST_F(ParametersPanel, ASliderThatIsDraggedChangesThePicture) {
     untilSettled();
     EXPECT_EQ(set().at("layers.count"), "1");
     EXPECT_GT(largestDifference(seenPicture(), before), 0.1);
+}
+
+// A straight slider's would be 50, of which a frame takes a minute.
+TEST_F(ParametersPanel, TheMiddleOfAWideRangeIsAUsualValue) {
+    start();
+    bench->click("parameter.reconstruct.sprites.footprints");
+    const double footprints =
+        std::stod(set().at("reconstruct.sprites.footprints").get<std::string>());
+    EXPECT_NEAR(footprints, std::sqrt(0.1 * 100.0), 0.5) << "a few of the slider's pixels";
+    bench->click("parameter.layers.count");
+    EXPECT_NEAR(std::stod(set().at("layers.count").get<std::string>()), 8.0, 1.0);
+    bench->click("parameter.trace.hierarchical.steps");
+    EXPECT_LT(std::stod(set().at("trace.hierarchical.steps").get<std::string>()), 100.0);
+    // The end that means "as many as needed" is there, too.
+    bench->drag("parameter.trace.hierarchical.steps", -400, 0);
+    EXPECT_EQ(set().at("trace.hierarchical.steps"), "0");
 }
 
 // As another process renders it with the same value.

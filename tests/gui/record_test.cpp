@@ -121,6 +121,46 @@ TEST_F(RecordPanel, AReportHasPassesTimesAndATrace) {
     expectSameImages(written, folder / "expected");
 }
 
+TEST_F(RecordPanel, AReportHasErrorAndHitsAsARunHas) {
+    start();
+    open("Record");
+    EXPECT_EQ(bench->value("record.judged"), "off");
+    bench->click("record.judged");
+    saveReport();
+    ASSERT_TRUE(says("record.state", "Wrote ")) << bench->value("record.state");
+    const json report = json::parse(readFile(reportFolder() / "report.json"));
+    renderSmall({"--reference", "auto", "--reference-photons", "1000000", "--out", "judged"});
+    const json expected = readJson("judged/report.json");
+    ASSERT_TRUE(expected.at("error").contains("modelled_paths"));
+    EXPECT_EQ(report.at("error"), expected.at("error"));
+    EXPECT_EQ(report.at("hits"), expected.at("hits"));
+    EXPECT_TRUE(fs::exists(reportFolder() / ("error" + displayImageExtension())));
+    // The picture goes on.
+    untilSettled();
+    EXPECT_EQ(bench->value("shown"), "asked");
+}
+
+TEST_F(RecordPanel, AReportIsCancelledWhileItsReferenceIsComputed) {
+    json kept = keptWith(smallDocument());
+    kept["panels"]["judged_reports"] = true;
+    kept["panels"]["truth_photons"] = 1e11;  // for days
+    start(kept);
+    open("Record");
+    bench->click("record.report");
+    bench->waitFor("a reference on its way", [](const json& screen) {
+        return screen.at("controls")
+            .at("record.state")
+            .at("value")
+            .get<std::string>()
+            .starts_with("busy: reference");
+    });
+    bench->click("record.cancel");
+    untilRecorded();
+    EXPECT_TRUE(says("record.state", "cancelled")) << bench->value("record.state");
+    untilSettled();
+    EXPECT_EQ(bench->status().at("error"), "");
+}
+
 TEST_F(RecordPanel, AScreenshotIsOfTheWholeWindow) {
     start();
     const Image seen = seenPicture();

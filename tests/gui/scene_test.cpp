@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/glm.hpp>
 #include <regex>
+#include <set>
 
 #include "framework/core/files.h"
 #include "tests/gui/workbench_fixture.h"
@@ -51,6 +52,30 @@ TEST_F(ScenePanel, ADragOrbitsAboutTheTargetAndRComesBack) {
     untilSettled();
     EXPECT_FALSE(edits().contains("camera"));
     EXPECT_EQ(largestDifference(seenPicture(), before), 0.0);
+}
+
+TEST_F(ScenePanel, APressThatTremblesIsAClick) {
+    json kept = withLightHandles("wavy.toml");
+    start(kept);
+    open("Image");
+    const json before = document();
+    bench->drag("picture", 1, 0);
+    bench->drag("picture", -2, 2);
+    bench->drag("picture", 1, 1, kRightButton);
+    bench->drag("light.sun", 1, 0);
+    EXPECT_EQ(document(), before) << "the view, and the reference of it, stay";
+    EXPECT_EQ(bench->value("shown"), "asked");
+    // What a click does it does all the same.
+    bench->click("image.probe");
+    bench->drag("picture.image", 1, 0, kLeftButton, pixel(10, 40));
+    bench->waitFor("photons", [](const json& screen) {
+        return screen.at("controls").contains("image.probe_landed");
+    });
+    EXPECT_EQ(document(), before);
+    // A drag counts from where it began.
+    bench->drag("picture", 60, 0);
+    const double pixels = bench->control("picture.image").h;
+    EXPECT_NEAR(std::atan2(-position().x, position().z), std::acos(-1.0) * 60.0 / pixels, 0.02);
 }
 
 TEST_F(ScenePanel, ARightDragLooksAroundFromTheSamePlace) {
@@ -110,6 +135,38 @@ TEST_F(ScenePanel, TheHandleOfALightMovesTheLight) {
     bench->keepScreenshot("scene-light");
     bench->click("reset.light.sun");
     EXPECT_FALSE(edits().contains("lights"));
+}
+
+// Points to it from the edge of the picture, and moves with the view.
+TEST_F(ScenePanel, ALightThatIsOffTheScreenIsMarkedWhereItLies) {
+    start(withLightHandles("glass-sphere"));
+    const auto middleOf = [](const Rectangle& r) {
+        return glm::dvec2(r.x + 0.5 * r.w, r.y + 0.5 * r.h);
+    };
+    const Rectangle area = bench->control("picture");
+    // The right button looks elsewhere, round and down.
+    std::vector<glm::dvec2> places;
+    std::set<std::string> kinds;
+    for (int step = 0; step < 14; ++step) {
+        bench->drag("picture", 150, 6, kRightButton, {0.3, 0.9});
+        if (!bench->has("light.lamp")) continue;
+        kinds.insert(bench->value("light.lamp"));
+        if (bench->value("light.lamp") == "seen") continue;
+        const glm::dvec2 place = middleOf(bench->control("light.lamp"));
+        const double edge = std::min({place.x - area.x, area.x + area.w - place.x, place.y - area.y,
+                                      area.y + area.h - place.y});
+        EXPECT_GT(edge, 0.0);
+        EXPECT_LT(edge, 40.0) << "at the edge";
+        places.push_back(place);
+        if (places.size() == 2) bench->keepScreenshot("scene-light-beside");
+    }
+    EXPECT_TRUE(kinds.contains("beside"));
+    EXPECT_TRUE(kinds.contains("behind"));
+    ASSERT_GT(places.size(), 4u);
+    std::size_t moves = 0;
+    for (std::size_t i = 1; i < places.size(); ++i)
+        moves += glm::distance(places[i], places[i - 1]) > 1.0 ? 1 : 0;
+    EXPECT_GE(moves, places.size() - 2) << "it is not stuck in a corner";
 }
 
 TEST_F(ScenePanel, HandlesAreShownAndHiddenWithL) {

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The panel Technique: other nodes, and two variants side by side.
+#include <algorithm>
+#include <set>
+
 #include "tests/gui/workbench_fixture.h"
 
 namespace kaustik::test {
@@ -49,6 +52,62 @@ TEST_F(TechniquePanel, ANodeThatIsTheOnlyOneOfItsStageCannotBeChosen) {
     open("Technique");
     bench->click("stage.emit");
     EXPECT_FALSE(bench->has("stage.emit=grid"));
+}
+
+// A stage comes where its last pass does.
+TEST_F(TechniquePanel, StagesAreThoseOfTheRegistryInTheOrderOfAFrame) {
+    start();
+    open("Technique");
+    std::vector<std::pair<double, std::string>> found;
+    const json controls = bench->screen().at("controls");
+    for (const auto& [name, control] : controls.items()) {
+        if (name.starts_with("stage."))
+            found.emplace_back(control.at("y").get<double>(), name.substr(6));
+    }
+    std::sort(found.begin(), found.end());
+    std::vector<std::string> stages;
+    for (const auto& [y, name] : found)
+        stages.push_back(name);
+    std::set<std::string> registered;
+    for (const json& node : json::parse(run({"list", "nodes", "--json"}).out))
+        registered.insert(node.at("stage"));
+    EXPECT_EQ(std::set<std::string>(stages.begin(), stages.end()), registered);
+
+    renderSmall({"--out", "report"});
+    std::vector<std::string> expected;
+    const json report = readJson("report/report.json");
+    for (const json& pass : report.at("passes")) {
+        const std::string name = pass.at("name");
+        const std::string stage = name.substr(0, name.find('.'));
+        std::erase(expected, stage);
+        expected.push_back(stage);
+    }
+    EXPECT_EQ(stages, expected);
+}
+
+TEST_F(TechniquePanel, TheVariantThatIsEditedIsNamedWhereverItIs) {
+    json both = smallDocument();
+    both["other"] = both["variant"];
+    both["other"]["set"]["trace.epsilon"] = "0.25";
+    start(keptWith(both));
+    EXPECT_EQ(bench->value("picture.caption"), "A ");
+    EXPECT_EQ(bench->value("parameters.edit_a"), "on");
+    EXPECT_EQ(bench->value("parameter.trace.epsilon"), "0.01");
+    bench->click("parameters.edit_b");
+    EXPECT_EQ(bench->value("parameter.trace.epsilon"), "0.25");
+    EXPECT_EQ(bench->value("picture.caption"), "B ");
+    bench->keepScreenshot("technique-edit-b");
+    EXPECT_EQ(bench->value("passes.edit_b"), "on");
+    open("Technique");
+    EXPECT_EQ(bench->value("variant.edit_b"), "on");
+    for (const auto& [tab, panel] : {std::pair{"Image", "image"}, std::pair{"Error", "error"}}) {
+        open(tab);
+        EXPECT_EQ(bench->value(std::string(panel) + ".edit_b"), "on");
+    }
+    // What is not there needs no name.
+    bench->click("variant.drop");
+    EXPECT_FALSE(bench->has("passes.edit_a"));
+    EXPECT_EQ(bench->value("picture.caption"), "");
 }
 
 TEST_F(TechniquePanel, TwoVariantsAreSeenSideBySide) {

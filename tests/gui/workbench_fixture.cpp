@@ -29,7 +29,11 @@ Json WorkbenchTest::smallDocument(const std::string& scene) {
 Json WorkbenchTest::keptWith(const Json& document) {
     return {{"document", document},
             {"view", {{"shows_lights", false}}},
-            {"panels", {{"precise", true}, {"record_folder", "out"}, {"truth_photons", 1e6}}},
+            {"panels",
+             {{"precise", true},
+              {"record_folder", "out"},
+              {"judged_reports", false},
+              {"truth_photons", 1e6}}},
             {"knows_device", true}};
 }
 

@@ -28,7 +28,7 @@ class WorkbenchTest : public testing::Test {
     // 64x48 pixels of that scene, by default the wavy water, with 32x32 photons.
     [[nodiscard]] static Json smallDocument(const std::string& scene = "wavy.toml");
     // What the workbench keeps, with that document: without handles of lights on the picture, and
-    // recordings go to the folder "out".
+    // recordings go to the folder "out", reports without a reference.
     [[nodiscard]] static Json keptWith(const Json& document);
     void writeKept(const Json& kept) const;
     [[nodiscard]] Json readKept() const;

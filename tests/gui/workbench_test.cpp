@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The workbench as a whole: starting, keeping, closing, keys, and where it cannot be.
 #include <algorithm>
+#include <set>
 
 #include "framework/core/files.h"
 #include "tests/gui/workbench_fixture.h"
@@ -43,6 +44,48 @@ TEST_F(Workbench, TheFirstStartShowsAPicture) {
     for (const char* tab : {"tab.Passes", "tab.Parameters"})
         EXPECT_EQ(bench->value(tab), "open") << tab;
     bench->keepScreenshot("workbench-first");
+}
+
+TEST_F(Workbench, WhereNothingIsSeenYetAQuickPictureComesFirst) {
+    startWithoutWaiting(keptWith(slowDocument()));
+    bench->waitFor("a first picture", [](const json& screen) {
+        return screen.at("controls").contains("picture.image");
+    });
+    const json first = bench->screen();
+    EXPECT_EQ(first.at("controls").at("picture").at("value"), "preview");
+    EXPECT_EQ(first.at("controls").at("shown").at("value"), "preview");
+    EXPECT_EQ(first.at("status").at("frame"), 0) << "none of those that are timed";
+    bench->keepScreenshot("workbench-quick-picture");
+    bench->waitFor("a whole picture", [](const json& screen) {
+        return screen.at("controls").at("picture").at("value") == "whole";
+    });
+    EXPECT_EQ(bench->value("shown"), "asked");
+}
+
+TEST_F(Workbench, TheProgressOfAnOrderNeverGoesBack) {
+    json document = smallDocument();
+    document["size"] = {240, 180};
+    document["variant"]["set"]["emit.photons"] = "256x256";
+    startWithoutWaiting(keptWith(document));
+    json order;
+    double most = 0.0;
+    std::set<double> seen;
+    bench->waitFor("a settled picture", [&](const json& screen) {
+        const json& status = screen.at("status");
+        if (status.at("order") != order) most = 0.0;
+        order = status.at("order");
+        const json& controls = screen.at("controls");
+        if (controls.contains("toolbar.progress")) {
+            const double share =
+                std::stod(controls.at("toolbar.progress").at("value").get<std::string>());
+            EXPECT_GE(share, most);
+            EXPECT_LE(share, 1.0);
+            most = share;
+            seen.insert(share);
+        }
+        return status.at("settled") == true && status.at("rendered_order") == order;
+    });
+    EXPECT_GT(seen.size(), 5u);
 }
 
 TEST_F(Workbench, ARestartFindsEverythingAsItWasLeft) {
@@ -89,19 +132,28 @@ TEST_F(Workbench, WhatWasKeptBeforeACrashIsThereAgain) {
 TEST_F(Workbench, SettingsThatMakeNoSenseAreNoReasonNotToStart) {
     const fs::path file = folder / "config/kaustik/workbench.json";
     fs::create_directories(file.parent_path());
-    writeFileWhole(file, R"({"view": {"zoom": "x", "beside": 99}, "document": 7, "panels": [)");
+    const std::string damaged =
+        R"({"view": {"zoom": "x", "beside": 99}, "document": 7, "panels": [)";
+    writeFileWhole(file, damaged);
     bench.emplace(desktop, folder / "", std::vector<std::string>{"wavy.toml"});
     bench->waitFor("a picture", [](const json& screen) {
         return screen.at("controls").contains("picture.image");
     });
     EXPECT_EQ(bench->status().at("scene"), "wavy.toml");
+    // The file is no reason to lose what is in it.
+    const fs::path aside = file.parent_path() / "workbench-damaged-1.json";
+    EXPECT_TRUE(says("status.message", aside.string())) << bench->value("status.message");
+    EXPECT_EQ(readFile(aside), damaged);
+    bench->keepScreenshot("workbench-damaged-settings");
     endByClosing();
+    EXPECT_EQ(readKept().at("document").at("scene"), "wavy.toml");
 
     json kept = keptWith(smallDocument());
     kept["document"]["variant"]["set"]["no.such.parameter"] = "1";
     start(kept);
     EXPECT_TRUE(says("status.message", "no.such.parameter"));
     EXPECT_EQ(document().at("scene"), "wavy.toml");
+    EXPECT_EQ(json::parse(readFile(file.parent_path() / "workbench-damaged-2.json")), kept);
 }
 
 TEST_F(Workbench, TheInterfaceGoesOnWhileAFrameIsRendered) {

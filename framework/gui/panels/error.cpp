@@ -27,7 +27,8 @@ void drawTruth(Bench& bench) {
     if (!truth.problem.empty())
         ImGui::TextColored(ImVec4(1.0f, 0.45f, 0.4f, 1.0f), "%s", truth.problem.c_str());
     bench.map.area("error.problem", 0, 0, 0, 0, truth.problem);
-    if (truth.work == TruthState::Work::looking) {
+    const TruthWorker::Progress progress = bench.truthWorker.progress();
+    if (truth.isLooking) {
         ImGui::TextDisabled("Looking for a reference …");
     } else if (truth.photons > 0) {
         ImGui::Text("Reference of %.1f million photons; standard error of a lit pixel %s.",
@@ -48,12 +49,15 @@ void drawTruth(Bench& bench) {
         bench.panels.truthPhotons = double(millions) * 1e6;
     }
     bench.map.control("error.photons");
-    if (truth.work == TruthState::Work::computing) {
-        ImGui::ProgressBar(static_cast<float>(truth.share), {-FLT_MIN, 0.0f},
-                           truth.reached.c_str());
-        bench.map.control("error.progress", fmt::format("{}", truth.share));
-        if (button(bench, "Stop (what there is stays)", "error.stop"))
-            bench.truthWorker.stopComputing();
+    if (progress.isComputing || progress.isEnding) {
+        ImGui::ProgressBar(static_cast<float>(progress.share), {-FLT_MIN, 0.0f},
+                           progress.reached.c_str());
+        bench.map.control("error.progress", fmt::format("{}", progress.share));
+        ImGui::BeginDisabled(progress.isEnding);
+        const char* label = progress.isEnding ? "Stopping …" : "Stop (what there is stays)";
+        if (ImGui::Button(label)) bench.truthWorker.stopComputing();
+        bench.map.control("error.stop", progress.isEnding ? "stopping" : "");
+        ImGui::EndDisabled();
     } else if (truth.aim) {
         const bool isEnough = static_cast<double>(truth.photons) >= bench.panels.truthPhotons;
         ImGui::BeginDisabled(isEnough);
@@ -108,8 +112,11 @@ void drawTable(Bench& bench, const char* title, json TruthState::Judgement::*par
 void drawLedger(Bench& bench) {
     const VariantResult& result = bench.editedResult();
     ImGui::Separator();
+    chooseVariant(bench, "error");
     if (!result.ledger) {
+        ImGui::PushTextWrapPos(0.0f);
         ImGui::TextDisabled("The energy ledger follows once the frames have settled.");
+        ImGui::PopTextWrapPos();
         return;
     }
     using namespace transport;

@@ -21,7 +21,7 @@ void drawHelp(Bench& bench) {
         {"R", "the scene's own camera"},
         {"L", "handles of the lights"},
         {"F", "false colours"},
-        {"+  -", "exposure"},
+        {"+ or =, -", "exposure"},
         {"P", "probe photons; then click on the picture"},
         {"Ctrl + Z, Ctrl + Y", "undo and redo"},
         {"Ctrl + S", "save as experiment"},
@@ -42,6 +42,7 @@ void drawHelp(Bench& bench) {
             }
             ImGui::EndTable();
         }
+        ImGui::TextDisabled("By the characters on the keys. While you type only F1, F5, F12.");
         bench.map.area("help", ImGui::GetWindowPos().x, ImGui::GetWindowPos().y,
                        ImGui::GetWindowWidth(), ImGui::GetWindowHeight());
     }

@@ -48,7 +48,8 @@ void drawChoiceOfTexture(Bench& bench) {
                         desc.layers > 0 ? fmt::format("x{}", desc.layers).c_str() : "",
                         graph::formatName(desc.format));
     if (desc.layers > 1) {
-        ImGui::SliderInt("layer", &bench.view.layer, 0, desc.layers - 1, "%d",
+        const std::string last = fmt::format("%d of 0 to {}", desc.layers - 1);
+        ImGui::SliderInt("layer", &bench.view.layer, 0, desc.layers - 1, last.c_str(),
                          ImGuiSliderFlags_AlwaysClamp);
         bench.map.control("image.layer", fmt::format("{}", bench.view.layer));
     }
@@ -87,17 +88,20 @@ void drawMapping(Bench& bench, const ViewedTexture* viewed) {
 }
 
 void drawValues(Bench& bench, const ViewedTexture& viewed) {
+    // The picture's own values are colours, which are always finite.
+    const std::string of = viewed.isEncoded ? fmt::format(" of '{}'", viewed.checked) : "";
+    ImGui::PushTextWrapPos(0.0f);
     if (viewed.notFinite) {
         const measure::NotFinite& found = *viewed.notFinite;
-        ImGui::PushTextWrapPos(0.0f);
-        ImGui::TextColored(ImVec4(1.0f, 0.4f, 1.0f, 1.0f), "%s.", describe(found).c_str());
-        ImGui::PopTextWrapPos();
+        ImGui::TextColored(ImVec4(1.0f, 0.4f, 1.0f, 1.0f), "%s%s.", describe(found).c_str(),
+                           of.c_str());
         bench.map.control("image.not_finite",
                           fmt::format("{}", found.nanCount + found.infinityCount));
     } else {
-        ImGui::TextDisabled("All values are finite.");
+        ImGui::TextDisabled("All values%s are finite.", of.c_str());
         bench.map.control("image.not_finite", "0");
     }
+    ImGui::PopTextWrapPos();
     const Histogram& histogram = viewed.histogram;
     std::vector<float> counts;
     for (const std::uint32_t count : histogram.counts)
@@ -118,6 +122,7 @@ void drawProbe(Bench& bench) {
     ImGui::Separator();
     static_cast<void>(checkbox(bench, "probe photons (P)", view.probes, "image.probe"));
     tooltip("A click on the picture shows which photons landed there and the ways that they came.");
+    if (bench.document.other) ImGui::TextDisabled("Photons are those of variant A.");
     if (!view.probes) return;
     ImGui::SliderFloat("radius", &view.probeRadius, 0.5f, 32.0f, "%.1f px",
                        ImGuiSliderFlags_Logarithmic);
@@ -158,6 +163,7 @@ void drawProbe(Bench& bench) {
 void drawImage(Bench& bench) {
     const VariantResult& result = bench.editedResult();
     const ViewedTexture* viewed = result.viewed ? &*result.viewed : nullptr;
+    chooseVariant(bench, "image");
     drawChoiceOfTexture(bench);
     drawMapping(bench, viewed);
     int beside = static_cast<int>(bench.view.beside);
@@ -167,7 +173,8 @@ void drawImage(Bench& bench) {
         "What is seen to the right of the split, which can be dragged. The truth is of the "
         "caustic irradiance, and shown beside that.");
     ImGui::Separator();
-    if (viewed != nullptr) drawValues(bench, *viewed);
+    if (viewed != nullptr && viewed->missing != ViewedTexture::Missing::layer)
+        drawValues(bench, *viewed);
     drawProbe(bench);
 }
 

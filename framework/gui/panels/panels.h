@@ -7,6 +7,7 @@
 
 namespace kaustik::gui {
 
+void drawShown(Bench& bench);       // one line: whether what is shown is what was asked for
 void drawPasses(Bench& bench);      // what runs, what it costs, on and off
 void drawTimeChart(Bench& bench);   // the newest frames as stacks of their passes
 void drawTechnique(Bench& bench);   // technique, nodes, and a second variant beside the first

@@ -46,7 +46,9 @@ void drawRow(Bench& bench, const params::ParamSet& params, const params::NamedFi
         named.field.unit.empty()
             ? 0.0f
             : ImGui::CalcTextSize(named.field.unit.c_str()).x + 8.0f * bench.scale;
-    const float markWidth = isChanged ? ImGui::GetFontSize() * 1.6f : 0.0f;
+    // There is room for the mark before there is one: a slider that becomes shorter under the hand
+    // would jump.
+    const float markWidth = ImGui::GetFontSize() * 1.6f;
     ImGui::SetNextItemWidth(
         std::max(40.0f, ImGui::GetContentRegionAvail().x - unitWidth - markWidth));
     const ParameterChange change = drawParameter(bench, named, "##value");
@@ -66,6 +68,7 @@ void drawRow(Bench& bench, const params::ParamSet& params, const params::NamedFi
 
 void drawParameters(Bench& bench) {
     PanelState& panels = bench.panels;
+    chooseVariant(bench, "parameters");
     ImGui::SetNextItemWidth(-ImGui::CalcTextSize("  all nodes  ").x - ImGui::GetFrameHeight());
     inputText(bench, "##search", "search names and sentences", panels.parameterSearch,
               "parameters.search");
@@ -79,8 +82,9 @@ void drawParameters(Bench& bench) {
         std::string stage;
         bool isTable = false;
         std::vector<params::NamedField> fields = params.all();
-        std::stable_sort(fields.begin(), fields.end(), [](const auto& a, const auto& b) {
-            return stageRank(stageOf(a.fullName)) < stageRank(stageOf(b.fullName));
+        std::stable_sort(fields.begin(), fields.end(), [&](const auto& a, const auto& b) {
+            return stageRank(bench.registry, stageOf(a.fullName)) <
+                   stageRank(bench.registry, stageOf(b.fullName));
         });
         for (const params::NamedField& named : fields) {
             if (named.fullName.find('.') == std::string::npos) continue;
@@ -93,7 +97,7 @@ void drawParameters(Bench& bench) {
             if (stageOf(named.fullName) != stage) {
                 if (isTable) ImGui::EndTable();
                 stage = stageOf(named.fullName);
-                ImGui::TextColored(stageColor(stage), "%s", stage.c_str());
+                ImGui::TextColored(stageColor(bench.registry, stage), "%s", stage.c_str());
                 isTable = ImGui::BeginTable(stage.c_str(), 2, ImGuiTableFlags_Resizable);
                 if (isTable) {
                     ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 0.45f);

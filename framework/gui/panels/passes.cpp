@@ -109,14 +109,11 @@ void setUpColumns() {
         "", hasRoom ? ImGuiTableColumnFlags_WidthStretch : ImGuiTableColumnFlags_Disabled);
 }
 
-// Passes that are off and that the list does not have: those of a node that is no longer chosen.
+// Where no frame tells which passes there are: what is off can be switched on again here.
 void drawSwitchedOff(Bench& bench, const VariantResult& result) {
+    if (result.error.empty()) return;
     std::string turnedOn;
     for (const std::string& name : bench.edited().disabled) {
-        const bool isListed =
-            std::any_of(result.passes.begin(), result.passes.end(),
-                        [&](const graph::PassRecord& pass) { return pass.name == name; });
-        if (isListed && result.error.empty()) continue;
         if (button(bench, fmt::format("Forget that {} is off", name).c_str(),
                    "passes.forget." + name)) {
             turnedOn = name;
@@ -151,6 +148,7 @@ void drawSummary(Bench& bench, const VariantResult& result) {
 }  // namespace
 
 void drawPasses(Bench& bench) {
+    chooseVariant(bench, "passes");
     const VariantResult& result = bench.editedResult();
     drawSummary(bench, result);
     if (!result.error.empty()) {
@@ -173,7 +171,7 @@ void drawPasses(Bench& bench) {
             stage = stageOf(pass.name);
             ImGui::TableNextRow();
             ImGui::TableSetColumnIndex(1);
-            ImGui::TextColored(stageColor(stage), "%s", stage.c_str());
+            ImGui::TextColored(stageColor(bench.registry, stage), "%s", stage.c_str());
         }
         drawPassRow(bench, result, pass, frameMs);
     }

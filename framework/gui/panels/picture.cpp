@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The picture and what lies over it: the split, values of single pixels, handles of lights, the
-// ways of photons; and the hand on it.
+// The picture, the split, values of single pixels; and the hand on it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +7,7 @@
 
 #include "framework/gui/camera_control.h"
 #include "framework/gui/panels/panels.h"
+#include "framework/gui/panels/picture_overlay.h"
 #include "framework/gui/widgets.h"
 
 namespace kaustik::gui {
@@ -16,32 +16,10 @@ namespace {
 // Above so many window pixels a pixel, its values are written into it.
 constexpr float kPixelsForValues = 56.0f;
 
-// Where the picture lies in the window.
-struct Frame {
-    ImVec2 corner;  // of the area
-    ImVec2 size;
-    ImVec2 low;  // of the whole picture, which may be larger than the area
-    ImVec2 high;
-    float zoom = 1.0f;  // window pixels a pixel of the image
-    float reduction = 1.0f;
-    int width = 1;  // of the picture
-    int height = 1;
-
-    [[nodiscard]] glm::vec2 pixelAt(ImVec2 p) const {
-        return {(p.x - low.x) / zoom, (p.y - low.y) / zoom};
-    }
-    [[nodiscard]] ImVec2 windowAt(glm::vec2 pixel) const {
-        return {low.x + pixel.x * zoom, low.y + pixel.y * zoom};
-    }
-    [[nodiscard]] bool contains(glm::ivec2 pixel) const {
-        return pixel.x >= 0 && pixel.y >= 0 && pixel.x < width && pixel.y < height;
-    }
-};
-
 // `reduction`: how many of the document's pixels a side of the image's pixels stands for.
-Frame place(const ViewState& view, ImVec2 corner, ImVec2 size, const Image& image,
-            float reduction) {
-    Frame frame{corner, size, corner, corner, 1.0f, reduction, image.width, image.height};
+PictureFrame place(const ViewState& view, ImVec2 corner, ImVec2 size, const Image& image,
+                   float reduction) {
+    PictureFrame frame{corner, size, corner, corner, 1.0f, reduction, image.width, image.height};
     const auto width = static_cast<float>(image.width);
     const auto height = static_cast<float>(image.height);
     frame.zoom =
@@ -80,23 +58,26 @@ Other otherImage(const Bench& bench) {
             break;
         case Beside::other: {
             const VariantResult& b = result.variants[1];
-            if (b.viewed) return {&b.viewed->values, b.viewed->version, b.viewed->isEncoded, "B"};
+            if (b.viewed && !b.viewed->values.values.empty())
+                return {&b.viewed->values, b.viewed->version, b.viewed->isEncoded, "B"};
             break;
         }
         case Beside::truth:
-            if (truth.irradiance)
+            if (truth.irradiance && isOfSameView(truth, result))
                 return {truth.irradiance.get(), 2 * truth.version, false, "truth"};
             break;
         case Beside::error:
-            if (truth.judgements[0].heatMap) {
-                return {truth.judgements[0].heatMap.get(), 2 * truth.version + 1, true, "error"};
+            if (const TruthState::Judgement& judgement = truth.judgements[bench.asked().seen()];
+                judgement.heatMap && isOfSameView(truth, result)) {
+                return {judgement.heatMap.get(), 2 * truth.version + 1, true,
+                        judgement.order == result.order ? "error" : "error of before"};
             }
             break;
     }
     return {};
 }
 
-void drawPixelValues(const Bench& bench, const Frame& frame, const Image& image) {
+void drawPixelValues(const Bench& bench, const PictureFrame& frame, const Image& image) {
     if (frame.zoom < kPixelsForValues * bench.scale) return;
     bench.map.area("picture.values", frame.corner.x, frame.corner.y, frame.size.x, frame.size.y);
     ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -118,80 +99,7 @@ void drawPixelValues(const Bench& bench, const Frame& frame, const Image& image)
     }
 }
 
-render::EyeView eyeViewOf(const Bench& bench, const Frame& frame) {
-    return render::makeEyeView(bench.camera(), frame.width, frame.height);
-}
-
-// The light whose handle is under the mouse, or that is being dragged; -1: none.
-int drawLights(Bench& bench, const Frame& frame, bool isHovered, int dragged) {
-    if (!bench.view.showsLights || !bench.isSceneCurrent()) return -1;
-    ImDrawList& draw = *ImGui::GetWindowDrawList();
-    const SceneFacts& facts = *bench.result->scene;
-    const render::EyeView view = eyeViewOf(bench, frame);
-    const auto at = [&](const glm::dvec3& world) {
-        return project(view, glm::vec3(view.worldToView * glm::dvec4(world, 1.0)));
-    };
-    const auto radius = static_cast<float>(bench.px(9.0));
-    int found = -1;
-    for (std::size_t i = 0; i < facts.lights.size(); ++i) {
-        const scene::Light light = withEdits(facts.lights[i], bench.document.edits);
-        const glm::dvec3 handle = lightHandle(light, facts.bounds);
-        const Projected seen = at(handle);
-        if (!seen.visible) continue;
-        // Kept within reach where the light itself is out of the picture.
-        const ImVec2 place = frame.windowAt(seen.pixel);
-        const ImVec2 shown(
-            std::clamp(place.x, frame.corner.x + radius, frame.corner.x + frame.size.x - radius),
-            std::clamp(place.y, frame.corner.y + radius, frame.corner.y + frame.size.y - radius));
-        const ImVec2 mouse = ImGui::GetIO().MousePos;
-        const bool isNear = std::hypot(mouse.x - shown.x, mouse.y - shown.y) < 1.5f * radius;
-        const bool isHeld = dragged == static_cast<int>(i);
-        if (isHovered && isNear) found = static_cast<int>(i);
-        if (isHovered && isNear) tooltip(fmt::format("{}: drag to move it", light.name));
-        const ImU32 color = isHeld || (isHovered && isNear) ? IM_COL32(255, 255, 160, 255)
-                                                            : IM_COL32(255, 210, 60, 230);
-        if (light.kind == scene::LightKind::directional) {
-            const Projected middle = at(0.5 * (facts.bounds.minimum + facts.bounds.maximum));
-            if (middle.visible) {
-                draw.AddLine(shown, frame.windowAt(middle.pixel), IM_COL32(255, 210, 60, 110),
-                             1.5f * bench.scale);
-            }
-        }
-        draw.AddCircleFilled(shown, radius, IM_COL32(0, 0, 0, 140));
-        draw.AddCircle(shown, radius, color, 0, 2.0f * bench.scale);
-        draw.AddCircleFilled(shown, 0.4f * radius, color);
-        bench.map.area("light." + light.name, shown.x - radius, shown.y - radius, 2.0f * radius,
-                       2.0f * radius);
-    }
-    return found;
-}
-
-void drawPhotons(const Bench& bench, const Frame& frame) {
-    const auto& probe = bench.result->probe;
-    const ViewState& state = bench.view;
-    if (!state.probes || state.probePixel.x < 0) return;
-    ImDrawList& draw = *ImGui::GetWindowDrawList();
-    const glm::vec2 middle = glm::vec2(state.probePixel) + 0.5f;
-    draw.AddCircle(frame.windowAt(middle), std::max(state.probeRadius * frame.zoom, 4.0f),
-                   IM_COL32(255, 60, 60, 255), 0, 1.5f * bench.scale);
-    if (!probe || probe->pixel != state.probePixel) return;
-    const render::EyeView view = eyeViewOf(bench, frame);
-    for (const PhotonPath& path : probe->paths) {
-        for (std::size_t i = 1; i < path.points.size(); ++i) {
-            const Projected from = project(view, path.points[i - 1]);
-            const Projected to = project(view, path.points[i]);
-            if (!from.visible || !to.visible) continue;
-            // Before the first surface, on the way, and the last stretch to where it landed.
-            const ImU32 color = i == 1                       ? IM_COL32(255, 220, 80, 60)
-                                : i + 1 < path.points.size() ? IM_COL32(80, 200, 255, 110)
-                                                             : IM_COL32(120, 255, 120, 110);
-            draw.AddLine(frame.windowAt(from.pixel), frame.windowAt(to.pixel), color,
-                         1.0f * bench.scale);
-        }
-    }
-}
-
-void zoomAt(ViewState& view, const Frame& frame, ImVec2 mouse, float factor) {
+void zoomAt(ViewState& view, const PictureFrame& frame, ImVec2 mouse, float factor) {
     if (frame.reduction != 1.0f) return;  // a moment later the whole picture is there
     const glm::vec2 pixel = frame.pixelAt(mouse);
     view.zoom = std::clamp(frame.zoom * factor, 0.05f, 256.0f);
@@ -218,13 +126,29 @@ void fly(Bench& bench) {
 // What the mouse holds while a button is down.
 enum class Hold { nothing, camera, look, middle, split, light };
 
+// A press that moves less is a click: no hand holds quite still. Pixels at scale 1.
+constexpr double kClickPixels = 4.0;
+
 struct Hand {
     Hold hold = Hold::nothing;
     int light = -1;
+    ImVec2 pressed;  // where
     bool hasMoved = false;
+    // Whether it changes what is worked on, and not only how it is seen.
+    [[nodiscard]] bool changesDocument() const {
+        return hold == Hold::camera || hold == Hold::look || hold == Hold::light;
+    }
 };
 
-void dragHeldLight(Bench& bench, const Frame& frame, int index, glm::dvec2 pixels) {
+// The way of the mouse that counts in this frame; 0 before a press is more than a click.
+glm::dvec2 wayOf(const Bench& bench, const Hand& hand) {
+    const ImGuiIO& io = ImGui::GetIO();
+    if (hand.hasMoved || !hand.changesDocument()) return {io.MouseDelta.x, io.MouseDelta.y};
+    const glm::dvec2 whole(io.MousePos.x - hand.pressed.x, io.MousePos.y - hand.pressed.y);
+    return glm::length(whole) < bench.px(kClickPixels) ? glm::dvec2(0.0) : whole;
+}
+
+void dragHeldLight(Bench& bench, const PictureFrame& frame, int index, glm::dvec2 pixels) {
     if (!bench.isSceneCurrent() ||
         static_cast<std::size_t>(index) >= bench.result->scene->lights.size()) {
         return;  // another scene came under the hand
@@ -241,11 +165,10 @@ void dragHeldLight(Bench& bench, const Frame& frame, int index, glm::dvec2 pixel
     }
 }
 
-void useHand(Bench& bench, const Frame& frame, Hand& hand) {
+void useHand(Bench& bench, const PictureFrame& frame, Hand& hand) {
     const ImGuiIO& io = ImGui::GetIO();
-    const glm::dvec2 way(io.MouseDelta.x, io.MouseDelta.y);
-    const bool isMoving = io.MouseDelta.x != 0.0f || io.MouseDelta.y != 0.0f;
-    if (!isMoving || hand.hold == Hold::nothing) return;
+    const glm::dvec2 way = wayOf(bench, hand);
+    if (way == glm::dvec2(0.0) || hand.hold == Hold::nothing) return;
     hand.hasMoved = true;
     ViewState& view = bench.view;
     const double height = double(frame.high.y) - double(frame.low.y);
@@ -278,7 +201,7 @@ void useHand(Bench& bench, const Frame& frame, Hand& hand) {
     }
 }
 
-void drawCursorValue(Bench& bench, const Frame& frame, const ViewedTexture& viewed,
+void drawCursorValue(Bench& bench, const PictureFrame& frame, const ViewedTexture& viewed,
                      const Other& other, float splitX) {
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     const glm::ivec2 pixel = glm::floor(frame.pixelAt(mouse));
@@ -300,6 +223,73 @@ void drawCursorValue(Bench& bench, const Frame& frame, const ViewedTexture& view
     draw.AddText(at, IM_COL32(255, 255, 255, 255), text.c_str());
 }
 
+// What the image left of the split is of, as it was rendered: it may be older than what is asked
+// for.
+void drawCaption(const Bench& bench, const PictureFrame& frame, const ViewedTexture& viewed) {
+    const char* variant = !bench.document.other ? "" : bench.asked().seen() == 0 ? "A " : "B ";
+    const std::string layer = viewed.layers > 1 ? fmt::format(", layer {}", viewed.layer) : "";
+    const std::string text = fmt::format("{}{}{}", variant, viewed.name, layer);
+    bench.map.area("picture.caption", 0, 0, 0, 0, text);
+    if (text.empty()) return;
+    const ImVec2 at(frame.corner.x + 6.0f, frame.corner.y + 4.0f);
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    draw.AddRectFilled({at.x - 4.0f, at.y - 2.0f}, {at.x + size.x + 4.0f, at.y + size.y + 2.0f},
+                       IM_COL32(0, 0, 0, 170));
+    draw.AddText(at, IM_COL32(255, 255, 255, 255), text.c_str());
+}
+
+void drawOther(Bench& bench, const PictureFrame& frame, const Other& other, float splitX) {
+    const ImVec2 corner = frame.corner;
+    const ImVec2 size = frame.size;
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    bench.canvas.show(1, *other.image, other.version, mappingOf(bench.view, other.isEncoded));
+    draw.PushClipRect({splitX, corner.y}, {corner.x + size.x, corner.y + size.y}, true);
+    draw.AddImage(bench.canvas.texture(1), frame.low, frame.high);
+    draw.PopClipRect();
+    draw.AddLine({splitX, corner.y}, {splitX, corner.y + size.y}, IM_COL32(255, 255, 255, 200),
+                 1.5f * bench.scale);
+    draw.AddText({splitX + 6.0f, corner.y + 4.0f}, IM_COL32(255, 255, 255, 255),
+                 other.name.c_str());
+    bench.map.area("picture.split", splitX - 3.0f, corner.y, 6.0f, size.y,
+                   fmt::format("{}", bench.view.split));
+}
+
+// What a press takes hold of.
+Hand takeHold(bool isNearSplit, int pointedLight) {
+    Hand hand;
+    hand.pressed = ImGui::GetIO().MousePos;
+    if (ImGui::IsMouseDown(ImGuiMouseButton_Right)) {
+        hand.hold = Hold::look;
+    } else if (ImGui::IsMouseDown(ImGuiMouseButton_Middle)) {
+        hand.hold = Hold::middle;
+    } else if (pointedLight >= 0) {
+        hand.hold = Hold::light;
+        hand.light = pointedLight;
+    } else {
+        hand.hold = isNearSplit ? Hold::split : Hold::camera;
+    }
+    return hand;
+}
+
+void useWheel(Bench& bench, const PictureFrame& frame) {
+    const ImGuiIO& io = ImGui::GetIO();
+    if (io.MouseWheel == 0.0f) return;
+    if (io.KeyCtrl && bench.isSceneCurrent()) {
+        bench.document.edits.camera = dolly(bench.camera(), double(io.MouseWheel));
+        bench.isTurning = true;
+    } else {
+        zoomAt(bench.view, frame, io.MousePos, std::pow(1.25f, io.MouseWheel));
+    }
+}
+
+// In the place of an image.
+void drawWords(Bench& bench, ImVec2 corner, ImVec2 size, const char* text) {
+    ImGui::GetWindowDrawList()->AddText({corner.x + 12.0f, corner.y + 12.0f},
+                                        IM_COL32(200, 200, 200, 255), text);
+    bench.map.area("picture", corner.x, corner.y, size.x, size.y, "empty");
+}
+
 }  // namespace
 
 void drawPicture(Bench& bench) {
@@ -313,25 +303,23 @@ void drawPicture(Bench& bench) {
     const bool isHovered = ImGui::IsItemHovered();
     const bool isActivated = ImGui::IsItemActivated();
     const bool isActive = ImGui::IsItemActive();
-    const VariantResult& shown =
-        bench.document.other ? bench.result->variants[0] : bench.editedResult();
-    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const VariantResult& shown = bench.result->variants[bench.asked().seen()];
     if (!shown.viewed) {
-        const char* text = bench.result->problem.empty() && shown.error.empty()
-                               ? "The first frame is being rendered …"
-                               : "There is nothing to show.";
-        draw.AddText({corner.x + 12.0f, corner.y + 12.0f}, IM_COL32(200, 200, 200, 255), text);
-        bench.map.area("picture", corner.x, corner.y, size.x, size.y, "empty");
-        return;
+        const bool isToCome = bench.result->problem.empty() && shown.error.empty();
+        return drawWords(
+            bench, corner, size,
+            isToCome ? "The first picture is being rendered …" : "There is nothing to show.");
     }
     const ViewedTexture& viewed = *shown.viewed;
+    if (viewed.missing == ViewedTexture::Missing::layer)
+        return drawWords(bench, corner, size, "There is no such layer.");
     ViewState& view = bench.view;
     // A preview has fewer pixels, and lies where the whole picture does.
     const params::Extent whole = bench.result->document.size;
     const float reduction =
         shown.isPreview ? static_cast<float>(whole.width) / static_cast<float>(viewed.values.width)
                         : 1.0f;
-    const Frame frame = place(view, corner, size, viewed.values, reduction);
+    const PictureFrame frame = place(view, corner, size, viewed.values, reduction);
     const bool hasPixelsOfDocument =
         viewed.values.width == whole.width && viewed.values.height == whole.height;
     const Other other = otherImage(bench);
@@ -339,29 +327,16 @@ void drawPicture(Bench& bench) {
                              ? frame.low.x + view.split * (frame.high.x - frame.low.x)
                              : corner.x + size.x;
 
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
     bench.canvas.show(0, viewed.values, viewed.version, mappingOf(view, viewed.isEncoded));
     draw.PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
     draw.AddImage(bench.canvas.texture(0), frame.low, frame.high);
-    if (other.image != nullptr) {
-        bench.canvas.show(1, *other.image, other.version, mappingOf(view, other.isEncoded));
-        draw.PushClipRect({splitX, corner.y}, {corner.x + size.x, corner.y + size.y}, true);
-        draw.AddImage(bench.canvas.texture(1), frame.low, frame.high);
-        draw.PopClipRect();
-        draw.AddLine({splitX, corner.y}, {splitX, corner.y + size.y}, IM_COL32(255, 255, 255, 200),
-                     1.5f * bench.scale);
-        draw.AddText({splitX + 6.0f, corner.y + 4.0f}, IM_COL32(255, 255, 255, 255),
-                     other.name.c_str());
-        if (view.beside == Beside::other) {
-            draw.AddText({splitX - 6.0f - ImGui::CalcTextSize("A").x, corner.y + 4.0f},
-                         IM_COL32(255, 255, 255, 255), "A");
-        }
-        bench.map.area("picture.split", splitX - 3.0f, corner.y, 6.0f, size.y,
-                       fmt::format("{}", view.split));
-    }
+    if (other.image != nullptr) drawOther(bench, frame, other, splitX);
     drawPixelValues(bench, frame, viewed.values);
     drawPhotons(bench, frame);
     const int pointedLight =
         drawLights(bench, frame, isHovered, hand.hold == Hold::light ? hand.light : -1);
+    drawCaption(bench, frame, viewed);
     draw.PopClipRect();
     bench.map.area("picture", corner.x, corner.y, size.x, size.y,
                    shown.isPreview ? "preview" : "whole");
@@ -369,41 +344,26 @@ void drawPicture(Bench& bench) {
                    frame.high.y - frame.low.y);
     if (isHovered) drawCursorValue(bench, frame, viewed, other, splitX);
 
-    const ImGuiIO& io = ImGui::GetIO();
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
     if (isActivated) {
-        hand = {};
-        const bool isNearSplit = other.image != nullptr && std::abs(io.MousePos.x - splitX) <
-                                                               static_cast<float>(bench.px(6.0));
-        if (ImGui::IsMouseDown(ImGuiMouseButton_Right)) {
-            hand.hold = Hold::look;
-        } else if (ImGui::IsMouseDown(ImGuiMouseButton_Middle)) {
-            hand.hold = Hold::middle;
-        } else if (pointedLight >= 0) {
-            hand.hold = Hold::light;
-            hand.light = pointedLight;
-        } else {
-            hand.hold = isNearSplit ? Hold::split : Hold::camera;
-        }
+        const bool isNearSplit = other.image != nullptr &&
+                                 std::abs(mouse.x - splitX) < static_cast<float>(bench.px(6.0));
+        hand = takeHold(isNearSplit, pointedLight);
     }
     if (isActive) {
         useHand(bench, frame, hand);
         if (hand.hold != Hold::nothing && hand.hasMoved) bench.isDragging = true;
     } else if (hand.hold != Hold::nothing) {
-        const glm::ivec2 pixel = glm::floor(frame.pixelAt(io.MousePos));
+        const glm::ivec2 pixel = glm::floor(frame.pixelAt(mouse));
         if (!hand.hasMoved && hand.hold == Hold::camera && view.probes && hasPixelsOfDocument &&
             frame.contains(pixel))
             view.probePixel = pixel;
         hand = {};
     }
-    if (isHovered && io.MouseWheel != 0.0f) {
-        if (io.KeyCtrl && bench.isSceneCurrent()) {
-            bench.document.edits.camera = dolly(bench.camera(), double(io.MouseWheel));
-            bench.isTurning = true;
-        } else {
-            zoomAt(view, frame, io.MousePos, std::pow(1.25f, io.MouseWheel));
-        }
+    if (isHovered) {
+        useWheel(bench, frame);
+        fly(bench);
     }
-    if (isHovered) fly(bench);
 }
 
 }  // namespace kaustik::gui

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cfloat>
+#include <functional>
 
 #include "framework/core/error.h"
 #include "framework/gui/experiment_file.h"
@@ -23,6 +24,41 @@ void saveExperiment(Bench& bench) {
     }
 }
 
+namespace {
+
+#ifdef KAUSTIK_HAS_EMBREE
+constexpr bool kKnowsTruth = true;
+#else
+constexpr bool kKnowsTruth = false;
+#endif
+
+void drawReport(Bench& bench, const std::filesystem::path& folder,
+                const std::function<void(const char*)>& explain) {
+    PanelState& panels = bench.panels;
+    if (button(bench, "Report of 8 frames", "record.report")) {
+        RecordRequest request;
+        request.folder = folder / recordingName(bench.document.scene);
+        if (kKnowsTruth && panels.judgesReports)
+            request.truthPhotons = static_cast<std::uint64_t>(panels.truthPhotons);
+        bench.renderer->record(request);
+    }
+    explain(
+        "What 'kaustik run' writes: pictures, caustic, report.json and the Chrome trace, of "
+        "variant A.");
+    ImGui::SameLine();
+    ImGui::BeginDisabled(!kKnowsTruth);
+    static_cast<void>(checkbox(bench, "with its error", panels.judgesReports, "record.judged"));
+    ImGui::EndDisabled();
+    tooltip(kKnowsTruth
+                ? fmt::format("What 'kaustik run --reference auto' writes, too: error and hits, "
+                              "against a reference of {:.3g} million photons (panel Error), which "
+                              "is computed first where there is none.",
+                              panels.truthPhotons * 1e-6)
+                : "This program was built without Embree and knows no truth.");
+}
+
+}  // namespace
+
 void drawRecord(Bench& bench) {
     ImGui::TextUnformatted("Folder");
     ImGui::SetNextItemWidth(-FLT_MIN);
@@ -33,19 +69,18 @@ void drawRecord(Bench& bench) {
     ImGui::Spacing();
     if (button(bench, "Screenshot of the window (F12)", "record.screenshot"))
         bench.wantsScreenshot = true;
-    if (button(bench, "Save as experiment (Ctrl S)", "record.experiment")) saveExperiment(bench);
-    tooltip(
+    const std::string whyNot = whyItCannotRun(bench.asked(), *bench.result);
+    const auto explain = [&](const char* sentence) {
+        tooltip(whyNot.empty() ? sentence : "What is set up cannot run: " + whyNot);
+    };
+    ImGui::BeginDisabled(!whyNot.empty());
+    if (button(bench, "Save as experiment (Ctrl S)", "record.experiment"))
+        bench.wantsExperiment = true;
+    explain(
         "A .toml that 'kaustik experiment run' reproduces bit for bit on this device, with the "
         "camera, lights and waves as they are now.");
     ImGui::BeginDisabled(recording.isActive);
-    if (button(bench, "Report of 8 frames", "record.report")) {
-        RecordRequest request;
-        request.folder = folder / recordingName(bench.document.scene);
-        bench.renderer->record(request);
-    }
-    tooltip(
-        "What 'kaustik run' writes: pictures, caustic, report.json and the Chrome trace, of "
-        "variant A.");
+    drawReport(bench, folder, explain);
     ImGui::Spacing();
     ImGui::InputInt("pictures", &bench.panels.sequenceFrames);
     bench.map.control("record.frames", fmt::format("{}", bench.panels.sequenceFrames));
@@ -60,8 +95,9 @@ void drawRecord(Bench& bench) {
         bench.isPlaying = false;
         bench.renderer->record(request);
     }
+    explain("0000.png and on, every picture whole, from the time at hand.");
     ImGui::EndDisabled();
-    tooltip("0000.png and on, every picture whole, from the time at hand.");
+    ImGui::EndDisabled();
     if (recording.isActive && button(bench, "Cancel", "record.cancel"))
         bench.renderer->cancelRecording();
     ImGui::PushTextWrapPos(0.0f);

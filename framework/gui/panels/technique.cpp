@@ -35,25 +35,25 @@ void drawTechniqueChoice(Bench& bench) {
     ImGui::PopTextWrapPos();
 }
 
-void drawStage(Bench& bench, const params::ParamSet& params, const Registry::Node& first) {
-    const std::string& stage = first.stage;
+void drawStage(Bench& bench, const params::ParamSet& params, const Registry::StageEntry& of) {
+    const std::string& stage = of.name;
     std::vector<std::string> names;
     const std::string chosen = params.choice(stage);
     int index = 0;
-    const Registry::Node* node = &first;
-    for (const Registry::Node& other : bench.registry.nodes()) {
-        if (other.stage != stage) continue;
-        if (other.name == chosen) {
+    std::string explanation;
+    for (const Registry::Node& node : bench.registry.nodes()) {
+        if (node.stage != stage) continue;
+        if (node.name == chosen) {
             index = static_cast<int>(names.size());
-            node = &other;
+            explanation = explain(node.description);
         }
-        names.push_back(other.name);
+        names.push_back(node.name);
     }
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     ImGui::AlignTextToFramePadding();
-    ImGui::TextColored(stageColor(stage), "%s", stage.c_str());
-    tooltip(first.question);
+    ImGui::TextColored(stageColor(bench.registry, stage), "%s", stage.c_str());
+    tooltip(of.question);
     ImGui::TableNextColumn();
     if (params.isSetByUser(stage)) {
         if (resetMark(bench, stage, "the technique's own")) bench.edited().assignments.erase(stage);
@@ -64,7 +64,7 @@ void drawStage(Bench& bench, const params::ParamSet& params, const Registry::Nod
     if (choose(bench, ("##stage" + stage).c_str(), names, index, "stage." + stage))
         bench.edited().assignments[stage] = names[static_cast<std::size_t>(index)];
     ImGui::EndDisabled();
-    tooltip(explain(node->description));
+    tooltip(explanation);
 }
 
 void drawVariants(Bench& bench) {
@@ -79,13 +79,6 @@ void drawVariants(Bench& bench) {
         tooltip("Renders both from then on, A left and B right of the split.");
         return;
     }
-    int edited = bench.panels.edited;
-    ImGui::RadioButton("edit A", &edited, 0);
-    bench.map.control("variant.edit_a", edited == 0 ? "on" : "off");
-    ImGui::SameLine();
-    ImGui::RadioButton("edit B", &edited, 1);
-    bench.map.control("variant.edit_b", edited == 1 ? "on" : "off");
-    bench.panels.edited = edited;
     if (button(bench, "Swap A and B", "variant.swap")) std::swap(document.variant, *document.other);
     ImGui::SameLine();
     if (button(bench, "Drop B", "variant.drop")) {
@@ -138,6 +131,7 @@ void drawVariants(Bench& bench) {
 }  // namespace
 
 void drawTechnique(Bench& bench) {
+    chooseVariant(bench, "variant");
     drawTechniqueChoice(bench);
     try {
         const params::ParamSet params =
@@ -146,16 +140,8 @@ void drawTechnique(Bench& bench) {
             ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed,
                                     ImGui::GetFontSize() * 7.0f);
             ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
-            std::vector<const Registry::Node*> stages;  // the first node of each
-            std::set<std::string> seen;
-            for (const Registry::Node& node : bench.registry.nodes()) {
-                if (seen.insert(node.stage).second) stages.push_back(&node);
-            }
-            std::stable_sort(stages.begin(), stages.end(), [](const auto* a, const auto* b) {
-                return stageRank(a->stage) < stageRank(b->stage);
-            });
-            for (const Registry::Node* first : stages)
-                drawStage(bench, params, *first);
+            for (const Registry::StageEntry& stage : bench.registry.stages())
+                drawStage(bench, params, stage);
             ImGui::EndTable();
         }
     } catch (const Error& error) {

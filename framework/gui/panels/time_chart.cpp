@@ -49,7 +49,8 @@ void drawTimeChart(Bench& bench) {
                 static_cast<float>(pass.gpuMilliseconds[frame] / most) * (size.y - 4.0f);
             const ImVec2 low(x, y - height);
             const ImVec2 high(x + std::max(width - 1.0f, 1.0f), y);
-            draw.AddRectFilled(low, high, ImGui::GetColorU32(stageColor(stageOf(pass.name))));
+            draw.AddRectFilled(low, high,
+                               ImGui::GetColorU32(stageColor(bench.registry, stageOf(pass.name))));
             if (isHovered && mouse.x >= x && mouse.x < x + width && mouse.y >= low.y &&
                 mouse.y < high.y) {
                 pointed = fmt::format("{}: {:.2f} ms of {:.2f} ms", pass.name,
@@ -59,7 +60,8 @@ void drawTimeChart(Bench& bench) {
         }
     }
     draw.PopClipRect();
-    const std::string scale = fmt::format("{:.1f} ms", most);
+    const char* variant = !bench.document.other ? "" : bench.editedIndex() == 0 ? "A: " : "B: ";
+    const std::string scale = fmt::format("{}{:.1f} ms", variant, most);
     draw.AddText({corner.x + 4.0f, corner.y + 2.0f}, IM_COL32(200, 200, 200, 255), scale.c_str());
     if (!pointed.empty()) tooltip(pointed);
 }

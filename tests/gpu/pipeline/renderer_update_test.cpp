@@ -2,6 +2,7 @@
 // A renderer that takes over changes must show what a new one would.
 #include <gtest/gtest.h>
 
+#include "framework/core/error.h"
 #include "framework/scene/scene_edits.h"
 #include "tests/gpu/fixture.h"
 #include "tests/wavy_water.h"
@@ -55,6 +56,21 @@ TEST_F(RendererUpdate, ShowsTheSameBitsAsANewRenderer) {
     scene = sceneFromText(kWavyWater);
     updated.update(settings("march", 64));
     EXPECT_EQ(picture(updated), before);
+}
+
+// As when another node is chosen than the one whose pass is switched off.
+TEST_F(RendererUpdate, PassesThatNoFrameHasCanBeForgotten) {
+    const scene::Scene scene = sceneFromText(kWavyWater);
+    RenderSettings off = settings("march", 64);
+    off.disabledPasses = {"shadow.lookup", "compose.direct", "trace.lines"};
+    Renderer renderer(context(), registry_, scene, off);
+    EXPECT_THROW(renderer.build(Purpose::picture), ConfigError);
+    EXPECT_EQ(renderer.forgetAbsentPasses(), std::vector<std::string>{"trace.lines"});
+    EXPECT_TRUE(renderer.forgetAbsentPasses().empty());
+    off.disabledPasses.erase("trace.lines");
+    Renderer expected(context(), registry_, scene, off);
+    EXPECT_EQ(picture(renderer), picture(expected));
+    EXPECT_EQ(renderer.settings().disabledPasses, off.disabledPasses);
 }
 
 TEST_F(RendererUpdate, AFrameThatIsEndedEarlyHasNoTimeAndTheNextOneIsWhole) {

@@ -32,19 +32,25 @@ Document everything() {
 
 TEST(Document, IsTheSameAfterARestart) {
     const std::string text = toJson(everything()).dump();
-    EXPECT_EQ(documentFromJson(json::parse(text)), everything());
-    EXPECT_EQ(documentFromJson(toJson(Document())), Document());
+    std::vector<std::string> problems;
+    EXPECT_EQ(documentFromJson(json::parse(text), problems), everything());
+    EXPECT_EQ(documentFromJson(toJson(Document()), problems), Document());
+    EXPECT_TRUE(problems.empty());
 }
 
 TEST(Document, ThatMakesNoSenseIsANewOne) {
     for (const char* text : {"null", "[]", "3", "{}", R"({"scene": 5})",
                              R"({"scene": "pool", "edits": {}, "size": [0, 600],
                                  "variant": {"technique": "x", "set": {}, "disable": []}})"}) {
-        EXPECT_EQ(documentFromJson(json::parse(text)), Document()) << text;
+        std::vector<std::string> problems;
+        EXPECT_EQ(documentFromJson(json::parse(text), problems), Document()) << text;
+        EXPECT_EQ(problems.size(), 1u) << text;
     }
     json broken = toJson(everything());
     broken["edits"]["waves"]["pond"][0] = "tall";
-    EXPECT_EQ(documentFromJson(broken), Document());
+    std::vector<std::string> problems;
+    EXPECT_EQ(documentFromJson(broken, problems), Document());
+    EXPECT_EQ(problems.size(), 1u);
 }
 
 TEST(State, IsTheSameAfterARestart) {
@@ -58,21 +64,30 @@ TEST(State, IsTheSameAfterARestart) {
     kept.panels.recordFolder = "elsewhere";
     kept.window = {1000, 700, 10, 20};
     kept.knowsDevice = true;
-    EXPECT_EQ(toJson(keptFromJson(toJson(kept))), toJson(kept));
+    kept.panels.judgesReports = false;
+    std::vector<std::string> problems;
+    EXPECT_EQ(toJson(keptFromJson(toJson(kept), problems)), toJson(kept));
+    EXPECT_TRUE(problems.empty());
     EXPECT_NE(toJson(kept), toJson(Kept()));
 }
 
 TEST(State, ThatMakesNoSenseIsAsAtTheFirstStart) {
     for (const char* text : {"null", "[1]", R"({"view": 3, "panels": "x"})",
                              R"({"view": {"layer": "many", "split": null}})"}) {
-        EXPECT_EQ(toJson(keptFromJson(json::parse(text))), toJson(Kept())) << text;
+        std::vector<std::string> problems;
+        EXPECT_EQ(toJson(keptFromJson(json::parse(text), problems)), toJson(Kept())) << text;
+        EXPECT_FALSE(problems.empty()) << text;
     }
+    std::vector<std::string> problems;
     const Kept kept = keptFromJson(json::parse(R"({"window": {"width": -5, "height": 1e9},
-                                                   "view": {"split": 7, "channel": 99}})"));
+                                                   "view": {"split": 7, "channel": 99}})"),
+                                   problems);
     EXPECT_GE(kept.window.width, 400);
     EXPECT_LE(kept.window.height, 16384);
     EXPECT_EQ(kept.view.split, 1.0f);
     EXPECT_EQ(kept.view.channel, Channel::luminance);
+    // A smaller screen than the last time is no damage.
+    EXPECT_TRUE(problems.empty());
 }
 
 }  // namespace

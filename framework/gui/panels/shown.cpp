@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+
+#include "framework/gui/panels/panels.h"
+#include "framework/gui/widgets.h"
+
+namespace kaustik::gui {
+namespace {
+
+ImVec4 colorOf(Shown::Kind kind) {
+    switch (kind) {
+        case Shown::Kind::asked:
+            return {0.45f, 0.75f, 0.45f, 1.0f};
+        case Shown::Kind::rendering:
+            return {0.5f, 0.7f, 1.0f, 1.0f};
+        case Shown::Kind::preview:
+            return {1.0f, 0.8f, 0.35f, 1.0f};
+        case Shown::Kind::stale:
+            break;
+    }
+    return {1.0f, 0.45f, 0.4f, 1.0f};
+}
+
+int lastLayer(const Bench& bench) {
+    int layers = bench.view.layer + 1;
+    for (const VariantResult& variant : bench.result->variants) {
+        if (variant.viewed) layers = std::min(layers, variant.viewed->layers);
+    }
+    return layers - 1;
+}
+
+void go(Bench& bench, Shown::WayOut wayOut) {
+    Document& document = bench.document;
+    switch (wayOut) {
+        case Shown::WayOut::back:
+            document = bench.whole.value_or(document);
+            if (!document.other) bench.panels.edited = 0;
+            break;
+        case Shown::WayOut::forget:
+            for (Variant* variant :
+                 {&document.variant, document.other ? &*document.other : nullptr}) {
+                if (variant == nullptr) continue;
+                variant->assignments.clear();
+                variant->disabled.clear();
+            }
+            break;
+        case Shown::WayOut::defaultScene:
+            document.scene = Document().scene;
+            document.edits = {};
+            break;
+        case Shown::WayOut::picture:
+            bench.view.resource.clear();
+            bench.view.layer = 0;
+            break;
+        case Shown::WayOut::layer:
+            bench.view.layer = lastLayer(bench);
+            break;
+        case Shown::WayOut::restart:
+            bench.wantsRestart = true;
+            break;
+        case Shown::WayOut::none:
+            break;
+    }
+}
+
+}  // namespace
+
+void drawShown(Bench& bench) {
+    const Shown shown = shownOf(bench.asked(), *bench.result, *bench.truth, bench.whole);
+    const ImVec4 color = colorOf(shown.kind);
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const float height = ImGui::GetFrameHeight();
+    ImGui::GetWindowDrawList()->AddCircleFilled(
+        {corner.x + 0.5f * height, corner.y + 0.5f * height}, 0.25f * height,
+        ImGui::GetColorU32(color));
+    ImGui::Dummy({height, height});
+    if (shown.wayOut != Shown::WayOut::none) {
+        ImGui::SameLine();
+        const bool isRestart = shown.wayOut == Shown::WayOut::restart;
+        if (button(bench, labelOf(shown.wayOut).c_str(),
+                   isRestart ? "status.restart" : "shown.way_out")) {
+            go(bench, shown.wayOut);
+        }
+    }
+    ImGui::SameLine();
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextColored(color, "%s", shown.sentence.c_str());
+    bench.map.control("shown", nameOf(shown.kind));
+    bench.map.control("shown.sentence", shown.sentence);
+    const FrameResult& result = *bench.result;
+    const bool isStale = shown.kind == Shown::Kind::stale;
+    if (isStale && !result.problem.empty()) {
+        bench.map.control("status.problem", result.problem);
+    } else if (isStale && !result.shaderProblem.empty()) {
+        bench.map.control("status.shader", result.shaderProblem);
+        tooltip(result.shaderProblem);  // with its lines
+        return;
+    }
+    // It may be longer than the window is wide.
+    tooltip(shown.sentence);
+}
+
+}  // namespace kaustik::gui

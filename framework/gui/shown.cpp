@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+#include "framework/gui/shown.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace kaustik::gui {
+namespace {
+
+using Missing = ViewedTexture::Missing;
+
+std::size_t variantsOf(const Document& document) {
+    return document.other ? 2 : 1;
+}
+
+// "A: " where there are two.
+std::string prefixOf(const Document& document, std::size_t variant) {
+    if (!document.other) return "";
+    return variant == 0 ? "A: " : "B: ";
+}
+
+std::string oneLine(std::string text) {
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text;
+}
+
+Shown stale(const std::string& why, Shown::WayOut wayOut) {
+    return {Shown::Kind::stale, "Not what was asked for: " + oneLine(why), wayOut};
+}
+
+bool hasSettings(const Document& document) {
+    const auto has = [](const Variant& variant) {
+        return !variant.assignments.empty() || !variant.disabled.empty();
+    };
+    return has(document.variant) || (document.other && has(*document.other));
+}
+
+Shown ofProblem(const Asked& asked, const FrameResult& result,
+                const std::optional<Document>& whole) {
+    if (result.isLost) {
+        return stale(result.problem + " 'kaustik run' renders without this window.",
+                     Shown::WayOut::restart);
+    }
+    const bool hasBack = whole && whole->scene != asked.document.scene;
+    return stale(result.problem, hasBack ? Shown::WayOut::back : Shown::WayOut::defaultScene);
+}
+
+Shown ofError(const Asked& asked, const std::string& error, const std::optional<Document>& whole) {
+    if (whole && !(*whole == asked.document)) return stale(error, Shown::WayOut::back);
+    return stale(error, hasSettings(asked.document) ? Shown::WayOut::forget : Shown::WayOut::none);
+}
+
+Shown ofMissing(const Asked& asked, const ViewedTexture& viewed, const std::string& prefix) {
+    if (viewed.missing == Missing::texture) {
+        return stale(fmt::format("{}there is no texture '{}' with these settings; the picture is "
+                                 "shown in its place.",
+                                 prefix, asked.view.resource),
+                     Shown::WayOut::picture);
+    }
+    return stale(fmt::format("{}'{}' has no layer {}: it has {}, which are 0 to {}.", prefix,
+                             viewed.name, viewed.layer, viewed.layers, viewed.layers - 1),
+                 Shown::WayOut::layer);
+}
+
+// What is seen until something newer is rendered.
+Shown ofOlder(const FrameResult& result) {
+    const VariantResult& first = result.variants[0];
+    if (!first.viewed) return {Shown::Kind::rendering, "The first picture is being rendered.", {}};
+    if (first.isPreview) {
+        return {Shown::Kind::preview,
+                "A quick picture of half the size and without caustics, until a whole one is "
+                "rendered.",
+                {}};
+    }
+    return {Shown::Kind::rendering,
+            "What is shown is from before the last change, which is being rendered.",
+            {}};
+}
+
+// What is asked for to the right of the split and is not there.
+std::string missingBeside(const Asked& asked, const FrameResult& result, const TruthState& truth) {
+    const bool hasTruth = truth.photons > 0 && isOfSameView(truth, result);
+    const TruthState::Judgement& judgement = truth.judgements[asked.seen()];
+    switch (asked.view.beside) {
+        case Beside::truth:
+            return hasTruth ? "" : "there is no truth of this view to show beside it yet";
+        case Beside::error:
+            if (!hasTruth) return "there is no truth of this view to measure its error by yet";
+            return judgement.order == result.order ? ""
+                                                   : "the error beside it is still being measured";
+        case Beside::other:
+        case Beside::nothing:
+            break;
+    }
+    return "";
+}
+
+}  // namespace
+
+bool isOfSameView(const TruthState& truth, const FrameResult& result) {
+    const Document& document = result.document;
+    return truth.aim && truth.aim->scene == document.scene && truth.aim->edits == document.edits &&
+           truth.aim->size == document.size;
+}
+
+std::string whyItCannotRun(const Asked& asked, const FrameResult& result) {
+    if (!result.problem.empty()) return result.problem;
+    for (std::size_t i = 0; i < variantsOf(asked.document); ++i) {
+        const VariantResult& variant = result.variants[i];
+        if (variant.order == asked.order && !variant.error.empty())
+            return prefixOf(asked.document, i) + variant.error;
+    }
+    return result.shaderProblem;
+}
+
+bool isRendered(const Asked& asked, const FrameResult& result) {
+    if (!result.problem.empty() || !(result.document == asked.document)) return false;
+    for (std::size_t i = 0; i < variantsOf(asked.document); ++i) {
+        const VariantResult& variant = result.variants[i];
+        if (variant.order != asked.order || !variant.error.empty() || variant.isPreview ||
+            !variant.absentPasses.empty() || !variant.viewed) {
+            return false;
+        }
+    }
+    return true;
+}
+
+Shown shownOf(const Asked& asked, const FrameResult& result, const TruthState& truth,
+              const std::optional<Document>& whole) {
+    const Shown rendering = ofOlder(result);
+    // A lost device answers no order.
+    if (result.order != asked.order && !result.isLost) return rendering;
+    if (!result.problem.empty()) return ofProblem(asked, result, whole);
+    for (std::size_t i = 0; i < variantsOf(asked.document); ++i) {
+        const VariantResult& variant = result.variants[i];
+        const std::string prefix = prefixOf(asked.document, i);
+        if (variant.order == asked.order && !variant.error.empty())
+            return ofError(asked, prefix + variant.error, whole);
+    }
+    for (std::size_t i = 0; i < variantsOf(asked.document); ++i) {
+        const VariantResult& variant = result.variants[i];
+        if (variant.isPreview || variant.order != asked.order || !variant.viewed) return rendering;
+        if (variant.viewed->missing != Missing::nothing)
+            return ofMissing(asked, *variant.viewed, prefixOf(asked.document, i));
+    }
+    if (!result.shaderProblem.empty()) {
+        return stale(
+            "the last good shaders are in use, until this is mended: " + result.shaderProblem,
+            Shown::WayOut::none);
+    }
+    const std::string missing = missingBeside(asked, result, truth);
+    return {Shown::Kind::asked,
+            missing.empty() ? "What is shown is what was asked for."
+                            : fmt::format("The picture is what was asked for; {}.", missing),
+            Shown::WayOut::none};
+}
+
+const char* nameOf(Shown::Kind kind) {
+    switch (kind) {
+        case Shown::Kind::asked:
+            return "asked";
+        case Shown::Kind::rendering:
+            return "rendering";
+        case Shown::Kind::preview:
+            return "preview";
+        case Shown::Kind::stale:
+            break;
+    }
+    return "stale";
+}
+
+std::string labelOf(Shown::WayOut wayOut) {
+    switch (wayOut) {
+        case Shown::WayOut::back:
+            return "Back to what is shown";
+        case Shown::WayOut::forget:
+            return "Forget all settings";
+        case Shown::WayOut::defaultScene:
+            return "Open the default scene";
+        case Shown::WayOut::picture:
+            return "Show the picture";
+        case Shown::WayOut::layer:
+            return "Show the last layer";
+        case Shown::WayOut::restart:
+            return "Start the renderer again";
+        case Shown::WayOut::none:
+            break;
+    }
+    return "";
+}
+
+}  // namespace kaustik::gui

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// Whether the picture and the times in the window are of what is asked for, and if not why, and
+// what can be done about it: the one line of the workbench that is always there.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "framework/gui/document.h"
+#include "framework/gui/frame_result.h"
+#include "framework/gui/state.h"
+#include "framework/gui/truth_worker.h"
+
+namespace kaustik::gui {
+
+struct Shown {
+    enum class Kind {
+        asked,      // what was asked for
+        rendering,  // something older, until what was asked for is rendered
+        preview,    // the same view, quickly made
+        stale       // something else, and that will not change by itself
+    };
+    Kind kind = Kind::asked;
+    std::string sentence;
+
+    // What ends a stale state.
+    enum class WayOut {
+        none,
+        back,          // to the document that is shown
+        forget,        // all settings
+        defaultScene,  // instead of one that cannot be had
+        picture,       // instead of a texture that there is not
+        layer,         // the last one that there is
+        restart        // the renderer
+    };
+    WayOut wayOut = WayOut::none;
+};
+
+// What is known of the newest order.
+struct Asked {
+    const Document& document;
+    std::uint64_t order = 0;  // its number
+    const ViewState& view;
+    std::size_t edited = 0;  // variant: 0 A, 1 B
+    // The one that is seen, to the left of the split where there is one.
+    [[nodiscard]] std::size_t seen() const { return view.beside == Beside::other ? 0 : edited; }
+};
+
+// Why the document cannot be rendered; "" where it can be, or where that is not known yet.
+[[nodiscard]] std::string whyItCannotRun(const Asked& asked, const FrameResult& result);
+
+// Whether every variant of the document has been rendered as it is asked for: then it can be done
+// again elsewhere.
+[[nodiscard]] bool isRendered(const Asked& asked, const FrameResult& result);
+
+// Whether the reference is of the view that was rendered.
+[[nodiscard]] bool isOfSameView(const TruthState& truth, const FrameResult& result);
+
+// `whole`: the last document that was rendered without an error, where there was one.
+[[nodiscard]] Shown shownOf(const Asked& asked, const FrameResult& result, const TruthState& truth,
+                            const std::optional<Document>& whole);
+
+// "error", "preview" …: for the screen map.
+[[nodiscard]] const char* nameOf(Shown::Kind kind);
+// What the button says.
+[[nodiscard]] std::string labelOf(Shown::WayOut wayOut);
+
+}  // namespace kaustik::gui

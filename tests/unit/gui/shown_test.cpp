@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+#include "framework/gui/shown.h"
+
+#include <gtest/gtest.h>
+
+namespace kaustik::gui::test {
+namespace {
+
+constexpr std::uint64_t kOrder = 7;
+
+// A document whose order was rendered as it stands.
+class ShownTest : public testing::Test {
+  protected:
+    ShownTest() {
+        result.order = kOrder;
+        render(result.variants[0]);
+        render(result.variants[1]);
+    }
+    static void render(VariantResult& variant) {
+        variant.order = kOrder;
+        variant.viewed.emplace();
+    }
+    void addOther() {
+        document.other = document.variant;
+        result.document = document;
+    }
+    [[nodiscard]] Asked asked() const { return {document, kOrder, view}; }
+    [[nodiscard]] Shown shown() const { return shownOf(asked(), result, truth, whole); }
+    [[nodiscard]] bool says(const std::string& part) const {
+        return shown().sentence.find(part) != std::string::npos;
+    }
+
+    Document document;
+    ViewState view;
+    FrameResult result;
+    TruthState truth;
+    std::optional<Document> whole;
+};
+
+TEST_F(ShownTest, IsWhatWasAskedFor) {
+    EXPECT_EQ(shown().kind, Shown::Kind::asked);
+    EXPECT_EQ(shown().wayOut, Shown::WayOut::none);
+    EXPECT_TRUE(isRendered(asked(), result));
+    addOther();
+    EXPECT_EQ(shown().kind, Shown::Kind::asked);
+    EXPECT_TRUE(isRendered(asked(), result));
+}
+
+TEST_F(ShownTest, IsOfBeforeUntilTheNewestOrderIsRendered) {
+    result.order = kOrder - 1;
+    result.variants[0].order = kOrder - 1;
+    EXPECT_EQ(shown().kind, Shown::Kind::rendering);
+    EXPECT_FALSE(isRendered(asked(), result));
+    // The order is known, and its frame is on its way.
+    result.order = kOrder;
+    EXPECT_EQ(shown().kind, Shown::Kind::rendering);
+    // What went wrong with an older order is over.
+    result.variants[0].error = "an old mistake";
+    EXPECT_EQ(shown().kind, Shown::Kind::rendering);
+    EXPECT_EQ(whyItCannotRun(asked(), result), "");
+}
+
+TEST_F(ShownTest, IsOfBeforeUntilBothVariantsAreRendered) {
+    addOther();
+    result.variants[1].order = kOrder - 1;
+    EXPECT_EQ(shown().kind, Shown::Kind::rendering);
+    EXPECT_FALSE(isRendered(asked(), result));
+}
+
+TEST_F(ShownTest, IsAQuickPictureWhileTheViewIsTurned) {
+    result.variants[0].isPreview = true;
+    EXPECT_EQ(shown().kind, Shown::Kind::preview);
+    EXPECT_FALSE(isRendered(asked(), result));
+    result.order = kOrder - 1;
+    EXPECT_EQ(shown().kind, Shown::Kind::preview);
+}
+
+TEST_F(ShownTest, IsStaleWhereAVariantCannotBeRendered) {
+    result.variants[0].error = "There is no pass 'x'.\nNor 'y'.";
+    document.variant.disabled = {"x"};
+    EXPECT_EQ(shown().kind, Shown::Kind::stale);
+    EXPECT_TRUE(says(": There is no pass 'x'. Nor 'y'.")) << "in one line";
+    EXPECT_EQ(shown().wayOut, Shown::WayOut::forget) << "nothing to go back to";
+    EXPECT_FALSE(isRendered(asked(), result));
+    EXPECT_NE(whyItCannotRun(asked(), result), "");
+    whole = Document();
+    EXPECT_EQ(shown().wayOut, Shown::WayOut::back);
+    // Also where a quick picture is all that there is.
+    result.variants[0].isPreview = true;
+    EXPECT_EQ(shown().kind, Shown::Kind::stale);
+}
+
+TEST_F(ShownTest, NamesTheVariantThatCannotBeRendered) {
+    addOther();
+    result.variants[1].error = "No.";
+    EXPECT_TRUE(says("B: No."));
+    EXPECT_EQ(whyItCannotRun(asked(), result), "B: No.");
+    // One that the document does not have is no reason.
+    document.other.reset();
+    EXPECT_EQ(shown().kind, Shown::Kind::asked);
+}
+
+TEST_F(ShownTest, IsStaleWhereTheSceneCannotBeHad) {
+    document.scene = "gone.toml";
+    result.problem = "gone.toml is not there.";
+    EXPECT_EQ(shown().kind, Shown::Kind::stale);
+    EXPECT_EQ(shown().wayOut, Shown::WayOut::defaultScene);
+    whole = Document();
+    EXPECT_EQ(shown().wayOut, Shown::WayOut::back);
+    // To a scene that has come to be broken there is no way back.
+    whole->scene = "gone.toml";
+    EXPECT_EQ(shown().wayOut, Shown::WayOut::defaultScene);
+}
+
+TEST_F(ShownTest, IsStaleWhereTheDeviceIsLostWhateverTheOrder) {
+    result.isLost = true;
+    result.problem = "Out of memory.";
+    result.order = 0;
+    EXPECT_EQ(shown().kind, Shown::Kind::stale);
+    EXPECT_EQ(shown().wayOut, Shown::WayOut::restart);
+}
+
+TEST_F(ShownTest, IsStaleWhereTheTextureOrItsLayerIsMissing) {
+    view.resource = "layers.depth";
+    ViewedTexture& viewed = *result.variants[0].viewed;
+    viewed.missing = ViewedTexture::Missing::texture;
+    EXPECT_EQ(shown().wayOut, Shown::WayOut::picture);
+    EXPECT_TRUE(says("'layers.depth'"));
+    viewed.missing = ViewedTexture::Missing::layer;
+    viewed.layer = 6;
+    viewed.layers = 4;
+    EXPECT_EQ(shown().wayOut, Shown::WayOut::layer);
+    EXPECT_TRUE(says("no layer 6"));
+    EXPECT_TRUE(says("0 to 3"));
+    EXPECT_TRUE(isRendered(asked(), result)) << "it runs all the same";
+}
+
+TEST_F(ShownTest, IsStaleWhereShadersAreBroken) {
+    result.shaderProblem = "a.frag:3: what is this?";
+    EXPECT_EQ(shown().kind, Shown::Kind::stale);
+    EXPECT_TRUE(says("a.frag:3"));
+    EXPECT_NE(whyItCannotRun(asked(), result), "");
+}
+
+TEST_F(ShownTest, SaysWhatIsMissingBesideThePicture) {
+    view.beside = Beside::truth;
+    EXPECT_EQ(shown().kind, Shown::Kind::asked);
+    EXPECT_TRUE(says("no truth of this view"));
+    truth.photons = 1000;
+    truth.aim = TruthAim{document.scene, document.edits, document.size, {}, 0};
+    EXPECT_FALSE(says("no truth of this view"));
+    truth.aim->size = {1, 1};
+    EXPECT_TRUE(says("no truth of this view")) << "of another size";
+    truth.aim->size = document.size;
+    view.beside = Beside::error;
+    EXPECT_TRUE(says("still being measured"));
+    truth.judgements[0].order = kOrder;
+    EXPECT_FALSE(says("still being measured"));
+}
+
+TEST_F(ShownTest, PassesThatAreNoLongerThereAreNotWhatWasAskedFor) {
+    result.variants[0].absentPasses = {"shadow.lookup"};
+    EXPECT_FALSE(isRendered(asked(), result)) << "the experiment would fail";
+}
+
+}  // namespace
+}  // namespace kaustik::gui::test
