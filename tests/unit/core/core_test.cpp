@@ -6,9 +6,12 @@
 
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
 
 #include "framework/core/error.h"
 #include "framework/core/files.h"
+#include "framework/core/json_text.h"
 #include "framework/core/names.h"
 
 namespace kaustik {
@@ -87,6 +90,95 @@ TEST_F(Files, WhatAKilledProcessHasLeftIsRemovedAndNothingElse) {
     EXPECT_FALSE(fs::exists(folder / left));
     EXPECT_TRUE(fs::exists(folder / living));
     EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 4);
+}
+
+// The names of what is in a folder.
+std::set<std::string> namesIn(const fs::path& folder) {
+    std::set<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder))
+        names.insert(entry.path().filename().string());
+    return names;
+}
+
+class FilesThatBelongTogether : public Files {
+  protected:
+    void SetUp() override {
+        Files::SetUp();
+        writeFileWhole(folder_ / "a.txt", "old");
+        writeFileWhole(folder_ / "seal.txt", "old");
+    }
+};
+
+TEST_F(FilesThatBelongTogether, AppearTogether) {
+    {
+        FilesTogether together(folder_);
+        writeFileWhole(together.workFolder() / "a.txt", "new");
+        writeFileWhole(together.workFolder() / "b.txt", "new");
+        writeFileWhole(together.workFolder() / "seal.txt", "new");
+        EXPECT_EQ(readFile(folder_ / "a.txt"), "old");
+        EXPECT_EQ(together.placeOf(together.workFolder() / "b.txt"), folder_ / "b.txt");
+        together.publish("seal.txt");
+    }
+    EXPECT_EQ(namesIn(folder_), (std::set<std::string>{"a.txt", "b.txt", "seal.txt"}));
+    for (const char* name : {"a.txt", "b.txt", "seal.txt"})
+        EXPECT_EQ(readFile(folder_ / name), "new") << name;
+}
+
+TEST_F(FilesThatBelongTogether, LeaveTheOlderOnesAloneUntilAllAreThere) {
+    {
+        FilesTogether together(folder_);
+        writeFileWhole(together.workFolder() / "a.txt", "new");
+    }
+    EXPECT_EQ(namesIn(folder_), (std::set<std::string>{"a.txt", "seal.txt"}));
+    EXPECT_EQ(readFile(folder_ / "a.txt"), "old");
+}
+
+TEST_F(FilesThatBelongTogether, DoNotMoveWhereAFolderIsInTheWay) {
+    fs::create_directory(folder_ / "b.txt");
+    FilesTogether together(folder_);
+    for (const char* name : {"a.txt", "b.txt", "seal.txt"})
+        writeFileWhole(together.workFolder() / name, "new");
+    try {
+        together.publish("seal.txt");
+        ADD_FAILURE() << "a folder was replaced";
+    } catch (const IoError& error) {
+        EXPECT_EQ(std::string(error.what()),
+                  (folder_ / "b.txt").string() + " cannot be written: it is a folder.");
+    }
+    EXPECT_EQ(readFile(folder_ / "a.txt"), "old");
+    EXPECT_EQ(readFile(folder_ / "seal.txt"), "old");
+}
+
+TEST_F(FilesThatBelongTogether, HaveTheirPlacesInMessages) {
+    const FilesTogether together(folder_);
+    const std::string file = (together.workFolder() / "a.png").string();
+    EXPECT_EQ(together.withPlaces(file + " and " + file),
+              (folder_ / "a.png").string() + " and " + (folder_ / "a.png").string());
+}
+
+TEST_F(FilesThatBelongTogether, LeaveNothingOfAKilledProcess) {
+    const fs::path folder = folder_ / "killed together";
+    const pid_t child = fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+        const FilesTogether together(folder);
+        writeFileWhole(together.workFolder() / "a.txt", "half");
+        kill(getpid(), SIGKILL);
+    }
+    ASSERT_EQ(waitpid(child, nullptr, 0), child);
+    EXPECT_EQ(namesIn(folder).size(), 1u);
+    {
+        FilesTogether together(folder);
+        writeFileWhole(together.workFolder() / "a.txt", "whole");
+        together.publish("a.txt");
+    }
+    EXPECT_EQ(namesIn(folder), std::set<std::string>{"a.txt"});
+}
+
+TEST(JsonText, HoldsWhatIsNoUtf8) {
+    const nlohmann::json json = {{"name", "a\xff"}, {"number", 0.5}};
+    EXPECT_EQ(jsonText(json), "{\"name\":\"a\xef\xbf\xbd\",\"number\":0.5}");
+    EXPECT_EQ(jsonText({{"a", 1}}, 2), "{\n  \"a\": 1\n}");
 }
 
 TEST_F(Files, ErrorsNameTheFile) {
