@@ -18,6 +18,8 @@ packages=(
     libimgui-dev libglfw3-dev fonts-dejavu-core
     # Figures and pages of a study; OpenImageIO reads EXR there
     python3 python3-matplotlib python3-openimageio
+    # Formatting, as .ci/run checks it
+    clang-format
     # Tests; the page of a study is opened in a browser, the workbench on a display without a screen
     libgtest-dev libgmock-dev chromium chromium-driver xvfb x11-xkb-utils libxtst-dev
 )
