@@ -53,8 +53,7 @@ TEST(Spot, SendsOutTheClosedFormFluxOfItsCone) {
     RunOptions options;
     options.stop.batches = 4;
     lightTrace(embree, settings, options, sums);
-    EXPECT_NEAR(sums.energy().watts[transport::kAccountEmitted], kFlux,
-                kFalloffTolerance * kFlux);
+    EXPECT_NEAR(sums.energy().watts[transport::kAccountEmitted], kFlux, kFalloffTolerance * kFlux);
 }
 
 class TexturedSpot : public testing::Test {
