@@ -120,11 +120,11 @@ const float kWayLost = 0.0f;
 // Beyond a cap: totally reflected too often; refracted as often as may be, but still inside of a
 // closed object, out of which it is taken to have come as it was.
 const float kWayReflectedTooOften = -1.0f;
-const float kWayMirroredTooOften = -2.0f;  // by mirrors; it is taken to see what surrounds the scene
+const float kWayMirroredTooOften = -2.0f;  // by mirrors; it is taken to see the surroundings
 const float kWayStoppedInside = 2.0f;
 
-// Accounts of the energy ledger (design, section 5). The device sums the three channels; reports say
-// their mean (transport/watts.h).
+// Accounts of the energy ledger (design, section 5). The device sums the three channels; reports
+// say their mean (transport/watts.h).
 const uint kAccountEmitted = 0u;
 const uint kAccountDeposited = 1u;
 const uint kAccountAbsorbed = 2u;
