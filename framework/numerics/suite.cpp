@@ -63,6 +63,7 @@ Suite makeSuite(const Registry& registry) {
     addOpticsCases(suite);
     addReconstructionCases(suite);
     addMediaCases(suite);
+    addBallCases(suite);
     addWholeFrameCases(suite);
     for (const auto& add : registry.hardCases())
         add(suite);

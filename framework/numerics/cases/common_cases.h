@@ -14,6 +14,7 @@ void addInterfaceCases(Suite& suite);       // C19 to C25: common/fresnel.glsl
 void addOpticsCases(Suite& suite);          // C26 to C28a: nodes of emission, interaction, view
 void addReconstructionCases(Suite& suite);  // D31, D32, D34a: nodes of reconstruction, emission
 void addMediaCases(Suite& suite);           // D34, D36: nodes of media
+void addBallCases(Suite& suite);            // D39, D41: every tracer and interaction
 void addWholeFrameCases(Suite& suite);      // A10, B18 and E: every technique
 
 }  // namespace kaustik::numerics
