@@ -26,7 +26,7 @@ struct EmitParams {
 };
 
 struct SpecularParams {
-    int bounces = 4;
+    int bounces = 8;
     template <class R>
     void reflect(R& r) {
         r.field(bounces, "bounces",
