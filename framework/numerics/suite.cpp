@@ -64,6 +64,7 @@ Suite makeSuite(const Registry& registry) {
     addReconstructionCases(suite);
     addMediaCases(suite);
     addMirrorCases(suite);
+    addBallCases(suite);
     addWholeFrameCases(suite);
     for (const auto& add : registry.hardCases())
         add(suite);

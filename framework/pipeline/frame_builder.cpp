@@ -27,13 +27,12 @@ gl::Command& FrameInputs::bindLedger(gl::Command& command, const Ledger& ledger)
 
 namespace {
 
-// A path through water alone meets it once. Mirrors and closed dielectrics can send a photon back
-// and forth without end; there the limit decides, and the ledger says what it cost.
-int interactionCount(FrameBuilder& frame) {
-    const scene::SceneNeeds& needs = frame.needs();
-    const int limit = frame.params<SpecularParams>("specular").bounces;
-    const bool canRepeat = needs.reflectors > 0 || needs.specularInterfaces > needs.refractors;
-    return std::max(1, canRepeat ? limit : std::min(needs.specularInterfaces, limit));
+// A path through still water meets it once. Where one can come back, the limit decides, and the
+// ledger says what it cost.
+int interactionCount(const FrameBuilder& frame, const ModelledPaths& paths) {
+    const scene::MeetingsAgain& again = frame.needs().meetsAgain;
+    const bool canRepeat = paths.transmissionOnly ? again.transmitted : again.reflected;
+    return canRepeat ? frame.params<SpecularParams>("specular").bounces : 1;
 }
 
 // Why the frame has no caustic; "" if it may have one.
@@ -78,9 +77,10 @@ Caustic followPhotons(FrameBuilder& frame, const Geometry& geometry, const EyeBu
     const bool scatters = frame.needs().scatteringMedium;
     Caustic caustic;
     caustic.hits = frame.run<EmitStage>(geometry);
-    const int interactions = interactionCount(frame);
+    int interactions = 1;
     for (int i = 0; i < interactions; ++i) {
         const Hits meeting = frame.run<SpecularStage>(caustic.hits);
+        interactions = interactionCount(frame, meeting.incoming.paths);
         caustic.hits = frame.run<TraceStage>(meeting.incoming, layers, meeting);
         if (scatters)
             caustic.inScattered = frame.run<MediaStage>(caustic.hits, eye, caustic.inScattered);

@@ -26,11 +26,12 @@ struct EmitParams {
 };
 
 struct SpecularParams {
-    int bounces = 4;
+    int bounces = 8;
     template <class R>
     void reflect(R& r) {
         r.field(bounces, "bounces",
-                "Most specular interactions along a photon's path, where a scene lets them repeat",
+                "Most specular interactions along a photon's path, where one can meet a surface "
+                "again; at still water it cannot",
                 "", params::range(1, 32));
     }
 };

@@ -172,8 +172,8 @@ EmittedPhoton LightSampler::sample(std::uint64_t index, Random& random) const {
     const double weight = share.measure / static_cast<double>(share.columns * share.rows);
     const scene::Light& light = *share.light;
     EmittedPhoton photon;
-    photon.rangeMeters = std::numeric_limits<double>::infinity();
     if (light.kind == scene::LightKind::directional) {
+        photon.reach.isFromAfar = true;
         photon.origin = share.corner + u * share.sideA + v * share.sideB;
         photon.direction = share.along;
         photon.fluxWatts = weight * glm::dvec3(light.power);
@@ -193,7 +193,7 @@ EmittedPhoton LightSampler::sample(std::uint64_t index, Random& random) const {
                                 ? falloff * appearance_->spotColor(light, photon.direction)
                                 : glm::dvec3(0.0);
     }
-    if (light.rangeMeters > 0.0f) photon.rangeMeters = static_cast<double>(light.rangeMeters);
+    if (light.rangeMeters > 0.0f) photon.reach.rangeMeters = static_cast<double>(light.rangeMeters);
     return photon;
 }
 

@@ -21,7 +21,7 @@ struct EmittedPhoton {
     glm::dvec3 origin{0.0};     // local
     glm::dvec3 direction{0.0};  // unit
     glm::dvec3 fluxWatts{0.0};  // such that a whole batch is the light's flux
-    double rangeMeters = 0.0;   // beyond it there is no light
+    LightReach reach;
 };
 
 [[nodiscard]] inline PhotonState stateOf(const EmittedPhoton& emitted) {

@@ -147,7 +147,7 @@ void traceBatch(const EmbreeScene& scene, const Eye& eye, const LightSampler& sa
         Random random(settings.seed, batch, i);
         const EmittedPhoton emitted = sampler.sample(i, random);
         ++result.rays;
-        transport.follow(stateOf(emitted), emitted.rangeMeters, random, camera);
+        transport.follow(stateOf(emitted), emitted.reach, random, camera);
     }
     result.photons = sampler.photonsPerBatch();
 }

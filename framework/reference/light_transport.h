@@ -54,6 +54,14 @@ class MediaStack {
     std::uint16_t size_ = 0;
 };
 
+// How light comes from where it starts to the first surface.
+struct LightReach {
+    double rangeMeters = std::numeric_limits<double>::infinity();  // beyond it there is none
+    // Comes from so far away that it is what the scene file says where it meets that surface, even
+    // where it is inside of a dielectric there.
+    bool isFromAfar = false;
+};
+
 struct PhotonState {
     glm::dvec3 origin{0.0};
     glm::dvec3 direction{0.0};  // unit
@@ -127,19 +135,19 @@ class LightTransport {
     }
 
     // Follows a photon that leaves a light. A photon whose first surface is not specular, or lies
-    // beyond `rangeMeters`, is nobody's: no event tells of it.
+    // beyond the light's range, is nobody's: no event tells of it.
     template <class Sink>
-    void follow(PhotonState photon, double rangeMeters, Random& random, Sink& sink) const {
+    void follow(PhotonState photon, const LightReach& reach, Random& random, Sink& sink) const {
         Ray ray{photon.origin, photon.direction, {}, 0, SideRule::any};
         SurfaceHit hit;
-        if (!scene_.intersectFromLight(ray, hit) || hit.distance > rangeMeters) return;
+        if (!scene_.intersectFromLight(ray, hit) || hit.distance > reach.rangeMeters) return;
         const scene::Material& material = scene_.scene().materials[hit.material];
         if (isReceiver(material.kind)) return;
         // A light whose rays first meet a dielectric from within is inside of it.
         if (material.kind == scene::MaterialKind::dielectric &&
             glm::dot(photon.direction, hit.geometricNormal) > 0.0) {
             photon.media.enter(hit.material + 1);
-            photon.fluxWatts *= transmittance(material, hit.distance);
+            if (!reach.isFromAfar) photon.fluxWatts *= transmittance(material, hit.distance);
         }
         photon.origin = hit.position;
         sink.emitted(photon.fluxWatts);

@@ -223,7 +223,7 @@ void photonMapping(const EmbreeScene& scene, const PhotonMappingSettings& settin
                        Random random(settings.seed, pass, i);
                        const EmittedPhoton emitted = sampler.sample(i, random);
                        ++result.rays;
-                       transport.follow(stateOf(emitted), emitted.rangeMeters, random, gatherer);
+                       transport.follow(stateOf(emitted), emitted.reach, random, gatherer);
                    }
                    result.photons = sampler.photonsPerBatch();
                });

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "framework/scene/light_paths.h"
 #include "framework/scene/texture.h"
 
 namespace kaustik::render {
@@ -192,7 +193,10 @@ void GpuScene::uploadMaterials() {
         const scene::Material& material = scene_.materials[m];
         const bool isOpen = std::any_of(
             scene_.objects.begin(), scene_.objects.end(), [&](const scene::Object& object) {
-                return object.material == m && !scene_.meshes[object.mesh].closed;
+                const scene::Mesh& mesh = scene_.meshes[object.mesh];
+                // A dielectric with open seams has an inside all the same.
+                const bool isDielectric = material.kind == scene::MaterialKind::dielectric;
+                return object.material == m && (isDielectric ? isSheet(mesh) : !mesh.closed);
             });
         MaterialData data{};
         data.albedo = glm::vec4(material.albedo, static_cast<float>(material.kind));

@@ -18,16 +18,6 @@ bool moves(const Mesh& mesh) {
 
 }  // namespace
 
-bool isSheet(const Mesh& mesh) {
-    if (mesh.closed) return false;
-    if (mesh.heightField) return true;
-    glm::vec3 mean(0.0f);
-    for (const glm::vec3& normal : mesh.normals)
-        mean += normal;
-    return std::all_of(mesh.normals.begin(), mesh.normals.end(),
-                       [&](const glm::vec3& normal) { return glm::dot(normal, mean) > 0.0f; });
-}
-
 SceneNeeds sceneNeeds(const Scene& scene) {
     SceneNeeds needs;
     for (const Object& object : scene.objects) {
@@ -43,14 +33,15 @@ SceneNeeds sceneNeeds(const Scene& scene) {
                 break;
             case MaterialKind::dielectric:
                 ++needs.refractors;
-                needs.specularInterfaces += mesh.closed ? 2 : 1;
-                needs.closedDielectrics = needs.closedDielectrics || mesh.closed;
+                needs.specularInterfaces += isSheet(mesh) ? 1 : 2;
+                needs.closedDielectrics = needs.closedDielectrics || !isSheet(mesh);
                 break;
             case MaterialKind::mirror:
                 if (needs.reflectors++ == 0) ++needs.specularInterfaces;
                 break;
         }
     }
+    needs.meetsAgain = meetingsAgain(scene);
     needs.lights = static_cast<int>(scene.lights.size());
     const glm::vec3 none(0.0f);
     needs.medium = scene.medium && (scene.medium->scatteringPerMeter != none ||

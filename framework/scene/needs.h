@@ -2,19 +2,21 @@
 // What a scene makes a technique model, so that nothing else is built (design, section 3).
 #pragma once
 
+#include "framework/scene/light_paths.h"
 #include "framework/scene/scene.h"
 
 namespace kaustik::scene {
 
 struct SceneNeeds {
-    // How many specular interfaces one path can meet when it crosses every dielectric once: a
-    // closed one counts 2 (in and out), an open one such as a water surface 1, and all mirrors
+    // How many specular interfaces one path can meet when it crosses every dielectric once: one
+    // with an inside counts 2 (in and out), a sheet such as a water surface 1, and all mirrors
     // together 1. Repeated reflections, between mirrors or inside a dielectric, are not counted;
     // a technique's own bounce limit says how many it follows.
     int specularInterfaces = 0;
+    MeetingsAgain meetsAgain;        // whether there are such repeated ones at all
     int reflectors = 0;              // objects that are mirrors
     int refractors = 0;              // objects that are dielectrics
-    bool closedDielectrics = false;  // one of these bounds a volume: glass, not a water surface
+    bool closedDielectrics = false;  // one of these has an inside: glass, not a water surface
     bool medium = false;             // one that scatters or absorbs
     bool scatteringMedium = false;   // one that scatters: there is light on the way to be seen
     bool glossyReceivers = false;    // a receiver is not Lambertian alone
@@ -23,10 +25,6 @@ struct SceneNeeds {
     bool receivers = false;            // a diffuse or glossy surface that light ends on
     int measuredDepthComplexity = -1;  // most layers behind one pixel; -1 until a renderer counts
 };
-
-// Whether a surface bounds no volume and does not turn back: water, a pane, but not a teapot with
-// open seams.
-[[nodiscard]] bool isSheet(const Mesh& mesh);
 
 [[nodiscard]] SceneNeeds sceneNeeds(const Scene& scene);
 

@@ -57,29 +57,33 @@ LayerHit testExit(RaySegment segment, TracedRay ray, int i, int n) {
     return best.t > 0.0 ? best : none;
 }
 
-// The shading normal where the photon came out: along the chord between the two layers that bound
-// the inside at that pixel normals turn from one to the other, evenly on a sphere. The normal of
-// the layer alone is many degrees off at a silhouette, and light would be caught inside.
+// Where a ray came out of a smooth surface between two pixels, and by which normals it is bent.
+struct Exit {
+    float t;         // m
+    vec3 shading;    // unit, outward
+    vec3 geometric;
+};
+
+// The steps know it to a pixel: it is moved, by no more, to where the surface that the pixels
+// around show goes on. No triangle is known there; the surface's own normal says where its outside
+// is, unless the ray does not leave by it.
+Exit smoothExit(vec3 origin, vec3 direction, float t, vec4 surface, LayerSurface layer) {
+    SmoothSurface around = smoothSurfaceAt(origin + t * direction, surface, layer);
+    Exit exit = Exit(t, around.normal, layer.normal);
+    float closing = dot(direction, around.normal);
+    if (closing <= 0.0) return exit;
+    float pixel = pixelFootprint(layer.depth);
+    float way = clamp(-around.height / closing, -min(pixel, 0.5 * t), pixel);
+    exit.t = t + way;
+    exit.shading = normalize(around.normal + around.turning * (way * direction));
+    if (dot(direction, exit.shading) > 0.0) exit.geometric = exit.shading;
+    return exit;
+}
+
+// The shading normal alone, where the ray came out at `exitVs` past this pixel and layer.
 vec3 normalAtExit(vec3 exitVs, ivec2 texel, int exitLayer) {
     vec4 surface = texelFetch(layerSurfaces, ivec3(texel, exitLayer), 0);
-    bool isFront = dot(surface.xyz, viewRay(vec2(texel) + 0.5)) < 0.0;
-    int other = exitLayer;
-    for (int layer = 0; layer < layerCount; ++layer) {
-        if (texelFetch(layerDepths, ivec3(texel, layer), 0).x <= 0.0) break;
-        if (texelFetch(layerSurfaces, ivec3(texel, layer), 0).w != surface.w) continue;
-        if (isFront ? layer > exitLayer : layer < exitLayer) {
-            other = layer;
-            if (isFront) break;  // the nearest of those behind; or the last of those before
-        }
-    }
-    if (other == exitLayer) return surface.xyz;
-    float from = texelFetch(layerDepths, ivec3(texel, exitLayer), 0).x;
-    float to = texelFetch(layerDepths, ivec3(texel, other), 0).x;
-    if (from == to) return surface.xyz;
-    vec3 normal = mix(surface.xyz, texelFetch(layerSurfaces, ivec3(texel, other), 0).xyz,
-                      clamp((-exitVs.z - from) / (to - from), 0.0, 1.0));
-    float size = length(normal);
-    return size > 1e-3 ? normal / size : surface.xyz;
+    return smoothSurfaceAt(exitVs, surface, layerAt(texel, exitLayer)).normal;
 }
 
 // A layer that a ray has met first, and at which pixel.

@@ -174,20 +174,42 @@ LayerHit testStep(RaySegment segment, TracedRay ray, int i, int n) {
     return best;
 }
 
-// The surface's normal where the ray meets it: bilinear between the pixels around the hit, each
-// with the layer that continues the surface; the normal of one pixel alone would send all photons
-// that meet it the same way. `surface` and `layerHit` are those of the hit's own pixel and layer. A
-// receiver sends the light nowhere: its pixel's normal will do.
-vec3 normalAtHit(vec3 hitVs, vec4 surface, LayerSurface layerHit, bool arrives) {
-    if (arrives) return surface.xyz;
-    vec2 corner = pixelOf(hitVs) - 0.5;
+// How far in depth the samples of one smooth surface may lie apart, px: at the silhouette of a ball
+// its front and its back are farther apart than a pixel's extent. From kNearReach on they count
+// less.
+const float kSmoothReach = 32.0;
+const float kNearReach = 4.0;
+// Directions along which the samples lie nearer together than this say little of a slope, px.
+const float kLeastSpread = 0.17;
+
+// A smooth surface around a point of it, from what the pixels around show of it: its normal is taken
+// to change evenly with the position, as on a sphere it does exactly. Where a silhouette leaves
+// pixels on one side only, the mean of their normals would be many degrees off, and light would be
+// caught inside; front and back meet there and both count.
+struct SmoothSurface {
+    vec3 normal;   // at the point, unit
+    mat3 turning;  // of the normal with the position, 1/m
+    float height;  // of the point above the surface, m
+};
+
+SmoothSurface smoothSurfaceAt(vec3 pointVs, vec4 surface, LayerSurface layerHit) {
+    vec2 corner = pixelOf(pointVs) - 0.5;
     ivec2 first = ivec2(floor(corner));
     vec2 f = corner - vec2(first);
-    vec3 sum = vec3(0.0);
-    // The same surface lies within a pixel's extent of the hit's own depth.
-    float extent = pixelDepthExtent(viewRay(pixelOf(hitVs)), layerHit.depth, layerHit.normal);
-    int corners = arrives ? 0 : 4;  // devices without branches still leave a loop out
-    for (int i = 0; i < corners; ++i) {
+    float extent = pixelDepthExtent(viewRay(pixelOf(pointVs)), layerHit.depth, layerHit.normal);
+    float footprint = pixelFootprint(layerHit.depth);
+    float reach = 2.0 * extent + kSmoothReach * footprint;
+    float near = kNearReach * footprint;
+    float least = kLeastSpread * footprint;
+    // Weighted sums over the samples, positions from the point: the mean of position and normal,
+    // and of their products.
+    float weights = 0.0;
+    vec3 meanPosition = vec3(0.0);
+    vec3 meanNormal = vec3(0.0);
+    float meanHeight = 0.0;
+    mat3 spread = mat3(0.0);
+    mat3 turned = mat3(0.0);
+    for (int i = 0; i < 4; ++i) {
         ivec2 step = ivec2(i & 1, i >> 1);
         ivec2 texel = clamp(first + step, ivec2(0), ivec2(view.sizePixels.xy) - 1);
         vec2 axis = mix(1.0 - f, f, vec2(step));
@@ -195,17 +217,43 @@ vec3 normalAtHit(vec3 hitVs, vec4 surface, LayerSurface layerHit, bool arrives) 
         for (int layer = 0; layer < layerCount; ++layer) {
             float depth = texelFetch(layerDepths, ivec3(texel, layer), 0).x;
             if (depth <= 0.0) break;
-            float reach = 2.0 * extent + 2.0 * pixelFootprint(depth);
             if (abs(depth - layerHit.depth) > reach) continue;
             vec4 other = texelFetch(layerSurfaces, ivec3(texel, layer), 0);
             // A crease of more than 60 degrees is an edge, not a curve.
             if (other.w != surface.w || dot(other.xyz, surface.xyz) < 0.5) continue;
-            sum += axis.x * axis.y * other.xyz;
-            break;
+            vec3 offset = ray * depth - pointVs;
+            // All pixels count a little, so that there are enough to tell a slope from.
+            float weight = (axis.x * axis.y + 1e-3) / (1.0 + dot(offset, offset) / (near * near));
+            weights += weight;
+            meanPosition += weight * offset;
+            meanNormal += weight * other.xyz;
+            meanHeight -= weight * dot(other.xyz, offset);
+            spread += weight * outerProduct(offset, offset);
+            turned += weight * outerProduct(other.xyz, offset);
         }
     }
-    float size = length(sum);
-    return size > 1e-3 ? sum / size : surface.xyz;
+    SmoothSurface result = SmoothSurface(surface.xyz, mat3(0.0), 0.0);
+    if (weights <= 0.0) return result;
+    meanPosition /= weights;
+    meanNormal /= weights;
+    meanHeight /= weights;
+    spread = spread / weights - outerProduct(meanPosition, meanPosition);
+    turned = turned / weights - outerProduct(meanNormal, meanPosition);
+    result.turning = turned * inverse(spread + mat3(least * least));
+    vec3 normal = meanNormal - result.turning * meanPosition;
+    float size = length(normal);
+    if (size < 1e-3) return result;
+    result.normal = normal / size;
+    // A chord meets the surface at equal angles at both ends.
+    result.height = 0.5 * (meanHeight - dot(result.normal, meanPosition));
+    return result;
+}
+
+// The surface's normal where the ray meets it; the normal of one pixel alone would send all photons
+// that meet it the same way. `surface` and `layerHit` are those of the hit's own pixel and layer. A
+// receiver sends the light nowhere: its pixel's normal will do.
+vec3 normalAtHit(vec3 hitVs, vec4 surface, LayerSurface layerHit, bool arrives) {
+    return arrives ? surface.xyz : smoothSurfaceAt(hitVs, surface, layerHit).normal;
 }
 
 // The normal of a receiver: the shading normal, unless that takes the eye or the arriving light for

@@ -26,22 +26,26 @@ Hit deliver(Photon photon, FirstHit first) {
         ledgerAdd(clipRay(photon.positionVs, photon.directionVs).cause, photon.fluxWatts);
         return hit;
     }
-    ivec3 place = ivec3(first.pixel, first.hit.layer);
-    vec4 surface = texelFetch(layerSurfaces, place, 0);
-    hit.positionVs = photon.positionVs + first.hit.t * photon.directionVs;
-    hit.distanceMeters = first.hit.t;
-    hit.material = uint(surface.w);
+    vec4 surface = texelFetch(layerSurfaces, ivec3(first.pixel, first.hit.layer), 0);
     LayerSurface layer = layerAt(first.pixel, first.hit.layer);
+    hit.material = uint(surface.w);
     bool arrives = isReceiver(materialKind(hit.material - 1u));
-    vec3 shading =
-        first.isExit ? normalAtExit(hit.positionVs, first.pixel, first.hit.layer)
-                     : normalAtHit(hit.positionVs, surface, layer, arrives);
+    Exit met = Exit(first.hit.t, surface.xyz, layer.normal);
+    vec3 there = photon.positionVs + met.t * photon.directionVs;
+    if (first.isExit) {
+        met = smoothExit(photon.positionVs, photon.directionVs, met.t, surface, layer);
+    } else {
+        met.shading = normalAtHit(there, surface, layer, arrives);
+    }
+    hit.positionVs = photon.positionVs + met.t * photon.directionVs;
+    hit.distanceMeters = met.t;
     hit.normalVs =
         arrives
-            ? receiverNormal(hit.positionVs, photon.directionVs, shading, layer.normal)
-            : bendingNormal(photon.directionVs, shading, layer.normal, hit.material, photon.media);
+            ? receiverNormal(hit.positionVs, photon.directionVs, met.shading, met.geometric)
+            : bendingNormal(photon.directionVs, met.shading, met.geometric, hit.material,
+                            photon.media);
     // Asking whether there is a medium would cost more than adding its zeros.
-    vec3 left = transmittanceOver(extinctionAround(photon.media), first.hit.t);
+    vec3 left = transmittanceOver(extinctionAround(photon.media), hit.distanceMeters);
     hit.fluxWatts = photon.fluxWatts * left;
     ledgerAdd(kAccountAbsorbed, photon.fluxWatts * (1.0 - left));
     hit.fate = arrives ? kFateReceiver : kFateSpecular;

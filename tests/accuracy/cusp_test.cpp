@@ -53,7 +53,7 @@ class Cusp : public testing::Test {
         for (std::uint64_t i = 0; i < sampler.photonsPerBatch(); ++i) {
             Random random(1, 0, i);
             const EmittedPhoton emitted = sampler.sample(i, random);
-            transport.follow(stateOf(emitted), emitted.rangeMeters, random, rays);
+            transport.follow(stateOf(emitted), emitted.reach, random, rays);
         }
         ways_ = std::move(rays.ways);
     }

@@ -76,7 +76,7 @@ TEST(Fold, IrradianceGrowsAsTheInverseSquareRootOfTheDistance) {
     for (std::uint64_t i = 0; i < sampler.photonsPerBatch(); ++i) {
         Random random(1, 0, i);
         const EmittedPhoton emitted = sampler.sample(i, random);
-        transport.follow(stateOf(emitted), emitted.rangeMeters, random, histogram);
+        transport.follow(stateOf(emitted), emitted.reach, random, histogram);
     }
     // A line through log E over log d. The sheet that does not fold is what lies outside.
     double sumX = 0.0;

@@ -165,6 +165,25 @@ TEST(LightTracing, EveryWattIsAccountedFor) {
     }
 }
 
+// Light without a place has no way behind it to be absorbed on; the device's photons have none
+// either.
+TEST(LightTracing, ASunThatFirstMeetsDarkWaterFromWithinIsAsStrongAsTheSceneSays) {
+    scene::Scene scene;
+    addObject(scene, scene::makePlane({{2.0, 3.0}, {1, 1}}), glass(1.333));
+    scene.materials[0].absorptionPerMeter = glm::vec3(2.0f);
+    scene::Light sun;
+    sun.direction = {0.0, 1.0, 0.0};
+    sun.power = glm::vec3(1000.0f);
+    scene.lights.push_back(sun);
+    const EmbreeScene embree(scene);
+    LightTraceSettings settings;
+    settings.width = settings.height = 1;
+    settings.photonsPerBatch = 1000;
+    // 6 m², three channels; the rectangle that is sampled is the plane and a margin of 1e-6.
+    EXPECT_NEAR(trace(embree, settings, 2).energy().watts[transport::kAccountEmitted] / 18000.0,
+                1.0, 1e-5);
+}
+
 TEST(LightTracing, ResultIsTheSameBitsAtOneTwoAndEightThreads) {
     const scene::Scene scene = scene::loadScene("glass-sphere");
     const EmbreeScene embree(scene);

@@ -86,8 +86,7 @@ inline std::vector<Way> waysOf(const EmbreeScene& scene, const glm::dvec3& origi
     photon.origin = origin - scene.center();
     photon.direction = glm::normalize(direction);
     photon.fluxWatts = glm::dvec3(1.0);
-    LightTransport(scene, filter)
-        .follow(photon, std::numeric_limits<double>::infinity(), random, recorder);
+    LightTransport(scene, filter).follow(photon, {}, random, recorder);
     return recorder.ways;
 }
 

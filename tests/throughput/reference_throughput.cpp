@@ -68,7 +68,7 @@ std::vector<BareRay> recordRays(const EmbreeScene& scene, const LightTraceSettin
         const EmittedPhoton emitted = sampler.sample(i, random);
         const PhotonState photon = stateOf(emitted);
         recorder.addWay(photon);
-        transport.follow(photon, emitted.rangeMeters, random, recorder);
+        transport.follow(photon, emitted.reach, random, recorder);
     }
     return rays;
 }

@@ -15,6 +15,7 @@ void addOpticsCases(Suite& suite);          // C26 to C28a: nodes of emission, i
 void addReconstructionCases(Suite& suite);  // D31, D32, D34a: nodes of reconstruction, emission
 void addMediaCases(Suite& suite);           // D34, D36: nodes of media
 void addMirrorCases(Suite& suite);          // D37: every node of view
+void addBallCases(Suite& suite);            // D39, D41: every tracer and interaction
 void addWholeFrameCases(Suite& suite);      // A10, B18 and E: every technique
 
 }  // namespace kaustik::numerics

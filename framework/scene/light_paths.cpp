@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include "framework/scene/light_paths.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+#include <optional>
+
+#include "framework/scene/height_field.h"
+
+namespace kaustik::scene {
+namespace {
+
+// How far a plane's corners may lie beside it, in its sizes: a float's rounding.
+constexpr double kFlat = 1e-6;
+
+double angleBetween(const glm::dvec3& a, const glm::dvec3& b) {
+    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+}
+
+// A sheet that is a graph over a plane.
+struct Slopes {
+    glm::dvec3 up{0.0, 1.0, 0.0};  // unit, in the world: the plane's normal, outwards
+    double steepestRadians = 0.0;  // of its normals against that, at any time
+};
+
+// Steps along the rows and columns of the grid rise by no more than the sum of the waves' slopes
+// there, and so do the triangles that lie between them.
+Slopes slopesOf(const HeightField& field, const glm::dmat3& normalToWorld) {
+    glm::dvec2 slope(0.0);
+    for (const Wave& wave : field.waves) {
+        slope += std::abs(static_cast<double>(wave.amplitudeMeters)) * glm::abs(waveVector(wave));
+    }
+    Slopes slopes;
+    slopes.up = glm::normalize(normalToWorld * glm::dvec3(0, 1, 0));
+    for (int corner = 0; corner < 4; ++corner) {
+        const glm::dvec3 normal((corner & 1) ? slope.x : -slope.x, 1.0,
+                                (corner & 2) ? slope.y : -slope.y);
+        slopes.steepestRadians =
+            std::max(slopes.steepestRadians, angleBetween(normalToWorld * normal, slopes.up));
+    }
+    return slopes;
+}
+
+// Of a mesh whose triangles lie in one plane and face the same way; nothing for any other.
+std::optional<Slopes> slopesOf(const Mesh& mesh, const glm::dmat3& normalToWorld) {
+    std::optional<glm::dvec3> up;
+    glm::dvec3 on(0.0);
+    double size = 0.0;
+    for (const glm::vec3& position : mesh.positions)
+        size = std::max(size, static_cast<double>(glm::length(position - mesh.positions.front())));
+    for (const glm::uvec3& triangle : mesh.triangles) {
+        const glm::dvec3 a(mesh.positions[triangle.x]);
+        const glm::dvec3 b(mesh.positions[triangle.y]);
+        const glm::dvec3 c(mesh.positions[triangle.z]);
+        const glm::dvec3 area = glm::cross(b - a, c - a);
+        if (!(glm::length(area) > kFlat * kFlat * size * size)) continue;
+        const glm::dvec3 normal = glm::normalize(area);
+        if (!up) {
+            up = normal;
+            on = a;
+        }
+        if (glm::dot(normal, *up) <= 0.0) return std::nullopt;
+        for (const glm::dvec3& corner : {a, b, c}) {
+            if (std::abs(glm::dot(corner - on, *up)) > kFlat * size) return std::nullopt;
+        }
+    }
+    if (!up) return std::nullopt;
+    return Slopes{glm::normalize(normalToWorld * *up), 0.0};
+}
+
+// The largest angle of a light's rays, where they meet the sheet, against straight down on it.
+double largestIncidence(const Scene& scene, const Object& object, const glm::dvec3& up,
+                        const Light& light) {
+    if (light.kind == LightKind::directional) return angleBetween(light.direction, -up);
+    const Bounds bounds = objectBounds(scene, object);
+    double largest = 0.0;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 at((corner & 1) ? bounds.maximum.x : bounds.minimum.x,
+                            (corner & 2) ? bounds.maximum.y : bounds.minimum.y,
+                            (corner & 4) ? bounds.maximum.z : bounds.minimum.z);
+        largest = std::max(largest, angleBetween(at - light.position, -up));
+    }
+    return largest;
+}
+
+}  // namespace
+
+bool isSheet(const Mesh& mesh) {
+    if (mesh.closed) return false;
+    if (mesh.heightField) return true;
+    glm::vec3 mean(0.0f);
+    for (const glm::vec3& normal : mesh.normals)
+        mean += normal;
+    return std::all_of(mesh.normals.begin(), mesh.normals.end(),
+                       [&](const glm::vec3& normal) { return glm::dot(normal, mean) > 0.0f; });
+}
+
+MeetingsAgain meetingsAgain(const Scene& scene) {
+    const Object* sheet = nullptr;
+    for (const Object& object : scene.objects) {
+        const MaterialKind kind = scene.materials[object.material].kind;
+        const Mesh& mesh = scene.meshes[object.mesh];
+        if (isReceiver(kind) || mesh.triangles.empty()) continue;
+        if (sheet != nullptr || !isSheet(mesh)) return {true, true};
+        sheet = &object;
+    }
+    if (sheet == nullptr) return {};
+    const Mesh& mesh = scene.meshes[sheet->mesh];
+    const glm::dmat3 normalToWorld = glm::transpose(glm::inverse(glm::dmat3(sheet->toWorld)));
+    const std::optional<Slopes> slopes = mesh.heightField
+                                             ? slopesOf(*mesh.heightField, normalToWorld)
+                                             : slopesOf(mesh, normalToWorld);
+    if (!slopes) return {true, true};
+    if (slopes->steepestRadians == 0.0) return {};
+    const double steepest = slopes->steepestRadians;
+    const double right = glm::half_pi<double>();
+    const bool isDielectric = scene.materials[sheet->material].kind == MaterialKind::dielectric;
+    MeetingsAgain again;
+    for (const Light& light : scene.lights) {
+        const double incidence = largestIncidence(scene, *sheet, slopes->up, light);
+        // Light that enters is bent towards the normal: it goes on between its old way and the
+        // normal's. From within, it is bent away, or reflected. A reflected way is turned by twice
+        // the slope.
+        const bool comesFromWithin = incidence + steepest >= right;
+        const double onward = std::max(incidence, steepest);
+        const double back = incidence + 2.0 * steepest;
+        const bool reflected = comesFromWithin || back + steepest >= right;
+        again.reflected = again.reflected || reflected;
+        again.transmitted =
+            again.transmitted ||
+            (isDielectric ? comesFromWithin || onward + steepest >= right : reflected);
+    }
+    return again;
+}
+
+}  // namespace kaustik::scene

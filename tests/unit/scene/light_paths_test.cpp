@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+// Whether light can meet a scene's specular surfaces again.
+#include "framework/scene/light_paths.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "framework/scene/height_field.h"
+#include "framework/scene/scene_file.h"
+#include "framework/scene/shapes.h"
+
+namespace kaustik::scene {
+namespace {
+
+void add(Scene& scene, Mesh mesh, MaterialKind kind = MaterialKind::dielectric,
+         const glm::dmat4& toWorld = glm::dmat4(1.0)) {
+    const auto index = static_cast<std::uint32_t>(scene.meshes.size());
+    Material material;
+    material.kind = kind;
+    scene.meshes.push_back(std::move(mesh));
+    scene.materials.push_back(material);
+    scene.objects.push_back({"object", index, index, toWorld});
+}
+
+Light sunAt(double degreesFromVertical) {
+    Light sun;
+    const double angle = glm::radians(degreesFromVertical);
+    sun.direction = {std::sin(angle), -std::cos(angle), 0.0};
+    return sun;
+}
+
+// One wave along x whose steepest slope is `degrees`.
+Mesh wavyWater(double degrees) {
+    HeightField field;
+    Wave wave;
+    wave.wavelengthMeters = 0.5f;
+    wave.amplitudeMeters =
+        static_cast<float>(std::tan(glm::radians(degrees)) * 0.5 / glm::two_pi<double>());
+    field.waves.push_back(wave);
+    return makeHeightField(field, 0.0);
+}
+
+Scene waterUnderSun(double slopeDegrees, double sunDegrees) {
+    Scene scene;
+    add(scene, wavyWater(slopeDegrees));
+    scene.lights.push_back(sunAt(sunDegrees));
+    return scene;
+}
+
+Mesh withoutATriangle(Mesh mesh) {
+    mesh.triangles.pop_back();
+    mesh.closed = false;
+    return mesh;
+}
+
+TEST(IsSheet, IsWhatDoesNotTurnBack) {
+    EXPECT_TRUE(isSheet(makePlane({})));
+    EXPECT_TRUE(isSheet(wavyWater(30.0)));
+    EXPECT_FALSE(isSheet(makeSphere({})));
+    EXPECT_FALSE(isSheet(withoutATriangle(makeSphere({}))));
+}
+
+TEST(MeetingsAgain, AreNoneWithoutASpecularSurfaceAndAtASinglePlane) {
+    EXPECT_FALSE(meetingsAgain({}).reflected);
+    for (const MaterialKind kind : {MaterialKind::dielectric, MaterialKind::mirror}) {
+        Scene scene;
+        add(scene, makePlane({}), kind);
+        scene.lights.push_back(sunAt(80.0));
+        EXPECT_FALSE(meetingsAgain(scene).transmitted);
+        EXPECT_FALSE(meetingsAgain(scene).reflected);
+    }
+}
+
+TEST(MeetingsAgain, AreThereInABodyEvenIfItsMeshIsOpen) {
+    for (const Mesh& ball : {makeSphere({}), withoutATriangle(makeSphere({}))}) {
+        Scene scene;
+        add(scene, ball);
+        scene.lights.push_back(sunAt(0.0));
+        EXPECT_TRUE(meetingsAgain(scene).transmitted);
+    }
+}
+
+TEST(MeetingsAgain, AreThereBetweenTwoSheets) {
+    Scene scene;
+    add(scene, makePlane({}));
+    add(scene, makePlane({}));
+    EXPECT_TRUE(meetingsAgain(scene).transmitted);
+}
+
+// By hand: what enters goes on within 20 degrees of straight down, which waves of 20 degrees are
+// too flat to meet; what is reflected is turned by 40 degrees, and 70 + 20 is where they are not.
+TEST(MeetingsAgain, OfReflectedLightBeginWhereWavesAreAsSteepAsItsWay) {
+    for (const double sun : {0.0, 29.0}) {
+        EXPECT_FALSE(meetingsAgain(waterUnderSun(20.0, sun)).transmitted);
+        EXPECT_FALSE(meetingsAgain(waterUnderSun(20.0, sun)).reflected);
+    }
+    EXPECT_FALSE(meetingsAgain(waterUnderSun(20.0, 31.0)).transmitted);
+    EXPECT_TRUE(meetingsAgain(waterUnderSun(20.0, 31.0)).reflected);
+}
+
+TEST(MeetingsAgain, OfRefractedLightBeginWhereTheSunGrazesTheWaves) {
+    EXPECT_FALSE(meetingsAgain(waterUnderSun(20.0, 69.0)).transmitted);
+    EXPECT_TRUE(meetingsAgain(waterUnderSun(20.0, 71.0)).transmitted);
+    // Steep waves bend light that comes from straight above by as much.
+    EXPECT_FALSE(meetingsAgain(waterUnderSun(44.0, 0.0)).transmitted);
+    EXPECT_TRUE(meetingsAgain(waterUnderSun(46.0, 0.0)).transmitted);
+}
+
+TEST(MeetingsAgain, AreThereForLightFromWithin) {
+    EXPECT_TRUE(meetingsAgain(waterUnderSun(5.0, 180.0)).transmitted);
+    // A lamp over the water's edge sees it at a slant, one far above does not.
+    for (const auto& [height, expected] : {std::pair(0.1, true), std::pair(10.0, false)}) {
+        Scene scene;
+        add(scene, wavyWater(20.0));
+        Light lamp;
+        lamp.kind = LightKind::point;
+        lamp.position = {0.5, height, 0.0};
+        scene.lights.push_back(lamp);
+        EXPECT_EQ(meetingsAgain(scene).transmitted, expected) << height;
+    }
+}
+
+TEST(MeetingsAgain, DependOnHowTheWaterIsPlacedOnly) {
+    const glm::dmat4 turned =
+        glm::rotate(glm::dmat4(1.0), glm::radians(90.0), glm::dvec3(0.0, 0.0, 1.0));
+    for (const auto& [sun, expected] : {std::pair(29.0, false), std::pair(31.0, true)}) {
+        Scene scene;
+        add(scene, wavyWater(20.0), MaterialKind::dielectric, turned);
+        scene.lights.push_back(sunAt(sun));
+        scene.lights[0].direction = glm::dmat3(turned) * scene.lights[0].direction;
+        EXPECT_EQ(meetingsAgain(scene).reflected, expected) << sun;
+    }
+    // Twice as high, so as steep as 36 degrees.
+    Scene stretched = waterUnderSun(20.0, 20.0);
+    EXPECT_FALSE(meetingsAgain(stretched).reflected);
+    stretched.objects[0].toWorld = glm::scale(glm::dmat4(1.0), glm::dvec3(1.0, 2.0, 1.0));
+    EXPECT_TRUE(meetingsAgain(stretched).reflected);
+}
+
+TEST(MeetingsAgain, OfShippedWaterAreThoseOfReflectedLightFromALowSun) {
+    EXPECT_FALSE(meetingsAgain(loadScene("flat-water")).reflected);
+    EXPECT_FALSE(meetingsAgain(loadScene("pool-reflections")).transmitted);
+    EXPECT_TRUE(meetingsAgain(loadScene("pool-reflections")).reflected);
+}
+
+}  // namespace
+}  // namespace kaustik::scene
