@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <limits>
 #include <optional>
 
 #include "framework/scene/height_field.h"
@@ -84,6 +85,46 @@ double largestIncidence(const Scene& scene, const Object& object, const glm::dve
     return largest;
 }
 
+// The sheet's mean normal, outwards, in the world.
+glm::dvec3 meanNormal(const Scene& scene, const Object& object) {
+    const Mesh& mesh = scene.meshes[object.mesh];
+    const glm::dmat3 normalToWorld = glm::transpose(glm::inverse(glm::dmat3(object.toWorld)));
+    glm::dvec3 mean(0.0, 1.0, 0.0);
+    if (!mesh.heightField) {
+        mean = glm::dvec3(0.0);
+        for (const glm::vec3& normal : mesh.normals)
+            mean += glm::dvec3(normal);
+    }
+    return glm::normalize(normalToWorld * mean);
+}
+
+// Unpolarised reflectance from vacuum into a medium of this index.
+double reflectance(double cosine, double index) {
+    const double inside = std::sqrt(1.0 - (1.0 - cosine * cosine) / (index * index));
+    const double s = (cosine - index * inside) / (cosine + index * inside);
+    const double p = (index * cosine - inside) / (index * cosine + inside);
+    return 0.5 * (s * s + p * p);
+}
+
+// Whether a box that moves along `direction` comes upon another one.
+bool comesUpon(const Bounds& moving, const Bounds& there, const glm::dvec3& direction) {
+    double first = 0.0;
+    double last = std::numeric_limits<double>::infinity();
+    for (int axis = 0; axis < 3; ++axis) {
+        const double low = there.minimum[axis] - moving.maximum[axis];
+        const double high = there.maximum[axis] - moving.minimum[axis];
+        if (std::abs(direction[axis]) < 1e-12) {
+            if (low > 0.0 || high < 0.0) return false;
+            continue;
+        }
+        const double a = low / direction[axis];
+        const double b = high / direction[axis];
+        first = std::max(first, std::min(a, b));
+        last = std::min(last, std::max(a, b));
+    }
+    return first < last;
+}
+
 }  // namespace
 
 bool isSheet(const Mesh& mesh) {
@@ -132,6 +173,38 @@ MeetingsAgain meetingsAgain(const Scene& scene) {
             (isDielectric ? comesFromWithin || onward + steepest >= right : reflected);
     }
     return again;
+}
+
+std::optional<ReflectedLight> reflectedLight(const Scene& scene) {
+    constexpr double kLeastShare = 0.04;
+    std::optional<ReflectedLight> largest;
+    for (const Object& sheet : scene.objects) {
+        const Material& material = scene.materials[sheet.material];
+        const Mesh& mesh = scene.meshes[sheet.mesh];
+        if (material.kind != MaterialKind::dielectric || mesh.triangles.empty() || !isSheet(mesh))
+            continue;
+        const Bounds from = objectBounds(scene, sheet);
+        const glm::dvec3 up = meanNormal(scene, sheet);
+        for (const Light& light : scene.lights) {
+            const glm::dvec3 direction =
+                light.kind == LightKind::directional
+                    ? light.direction
+                    : glm::normalize(0.5 * (from.minimum + from.maximum) - light.position);
+            const double cosine = -glm::dot(direction, up);
+            if (!(cosine > 0.0)) continue;  // from within: what is reflected stays there
+            const double share = reflectance(cosine, static_cast<double>(material.ior));
+            if (share <= std::max(kLeastShare, largest ? largest->share : 0.0)) continue;
+            const glm::dvec3 reflected = direction + 2.0 * cosine * up;
+            for (const Object& receiver : scene.objects) {
+                if (!isReceiver(scene.materials[receiver.material].kind)) continue;
+                const Bounds to = objectBounds(scene, receiver);
+                if (to.empty || !comesUpon(from, to, reflected)) continue;
+                largest = ReflectedLight{sheet.name, receiver.name, share};
+                break;
+            }
+        }
+    }
+    return largest;
 }
 
 }  // namespace kaustik::scene

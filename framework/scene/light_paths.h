@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 // What the directions of a scene's light say about its ways over specular surfaces, before any
-// photon is traced: whether one can meet them again.
+// photon is traced: whether one can meet them again, and whether reflected light is seen.
 #pragma once
+
+#include <optional>
+#include <string>
 
 #include "framework/scene/scene.h"
 
@@ -22,5 +25,16 @@ struct MeetingsAgain {
 // surface is anywhere does not come back to it. Both, where nothing forbids it. Waves count with
 // the sum of their slopes, so that this holds at every time.
 [[nodiscard]] MeetingsAgain meetingsAgain(const Scene& scene);
+
+// Light that a dielectric sheet, water say, sends back to a receiver.
+struct ReflectedLight {
+    std::string sheet;  // names of objects
+    std::string receiver;
+    double share = 0.0;  // of the light, by Fresnel's equations where the sheet is level
+};
+// The largest share above 4 % (that of glass at normal incidence) for which a receiver lies in the
+// way of the beam that the sheet, taken for level, reflects; by the boxes of both, so that waves
+// and corners may decide otherwise. Closed dielectrics send light everywhere and are not asked.
+[[nodiscard]] std::optional<ReflectedLight> reflectedLight(const Scene& scene);
 
 }  // namespace kaustik::scene

@@ -42,6 +42,7 @@ SceneNeeds sceneNeeds(const Scene& scene) {
         }
     }
     needs.meetsAgain = meetingsAgain(scene);
+    needs.reflectedLight = reflectedLight(scene);
     needs.lights = static_cast<int>(scene.lights.size());
     const glm::vec3 none(0.0f);
     needs.medium = scene.medium && (scene.medium->scatteringPerMeter != none ||

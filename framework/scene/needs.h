@@ -14,6 +14,8 @@ struct SceneNeeds {
     // a technique's own bounce limit says how many it follows.
     int specularInterfaces = 0;
     MeetingsAgain meetsAgain;        // whether there are such repeated ones at all
+    // Which says that the reflected branch at dielectrics is seen; nothing: the other one is enough.
+    std::optional<ReflectedLight> reflectedLight;
     int reflectors = 0;              // objects that are mirrors
     int refractors = 0;              // objects that are dielectrics
     bool closedDielectrics = false;  // one of these has an inside: glass, not a water surface

@@ -35,6 +35,11 @@ void registerSharedNodes(Registry& registry) {
                               "texel.",
                               "K06, section 1.1"},
                              &emitGrid);
+    registry.node<SpecularStage>("auto",
+                                 {"Follows both Fresnel branches where water or a pane reflects "
+                                  "much light to a receiver, else the refracted one.",
+                                  ""},
+                                 &interactAsNeeded);
     registry.node<SpecularStage>("interface",
                                  {"Refracts, or reflects totally or at a mirror; the other Fresnel "
                                   "branch goes to the ledger.",

@@ -24,6 +24,7 @@ EyeBuffer renderEye(FrameBuilder& frame, const params::NoParams&, Geometry geome
 Hits emitGrid(FrameBuilder& frame, const params::NoParams&, Geometry geometry);
 
 Hits interactAtInterface(FrameBuilder& frame, const params::NoParams&, Hits hits);
+Hits interactAsNeeded(FrameBuilder& frame, const params::NoParams&, Hits hits);
 
 struct SplitParams {
     int levels = 1;
