@@ -80,8 +80,10 @@ void main() {
         if (occluded > 0.0) ledgerAdd(kAccountOccludedSplat, flux.rgb * (occluded / total));
         if (offScreen > 0.0) ledgerAdd(kAccountOffScreen, flux.rgb * (offScreen / total));
     } else {
-        // No pixel shows the surface where the light arrives: it is edge-on or below a pixel.
-        ledgerAdd(kAccountEdgeOn, flux.rgb);
+        // No pixel shows the surface where the light arrives: it is turned away and hidden by its own
+        // object, or it is edge-on or below a pixel.
+        bool isTurnedAway = dot(sprite.normal, sprite.center) > 0.0;
+        ledgerAdd(isTurnedAway ? kAccountOccludedSplat : kAccountEdgeOn, flux.rgb);
     }
     imageStore(spriteWeights, texel, weights);
 }
