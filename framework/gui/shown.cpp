@@ -42,8 +42,10 @@ Shown ofProblem(const Asked& asked, const FrameResult& result,
         return stale(result.problem + " 'kaustik run' renders without this window.",
                      Shown::WayOut::restart);
     }
-    const bool hasBack = whole && whole->scene != asked.document.scene;
-    return stale(result.problem, hasBack ? Shown::WayOut::back : Shown::WayOut::defaultScene);
+    const std::string& scene = asked.document.scene;
+    if (whole && whole->scene != scene) return stale(result.problem, Shown::WayOut::back);
+    const bool isDefault = scene == Document().scene;  // whose mesh may be missing
+    return stale(result.problem, isDefault ? Shown::WayOut::none : Shown::WayOut::defaultScene);
 }
 
 Shown ofError(const Asked& asked, const std::string& error, const std::optional<Document>& whole) {
@@ -80,7 +82,7 @@ Shown ofOlder(const FrameResult& result) {
 
 // What is asked for to the right of the split and is not there.
 std::string missingBeside(const Asked& asked, const FrameResult& result, const TruthState& truth) {
-    const bool hasTruth = truth.photons > 0 && isOfSameView(truth, result);
+    const bool hasTruth = truth.photons > 0 && isOfSameView(truth, result.document);
     const TruthState::Judgement& judgement = truth.judgements[asked.seen()];
     switch (asked.view.beside) {
         case Beside::truth:
@@ -98,8 +100,7 @@ std::string missingBeside(const Asked& asked, const FrameResult& result, const T
 
 }  // namespace
 
-bool isOfSameView(const TruthState& truth, const FrameResult& result) {
-    const Document& document = result.document;
+bool isOfSameView(const TruthState& truth, const Document& document) {
     return truth.aim && truth.aim->scene == document.scene && truth.aim->edits == document.edits &&
            truth.aim->size == document.size;
 }

@@ -54,8 +54,8 @@ struct Asked {
 // again elsewhere.
 [[nodiscard]] bool isRendered(const Asked& asked, const FrameResult& result);
 
-// Whether the reference is of the view that was rendered.
-[[nodiscard]] bool isOfSameView(const TruthState& truth, const FrameResult& result);
+// Whether the reference is of the document's view.
+[[nodiscard]] bool isOfSameView(const TruthState& truth, const Document& document);
 
 // `whole`: the last document that was rendered without an error, where there was one.
 [[nodiscard]] Shown shownOf(const Asked& asked, const FrameResult& result, const TruthState& truth,

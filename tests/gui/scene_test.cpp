@@ -8,7 +8,7 @@
 
 #include "framework/core/files.h"
 #include "tests/gui/workbench_fixture.h"
-#include "tests/unit/scene/gltf_import_fixture.h"
+#include "tests/unit/importers/gltf_file_fixture.h"
 
 namespace kaustik::test {
 namespace {

@@ -28,8 +28,11 @@ void drawTruth(Bench& bench) {
         ImGui::TextColored(ImVec4(1.0f, 0.45f, 0.4f, 1.0f), "%s", truth.problem.c_str());
     bench.map.area("error.problem", 0, 0, 0, 0, truth.problem);
     const TruthWorker::Progress progress = bench.truthWorker.progress();
+    const bool isOfThisView = isOfSameView(truth, bench.document);
     if (truth.isLooking) {
         ImGui::TextDisabled("Looking for a reference …");
+    } else if (!isOfThisView) {
+        ImGui::TextDisabled("A reference is looked for once this view is rendered.");
     } else if (truth.photons > 0) {
         ImGui::Text("Reference of %.1f million photons; standard error of a lit pixel %s.",
                     static_cast<double>(truth.photons) * 1e-6,
@@ -58,7 +61,7 @@ void drawTruth(Bench& bench) {
         if (ImGui::Button(label)) bench.truthWorker.stopComputing();
         bench.map.control("error.stop", progress.isEnding ? "stopping" : "");
         ImGui::EndDisabled();
-    } else if (truth.aim) {
+    } else if (isOfThisView) {
         const bool isEnough = static_cast<double>(truth.photons) >= bench.panels.truthPhotons;
         ImGui::BeginDisabled(isEnough);
         if (button(bench, truth.photons > 0 ? "Go on computing" : "Compute in the background",

@@ -63,12 +63,12 @@ Other otherImage(const Bench& bench) {
             break;
         }
         case Beside::truth:
-            if (truth.irradiance && isOfSameView(truth, result))
+            if (truth.irradiance && isOfSameView(truth, result.document))
                 return {truth.irradiance.get(), 2 * truth.version, false, "truth"};
             break;
         case Beside::error:
             if (const TruthState::Judgement& judgement = truth.judgements[bench.asked().seen()];
-                judgement.heatMap && isOfSameView(truth, result)) {
+                judgement.heatMap && isOfSameView(truth, result.document)) {
                 return {judgement.heatMap.get(), 2 * truth.version + 1, true,
                         judgement.order == result.order ? "error" : "error of before"};
             }

@@ -110,6 +110,9 @@ TEST_F(ShownTest, IsStaleWhereTheSceneCannotBeHad) {
     // To a scene that has come to be broken there is no way back.
     whole->scene = "gone.toml";
     EXPECT_EQ(shown().wayOut, Shown::WayOut::defaultScene);
+    document.scene = Document().scene;
+    whole.reset();
+    EXPECT_EQ(shown().wayOut, Shown::WayOut::none);
 }
 
 TEST_F(ShownTest, IsStaleWhereTheDeviceIsLostWhateverTheOrder) {
