@@ -106,7 +106,7 @@ double reflectance(double cosine, double index) {
     return 0.5 * (s * s + p * p);
 }
 
-// Whether a box that moves along `direction` comes upon another one.
+// Whether a box that moves along `direction` comes upon another one, which it does not touch yet.
 bool comesUpon(const Bounds& moving, const Bounds& there, const glm::dvec3& direction) {
     double first = 0.0;
     double last = std::numeric_limits<double>::infinity();
@@ -122,7 +122,7 @@ bool comesUpon(const Bounds& moving, const Bounds& there, const glm::dvec3& dire
         first = std::max(first, std::min(a, b));
         last = std::min(last, std::max(a, b));
     }
-    return first < last;
+    return first > 0.0 && first < last;
 }
 
 }  // namespace
