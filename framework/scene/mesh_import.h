@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "framework/reading/reader_process.h"
 #include "framework/scene/scene.h"
 
 namespace kaustik::scene {
@@ -20,9 +21,10 @@ struct ImportedMesh {
 // polygons triangulated, identical vertices joined, degenerate triangles dropped (with a warning).
 // Mesh::origin is the centre of the bounding box. Missing normals are made smooth, weighted by the
 // corner's angle over welded positions. Throws IoError naming the file and what to do.
-[[nodiscard]] ImportedMesh importMeshWithWarnings(const std::filesystem::path& path);
+[[nodiscard]] ImportedMesh importMeshWithWarnings(const std::filesystem::path& path,
+                                                  reading::ReaderProcess& reader);
 
-// The same without the warnings.
+// The same without the warnings, in a process for this file alone.
 [[nodiscard]] Mesh importMesh(const std::filesystem::path& path);
 
 }  // namespace kaustik::scene

@@ -83,7 +83,9 @@ std::string lowerExtension(const fs::path& path) {
 }
 
 Scene loadSceneFile(const fs::path& path) {
-    const TomlNode document = readToml(path);
+    // One process for the scene and its meshes; each file has all of the time.
+    reading::ReaderProcess process;
+    const TomlNode document = readToml(path, process);
     TableReader top(document, path, "");
     if (top.has("extends")) return loadExtension(top, path);
     Scene scene;
@@ -118,7 +120,7 @@ Scene loadSceneFile(const fs::path& path) {
         scene.materials.push_back(std::move(material));
     }
     for (TableReader& reader : objects) {
-        Object object = readObject(reader, scene);
+        Object object = readObject(reader, scene, process);
         requireNewName(scene.objects, object.name, reader);
         scene.objects.push_back(std::move(object));
     }

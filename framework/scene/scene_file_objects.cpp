@@ -110,11 +110,11 @@ fs::path findMesh(TableReader& reader) {
 }
 
 // The index of the mesh in the scene; a file that another object uses is read once.
-std::uint32_t addMeshFile(const fs::path& file, Scene& scene) {
+std::uint32_t addMeshFile(const fs::path& file, Scene& scene, reading::ReaderProcess& process) {
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
         if (scene.meshes[i].name == file.string()) return static_cast<std::uint32_t>(i);
     }
-    ImportedMesh imported = importMeshWithWarnings(file);
+    ImportedMesh imported = importMeshWithWarnings(file, process);
     imported.mesh.name = file.string();
     scene.warnings.insert(scene.warnings.end(), imported.warnings.begin(), imported.warnings.end());
     scene.meshes.push_back(std::move(imported.mesh));
@@ -133,7 +133,7 @@ std::uint32_t findMaterial(TableReader& reader, const std::string& name, const S
 
 }  // namespace
 
-Object readObject(TableReader& reader, Scene& scene) {
+Object readObject(TableReader& reader, Scene& scene, reading::ReaderProcess& process) {
     Object object;
     object.name = reader.name();
     const std::string material = reader.text("material");
@@ -146,7 +146,7 @@ Object readObject(TableReader& reader, Scene& scene) {
         const fs::path file = findMesh(reader);
         reader.finish();
         object.material = findMaterial(reader, material, scene);
-        object.mesh = addMeshFile(file, scene);
+        object.mesh = addMeshFile(file, scene, process);
     } else {
         Mesh mesh = readShape(reader, scene.timeSeconds);
         mesh.name = object.name;

@@ -22,8 +22,8 @@ void readEnvironment(TableReader& reader, Scene& scene);
 [[nodiscard]] Material readMaterial(TableReader& reader, Scene& scene);
 
 // Adds the object's mesh to the scene; objects of the same mesh file share it. The materials must
-// have been read.
-[[nodiscard]] Object readObject(TableReader& reader, Scene& scene);
+// have been read. `process` reads mesh files.
+[[nodiscard]] Object readObject(TableReader& reader, Scene& scene, reading::ReaderProcess& process);
 
 // The waves of a table: [{…}, …] under `waves`, or [[….wave]].
 [[nodiscard]] std::vector<Wave> readWaves(TableReader& reader);
