@@ -12,7 +12,7 @@
 namespace kaustik::reference {
 namespace {
 
-constexpr std::string_view kMagic = "kaustik.sums/1\n";
+constexpr std::string_view kMagic = "kaustik.sums/2\n";
 constexpr std::size_t kHashDigits = 32;
 constexpr std::uint64_t kMaximumBatchRanges = 1u << 24;
 

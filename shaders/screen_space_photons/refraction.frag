@@ -41,7 +41,8 @@ Interface bend(inout EyePath path, vec3 normal, uint material, int layer) {
     ++path.refractions;
     path.direction = meeting.refracted;
     path.throughput *= 1.0 - meeting.reflectance;
-    path.media = enters ? enterMedium(path.media, material) : leaveMedium(path.media);
+    if (enters && !canEnter(path.media, material)) path.ending = kWayNestedTooDeep;
+    else path.media = enters ? enterMedium(path.media, material) : leaveMedium(path.media, material);
     // Behind the layer when it comes from before it, and the other way round.
     path.passed = layer > path.passed ? layer : layer - 1;
     return meeting;
@@ -51,7 +52,7 @@ Interface bend(inout EyePath path, vec3 normal, uint material, int layer) {
 bool advance(inout EyePath path, float reach) {
     RaySegment segment = clipToDielectrics(path.origin, path.direction, reach);
     if (!segment.visible) return false;
-    TracedRay ray = TracedRay(path.origin, path.direction, path.media);
+    TracedRay ray = tracedRay(path.origin, path.direction, path.media);
     int steps = stepCount(segment, 4, 16384);
     FirstHit found = view_refraction_search == view_refraction_search_all
                          ? firstHitOfSteps(segment, ray, steps)
@@ -102,14 +103,14 @@ void main() {
     for (;;) {
         bool isInside = isInsideClosed(path.media);
         bool isReflected = path.reflections > view_refraction_reflections;
-        bool isLast = isReflected || path.refractions >= view_refraction_interfaces;
+        bool isLast = isReflected || path.ending == kWayNestedTooDeep || path.refractions >= view_refraction_interfaces;
         seen = nothingThere();
 #ifndef RECEIVERS_INSIDE
         if (!isInside)
 #endif
             seen = lookThrough(path.origin, path.direction);
         if (isLast) {
-            if (isInside && !seen.isFound) path.ending = kWayStoppedInside;
+            if (isInside && !seen.isFound && path.ending > 0.0) path.ending = kWayStoppedInside;
             if (isReflected) path.ending = kWayReflectedTooOften;
             break;
         }
@@ -122,7 +123,8 @@ void main() {
     exitDirection = vec4(path.direction, path.ending);
 
     // What was not traced out of an object is taken to see what one outside of it would.
-    uint media = isInsideClosed(path.media) && !seen.isFound ? leaveMedium(path.media) : path.media;
+    uint media = isInsideClosed(path.media) && !seen.isFound
+                     ? leaveMedium(path.media, innerMedium(path.media)) : path.media;
     float ratio = mediumIndex(innerMedium(mediaAtEye)) / mediumIndex(innerMedium(media));
     radiance.rgb = path.throughput * ratio * ratio *
                    radianceAlong(path.origin, path.direction, openMedium(media), seen, pixel);

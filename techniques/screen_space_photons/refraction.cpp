@@ -14,6 +14,7 @@
 #include <algorithm>
 
 #include "framework/pipeline/frame_builder.h"
+#include "framework/scene/dielectrics.h"
 #include "techniques/screen_space_photons/hit_testing.h"
 #include "techniques/screen_space_photons/nodes.h"
 #include "techniques/screen_space_photons/view_passes.h"
@@ -66,6 +67,9 @@ void keepToLimits(FrameBuilder& frame, const RefractionViewParams& params,
                 "end inside of an object and are taken to see what they would outside");
     keepToLimit(frame, seen, "view.refraction.reflections", "reflections", params.reflections,
                 transport::kWayReflectedTooOften, "are lost between total reflections");
+    keepToLimit(frame, seen, "view.refraction.nesting", "dielectrics",
+                numberDielectrics(frame.scene()).depth, transport::kWayNestedTooDeep,
+                "are lost in a dielectric inside of more others");
     // Fewer layers than there are interfaces to be met in them.
     const bool isMonotonic = params.search == RefractionSearch::monotonic;
     if (isMonotonic && params.layers >= params.interfaces) return;
