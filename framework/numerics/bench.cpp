@@ -6,6 +6,7 @@
 
 #include "framework/numerics/frame.h"
 #include "framework/pipeline/frame_builder.h"
+#include "framework/scene/dielectrics.h"
 
 namespace kaustik::numerics {
 namespace {
@@ -34,6 +35,7 @@ Batch makeBatch(const scene::Scene& scene, const std::vector<BenchPhoton>& photo
     const glm::dmat4 toView =
         render::makeEyeView(scene.camera, size.width, size.height).worldToView;
     const glm::dmat3 rotation(toView);
+    const scene::Dielectrics dielectrics = numberDielectrics(scene);
     Batch batch;
     batch.width = std::clamp(static_cast<int>(photons.size()), 1, kRowLength);
     batch.height = std::max((static_cast<int>(photons.size()) + kRowLength - 1) / kRowLength, 1);
@@ -45,7 +47,8 @@ Batch makeBatch(const scene::Scene& scene, const std::vector<BenchPhoton>& photo
         Injected& injected = batch.photons[i];
         injected.photonPosition = texel(position, photon.footprintMeters);
         injected.photonDirection = texel(rotation * photon.direction, photonFate);
-        injected.photonFlux = texel(photon.fluxWatts, photon.media);
+        injected.photonFlux =
+            texel(photon.fluxWatts, packMedia(dielectrics, photon.media, photon.leftSide));
         injected.hitPosition = texel(position, 0.0);
         injected.hitSurface = texel(rotation * photon.startNormal, photon.startMaterial);
         injected.hitFlux = texel(photon.fluxWatts, hitFate);
@@ -187,7 +190,8 @@ Traced tracePhotons(Lab& lab, const Lab::Choice& tracer, const scene::Scene& sce
 }
 
 Traced interactPhotons(Lab& lab, const Lab::Choice& specular, const scene::Scene& scene,
-                       const std::vector<BenchPhoton>& photons, std::vector<std::uint32_t>* media) {
+                       const std::vector<BenchPhoton>& photons,
+                       std::vector<std::vector<std::uint32_t>>* media) {
     const Batch batch =
         makeBatch(scene, photons, transport::kFateInFlight, transport::kFateSpecular, BenchSize{});
     const Frame frame = renderBench(lab, specular, scene, {}, {}, [&batch](FrameBuilder& builder) {
@@ -203,8 +207,9 @@ Traced interactPhotons(Lab& lab, const Lab::Choice& specular, const scene::Scene
     Traced result{readHits(frame, photons.size(), after.position, after.direction, after.flux),
                   frame.renderer().ledger()};
     // A photon's texels hold its fate and media where a hit's hold material and fate.
+    const scene::Dielectrics dielectrics = numberDielectrics(scene);
     for (BenchHit& hit : result.hits) {
-        if (media != nullptr) media->push_back(hit.fate);
+        if (media != nullptr) media->push_back(unpackMedia(dielectrics, hit.fate));
         hit.fate = hit.material;
         hit.material = 0;
     }
@@ -253,6 +258,7 @@ Emitted readEmitted(const Frame& frame, const std::string& suffix) {
     const Texels direction = frame.read("bench.direction" + suffix);
     const Texels flux = frame.read("bench.flux" + suffix);
     const glm::dmat3 back(glm::transpose(glm::dmat3(frame.view().worldToView)));
+    const scene::Dielectrics dielectrics = numberDielectrics(frame.renderer().scene());
     Emitted emitted;
     for (int y = 0; y < position.height; ++y) {
         for (int x = 0; x < position.width; ++x) {
@@ -263,7 +269,8 @@ Emitted readEmitted(const Frame& frame, const std::string& suffix) {
             hit.fate = static_cast<std::uint32_t>(direction.at(x, y, 3));
             emitted.hits.push_back(hit);
             emitted.directions.push_back(back * direction.rgb(x, y));
-            emitted.media.push_back(static_cast<std::uint32_t>(flux.at(x, y, 3)));
+            emitted.media.push_back(
+                unpackMedia(dielectrics, static_cast<std::uint32_t>(flux.at(x, y, 3))));
         }
     }
     return emitted;

@@ -18,7 +18,8 @@ struct BenchPhoton {
     glm::dvec3 direction{0.0, 0.0, -1.0};  // unit
     glm::dvec3 fluxWatts{1.0};
     double footprintMeters = 0.01;
-    std::uint32_t media = 0;          // transport::Photon::media
+    std::vector<std::uint32_t> media = {};  // material index + 1, the innermost first
+    std::uint32_t leftSide = transport::kLeftNothing;
     glm::dvec3 startNormal{0.0};      // outward
     std::uint32_t startMaterial = 0;  // index + 1; 0: it starts in the open
     std::uint32_t startFate = transport::kFateNone;
@@ -59,13 +60,13 @@ struct Traced {
 [[nodiscard]] Traced interactPhotons(Lab& lab, const Lab::Choice& specular,
                                      const scene::Scene& scene,
                                      const std::vector<BenchPhoton>& photons,
-                                     std::vector<std::uint32_t>* media = nullptr);
+                                     std::vector<std::vector<std::uint32_t>>* media = nullptr);
 
 // Photons as they leave the lights of the scene: where they first meet a specular surface.
 struct Emitted {
     std::vector<BenchHit> hits;
     std::vector<glm::dvec3> directions;
-    std::vector<std::uint32_t> media;
+    std::vector<std::vector<std::uint32_t>> media;  // as BenchPhoton's
 };
 [[nodiscard]] Emitted emitPhotons(Lab& lab, const Lab::Choice& emitter, const scene::Scene& scene,
                                   const Settings& settings);

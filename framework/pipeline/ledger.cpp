@@ -36,6 +36,7 @@ const std::vector<std::pair<unsigned, std::string>>& lossCauses() {
         {kAccountMissedByTracer, "tracer"},
         {kAccountInternalReflectionLimit, "internal_reflection_limit"},
         {kAccountBounceLimit, "bounce_limit"},
+        {kAccountNestingLimit, "nesting_limit"},
         {kAccountBatchLimit, "batch_limit"},
         {kAccountOccludedSplat, "occluded"},
         {kAccountNotANumber, "not_a_number"},

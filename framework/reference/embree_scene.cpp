@@ -21,7 +21,7 @@ using scene::MaterialKind;
 struct FilterContext {
     RTCIntersectContext embree;
     TriangleId start;
-    std::uint32_t innerMedium;
+    const MediaStack* media;
     SideRule sides;
     std::uint32_t leftSide;
     float reachMeters;
@@ -42,17 +42,21 @@ void rejectWrongSide(const RTCFilterFunctionNArguments* arguments) {
         return;
     }
     if (context.sides == SideRule::any) return;
-    const bool isDielectric = info.kind == MaterialKind::dielectric;
     const float closing = ray.dir_x * hit.Ng_x + ray.dir_y * hit.Ng_y + ray.dir_z * hit.Ng_z;
-    const bool leaves = closing > 0.0f;
-    if (isDielectric || info.closed) {
-        const bool isInside = isDielectric && context.innerMedium == info.material + 1;
-        if (leaves != isInside) arguments->valid[0] = 0;
-        return;
-    }
-    if (context.leftSide != (leaves ? transport::kLeftOutside : transport::kLeftInside)) return;
     const float size = std::sqrt(hit.Ng_x * hit.Ng_x + hit.Ng_y * hit.Ng_y + hit.Ng_z * hit.Ng_z);
-    if (ray.tfar * std::abs(closing) <= context.reachMeters * size) arguments->valid[0] = 0;
+    const bool leaves = closing > 0.0f;
+    const bool isNear = ray.tfar * std::abs(closing) <= context.reachMeters * size;
+    bool isMet = true;
+    if (info.kind == MaterialKind::dielectric) {
+        const std::uint32_t medium = info.material + 1;
+        const bool isInner = context.media->inner() == medium;
+        isMet = leaves ? isInner || (!isNear && context.media->holds(medium)) : !isInner;
+    } else if (info.closed) {
+        isMet = !leaves;
+    } else if (isNear) {
+        isMet = context.leftSide != (leaves ? transport::kLeftOutside : transport::kLeftInside);
+    }
+    if (!isMet) arguments->valid[0] = 0;
 }
 
 // For receivers and mirrors between a point and the eye.
@@ -62,11 +66,11 @@ void rejectStart(const RTCFilterFunctionNArguments* arguments) {
     if (isStart(context, hit)) arguments->valid[0] = 0;
 }
 
-FilterContext makeContext(const TriangleId& start, std::uint32_t innerMedium, SideRule sides) {
+FilterContext makeContext(const TriangleId& start, const MediaStack& media, SideRule sides) {
     FilterContext context;
     rtcInitIntersectContext(&context.embree);
     context.start = start;
-    context.innerMedium = innerMedium;
+    context.media = &media;
     context.sides = sides;
     context.leftSide = transport::kLeftNothing;
     context.reachMeters = 0.0f;
@@ -234,7 +238,7 @@ void EmbreeScene::refine(const glm::dvec3& origin, const glm::dvec3& direction, 
 }
 
 bool EmbreeScene::intersect(const Ray& ray, SurfaceHit& hit) const {
-    FilterContext context = makeContext(ray.start, ray.innerMedium, ray.sides);
+    FilterContext context = makeContext(ray.start, ray.media, ray.sides);
     context.leftSide = ray.leftSide;
     context.reachMeters = static_cast<float>(ray.reachMeters);
     RTCRayHit query;
@@ -263,7 +267,8 @@ bool EmbreeScene::intersectFromLight(const Ray& ray, SurfaceHit& hit) const {
 
 bool EmbreeScene::intersectStraight(const glm::dvec3& origin, const glm::dvec3& direction,
                                     SurfaceHit& hit) const {
-    FilterContext context = makeContext({}, 0, SideRule::any);
+    const MediaStack none;
+    FilterContext context = makeContext({}, none, SideRule::any);
     RTCRayHit query;
     setRay(query.ray, origin, direction);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
@@ -276,7 +281,8 @@ bool EmbreeScene::intersectStraight(const glm::dvec3& origin, const glm::dvec3& 
 
 bool EmbreeScene::isVisible(const glm::dvec3& from, const TriangleId& start, const glm::dvec3& to,
                             double ignoredEnd) const {
-    FilterContext context = makeContext(start, 0, SideRule::any);
+    const MediaStack none;
+    FilterContext context = makeContext(start, none, SideRule::any);
     RTCRay ray;
     setRay(ray, from, to - from);
     // Neighbours of the triangle may lie before `from` by the rounding of coordinates, no farther.

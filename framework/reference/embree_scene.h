@@ -8,7 +8,8 @@
 // No ray needs an epsilon to leave a surface. A ray names the triangle that it starts on, which it
 // cannot meet again, and the dielectric that it is inside of: that one it meets only from within,
 // any other only from outside (shaders/common/hit_test.glsl, `isFacing`), so rounding at the seam
-// to a neighbouring triangle does no harm either.
+// to a neighbouring triangle does no harm either. Where dielectrics overlap, one farther out may
+// end inside of the innermost.
 #pragma once
 
 #include <embree3/rtcore.h>
@@ -20,6 +21,7 @@
 #include <vector>
 
 #include "framework/reference/appearance.h"
+#include "framework/reference/media_stack.h"
 #include "framework/scene/scene.h"
 #include "framework/transport/types.h"
 
@@ -41,10 +43,11 @@ struct Ray {
     glm::dvec3 origin{0.0};     // local
     glm::dvec3 direction{0.0};  // unit
     TriangleId start;
-    std::uint32_t innerMedium = 0;  // material index + 1; 0: vacuum
+    MediaStack media;
     SideRule sides = SideRule::transport;
     // For rays that know no triangle to start on: the side of an open mirror that they have left
-    // (transport::kLeft…), which they cannot meet from that side within this height above it, m.
+    // (transport::kLeft…), which they cannot meet from that side within this height above it, m;
+    // nor within it the end of a dielectric that overlaps the innermost.
     std::uint32_t leftSide = transport::kLeftNothing;
     double reachMeters = 0.0;
     double fromMeters = 0.0;  // what is nearer is not met

@@ -10,10 +10,11 @@ namespace {
 using namespace transport;
 
 // The causes of loss that ray tracing knows; it has no screen, layers or batches to lose light in.
-constexpr std::array<std::pair<unsigned, const char*>, 4> kCauses = {{
+constexpr std::array<std::pair<unsigned, const char*>, 5> kCauses = {{
     {kAccountUntracedBranch, "untraced_branch"},
     {kAccountInternalReflectionLimit, "internal_reflection_limit"},
     {kAccountBounceLimit, "bounce_limit"},
+    {kAccountNestingLimit, "nesting_limit"},
     {kAccountNotANumber, "not_a_number"},
 }};
 

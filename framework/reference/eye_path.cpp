@@ -24,7 +24,7 @@ double mediumIndex(const scene::Scene& scene, std::uint32_t medium) {
 std::optional<PhotonState> startAtEye(const EmbreeScene& scene, const glm::dvec3& origin,
                                       const glm::dvec3& direction) {
     SurfaceHit first;
-    if (!scene.intersect({origin, direction, {}, 0, SideRule::any}, first)) return std::nullopt;
+    if (!scene.intersect({origin, direction, {}, {}, SideRule::any}, first)) return std::nullopt;
     PhotonState state;
     state.origin = origin;
     state.direction = direction;

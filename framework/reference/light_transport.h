@@ -8,7 +8,6 @@
 // every watt stays accounted for. Local coordinates, m, W.
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -30,29 +29,6 @@ struct PathFilter {
     int splitInteractions = 1;     // 0 to kMaximumSplits; changes the noise, not the mean
 };
 inline constexpr int kMaximumSplits = 8;
-
-// The dielectrics around a photon, the innermost last.
-class MediaStack {
-  public:
-    [[nodiscard]] std::uint32_t inner() const { return size_ > 0 ? media_[size_ - 1] : 0; }
-    [[nodiscard]] std::uint32_t outer() const { return size_ > 1 ? media_[size_ - 2] : 0; }
-    // Deeper nesting than this forgets the outermost.
-    void enter(std::uint32_t medium) {
-        if (size_ == media_.size()) {
-            for (std::size_t i = 1; i < media_.size(); ++i)
-                media_[i - 1] = media_[i];
-            --size_;
-        }
-        media_[size_++] = static_cast<std::uint16_t>(medium);
-    }
-    void leave() {
-        if (size_ > 0) --size_;
-    }
-
-  private:
-    std::array<std::uint16_t, 7> media_{};  // material index + 1
-    std::uint16_t size_ = 0;
-};
 
 // How light comes from where it starts to the first surface.
 struct LightReach {
@@ -123,7 +99,10 @@ struct Branches {
 class LightTransport {
   public:
     LightTransport(const EmbreeScene& scene, const PathFilter& filter)
-        : scene_(scene), filter_(filter) {
+        : scene_(scene),
+          filter_(filter),
+          rounding_(4.0 * static_cast<double>(std::numeric_limits<float>::epsilon()) *
+                    glm::length(scene.bounds().maximum - scene.bounds().minimum)) {
         const auto& medium = scene.scene().medium;
         if (medium) {
             fog_ = glm::dvec3(medium->scatteringPerMeter) + glm::dvec3(medium->absorptionPerMeter);
@@ -138,7 +117,7 @@ class LightTransport {
     // beyond the light's range, is nobody's: no event tells of it.
     template <class Sink>
     void follow(PhotonState photon, const LightReach& reach, Random& random, Sink& sink) const {
-        Ray ray{photon.origin, photon.direction, {}, 0, SideRule::any};
+        Ray ray{photon.origin, photon.direction, {}, {}, SideRule::any};
         SurfaceHit hit;
         if (!scene_.intersectFromLight(ray, hit) || hit.distance > reach.rangeMeters) return;
         const scene::Material& material = scene_.scene().materials[hit.material];
@@ -179,7 +158,8 @@ class LightTransport {
     template <class Sink>
     bool advance(PhotonState& photon, SurfaceHit& hit, Random& random, Sink& sink) const {
         const std::uint32_t inner = photon.media.inner();
-        const Ray ray{photon.origin, photon.direction, photon.start, inner, SideRule::transport};
+        Ray ray{photon.origin, photon.direction, photon.start, photon.media, SideRule::transport};
+        ray.reachMeters = rounding_;
         const bool isHit = scene_.intersect(ray, hit);
         const double distance = isHit ? hit.distance : std::numeric_limits<double>::infinity();
         if (hasAbsorption_ || hasFog_) {
@@ -210,6 +190,23 @@ class LightTransport {
         return true;
     }
 
+    struct Indices {
+        double before;
+        double behind;
+    };
+    // Of refraction, at a surface of the material with that index; of no use at a mirror. The same
+    // twice where one dielectric ends inside of another.
+    [[nodiscard]] Indices indicesAt(const MediaStack& media, std::uint32_t material,
+                                    bool enters) const {
+        const std::vector<scene::Material>& materials = scene_.scene().materials;
+        const auto indexOf = [&](std::uint32_t medium) {
+            return medium == 0 ? 1.0 : static_cast<double>(materials[medium - 1].ior);
+        };
+        const double before = indexOf(media.inner());
+        if (enters) return {before, indexOf(material + 1)};
+        return {before, media.inner() == material + 1 ? indexOf(media.outer()) : before};
+    }
+
     // At a specular surface; false when nothing goes on.
     template <class Sink>
     bool interact(PhotonState& photon, const SurfaceHit& hit, Random& random, Sink& sink) const {
@@ -217,12 +214,9 @@ class LightTransport {
         const scene::Material& material = scene_.scene().materials[hit.material];
         const bool isMirror = material.kind == scene::MaterialKind::mirror;
         const bool enters = glm::dot(photon.direction, hit.geometricNormal) < 0.0;
-        const std::uint32_t outside = enters ? photon.media.inner() : photon.media.outer();
-        const double inside = static_cast<double>(material.ior);
-        const double around =
-            outside == 0 ? 1.0 : static_cast<double>(scene_.scene().materials[outside - 1].ior);
-        const Branches branches = branchesAt(hit, photon.direction, enters ? around : inside,
-                                             enters ? inside : around, isMirror);
+        const Indices indices = indicesAt(photon.media, hit.material, enters);
+        const Branches branches =
+            branchesAt(hit, photon.direction, indices.before, indices.behind, isMirror);
         photon.origin = hit.position;
         photon.start = hit.triangle;
         ++photon.interactions;
@@ -241,12 +235,19 @@ class LightTransport {
             photon = reflected;
             return true;
         }
+        if (enters && photon.media.isFull()) {
+            sink.lost(transport::kAccountNestingLimit,
+                      photon.fluxWatts * (1.0 - branches.reflectance));
+            reflected.fluxWatts *= branches.reflectance;
+            photon = reflected;
+            return true;
+        }
         photon.direction = branches.refracted;
         photon.reflectedInside = false;
         if (enters) {
             photon.media.enter(hit.material + 1);
         } else {
-            photon.media.leave();
+            photon.media.leave(hit.material + 1);
         }
         if (filter_.transmissionOnly) {
             sink.lost(transport::kAccountUntracedBranch, photon.fluxWatts * branches.reflectance);
@@ -266,6 +267,7 @@ class LightTransport {
 
     const EmbreeScene& scene_;
     PathFilter filter_;
+    double rounding_;      // of positions, m: seams to neighbouring triangles are no farther off
     glm::dvec3 fog_{0.0};  // extinction of the scene's medium, 1/m
     bool hasFog_ = false;
     bool hasAbsorption_ = false;

@@ -7,12 +7,15 @@
 #include <cmath>
 
 #include "framework/reference/threads.h"
+#include "framework/scene/dielectrics.h"
+#include "framework/transport/media_stack.h"
 
 namespace kaustik::reference {
 
 std::vector<FirstHit> exactFirstHits(const EmbreeScene& scene, std::span<const AuditPhoton> photons,
                                      const glm::dmat4& toWorld, int threads) {
     std::vector<FirstHit> hits(photons.size());
+    const scene::Dielectrics dielectrics = numberDielectrics(scene.scene());
     const glm::dmat3 rotation(toWorld);
     const glm::dmat3 back = glm::transpose(rotation);
     const glm::dvec3 offset = glm::dvec3(toWorld[3]) - scene.center();
@@ -24,8 +27,10 @@ std::vector<FirstHit> exactFirstHits(const EmbreeScene& scene, std::span<const A
         Ray ray;
         ray.origin = rotation * p + offset;
         ray.direction = rotation * photon.direction / length;
-        ray.innerMedium = photon.media % transport::kMediumBase;  // transfer_map.glsl
-        ray.leftSide = photon.media / (transport::kMediumBase * transport::kMediumBase);
+        const std::vector<std::uint32_t> media = unpackMedia(dielectrics, photon.media);
+        for (auto medium = media.rbegin(); medium != media.rend(); ++medium)
+            ray.media.enter(*medium);
+        ray.leftSide = transport::leftSide(photon.media);
         ray.reachMeters = photon.reachMeters;
         SurfaceHit found;
         if (!scene.intersect(ray, found)) return;

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "framework/scene/dielectrics.h"
 #include "framework/scene/light_paths.h"
 #include "framework/scene/texture.h"
 
@@ -189,6 +190,14 @@ void GpuScene::uploadMeshes() {
 
 void GpuScene::uploadMaterials() {
     std::vector<MaterialData> materials;
+    const scene::Dielectrics dielectrics = numberDielectrics(scene_);
+    const auto mediumOf = [&](std::size_t m) {
+        const bool isDielectric = m < dielectrics.numberOf.size();
+        const bool isNumber = m < dielectrics.materialOf.size();
+        return glm::vec4(isDielectric ? dielectrics.numberOf[m] : 0u,
+                         isNumber ? dielectrics.materialOf[m] + 1u : 0u, dielectrics.base,
+                         dielectrics.end);
+    };
     for (std::size_t m = 0; m < scene_.materials.size(); ++m) {
         const scene::Material& material = scene_.materials[m];
         const bool isOpen = std::any_of(
@@ -206,9 +215,12 @@ void GpuScene::uploadMaterials() {
         data.uv =
             glm::vec4(material.uvScale, static_cast<float>(material.image), isOpen ? 1.0f : 0.0f);
         data.specular = glm::vec4(material.specular, material.exponent);
+        data.medium = mediumOf(m);
         materials.push_back(data);
     }
-    materials.push_back({});  // an empty scene still binds a block
+    MaterialData none{};  // an empty scene still binds a block
+    none.medium = mediumOf(materials.size());
+    materials.push_back(none);
     materials_ = gl::Buffer(materials, "materials");
 }
 

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/pipeline/stage_params.h"
+#include "framework/scene/dielectrics.h"
 
 namespace kaustik::report {
 namespace {
@@ -41,6 +42,17 @@ std::vector<ReachedLimit> reachedLimits(const RunRecord& record, const Renderer&
                           fmt::format("{} photons were still on their way, {:.3g}% of the flux",
                                       photons, shareOfEmitted(ledger, atLimit)),
                           atLimit});
+    }
+    const std::uint64_t nested = ledger.events[kAccountNestingLimit];
+    if (nested > 0) {
+        const double lost = ledger.watts[kAccountNestingLimit];
+        limits.push_back({"specular.nesting", "dielectrics",
+                          static_cast<double>(numberDielectrics(renderer.scene()).depth), 0.0,
+                          fmt::format("{} photons entered a dielectric inside of more others, "
+                                      "{:.3g}% of the flux; a scene of fewer materials has room "
+                                      "for more",
+                                      nested, shareOfEmitted(ledger, lost)),
+                          lost});
     }
     limits.insert(limits.end(), record.nodeLimits.begin(), record.nodeLimits.end());
     return limits;

@@ -2,6 +2,7 @@
 #include "framework/scene/needs.h"
 
 #include <algorithm>
+#include <vector>
 
 #include "framework/scene/height_field.h"
 
@@ -14,6 +15,27 @@ bool moves(const Mesh& mesh) {
                        [](const Wave& wave) {
                            return wave.amplitudeMeters != 0.0f && angularFrequency(wave) > 0.0;
                        });
+}
+
+bool overlap(const Bounds& a, const Bounds& b) {
+    return glm::all(glm::lessThan(a.minimum, b.maximum)) &&
+           glm::all(glm::lessThan(b.minimum, a.maximum));
+}
+
+bool hasNestedBodies(const Scene& scene) {
+    std::vector<const Object*> bodies;
+    for (const Object& object : scene.objects) {
+        const Mesh& mesh = scene.meshes[object.mesh];
+        if (!mesh.triangles.empty() && !isSheet(mesh)) bodies.push_back(&object);
+    }
+    for (const Object* outer : bodies) {
+        if (scene.materials[outer->material].kind != MaterialKind::dielectric) continue;
+        const Bounds box = objectBounds(scene, *outer);
+        for (const Object* other : bodies) {
+            if (other != outer && overlap(objectBounds(scene, *other), box)) return true;
+        }
+    }
+    return false;
 }
 
 }  // namespace
@@ -43,6 +65,7 @@ SceneNeeds sceneNeeds(const Scene& scene) {
     }
     needs.meetsAgain = meetingsAgain(scene);
     needs.reflectedLight = reflectedLight(scene);
+    needs.nestedBodies = needs.closedDielectrics && hasNestedBodies(scene);
     needs.lights = static_cast<int>(scene.lights.size());
     const glm::vec3 none(0.0f);
     needs.medium = scene.medium && (scene.medium->scatteringPerMeter != none ||

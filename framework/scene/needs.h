@@ -13,16 +13,19 @@ struct SceneNeeds {
     // together 1. Repeated reflections, between mirrors or inside a dielectric, are not counted;
     // a technique's own bounce limit says how many it follows.
     int specularInterfaces = 0;
-    MeetingsAgain meetsAgain;        // whether there are such repeated ones at all
-    // Which says that the reflected branch at dielectrics is seen; nothing: the other one is enough.
+    MeetingsAgain meetsAgain;  // whether there are such repeated ones at all
+    // Which says that the reflected branch at dielectrics is seen; nothing: the other one is
+    // enough.
     std::optional<ReflectedLight> reflectedLight;
     int reflectors = 0;              // objects that are mirrors
     int refractors = 0;              // objects that are dielectrics
     bool closedDielectrics = false;  // one of these has an inside: glass, not a water surface
-    bool medium = false;             // one that scatters or absorbs
-    bool scatteringMedium = false;   // one that scatters: there is light on the way to be seen
-    bool glossyReceivers = false;    // a receiver is not Lambertian alone
-    bool animated = false;           // a height field has a wave that moves
+    // A body's box overlaps that of a dielectric with an inside: it may lie in it.
+    bool nestedBodies = false;
+    bool medium = false;            // one that scatters or absorbs
+    bool scatteringMedium = false;  // one that scatters: there is light on the way to be seen
+    bool glossyReceivers = false;   // a receiver is not Lambertian alone
+    bool animated = false;          // a height field has a wave that moves
     int lights = 0;
     bool receivers = false;            // a diffuse or glossy surface that light ends on
     int measuredDepthComplexity = -1;  // most layers behind one pixel; -1 until a renderer counts

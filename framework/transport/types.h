@@ -50,6 +50,10 @@ struct MaterialData {
     vec4 absorption;     // rgb: 1/m inside; w: index of refraction
     vec4 uv;        // xy: scale; z: image layer, -1 none; w: 1 where the surface is open (water)
     vec4 specular;  // glossy, the lobe of brdf.h: rgb its reflectance; w: exponent
+    // x: a dielectric's number (scene/dielectrics.h), 0 for what is none; y: index + 1 of the
+    // material with the number of this one's index + 1; z: the base of stacks of such numbers, and
+    // w: what is above all that fit (media_stack.h), the same in every material.
+    vec4 medium;
 };
 
 // One light, in the view space of the eye (std430).
@@ -81,7 +85,8 @@ const uint kFateReceiver = 2u;  // it has reached a receiver
 const uint kFateSpecular = 3u;  // it has reached a specular surface and will interact there
 const uint kFateEnded = 4u;     // its flux is in the ledger
 
-const uint kMediumBase = 2048u;
+// What a stack of dielectrics takes of a number that a float holds exactly; kLeft… takes the rest.
+const uint kMediaRoom = 4194304u;
 const uint kLeftNothing = 0u;  // or what it cannot meet again from the same side: see hit_test.glsl
 const uint kLeftOutside = 1u;
 const uint kLeftInside = 2u;
@@ -97,10 +102,7 @@ struct Photon {
     vec3 directionVs;       // unit
     uint fate;
     vec3 fluxWatts;
-    // The dielectrics around it, innermost and the one around that: material index + 1 each, 0 is
-    // vacuum; and the side of an open mirror that it has just left (kLeft…). Packed as
-    // inner + kMediumBase * (outer + kMediumBase * left), which a float holds exactly.
-    uint media;
+    uint media;  // the dielectrics around it, and the side that it has just left: media_stack.h
 };
 
 // Where a photon arrived: three RGBA32F textures of the transfer map's size.
@@ -121,6 +123,7 @@ const float kWayLost = 0.0f;
 // closed object, out of which it is taken to have come as it was.
 const float kWayReflectedTooOften = -1.0f;
 const float kWayMirroredTooOften = -2.0f;  // by mirrors; it is taken to see the surroundings
+const float kWayNestedTooDeep = -3.0f;     // in more dielectrics at once than a stack holds
 const float kWayStoppedInside = 2.0f;
 
 // Accounts of the energy ledger (design, section 5). The device sums the three channels; reports
@@ -144,7 +147,9 @@ const uint kAccountNotANumber = 15u;
 const uint kAccountUnresolved = 16u;
 // Not part of the balance: what arrived at receivers before it was reconstructed.
 const uint kAccountArrived = 17u;
-const uint kAccountCount = 18u;
+// A dielectric inside of more others than a stack holds.
+const uint kAccountNestingLimit = 18u;
+const uint kAccountCount = 19u;
 
 // A sum of watts in 64-bit fixed point, so that it neither drifts nor depends on the order:
 // watts = (high * 2^32 + low) * quantum. `events` counts the additions.

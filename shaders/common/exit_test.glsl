@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Whether a photon inside a closed dielectric has come out of it between two pixels, although it
-// crossed none of their planes: at a silhouette the surface bends away within a pixel, and beside
-// it there is no layer left to meet. Between the layers of one pixel inside and outside are known.
+// Whether a photon inside a closed dielectric has come out of it between two pixels, or into a body
+// that lies in it, although it crossed none of their planes: at a silhouette the surface bends away
+// within a pixel, and beside it there is no layer left to meet. Between the layers of one pixel
+// inside and outside are known.
 #include "common/hit_test.glsl"
 
 // Whether a range of depths overlaps the inside of a dielectric at a pixel. Layers come front to
@@ -32,8 +33,8 @@ bool isInsideAt(ivec2 texel, uint medium, float zLow, float zHigh) {
 // meets the other.
 LayerHit testExit(RaySegment segment, TracedRay ray, int i, int n) {
     LayerHit none = LayerHit(0.0, -1);
-    if (i == 0 || !isInsideClosed(ray.media)) return none;
-    uint medium = innerMedium(ray.media);
+    uint medium = ray.around.x;
+    if (i == 0 || medium == 0u || isOpen(medium - 1u)) return none;
     float count = float(n);
     float zBefore = depthAtIndex(segment, float(i) - 1.0, count);
     float zBegin = depthAtIndex(segment, float(i), count);
@@ -57,8 +58,50 @@ LayerHit testExit(RaySegment segment, TracedRay ray, int i, int n) {
     return best.t > 0.0 ? best : none;
 }
 
-// Where a ray came out of a smooth surface between two pixels, and by which normals it is bent.
-struct Exit {
+#ifdef NESTED_BODIES
+// The layer of a body that holds a depth at a pixel, farther from its surface than a pixel tells,
+// and that a ray inside of a closed dielectric, which is not in that body, can have entered by;
+// layer < 0: none.
+LayerHit bodyAround(TracedRay ray, ivec2 texel, float z) {
+    LayerHit found = LayerHit(0.0, -1);
+    if (ray.around.x == 0u || isOpen(ray.around.x - 1u)) return found;
+    vec3 eyeRay = viewRay(vec2(texel) + 0.5);
+    int front = -1;
+    LayerSurface opened;
+    for (int layer = 0; layer < layerCount; ++layer) {
+        LayerSurface surface = layerAt(texel, layer);
+        if (surface.depth <= 0.0) break;
+        if (isOpen(surface.material - 1u) || isAround(ray, surface.material)) continue;
+        if (dot(surface.normal, eyeRay) < 0.0) {
+            front = layer;
+            opened = surface;
+        } else if (front >= 0 && surface.material == opened.material) {
+            bool isWithin =
+                z > opened.depth + opened.margin && z < surface.depth - surface.margin;
+            bool byFront = dot(ray.direction, opened.normal) < 0.0;
+            bool byBack = dot(ray.direction, surface.normal) < 0.0;
+            if (isWithin && (byFront || byBack)) {
+                bool isFrontNearer = z - opened.depth < surface.depth - z;
+                found.layer = byFront && (isFrontNearer || !byBack) ? front : layer;
+            }
+            front = -1;
+        }
+    }
+    return found;
+}
+
+// Such an entry between the pixels of steps i - 1 and i.
+LayerHit testEntry(RaySegment segment, TracedRay ray, int i, int n) {
+    RayStep at = rayStep(segment, i, n);
+    LayerHit entry = bodyAround(ray, at.texel, at.zMiddle);
+    entry.t = at.tBegin;
+    if (entry.t <= 0.0) entry.layer = -1;
+    return entry;
+}
+#endif
+
+// Where a ray crossed a smooth surface between two pixels, and by which normals it is bent.
+struct Crossing {
     float t;         // m
     vec3 shading;    // unit, outward
     vec3 geometric;
@@ -66,18 +109,19 @@ struct Exit {
 
 // The steps know it to a pixel: it is moved, by no more, to where the surface that the pixels
 // around show goes on. No triangle is known there; the surface's own normal says where its outside
-// is, unless the ray does not leave by it.
-Exit smoothExit(vec3 origin, vec3 direction, float t, vec4 surface, LayerSurface layer) {
+// is, unless the ray does not cross it that way.
+Crossing smoothCrossing(vec3 origin, vec3 direction, float t, vec4 surface, LayerSurface layer) {
     SmoothSurface around = smoothSurfaceAt(origin + t * direction, surface, layer);
-    Exit exit = Exit(t, around.normal, layer.normal);
+    Crossing crossing = Crossing(t, around.normal, layer.normal);
     float closing = dot(direction, around.normal);
-    if (closing <= 0.0) return exit;
+    bool leaves = dot(direction, layer.normal) > 0.0;
+    if (closing == 0.0 || (closing > 0.0) != leaves) return crossing;
     float pixel = pixelFootprint(layer.depth);
     float way = clamp(-around.height / closing, -min(pixel, 0.5 * t), pixel);
-    exit.t = t + way;
-    exit.shading = normalize(around.normal + around.turning * (way * direction));
-    if (dot(direction, exit.shading) > 0.0) exit.geometric = exit.shading;
-    return exit;
+    crossing.t = t + way;
+    crossing.shading = normalize(around.normal + around.turning * (way * direction));
+    if ((dot(direction, crossing.shading) > 0.0) == leaves) crossing.geometric = crossing.shading;
+    return crossing;
 }
 
 // The shading normal alone, where the ray came out at `exitVs` past this pixel and layer.
@@ -90,7 +134,7 @@ vec3 normalAtExit(vec3 exitVs, ivec2 texel, int exitLayer) {
 struct FirstHit {
     LayerHit hit;  // hit.layer < 0: none
     ivec2 pixel;
-    bool isExit;  // the photon came out between two pixels
+    bool isExit;  // the photon came out, or in, between two pixels
 };
 
 FirstHit noHit() {
@@ -98,7 +142,7 @@ FirstHit noHit() {
 }
 
 // What one step of a ray meets: a layer's plane, or, where the scene has closed dielectrics, the
-// way out of one that no plane shows. Every tracer asks here.
+// way out of one, or into a body that lies in it, that no plane shows. Every tracer asks here.
 FirstHit hitOfStep(RaySegment segment, TracedRay ray, int i, int n) {
     FirstHit found = FirstHit(testStep(segment, ray, i, n), texelOfStep(segment, i, n), false);
 #ifdef CLOSED_DIELECTRICS
@@ -107,6 +151,12 @@ FirstHit hitOfStep(RaySegment segment, TracedRay ray, int i, int n) {
         found.pixel = texelOfStep(segment, i - 1, n);
         found.isExit = true;
     }
+#ifdef NESTED_BODIES
+    if (found.hit.layer < 0) {
+        found.hit = testEntry(segment, ray, i, n);
+        found.pixel = texelOfStep(segment, i, n);
+    }
+#endif
 #endif
     return found;
 }

@@ -27,12 +27,23 @@ struct TracedRay {
     vec3 origin;
     vec3 direction;
     uint media;
+    uvec4 around;  // the innermost dielectrics
 };
+
+TracedRay tracedRay(vec3 origin, vec3 direction, uint media) {
+    return TracedRay(origin, direction, media, innerMedia(media));
+}
+
+bool isAround(TracedRay ray, uint medium) {
+    return any(equal(ray.around, uvec4(medium)));
+}
 
 // A photon inside a dielectric can meet that dielectric only from within, any other dielectric and
 // any closed mirror only from outside. So a ray never meets the surface that it has just left, at
 // any scale (hard case 10); receivers end it from either side, and so do open mirrors, but for the
-// one that it has left on that side and is still no farther from than a pixel resolves.
+// one that it has left on that side and is still no farther from than a pixel resolves. A
+// dielectric farther out may end inside of the innermost, where they overlap; a ray that has just
+// left a body of the same glass within that is told by the distance, too.
 // `normal`: the triangle's, outward; `height`: the ray's origin above its plane, m.
 bool isFacing(TracedRay ray, uint material, vec3 normal, float height, float resolved) {
     if (leftSide(ray.media) == kLeftForAll) return abs(height) > resolved;
@@ -43,8 +54,10 @@ bool isFacing(TracedRay ray, uint material, vec3 normal, float height, float res
         uint left = leaves ? kLeftOutside : kLeftInside;
         return leftSide(ray.media) != left || abs(height) > resolved;
     }
-    bool isInside = kind == kMaterialDielectric && innerMedium(ray.media) == material;
-    return leaves == isInside;
+    if (kind == kMaterialMirror) return !leaves;
+    bool isInside = ray.around.x == material;
+    if (!leaves || isInside) return leaves == isInside;
+    return abs(height) > resolved && isAround(ray, material);
 }
 
 // How far a point lies above the plane with this normal through what a pixel sees at this depth, m.
@@ -82,10 +95,10 @@ RayStep rayStep(RaySegment segment, int i, int n) {
 #ifdef IN_OUT_TEST
 // Whether the ray is between this layer and the one that bounds the same solid with it: its front
 // and its back are consecutive layers (K06, section 5: "an additional in-out test considering
-// consecutive pairs of layered depth images"). Not for the solid that the ray is inside of: see
+// consecutive pairs of layered depth images"). Not for solids that the ray is inside of: see
 // testExit.
 bool isInSolid(TracedRay ray, RayStep at, int layer, LayerSurface surface) {
-    if (isOpen(surface.material - 1u) || innerMedium(ray.media) == surface.material) return false;
+    if (isOpen(surface.material - 1u) || isAround(ray, surface.material)) return false;
     vec3 eyeRay = viewRay(vec2(at.texel) + 0.5);
     bool isFront = dot(surface.normal, eyeRay) < 0.0;
     int next = isFront ? layer + 1 : layer - 1;

@@ -4,7 +4,8 @@
 #include "common/specular.glsl"
 
 // The ways on: fate kFateNone where there is none. Their flux is the photon's, less what a mirror
-// absorbs, which goes to the ledger here.
+// absorbs and what enters a dielectric inside of more others than a stack holds, which both go to
+// the ledger here.
 struct Branches {
     Photon transmitted;
     Photon reflected;
@@ -34,13 +35,22 @@ Branches branchesOf(Photon photon, Hit hit) {
     }
     vec2 indices = indicesAt(hit.material, photon.media, enters);
     Interface meeting = interactAt(photon.directionVs, hit.normalVs, indices.x, indices.y);
+    // Where one dielectric ends inside of another nothing is reflected, to the last bit.
+    if (indices.x == indices.y) meeting.reflectance = 0.0;
     branches.reflected.directionVs = meeting.reflected;
     branches.reflected.fluxWatts *= meeting.reflectance;
     branches.transmitted.fluxWatts *= 1.0 - meeting.reflectance;
     branches.transmitted.directionVs = meeting.refracted;
-    branches.transmitted.media =
-        enters ? enterMedium(photon.media, hit.material) : leaveMedium(photon.media);
-    if (meeting.reflectance >= 1.0) branches.transmitted.fate = kFateNone;
     if (meeting.reflectance <= 0.0) branches.reflected.fate = kFateNone;
+    if (meeting.reflectance >= 1.0) {
+        branches.transmitted.fate = kFateNone;
+    } else if (!enters) {
+        branches.transmitted.media = leaveMedium(photon.media, hit.material);
+    } else if (canEnter(photon.media, hit.material)) {
+        branches.transmitted.media = enterMedium(photon.media, hit.material);
+    } else {
+        ledgerAdd(kAccountNestingLimit, branches.transmitted.fluxWatts);
+        branches.transmitted.fate = kFateNone;
+    }
     return branches;
 }

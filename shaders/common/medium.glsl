@@ -3,7 +3,7 @@
 // loses on a way, and what is scattered. For photons it ends at the scene's bounding box; the
 // straight ray to the eye loses light to it all the way (the reference's light_tracing.h does the
 // same).
-#include "common/surface_data.glsl"
+#include "common/dielectrics.glsl"
 #include "common/transfer_map.glsl"
 #include "common/view.glsl"
 

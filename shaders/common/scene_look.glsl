@@ -203,7 +203,7 @@ vec3 radianceOfHidden(vec3 hitVs, vec3 normal, uint material) {
         vec3 toLight = -lightDirection(light, hitVs);
         float cosine = dot(normal, toLight);
         if (cosine <= 0.0) continue;
-        TracedRay ray = TracedRay(hitVs, toLight, withLeftSide(0u, kLeftForAll));
+        TracedRay ray = tracedRay(hitVs, toLight, withLeftSide(0u, kLeftForAll));
         RaySegment segment = clipRay(ray.origin, ray.direction);
         if (segment.visible) {
             SceneLayerHit blocker = searchSceneLayers(ray, segment, true);
@@ -247,7 +247,7 @@ SceneHit searchScene(TracedRay ray) {
 
 // What the ray that goes on sees; `media` as for a photon.
 SceneHit lookThrough(vec3 origin, vec3 direction, uint media) {
-    return looksIntoScene != 0 ? searchScene(TracedRay(origin, direction, media))
+    return looksIntoScene != 0 ? searchScene(tracedRay(origin, direction, media))
                                : nothingThere();
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // On which side of a specular surface light is, and by which normal it is bent (hard case 26).
+#include "common/dielectrics.glsl"
 #include "common/fresnel.glsl"
-#include "common/surface_data.glsl"
 #include "common/transfer_map.glsl"
 
 // Whether light in `media` is inside of something that has an inside, other than water.
@@ -11,11 +11,13 @@ bool isInsideClosed(uint media) {
 }
 
 // The indices of refraction before and behind a dielectric (material index + 1) for light in
-// `media`. The side is the triangle's, never the shading normal's.
+// `media`; the same twice where one ends inside of another. The side is the triangle's, never the
+// shading normal's.
 vec2 indicesAt(uint material, uint media, bool enters) {
-    float inside = mediumIndex(material);
-    float outside = mediumIndex(enters ? innerMedium(media) : outerMedium(media));
-    return enters ? vec2(outside, inside) : vec2(inside, outside);
+    uint inner = innerMedium(media);
+    float before = mediumIndex(inner);
+    if (enters) return vec2(before, mediumIndex(material));
+    return vec2(before, inner == material ? mediumIndex(outerMedium(media)) : before);
 }
 
 // The shading normal bends light as the smooth surface would. Where it would send light to the

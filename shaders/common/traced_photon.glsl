@@ -30,11 +30,11 @@ Hit deliver(Photon photon, FirstHit first) {
     LayerSurface layer = layerAt(first.pixel, first.hit.layer);
     hit.material = uint(surface.w);
     bool arrives = isReceiver(materialKind(hit.material - 1u));
-    Exit met = Exit(first.hit.t, surface.xyz, layer.normal);
-    vec3 there = photon.positionVs + met.t * photon.directionVs;
+    Crossing met = Crossing(first.hit.t, surface.xyz, layer.normal);
     if (first.isExit) {
-        met = smoothExit(photon.positionVs, photon.directionVs, met.t, surface, layer);
+        met = smoothCrossing(photon.positionVs, photon.directionVs, met.t, surface, layer);
     } else {
+        vec3 there = photon.positionVs + met.t * photon.directionVs;
         met.shading = normalAtHit(there, surface, layer, arrives);
     }
     hit.positionVs = photon.positionVs + met.t * photon.directionVs;

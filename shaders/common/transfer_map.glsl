@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Photons and hits as the texels of the transfer map (K06, section 2). Users declare the samplers.
+#include "framework/transport/media_stack.h"
 #include "framework/transport/types.h"
 
 Photon unpackPhoton(vec4 position, vec4 direction, vec4 flux) {
@@ -26,14 +27,3 @@ vec4 photonFluxTexel(Photon p) { return vec4(p.fluxWatts, float(p.media)); }
 vec4 hitPositionTexel(Hit h) { return vec4(h.positionVs, h.distanceMeters); }
 vec4 hitSurfaceTexel(Hit h) { return vec4(h.normalVs, float(h.material)); }
 vec4 hitFluxTexel(Hit h) { return vec4(h.fluxWatts, float(h.fate)); }
-
-// The stack of dielectrics around a photon, two deep: material index + 1, 0 for vacuum. On top of
-// it the side of an open mirror that the photon has just left, kLeft….
-uint innerMedium(uint media) { return media % kMediumBase; }
-uint outerMedium(uint media) { return media / kMediumBase % kMediumBase; }
-uint leftSide(uint media) { return media / (kMediumBase * kMediumBase); }
-uint enterMedium(uint media, uint medium) { return medium + kMediumBase * innerMedium(media); }
-uint leaveMedium(uint media) { return outerMedium(media); }
-uint withLeftSide(uint media, uint side) {
-    return media % (kMediumBase * kMediumBase) + kMediumBase * kMediumBase * side;
-}

@@ -23,7 +23,7 @@ FirstHit hitNumber(Photon photon, int wanted) {
     if (!isNumber(photon)) return last;
     RaySegment segment = clipRay(photon.positionVs, photon.directionVs);
     if (!segment.visible) return last;
-    TracedRay ray = TracedRay(photon.positionVs, photon.directionVs, photon.media);
+    TracedRay ray = tracedRay(photon.positionVs, photon.directionVs, photon.media);
     int steps = stepCount(segment, trace_all_hits_minimum, trace_all_hits_steps);
     int number = -1;
     FirstHit pending = noHit();  // the next step may know a nearer one

@@ -114,12 +114,12 @@ FirstHit traverse(Photon photon, int minimumSteps, int maximumSteps) {
     if (!isNumber(photon)) return first;
     RaySegment segment = clipRay(photon.positionVs, photon.directionVs);
     if (!segment.visible) return first;
-    TracedRay ray = TracedRay(photon.positionVs, photon.directionVs, photon.media);
+    TracedRay ray = tracedRay(photon.positionVs, photon.directionVs, photon.media);
     int steps = stepCount(segment, minimumSteps, maximumSteps);
     Way way = wayOf(segment, steps);
 #ifdef CLOSED_DIELECTRICS
-    uint medium = innerMedium(photon.media);
-    bool mayComeOut = isInsideClosed(photon.media);
+    uint medium = ray.around.x;
+    bool mayComeOut = medium != 0u && !isOpen(medium - 1u);
 #endif
     int level = kPyramidLevels;
     int end = steps;
@@ -133,13 +133,17 @@ FirstHit traverse(Photon photon, int minimumSteps, int maximumSteps) {
             int beyond = stepBeyond(way, square, level, i, steps);
             Asked found = stepsThatMayMeet(way, square, level, i, beyond);
 #ifdef CLOSED_DIELECTRICS
-            // What is inside at the square's last step came out nowhere in it.
+            // What is inside at the square's last step came out nowhere in it, nor in.
             if (mayComeOut) {
+                ivec2 last = texelOfStep(segment, beyond - 1, steps);
                 float zLast = depthAtIndex(segment, float(beyond) - 1.0, float(steps));
                 float zEnd = depthAtIndex(segment, float(beyond), float(steps));
-                bool isOut = !isInsideAt(texelOfStep(segment, beyond - 1, steps), medium,
-                                         min(zLast, zEnd), max(zLast, zEnd));
-                if (isOut || found.layers != uvec2(0u)) found = Asked(i, beyond, found.layers);
+                bool isElsewhere = !isInsideAt(last, medium, min(zLast, zEnd), max(zLast, zEnd));
+#ifdef NESTED_BODIES
+                isElsewhere = isElsewhere || bodyAround(ray, last, 0.5 * (zLast + zEnd)).layer >= 0;
+#endif
+                if (isElsewhere || found.layers != uvec2(0u))
+                    found = Asked(i, beyond, found.layers);
             }
 #endif
             if (found.first >= found.end) {
@@ -171,10 +175,17 @@ FirstHit traverse(Photon photon, int minimumSteps, int maximumSteps) {
 #ifdef CLOSED_DIELECTRICS
             else {
                 if (mayComeOut && firstStep != i) {
-                    LayerHit wayOut = testExit(segment, ray, i, steps);
-                    if (wayOut.layer >= 0 && (first.hit.layer < 0 || wayOut.t < first.hit.t)) {
+                    LayerHit way = testExit(segment, ray, i, steps);
+                    int there = i - 1;
+#ifdef NESTED_BODIES
+                    if (way.layer < 0) {
+                        way = testEntry(segment, ray, i, steps);
+                        there = i;
+                    }
+#endif
+                    if (way.layer >= 0 && (first.hit.layer < 0 || way.t < first.hit.t)) {
                         if (first.hit.layer < 0) end = min(end, i + 2);
-                        first = FirstHit(wayOut, texelOfStep(segment, i - 1, steps), true);
+                        first = FirstHit(way, texelOfStep(segment, there, steps), true);
                         firstStep = i;
                     }
                 }

@@ -27,8 +27,9 @@ void main() {
     ivec2 mapSize = textureSize(photonFlux, 0);
     ivec2 texel = ivec2(photonIndex % mapSize.x, photonIndex / mapSize.x);
     uint media = uint(texelFetch(photonFlux, texel, 0).w);
-    TracedRay ray = TracedRay(rayOrigin, rayDirection, media);
+    TracedRay ray = tracedRay(rayOrigin, rayDirection, media);
     FirstHit found = hitOfStep(segment, ray, i, steps);
     if (found.hit.layer < 0) discard;
-    rowTexel = packRowTexel(found.hit, found.isExit ? i - 1 : i, found.isExit);
+    bool isBefore = found.isExit && found.pixel != texelOfStep(segment, i, steps);
+    rowTexel = packRowTexel(found.hit, isBefore ? i - 1 : i, found.isExit);
 }

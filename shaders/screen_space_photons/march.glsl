@@ -7,6 +7,6 @@ FirstHit march(Photon photon, int minimumSteps, int maximumSteps) {
     if (!isNumber(photon)) return noHit();
     RaySegment segment = clipRay(photon.positionVs, photon.directionVs);
     if (!segment.visible) return noHit();
-    TracedRay ray = TracedRay(photon.positionVs, photon.directionVs, photon.media);
+    TracedRay ray = tracedRay(photon.positionVs, photon.directionVs, photon.media);
     return firstHitOfSteps(segment, ray, stepCount(segment, minimumSteps, maximumSteps));
 }

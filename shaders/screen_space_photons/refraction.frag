@@ -46,8 +46,12 @@ Interface bend(inout EyePath path, vec3 normal, uint material, int layer) {
     ++path.refractions;
     path.at.direction = meeting.refracted;
     path.at.share *= 1.0 - meeting.reflectance;
-    path.at.media =
-        enters ? enterMedium(path.at.media, material) : leaveMedium(path.at.media);
+    if (enters && !canEnter(path.at.media, material)) {
+        path.ending = kWayNestedTooDeep;
+    } else {
+        path.at.media = enters ? enterMedium(path.at.media, material)
+                               : leaveMedium(path.at.media, material);
+    }
     // Behind the layer when it comes from before it, and the other way round.
     path.passed = layer > path.passed ? layer : layer - 1;
     return meeting;
@@ -58,7 +62,7 @@ Interface bend(inout EyePath path, vec3 normal, uint material, int layer) {
 bool advance(inout EyePath path, float reach) {
     RaySegment segment = clipToDielectrics(path.at.origin, path.at.direction, reach);
     if (!segment.visible) return false;
-    TracedRay ray = TracedRay(path.at.origin, path.at.direction, path.at.media);
+    TracedRay ray = tracedRay(path.at.origin, path.at.direction, path.at.media);
     int steps = stepCount(segment, 4, 16384);
     bool asksAll = view_refraction_search == view_refraction_search_all || path.at.mirrors > 0;
     FirstHit found = asksAll ? firstHitOfSteps(segment, ray, steps)
@@ -90,10 +94,8 @@ SceneHit follow(inout EyePath path) {
 #endif
             seen = lookThrough(path.at.origin, path.at.direction, path.at.media);
         bool isFound = seen.material != 0u;
-        if (isReflected) {
-            path.ending = kWayReflectedTooOften;
-            return seen;
-        }
+        if (isReflected) path.ending = kWayReflectedTooOften;
+        if (path.ending <= kWayLost) return seen;
         if (!isLast && advance(path, isFound ? seen.t : kFar)) continue;
         if (isFound && seen.isMirror) {
             if (path.at.mirrors >= lookMirrors) {
@@ -160,8 +162,9 @@ void main() {
     exitDirection = vec4(path.at.direction, path.ending);
 
     // What was not traced out of an object is taken to see what one outside of it would.
-    uint media = isInsideClosed(path.at.media) && seen.material == 0u ? leaveMedium(path.at.media)
-                                                                      : path.at.media;
+    uint media = isInsideClosed(path.at.media) && seen.material == 0u
+                     ? leaveMedium(path.at.media, innerMedium(path.at.media))
+                     : path.at.media;
     float ratio = mediumIndex(innerMedium(mediaAtEye)) / mediumIndex(innerMedium(media));
     radiance.rgb = reflected + path.at.share * ratio * ratio *
                                    radianceAlong(path.at.origin, path.at.direction,

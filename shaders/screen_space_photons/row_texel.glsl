@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A texel of the row texture: x the ray parameter of a hit in m, 0 for none; y its step and layer,
-// and whether the photon came out between two pixels. 16384 steps of 64 layers, twice, are 2^21,
+// and whether the photon came out, or in, between two pixels. 16384 steps of 64 layers, twice, are 2^21,
 // which a float holds exactly.
 vec4 packRowTexel(LayerHit hit, int stepIndex, bool isExit) {
     return vec4(hit.t, float((stepIndex * 64 + hit.layer) * 2 + int(isExit)), 0.0, 0.0);

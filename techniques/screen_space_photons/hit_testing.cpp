@@ -8,7 +8,8 @@
 namespace kaustik {
 
 HitTesting hitTesting(const FrameBuilder& frame) {
-    return {frame.params<TraceParams>("trace"), frame.needs().closedDielectrics};
+    return {frame.params<TraceParams>("trace"), frame.needs().closedDielectrics,
+            frame.needs().nestedBodies};
 }
 
 void keepToSteps(FrameBuilder& frame, const std::string& pass, const std::string& parameter,
@@ -39,6 +40,7 @@ gl::Command& bindHitTesting(gl::Command& command, const HitTesting& testing,
     // Only what has an inside can be left where no layer's plane is crossed.
     if (testing.hasInside && testing.params.test != HitTest::epsilon)
         command.define("CLOSED_DIELECTRICS");
+    if (testing.mayBeNested) command.define("NESTED_BODIES");
     return inputs.bindView(command)
         .params("trace", testing.params)
         .storage("Materials", inputs.gpuScene.materials())

@@ -9,7 +9,8 @@ namespace kaustik {
 
 struct HitTesting {
     TraceParams params;
-    bool hasInside = false;  // the scene has closed dielectrics
+    bool hasInside = false;    // the scene has closed dielectrics
+    bool mayBeNested = false;  // with something in them
 };
 [[nodiscard]] HitTesting hitTesting(const FrameBuilder& frame);
 

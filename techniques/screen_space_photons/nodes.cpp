@@ -80,6 +80,7 @@ void registerScreenSpacePhotons(Registry& registry) {
                         {}});
     registry.hardCases(&addScreenSpacePhotonCases);
     registry.hardCases(&addViewCases);
+    registry.hardCases(&addNestedCases);
 }
 
 }  // namespace kaustik

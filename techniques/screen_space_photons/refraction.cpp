@@ -15,6 +15,7 @@
 #include <algorithm>
 
 #include "framework/pipeline/frame_builder.h"
+#include "framework/scene/dielectrics.h"
 #include "techniques/screen_space_photons/hit_testing.h"
 #include "techniques/screen_space_photons/nodes.h"
 
@@ -50,6 +51,9 @@ void keepToLimits(FrameBuilder& frame, const RefractionViewParams& params,
     keepToExitLimit(frame, "view.refraction", seen, "view.refraction.reflections", "reflections",
                     params.reflections, transport::kWayReflectedTooOften,
                     "are lost between total reflections");
+    keepToExitLimit(frame, "view.refraction", seen, "view.refraction.nesting", "dielectrics",
+                    numberDielectrics(frame.scene()).depth, transport::kWayNestedTooDeep,
+                    "are lost in a dielectric inside of more others");
     // Fewer layers than there are interfaces to be met in them.
     const bool isMonotonic = params.search == RefractionSearch::monotonic;
     if (isMonotonic && params.layers >= params.interfaces) return;

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "framework/render/view.h"
+#include "framework/scene/dielectrics.h"
+#include "framework/transport/media_stack.h"
 #include "tests/accuracy/path_fixture.h"
 
 namespace kaustik::reference {
@@ -22,7 +24,7 @@ scene::Scene floorGlassAndMirror() {
 TEST(PhotonAudit, PhotonInsideADielectricMeetsItOnlyFromWithin) {
     const scene::Scene scene = floorGlassAndMirror();
     const EmbreeScene embree(scene);
-    const std::uint32_t inGlass = 2;  // material 1, plus 1
+    const std::uint32_t inGlass = packMedia(numberDielectrics(scene), {2});
     const std::vector<AuditPhoton> photons = {
         {{0.1, 0.5, 0.1}, {0, -1, 0}, inGlass},  // just refracted into the top face
         {{0.1, 0.5, 0.1}, {0, -1, 0}, 0},        // the same place, not inside
@@ -49,9 +51,7 @@ TEST(PhotonAudit, PhotonInsideADielectricMeetsItOnlyFromWithin) {
 TEST(PhotonAudit, PhotonDoesNotMeetTheOpenMirrorThatItHasLeftOnThatSide) {
     const scene::Scene scene = floorGlassAndMirror();
     const EmbreeScene embree(scene);
-    const auto leaves = [](std::uint32_t side) {
-        return side * transport::kMediumBase * transport::kMediumBase;
-    };
+    const auto leaves = [](std::uint32_t side) { return transport::withLeftSide(0, side); };
     // A tracer puts them next to the surface, at times on its far side.
     const std::vector<AuditPhoton> photons = {
         {{0.1, 1.999, 0.1}, {0, 1, 0}, leaves(transport::kLeftOutside), 0.01},

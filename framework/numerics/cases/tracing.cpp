@@ -244,7 +244,7 @@ void startsOnASurface(Lab& lab) {
                     BenchPhoton p =
                         photon({shift + 0.05 * (i % 20) - 0.5, 0.0, shift + 0.05 * (i / 20) - 0.5},
                                {0.3, -1.0, 0.1});
-                    p.media = kWater;
+                    p.media = {kWater};
                     p.startNormal = {0, 1, 0};
                     p.startMaterial = kWater;
                     photons.push_back(p);
@@ -286,10 +286,10 @@ void openMirrors(Lab& lab) {
         // Where a tracer puts a photon: near the surface, on either side.
         const double off = 1e-4 * (i % 3 - 1);
         BenchPhoton p = photon({-2.0 + off, y, z}, toRight);
-        p.media = kLeftOutside * kMediumBase * kMediumBase;
+        p.leftSide = kLeftOutside;
         fromFront.push_back(p);
         p = photon({2.0 + off, y, z}, {-1.0, 0.02, 0.03});
-        p.media = kLeftInside * kMediumBase * kMediumBase;
+        p.leftSide = kLeftInside;
         fromBack.push_back(p);
         inTheOpen.push_back(photon({0.0, y, z}, toRight));
     }

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+// D38: dielectrics nested three and four deep, for photons by every tracer and for the eye's rays
+// by those that follow them: concentric balls of 1.5, 1.2, 1.8 and 1.33. A ray keeps its impact
+// parameter, the distance of its line from the middle times the index, so that the whole way is
+// known in closed form. And what lies deeper than a stack holds is a limit that is said.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "framework/numerics/cases/scene_text.h"
+#include "framework/numerics/lab.h"
+#include "framework/scene/dielectrics.h"
+#include "techniques/screen_space_photons/nodes.h"
+
+namespace kaustik {
+namespace {
+
+using namespace numerics;
+using namespace transport;
+
+struct Shell {
+    double radius;
+    double index;
+};
+const std::vector<Shell> kShells = {{0.5, 1.5}, {0.4, 1.2}, {0.3, 1.8}, {0.2, 1.33}};
+const glm::dvec3 kMiddle(0.0, 0.8, 0.0);
+
+// What a ray with an impact parameter (m) does: by how much it is turned towards the middle, and
+// how many interfaces it meets.
+struct Way {
+    double turnRadians = 0.0;
+    int interfaces = 0;
+    // Of a refraction from being a total reflection, or of a shell from being missed, as a sine:
+    // where it is small, a normal that is off by a little makes another way of it.
+    double margin = 1.0;
+};
+Way wayThrough(int shells, double impact) {
+    Way way;
+    double index = 1.0;
+    for (int i = 0; i < shells; ++i) {
+        const Shell& shell = kShells[static_cast<std::size_t>(i)];
+        const double before = impact / (index * shell.radius);
+        way.margin = std::min(way.margin, std::abs(1.0 - before));
+        if (before >= 1.0) break;  // passes it by
+        const double behind = impact / (shell.index * shell.radius);
+        way.margin = std::min(way.margin, std::abs(1.0 - behind));
+        if (behind >= 1.0) {
+            way.turnRadians -= 3.14159265358979323846 - 2.0 * std::asin(before);
+            way.interfaces += 1;
+            break;
+        }
+        way.turnRadians += 2.0 * (std::asin(before) - std::asin(behind));
+        way.interfaces += 2;
+        index = shell.index;
+    }
+    return way;
+}
+
+// An index of every kind that is not the scene's own; `more` are never used.
+std::string glasses(int more) {
+    std::string text;
+    for (std::size_t i = 0; i < kShells.size() + static_cast<std::size_t>(more); ++i) {
+        text += fmt::format("[[material]]\nname = \"shell {}\"\ntype = \"dielectric\"\nior = {}\n",
+                            i, number(kShells[i % kShells.size()].index));
+    }
+    return text;
+}
+
+scene::Scene nestedBalls(int shells, int moreMaterials = 0) {
+    CameraText camera;
+    camera.position = {0.0, 2.0, 3.0};
+    camera.target = {0.0, 0.5, 0.0};
+    camera.fovDegrees = 45.0;
+    std::string text =
+        sun({0.3, -1.0, -0.2}) + glasses(moreMaterials) + floorPlane("floor", "grey", 6, {0, 0, 0});
+    for (int i = 0; i < shells; ++i) {
+        text += object(fmt::format("ball {}", i), "sphere", fmt::format("shell {}", i), kMiddle,
+                       fmt::format("radius = {}\nsegments = 192",
+                                   number(kShells[static_cast<std::size_t>(i)].radius)));
+    }
+    return makeScene(camera, text);
+}
+
+constexpr double kDegree = 0.017453292519943295;
+
+// Photons: how far their way out is turned from the light's direction.
+void photonsThrough(Lab& lab, int shells) {
+    const scene::Scene scene = nestedBalls(shells);
+    const glm::dvec3 light = scene.lights[0].direction;
+    for (const Lab::Choice& tracer : lab.each<TraceStage>()) {
+        const Frame frame = lab.render(tracer, scene,
+                                       {320,
+                                        240,
+                                        {{"emit.photons", "64x64"},
+                                         {"layers.count", "12"},
+                                         {"specular", "interface"},
+                                         {"specular.bounces", "12"}}});
+        const Photons& photons = frame.renderer().outputs().hits.incoming;
+        const Texels position = frame.read(photons.position);
+        const Texels direction = frame.read(photons.direction);
+        const Texels hit = frame.read(frame.renderer().outputs().hits.flux);
+        const glm::dmat3 back(glm::transpose(glm::dmat3(frame.view().worldToView)));
+        int asked = 0;
+        int right = 0;
+        for (int y = 0; y < position.height; ++y) {
+            for (int x = 0; x < position.width; ++x) {
+                if (static_cast<unsigned>(direction.at(x, y, 3)) == kFateNone) continue;
+                const glm::dvec3 out = back * direction.rgb(x, y);
+                const double impact =
+                    glm::length(glm::cross(frame.toWorld(position.rgb(x, y)) - kMiddle, out));
+                const Way exact = wayThrough(shells, impact);
+                // 0.02 of a radius: some pixels.
+                if (exact.margin < 0.02) continue;
+                ++asked;
+                const double turned =
+                    std::atan2(glm::length(glm::cross(light, out)), glm::dot(light, out));
+                const bool isOut = static_cast<unsigned>(hit.at(x, y, 3)) != kFateSpecular;
+                const double error = std::abs(turned - std::abs(exact.turnRadians));
+                right += isOut && error < kDegree ? 1 : 0;
+            }
+        }
+        lab.expect(tracer.subject,
+                   fmt::format("share of photons within a degree of the exact way through {} balls",
+                               shells),
+                   1.0, static_cast<double>(right) / std::max(asked, 1),
+                   {0.02,
+                    "at silhouettes of balls of 25 to 60 pixels a pixel holds one of several "
+                    "triangles: 2 in a hundred"});
+        lab.expect(tracer.subject, "are there enough of them", 1.0, asked > 1000 ? 1.0 : 0.0,
+                   kExactly);
+    }
+}
+
+// The eye's rays: exit directions and interfaces.
+void raysThrough(Lab& lab, int shells) {
+    const scene::Scene scene = nestedBalls(shells);
+    for (const char* search : {"monotonic", "all"}) {
+        Lab::Choice node = lab.choose(ViewStage::name, "refraction");
+        node.settings.emplace_back("view.refraction.search", search);
+        node.settings.emplace_back("view.refraction.interfaces", "8");
+        node.settings.emplace_back("view.refraction.layers", "12");
+        const Frame frame = lab.render(node, scene, {320, 240, {{"emit.photons", "8x8"}}});
+        const View& seen = frame.renderer().outputs().picture.view;
+        const Texels position = frame.read(seen.exitPosition);
+        const Texels direction = frame.read(seen.exitDirection);
+        const glm::dmat3 back(glm::transpose(glm::dmat3(frame.view().worldToView)));
+        const glm::dvec3 eye = frame.toWorld(glm::dvec3(0.0));
+        int asked = 0;
+        int counted = 0;
+        int right = 0;
+        for (int y = 0; y < position.height; ++y) {
+            for (int x = 0; x < position.width; ++x) {
+                const glm::dvec3 ray = glm::normalize(frame.worldAt(x, y, 1.0) - eye);
+                const glm::dvec3 along = kMiddle - eye;
+                const glm::dvec3 across = along - glm::dot(along, ray) * ray;
+                const Way exact = wayThrough(shells, glm::length(across));
+                if (exact.interfaces == 0 || exact.margin < 0.02) continue;
+                ++asked;
+                const bool isCounted = static_cast<int>(position.at(x, y, 3)) == exact.interfaces;
+                counted += isCounted ? 1 : 0;
+                const glm::dvec3 expected = std::cos(exact.turnRadians) * ray +
+                                            std::sin(exact.turnRadians) * glm::normalize(across);
+                const bool isNear = glm::length(back * direction.rgb(x, y) - expected) < kDegree;
+                right += isNear && direction.at(x, y, 3) == kWayCameOut ? 1 : 0;
+            }
+        }
+        const Tolerance silhouettes{0.05,
+                                    "beside silhouettes, where a ray turns back between two pixels "
+                                    "and one of them holds no layer of what it meets"};
+        const std::string subject = fmt::format("{} ({})", node.subject, search);
+        const auto share = [&](int part) { return static_cast<double>(part) / std::max(asked, 1); };
+        lab.expect(subject,
+                   fmt::format("share of rays with as many interfaces in {} balls", shells), 1.0,
+                   share(counted), silhouettes);
+        lab.expect(
+            subject,
+            fmt::format("share of rays within a degree of the exact way through {} balls", shells),
+            1.0, share(right), silhouettes);
+        lab.expect(subject, "are there enough of them", 1.0, asked > 5000 ? 1.0 : 0.0, kExactly);
+    }
+}
+
+// Fifty materials more leave room for a stack of three: what enters the fourth ball is counted.
+void deeperThanTheStack(Lab& lab) {
+    const scene::Scene scene = nestedBalls(4, 50);
+    lab.expect("scene/dielectrics.h", "depth of the stack for 56 dielectrics", 3.0,
+               numberDielectrics(scene).depth, kExactly);
+    const Lab::Choice node = lab.choose(ViewStage::name, "refraction");
+    const Frame frame = lab.render(node, scene,
+                                   {160,
+                                    120,
+                                    {{"emit.photons", "64x64"},
+                                     {"layers.count", "12"},
+                                     {"specular", "interface"},
+                                     {"view.refraction.interfaces", "8"},
+                                     {"view.refraction.layers", "12"}}});
+    const EnergyLedger ledger = frame.renderer().ledger();
+    lab.expect("common/interaction.glsl", "is flux counted that goes deeper than the stack", 1.0,
+               ledger.watts[kAccountNestingLimit] > 0.1 * ledger.watts[kAccountEmitted] ? 1.0 : 0.0,
+               kExactly);
+    lab.expect("common/interaction.glsl", "balance of the ledger", 0.0, ledger.balance(),
+               {1e-5, "sums of 32-bit fluxes and areas in fixed point"});
+    const std::vector<ReachedLimit> limits = frame.renderer().reachedLimits();
+    const auto found = std::find_if(limits.begin(), limits.end(), [](const ReachedLimit& limit) {
+        return limit.parameter == "view.refraction.nesting";
+    });
+    lab.expect(node.subject, "is the limit said of the eye's rays, too", 1.0,
+               found != limits.end() && found->value == 3.0 ? 1.0 : 0.0, kExactly);
+}
+
+}  // namespace
+
+void addNestedCases(Suite& suite) {
+    suite.add("D38",
+              "Photons and the eye's rays go through dielectrics nested four deep; what is deeper "
+              "than the stack is said.",
+              deeperThanTheStack);
+    for (const int shells : {3, 4}) {
+        suite.add("D38", "", [shells](Lab& lab) { photonsThrough(lab, shells); });
+        suite.add("D38", "", [shells](Lab& lab) { raysThrough(lab, shells); });
+    }
+}
+
+}  // namespace kaustik
