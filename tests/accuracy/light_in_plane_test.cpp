@@ -49,10 +49,10 @@ double emittedWatts(const scene::Scene& scene) {
     return sums.energy().watts[transport::kAccountEmitted];
 }
 
-// What a lamp sends to the ball, all three channels: its solid angle.
+// What a lamp sends to the ball: by its solid angle.
 double wattsToBall(const glm::dvec3& lamp) {
     const double sine = kRadius / glm::length(kBall - lamp);
-    return 3.0 * kIntensity * 2.0 * std::numbers::pi * (1.0 - std::sqrt(1.0 - sine * sine));
+    return kIntensity * 2.0 * std::numbers::pi * (1.0 - std::sqrt(1.0 - sine * sine));
 }
 
 // The ball has 256 segments: its outline is smaller than a circle by 1e-4. One photon in each cell

@@ -74,9 +74,8 @@ double emittedByDevice(const scene::Scene& scene, const std::string& photons) {
 TEST(LightInAPlane, EmitsTheSameWattsOnTheDeviceAsInTheReference) {
     const scene::Scene scene = ballOverPlaneOf("type = \"lambertian\"\nalbedo = 0.5", 8.0);
     const double expected = emittedByReference(scene);
-    // The ball's solid angle, 0.267 sr of 4 pi: 6.39 W in three channels, less what 32 segments
-    // lack.
-    EXPECT_NEAR(expected, 6.386, 0.07);
+    // The ball's solid angle, 0.267 sr of 4 pi: 2.129 W of 100, less what 32 segments lack.
+    EXPECT_NEAR(expected, 2.129, 0.024);
     // The grid fits the ball, which takes 51,000 of its cells: of the 800 on its rim each is right
     // or wrong by half a cell at most, all of them by the root of that, 3e-4. Four times that.
     EXPECT_NEAR(emittedByDevice(scene, "256x256"), expected, 1.2e-3 * expected);
@@ -87,7 +86,7 @@ TEST(LightInAPlane, EmitsTheSameWattsWhereThePlaneIsSpecular) {
         SCOPED_TRACE(material);
         const scene::Scene scene = ballOverPlaneOf(material, 1.0);
         const double expected = emittedByReference(scene);
-        EXPECT_NEAR(expected, 6.386, 0.07);
+        EXPECT_NEAR(expected, 2.129, 0.024);
         // The light's grid is over the plane, too, so that the ball has a fifth of its cells.
         EXPECT_NEAR(emittedByDevice(scene, "512x512"), expected, 1e-2 * expected);
     }
