@@ -133,7 +133,9 @@ std::vector<std::string> unusedSettings(const Renderer& renderer) {
         const auto secondDot = name.find('.', dot + 1);
         if (dot == std::string::npos || secondDot == std::string::npos) continue;
         const std::string node = name.substr(dot + 1, secondDot - dot - 1);
-        if (params.choice(name.substr(0, dot)) != node) unused.push_back(name);
+        const std::string chosen = params.choice(name.substr(0, dot));
+        // What follows the scene's needs may run any other node of its stage.
+        if (chosen != node && chosen != "auto") unused.push_back(name);
     }
     return unused;
 }

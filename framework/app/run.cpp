@@ -81,10 +81,6 @@ void runCommand(const RunOptions& options, const Registry& registry) {
         startRecord(renderer, options.precise ? gl::TimerMode::finish : gl::TimerMode::timestamps);
     record.warmup = options.warmup;
     record.seed = options.seed;
-    if (!renderer.isRandom() && options.seed != RunOptions{}.seed) {
-        record.warnings.push_back(fmt::format(
-            "--seed {} has no effect: nothing in this frame is drawn at random.", options.seed));
-    }
     gl::PassTimer timer(record.timer);
     record.startupMilliseconds =
         std::chrono::duration<double, std::milli>(Clock::now() - begin).count();

@@ -40,6 +40,10 @@ std::vector<fs::path> finishRun(Renderer& renderer, const Truth& truth, report::
     record.warnings = renderer.scene().warnings;
     record.warnings.insert(record.warnings.end(), renderer.warnings().begin(),
                            renderer.warnings().end());
+    if (!renderer.isRandom() && record.seed != report::RunRecord{}.seed) {
+        record.warnings.push_back(fmt::format(
+            "--seed {} has no effect: nothing in this frame is drawn at random.", record.seed));
+    }
     for (const std::string& name : unusedSettings(renderer)) {
         record.warnings.push_back(
             fmt::format("{} was set, but no node of this run uses it.", name));

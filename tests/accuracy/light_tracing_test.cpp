@@ -180,8 +180,8 @@ TEST(LightTracing, ASunThatFirstMeetsDarkWaterFromWithinIsAsStrongAsTheSceneSays
     settings.width = settings.height = 1;
     settings.photonsPerBatch = 1000;
     // 6 m², three channels; the rectangle that is sampled is the plane and a margin of 1e-6.
-    EXPECT_NEAR(trace(embree, settings, 2).energy().watts[transport::kAccountEmitted] / 18000.0,
-                1.0, 1e-5);
+    EXPECT_NEAR(trace(embree, settings, 2).energy().watts[transport::kAccountEmitted] / 6000.0, 1.0,
+                1e-5);
 }
 
 TEST(LightTracing, ResultIsTheSameBitsAtOneTwoAndEightThreads) {

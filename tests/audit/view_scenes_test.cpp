@@ -27,8 +27,9 @@ Bounds boundsOf(const std::string& scene) {
     if (scene == "concave-glass") return {0.9, 0.16};
     // Triangles of the bunny are smaller than these pixels.
     if (scene == "glass-bunny") return {0.7, 0.14};
-    // A mirror that is lost is black.
-    if (scene == "ring") return {0.95, 0.03};
+    // A mirror that is lost is black. At this size a ray that starts within a pixel of the paper
+    // may miss it: 0.963 here, 0.985 at 400x300.
+    if (scene == "ring") return {0.95, 0.05};
     // What is seen through glass is the radiance that the table sends to the eye, and the polished
     // table sends its highlight elsewhere.
     if (scene == "glossy-table") return {0.94, 0.5};

@@ -73,7 +73,7 @@ TEST_F(Limits, CountTheBatchesOfALimitedMemory) {
 
     // A row of 16,384 texels and its halves take 448 KiB: two are what a mebibyte holds.
     const json memory = limitOf("trace.lines.memory", "wavy.toml",
-                                {"trace=lines", "lines.width=16384", "lines.memory=1"});
+                                {"trace=lines", "trace.lines.width=16384", "trace.lines.memory=1"});
     EXPECT_EQ(memory.at("unit"), "MiB");
     EXPECT_EQ(memory.at("value"), 1);
     EXPECT_GT(memory.at("needed"), 1);

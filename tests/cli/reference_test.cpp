@@ -89,12 +89,15 @@ TEST_F(Reference, JudgesWhatTheEyeSeesThroughSpecularSurfacesApart) {
     EXPECT_GT(view.at("radiance").at("ssim").get<double>(), 0.5);
     EXPECT_EQ(readImage(folder / "out/view_error.png").width, report().at("size").at(0));
     EXPECT_TRUE(fs::exists(folder / "out/view_reference.exr"));
-    // A node that follows no rays has no exits, and a reason.
+    // A node that looks no farther than the first interface.
     ASSERT_EQ(runAgainst("auto", {"--set", "view=interface"}).exitCode, 0);
     const json other = report().at("error").at("view");
-    EXPECT_FALSE(other.contains("exit_direction_deg"));
-    EXPECT_TRUE(other.at("reasons").contains("exit_direction_deg"));
+    EXPECT_EQ(other.at("interfaces_right"), 1.0);
+    EXPECT_LT(other.at("exit_direction_deg").at("p99").get<double>(), 0.01);
     EXPECT_GT(other.at("radiance").at("rmse").get<double>(), 0.0);
+    // A pass that is switched off follows no rays.
+    ASSERT_EQ(runAgainst("auto", {"--disable", "view.refraction"}).exitCode, 0);
+    EXPECT_EQ(report().at("error").at("view").at("lost"), 1.0);
 }
 
 TEST_F(Reference, StopsAtATimeOrAnError) {
