@@ -254,7 +254,7 @@ TEST_F(Reference, ThatIsInterruptedGoesOnWhereItStopped) {
     const Outcome interrupted = program.wait();
     expectFailure(interrupted, 1, {"Interrupted after ", "goes on"});
     const double before = std::stod(interrupted.err.substr(interrupted.err.find("after ") + 6));
-    ASSERT_GT(before, 0.0);  // the batch that was under way is in
+    ASSERT_GE(before, 0.0);  // whole batches: the one that was under way is traced again
     for (const std::string& file : files())
         EXPECT_FALSE(fs::path(file).filename().string().starts_with('.')) << file;
 
