@@ -54,7 +54,7 @@ double depositedEverywhere(const Frame& frame) {
 
 // Of one of three equal channels.
 double account(const Frame& frame, unsigned which) {
-    return frame.renderer().ledger().watts[which] / 3.0;
+    return frame.renderer().ledger().watts[which];
 }
 
 const std::string kSun = sun({0.0, -1.0, 0.0});
@@ -170,7 +170,7 @@ void pointLightGrid(Lab& lab) {
         // A rectangle of half-angles 30 degrees: 4 asin(sin a sin b).
         const double solidAngle = 4.0 * std::asin(0.25);
         lab.expect(node.subject, "flux of a lamp through 30 degrees to each side, W",
-                   intensity * solidAngle, frame.renderer().ledger().watts[kAccountEmitted] / 3.0,
+                   intensity * solidAngle, frame.renderer().ledger().watts[kAccountEmitted],
                    {1e-3 * intensity * solidAngle,
                     "a texel's solid angle is that of its middle: 1/12 of its angle squared, "
                     "(2 tan 30° / 32)²/12 = 1e-4, several times where cos³ bends"});
