@@ -37,6 +37,14 @@ std::vector<fs::path> writeAnyChannels(const fs::path& path, const Image& image)
     return files;
 }
 
+// A node may stand for another one: specular.auto for specular.split, say.
+bool hasRun(const Renderer& renderer, const std::string& pass) {
+    const std::vector<graph::PassRecord>& passes = renderer.compiled().records;
+    return std::any_of(passes.begin(), passes.end(), [&](const graph::PassRecord& record) {
+        return record.name == pass && record.state == graph::PassState::ran;
+    });
+}
+
 }  // namespace
 
 void requireWritable(const fs::path& folder, const std::string& askedBy) {
@@ -133,9 +141,9 @@ std::vector<std::string> unusedSettings(const Renderer& renderer) {
         const auto secondDot = name.find('.', dot + 1);
         if (dot == std::string::npos || secondDot == std::string::npos) continue;
         const std::string node = name.substr(dot + 1, secondDot - dot - 1);
-        const std::string chosen = params.choice(name.substr(0, dot));
-        // What follows the scene's needs may run any other node of its stage.
-        if (chosen != node && chosen != "auto") unused.push_back(name);
+        const std::string pass = name.substr(0, secondDot);
+        if (params.choice(name.substr(0, dot)) != node && !hasRun(renderer, pass))
+            unused.push_back(name);
     }
     return unused;
 }

@@ -125,6 +125,30 @@ bool comesUpon(const Bounds& moving, const Bounds& there, const glm::dvec3& dire
     return first > 0.0 && first < last;
 }
 
+// By samples: a corner that lies before a triangle by more than a mesh's noise says that it is not.
+bool isConvex(const Mesh& mesh) {
+    constexpr std::size_t kTriangles = 64;
+    constexpr std::size_t kCorners = 4096;
+    constexpr double kNoise = 1e-3;  // of the mesh's size
+    double size = 0.0;
+    for (const glm::vec3& position : mesh.positions)
+        size = std::max(size, static_cast<double>(glm::length(position - mesh.positions.front())));
+    const std::size_t triangleStep = std::max<std::size_t>(mesh.triangles.size() / kTriangles, 1);
+    const std::size_t cornerStep = std::max<std::size_t>(mesh.positions.size() / kCorners, 1);
+    for (std::size_t t = 0; t < mesh.triangles.size(); t += triangleStep) {
+        const glm::uvec3& triangle = mesh.triangles[t];
+        const glm::dvec3 a(mesh.positions[triangle.x]);
+        const glm::dvec3 area = glm::cross(glm::dvec3(mesh.positions[triangle.y]) - a,
+                                           glm::dvec3(mesh.positions[triangle.z]) - a);
+        if (!(glm::length(area) > kFlat * kFlat * size * size)) continue;
+        const glm::dvec3 normal = glm::normalize(area);
+        for (std::size_t c = 0; c < mesh.positions.size(); c += cornerStep) {
+            if (glm::dot(normal, glm::dvec3(mesh.positions[c]) - a) > kNoise * size) return false;
+        }
+    }
+    return true;
+}
+
 }  // namespace
 
 bool isSheet(const Mesh& mesh) {
@@ -205,6 +229,16 @@ std::optional<ReflectedLight> reflectedLight(const Scene& scene) {
         }
     }
     return largest;
+}
+
+std::optional<std::string> concaveBody(const Scene& scene) {
+    for (const Object& object : scene.objects) {
+        const Mesh& mesh = scene.meshes[object.mesh];
+        const bool isDielectric = scene.materials[object.material].kind == MaterialKind::dielectric;
+        if (!isDielectric || mesh.triangles.empty() || isSheet(mesh)) continue;
+        if (!isConvex(mesh)) return object.name;
+    }
+    return std::nullopt;
 }
 
 }  // namespace kaustik::scene

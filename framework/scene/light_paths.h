@@ -37,4 +37,9 @@ struct ReflectedLight {
 // and corners may decide otherwise. Closed dielectrics send light everywhere and are not asked.
 [[nodiscard]] std::optional<ReflectedLight> reflectedLight(const Scene& scene);
 
+// The name of a dielectric with an inside that is not convex; nothing where all are. From a convex
+// body light goes out where it first meets it from within, and loses to reflection twice; in any
+// other, as in a teapot, it comes to many interfaces, each of which parts off its share.
+[[nodiscard]] std::optional<std::string> concaveBody(const Scene& scene);
+
 }  // namespace kaustik::scene

@@ -65,6 +65,7 @@ SceneNeeds sceneNeeds(const Scene& scene) {
     }
     needs.meetsAgain = meetingsAgain(scene);
     needs.reflectedLight = reflectedLight(scene);
+    needs.concaveBody = concaveBody(scene);
     needs.nestedBodies = needs.closedDielectrics && hasNestedBodies(scene);
     needs.lights = static_cast<int>(scene.lights.size());
     const glm::vec3 none(0.0f);

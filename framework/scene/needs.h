@@ -17,8 +17,9 @@ struct SceneNeeds {
     // Which says that the reflected branch at dielectrics is seen; nothing: the other one is
     // enough.
     std::optional<ReflectedLight> reflectedLight;
-    int reflectors = 0;              // objects that are mirrors
-    int refractors = 0;              // objects that are dielectrics
+    std::optional<std::string> concaveBody;  // which says that much is reflected within, too
+    int reflectors = 0;                      // objects that are mirrors
+    int refractors = 0;                      // objects that are dielectrics
     bool closedDielectrics = false;  // one of these has an inside: glass, not a water surface
     // A body's box overlaps that of a dielectric with an inside: it may lie in it.
     bool nestedBodies = false;

@@ -44,7 +44,8 @@ void main() {
         materialKind(material) == kMaterialDielectric && dot(direction, geometric) > 0.0;
     uint media = isInside ? enterMedium(0u, material + 1u) : 0u;
     if (uint(light.positionVs.w) != kLightDirectional) {
-        flux *= mediumTransmittance(innerMedium(media), length(positionVs - light.positionVs.xyz));
+        flux *= mediumTransmittance(innerMedium(media),
+                                    length(positionVs - light.positionVs.xyz));
     }
     vec3 normal = bendingNormal(direction, shadingNormal(normalVs, geometric), geometric,
                                 material + 1u, media);

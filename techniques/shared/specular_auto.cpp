@@ -1,30 +1,46 @@
 // SPDX-License-Identifier: MIT
 // specular.auto: what the scene needs of the other two. specular.split where a sheet of water or
-// glass sends much of its light back to a receiver (scene/light_paths.h), else specular.interface.
+// glass sends much of its light back to a receiver, or light within a body comes to so many of its
+// faces that much of it is reflected there (scene/light_paths.h); else specular.interface.
 #include <fmt/format.h>
+
+#include <string>
 
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/shared/nodes.h"
 
 namespace kaustik {
+namespace {
+
+// Why both branches are followed; "" where one is enough.
+std::string whyBoth(const scene::SceneNeeds& needs) {
+    if (needs.reflectedLight) {
+        return fmt::format("{:.0f}% of the light on '{}' is reflected, and '{}' lies in its way",
+                           100.0 * needs.reflectedLight->share, needs.reflectedLight->sheet,
+                           needs.reflectedLight->receiver);
+    }
+    if (needs.concaveBody) {
+        return fmt::format(
+            "'{}' is not convex, and each of its faces that light within comes to "
+            "reflects a share",
+            *needs.concaveBody);
+    }
+    return "";
+}
+
+}  // namespace
 
 Hits interactAsNeeded(FrameBuilder& frame, const params::NoParams&, Hits hits) {
-    const std::optional<scene::ReflectedLight>& seen = frame.needs().reflectedLight;
+    const std::string why = whyBoth(frame.needs());
     const bool isFirst = frame.runsOf(SpecularStage::name) == 1;
-    if (seen) {
-        if (isFirst) {
-            frame.leaveOut(
-                "specular.interface",
-                fmt::format("{:.0f}% of the light on '{}' is reflected, and '{}' lies in "
-                            "its way: both branches are followed",
-                            100.0 * seen->share, seen->sheet, seen->receiver));
-        }
+    if (!why.empty()) {
+        if (isFirst) frame.leaveOut("specular.interface", why + ": both branches are followed");
         return splitAtInterface(frame, frame.params<SplitParams>("specular.split"), hits);
     }
     if (isFirst) {
         frame.leaveOut("specular.split",
-                       "no sheet reflects more than 4% of its light towards a receiver; "
-                       "specular=split follows what is reflected all the same");
+                       "no sheet reflects more than 4% of its light towards a receiver, and all "
+                       "bodies are convex; specular=split follows what is reflected all the same");
     }
     return interactAtInterface(frame, {}, hits);
 }

@@ -77,5 +77,42 @@ TEST(Bounces, AreNoneMoreThanOneWhereLightMeetsWaterOnce) {
     EXPECT_EQ(frame.renderer().ledger().watts[kAccountBounceLimit], 0.0);
 }
 
+// Irradiance summed over the pixels that see a material.
+double lightOn(const Frame& frame, std::uint32_t material) {
+    const Texels irradiance = frame.causticIrradiance();
+    const Texels surface = frame.read("eye.receiver_surface");
+    double sum = 0.0;
+    for (int y = 0; y < surface.height; ++y) {
+        for (int x = 0; x < surface.width; ++x) {
+            if (static_cast<std::uint32_t>(surface.at(x, y, 3)) == material)
+                sum += irradiance.rgb(x, y).g;
+        }
+    }
+    return sum;
+}
+
+TEST(Branches, AreBothFollowedByDefaultWhereOnlyReflectedLightReachesAWall) {
+    const scene::Scene scene = scene::loadScene("pool-reflections");
+    ASSERT_EQ(scene.materials[2].name, "stucco");
+    const Settings photons = {{"emit.photons", "48x48"}};
+    Settings one = photons;
+    one.emplace_back("specular", "interface");
+    const Frame both(scene, 160, 120, photons);
+    EXPECT_GT(timesRun(both, "specular.split"), 0);
+    EXPECT_GT(lightOn(both, 3), 0.0);
+    const Frame transmitted(scene, 160, 120, one);
+    EXPECT_EQ(timesRun(transmitted, "specular.split"), 0);
+    EXPECT_EQ(lightOn(transmitted, 3), 0.0);
+}
+
+TEST(Branches, AreOneByDefaultWhereTheOtherIsHardlySeen) {
+    for (const char* name : {"flat-water", "glass-sphere"}) {
+        const scene::Scene scene = scene::loadScene(name);
+        const Frame frame(scene, 160, 120, {{"emit.photons", "16x16"}});
+        EXPECT_GT(timesRun(frame, "specular.interface"), 0) << name;
+        EXPECT_EQ(timesRun(frame, "specular.split"), 0) << name;
+    }
+}
+
 }  // namespace
 }  // namespace kaustik::test

@@ -77,5 +77,49 @@ TEST(ReceiverSide, OfDirectLightIsTheEyesToo) {
     }
 }
 
+// A slab thinner than a splat, lit from behind: its front is the eye's, its back is hidden by it.
+TEST(ReceiverSide, ThatABodyItselfHidesIsOccludedAndNotEdgeOn) {
+    const scene::Scene scene = sceneFromText(R"(
+name = "slab"
+[camera]
+position = [0, 0.6, 4]
+target = [0, 0, 0]
+[[light]]
+name = "lamp"
+type = "directional"
+direction = [0, 0, 1]
+irradiance = 1000
+[[material]]
+name = "chalk"
+type = "lambertian"
+albedo = 0.5
+[[material]]
+name = "pane"
+type = "dielectric"
+ior = 1
+[[object]]
+name = "slab"
+shape = "box"
+material = "chalk"
+size = [1, 1, 0.02]
+[[object]]
+name = "pane"
+shape = "plane"
+material = "pane"
+size = [0.5, 0.5]
+position = [0, 0, -1]
+rotation_degrees = [90, 0, 0]
+)");
+    for (const char* shape : {"beam", "disc", "screen"}) {
+        const Frame frame(scene, 160, 120,
+                          {{"emit.photons", "16x16"}, {"reconstruct.sprites.shape", shape}});
+        const EnergyLedger ledger = frame.renderer().ledger();
+        // 1000 W/m² on a quarter of a square metre, in 32-bit products.
+        EXPECT_NEAR(ledger.watts[kAccountArrived], 250.0, 1e-3) << shape;
+        EXPECT_EQ(ledger.watts[kAccountEdgeOn], 0.0) << shape;
+        EXPECT_EQ(ledger.watts[kAccountOccludedSplat], ledger.watts[kAccountArrived]) << shape;
+    }
+}
+
 }  // namespace
 }  // namespace kaustik::test

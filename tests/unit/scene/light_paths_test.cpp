@@ -146,5 +146,61 @@ TEST(MeetingsAgain, OfShippedWaterAreThoseOfReflectedLightFromALowSun) {
     EXPECT_TRUE(meetingsAgain(loadScene("pool-reflections")).reflected);
 }
 
+// A sheet, a wall beyond it where a low sun is reflected to, and the sun.
+Scene sheetAndWall(double sunDegrees, const glm::dvec3& wall) {
+    Scene scene;
+    add(scene, makePlane({{1.0, 1.0}, {1, 1}}));
+    scene.materials[0].ior = 1.333f;
+    scene.objects[0].name = "sheet";
+    add(scene, makeBox({.size = {0.1, 2.0, 4.0}}), MaterialKind::lambertian,
+        glm::translate(glm::dmat4(1.0), wall));
+    scene.objects[1].name = "wall";
+    scene.lights.push_back(sunAt(sunDegrees));
+    return scene;
+}
+
+TEST(ReflectedLight, IsFresnelsShareWhereAReceiverLiesInItsWay) {
+    // At 60 degrees: sin t = sin 60 / 1.333.
+    const double inside = std::sqrt(1.0 - 0.75 / (1.333 * 1.333));
+    const double s = (0.5 - 1.333 * inside) / (0.5 + 1.333 * inside);
+    const double p = (1.333 * 0.5 - inside) / (1.333 * 0.5 + inside);
+    const auto seen = reflectedLight(sheetAndWall(60.0, {2.0, 1.0, 0.0}));
+    ASSERT_TRUE(seen);
+    // The index is a 32-bit float.
+    EXPECT_NEAR(seen->share, 0.5 * (s * s + p * p), 1e-7);
+    EXPECT_EQ(seen->sheet, "sheet");
+    EXPECT_EQ(seen->receiver, "wall");
+}
+
+TEST(ReflectedLight, IsNoneWithoutAReceiverInItsWayOrWhereItIsWeak) {
+    EXPECT_FALSE(reflectedLight(sheetAndWall(60.0, {-2.0, 1.0, 0.0})));  // where it comes from
+    EXPECT_FALSE(reflectedLight(sheetAndWall(60.0, {2.0, -2.0, 0.0})));  // below
+    EXPECT_FALSE(reflectedLight(sheetAndWall(30.0, {1.0, 1.0, 0.0})));   // 2 %
+    EXPECT_FALSE(reflectedLight(loadScene("flat-water")));
+    EXPECT_TRUE(reflectedLight(loadScene("pool-reflections")));
+}
+
+TEST(ConcaveBody, IsOneWithACornerBeforeOneOfItsFaces) {
+    for (const Mesh& mesh :
+         {makeSphere({}), makeBox({.size = {1.0, 2.0, 3.0}}),
+          makeCylinder({0.3, 1.0, false, false, 64}), withoutATriangle(makeSphere({}))}) {
+        Scene scene;
+        add(scene, mesh);
+        EXPECT_FALSE(concaveBody(scene)) << mesh.name;
+    }
+    for (const Mesh& mesh : {makeTorus({0.5, 0.1, 32, 32}), makeRing({0.3, 0.7, 0.1, 64})}) {
+        Scene scene;
+        add(scene, mesh);
+        EXPECT_EQ(concaveBody(scene), "object") << mesh.name;
+    }
+    // Neither a mirror nor a sheet is a body that light is in.
+    Scene others;
+    add(others, makeTorus({0.5, 0.1, 32, 32}), MaterialKind::mirror);
+    add(others, wavyWater(20.0));
+    EXPECT_FALSE(concaveBody(others));
+    EXPECT_FALSE(concaveBody(loadScene("glass-sphere")));
+    EXPECT_TRUE(concaveBody(loadScene("concave-glass")));
+}
+
 }  // namespace
 }  // namespace kaustik::scene
