@@ -38,8 +38,10 @@ struct Bench {
     std::shared_ptr<const TruthState> truth;
     std::vector<scene::SceneListing> scenes;
 
-    // Of the newest order, and the last document that was rendered without an error.
+    // The newest order, the one that first asked for the same picture, and the last document that
+    // was rendered without an error.
     std::uint64_t order = 0;
+    std::uint64_t pictureOrder = 0;
     std::optional<Document> whole{};
 
     // One line for the status bar.
@@ -70,7 +72,7 @@ struct Bench {
     [[nodiscard]] const VariantResult& editedResult() const {
         return result->variants[editedIndex()];
     }
-    [[nodiscard]] Asked asked() const { return {document, order, view, editedIndex()}; }
+    [[nodiscard]] Asked asked() const { return {document, pictureOrder, view, editedIndex()}; }
     // As the document has them, which may be newer than what was rendered.
     [[nodiscard]] scene::Camera camera() const {
         if (document.edits.camera) return *document.edits.camera;

@@ -109,7 +109,7 @@ std::string whyItCannotRun(const Asked& asked, const FrameResult& result) {
     if (!result.problem.empty()) return result.problem;
     for (std::size_t i = 0; i < variantsOf(asked.document); ++i) {
         const VariantResult& variant = result.variants[i];
-        if (variant.order == asked.order && !variant.error.empty())
+        if (variant.order >= asked.order && !variant.error.empty())
             return prefixOf(asked.document, i) + variant.error;
     }
     return result.shaderProblem;
@@ -119,7 +119,7 @@ bool isRendered(const Asked& asked, const FrameResult& result) {
     if (!result.problem.empty() || !(result.document == asked.document)) return false;
     for (std::size_t i = 0; i < variantsOf(asked.document); ++i) {
         const VariantResult& variant = result.variants[i];
-        if (variant.order != asked.order || !variant.error.empty() || variant.isPreview ||
+        if (variant.order < asked.order || !variant.error.empty() || variant.isPreview ||
             !variant.absentPasses.empty() || !variant.viewed) {
             return false;
         }
@@ -131,17 +131,17 @@ Shown shownOf(const Asked& asked, const FrameResult& result, const TruthState& t
               const std::optional<Document>& whole) {
     const Shown rendering = ofOlder(result);
     // A lost device answers no order.
-    if (result.order != asked.order && !result.isLost) return rendering;
+    if (result.order < asked.order && !result.isLost) return rendering;
     if (!result.problem.empty()) return ofProblem(asked, result, whole);
     for (std::size_t i = 0; i < variantsOf(asked.document); ++i) {
         const VariantResult& variant = result.variants[i];
         const std::string prefix = prefixOf(asked.document, i);
-        if (variant.order == asked.order && !variant.error.empty())
+        if (variant.order >= asked.order && !variant.error.empty())
             return ofError(asked, prefix + variant.error, whole);
     }
     for (std::size_t i = 0; i < variantsOf(asked.document); ++i) {
         const VariantResult& variant = result.variants[i];
-        if (variant.isPreview || variant.order != asked.order || !variant.viewed) return rendering;
+        if (variant.isPreview || variant.order < asked.order || !variant.viewed) return rendering;
         if (variant.viewed->missing != Missing::nothing)
             return ofMissing(asked, *variant.viewed, prefixOf(asked.document, i));
     }

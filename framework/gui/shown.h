@@ -37,10 +37,11 @@ struct Shown {
     WayOut wayOut = WayOut::none;
 };
 
-// What is known of the newest order.
+// What is to be seen.
 struct Asked {
     const Document& document;
-    std::uint64_t order = 0;  // its number
+    // The order that first asked for it; later ones may want more frames of the same picture.
+    std::uint64_t order = 0;
     const ViewState& view;
     std::size_t edited = 0;  // variant: 0 A, 1 B
     // The one that is seen, to the left of the split where there is one.

@@ -151,6 +151,7 @@ void Workbench::takeNews() {
         bench_.result = std::make_shared<const FrameResult>();
         hasSubmitted_ = false;
         bench_.order = 0;
+        bench_.pictureOrder = 0;
         judgedOrder_ = 0;
         bench_.say("The renderer was started again.");
     }
@@ -212,7 +213,7 @@ void Workbench::saveExperimentOnceRendered() {
         saveExperiment(bench_);
         return;
     }
-    const bool isKnown = bench_.result->order == bench_.order || bench_.result->isLost;
+    const bool isKnown = bench_.result->order >= bench_.pictureOrder || bench_.result->isLost;
     const std::string why = isKnown ? whyItCannotRun(bench_.asked(), *bench_.result) : "";
     if (!why.empty()) {
         bench_.wantsExperiment = false;
@@ -270,15 +271,18 @@ void Workbench::submitChanges() {
     order.isPassing = (isHeld && !order.isPreview) || isFollowUp || bench_.isPlaying;
     if (bench_.view.probes && bench_.view.probePixel.x >= 0 && !order.isPreview)
         order.probe = {bench_.view.probePixel, bench_.view.probeRadius};
-    const bool isSame =
-        hasSubmitted_ && submitted_.document == order.document &&
-        submitted_.viewing == order.viewing && submitted_.frames == order.frames &&
-        submitted_.isPrecise == order.isPrecise && submitted_.isPreview == order.isPreview &&
-        submitted_.probe == order.probe && submitted_.sceneReloads == order.sceneReloads;
-    if (isSame) return;
+    const bool isSamePicture = hasSubmitted_ && submitted_.document == order.document &&
+                               submitted_.viewing == order.viewing &&
+                               submitted_.isPreview == order.isPreview &&
+                               submitted_.sceneReloads == order.sceneReloads;
+    if (isSamePicture && submitted_.frames == order.frames &&
+        submitted_.isPrecise == order.isPrecise && submitted_.probe == order.probe) {
+        return;
+    }
     submitted_ = order;
     hasSubmitted_ = true;
     bench_.order = renderer_->submit(std::move(order));
+    if (!isSamePicture) bench_.pictureOrder = bench_.order;
 }
 
 void Workbench::aimTruth() {

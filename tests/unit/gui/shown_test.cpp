@@ -60,6 +60,17 @@ TEST_F(ShownTest, IsOfBeforeUntilTheNewestOrderIsRendered) {
     EXPECT_EQ(whyItCannotRun(asked(), result), "");
 }
 
+// As when it turns out that a frame takes long, and fewer are wanted.
+TEST_F(ShownTest, IsWhatWasAskedForAlsoIfMoreFramesOfItAreWanted) {
+    result.order = kOrder + 1;
+    EXPECT_EQ(shown().kind, Shown::Kind::asked);
+    result.variants[0].order = kOrder + 1;
+    EXPECT_EQ(shown().kind, Shown::Kind::asked);
+    EXPECT_TRUE(isRendered(asked(), result));
+    result.variants[0].error = "No.";
+    EXPECT_EQ(shown().kind, Shown::Kind::stale);
+}
+
 TEST_F(ShownTest, IsOfBeforeUntilBothVariantsAreRendered) {
     addOther();
     result.variants[1].order = kOrder - 1;
