@@ -316,7 +316,8 @@ def file_name(text: str) -> str:
 def all_figures(study: Study):
     """(name of the file, caption, figure), as they are drawn."""
     repeats = (
-        f"Error bars are the standard deviation between {study.repeats} processes."
+        f"Error bars are the standard deviation between {study.repeats} processes"
+        f"{f' of {study.seeds} seeds' if study.seeds > 1 else ''}."
         if study.repeats > 1
         else "One process each, so there is no spread between processes."
     )

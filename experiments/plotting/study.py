@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
 """The results of `kaustik experiment run`: its runs.csv, experiment.json and samples.json.
 
-A configuration is one choice of all settings; its repeats are separate processes. What is said of
-a configuration is the mean over its repeats, and its spread is the standard deviation between them.
+A configuration is one choice of all settings but the seed; its repeats are separate processes, of one
+seed or of several. What is said of a configuration is the mean over its repeats, and its spread is
+the standard deviation between them.
 """
 
 import csv
@@ -14,6 +15,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 Value = str | float | None
+
+SEED = "seed"
 
 
 class StudyError(Exception):
@@ -66,9 +69,9 @@ class Axis:
 
 @dataclass
 class Configuration:
-    """All repeats of one choice of settings."""
+    """All repeats of one choice of settings, whatever their seeds."""
 
-    hash: str
+    hash: str  # of the first seed
     axes: dict[str, Value]
     products: list[int]
     label: str = ""
@@ -95,7 +98,8 @@ class Study:
     name: str
     description: str
     version: str
-    repeats: int
+    repeats: int  # of a configuration, over all its seeds
+    seeds: int
     planned: int
     axes: list[Axis]
     configurations: list[Configuration]  # with at least one finished repeat
@@ -145,6 +149,24 @@ def label_all(configurations: list[Configuration], axes: list[Axis]) -> None:
         configuration.label = ", ".join(parts) or "all runs"
 
 
+def read_configurations(runs: list[dict]) -> dict[str, Configuration]:
+    """By the hash of a run; those that differ in nothing but their seed share one."""
+    by_axes = {}
+    by_hash = {}
+    for run in runs:
+        axes = {
+            key: float(value)
+            if isinstance(value, (int, float)) and not isinstance(value, bool)
+            else str(value)
+            for key, value in run["axes"].items()
+            if key != SEED
+        }
+        alike = by_axes.setdefault(tuple(axes.items()), Configuration(run["hash"], axes, []))
+        alike.products = sorted({*alike.products, *run["products"]})
+        by_hash[run["hash"]] = alike
+    return by_hash
+
+
 def read_study(folder: Path) -> Study:
     described = read_json(folder / "experiment.json")
     if described.get("schema") != "kaustik.experiment/1":
@@ -152,20 +174,10 @@ def read_study(folder: Path) -> Study:
     axes = [
         Axis(axis["key"], axis["unit"], axis["description"], axis["products"])
         for axis in described["axes"]
+        if axis["key"] != SEED
     ]
-    by_hash = {
-        run["hash"]: Configuration(
-            run["hash"],
-            {
-                key: float(value)
-                if isinstance(value, (int, float)) and not isinstance(value, bool)
-                else str(value)
-                for key, value in run["axes"].items()
-            },
-            run["products"],
-        )
-        for run in described["runs"]
-    }
+    by_hash = read_configurations(described["runs"])
+    seeds = len({run["axes"].get(SEED) for run in described["runs"]})
     failures = []
     try:
         with open(folder / "runs.csv", encoding="utf-8", newline="") as file:
@@ -187,7 +199,8 @@ def read_study(folder: Path) -> Study:
         for run in read_json(folder / "samples.json").get("runs", []):
             if run["hash"] in by_hash:
                 by_hash[run["hash"]].frame_samples_ms.append(run["frame_samples_ms"])
-    configurations = [c for c in by_hash.values() if c.rows]
+    # Each once, in the order of their first runs.
+    configurations = [c for c in {id(c): c for c in by_hash.values()}.values() if c.rows]
     if not configurations:
         raise StudyError(f"{folder / 'runs.csv'} has no finished run, so there is nothing to draw.")
     label_all(configurations, axes)
@@ -196,7 +209,8 @@ def read_study(folder: Path) -> Study:
         described["name"],
         described["description"],
         described["version"],
-        described["repeats"],
+        described["repeats"] * seeds,
+        seeds,
         len(by_hash) * described["repeats"],
         axes,
         configurations,

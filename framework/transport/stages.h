@@ -229,7 +229,7 @@ struct ShadowStage : Stage<Shadows(Geometry, EyeBuffer, LayeredDepth)> {
     static constexpr const char* name = "shadow";
     static constexpr const char* question = "Which receivers does direct light reach?";
 };
-struct ViewStage : Stage<View(Geometry, EyeBuffer, LayeredDepth, Radiance)> {
+struct ViewStage : Stage<View(Geometry, EyeBuffer, LayeredDepth, Radiance, Shadows)> {
     static constexpr const char* name = "view";
     static constexpr const char* question = "What does the eye see through specular surfaces?";
 };

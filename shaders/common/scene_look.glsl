@@ -6,13 +6,19 @@
 // the layered depth of the scene, as in the paper; one that the image does not show is lit here.
 #include "common/hit_test.glsl"
 #include "common/surroundings.glsl"
-#ifdef LOOK_IN_LAYERS
+#include "framework/transport/brdf.h"
+#if defined(LOOK_IN_LAYERS) || defined(GLOSSY_RECEIVERS)
 #include "common/lights.glsl"
 
+uniform int lightCount;
+#endif
+#ifdef LOOK_IN_LAYERS
 uniform sampler2DArray sceneDepths;
 uniform sampler2DArray sceneSurfaces;
 uniform int sceneLayers;
-uniform int lightCount;
+#endif
+#ifdef GLOSSY_RECEIVERS
+uniform sampler2DArray directVisibility;
 #endif
 
 uniform sampler2D interfaceDepth;
@@ -76,7 +82,38 @@ vec3 radianceAround(vec3 hitVs, ivec2 texel, vec3 normal) {
     return weights > 1e-3 ? sum / weights : texelFetch(receiverRadiance, texel, 0).rgb;
 }
 
-// The same for the normal of a mirror, which may be curved; `surface` is the hit pixel's.
+#ifdef GLOSSY_RECEIVERS
+// What a glossy receiver sends back along a ray instead of to the eye, of the direct light that the
+// image has there, W/m²/sr; the caustic's part stays as the eye sees it. `shaded`: unit, the
+// receiver's outward normal.
+vec3 lobeInsteadOfEyes(vec3 hitVs, vec3 direction, ivec2 texel, vec3 shaded, uint material) {
+    vec4 lobe = materials[material - 1u].specular;
+    vec3 difference = vec3(0.0);
+    if (lobe.rgb == vec3(0.0)) return difference;
+    vec3 normal = dot(shaded, hitVs) > 0.0 ? -shaded : shaded;
+    vec3 toEye = -normalize(hitVs);
+    for (int i = 0; i < lightCount; ++i) {
+        vec3 toLight = -lightDirection(lights[i], hitVs);
+        vec3 reflected =
+            receiverBrdf(vec3(0.0), lobe.rgb, lobe.w, normal, toLight, -direction) -
+            receiverBrdf(vec3(0.0), lobe.rgb, lobe.w, normal, toLight, toEye);
+        difference += lightIrradiance(lights[i], hitVs) * max(dot(normal, toLight), 0.0) *
+                      texelFetch(directVisibility, ivec3(texel, i), 0).x * reflected;
+    }
+    return difference;
+}
+#endif
+
+// Radiance of a receiver that the image shows, back along a ray.
+vec3 radianceOfSeen(vec3 hitVs, vec3 direction, ivec2 texel, LayerSurface surface, vec3 shaded) {
+    vec3 radiance = radianceAround(hitVs, texel, surface.normal);
+#ifdef GLOSSY_RECEIVERS
+    radiance += lobeInsteadOfEyes(hitVs, direction, texel, shaded, surface.material);
+#endif
+    return max(radiance, vec3(0.0));
+}
+
+// A mirror's normal, which may be curved, between the pixels around; `surface` is the hit pixel's.
 vec3 mirrorNormalAround(vec3 hitVs, vec4 surface) {
     vec2 corner = pixelOf(hitVs) - 0.5;
     ivec2 first = ivec2(floor(corner));
@@ -140,7 +177,7 @@ SceneHit searchScene(TracedRay ray) {
                                 mirrorNormalAround(hitVs, shaded), vec3(0.0));
             }
             return SceneHit(surface.material, false, false, t, at.texel, vec3(0.0),
-                            radianceAround(hitVs, at.texel, surface.normal));
+                            radianceOfSeen(hitVs, ray.direction, at.texel, surface, surface.normal));
         }
     }
     return nothingFound(ray.origin, ray.direction,
@@ -194,10 +231,13 @@ vec3 meanAlbedo(uint material) {
     return albedo;
 }
 
-// Radiance of a receiver that the image does not show: its fill light, and of the lights what comes
-// through the layers (K06, section 5). `normal`: unit, towards the side that is looked at.
-vec3 radianceOfHidden(vec3 hitVs, vec3 normal, uint material) {
-    vec3 irradiance = view.ambient.rgb;
+// Radiance of a receiver that the image does not show, back along a ray: of its fill light, and of
+// the lights what comes through the layers (K06, section 5), past whatever lies off the screen.
+// `normal`: unit, towards the side that is looked at.
+vec3 radianceOfHidden(vec3 hitVs, vec3 direction, vec3 normal, uint material) {
+    vec3 albedo = meanAlbedo(material - 1u);
+    vec4 lobe = materials[material - 1u].specular;
+    vec3 radiance = (albedo + lobe.rgb) * (1.0 / 3.14159265) * view.ambient.rgb;
     for (int i = 0; i < lightCount; ++i) {
         LightData light = lights[i];
         vec3 toLight = -lightDirection(light, hitVs);
@@ -212,9 +252,10 @@ vec3 radianceOfHidden(vec3 hitVs, vec3 normal, uint material) {
                               : length(light.positionVs.xyz - hitVs);
             if (blocker.layer >= 0 && blocker.t < reach) continue;
         }
-        irradiance += lightIrradiance(light, hitVs) * cosine;
+        radiance += lightIrradiance(light, hitVs) * cosine *
+                    receiverBrdf(albedo, lobe.rgb, lobe.w, normal, toLight, -direction);
     }
-    return meanAlbedo(material - 1u) * irradiance * (1.0 / 3.14159265);
+    return radiance;
 }
 
 SceneHit searchScene(TracedRay ray) {
@@ -239,8 +280,8 @@ SceneHit searchScene(TracedRay ray) {
     bool isSameSide = (dot(ray.direction, surface.normal) < 0.0) ==
                       (dot(hitVs, surface.normal) < 0.0);
     vec3 radiance = isSeen && seen > 0.0 && isSameSide
-                        ? radianceAround(hitVs, hit.texel, surface.normal)
-                        : radianceOfHidden(hitVs, looked, surface.material);
+                        ? radianceOfSeen(hitVs, ray.direction, hit.texel, surface, shaded.xyz)
+                        : radianceOfHidden(hitVs, ray.direction, looked, surface.material);
     return SceneHit(surface.material, false, false, hit.t, hit.texel, vec3(0.0), radiance);
 }
 #endif

@@ -56,7 +56,7 @@ BackFaces drawBackFaces(FrameBuilder& frame, Geometry geometry) {
 }  // namespace
 
 View refractInImageSpace(FrameBuilder& frame, const ImageSpaceViewParams& params, Geometry geometry,
-                         EyeBuffer eye, LayeredDepth layers, Radiance receivers) {
+                         EyeBuffer eye, LayeredDepth layers, Radiance receivers, Shadows shadows) {
     if (!eye.interface.valid()) {
         frame.leaveOut("view.image_space", "the scene has no specular surface");
         return {receivers.radiance, {}, {}};
@@ -81,7 +81,7 @@ View refractInImageSpace(FrameBuilder& frame, const ImageSpaceViewParams& params
                         setup.read(faces.depth);
                         setup.read(faces.surface);
                     }
-                    data.look = declareLook(frame, setup, params.look, eye, layers, receivers);
+                    data.look = declareLook(frame, setup, params.look, eye, layers, receivers, shadows);
                 },
                 [&inputs = frame.inputs(), params](const Data& data, gl::PassContext& context) {
                     gl::Command command =

@@ -142,7 +142,6 @@ void photonsThrough(Lab& lab, int shells) {
 void raysThrough(Lab& lab, int shells) {
     const scene::Scene scene = nestedBalls(shells);
     Lab::Choice node = lab.choose(ViewStage::name, "refraction");
-    node.settings.emplace_back("view.refraction.search", "all");
     node.settings.emplace_back("view.refraction.interfaces", "8");
     node.settings.emplace_back("view.refraction.layers", "12");
     const Frame frame = lab.render(node, scene, {320, 240, {{"emit.photons", "8x8"}}});

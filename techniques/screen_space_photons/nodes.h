@@ -198,13 +198,13 @@ struct GaussianBlurParams {
 };
 InScattered blurGaussian(FrameBuilder& frame, const GaussianBlurParams& params, InScattered sharp);
 // Where an eye ray's next interface is looked for.
-enum class RefractionSearch : int { monotonic, all };
+enum class RefractionSearch : int { automatic, monotonic, all };
 
 // When the monotonic search takes a layer for met.
 enum class RefractionStop : int { crossing, depth };
 
 struct RefractionViewParams {
-    RefractionSearch search = RefractionSearch::monotonic;
+    RefractionSearch search = RefractionSearch::automatic;
     RefractionStop stop = RefractionStop::crossing;
     int interfaces = 0;
     int reflections = 4;
@@ -214,8 +214,9 @@ struct RefractionViewParams {
     void reflect(R& r) {
         r.choice(search, "search",
                  "monotonic: the paper's, between the layer that the ray has passed last and the "
-                 "next one; all: in every layer of every pixel on its way",
-                 {"monotonic", "all"});
+                 "next one; all: in every layer of every pixel on its way; auto: monotonic, unless "
+                 "dielectrics lie in one another, of which it knows no order",
+                 {"auto", "monotonic", "all"});
         r.choice(stop, "stop",
                  "depth: the paper's, as soon as the ray is deeper than the next layer or nearer "
                  "than the one passed; crossing: it must cross that layer's plane nearby too, so "
@@ -238,7 +239,7 @@ struct RefractionViewParams {
     }
 };
 View traceRefraction(FrameBuilder& frame, const RefractionViewParams& params, Geometry geometry,
-                     EyeBuffer eye, LayeredDepth layers, Radiance receivers);
+                     EyeBuffer eye, LayeredDepth layers, Radiance receivers, Shadows shadows);
 
 struct ImageSpaceViewParams {
     int steps = 8;
@@ -253,6 +254,6 @@ struct ImageSpaceViewParams {
     }
 };
 View refractInImageSpace(FrameBuilder& frame, const ImageSpaceViewParams& params, Geometry geometry,
-                         EyeBuffer eye, LayeredDepth layers, Radiance receivers);
+                         EyeBuffer eye, LayeredDepth layers, Radiance receivers, Shadows shadows);
 
 }  // namespace kaustik

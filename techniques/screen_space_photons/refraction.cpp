@@ -23,10 +23,12 @@ namespace kaustik {
 
 namespace {
 
-// As many interfaces as the scene needs. A path crosses a sheet once: where there is nothing else,
-// no more are looked for, nor peeled, than there are sheets.
+// As many interfaces as the scene needs, and the search that finds them. A path crosses a sheet
+// once: where there is nothing else, no more are looked for, nor peeled, than there are sheets.
 RefractionViewParams forScene(const scene::Scene& scene, int nested, RefractionViewParams params) {
     if (params.interfaces == 0) params.interfaces = std::max(4, 2 * nested);
+    if (params.search == RefractionSearch::automatic)
+        params.search = nested > 1 ? RefractionSearch::all : RefractionSearch::monotonic;
     int sheets = 0;
     for (const scene::Object& object : scene.objects) {
         if (scene.materials[object.material].kind != scene::MaterialKind::dielectric) continue;
@@ -79,7 +81,7 @@ void keepToLimits(FrameBuilder& frame, const RefractionViewParams& params,
 }  // namespace
 
 View traceRefraction(FrameBuilder& frame, const RefractionViewParams& wanted, Geometry geometry,
-                     EyeBuffer eye, LayeredDepth sceneLayers, Radiance receivers) {
+                     EyeBuffer eye, LayeredDepth sceneLayers, Radiance receivers, Shadows shadows) {
     if (!eye.interface.valid()) {
         frame.leaveOut("view.refraction", "the scene has no specular surface");
         return {receivers.radiance, {}, {}};
@@ -99,6 +101,10 @@ View traceRefraction(FrameBuilder& frame, const RefractionViewParams& wanted, Ge
         for (const char* pass : {"view.layers.complexity", "view.layers.peel"})
             frame.leaveOut(pass, "the scene has no dielectric");
     }
+    const std::string why =
+        wanted.search == RefractionSearch::automatic && params.search == RefractionSearch::all
+            ? "the eye looks at specular surfaces; of dielectrics in one another it asks all layers"
+            : "the eye looks at specular surfaces";
     struct Data {
         ViewPass look;
         LayeredDepth dielectrics;
@@ -106,11 +112,11 @@ View traceRefraction(FrameBuilder& frame, const RefractionViewParams& wanted, Ge
     const View view =
         frame
             .pass<Data>(
-                "view.refraction", "the eye looks at specular surfaces",
+                "view.refraction", why,
                 [&](graph::PassSetup& setup, Data& data) {
                     data.dielectrics = dielectrics;
                     if (dielectrics.depth.valid()) readLayers(setup, dielectrics);
-                    data.look = declareLook(frame, setup, params.look, eye, sceneLayers, receivers);
+                    data.look = declareLook(frame, setup, params.look, eye, sceneLayers, receivers, shadows);
                 },
                 [&inputs = frame.inputs(), params, box, testing = hitTesting(frame)](
                     const Data& data, gl::PassContext& context) {

@@ -49,7 +49,7 @@ struct InterfaceViewParams {
     }
 };
 View viewThroughInterface(FrameBuilder& frame, const InterfaceViewParams& params, Geometry geometry,
-                          EyeBuffer eye, LayeredDepth layers, Radiance receivers);
+                          EyeBuffer eye, LayeredDepth layers, Radiance receivers, Shadows shadows);
 
 struct ShadowMapParams {
     int size = 1024;

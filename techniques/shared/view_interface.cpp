@@ -10,7 +10,7 @@ namespace kaustik {
 
 View viewThroughInterface(FrameBuilder& frame, const InterfaceViewParams& params,
                           Geometry /*geometry*/, EyeBuffer eye, LayeredDepth layers,
-                          Radiance receivers) {
+                          Radiance receivers, Shadows shadows) {
     if (!eye.interface.valid()) {
         frame.leaveOut("view.interface", "the scene has no specular surface");
         return {receivers.radiance, {}, {}};
@@ -20,7 +20,7 @@ View viewThroughInterface(FrameBuilder& frame, const InterfaceViewParams& params
             .pass<ViewPass>(
                 "view.interface", "the eye looks at specular surfaces",
                 [&](graph::PassSetup& setup, ViewPass& data) {
-                    data = declareLook(frame, setup, params.look, eye, layers, receivers);
+                    data = declareLook(frame, setup, params.look, eye, layers, receivers, shadows);
                 },
                 [&inputs = frame.inputs(), params](const ViewPass& data, gl::PassContext& context) {
                     gl::Command command = context.fullscreen("shared/view_interface.frag");

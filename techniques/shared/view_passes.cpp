@@ -75,13 +75,18 @@ DielectricsBox boxOfDielectrics(const FrameBuilder& frame) {
 
 ViewPass declareLook(const FrameBuilder& frame, graph::PassSetup& setup,
                      const SceneLookParams& look, const EyeBuffer& eye,
-                     const LayeredDepth& sceneLayers, const Radiance& receivers) {
+                     const LayeredDepth& sceneLayers, const Radiance& receivers,
+                     const Shadows& shadows) {
     setup.read(eye.interface);
     setup.read(eye.interfaceSurface);
     setup.read(eye.receiver);
     setup.read(eye.receiverSurface);
     setup.read(receivers.radiance);
-    ViewPass pass{eye, {}, receivers, {}};
+    ViewPass pass{eye, {}, receivers, {}, {}};
+    if (frame.needs().glossyReceivers && frame.needs().lights > 0) {
+        pass.shadows = shadows;
+        setup.read(shadows.visibility);
+    }
     if (look.surfaces == LookSurfaces::layers) {
         pass.sceneLayers = sceneLayers;
         setup.read(sceneLayers.depth);
@@ -115,16 +120,20 @@ void bindLook(const FrameInputs& inputs, gl::Command& command, const ViewPass& p
         .target(pass.seen.exitPosition)
         .target(pass.seen.exitDirection);
     if (inputs.needs.refractors > 0) command.define("DIELECTRICS");
-    if (!pass.sceneLayers.depth.valid()) {
+    const bool isGlossy = pass.shadows.visibility.valid();
+    const bool looksInLayers = pass.sceneLayers.depth.valid();
+    if (isGlossy || looksInLayers)
+        command.storage("Lights", inputs.lights).set("lightCount", inputs.needs.lights);
+    if (isGlossy)
+        command.define("GLOSSY_RECEIVERS").texture("directVisibility", pass.shadows.visibility);
+    if (!looksInLayers) {
         command.set("lookStride", look.stride);
         return;
     }
     command.define("LOOK_IN_LAYERS")
-        .storage("Lights", inputs.lights)
         .texture("sceneDepths", pass.sceneLayers.depth)
         .texture("sceneSurfaces", pass.sceneLayers.surface)
-        .set("sceneLayers", pass.sceneLayers.layers)
-        .set("lightCount", inputs.needs.lights);
+        .set("sceneLayers", pass.sceneLayers.layers);
 }
 
 std::size_t countExits(const gl::Texture& exitDirection, float ending) {

@@ -54,6 +54,7 @@ struct ViewPass {
     EyeBuffer eye;
     LayeredDepth sceneLayers;  // invalid where the picture's receivers are looked at
     Radiance receivers;
+    Shadows shadows;  // invalid where no receiver is glossy
     View seen;
 };
 
@@ -61,7 +62,8 @@ struct ViewPass {
 // receivers and no exits.
 [[nodiscard]] ViewPass declareLook(const FrameBuilder& frame, graph::PassSetup& setup,
                                    const SceneLookParams& look, const EyeBuffer& eye,
-                                   const LayeredDepth& sceneLayers, const Radiance& receivers);
+                                   const LayeredDepth& sceneLayers, const Radiance& receivers,
+                                   const Shadows& shadows);
 
 // Binds what declareLook has declared, the view, the materials, the images and the outputs as
 // targets: what common/scene_look.glsl needs.

@@ -138,6 +138,20 @@ TEST_F(ExperimentReport, SummarizesOverRepeats) {
     EXPECT_NE(summary.find("aaaaaaaa,0.001,2,4.15 ± 0.071"), std::string::npos) << summary;
 }
 
+TEST_F(ExperimentReport, SummarizesOverSeeds) {
+    writeResults();
+    json experiment = json::parse(contents("out/experiment.json"));
+    experiment["axes"][0]["key"] = "seed";
+    for (std::size_t i = 0; i < experiment["runs"].size(); ++i)
+        experiment["runs"][i]["axes"] = {{"seed", 1 + i}};
+    static_cast<void>(folder.file("out/experiment.json", experiment.dump()));
+    ASSERT_EQ(draw().exitCode, 0);
+    const std::string summary = contents("out/summary.csv");
+    // 4.1, 4.2, 7.1 and 7.2 ms in one row.
+    EXPECT_NE(summary.find("\naaaaaaaa,4,5.65 ± 1.7,"), std::string::npos) << summary;
+    EXPECT_EQ(summary.find("bbbbbbbb"), std::string::npos) << summary;
+}
+
 TEST_F(ExperimentReport, WithoutMatplotlibNamesThePackage) {
     writeResults();
     fs::create_directory(folder / "broken");
