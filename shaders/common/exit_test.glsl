@@ -17,7 +17,8 @@ bool isInsideAt(ivec2 texel, uint medium, float zLow, float zHigh) {
         if (surface.material != medium) continue;
         float margin = surface.margin;
         if (dot(surface.normal, viewRay(vec2(texel) + 0.5)) < 0.0) {
-            opened = surface.depth - margin;
+            // Parts of a body may overlap, or stand before a hole: it has been open since the first.
+            if (!isOpened) opened = surface.depth - margin;
             isOpened = true;
         } else {
             if (zHigh >= opened && zLow <= surface.depth + margin) return true;
