@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "framework/audit/hit_audit.h"
+#include "framework/pipeline/photon_texels.h"
 #include "framework/transport/watts.h"
 
 #include <algorithm>
@@ -16,44 +17,28 @@ struct TracedPhoton {
     std::optional<glm::dvec3> found;
 };
 
-glm::dvec3 xyz(const std::vector<float>& texels, std::size_t texel) {
-    return {texels[4 * texel], texels[4 * texel + 1], texels[4 * texel + 2]};
-}
-
 bool isFinite(const glm::dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
 std::vector<TracedPhoton> readTrace(const Renderer& renderer, const TraceRecord& trace,
                                     std::uint64_t& notANumber) {
-    const Photons& photons = trace.hits.incoming;
-    const std::vector<float> position = renderer.texture(photons.position).read();
-    const std::vector<float> direction = renderer.texture(photons.direction).read();
-    const std::vector<float> flux = renderer.texture(photons.flux).read();
-    const std::vector<float> hitPosition = renderer.texture(trace.hits.position).read();
-    const std::vector<float> hitFlux = renderer.texture(trace.hits.flux).read();
-    // A word of the transfer map; what is none is counted among what is not a number.
-    constexpr unsigned kNoWord = ~0u;
-    const auto wordAt = [](const std::vector<float>& texels, std::size_t i) {
-        const float word = texels[4 * i + 3];
-        return word >= 0.0f && word < 4.2e9f ? static_cast<unsigned>(word) : kNoWord;
-    };
+    const std::vector<PhotonTexel> photons = readPhotons(renderer, trace.hits.incoming);
+    const std::vector<HitTexel> hits = readHits(renderer, trace.hits);
     std::vector<TracedPhoton> traced;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(photons.count()); ++i) {
-        const unsigned fate = wordAt(direction, i);
-        if (fate == kNoWord) ++notANumber;
-        if (fate != kFateInFlight) continue;
+    for (std::size_t i = 0; i < photons.size(); ++i) {
+        const PhotonTexel& photon = photons[i];
+        if (photon.fate == kNoWord) ++notANumber;
+        if (photon.fate != kFateInFlight) continue;
         TracedPhoton one;
-        one.photon.position = xyz(position, i);
-        one.photon.direction = xyz(direction, i);
-        one.photon.media = wordAt(flux, i);
+        one.photon.position = photon.position;
+        one.photon.direction = photon.direction;
+        one.photon.media = photon.media;
         // Seen at a slant a pixel resolves less; the tracer takes its extent in depth too.
         one.photon.reachMeters =
             2.0 * renderer.view().footprintPerMeter() * std::abs(one.photon.position.z);
-        one.fluxWatts = xyz(flux, i);
-        const unsigned found = wordAt(hitFlux, i);
-        if (found == kFateReceiver || found == kFateSpecular || found == kNoWord)
-            one.found = xyz(hitPosition, i);
+        one.fluxWatts = photon.fluxWatts;
+        if (hits[i].isHit() || hits[i].fate == kNoWord) one.found = hits[i].position;
         const bool isNumber = isFinite(one.photon.position) && isFinite(one.photon.direction) &&
                               isFinite(one.fluxWatts) && one.photon.media != kNoWord;
         if (!isNumber) {
@@ -253,12 +238,24 @@ HitAudit auditHits(const Renderer& renderer, const reference::EmbreeScene& scene
     return audit;
 }
 
+EnergyLedger bookedByTracers(const Renderer& renderer) {
+    EnergyLedger booked;
+    for (const TraceRecord& trace : renderer.traces()) {
+        const EnergyLedger before = renderer.ledger(trace.before);
+        const EnergyLedger after = renderer.ledger(trace.after);
+        for (std::size_t account = 0; account < booked.watts.size(); ++account) {
+            booked.watts[account] += after.watts[account] - before.watts[account];
+            booked.events[account] += after.events[account] - before.events[account];
+        }
+    }
+    return booked;
+}
+
 EnergyLedger resolveLedger(const Renderer& renderer, const HitAudit& audit, double emittedWatts) {
     EnergyLedger ledger = renderer.ledger();
     if (renderer.traces().empty()) return ledger;
-    // What stood in these accounts right after the last tracing came from tracers; what came later,
-    // from a reconstruction that also loses light off the screen, stays.
-    const EnergyLedger traced = renderer.ledger(renderer.traces().back().hits.incoming.ledger);
+    const EnergyLedger traced = bookedByTracers(renderer);
+    // What others have booked, a reconstruction that also loses light off the screen, stays.
     for (const unsigned account :
          {kAccountLeftScene, kAccountOffScreen, kAccountBehindEye, kAccountBeyondLastLayer,
           kAccountEdgeOn, kAccountMissedByTracer, kAccountUnresolved}) {

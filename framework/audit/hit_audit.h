@@ -62,6 +62,9 @@ struct HitAudit {
 // The `hits` of report.json; null, with a reason, for what there is not.
 [[nodiscard]] nlohmann::json toJson(const HitAudit& audit);
 
+// What the tracers of that frame have booked themselves, in all of its tracings.
+[[nodiscard]] EnergyLedger bookedByTracers(const Renderer& renderer);
+
 // The ledger of that frame with what the tracers could not tell apart told apart, and with what the
 // reference says that light emits in place of what the grid caught: the difference is the loss to
 // emission sampling, negative where the grid caught too much.

@@ -50,43 +50,67 @@ std::string shaderName(std::string scopedName) {
 
 Command::Command(PassContext& context, std::vector<std::string> files) : context_(context) {
     key_.files = std::move(files);
+    offers_ = true;
+    const Globals& globals = context.globals();
+    for (const auto& [name, buffer] : globals.uniforms)
+        uniforms(name, *buffer);
+    for (const auto& [name, buffer] : globals.storage)
+        storage(name, *buffer);
+    for (const auto& [name, texture] : globals.textures)
+        this->texture(name, *texture);
+    for (const auto& [name, value] : globals.values)
+        set(name, value);
+    for (const graph::Binding& binding : context.bindings()) {
+        switch (binding.as) {
+            case graph::BindAs::sampler:
+                texture(binding.name, binding.handle);
+                break;
+            case graph::BindAs::image:
+                image(binding.name, binding.handle);
+                break;
+            case graph::BindAs::storage:
+                storage(binding.name, binding.handle);
+                break;
+        }
+    }
+    offers_ = false;
 }
 
-const Texture& Command::textureToUse(const graph::ResourceRef& handle, Use use) {
-    accesses_.push_back(context_.access(handle, use));
+const Texture& Command::textureToDrawTo(const graph::ResourceRef& handle) {
+    accesses_.push_back(context_.access(handle, Use::target));
     return context_.textureOf(accesses_.back());
 }
 
 Command& Command::texture(const std::string& name, const graph::ResourceRef& handle) {
-    textures_.push_back({name, textureToUse(handle, Use::fetch).id()});
+    const Access access = context_.access(handle, Use::fetch);
+    textures_.push_back({name, context_.textureOf(access).id(), access, offers_});
     return *this;
 }
 
 Command& Command::texture(const std::string& name, const Texture& texture) {
-    textures_.push_back({name, texture.id()});
+    textures_.push_back({name, texture.id(), {}, offers_});
     return *this;
 }
 
 Command& Command::image(const std::string& name, const graph::ResourceRef& handle) {
-    const Texture& texture = textureToUse(handle, Use::image);
-    const GLenum access = accesses_.back().stores ? GL_READ_WRITE : GL_READ_ONLY;
-    images_.push_back({name, &texture, access});
+    const Access access = context_.access(handle, Use::image);
+    images_.push_back({name, &context_.textureOf(access), access, offers_});
     return *this;
 }
 
 Command& Command::storage(const std::string& block, const graph::ResourceRef& handle) {
-    accesses_.push_back(context_.access(handle, Use::storage));
-    storage_.push_back({block, context_.bufferOf(accesses_.back()).id()});
+    const Access access = context_.access(handle, Use::storage);
+    storage_.push_back({block, context_.bufferOf(access).id(), access, offers_});
     return *this;
 }
 
 Command& Command::storage(const std::string& block, const Buffer& buffer) {
-    storage_.push_back({block, buffer.id()});
+    storage_.push_back({block, buffer.id(), {}, offers_});
     return *this;
 }
 
 Command& Command::uniforms(const std::string& block, const Buffer& buffer) {
-    uniformBlocks_.push_back({block, buffer.id()});
+    uniformBlocks_.push_back({block, buffer.id(), {}, offers_});
     return *this;
 }
 
@@ -95,9 +119,10 @@ Command& Command::set(const std::string& name, Value value) {
     for (Uniform& uniform : uniforms_) {
         if (uniform.name != name) continue;
         uniform.value = value;
+        uniform.isOffered = offers_;
         return *this;
     }
-    uniforms_.push_back({name, value});
+    uniforms_.push_back({name, value, offers_});
     return *this;
 }
 
@@ -139,13 +164,13 @@ Command& Command::define(const std::string& name) {
 }
 
 Command& Command::target(const graph::ResourceRef& handle, int layer) {
-    targets_.push_back({&textureToUse(handle, Use::target), layer, false, {}});
+    targets_.push_back({&textureToDrawTo(handle), layer, false, {}});
     lastIsDepth_ = false;
     return *this;
 }
 
 Command& Command::depth(const graph::ResourceRef& handle, DepthTest test) {
-    depth_ = {&textureToUse(handle, Use::target), 0, false, {}};
+    depth_ = {&textureToDrawTo(handle), 0, false, {}};
     depthTest_ = test;
     lastIsDepth_ = true;
     return *this;
@@ -176,42 +201,55 @@ Command& Command::viewport(int x, int y, int width, int height) {
 
 Program& Command::bind() {
     Program& program = context_.programs().get(key_);
-    context_.order(accesses_);
+    std::vector<Access> accesses = accesses_;
     glUseProgram(program.id());
+    const auto isLeftOut = [&](const auto& bound) {
+        return bound.isOffered && !program.declares(bound.name);
+    };
     for (const Uniform& uniform : uniforms_) {
+        if (isLeftOut(uniform)) continue;
         const GLint location = program.uniform(uniform.name);
         if (location >= 0) setUniform(program.id(), location, uniform.value);
     }
-    for (std::size_t unit = 0; unit < textures_.size(); ++unit) {
-        const GLint location = program.uniform(textures_[unit].name);
-        glBindTextureUnit(static_cast<GLuint>(unit), textures_[unit].id);
-        if (location >= 0) {
-            glProgramUniform1i(program.id(), location, static_cast<GLint>(unit));
-        }
+    // Units go to what the program has.
+    GLuint unit = 0;
+    for (const Bound& bound : textures_) {
+        if (isLeftOut(bound)) continue;
+        const GLint location = program.uniform(bound.name);
+        if (location < 0) continue;
+        if (bound.access) accesses.push_back(*bound.access);
+        glBindTextureUnit(unit, bound.id);
+        glProgramUniform1i(program.id(), location, static_cast<GLint>(unit++));
     }
-    for (std::size_t unit = 0; unit < images_.size(); ++unit) {
-        const GLint location = program.uniform(images_[unit].name);
-        const Texture& texture = *images_[unit].texture;
-        glBindImageTexture(static_cast<GLuint>(unit), texture.id(), 0, GL_TRUE, 0,
-                           images_[unit].access, formatInfo(texture.desc().format).internalFormat);
-        if (location >= 0) {
-            glProgramUniform1i(program.id(), location, static_cast<GLint>(unit));
-        }
+    unit = 0;
+    for (const BoundImage& bound : images_) {
+        if (isLeftOut(bound)) continue;
+        const GLint location = program.uniform(bound.name);
+        if (location < 0) continue;
+        accesses.push_back(bound.access);
+        glBindImageTexture(unit, bound.texture->id(), 0, GL_TRUE, 0,
+                           bound.access.stores ? GL_READ_WRITE : GL_READ_ONLY,
+                           formatInfo(bound.texture->desc().format).internalFormat);
+        glProgramUniform1i(program.id(), location, static_cast<GLint>(unit++));
     }
-    for (std::size_t i = 0; i < storage_.size(); ++i) {
-        const auto binding = static_cast<GLuint>(i);
-        const GLuint index = program.storageBlock(storage_[i].name);
+    unit = 0;
+    for (const Bound& bound : storage_) {
+        if (isLeftOut(bound)) continue;
+        const GLuint index = program.storageBlock(bound.name);
         if (index == GL_INVALID_INDEX) continue;
-        glShaderStorageBlockBinding(program.id(), index, binding);
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, storage_[i].id);
+        if (bound.access) accesses.push_back(*bound.access);
+        glShaderStorageBlockBinding(program.id(), index, unit);
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, unit++, bound.id);
     }
-    for (std::size_t i = 0; i < uniformBlocks_.size(); ++i) {
-        const auto binding = static_cast<GLuint>(i);
-        const GLuint index = program.uniformBlock(uniformBlocks_[i].name);
+    unit = 0;
+    for (const Bound& bound : uniformBlocks_) {
+        if (isLeftOut(bound)) continue;
+        const GLuint index = program.uniformBlock(bound.name);
         if (index == GL_INVALID_INDEX) continue;
-        glUniformBlockBinding(program.id(), index, binding);
-        glBindBufferBase(GL_UNIFORM_BUFFER, binding, uniformBlocks_[i].id);
+        glUniformBlockBinding(program.id(), index, unit);
+        glBindBufferBase(GL_UNIFORM_BUFFER, unit++, bound.id);
     }
+    context_.order(accesses);
     return program;
 }
 
@@ -302,6 +340,28 @@ void Command::dispatch(int groupsX, int groupsY, int groupsZ) {
         glDispatchCompute(static_cast<GLuint>(groupsX), static_cast<GLuint>(groupsY),
                           static_cast<GLuint>(groupsZ));
     }
+}
+
+GLuint Command::indirect(const graph::ResourceRef& commands) {
+    accesses_.push_back(context_.access(commands, Use::drawCommands));
+    return context_.bufferOf(accesses_.back()).id();
+}
+
+void Command::dispatchIndirect(const graph::ResourceRef& commands, std::size_t offset) {
+    const GLuint buffer = indirect(commands);
+    bind();
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, buffer);
+    glDispatchComputeIndirect(static_cast<GLintptr>(offset));
+}
+
+void Command::drawIndirect(GLenum mode, const graph::ResourceRef& commands, std::size_t offset) {
+    const GLuint buffer = indirect(commands);
+    bind();
+    bindTargets();
+    bindState();
+    glBindVertexArray(context_.emptyVertexArray());
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, buffer);
+    glDrawArraysIndirect(mode, reinterpret_cast<const void*>(offset));
 }
 
 void Command::dispatchOver(int countX, int localX, int countY, int localY) {

@@ -2,17 +2,20 @@
 // One draw or dispatch, put together by name and issued by its last call:
 //
 //     context.fullscreen("techniques/x/halve.frag")
-//         .texture("source", data.rows)
 //         .set("sourceWidth", width)
 //         .target(data.halved)
 //         .draw();
 //
+// It starts with what its pass has bound by name (graph::PassSetup) and what is bound to all
+// (Globals); of both it uses what the shaders declare.
 // A command sets all the state it depends on and leaves none behind, and waits for what it depends
 // on (barriers.h). Textures and buffers that are not of the graph are only read.
 #pragma once
 
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -23,6 +26,14 @@
 namespace kaustik::gl {
 
 class PassContext;
+
+// What shaders of every pass may declare, by name; all of it outlives the executor's frames.
+struct Globals {
+    std::vector<std::pair<std::string, const Buffer*>> uniforms;
+    std::vector<std::pair<std::string, const Buffer*>> storage;
+    std::vector<std::pair<std::string, const Texture*>> textures;
+    std::vector<std::pair<std::string, float>> values;
+};
 
 enum class Blend { none, add };
 // nearer: the smaller value wins (distances); nearerReversed: the larger one (reversed z);
@@ -72,16 +83,24 @@ class Command {
     void dispatch(int groupsX, int groupsY = 1, int groupsZ = 1);
     // Workgroups of `local` threads that cover `count`.
     void dispatchOver(int countX, int localX, int countY = 1, int localY = 1);
+    // Workgroups in the numbers that stand at `offset` of a buffer, three uints.
+    void dispatchIndirect(const graph::ResourceRef& commands, std::size_t offset);
+    // The same of a draw: count, instances, first vertex and first instance.
+    void drawIndirect(GLenum mode, const graph::ResourceRef& commands, std::size_t offset);
 
   private:
+    // `access`: of the graph's memory, where it is that.
     struct Bound {
         std::string name;
         GLuint id;
+        std::optional<Access> access;
+        bool isOffered = false;  // by the pass or to all: a program need not declare it
     };
     struct BoundImage {
         std::string name;
         const Texture* texture;
-        GLenum access;
+        Access access;
+        bool isOffered = false;
     };
     struct Target {
         const Texture* texture;
@@ -92,16 +111,18 @@ class Command {
     struct Uniform {
         std::string name;
         Value value;
+        bool isOffered = false;
     };
     Command& fields(const std::string& scope, const std::vector<params::Field>& fields);
-    const Texture& textureToUse(const graph::ResourceRef& handle, Use use);
+    const Texture& textureToDrawTo(const graph::ResourceRef& handle);
     Program& bind();
+    GLuint indirect(const graph::ResourceRef& commands);
     void bindTargets();
     void bindState();
 
     PassContext& context_;
     ProgramKey key_;
-    std::vector<Access> accesses_;  // of the graph's memory
+    std::vector<Access> accesses_;  // of the graph's memory, whatever the program declares
     std::vector<Bound> textures_;
     std::vector<BoundImage> images_;
     std::vector<Bound> storage_;
@@ -113,6 +134,7 @@ class Command {
     Blend blend_ = Blend::none;
     glm::ivec4 viewport_{0, 0, -1, -1};
     bool lastIsDepth_ = false;
+    bool offers_ = false;
 };
 
 }  // namespace kaustik::gl

@@ -73,6 +73,10 @@ void PassContext::order(const std::vector<Access>& accesses) const {
     executor_.order(accesses);
 }
 
+const Globals& PassContext::globals() const {
+    return executor_.globals_;
+}
+
 ProgramCache& PassContext::programs() {
     return executor_.programs_;
 }
@@ -134,6 +138,7 @@ void Executor::prepare(graph::Compiled compiled) {
     // Slots that were kept have seen another graph's stores.
     glMemoryBarrier(GL_ALL_BARRIER_BITS);
     barriers_ = Barriers(slots_.size());
+    isFresh_ = true;
 }
 
 const Texture& Executor::texture(const graph::ResourceRef& handle) const {
@@ -184,6 +189,10 @@ bool Executor::runFrame(PassTimer& timer, const std::function<bool(std::size_t)>
         if (debugs) context_.setScope("in pass '" + step.name + "'");
         PassContext context(*this, step);
         const DebugGroup group(i, step.name);
+        if (isFresh_) {
+            for (const std::size_t slot : step.keptBirths)
+                clearSlot(slot, {});
+        }
         if (poison_) poison(step);
         timer.beginPass(i);
         for (const graph::Step::Clear& clear : step.clears)
@@ -193,6 +202,7 @@ bool Executor::runFrame(PassTimer& timer, const std::function<bool(std::size_t)>
         if (debugs) context_.check();
     }
     timer.endFrame();
+    isFresh_ = false;
     context_.check();
     return true;
 }

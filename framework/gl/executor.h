@@ -44,6 +44,8 @@ class PassContext : public graph::ExecuteContext {
 
     // For Command.
     [[nodiscard]] const std::string& passName() const { return step_.name; }
+    [[nodiscard]] const std::vector<graph::Binding>& bindings() const { return step_.bindings; }
+    [[nodiscard]] const Globals& globals() const;
     [[nodiscard]] Access access(const graph::ResourceRef& handle, Use use) const;
     [[nodiscard]] const Texture& textureOf(const Access& access) const;
     [[nodiscard]] const Buffer& bufferOf(const Access& access) const;
@@ -66,6 +68,9 @@ class Executor {
     // Throws DeviceError when the device has no memory for it.
     void prepare(graph::Compiled compiled);
     [[nodiscard]] const graph::Compiled& compiled() const { return compiled_; }
+
+    // What every command may use from now on.
+    void bindToAll(Globals globals) { globals_ = std::move(globals); }
 
     // Fills every texture with NaN and every buffer with all-ones bits before its first writer
     // runs, so that a test sees who reads what nobody wrote.
@@ -95,12 +100,14 @@ class Executor {
 
     Context& context_;
     ProgramCache& programs_;
+    Globals globals_;
     graph::Compiled compiled_;
     std::vector<Physical> slots_;
     Barriers barriers_;
     std::map<std::vector<std::tuple<GLuint, int, bool>>, FramebufferObject> framebuffers_;
     VertexArrayObject emptyVertexArray_;
     bool poison_ = false;
+    bool isFresh_ = true;  // no frame has been run since prepare()
 };
 
 }  // namespace kaustik::gl

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "framework/gl/objects.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
+
+#include "framework/core/error.h"
 
 namespace kaustik::gl {
 namespace detail {
@@ -45,6 +50,8 @@ FormatInfo formatInfo(graph::Format format) {
             return {GL_RGBA8, GL_RGBA, GL_FLOAT, 4, false};
         case Format::r32ui:
             return {GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 1, true};
+        case Format::rgba32ui:
+            return {GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT, 4, true};
         case Format::depth32f:
             return {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 1, false};
     }
@@ -85,8 +92,11 @@ Texture::Texture(const graph::TextureDesc& desc, const std::string& label, bool 
 void Texture::clear(const graph::ClearValue& value) const {
     const FormatInfo info = formatInfo(desc_.format);
     if (info.isInteger) {
-        const auto integer = static_cast<std::uint32_t>(value[0]);
-        glClearTexImage(id(), 0, info.format, info.type, &integer);
+        // What is not a number sets every bit.
+        const auto whole = [](float v) { return v >= 0.0f ? static_cast<std::uint32_t>(v) : ~0u; };
+        const std::array<std::uint32_t, 4> integers = {whole(value[0]), whole(value[1]),
+                                                       whole(value[2]), whole(value[3])};
+        glClearTexImage(id(), 0, info.format, info.type, integers.data());
     } else {
         glClearTexImage(id(), 0, info.format, info.type, value.data());
     }
@@ -118,9 +128,7 @@ std::vector<float> Texture::read() const {
     glPixelStorei(GL_PACK_ALIGNMENT, 4);
     std::vector<float> values(count);
     if (info.isInteger) {
-        std::vector<std::uint32_t> integers(count);
-        glGetTextureImage(id(), 0, info.format, info.type,
-                          static_cast<GLsizei>(count * sizeof(std::uint32_t)), integers.data());
+        const std::vector<std::uint32_t> integers = readWords();
         std::transform(integers.begin(), integers.end(), values.begin(),
                        [](std::uint32_t v) { return static_cast<float>(v); });
     } else {
@@ -128,6 +136,22 @@ std::vector<float> Texture::read() const {
                           static_cast<GLsizei>(count * sizeof(float)), values.data());
     }
     return values;
+}
+
+std::vector<std::uint32_t> Texture::readWords() const {
+    const FormatInfo info = formatInfo(desc_.format);
+    if (!info.isInteger) {
+        throw GraphError(
+            fmt::format("A {} texture holds no whole numbers.", graph::formatName(desc_.format)));
+    }
+    const std::size_t texels = static_cast<std::size_t>(desc_.width) *
+                               static_cast<std::size_t>(desc_.height) *
+                               static_cast<std::size_t>(std::max(desc_.layers, 1));
+    std::vector<std::uint32_t> words(texels * static_cast<std::size_t>(info.channels));
+    glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
+    glGetTextureImage(id(), 0, info.format, info.type,
+                      static_cast<GLsizei>(words.size() * sizeof(std::uint32_t)), words.data());
+    return words;
 }
 
 Buffer::Buffer(std::size_t bytes, const void* data, const std::string& label)

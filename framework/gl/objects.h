@@ -77,6 +77,8 @@ class Texture {
     // All layers as floats (integers are converted), channels interleaved, bottom row first.
     // Waits for the device.
     [[nodiscard]] std::vector<float> read() const;
+    // The same of whole numbers, exactly; GraphError where the texture has none.
+    [[nodiscard]] std::vector<std::uint32_t> readWords() const;
 
   private:
     Object<detail::deleteTexture> object_;

@@ -180,9 +180,12 @@ Program::Program(const ProgramKey& key) : object_(glCreateProgram()) {
     glObjectLabel(GL_PROGRAM, id(), static_cast<GLsizei>(name_.size()), name_.c_str());
 }
 
+bool Program::declares(const std::string& name) const {
+    return words_.contains(name.substr(0, name.find_first_of("[.")));
+}
+
 void Program::requireDeclared(const std::string& name, const char* kind) const {
-    const std::string word = name.substr(0, name.find_first_of("[."));
-    if (!words_.contains(word)) {
+    if (!declares(name)) {
         throw ShaderError(fmt::format("{} has no {} '{}'.", name_, kind, name));
     }
 }

@@ -48,6 +48,8 @@ class Program {
     // The location of a uniform, -1 where the compiler has removed it. A name that the source does
     // not declare throws ShaderError: it is a mistake.
     [[nodiscard]] GLint uniform(const std::string& name);
+    // Whether the sources name it, so that the next three do not throw.
+    [[nodiscard]] bool declares(const std::string& name) const;
     // The index of a storage block, GL_INVALID_INDEX where removed; unknown names throw.
     [[nodiscard]] GLuint storageBlock(const std::string& name);
     [[nodiscard]] GLuint uniformBlock(const std::string& name);

@@ -199,6 +199,7 @@ void Graph::assignSlots(const Plan& plan, Compiled& compiled) const {
             compiledStep.execute = pass.execute;
             compiledStep.reads = pass.reads;
             compiledStep.outputs = pass.outputs;
+            compiledStep.bindings = pass.bindings;
         }
 
         std::size_t alive = 0;
@@ -219,6 +220,7 @@ void Graph::assignSlots(const Plan& plan, Compiled& compiled) const {
             freeAfter[slot] = lives[r].last;
             compiled.slotOfResource[r] = slot;
             compiledStep.births.push_back(slot);
+            if (lives[r].last == passOfStep.size()) compiledStep.keptBirths.push_back(slot);
         }
         compiled.peakBytes = std::max(compiled.peakBytes, alive);
         if (bypassed) {

@@ -65,6 +65,21 @@ void PassSetup::bypass(const ResourceRef& output, ClearValue value) {
     graph_.passes_[pass_].bypasses.push_back({output, {}, value});
 }
 
+bool PassSetup::isOutput(const ResourceRef& handle) const {
+    const std::vector<ResourceRef>& outputs = graph_.passes_[pass_].outputs;
+    return std::find(outputs.begin(), outputs.end(), handle) != outputs.end();
+}
+
+void PassSetup::bind(const std::string& name, const ResourceRef& handle, BindAs as) {
+    Graph::Pass& pass = graph_.passes_[pass_];
+    for (const Binding& other : pass.bindings) {
+        if (other.name != name || other.handle == handle) continue;
+        graph_.problems_.push_back(
+            fmt::format("pass '{}' binds two resources as '{}'", pass.info.name, name));
+    }
+    pass.bindings.push_back({name, handle, as});
+}
+
 void PassSetup::sideEffect() {
     graph_.passes_[pass_].hasSideEffect = true;
 }

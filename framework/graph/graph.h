@@ -39,6 +39,14 @@ struct PassRecord {
     std::string bypass;
 };
 
+// A resource under the name that shaders have for it: every command of the pass binds it.
+enum class BindAs { sampler, image, storage };
+struct Binding {
+    std::string name;
+    ResourceRef handle;
+    BindAs as;
+};
+
 class Graph;
 
 // What a setup function is handed: the declarations of one pass.
@@ -73,6 +81,27 @@ class PassSetup {
         static_cast<ResourceRef&>(next) = writeResource(handle);
         return next;
     }
+    // Binding is declaring: these say what the pass does with a resource and under which name its
+    // shaders know it, so that no command has to. A sampler is read; an image or a storage block
+    // is what this pass has created or written, or else is only read.
+    template <class Content>
+    Texture<Content> sample(const std::string& name, const Texture<Content>& handle) {
+        readResource(handle);
+        bind(name, handle, BindAs::sampler);
+        return handle;
+    }
+    template <class Content>
+    Texture<Content> image(const std::string& name, const Texture<Content>& handle) {
+        if (!isOutput(handle)) readResource(handle);
+        bind(name, handle, BindAs::image);
+        return handle;
+    }
+    template <class Content>
+    Buffer<Content> storage(const std::string& name, const Buffer<Content>& handle) {
+        if (!isOutput(handle)) readResource(handle);
+        bind(name, handle, BindAs::storage);
+        return handle;
+    }
     // When this pass is disabled, readers of `output` get `input` instead, or `value` everywhere.
     // A pass that leaves an output without either is required.
     template <class Handle>
@@ -91,6 +120,8 @@ class PassSetup {
     void readResource(const ResourceRef& handle);
     ResourceRef writeResource(const ResourceRef& handle);
     void bypassForward(const ResourceRef& output, const ResourceRef& input);
+    [[nodiscard]] bool isOutput(const ResourceRef& handle) const;
+    void bind(const std::string& name, const ResourceRef& handle, BindAs as);
 
     Graph& graph_;
     std::size_t pass_;
@@ -108,12 +139,16 @@ struct Step {
     // What the pass has declared, and so may use.
     std::vector<ResourceRef> reads;
     std::vector<ResourceRef> outputs;
+    std::vector<Binding> bindings;
     struct Clear {
         std::size_t slot;
         ClearValue value;
     };
     std::vector<Clear> clears;        // neutral outputs of a bypassed pass
     std::vector<std::size_t> births;  // slots whose contents are undefined before this step
+    // Of those the ones that live to the end: before the first frame they are zeros, so that what
+    // a pass leaves unwritten, the rest of a list's texture, is.
+    std::vector<std::size_t> keptBirths;
 };
 
 struct Compiled {
@@ -215,6 +250,7 @@ class Graph {
         PassInfo info;
         std::vector<ResourceRef> reads;
         std::vector<ResourceRef> outputs;  // created (version 0) or written (version + 1)
+        std::vector<Binding> bindings;
         std::vector<Bypass> bypasses;
         bool hasSideEffect = false;
         bool isLeftOut = false;

@@ -14,6 +14,7 @@ std::size_t bytesPerTexel(Format format) {
         case Format::rgba16f:
             return 8;
         case Format::rgba32f:
+        case Format::rgba32ui:
             return 16;
     }
     return 0;
@@ -33,6 +34,8 @@ const char* formatName(Format format) {
             return "RGBA8";
         case Format::r32ui:
             return "R32UI";
+        case Format::rgba32ui:
+            return "RGBA32UI";
         case Format::depth32f:
             return "DEPTH32F";
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which photons landed at a pixel, and the ways that they came: read from the records of every
+// Which photons landed at a pixel, and the paths that they came: read from the records of every
 // tracing of a frame that was rendered for Purpose::audit.
 #pragma once
 
@@ -11,7 +11,7 @@
 namespace kaustik::gui {
 
 struct PhotonPath {
-    glm::ivec2 photon{0};  // its texel of the last tracing's transfer map
+    transport::PhotonOrigin origin{};
     // Eye view space, m: a point of the light's way before the first surface, each interaction,
     // and where it landed.
     std::vector<glm::vec3> points;

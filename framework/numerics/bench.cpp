@@ -6,6 +6,7 @@
 
 #include "framework/numerics/frame.h"
 #include "framework/pipeline/frame_builder.h"
+#include "framework/pipeline/photon_texels.h"
 #include "framework/scene/dielectrics.h"
 
 namespace kaustik::numerics {
@@ -58,41 +59,23 @@ Batch makeBatch(const scene::Scene& scene, const std::vector<BenchPhoton>& photo
 
 Hits inject(FrameBuilder& frame, const Batch& batch) {
     const gl::Buffer& list = frame.keep(gl::Buffer(batch.photons, "injected photons"));
-    struct Data {
-        Hits hits;
-    };
-    return frame
-        .pass<Data>(
-            "bench.inject", "the case makes its photons up",
-            [&](graph::PassSetup& setup, Data& data) {
-                const int w = batch.width;
-                const int h = batch.height;
-                data.hits.position = setup.create<HitPosition>("hits.position", w, h);
-                data.hits.surface = setup.create<HitSurface>("hits.surface", w, h);
-                data.hits.flux = setup.create<HitFlux>("hits.flux", w, h);
-                Photons& photons = data.hits.incoming;
-                photons.position = setup.create<PhotonPosition>("photons.position", w, h);
-                photons.direction = setup.create<PhotonDirection>("photons.direction", w, h);
-                photons.flux = setup.create<PhotonFlux>("photons.flux", w, h);
-                photons.ledger =
-                    setup.createBuffer<transport::LedgerEntry>("ledger", transport::kAccountCount);
-                photons.width = w;
-                photons.height = h;
-            },
-            [&list](const Data& data, gl::PassContext& context) {
-                const Photons& photons = data.hits.incoming;
-                context.buffer(photons.ledger).clear();
-                context.compute("numerics/inject.comp")
-                    .storage("Photons", list)
-                    .image("photonPosition", photons.position)
-                    .image("photonDirection", photons.direction)
-                    .image("photonFlux", photons.flux)
-                    .image("hitPosition", data.hits.position)
-                    .image("hitSurface", data.hits.surface)
-                    .image("hitFlux", data.hits.flux)
-                    .dispatchOver(photons.count(), 64);
-            })
-        .hits;
+    return frame.pass<Hits>(
+        "bench.inject", "the case makes its photons up",
+        [&](graph::PassSetup& setup, Hits& hits) {
+            Photons photons = Photons::create(setup, batch.width, batch.height, "");
+            photons.ledger =
+                setup.createBuffer<transport::LedgerEntry>("ledger", transport::kAccountCount);
+            photons.store(setup, "next", "NextPhotons");
+            hits = Hits::create(setup, photons);
+            hits.store(setup);
+        },
+        [&list](const Hits& hits, gl::PassContext& context) {
+            context.buffer(hits.incoming.ledger).clear();
+            fillList(context, hits.incoming);
+            context.compute("numerics/inject.comp")
+                .storage("InjectedPhotons", list)
+                .dispatchOver(hits.incoming.capacity(), 64);
+        });
 }
 
 // Stands for the stages that the bench leaves out.
@@ -119,6 +102,12 @@ Nothing addNothing(FrameBuilder& frame, const Ledger& ledger) {
         });
 }
 
+// Keeps a list to the end of the frame, so that it can be read back.
+Photons keepPhotons(FrameBuilder& frame, const Photons& photons) {
+    frame.request(photons);
+    return photons;
+}
+
 Frame renderBench(Lab& lab, const Lab::Choice& choice, const scene::Scene& scene,
                   const Settings& settings, BenchSize size, BuildFrame build) {
     Technique technique = lab.registry().findTechnique(choice.technique);
@@ -131,26 +120,25 @@ Frame renderBench(Lab& lab, const Lab::Choice& choice, const scene::Scene& scene
     return lab.render(technique, scene, request);
 }
 
-Texels readTransferMap(const Frame& frame, const graph::ResourceRef& handle) {
-    return frame.read(handle);
-}
-
-std::vector<BenchHit> readHits(const Frame& frame, std::size_t count, const graph::ResourceRef& a,
-                               const graph::ResourceRef& b, const graph::ResourceRef& c) {
-    const Texels position = readTransferMap(frame, a);
-    const Texels surface = readTransferMap(frame, b);
-    const Texels flux = readTransferMap(frame, c);
+// The case's photons and what became of them, in its own order; photons that are in no list any
+// more are of fate kFateEnded.
+std::vector<BenchHit> benchHits(const Frame& frame, const Hits& found, std::size_t count) {
+    const std::vector<PhotonTexel> photons = readPhotons(frame.renderer(), found.incoming);
+    const std::vector<HitTexel> texels = readHits(frame.renderer(), found);
     const glm::dmat3 back(glm::transpose(glm::dmat3(frame.view().worldToView)));
     std::vector<BenchHit> hits(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        const int x = static_cast<int>(i) % position.width;
-        const int y = static_cast<int>(i) / position.width;
-        hits[i].position = frame.toWorld(position.rgb(x, y));
-        hits[i].distanceMeters = static_cast<double>(position.at(x, y, 3));
-        hits[i].normal = back * surface.rgb(x, y);
-        hits[i].material = static_cast<std::uint32_t>(surface.at(x, y, 3));
-        hits[i].fluxWatts = flux.rgb(x, y);
-        hits[i].fate = static_cast<std::uint32_t>(flux.at(x, y, 3));
+    for (std::size_t i = 0; i < photons.size(); ++i) {
+        const std::size_t cell = photons[i].origin.cell;
+        if (cell >= count) continue;
+        BenchHit& hit = hits[cell];
+        // Of photons that are there more than once the first one counts.
+        if (hit.fate != transport::kFateNone) continue;
+        hit.position = frame.toWorld(texels[i].position);
+        hit.distanceMeters = static_cast<double>(texels[i].distanceMeters);
+        hit.normal = back * glm::dvec3(texels[i].normal);
+        hit.material = texels[i].material;
+        hit.fluxWatts = texels[i].fluxWatts;
+        hit.fate = texels[i].fate;
     }
     return hits;
 }
@@ -172,8 +160,10 @@ Traced tracePhotons(Lab& lab, const Lab::Choice& tracer, const scene::Scene& sce
             const Geometry geometry = builder.run<GeometryStage>();
             const EyeBuffer eye = builder.run<EyeStage>(geometry);
             const LayeredDepth layers = builder.run<LayersStage>(geometry);
-            Hits hits = inject(builder, batch);
-            hits = builder.run<TraceStage>(hits.incoming, layers, hits);
+            Photons photons = inject(builder, batch).incoming;
+            photons.suffix = "_1";  // the case's own hits have the plain names
+            const Hits hits = builder.run<TraceStage>(photons, Surfaces{geometry, eye, layers});
+            builder.request(hits);
             const Nothing nothing = addNothing(builder, hits.incoming.ledger);
             return FrameOutputs{nothing.picture,
                                 nothing.caustic,
@@ -182,10 +172,10 @@ Traced tracePhotons(Lab& lab, const Lab::Choice& tracer, const scene::Scene& sce
                                 hits,
                                 nothing.caustic.ledger,
                                 {},
+                                {},
                                 {}};
         });
-    const Hits& hits = frame.renderer().outputs().hits;
-    return {readHits(frame, photons.size(), hits.position, hits.surface, hits.flux),
+    return {benchHits(frame, frame.renderer().outputs().hits, photons.size()),
             frame.renderer().ledger()};
 }
 
@@ -194,84 +184,64 @@ Traced interactPhotons(Lab& lab, const Lab::Choice& specular, const scene::Scene
                        std::vector<std::vector<std::uint32_t>>* media) {
     const Batch batch =
         makeBatch(scene, photons, transport::kFateInFlight, transport::kFateSpecular, BenchSize{});
-    const Frame frame = renderBench(lab, specular, scene, {}, {}, [&batch](FrameBuilder& builder) {
+    Photons after;
+    const Frame frame = renderBench(lab, specular, scene, {}, {}, [&](FrameBuilder& builder) {
         const Geometry geometry = builder.run<GeometryStage>();
         const EyeBuffer eye = builder.run<EyeStage>(geometry);
-        Hits hits = inject(builder, batch);
-        hits = builder.run<SpecularStage>(hits);
-        const Nothing nothing = addNothing(builder, hits.incoming.ledger);
+        after = keepPhotons(builder, builder.run<SpecularStage>(inject(builder, batch)));
+        const Nothing nothing = addNothing(builder, after.ledger);
         return FrameOutputs{
-            nothing.picture, nothing.caustic, eye, {}, hits, nothing.caustic.ledger, {}, {}};
+            nothing.picture, nothing.caustic, eye, {}, {}, nothing.caustic.ledger, {}, {}, {}};
     });
-    const Photons& after = frame.renderer().outputs().hits.incoming;
-    Traced result{readHits(frame, photons.size(), after.position, after.direction, after.flux),
-                  frame.renderer().ledger()};
-    // A photon's texels hold its fate and media where a hit's hold material and fate.
+    const glm::dmat3 back(glm::transpose(glm::dmat3(frame.view().worldToView)));
     const scene::Dielectrics dielectrics = numberDielectrics(scene);
-    for (BenchHit& hit : result.hits) {
-        if (media != nullptr) media->push_back(unpackMedia(dielectrics, hit.fate));
-        hit.fate = hit.material;
-        hit.material = 0;
+    Traced result{std::vector<BenchHit>(photons.size()), frame.renderer().ledger()};
+    std::vector<std::uint32_t> mediaOf(photons.size(), 0);
+    for (BenchHit& hit : result.hits)
+        hit.fate = transport::kFateEnded;
+    for (const PhotonTexel& photon : readPhotons(frame.renderer(), after)) {
+        // The way that a node takes first; the other branch of a split comes after it.
+        if (photon.origin.cell >= photons.size()) continue;
+        BenchHit& hit = result.hits[photon.origin.cell];
+        if (hit.fate != transport::kFateEnded) continue;
+        hit.position = frame.toWorld(photon.position);
+        hit.distanceMeters = static_cast<double>(photon.footprintMeters);
+        hit.normal = back * glm::dvec3(photon.direction);
+        hit.fluxWatts = photon.fluxWatts;
+        hit.fate = photon.fate;
+        mediaOf[photon.origin.cell] = photon.media;
+    }
+    if (media != nullptr) {
+        for (const std::uint32_t one : mediaOf)
+            media->push_back(unpackMedia(dielectrics, one));
     }
     return result;
 }
 
 namespace {
 
-// Copies of the handles' texels as they are at this point of the frame.
-struct Snapshot {
-    graph::Texture<PhotonPosition> position;
-    graph::Texture<PhotonDirection> direction;
-    graph::Texture<PhotonFlux> flux;
-};
-Snapshot snapshot(FrameBuilder& frame, const Photons& photons, const std::string& suffix) {
-    struct Data : Snapshot {
-        Photons photons;
-    };
-    return frame.pass<Data>(
-        "bench.snapshot", "what a case looks at before it is overwritten",
-        [&](graph::PassSetup& setup, Data& data) {
-            data.photons = photons;
-            setup.read(photons.position);
-            setup.read(photons.direction);
-            setup.read(photons.flux);
-            const int w = photons.width;
-            const int h = photons.height;
-            data.position = setup.create<PhotonPosition>("bench.position" + suffix, w, h);
-            data.direction = setup.create<PhotonDirection>("bench.direction" + suffix, w, h);
-            data.flux = setup.create<PhotonFlux>("bench.flux" + suffix, w, h);
-        },
-        [](const Data& data, gl::PassContext& context) {
-            const auto copy = [&](const graph::ResourceRef& from, const graph::ResourceRef& to) {
-                glCopyImageSubData(context.texture(from).id(), GL_TEXTURE_2D, 0, 0, 0, 0,
-                                   context.texture(to).id(), GL_TEXTURE_2D, 0, 0, 0, 0,
-                                   data.photons.width, data.photons.height, 1);
-            };
-            copy(data.photons.position, data.position);
-            copy(data.photons.direction, data.direction);
-            copy(data.photons.flux, data.flux);
-        });
-}
-
-Emitted readEmitted(const Frame& frame, const std::string& suffix) {
-    const Texels position = frame.read("bench.position" + suffix);
-    const Texels direction = frame.read("bench.direction" + suffix);
-    const Texels flux = frame.read("bench.flux" + suffix);
+// By the cells of the light's grid, of which emission fills every one.
+Emitted emittedOf(const Frame& frame, const Photons& photons, std::size_t cells) {
     const glm::dmat3 back(glm::transpose(glm::dmat3(frame.view().worldToView)));
     const scene::Dielectrics dielectrics = numberDielectrics(frame.renderer().scene());
     Emitted emitted;
-    for (int y = 0; y < position.height; ++y) {
-        for (int x = 0; x < position.width; ++x) {
-            BenchHit hit;
-            hit.position = frame.toWorld(position.rgb(x, y));
-            hit.distanceMeters = 0.0;
-            hit.fluxWatts = flux.rgb(x, y);
-            hit.fate = static_cast<std::uint32_t>(direction.at(x, y, 3));
-            emitted.hits.push_back(hit);
-            emitted.directions.push_back(back * direction.rgb(x, y));
-            emitted.media.push_back(
-                unpackMedia(dielectrics, static_cast<std::uint32_t>(flux.at(x, y, 3))));
-        }
+    emitted.hits.resize(cells);
+    emitted.directions.resize(cells);
+    emitted.media.resize(cells);
+    // The lights' grids follow one another.
+    const std::size_t lights = std::max<std::size_t>(frame.renderer().scene().lights.size(), 1);
+    for (const PhotonTexel& photon : readPhotons(frame.renderer(), photons)) {
+        const std::size_t cell = photon.origin.light * (cells / lights) + photon.origin.cell;
+        if (photon.fate == transport::kFateNone) continue;
+        BenchHit& hit = emitted.hits[cell];
+        // The branch that a node takes first; the other one of a split comes after it.
+        if (hit.fate != transport::kFateNone) continue;
+        hit.position = frame.toWorld(photon.position);
+        hit.distanceMeters = 0.0;
+        hit.fluxWatts = photon.fluxWatts;
+        hit.fate = photon.fate;
+        emitted.directions[cell] = back * glm::dvec3(photon.direction);
+        emitted.media[cell] = unpackMedia(dielectrics, photon.media);
     }
     return emitted;
 }
@@ -280,24 +250,21 @@ Emitted readEmitted(const Frame& frame, const std::string& suffix) {
 
 Bent emitAndInteract(Lab& lab, const Lab::Choice& emitter, const scene::Scene& scene,
                      const Settings& settings) {
-    const Frame frame = renderBench(lab, emitter, scene, settings, {}, [](FrameBuilder& builder) {
+    Photons before;
+    Photons after;
+    const Frame frame = renderBench(lab, emitter, scene, settings, {}, [&](FrameBuilder& builder) {
         const Geometry geometry = builder.run<GeometryStage>();
         const EyeBuffer eye = builder.run<EyeStage>(geometry);
-        Hits hits = builder.run<EmitStage>(geometry);
-        static_cast<void>(snapshot(builder, hits.incoming, "_before"));
-        hits = builder.run<SpecularStage>(hits);
-        static_cast<void>(snapshot(builder, hits.incoming, "_after"));
-        const Nothing nothing = addNothing(builder, hits.incoming.ledger);
-        return FrameOutputs{nothing.picture,
-                            nothing.caustic,
-                            eye,
-                            LayeredDepth{},
-                            hits,
-                            nothing.caustic.ledger,
-                            {},
-                            {}};
+        const Hits hits = builder.run<EmitStage>(Surfaces{geometry, eye, {}});
+        before = keepPhotons(builder, hits.incoming);
+        after = keepPhotons(builder, builder.run<SpecularStage>(hits));
+        const Nothing nothing = addNothing(builder, after.ledger);
+        return FrameOutputs{
+            nothing.picture, nothing.caustic, eye, {}, {}, nothing.caustic.ledger, {}, {}, {}};
     });
-    return {readEmitted(frame, "_before"), readEmitted(frame, "_after"), frame.renderer().ledger()};
+    const auto cells = static_cast<std::size_t>(before.capacity());
+    return {emittedOf(frame, before, cells), emittedOf(frame, after, cells),
+            frame.renderer().ledger()};
 }
 
 Emitted emitPhotons(Lab& lab, const Lab::Choice& emitter, const scene::Scene& scene,
@@ -314,9 +281,11 @@ Frame reconstructHits(Lab& lab, const Lab::Choice& reconstruct, const scene::Sce
         const Geometry geometry = builder.run<GeometryStage>();
         const EyeBuffer eye = builder.run<EyeStage>(geometry);
         const Hits hits = inject(builder, batch);
-        const IrradianceMap caustic = builder.run<ReconstructStage>(hits, eye);
+        const Surfaces surfaces{geometry, eye, {}};
+        const CausticMap map = builder.run<ReconstructStage>(hits, surfaces, CausticMap{});
+        const IrradianceMap caustic = builder.run<GatherStage>(map, surfaces);
         const Nothing nothing = addNothing(builder, caustic.ledger);
-        return FrameOutputs{nothing.picture, caustic, eye, {}, hits, caustic.ledger, {}, {}};
+        return FrameOutputs{nothing.picture, caustic, eye, {}, hits, caustic.ledger, {}, {}, map};
     });
 }
 
@@ -337,7 +306,7 @@ Frame scatterPhotons(Lab& lab, const Lab::Choice& media, const scene::Scene& sce
         const InScattered scattered = builder.run<MediaStage>(hits, eye, InScattered{});
         const Nothing nothing = addNothing(builder, hits.incoming.ledger);
         return FrameOutputs{nothing.picture,        nothing.caustic, eye, {}, hits,
-                            nothing.caustic.ledger, scattered,       {}};
+                            nothing.caustic.ledger, scattered,       {},  {}};
     });
 }
 

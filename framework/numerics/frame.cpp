@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -10,6 +11,11 @@
 #include "framework/scene/scene_file.h"
 
 namespace kaustik::numerics {
+namespace {
+
+const std::string kListName = "photons.list";
+
+}  // namespace
 
 scene::Scene sceneFromText(const std::string& toml) {
     const std::filesystem::path file = std::filesystem::temp_directory_path() /
@@ -43,12 +49,16 @@ Frame::Frame(gl::Context& context, const Registry& registry, const scene::Scene&
     render.width = request.width;
     render.height = request.height;
     renderer_ = std::make_unique<Renderer>(context, registry, scene, std::move(render));
+    const Purpose purpose = request.recordsTraces ? Purpose::audit : Purpose::measurement;
     std::vector<std::string> kept = request.saved;
     if (request.keepsAll) {
-        static_cast<void>(renderer_->compile(Purpose::measurement));
+        static_cast<void>(renderer_->compile(purpose));
         kept = textureNames();
+        for (const std::string& name : renderer_->graph().resourceNames()) {
+            if (name.starts_with(kListName)) kept.push_back(name);
+        }
     }
-    renderer_->build(Purpose::measurement, kept);
+    renderer_->build(purpose, kept);
     renderer_->executor().poisonTransients(request.poison);
     gl::PassTimer timer(gl::TimerMode::finish);
     renderer_->renderFrame(timer);
@@ -82,10 +92,19 @@ std::vector<std::string> Frame::textureNames() const {
 }
 
 std::size_t Frame::countNotFinite(const std::string& texture) const {
-    std::size_t count = 0;
-    for (const float value : renderer_->texture(renderer_->graph().find(texture)).read())
-        count += std::isfinite(value) ? 0 : 1;
-    return count;
+    const graph::Graph& graph = renderer_->graph();
+    std::vector<float> values = renderer_->texture(graph.find(texture)).read();
+    // What lies beyond a list of photons nobody writes, or reads.
+    for (const char* listed : {"photons.", "hits."}) {
+        if (!texture.starts_with(listed)) continue;
+        const graph::ResourceRef list =
+            graph.find(kListName + texture.substr(std::min(texture.find('_'), texture.size())));
+        if (!list.valid()) continue;
+        const auto count = renderer_->buffer(list).read<transport::PhotonList>().front().count;
+        values.resize(std::min<std::size_t>(values.size(), 4 * std::size_t{count}));
+    }
+    return static_cast<std::size_t>(std::count_if(
+        values.begin(), values.end(), [](float value) { return !std::isfinite(value); }));
 }
 
 glm::dvec3 Frame::toWorld(const glm::dvec3& positionVs) const {

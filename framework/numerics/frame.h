@@ -43,6 +43,8 @@ struct FrameRequest {
     bool keepsAll = false;
     // Memory starts as NaN, so that whoever reads what nobody wrote shows.
     bool poison = false;
+    // Renders for Purpose::audit: the renderer has records of all tracings.
+    bool recordsTraces = false;
 };
 
 class Frame {
@@ -59,7 +61,8 @@ class Frame {
 
     // The names of all textures of the graph.
     [[nodiscard]] std::vector<std::string> textureNames() const;
-    // How many values of a texture, in all its layers, are not finite.
+    // How many values of a texture, in all its layers, are not finite; of a list's texture those
+    // that it holds, and its list must have been kept.
     [[nodiscard]] std::size_t countNotFinite(const std::string& texture) const;
 
     // World position that a pixel centre sees at a view depth.

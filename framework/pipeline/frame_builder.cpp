@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "framework/pipeline/frame_builder.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cstddef>
 
 #include "framework/pipeline/stage_params.h"
+#include "framework/transport/photon_list.h"
 
 namespace kaustik {
 
@@ -16,13 +20,44 @@ int FrameBuilder::runsOf(const std::string& stage) const {
     return static_cast<int>(std::count(stagesRun_.begin(), stagesRun_.end(), stage));
 }
 
-gl::Command& FrameInputs::bindView(gl::Command& command) const {
-    return command.uniforms("View", viewBlock);
+Hits FrameBuilder::recorded(const TraceStage::Build& build, const Photons& photons,
+                            const Surfaces& surfaces) {
+    const std::string name = fmt::format("audit.ledger_{}", runsOf(TraceStage::name));
+    TraceRecord record;
+    record.before = copyLedger(*this, photons.ledger, name + "_before");
+    record.hits = build(*this, photons, surfaces);
+    record.after = copyLedger(*this, record.hits.incoming.ledger, name + "_after");
+    traces_.push_back(record);
+    return record.hits;
 }
 
-gl::Command& FrameInputs::bindLedger(gl::Command& command, const Ledger& ledger) const {
-    return command.storage("LedgerEntries", ledger)
-        .set("ledgerUnitsPerWatt", 1.0f / ledgerQuantumWatts);
+void FrameBuilder::request(const Photons& photons) {
+    for (const graph::ResourceRef& handle : std::initializer_list<graph::ResourceRef>{
+             photons.position, photons.direction, photons.flux, photons.origin, photons.list}) {
+        graph_.request(handle);
+    }
+}
+
+void FrameBuilder::request(const Hits& hits) {
+    for (const graph::ResourceRef& handle :
+         std::initializer_list<graph::ResourceRef>{hits.position, hits.surface, hits.flux}) {
+        graph_.request(handle);
+    }
+    request(hits.incoming);
+}
+
+void dispatchOver(gl::Command& command, const Photons& photons) {
+    command.dispatchIndirect(photons.list, offsetof(transport::PhotonList, groupsX));
+}
+
+void drawOver(gl::Command& command) {
+    command.drawArrays(GL_TRIANGLE_STRIP, 4);
+}
+
+void fillList(gl::PassContext& context, const Photons& photons) {
+    const transport::PhotonList list = transport::photonListOf(
+        static_cast<unsigned>(photons.capacity()), static_cast<unsigned>(photons.width));
+    context.buffer(photons.list).upload(0, sizeof(list), &list);
 }
 
 namespace {
@@ -47,8 +82,9 @@ std::string whyNoCaustic(const FrameBuilder& frame) {
 
 // Irradiance of zero and an empty ledger, in place of all that follows photons.
 IrradianceMap leaveOutCaustic(FrameBuilder& frame, const std::string& why) {
-    for (const char* stage : {EmitStage::name, SpecularStage::name, TraceStage::name,
-                              MediaStage::name, BlurStage::name, ReconstructStage::name}) {
+    for (const char* stage :
+         {EmitStage::name, SpecularStage::name, TraceStage::name, MediaStage::name, BlurStage::name,
+          ReconstructStage::name, GatherStage::name}) {
         const std::string node = frame.chosenNode(stage).name;
         frame.leaveOut(std::string(stage) + "." + node, why);
     }
@@ -67,23 +103,28 @@ IrradianceMap leaveOutCaustic(FrameBuilder& frame, const std::string& why) {
 }
 
 struct Caustic {
-    Hits hits;
-    IrradianceMap map;
+    Hits hits;  // of the last tracing
+    CausticMap map;
     InScattered inScattered;
 };
 
-Caustic followPhotons(FrameBuilder& frame, const Geometry& geometry, const EyeBuffer& eye,
-                      const LayeredDepth& layers) {
+// From interaction to interaction: what arrives is deposited at once, and what meets another
+// specular surface is the next list.
+Caustic followPhotons(FrameBuilder& frame, const Surfaces& surfaces) {
     const bool scatters = frame.needs().scatteringMedium;
     Caustic caustic;
-    caustic.hits = frame.run<EmitStage>(geometry);
+    caustic.hits = frame.run<EmitStage>(surfaces);
     int interactions = 1;
     for (int i = 0; i < interactions; ++i) {
-        const Hits meeting = frame.run<SpecularStage>(caustic.hits);
-        interactions = interactionCount(frame, meeting.incoming.paths);
-        caustic.hits = frame.run<TraceStage>(meeting.incoming, layers, meeting);
-        if (scatters)
-            caustic.inScattered = frame.run<MediaStage>(caustic.hits, eye, caustic.inScattered);
+        const Photons photons = frame.run<SpecularStage>(caustic.hits);
+        interactions = interactionCount(frame, photons.paths);
+        caustic.hits = frame.run<TraceStage>(photons, surfaces);
+        caustic.map = frame.run<ReconstructStage>(caustic.hits, surfaces, caustic.map);
+        caustic.hits.incoming.ledger = caustic.map.ledger;
+        if (scatters) {
+            caustic.inScattered =
+                frame.run<MediaStage>(caustic.hits, surfaces.eye, caustic.inScattered);
+        }
     }
     if (scatters) {
         caustic.inScattered = frame.run<BlurStage>(caustic.inScattered);
@@ -93,7 +134,6 @@ Caustic followPhotons(FrameBuilder& frame, const Geometry& geometry, const EyeBu
                            "the scene has no medium that scatters");
         }
     }
-    caustic.map = frame.run<ReconstructStage>(caustic.hits, eye);
     return caustic;
 }
 
@@ -105,22 +145,26 @@ FrameOutputs buildFrame(FrameBuilder& frame) {
     const LayeredDepth layers = frame.run<LayersStage>(geometry);
     const Shadows shadows = frame.run<ShadowStage>(geometry, eye, layers);
     const std::string whyNot = whyNoCaustic(frame);
+    const Surfaces surfaces{geometry, eye, layers};
     Caustic caustic;
+    IrradianceMap irradiance;
     if (whyNot.empty()) {
-        caustic = followPhotons(frame, geometry, eye, layers);
+        caustic = followPhotons(frame, surfaces);
+        irradiance = frame.run<GatherStage>(caustic.map, surfaces);
     } else {
-        caustic.map = leaveOutCaustic(frame, whyNot);
+        irradiance = leaveOutCaustic(frame, whyNot);
     }
     const Picture picture = frame.run<ComposeStage>(
-        geometry, eye, layers, LightParts{shadows, caustic.map, caustic.inScattered});
+        geometry, eye, layers, LightParts{shadows, irradiance, caustic.inScattered});
     return {picture,
-            caustic.map,
+            irradiance,
             eye,
             whyNot.empty() ? layers : LayeredDepth{},
             caustic.hits,
-            caustic.map.ledger,
+            irradiance.ledger,
             caustic.inScattered,
-            shadows};
+            shadows,
+            caustic.map};
 }
 
 }  // namespace kaustik

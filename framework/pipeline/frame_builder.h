@@ -32,11 +32,18 @@ struct FrameInputs {
     // Watts that one unit of the ledger stands for, a power of two.
     float ledgerQuantumWatts;
     const std::uint64_t& seed;  // of whatever a node draws at random
-
-    // Bind what common/view.glsl and common/ledger.glsl declare.
-    gl::Command& bindView(gl::Command& command) const;
-    gl::Command& bindLedger(gl::Command& command, const Ledger& ledger) const;
 };
+
+// Issues a compute thread a photon of the list: shaders include common/photon_thread.glsl.
+void dispatchOver(gl::Command& command, const Photons& photons);
+inline void dispatchOver(gl::Command&& command, const Photons& photons) {
+    dispatchOver(command, photons);
+}
+// Draws a fragment a photon of the list; the targets are of the list's size. The command starts
+// with common/photon_rows.vert.
+void drawOver(gl::Command& command);
+// A list that fills its textures, in every texel a photon or nobody.
+void fillList(gl::PassContext& context, const Photons& photons);
 
 class FrameBuilder {
   public:
@@ -54,11 +61,10 @@ class FrameBuilder {
     typename Stage::Output run(In... in) {
         const Registry::Node& node = chosenNode(Stage::name);
         const auto& build = *static_cast<const typename Stage::Build*>(node.build.get());
-        typename Stage::Output output = build(*this, std::move(in)...);
         if constexpr (std::is_same_v<Stage, TraceStage>) {
-            if (recordsTraces_ && prefix_.empty()) traces_.push_back(recordTrace(*this, output));
+            if (recordsTraces_ && prefix_.empty()) return recorded(build, std::move(in)...);
         }
-        return output;
+        return build(*this, std::move(in)...);
     }
     [[nodiscard]] const Registry::Node& chosenNode(const std::string& stage);
 
@@ -116,6 +122,10 @@ class FrameBuilder {
     [[nodiscard]] std::vector<std::shared_ptr<void>> takeKept() { return std::move(kept_); }
     [[nodiscard]] const std::vector<TraceRecord>& traces() const { return traces_; }
     [[nodiscard]] bool leavesOutCaustic() const { return leavesOutCaustic_; }
+    // Keeps a list, and hits, to the end of the frame for whoever reads them back
+    // (photon_texels.h).
+    void request(const Photons& photons);
+    void request(const Hits& hits);
     // For the report.
     void warn(std::string warning) { warnings_.push_back(std::move(warning)); }
     [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
@@ -132,6 +142,8 @@ class FrameBuilder {
     [[nodiscard]] int runsOf(const std::string& stage) const;
 
   private:
+    Hits recorded(const TraceStage::Build& build, const Photons& photons, const Surfaces& surfaces);
+
     graph::Graph& graph_;
     const FrameInputs& inputs_;
     std::vector<std::shared_ptr<void>> kept_;

@@ -56,36 +56,48 @@ float ledgerQuantum(const scene::Scene& scene) {
                                   : 4.0 * 3.14159265358979323846;
         total += power * spread;
     }
-    return static_cast<float>(std::exp2(std::ceil(std::log2(total)) - 50.0));
+    return static_cast<float>(std::exp2(std::ceil(std::log2(total)) - 60.0));
 }
 
-Ledger closeLedger(FrameBuilder& frame, const FrameOutputs& outputs) {
-    if (!outputs.hits.flux.valid()) return outputs.ledger;  // no photon was ever on its way
+namespace {
+
+// Of the map of flux, or of the photons that the last tracing has left on their way.
+Ledger close(FrameBuilder& frame, const FrameOutputs& outputs, const Ledger& ledger, bool sumsMap) {
     struct Data {
-        FrameOutputs outputs;
         Ledger ledger;
     };
+    const Photons& photons = outputs.hits.incoming;
     return frame
         .pass<Data>(
             "ledger.close", "the report accounts for every watt",
             [&](graph::PassSetup& setup, Data& data) {
-                data.outputs = outputs;
-                setup.read(outputs.caustic.irradiance);
-                setup.read(outputs.eye.receiver);
-                setup.read(outputs.hits.flux);
-                data.ledger = setup.write(outputs.ledger);
+                if (sumsMap) {
+                    setup.sample("fluxSums", outputs.map.flux);
+                } else {
+                    outputs.hits.sample(setup);
+                    photons.sample(setup);
+                }
+                data.ledger = setup.storage("LedgerEntries", setup.write(ledger));
             },
-            [&inputs = frame.inputs()](const Data& data, gl::PassContext& context) {
-                const Photons& photons = data.outputs.hits.incoming;
+            [sumsMap, photons, map = outputs.map.flux](const Data&, gl::PassContext& context) {
                 gl::Command command = context.compute("common/ledger_close.comp");
-                inputs.bindLedger(command, data.ledger)
-                    .texture("irradiance", data.outputs.caustic.irradiance)
-                    .texture("receiver", data.outputs.eye.receiver)
-                    .texture("hitFlux", data.outputs.hits.flux)
-                    .dispatchOver(std::max(inputs.view.width, photons.width), 8,
-                                  std::max(inputs.view.height, photons.height), 8);
+                if (!sumsMap) return dispatchOver(command, photons);
+                const graph::TextureDesc& desc = context.texture(map).desc();
+                constexpr int kRow = 32768;  // workgroups
+                const int groups = (desc.width * desc.height + 63) / 64;
+                command.define("SUMS_MAP")
+                    .dispatch(std::min(groups, kRow), (groups + kRow - 1) / kRow);
             })
         .ledger;
+}
+
+}  // namespace
+
+Ledger closeLedger(FrameBuilder& frame, const FrameOutputs& outputs) {
+    Ledger ledger = outputs.ledger;
+    if (outputs.map.flux.valid()) ledger = close(frame, outputs, ledger, true);
+    if (outputs.hits.flux.valid()) ledger = close(frame, outputs, ledger, false);
+    return ledger;
 }
 
 EnergyLedger readLedger(const gl::Buffer& buffer, float quantumWatts) {

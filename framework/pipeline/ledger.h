@@ -27,7 +27,7 @@ struct EnergyLedger {
 [[nodiscard]] const std::vector<std::pair<unsigned, std::string>>& lossCauses();
 
 // Watts of one channel that one unit of the ledger stands for: a power of two so small that the
-// flux of all lights fits into 2^50 units.
+// flux of all lights fits into 2^60 units: of 65536² photons each has 2^28.
 [[nodiscard]] float ledgerQuantum(const scene::Scene& scene);
 
 // Adds the pass that sums what was deposited and what was still on its way; gives the final ledger.

@@ -8,11 +8,12 @@
 #include <optional>
 #include <string>
 
-#include "framework/graph/resource.h"
+#include <vector>
+
+#include "framework/transport/stages.h"
 
 namespace kaustik::gl {
 class Executor;
-class Texture;
 }  // namespace kaustik::gl
 
 namespace kaustik {
@@ -29,15 +30,15 @@ struct ReachedLimit {
 struct NodeLimit {
     std::string pass;  // that keeps to the cap: where it did not run nothing was lost
     // What tells whether the cap was reached, something that the node makes anyway: kept to the end
-    // of a frame that is measured. Invalid where it is known beforehand.
-    graph::ResourceRef counted;
+    // of a frame that is measured. Empty where it is known beforehand.
+    std::vector<graph::ResourceRef> counted;
     // Asked after such a frame; may wait for the device.
     std::function<std::optional<ReachedLimit>(const gl::Executor&)> reached;
 };
 
-// How many texels of a transfer map's hits or photons have that fate, from a row on. `fated` is the
-// texture that holds it in its fourth channel: HitFlux or PhotonDirection. Waits for the device.
-[[nodiscard]] std::size_t countWithFate(const gl::Texture& fated, std::uint32_t fate,
-                                        int firstRow = 0);
+// How many hits of a list have that fate, from a share of it on: hits.flux and the list must have
+// been kept. Waits for the device.
+[[nodiscard]] std::size_t countHits(const gl::Executor& executor, const Hits& hits,
+                                    std::uint32_t fate, double fromShare = 0.0);
 
 }  // namespace kaustik

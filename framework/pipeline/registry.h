@@ -43,6 +43,7 @@ struct FrameOutputs {
     Ledger ledger;  // with everything but what was deposited
     InScattered inScattered;
     Shadows shadows;
+    CausticMap map;  // what was deposited; invalid where a technique stores no flux
 };
 
 using BuildFrame = std::function<FrameOutputs(FrameBuilder&)>;

@@ -106,7 +106,17 @@ Renderer::Renderer(gl::Context& context, const Registry& registry, const scene::
       inputs_{registry_,  settings_.params, gpuScene_,           needs_,        view_, viewBlock_,
               instances_, lights_,          ledgerQuantumWatts_, settings_.seed},
       executor_(context, programs_) {
+    bindToAll();
     context_.check();
+}
+
+// By the names of common/view.glsl, surface_data.glsl, lights.glsl, scene_images.glsl and
+// ledger.glsl.
+void Renderer::bindToAll() {
+    executor_.bindToAll({{{"View", &viewBlock_}},
+                         {{"Materials", &gpuScene_.materials()}, {"Lights", &lights_}},
+                         {{"sceneImages", &gpuScene_.images()}},
+                         {{"ledgerUnitsPerWatt", 1.0f / ledgerQuantumWatts_}}});
 }
 
 void Renderer::update(RenderSettings settings) {
@@ -119,6 +129,7 @@ void Renderer::update(RenderSettings settings) {
     needs_ = sceneNeeds(scene_);
     needs_.measuredDepthComplexity = measuredDepthComplexity;
     ledgerQuantumWatts_ = ledgerQuantum(scene_);
+    bindToAll();
     context_.check();
 }
 
@@ -191,7 +202,8 @@ graph::Compiled Renderer::keepLimits(const graph::Compiled& compiled,
             });
         if (!runs) continue;
         limits_.push_back(limit);
-        if (limit.counted.valid()) graph_->request(limit.counted);
+        for (const graph::ResourceRef& handle : limit.counted)
+            graph_->request(handle);
     }
     return graph_->compile();
 }
@@ -205,7 +217,7 @@ void Renderer::requestForAudit() {
         const Photons& photons = hits.incoming;
         for (const graph::ResourceRef& handle : std::initializer_list<graph::ResourceRef>{
                  hits.position, hits.surface, hits.flux, photons.position, photons.direction,
-                 photons.flux, photons.ledger}) {
+                 photons.flux, photons.origin, photons.list, trace.before, trace.after}) {
             request(handle);
         }
     }

@@ -98,6 +98,7 @@ class Renderer {
     [[nodiscard]] FrameBuilder declareFrame(bool recordsTraces = false,
                                             bool leavesOutCaustic = false);
 
+    void bindToAll();
     void requestForAudit();
     void requestExits();
     [[nodiscard]] graph::Compiled keepLimits(const graph::Compiled& compiled,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What one tracing of a frame was given and what it found, copied before the next one overwrites
-// it: what the photon audit looks at. Eye view space, m, W.
+// What one tracing of a frame was given and what it found: what the photon audit looks at. Eye view
+// space, m, W.
 #pragma once
 
 #include "framework/transport/stages.h"
@@ -10,12 +10,13 @@ namespace kaustik {
 class FrameBuilder;
 
 struct TraceRecord {
-    // Of `hits.incoming` those in flight were traced; their texels of `hits` are of this tracing,
-    // all others of an earlier one. The ledger is as it stood right after.
     Hits hits;
+    // Right before and after: what the tracer itself has booked lies between.
+    Ledger before;
+    Ledger after;
 };
 
-// Adds a pass, not part of any technique, that copies the newest versions of all handles.
-[[nodiscard]] TraceRecord recordTrace(FrameBuilder& frame, const Hits& hits);
+// Adds a pass, not part of any technique, that copies the ledger as it is at this point.
+[[nodiscard]] Ledger copyLedger(FrameBuilder& frame, const Ledger& ledger, const std::string& name);
 
 }  // namespace kaustik

@@ -313,10 +313,6 @@ void GpuScene::drawOne(gl::Command& command, const gl::PassContext& context,
         firstCommand + index, 1);
 }
 
-void GpuScene::bindMaterials(gl::Command& command) const {
-    command.storage("Materials", materials_).texture("sceneImages", images_);
-}
-
 std::size_t GpuScene::bytes() const {
     return vertices_.bytes() + indices_.bytes() + commands_.bytes() + materials_.bytes() +
            images_.desc().bytes();

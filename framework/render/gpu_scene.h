@@ -48,7 +48,6 @@ class GpuScene {
     [[nodiscard]] std::size_t commandCount() const { return commandCount_; }
     [[nodiscard]] std::size_t heightFieldVertexCount() const { return heightFieldVertexCount_; }
     // Materials, images and lights that every surface shader reads.
-    void bindMaterials(gl::Command& command) const;
 
     // One height field: where its vertices lie, in the order of the scene's objects' meshes.
     struct HeightFieldRange {

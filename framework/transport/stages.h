@@ -5,7 +5,9 @@
 
 #include <functional>
 
-#include "framework/graph/resource.h"
+#include <string>
+
+#include "framework/graph/graph.h"
 #include "framework/transport/types.h"
 
 namespace kaustik {
@@ -47,6 +49,9 @@ struct PhotonDirection {  // xyz: unit, view space; w: fate
 struct PhotonFlux {  // rgb: W; w: media
     static constexpr Format format = Format::rgba32f;
 };
+struct OriginTexel {  // transport::PhotonOrigin
+    static constexpr Format format = Format::rgba32ui;
+};
 struct HitPosition {  // xyz: view space, m; w: distance travelled, m
     static constexpr Format format = Format::rgba32f;
 };
@@ -55,6 +60,9 @@ struct HitSurface {  // xyz: outward normal; w: material + 1
 };
 struct HitFlux {  // rgb: W that arrive; w: fate
     static constexpr Format format = Format::rgba32f;
+};
+struct FluxWord {  // array: words of sums in fixed point (transport::kFluxWords), W, and W/sr
+    static constexpr Format format = Format::r32ui;
 };
 struct IrradianceTexel {  // rgb: W/m²
     static constexpr Format format = Format::rgba32f;
@@ -110,26 +118,69 @@ struct ModelledPaths {
     int interactions = 0;           // most specular interactions of a photon
 };
 
-// The transfer map, with the account of what its photons have lost so far.
+// What a technique's nodes are given of the scene. A pass that nobody reads does not run: whoever
+// is handed a surface pays for those that it reads.
+struct Surfaces {
+    Geometry geometry;
+    EyeBuffer eye;
+    LayeredDepth layers;
+};
+
+// A list of photons, as texels of the transfer map (K06, section 2; PhotonList says how many), with
+// the account of what they have lost so far. Names in shaders: common/photons.glsl.
 struct Photons {
     graph::Texture<PhotonPosition> position;
     graph::Texture<PhotonDirection> direction;
     graph::Texture<PhotonFlux> flux;
+    graph::Texture<OriginTexel> origin;
+    graph::Buffer<transport::PhotonList> list;
     Ledger ledger;
     ModelledPaths paths;
+    // Of the textures: room for so many photons. Only the device knows how many there are.
     int width = 0;
     int height = 0;
-    // Each light has so many rows of the map, one light above the other; a map that has grown
-    // repeats them. 0: not known.
-    int rowsPerLight = 0;
-    [[nodiscard]] int count() const { return width * height; }
+    // Rows that suffice for those that go on: fewer where a list holds photons more than once.
+    int rowsThatGoOn = 0;
+    std::string suffix;  // tells the names of its resources from those of other lists
+    [[nodiscard]] int capacity() const { return width * height; }
+
+    // New textures and a new list, to be filled by the pass.
+    static Photons create(graph::PassSetup& setup, int width, int height,
+                          const std::string& suffix);
+    // For a pass that reads photons: "photonPosition", "photonDirection", "photonFlux",
+    // "photonOrigin" and the block "Photons".
+    void sample(graph::PassSetup& setup) const;
+    // For a pass that makes them: images under the same names with `prefix` instead of "photon",
+    // and the block `block`.
+    void store(graph::PassSetup& setup, const std::string& prefix, const std::string& block) const;
+    // What all passes do that lose flux; block "LedgerEntries".
+    void account(graph::PassSetup& setup);
 };
 
+// Where photons arrived, each at the texel that it has among `incoming`.
 struct Hits {
     graph::Texture<HitPosition> position;
     graph::Texture<HitSurface> surface;
     graph::Texture<HitFlux> flux;
-    Photons incoming;  // the photons that made them, by the same texel
+    Photons incoming;  // the photons that made them
+
+    static Hits create(graph::PassSetup& setup, const Photons& incoming);
+    // "hitPosition", "hitSurface", "hitFlux": to read, or as images of the pass that makes them.
+    void sample(graph::PassSetup& setup) const;
+    void store(graph::PassSetup& setup) const;
+};
+
+// Flux that has arrived, W a texel, in the space of a view: sums that depend neither on the order
+// nor on the batches of what was added. Names in shaders: common/flux_sum.glsl.
+struct CausticMap {
+    graph::Texture<FluxWord> flux;
+    bool hasIntensity = false;  // and what of it goes to the eye, W/sr, in as many layers more
+    Ledger ledger;
+
+    // For a pass that adds to what `before` holds, as the image "fluxSums"; where that is invalid,
+    // to a new map, which the pass has to clear first.
+    static CausticMap deposit(graph::PassSetup& setup, const CausticMap& before, int width,
+                              int height, bool hasIntensity, const std::string& name);
 };
 
 // In screen space, at the eye buffer's receivers.
@@ -199,22 +250,27 @@ struct LayersStage : Stage<LayeredDepth(Geometry)> {
     static constexpr const char* name = "layers";
     static constexpr const char* question = "Which surfaces lie along each eye ray?";
 };
-struct EmitStage : Stage<Hits(Geometry)> {
+struct EmitStage : Stage<Hits(Surfaces)> {
     static constexpr const char* name = "emit";
     static constexpr const char* question = "Where does light first meet a specular surface?";
 };
-// Gives the hits as they stand, with the photons that go on as `incoming`.
-struct SpecularStage : Stage<Hits(Hits)> {
+// Gives the photons that go on, and no others, in the order of those that were there.
+struct SpecularStage : Stage<Photons(Hits)> {
     static constexpr const char* name = "specular";
     static constexpr const char* question = "Where do photons go from a specular surface?";
 };
-struct TraceStage : Stage<Hits(Photons, LayeredDepth, Hits)> {
+struct TraceStage : Stage<Hits(Photons, Surfaces)> {
     static constexpr const char* name = "trace";
     static constexpr const char* question = "Which surface does each photon reach first?";
 };
-struct ReconstructStage : Stage<IrradianceMap(Hits, EyeBuffer)> {
+// Adds what arrives with these hits to what has arrived before.
+struct ReconstructStage : Stage<CausticMap(Hits, Surfaces, CausticMap)> {
     static constexpr const char* name = "reconstruct";
-    static constexpr const char* question = "How does flux at points become irradiance?";
+    static constexpr const char* question = "How does flux at points become a map of flux?";
+};
+struct GatherStage : Stage<IrradianceMap(CausticMap, Surfaces)> {
+    static constexpr const char* name = "gather";
+    static constexpr const char* question = "What of the map do the eye's receivers get?";
 };
 // Adds what photons scatter on their way to these hits to what those of earlier ways did.
 struct MediaStage : Stage<InScattered(Hits, EyeBuffer, InScattered)> {

@@ -94,6 +94,32 @@ const uint kLeftInside = 2u;
 // the one that it starts on.
 const uint kLeftForAll = 3u;
 
+// How many photons there are. They are texels 0, 1, ... of their textures, row by row from the
+// bottom; what lies beyond is of nobody. The last seven are the arguments of an indirect dispatch
+// of kPhotonGroup threads and of an indirect draw of an instance of four vertices a photon.
+struct PhotonList {
+    uint count;
+    uint rowLength;  // texels
+    uint groupsX;
+    uint groupsY;
+    uint groupsZ;
+    uint vertices;
+    uint instances;
+    uint firstVertex;
+    uint firstInstance;
+};
+const uint kPhotonGroup = 64u;
+const uint kMostGroupsX = 32768u;
+
+// Where a photon comes from: one texel, RGBA32UI.
+struct PhotonOrigin {
+    uint cell;  // of its light's grid, row by row; or the number that its emitter gave it
+    uint light;
+    uint path;    // a bit an interaction, the last one lowest: 1 reflected, 0 refracted, below a 1
+    uint parent;  // in the list before its last interaction
+};
+const uint kEmittedPath = 1u;
+
 // A photon after its last specular interaction: one texel of the transfer map (K06, section 2),
 // three RGBA32F textures.
 struct Photon {
@@ -105,7 +131,7 @@ struct Photon {
     uint media;  // the dielectrics around it, and the side that it has just left: media_stack.h
 };
 
-// Where a photon arrived: three RGBA32F textures of the transfer map's size.
+// Where a photon arrived: three RGBA32F textures, by the photon's own texel.
 struct Hit {
     vec3 positionVs;
     float distanceMeters;  // travelled since the last interaction
@@ -159,6 +185,13 @@ struct LedgerEntry {
     uint events;
     uint unused;
 };
+
+// A map of flux is summed the same way, three channels of two words each: layers 2c and 2c + 1 of
+// an array of R32UI are the low and the high word of channel c.
+const uint kFluxWords = 6u;
+// Radiant intensity towards the eye may be much larger than the flux that it is of: its quantum is
+// so much larger, 1/sr.
+const float kIntensityQuantum = 1024.0f;
 
 // Counts over the pixels of the layered depth (K06, section 2.2).
 struct LayerStatistics {

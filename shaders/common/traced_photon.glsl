@@ -1,23 +1,19 @@
 // SPDX-License-Identifier: MIT
-// What tracers that search in order share: a photon of the transfer map, and what makes of what was
-// found a hit, with the normal and the flux that arrives, or an entry in the ledger.
+// What tracers that search in order share: what makes of what was found a hit, with the normal and
+// the flux that arrives, or an entry in the ledger.
 #include "common/exit_test.glsl"
 #include "common/ledger.glsl"
 #include "common/medium.glsl"
 
-uniform sampler2D photonPosition;
-uniform sampler2D photonDirection;
-uniform sampler2D photonFlux;
-
-Photon photonAt(ivec2 texel) {
-    return unpackPhoton(texelFetch(photonPosition, texel, 0), texelFetch(photonDirection, texel, 0),
-                        texelFetch(photonFlux, texel, 0));
+// What the list says of a photon that was not on its way, or met nothing.
+Hit nothingMet() {
+    return Hit(vec3(0.0), 0.0, vec3(0.0), 0u, vec3(0.0), kFateEnded);
 }
 
 // Accounts for the photon's flux: what was absorbed on the way, what arrives at a receiver, or why
 // nothing was met.
 Hit deliver(Photon photon, FirstHit first) {
-    Hit hit = Hit(vec3(0.0), 0.0, vec3(0.0), 0u, vec3(0.0), kFateEnded);
+    Hit hit = nothingMet();
     if (!isNumber(photon)) {
         ledgerAdd(kAccountNotANumber, vec3(0.0));
         return hit;

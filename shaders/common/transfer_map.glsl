@@ -8,6 +8,10 @@ Photon unpackPhoton(vec4 position, vec4 direction, vec4 flux) {
                   uint(flux.w));
 }
 
+PhotonOrigin unpackOrigin(uvec4 origin) {
+    return PhotonOrigin(origin.x, origin.y, origin.z, origin.w);
+}
+
 Hit unpackHit(vec4 position, vec4 surface, vec4 flux) {
     return Hit(position.xyz, position.w, surface.xyz, uint(surface.w), flux.rgb, uint(flux.w));
 }
@@ -24,6 +28,7 @@ bool isNumber(Photon photon) {
 vec4 photonPositionTexel(Photon p) { return vec4(p.positionVs, p.footprintMeters); }
 vec4 photonDirectionTexel(Photon p) { return vec4(p.directionVs, float(p.fate)); }
 vec4 photonFluxTexel(Photon p) { return vec4(p.fluxWatts, float(p.media)); }
+uvec4 originTexel(PhotonOrigin o) { return uvec4(o.cell, o.light, o.path, o.parent); }
 vec4 hitPositionTexel(Hit h) { return vec4(h.positionVs, h.distanceMeters); }
 vec4 hitSurfaceTexel(Hit h) { return vec4(h.normalVs, float(h.material)); }
 vec4 hitFluxTexel(Hit h) { return vec4(h.fluxWatts, float(h.fate)); }

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Photons and hits from a list, as texels of the transfer map.
+#include "common/store_hits.glsl"
+#include "common/store_photons.glsl"
+
 layout(local_size_x = 64) in;
 
 struct Injected {
@@ -10,26 +13,16 @@ struct Injected {
     vec4 hitSurface;
     vec4 hitFlux;
 };
-layout(std430) readonly buffer Photons {
+layout(std430) readonly buffer InjectedPhotons {
     Injected injected[];
 };
-layout(rgba32f) uniform image2D photonPosition;
-layout(rgba32f) uniform image2D photonDirection;
-layout(rgba32f) uniform image2D photonFlux;
-layout(rgba32f) uniform image2D hitPosition;
-layout(rgba32f) uniform image2D hitSurface;
-layout(rgba32f) uniform image2D hitFlux;
 
 void main() {
-    int index = int(gl_GlobalInvocationID.x);
-    ivec2 size = imageSize(photonFlux);
-    if (index >= size.x * size.y) return;
-    ivec2 texel = ivec2(index % size.x, index / size.x);
-    Injected photon = injected[index];
-    imageStore(photonPosition, texel, photon.photonPosition);
-    imageStore(photonDirection, texel, photon.photonDirection);
-    imageStore(photonFlux, texel, photon.photonFlux);
-    imageStore(hitPosition, texel, photon.hitPosition);
-    imageStore(hitSurface, texel, photon.hitSurface);
-    imageStore(hitFlux, texel, photon.hitFlux);
+    uint index = gl_GlobalInvocationID.x;
+    if (index >= nextPhotons.count) return;
+    Injected one = injected[index];
+    storeNext(index, unpackPhoton(one.photonPosition, one.photonDirection, one.photonFlux),
+              PhotonOrigin(index, 0u, kEmittedPath, 0u));
+    storeHit(ivec2(photonTexel(nextPhotons, index)),
+             unpackHit(one.hitPosition, one.hitSurface, one.hitFlux));
 }

@@ -1,20 +1,12 @@
 // SPDX-License-Identifier: MIT
-// trace.all_hits: one thread a photon and slot; slot 0 holds the first hit, the others the
+// trace.all_hits: one thread a photon, for one slot; slot 0 holds the first hit, the others the
 // receivers that the ray would meet behind it.
+#include "common/photon_thread.glsl"
+#include "common/store_hits.glsl"
+#include "common/store_photons.glsl"
 #include "common/traced_photon.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
-
-layout(rgba32f) writeonly uniform image2D nextPosition;
-layout(rgba32f) writeonly uniform image2D nextDirection;
-layout(rgba32f) writeonly uniform image2D nextFlux;
-layout(rgba32f) writeonly uniform image2D hitPosition;
-layout(rgba32f) writeonly uniform image2D hitSurface;
-layout(rgba32f) writeonly uniform image2D hitFlux;
-uniform sampler2D keptPosition;  // hits of earlier tracings
-uniform sampler2D keptSurface;
-uniform sampler2D keptFlux;
-uniform int rows;  // of a slot
+uniform int slot;
 
 // The surface number `wanted` along the ray; past the first only receivers count, and none where
 // the first is specular: there the light does go on elsewhere.
@@ -54,28 +46,17 @@ FirstHit hitNumber(Photon photon, int wanted) {
 }
 
 void main() {
-    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
-    int slot = int(gl_GlobalInvocationID.z);
-    ivec2 size = textureSize(photonPosition, 0);
-    if (texel.x >= size.x || texel.y >= rows) return;
-    ivec2 target = texel + ivec2(0, slot * rows);
+    uint index = photonOfThread();
+    if (index >= photons.count) return;
+    ivec2 texel = ivec2(photonTexel(photons, index));
     Photon photon = photonAt(texel);
-    bool isTraced = photon.fate == kFateInFlight;
-    Hit hit = Hit(vec3(0.0), 0.0, vec3(0.0), 0u, vec3(0.0), kFateNone);
-    bool isKept = !isTraced && target.y < textureSize(keptFlux, 0).y;
-    if (isKept) {
-        photon = photonAt(target);
-        hit = unpackHit(texelFetch(keptPosition, target, 0), texelFetch(keptSurface, target, 0),
-                        texelFetch(keptFlux, target, 0));
-    } else if (isTraced) {
+    Hit hit = nothingMet();
+    if (photon.fate == kFateInFlight) {
         FirstHit found = hitNumber(photon, slot);
         if (slot == 0 || found.hit.layer >= 0) hit = deliver(photon, found);
     }
-    if (slot > 0 && !isKept) photon.fate = isTraced ? kFateEnded : kFateNone;
-    imageStore(nextPosition, target, photonPositionTexel(photon));
-    imageStore(nextDirection, target, photonDirectionTexel(photon));
-    imageStore(nextFlux, target, photonFluxTexel(photon));
-    imageStore(hitPosition, target, hitPositionTexel(hit));
-    imageStore(hitSurface, target, hitSurfaceTexel(hit));
-    imageStore(hitFlux, target, hitFluxTexel(hit));
+    if (slot > 0) photon.fate = kFateEnded;  // once on its way
+    uint next = uint(slot) * photons.count + index;
+    storeNext(next, photon, originAt(texel));
+    storeHit(ivec2(photonTexel(nextPhotons, next)), hit);
 }

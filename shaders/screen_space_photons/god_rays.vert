@@ -2,17 +2,14 @@
 // The line of one photon: a parallelogram that covers every pixel which may hold a part of it. The
 // fragments work their shares out themselves, so that a device's rules for lines do not matter
 // (hard case 6), nor how far beyond the line the parallelogram reaches. A strip of four vertices.
+#include "common/hits.glsl"
+#include "common/photons.glsl"
 #include "screen_space_photons/god_rays.glsl"
 
 layout(std430) buffer NarrowedLines {
     Narrowed narrowed;
 };
 uniform int firstPhoton;  // of the batch
-uniform sampler2D photonPosition;
-uniform sampler2D photonDirection;
-uniform sampler2D photonFlux;
-uniform sampler2D hitPosition;
-uniform sampler2D hitFlux;
 
 flat out vec4 wayPixels;  // of both ends; the longer axis of the line comes first
 flat out vec4 wayEnds;    // 1/z and t of both ends
@@ -24,13 +21,10 @@ flat out int isSteep;
 
 void main() {
     gl_Position = vec4(-2.0, -2.0, 0.0, 1.0);
-    ivec2 mapSize = textureSize(photonFlux, 0);
-    int index = firstPhoton + gl_InstanceID;
-    ivec2 texel = ivec2(index % mapSize.x, index / mapSize.x);
-    Photon photon = unpackPhoton(texelFetch(photonPosition, texel, 0),
-                                 texelFetch(photonDirection, texel, 0),
-                                 texelFetch(photonFlux, texel, 0));
-    // Others have not been on their way in this tracing.
+    uint index = uint(firstPhoton + gl_InstanceID);
+    if (index >= photons.count) return;
+    ivec2 texel = ivec2(photonTexel(photons, index));
+    Photon photon = photonAt(texel);
     if (photon.fate != kFateInFlight || !isNumber(photon)) return;
     uint fate = uint(texelFetch(hitFlux, texel, 0).w);
     bool hasHit = fate == kFateReceiver || fate == kFateSpecular;

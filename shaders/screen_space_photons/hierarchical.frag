@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // trace.hierarchical: one fragment a photon, drawn over the transfer map.
+#include "common/photon_fragment.glsl"
 #include "screen_space_photons/hierarchical.glsl"
 
 layout(location = 0) out vec4 hitPosition;
@@ -7,10 +8,11 @@ layout(location = 1) out vec4 hitSurface;
 layout(location = 2) out vec4 hitFlux;
 
 void main() {
+    if (!isPhotonHere()) discard;
     Photon photon = photonAt(ivec2(gl_FragCoord.xy));
-    if (photon.fate != kFateInFlight) discard;  // its hit, if any, stands
-    Hit hit =
-        deliver(photon, traverse(photon, trace_hierarchical_minimum, trace_hierarchical_steps));
+    Hit hit = nothingMet();
+    if (photon.fate == kFateInFlight)
+        hit = deliver(photon, traverse(photon, trace_hierarchical_minimum, trace_hierarchical_steps));
     hitPosition = hitPositionTexel(hit);
     hitSurface = hitSurfaceTexel(hit);
     hitFlux = hitFluxTexel(hit);

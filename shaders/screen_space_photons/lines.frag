@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One step of a photon's ray: looks the layers up at its pixel and keeps a hit's place on the ray.
 #include "common/exit_test.glsl"
+#include "common/photons.glsl"
 #include "screen_space_photons/row_texel.glsl"
 
 flat in vec4 endPixels;
@@ -9,8 +10,6 @@ flat in vec3 rayOrigin;
 flat in vec3 rayDirection;
 flat in int steps;
 flat in int photonIndex;
-
-uniform sampler2D photonFlux;
 
 layout(location = 0) out vec4 rowTexel;
 
@@ -24,8 +23,7 @@ void main() {
     segment.farInverseZ = ends.y;
     segment.nearT = ends.z;
     segment.farT = ends.w;
-    ivec2 mapSize = textureSize(photonFlux, 0);
-    ivec2 texel = ivec2(photonIndex % mapSize.x, photonIndex / mapSize.x);
+    ivec2 texel = ivec2(photonTexel(photons, uint(photonIndex)));
     uint media = uint(texelFetch(photonFlux, texel, 0).w);
     TracedRay ray = tracedRay(rayOrigin, rayDirection, media);
     FirstHit found = hitOfStep(segment, ray, i, steps);

@@ -3,12 +3,10 @@
 // photon's row, one fragment a step. The line is drawn half a texel longer at both ends and the
 // fragments are told apart by their own position, so that the result does not depend on how a
 // device rasterises the ends of lines (hard case 6).
+#include "common/photons.glsl"
 #include "common/ray_segment.glsl"
-#include "common/transfer_map.glsl"
 #include "screen_space_photons/row_extent.glsl"
 
-uniform sampler2D photonPosition;
-uniform sampler2D photonDirection;
 uniform int firstPhoton;
 uniform ivec2 rowsSize;
 
@@ -22,12 +20,12 @@ flat out int photonIndex;
 // Sets gl_Position and the outputs; whether there is a line.
 bool placeLineEnd(int row, bool isEnd) {
     photonIndex = firstPhoton + row;
-    ivec2 mapSize = textureSize(photonPosition, 0);
-    ivec2 texel = ivec2(photonIndex % mapSize.x, photonIndex / mapSize.x);
-    vec4 direction = texelFetch(photonDirection, texel, 0);
     steps = 0;
     gl_Position = vec4(-2.0, -2.0, 0.0, 1.0);  // outside: a line of no fragments
-    if (texel.y >= mapSize.y || uint(direction.w) != kFateInFlight) return false;
+    if (uint(photonIndex) >= photons.count) return false;
+    ivec2 texel = ivec2(photonTexel(photons, uint(photonIndex)));
+    vec4 direction = texelFetch(photonDirection, texel, 0);
+    if (uint(direction.w) != kFateInFlight) return false;
     rayOrigin = texelFetch(photonPosition, texel, 0).xyz;
     rayDirection = direction.xyz;
     RaySegment segment = clipRay(rayOrigin, rayDirection);

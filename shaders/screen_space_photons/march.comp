@@ -1,21 +1,18 @@
 // SPDX-License-Identifier: MIT
 // trace.march_compute: one thread a photon.
+#include "common/photon_thread.glsl"
+#include "common/store_hits.glsl"
 #include "screen_space_photons/march.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
-
-layout(rgba32f) uniform image2D hitPosition;
-layout(rgba32f) uniform image2D hitSurface;
-layout(rgba32f) uniform image2D hitFlux;
-
 void main() {
-    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(texel, textureSize(photonPosition, 0)))) return;
+    uint index = photonOfThread();
+    if (index >= photons.count) return;
+    ivec2 texel = ivec2(photonTexel(photons, index));
     Photon photon = photonAt(texel);
-    if (photon.fate != kFateInFlight) return;  // its hit, if any, stands
-    FirstHit first = march(photon, trace_march_compute_minimum, trace_march_compute_steps);
-    Hit hit = deliver(photon, first);
-    imageStore(hitPosition, texel, hitPositionTexel(hit));
-    imageStore(hitSurface, texel, hitSurfaceTexel(hit));
-    imageStore(hitFlux, texel, hitFluxTexel(hit));
+    Hit hit = nothingMet();
+    if (photon.fate == kFateInFlight) {
+        hit = deliver(photon, march(photon, trace_march_compute_minimum,
+                                       trace_march_compute_steps));
+    }
+    storeHit(texel, hit);
 }

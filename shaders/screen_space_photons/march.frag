@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // trace.march: one fragment a photon, drawn over the transfer map.
+#include "common/photon_fragment.glsl"
 #include "screen_space_photons/march.glsl"
 
 layout(location = 0) out vec4 hitPosition;
@@ -7,9 +8,11 @@ layout(location = 1) out vec4 hitSurface;
 layout(location = 2) out vec4 hitFlux;
 
 void main() {
+    if (!isPhotonHere()) discard;
     Photon photon = photonAt(ivec2(gl_FragCoord.xy));
-    if (photon.fate != kFateInFlight) discard;  // its hit, if any, stands
-    Hit hit = deliver(photon, march(photon, trace_march_minimum, trace_march_steps));
+    Hit hit = nothingMet();
+    if (photon.fate == kFateInFlight)
+        hit = deliver(photon, march(photon, trace_march_minimum, trace_march_steps));
     hitPosition = hitPositionTexel(hit);
     hitSurface = hitSurfaceTexel(hit);
     hitFlux = hitFluxTexel(hit);

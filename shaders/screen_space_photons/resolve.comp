@@ -1,28 +1,28 @@
 // SPDX-License-Identifier: MIT
 // The last part of the reduce: the column of first hits becomes hits in the transfer map, or, for a
 // photon that met nothing, an entry in the ledger. One thread a row.
+#include "common/photons.glsl"
+#include "common/store_hits.glsl"
 #include "common/traced_photon.glsl"
 #include "screen_space_photons/row_extent.glsl"
 #include "screen_space_photons/row_texel.glsl"
 
 layout(local_size_x = 64) in;
 
-layout(rgba32f) uniform image2D hitPosition;
-layout(rgba32f) uniform image2D hitSurface;
-layout(rgba32f) uniform image2D hitFlux;
 uniform sampler2D column;
 uniform int firstPhoton;
-uniform int photonCount;
 uniform int rowsWidth;
 
 void main() {
     int row = int(gl_GlobalInvocationID.x);
-    int index = firstPhoton + row;
-    if (index >= photonCount || row >= textureSize(column, 0).y) return;
-    ivec2 mapSize = textureSize(photonPosition, 0);
-    ivec2 texel = ivec2(index % mapSize.x, index / mapSize.x);
+    uint index = uint(firstPhoton + row);
+    if (index >= photons.count || row >= textureSize(column, 0).y) return;
+    ivec2 texel = ivec2(photonTexel(photons, index));
     Photon photon = photonAt(texel);
-    if (photon.fate != kFateInFlight) return;  // its hit, if any, stands
+    if (photon.fate != kFateInFlight) {
+        storeHit(texel, nothingMet());
+        return;
+    }
 
     FirstHit first = noHit();
     int stepIndex;
@@ -33,8 +33,5 @@ void main() {
         int steps = stepCount(segment, trace_lines_minimum, rowsWidth);
         first.pixel = texelOfStep(segment, stepIndex, steps);
     }
-    Hit hit = deliver(photon, first);
-    imageStore(hitPosition, texel, hitPositionTexel(hit));
-    imageStore(hitSurface, texel, hitSurfaceTexel(hit));
-    imageStore(hitFlux, texel, hitFluxTexel(hit));
+    storeHit(texel, deliver(photon, first));
 }

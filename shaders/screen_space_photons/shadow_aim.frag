@@ -9,6 +9,7 @@
 layout(location = 0) out vec4 rayPosition;
 layout(location = 1) out vec4 rayDirection;
 layout(location = 2) out vec4 rayFlux;
+layout(location = 3) out uvec4 rayOrigin;
 
 uniform sampler2D receiver;
 uniform sampler2D receiverSurface;
@@ -33,4 +34,6 @@ void main() {
     rayPosition = photonPositionTexel(ray);
     rayDirection = photonDirectionTexel(ray);
     rayFlux = photonFluxTexel(ray);
+    uint cell = uint(pixel.y) * uint(view.sizePixels.x) + uint(pixel.x);
+    rayOrigin = originTexel(PhotonOrigin(cell, uint(lightIndex), kEmittedPath, 0u));
 }

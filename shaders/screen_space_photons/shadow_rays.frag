@@ -1,24 +1,21 @@
 // SPDX-License-Identifier: MIT
 // Whether a ray to a light met nothing before it.
+#include "common/hits.glsl"
 #include "common/lights.glsl"
-#include "common/transfer_map.glsl"
+#include "common/photons.glsl"
 
 layout(location = 0) out vec4 visibility;
 
-uniform sampler2D rayPosition;
-uniform sampler2D rayFlux;
-uniform sampler2D hitPosition;
-uniform sampler2D hitFlux;
 uniform int lightIndex;
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    bool isAsked = texelFetch(rayFlux, pixel, 0).r > 0.0;
+    bool isAsked = texelFetch(photonFlux, pixel, 0).r > 0.0;
     uint fate = uint(texelFetch(hitFlux, pixel, 0).w);
     bool isMet = fate == kFateReceiver || fate == kFateSpecular;
     LightData light = lights[lightIndex];
     if (isMet && uint(light.positionVs.w) != kLightDirectional) {
-        float toLight = distance(light.positionVs.xyz, texelFetch(rayPosition, pixel, 0).xyz);
+        float toLight = distance(light.positionVs.xyz, texelFetch(photonPosition, pixel, 0).xyz);
         isMet = texelFetch(hitPosition, pixel, 0).w < toLight;
     }
     visibility = vec4(isAsked && !isMet ? 1.0 : 0.0);

@@ -10,9 +10,10 @@
 layout(location = 0) out vec4 photonPosition;
 layout(location = 1) out vec4 photonDirection;
 layout(location = 2) out vec4 photonFlux;
-layout(location = 3) out vec4 hitPosition;
-layout(location = 4) out vec4 hitSurface;
-layout(location = 5) out vec4 hitFlux;
+layout(location = 3) out uvec4 photonOrigin;
+layout(location = 4) out vec4 hitPosition;
+layout(location = 5) out vec4 hitSurface;
+layout(location = 6) out vec4 hitFlux;
 
 uniform int lightIndex;
 uniform vec2 halfExtent;    // m, or tangents of the half-angles
@@ -54,6 +55,8 @@ void main() {
     photonPosition = vec4(positionVs, footprint) * on;
     photonDirection = vec4(direction * on.xyz, fate);
     photonFlux = vec4(flux, float(media)) * on;
+    uint cell = uint(gl_FragCoord.y - gridBottom) * uint(gridSize.x) + uint(gl_FragCoord.x);
+    photonOrigin = originTexel(PhotonOrigin(cell, uint(lightIndex), kEmittedPath, 0u));
     hitPosition = vec4(positionVs, 0.0) * on;
     hitSurface = vec4(normal, float(material + 1u)) * on;
     hitFlux = vec4(flux * on.xyz, fate);

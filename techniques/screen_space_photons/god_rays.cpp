@@ -28,7 +28,8 @@ namespace {
 // Which lines are narrower than they were to be: their light is less spread, and none is lost.
 void keepToWidth(FrameBuilder& frame, const GodRayParams& params,
                  const graph::Buffer<transport::Narrowed>& narrowed) {
-    frame.keepsTo({"media.lines", narrowed,
+    frame.keepsTo({"media.lines",
+                   {narrowed},
                    [maximum = params.maximum,
                     narrowed](const gl::Executor& executor) -> std::optional<ReachedLimit> {
                        const transport::Narrowed found =
@@ -50,28 +51,21 @@ void keepToWidth(FrameBuilder& frame, const GodRayParams& params,
 
 InScattered drawGodRays(FrameBuilder& frame, const GodRayParams& params, Hits hits, EyeBuffer eye,
                         InScattered before) {
-    const int photons = hits.incoming.count();
+    const int photons = hits.incoming.capacity();
     const bool isBatched = photons > kBatchPhotons;
     const bool isFirst = !before.radiance.valid();
     const int run = frame.runsOf(MediaStage::name);
     struct Data {
         InScattered out;
-        Hits hits;
-        EyeBuffer eye;
         BatchSum<RadianceTexel> parts;
         graph::Buffer<transport::Narrowed> narrowed;
     };
     const Data& drawn = frame.pass<Data>(
         "media.lines", "the medium scatters what photons carry",
         [&](graph::PassSetup& setup, Data& data) {
-            data.hits = hits;
-            data.eye = eye;
-            setup.read(hits.position);
-            setup.read(hits.flux);
-            setup.read(hits.incoming.position);
-            setup.read(hits.incoming.direction);
-            setup.read(hits.incoming.flux);
-            setup.read(eye.receiver);
+            hits.sample(setup);
+            hits.incoming.sample(setup);
+            setup.sample("receiver", eye.receiver);
             if (isFirst) {
                 data.out.radiance = setup.create<RadianceTexel>("media.in_scattered", frame.width(),
                                                                 frame.height());
@@ -94,19 +88,10 @@ InScattered drawGodRays(FrameBuilder& frame, const GodRayParams& params, Hits hi
             if (isFirst) context.texture(data.out.radiance).clear({0, 0, 0, 0});
             clear(context, data.parts);
             context.buffer(data.narrowed).clear();
-            const Photons& incoming = data.hits.incoming;
             gl::Command command = context.shaders(
                 {"screen_space_photons/god_rays.vert", "screen_space_photons/god_rays.frag"});
-            inputs.bindView(command)
-                .params("media.lines", params)
-                .storage("Materials", inputs.gpuScene.materials())
+            command.params("media.lines", params)
                 .storage("NarrowedLines", data.narrowed)
-                .texture("photonPosition", incoming.position)
-                .texture("photonDirection", incoming.direction)
-                .texture("photonFlux", incoming.flux)
-                .texture("hitPosition", data.hits.position)
-                .texture("hitFlux", data.hits.flux)
-                .texture("receiver", data.eye.receiver)
                 .target(isBatched ? data.parts.batch : data.out.radiance)
                 .blend(gl::Blend::add);
             for (int first = 0; first < photons; first += kBatchPhotons) {

@@ -29,24 +29,19 @@ void keepToSteps(FrameBuilder& frame, const std::string& pass, const std::string
 }
 
 void readLayers(graph::PassSetup& setup, const LayeredDepth& layers) {
-    setup.read(layers.depth);
-    setup.read(layers.surface);
+    setup.sample("layerDepths", layers.depth);
+    setup.sample("layerSurfaces", layers.surface);
 }
 
-gl::Command& bindHitTesting(gl::Command& command, const HitTesting& testing,
-                            const FrameInputs& inputs, const LayeredDepth& layers) {
+gl::Command& setHitTesting(gl::Command& command, const HitTesting& testing,
+                           const LayeredDepth& layers) {
     if (testing.params.test != HitTest::crossing) command.define("EPSILON_TEST");
     if (testing.params.test == HitTest::inOut) command.define("IN_OUT_TEST");
     // Only what has an inside can be left where no layer's plane is crossed.
     if (testing.hasInside && testing.params.test != HitTest::epsilon)
         command.define("CLOSED_DIELECTRICS");
     if (testing.mayBeNested) command.define("NESTED_BODIES");
-    return inputs.bindView(command)
-        .params("trace", testing.params)
-        .storage("Materials", inputs.gpuScene.materials())
-        .texture("layerDepths", layers.depth)
-        .texture("layerSurfaces", layers.surface)
-        .set("layerCount", layers.layers);
+    return command.params("trace", testing.params).set("layerCount", layers.layers);
 }
 
 }  // namespace kaustik

@@ -19,9 +19,10 @@ struct HitTesting {
 void keepToSteps(FrameBuilder& frame, const std::string& pass, const std::string& parameter,
                  int steps);
 
-// Declares that a pass looks layers up, and binds them for common/hit_test.glsl.
+// Declares that a pass looks these layers up, under the names of common/hit_test.glsl, and tells
+// its command how.
 void readLayers(graph::PassSetup& setup, const LayeredDepth& layers);
-gl::Command& bindHitTesting(gl::Command& command, const HitTesting& testing,
-                            const FrameInputs& inputs, const LayeredDepth& layers);
+gl::Command& setHitTesting(gl::Command& command, const HitTesting& testing,
+                           const LayeredDepth& layers);
 
 }  // namespace kaustik

@@ -41,7 +41,6 @@ BackFaces drawBackFaces(FrameBuilder& frame, Geometry geometry) {
             [&inputs = frame.inputs()](const Data& data, gl::PassContext& context) {
                 gl::Command command =
                     context.shaders({"shared/eye.vert", "screen_space_photons/back_faces.frag"});
-                inputs.gpuScene.bindMaterials(command);
                 command.set("projection", inputs.view.projection());
                 command.target(data.faces.depth).clear();
                 command.target(data.faces.surface).clear();
@@ -81,7 +80,8 @@ View refractInImageSpace(FrameBuilder& frame, const ImageSpaceViewParams& params
                         setup.read(faces.depth);
                         setup.read(faces.surface);
                     }
-                    data.look = declareLook(frame, setup, params.look, eye, layers, receivers, shadows);
+                    data.look =
+                        declareLook(frame, setup, params.look, eye, layers, receivers, shadows);
                 },
                 [&inputs = frame.inputs(), params](const Data& data, gl::PassContext& context) {
                     gl::Command command =

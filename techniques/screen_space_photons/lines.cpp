@@ -90,56 +90,41 @@ RowTextures createRows(graph::PassSetup& setup, const Layout& layout, int run) {
 RowTextures rasterizeLines(FrameBuilder& frame, const LinesParams& params, const Photons& photons,
                            const LayeredDepth& layers, const Layout& layout, RowTextures textures,
                            int batch) {
-    struct Data {
-        RowTextures textures;
-        Photons photons;
-        LayeredDepth layers;
-    };
     const HitTesting testing = hitTesting(frame);
     const int run = frame.runsOf(TraceStage::name);
-    return frame
-        .pass<Data>(
-            "trace.lines",
-            fmt::format("{} rows of {} texels, {} batch{}", layout.rows, layout.width,
-                        layout.batches, layout.batches == 1 ? "" : "es"),
-            [&](graph::PassSetup& setup, Data& data) {
-                data.photons = photons;
-                data.layers = layers;
-                setup.read(photons.position);
-                setup.read(photons.direction);
-                setup.read(photons.flux);
-                readLayers(setup, layers);
-                data.textures = batch == 0 ? createRows(setup, layout, run) : textures;
-                if (batch > 0) {
-                    data.textures.rows = setup.write(textures.rows);
-                    data.textures.extents = setup.write(textures.extents);
-                }
-            },
-            [&inputs = frame.inputs(), params, testing, layout, batch](const Data& data,
-                                                                       gl::PassContext& context) {
-                if (batch == 0) context.buffer(data.textures.extents).clear();
-                const bool isMade = params.source == LineSource::geometry;
-                std::vector<std::string> shaders{"screen_space_photons/lines.vert"};
-                if (isMade)
-                    shaders = {"screen_space_photons/lines_point.vert",
-                               "screen_space_photons/lines.geom"};
-                shaders.push_back("screen_space_photons/lines.frag");
-                gl::Command command = context.shaders(shaders);
-                bindHitTesting(command, testing, inputs, data.layers)
-                    .params("trace.lines", params)
-                    .texture("photonPosition", data.photons.position)
-                    .texture("photonDirection", data.photons.direction)
-                    .texture("photonFlux", data.photons.flux)
-                    .storage("RowExtents", data.textures.extents)
-                    .set("batch", batch)
-                    .set("firstPhoton", batch * layout.rows)
-                    .set("rowsSize", glm::ivec2(layout.width, layout.rows))
-                    .target(data.textures.rows)
-                    .clear()
-                    .drawArrays(isMade ? GL_POINTS : GL_LINES,
-                                isMade ? layout.rows : 2 * layout.rows);
-            })
-        .textures;
+    return frame.pass<RowTextures>(
+        "trace.lines",
+        fmt::format("{} rows of {} texels, {} batch{}", layout.rows, layout.width, layout.batches,
+                    layout.batches == 1 ? "" : "es"),
+        [&](graph::PassSetup& setup, RowTextures& data) {
+            photons.sample(setup);
+            readLayers(setup, layers);
+            data = batch == 0 ? createRows(setup, layout, run) : textures;
+            if (batch > 0) {
+                data.rows = setup.write(textures.rows);
+                data.extents = setup.write(textures.extents);
+            }
+            setup.storage("RowExtents", data.extents);
+        },
+        [params, testing, layout, layers, batch](const RowTextures& data,
+                                                 gl::PassContext& context) {
+            if (batch == 0) context.buffer(data.extents).clear();
+            const bool isMade = params.source == LineSource::geometry;
+            std::vector<std::string> shaders{"screen_space_photons/lines.vert"};
+            if (isMade)
+                shaders = {"screen_space_photons/lines_point.vert",
+                           "screen_space_photons/lines.geom"};
+            shaders.push_back("screen_space_photons/lines.frag");
+            gl::Command command = context.shaders(shaders);
+            setHitTesting(command, testing, layers)
+                .params("trace.lines", params)
+                .set("batch", batch)
+                .set("firstPhoton", batch * layout.rows)
+                .set("rowsSize", glm::ivec2(layout.width, layout.rows))
+                .target(data.rows)
+                .clear()
+                .drawArrays(isMade ? GL_POINTS : GL_LINES, isMade ? layout.rows : 2 * layout.rows);
+        });
 }
 
 struct Reduced {
@@ -149,30 +134,28 @@ struct Reduced {
 
 Reduced reduceRows(FrameBuilder& frame, const LinesParams& params, const LayeredDepth& layers,
                    const Layout& layout, RowTextures textures, const Hits& hits, int batch) {
-    struct Data : Reduced {
-        LayeredDepth layers;
-    };
     const HitTesting testing = hitTesting(frame);
-    return frame.pass<Data>(
+    return frame.pass<Reduced>(
         "trace.reduce", "the first hit of each row",
-        [&](graph::PassSetup& setup, Data& data) {
-            data.layers = layers;
+        [&](graph::PassSetup& setup, Reduced& data) {
             readLayers(setup, layers);
             data.textures.rows = setup.read(textures.rows);
-            data.textures.extents = setup.read(textures.extents);
+            data.textures.extents = setup.storage("RowExtents", textures.extents);
             data.textures.half = setup.write(textures.half);
             data.textures.quarter = setup.write(textures.quarter);
-            data.hits.incoming = hits.incoming;
-            setup.read(hits.incoming.position);
-            setup.read(hits.incoming.direction);
-            setup.read(hits.incoming.flux);
-            data.hits.position = setup.write(hits.position);
-            data.hits.surface = setup.write(hits.surface);
-            data.hits.flux = setup.write(hits.flux);
-            data.hits.incoming.ledger = setup.write(hits.incoming.ledger);
+            hits.incoming.sample(setup);
+            data.hits = hits;
+            if (batch == 0) {
+                data.hits = Hits::create(setup, hits.incoming);
+            } else {
+                data.hits.position = setup.write(hits.position);
+                data.hits.surface = setup.write(hits.surface);
+                data.hits.flux = setup.write(hits.flux);
+            }
+            data.hits.store(setup);
+            data.hits.incoming.account(setup);
         },
-        [&inputs = frame.inputs(), params, testing, layout, batch](const Data& data,
-                                                                   gl::PassContext& context) {
+        [params, testing, layout, layers, batch](const Reduced& data, gl::PassContext& context) {
             graph::ResourceRef source = data.textures.rows;
             graph::ResourceRef target = data.textures.half;
             graph::ResourceRef spare = data.textures.quarter;
@@ -182,7 +165,6 @@ Reduced reduceRows(FrameBuilder& frame, const LinesParams& params, const Layered
                 context
                     .shaders(
                         {"screen_space_photons/reduce.vert", "screen_space_photons/reduce.frag"})
-                    .storage("RowExtents", data.textures.extents)
                     .texture("source", source)
                     .set("batch", batch)
                     .set("halvings", halvings)
@@ -193,22 +175,12 @@ Reduced reduceRows(FrameBuilder& frame, const LinesParams& params, const Layered
                 source = target;
                 std::swap(target, spare);
             }
-            const Photons& photons = data.hits.incoming;
             gl::Command command = context.compute("screen_space_photons/resolve.comp");
-            bindHitTesting(command, testing, inputs, data.layers);
-            inputs.bindLedger(command, photons.ledger)
+            setHitTesting(command, testing, layers)
                 .params("trace.lines", params)
-                .storage("RowExtents", data.textures.extents)
                 .set("batch", batch)
                 .texture("column", source)
-                .texture("photonPosition", photons.position)
-                .texture("photonDirection", photons.direction)
-                .texture("photonFlux", photons.flux)
-                .image("hitPosition", data.hits.position)
-                .image("hitSurface", data.hits.surface)
-                .image("hitFlux", data.hits.flux)
                 .set("firstPhoton", batch * layout.rows)
-                .set("photonCount", photons.count())
                 .set("rowsWidth", layout.width)
                 .dispatchOver(layout.rows, 64);
         });
@@ -217,13 +189,15 @@ Reduced reduceRows(FrameBuilder& frame, const LinesParams& params, const Layered
 }  // namespace
 
 Hits traceLines(FrameBuilder& frame, const LinesParams& params, Photons photons,
-                LayeredDepth layers, Hits previous) {
-    const Layout layout = makeLayout(frame, params, photons.count());
+                Surfaces surfaces) {
+    const LayeredDepth& layers = surfaces.layers;
+    // The device alone knows how many there are: rows for as many as there may be.
+    const Layout layout = makeLayout(frame, params, photons.capacity());
     keepToSteps(frame, "trace.lines", "trace.lines.width", layout.width);
     if (layout.batches > 1)
         frame.keepsTo({"trace.lines", {}, [=](const gl::Executor&) { return layout.limit; }});
     RowTextures textures;
-    Hits hits = previous;
+    Hits hits;
     hits.incoming = photons;
     for (int batch = 0; batch < layout.batches; ++batch) {
         textures = rasterizeLines(frame, params, photons, layers, layout, textures, batch);

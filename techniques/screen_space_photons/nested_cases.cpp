@@ -11,6 +11,7 @@
 
 #include "framework/numerics/cases/scene_text.h"
 #include "framework/numerics/lab.h"
+#include "framework/pipeline/photon_texels.h"
 #include "framework/scene/dielectrics.h"
 #include "techniques/screen_space_photons/nodes.h"
 
@@ -95,33 +96,35 @@ void photonsThrough(Lab& lab, int shells) {
     const scene::Scene scene = nestedBalls(shells);
     const glm::dvec3 light = scene.lights[0].direction;
     for (const Lab::Choice& tracer : lab.each<TraceStage>()) {
-        const Frame frame = lab.render(tracer, scene,
-                                       {320,
-                                        240,
-                                        {{"emit.photons", "64x64"},
-                                         {"layers.count", "12"},
-                                         {"specular", "interface"},
-                                         {"specular.bounces", "12"}}});
-        const Photons& photons = frame.renderer().outputs().hits.incoming;
-        const Texels position = frame.read(photons.position);
-        const Texels direction = frame.read(photons.direction);
-        const Texels hit = frame.read(frame.renderer().outputs().hits.flux);
+        FrameRequest request{320,
+                             240,
+                             {{"emit.photons", "64x64"},
+                              {"layers.count", "12"},
+                              {"specular", "interface"},
+                              {"specular.bounces", "12"}}};
+        request.recordsTraces = true;
+        const Frame frame = lab.render(tracer, scene, request);
+        const std::vector<TraceRecord>& traces = frame.renderer().traces();
         const glm::dmat3 back(glm::transpose(glm::dmat3(frame.view().worldToView)));
         int asked = 0;
         int right = 0;
-        for (int y = 0; y < position.height; ++y) {
-            for (int x = 0; x < position.width; ++x) {
-                if (static_cast<unsigned>(direction.at(x, y, 3)) == kFateNone) continue;
-                const glm::dvec3 out = back * direction.rgb(x, y);
-                const double impact =
-                    glm::length(glm::cross(frame.toWorld(position.rgb(x, y)) - kMiddle, out));
+        for (std::size_t trace = 0; trace < traces.size(); ++trace) {
+            const Hits& found = traces[trace].hits;
+            const std::vector<PhotonTexel> photons = readPhotons(frame.renderer(), found.incoming);
+            const std::vector<HitTexel> hits = readHits(frame.renderer(), found);
+            for (std::size_t i = 0; i < photons.size(); ++i) {
+                if (photons[i].fate != kFateInFlight) continue;
+                const bool isOut = hits[i].fate != kFateSpecular;
+                if (!isOut && trace + 1 < traces.size()) continue;  // in the next list
+                const glm::dvec3 out = back * glm::dvec3(photons[i].direction);
+                const glm::dvec3 from = frame.toWorld(photons[i].position) - kMiddle;
+                const double impact = glm::length(glm::cross(from, out));
                 const Way exact = wayThrough(shells, impact);
                 const std::optional<double> allowed = differenceOverAPixel(shells, impact);
                 if (!allowed) continue;
                 ++asked;
                 const double turned =
                     std::atan2(glm::length(glm::cross(light, out)), glm::dot(light, out));
-                const bool isOut = static_cast<unsigned>(hit.at(x, y, 3)) != kFateSpecular;
                 const double error = std::abs(turned - std::abs(exact.turnRadians));
                 right += isOut && error < kDegree + *allowed ? 1 : 0;
             }

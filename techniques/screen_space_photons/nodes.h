@@ -82,8 +82,7 @@ struct LinesParams {
                 "texels", params::range(1, 64));
     }
 };
-Hits traceLines(FrameBuilder& frame, const LinesParams& params, Photons photons,
-                LayeredDepth layers, Hits previous);
+Hits traceLines(FrameBuilder& frame, const LinesParams& params, Photons photons, Surfaces surfaces);
 
 struct MarchParams {
     int steps = 0;
@@ -99,15 +98,14 @@ struct MarchParams {
                 params::range(1, 64));
     }
 };
-Hits traceMarch(FrameBuilder& frame, const MarchParams& params, Photons photons,
-                LayeredDepth layers, Hits previous);
+Hits traceMarch(FrameBuilder& frame, const MarchParams& params, Photons photons, Surfaces surfaces);
 Hits traceMarchCompute(FrameBuilder& frame, const MarchParams& params, Photons photons,
-                       LayeredDepth layers, Hits previous);
+                       Surfaces surfaces);
 
 Hits traceHierarchical(FrameBuilder& frame, const MarchParams& params, Photons photons,
-                       LayeredDepth layers, Hits previous);
+                       Surfaces surfaces);
 Hits traceHierarchicalCompute(FrameBuilder& frame, const MarchParams& params, Photons photons,
-                              LayeredDepth layers, Hits previous);
+                              Surfaces surfaces);
 
 struct AllHitsParams {
     int slots = 4;
@@ -119,7 +117,7 @@ struct AllHitsParams {
     }
 };
 Hits traceAllHits(FrameBuilder& frame, const AllHitsParams& params, Photons photons,
-                  LayeredDepth layers, Hits previous);
+                  Surfaces surfaces);
 
 Shadows traceShadowRays(FrameBuilder& frame, const params::NoParams&, Geometry geometry,
                         EyeBuffer eye, LayeredDepth layers);
@@ -165,8 +163,8 @@ struct SpritesParams {
                 "px", params::range(1, 127));
     }
 };
-IrradianceMap splatSprites(FrameBuilder& frame, const SpritesParams& params, Hits hits,
-                           EyeBuffer eye);
+CausticMap splatSprites(FrameBuilder& frame, const SpritesParams& params, Hits hits,
+                        Surfaces surfaces, CausticMap before);
 
 struct GodRayParams {
     float width = 0.0f;

@@ -147,7 +147,6 @@ LayeredDepth peel(FrameBuilder& frame, Geometry geometry, const LayersRequest& r
                         glTextureBarrier();
                         gl::Command command =
                             context.shaders({"shared/eye.vert", "screen_space_photons/peel.frag"});
-                        inputs.gpuScene.bindMaterials(command);
                         command.set("projection", inputs.view.projection())
                             .set("layer", layer)
                             .set("before", layer - 1)

@@ -107,7 +107,6 @@ LayeredDepth peelObjects(FrameBuilder& frame, const params::NoParams&, Geometry 
                             glTextureBarrier();
                             gl::Command command = context.shaders(
                                 {"shared/eye.vert", "screen_space_photons/peel.frag"});
-                            inputs.gpuScene.bindMaterials(command);
                             command.set("projection", projection)
                                 .set("layer", layer)
                                 .set("before", (layer + 1) % 2)

@@ -38,8 +38,7 @@ LayeredDepth addPyramid(FrameBuilder& frame, const LayeredDepth& layers) {
             context.texture(data.pyramid).clear({0, 0, 0, 0});
             for (int level = 1; level <= kLevels; ++level) {
                 gl::Command command = context.compute("screen_space_photons/pyramid.comp");
-                inputs.bindView(command)
-                    .image("layerDepths", data.depth)
+                command.image("layerDepths", data.depth)
                     .image("pyramid", data.pyramid)
                     .set("layerCount", data.layers)
                     .set("level", level)

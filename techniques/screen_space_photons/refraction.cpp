@@ -60,7 +60,8 @@ void keepToLimits(FrameBuilder& frame, const RefractionViewParams& params,
     const bool isMonotonic = params.search == RefractionSearch::monotonic;
     if (isMonotonic && params.layers >= params.interfaces) return;
     frame.keepsTo(
-        {"view.refraction", layers.statistics,
+        {"view.refraction",
+         {layers.statistics},
          [=](const gl::Executor& executor) -> std::optional<ReachedLimit> {
              const transport::LayerStatistics found =
                  executor.buffer(layers.statistics).read<transport::LayerStatistics>().front();
@@ -109,30 +110,30 @@ View traceRefraction(FrameBuilder& frame, const RefractionViewParams& wanted, Ge
         ViewPass look;
         LayeredDepth dielectrics;
     };
-    const View view =
-        frame
-            .pass<Data>(
-                "view.refraction", why,
-                [&](graph::PassSetup& setup, Data& data) {
-                    data.dielectrics = dielectrics;
-                    if (dielectrics.depth.valid()) readLayers(setup, dielectrics);
-                    data.look = declareLook(frame, setup, params.look, eye, sceneLayers, receivers, shadows);
-                },
-                [&inputs = frame.inputs(), params, box, testing = hitTesting(frame)](
-                    const Data& data, gl::PassContext& context) {
-                    gl::Command command =
-                        context.fullscreen("screen_space_photons/refraction.frag");
-                    command.params("view.refraction", params);
-                    bindLook(inputs, command, data.look, params.look);
-                    if (data.dielectrics.depth.valid()) {
-                        if (box.holdsScene) command.define("SCENE_INSIDE");
-                        bindHitTesting(command, testing, inputs, data.dielectrics);
-                        command.set("dielectricsCenterVs", box.centerVs)
-                            .set("dielectricsHalfExtent", box.halfExtentMeters);
-                    }
-                    command.draw();
-                })
-            .look.seen;
+    const View view = frame
+                          .pass<Data>(
+                              "view.refraction", why,
+                              [&](graph::PassSetup& setup, Data& data) {
+                                  data.dielectrics = dielectrics;
+                                  if (dielectrics.depth.valid()) readLayers(setup, dielectrics);
+                                  data.look = declareLook(frame, setup, params.look, eye,
+                                                          sceneLayers, receivers, shadows);
+                              },
+                              [&inputs = frame.inputs(), params, box, testing = hitTesting(frame)](
+                                  const Data& data, gl::PassContext& context) {
+                                  gl::Command command =
+                                      context.fullscreen("screen_space_photons/refraction.frag");
+                                  command.params("view.refraction", params);
+                                  bindLook(inputs, command, data.look, params.look);
+                                  if (data.dielectrics.depth.valid()) {
+                                      if (box.holdsScene) command.define("SCENE_INSIDE");
+                                      setHitTesting(command, testing, data.dielectrics);
+                                      command.set("dielectricsCenterVs", box.centerVs)
+                                          .set("dielectricsHalfExtent", box.halfExtentMeters);
+                                  }
+                                  command.draw();
+                              })
+                          .look.seen;
     keepToMirrors(frame, "view.refraction", view, params.look);
     if (dielectrics.depth.valid()) keepToLimits(frame, params, dielectrics, view);
     return view;

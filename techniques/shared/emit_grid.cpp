@@ -51,7 +51,7 @@ std::vector<LightGrid> makeGrids(FrameBuilder& frame) {
 
 }  // namespace
 
-Hits emitGrid(FrameBuilder& frame, const params::NoParams&, Geometry geometry) {
+Hits emitGrid(FrameBuilder& frame, const params::NoParams&, Surfaces surfaces) {
     const params::Extent grid = frame.params<EmitParams>("emit").photons;
     const std::vector<LightGrid> grids = makeGrids(frame);
     struct Data {
@@ -68,26 +68,18 @@ Hits emitGrid(FrameBuilder& frame, const params::NoParams&, Geometry geometry) {
         .pass<Data>(
             "emit.grid", why,
             [&](graph::PassSetup& setup, Data& data) {
-                data.geometry = geometry;
-                if (geometry.heightFields.valid()) setup.read(geometry.heightFields);
-                const int w = grid.width;
-                data.hits.position = setup.create<HitPosition>("hits.position", w, rows);
-                data.hits.surface = setup.create<HitSurface>("hits.surface", w, rows);
-                data.hits.flux = setup.create<HitFlux>("hits.flux", w, rows);
-                Photons& photons = data.hits.incoming;
-                photons.position = setup.create<PhotonPosition>("photons.position", w, rows);
-                photons.direction = setup.create<PhotonDirection>("photons.direction", w, rows);
-                photons.flux = setup.create<PhotonFlux>("photons.flux", w, rows);
+                data.geometry = surfaces.geometry;
+                if (data.geometry.heightFields.valid()) setup.read(data.geometry.heightFields);
+                Photons photons = Photons::create(setup, grid.width, rows, "");
                 photons.ledger =
                     setup.createBuffer<transport::LedgerEntry>("ledger", transport::kAccountCount);
-                photons.width = w;
-                photons.height = rows;
-                photons.rowsPerLight = grid.height;
-                data.depth = setup.create<DepthBuffer>("emit.depth_buffer", w, rows);
+                data.hits = Hits::create(setup, photons);
+                data.depth = setup.create<DepthBuffer>("emit.depth_buffer", grid.width, rows);
             },
             [&inputs = frame.inputs(), grids, grid](const Data& data, gl::PassContext& context) {
                 const Photons& photons = data.hits.incoming;
                 context.buffer(photons.ledger).clear();
+                fillList(context, photons);
                 const auto addTargets = [&](gl::Command& command, bool clear) {
                     const auto add = [&](const graph::ResourceRef& handle) {
                         command.target(handle);
@@ -96,6 +88,7 @@ Hits emitGrid(FrameBuilder& frame, const params::NoParams&, Geometry geometry) {
                     add(photons.position);
                     add(photons.direction);
                     add(photons.flux);
+                    add(photons.origin);
                     add(data.hits.position);
                     add(data.hits.surface);
                     add(data.hits.flux);
@@ -105,8 +98,8 @@ Hits emitGrid(FrameBuilder& frame, const params::NoParams&, Geometry geometry) {
                 if (grids.empty()) {
                     for (const graph::ResourceRef& handle :
                          std::initializer_list<graph::ResourceRef>{
-                             photons.position, photons.direction, photons.flux, data.hits.position,
-                             data.hits.surface, data.hits.flux}) {
+                             photons.position, photons.direction, photons.flux, photons.origin,
+                             data.hits.position, data.hits.surface, data.hits.flux}) {
                         context.texture(handle).clear({0, 0, 0, 0});
                     }
                 }
@@ -114,11 +107,9 @@ Hits emitGrid(FrameBuilder& frame, const params::NoParams&, Geometry geometry) {
                     const int bottom = static_cast<int>(light) * grid.height;
                     gl::Command command =
                         context.shaders({"shared/emit_grid.vert", "shared/emit_grid.frag"});
-                    inputs.gpuScene.bindMaterials(command);
                     addTargets(command, light == 0);
                     command.viewport(0, bottom, grid.width, grid.height)
                         .storage("LightInstances", grids[light].instances->instances)
-                        .storage("Lights", inputs.lights)
                         .set("projection", grids[light].projection)
                         .set("lightIndex", static_cast<int>(light))
                         .set("halfExtent", grids[light].halfExtent)

@@ -29,8 +29,7 @@ EyeBuffer renderEye(FrameBuilder& frame, const params::NoParams&, Geometry geome
         },
         [&inputs = frame.inputs(), projection](const Data& data, gl::PassContext& context) {
             gl::Command command = context.shaders({"shared/eye.vert", "shared/eye_receiver.frag"});
-            inputs.bindView(command).set("projection", projection);
-            inputs.gpuScene.bindMaterials(command);
+            command.set("projection", projection);
             command.target(data.eye.receiver).clear();
             command.target(data.eye.receiverSurface).clear();
             command.target(data.eye.receiverAlbedo).clear();

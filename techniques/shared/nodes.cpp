@@ -12,9 +12,10 @@ void registerSharedNodes(Registry& registry) {
     registry.stage<EmitStage>();
     registry.stage<SpecularStage>();
     registry.stage<TraceStage>();
+    registry.stage<ReconstructStage>();
     registry.stage<MediaStage>();
     registry.stage<BlurStage>();
-    registry.stage<ReconstructStage>();
+    registry.stage<GatherStage>();
     registry.stage<ViewStage>();
     registry.stage<ComposeStage>();
 
@@ -50,6 +51,10 @@ void registerSharedNodes(Registry& registry) {
     registry.node<SpecularStage>(
         "split", {"Refracts and reflects: follows both Fresnel branches.", "K06, section 2.3"},
         &splitAtInterface);
+    registry.node<GatherStage>("screen",
+                               {"Flux that was stored by the eye's pixels, over what they see.",
+                                "Krüger et al. 2006, section 3.1"},
+                               &gatherOnScreen);
     registry.node<BlurStage>("none", {"Leaves in-scattered light as it is.", ""}, &leaveUnblurred);
     registry.node<ViewStage>("interface",
                              {"Looks through the first specular surface with one refraction, at "

@@ -21,10 +21,10 @@ Geometry makeHeightFields(FrameBuilder& frame, const params::NoParams&);
 
 EyeBuffer renderEye(FrameBuilder& frame, const params::NoParams&, Geometry geometry);
 
-Hits emitGrid(FrameBuilder& frame, const params::NoParams&, Geometry geometry);
+Hits emitGrid(FrameBuilder& frame, const params::NoParams&, Surfaces surfaces);
 
-Hits interactAtInterface(FrameBuilder& frame, const params::NoParams&, Hits hits);
-Hits interactAsNeeded(FrameBuilder& frame, const params::NoParams&, Hits hits);
+Photons interactAtInterface(FrameBuilder& frame, const params::NoParams&, Hits hits);
+Photons interactAsNeeded(FrameBuilder& frame, const params::NoParams&, Hits hits);
 
 struct SplitParams {
     int levels = 1;
@@ -36,7 +36,10 @@ struct SplitParams {
                 "", params::range(0, 6));
     }
 };
-Hits splitAtInterface(FrameBuilder& frame, const SplitParams& params, Hits hits);
+Photons splitAtInterface(FrameBuilder& frame, const SplitParams& params, Hits hits);
+
+IrradianceMap gatherOnScreen(FrameBuilder& frame, const params::NoParams&, CausticMap map,
+                             Surfaces surfaces);
 
 struct InterfaceViewParams {
     bool refract = true;

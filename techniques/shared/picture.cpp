@@ -66,13 +66,9 @@ DirectLight lightDirectly(FrameBuilder& frame, const Shadows& shadows, EyeBuffer
                 if (direct.radiance.valid()) context.texture(direct.radiance).clear({0, 0, 0, 0});
                 for (int light = 0; light < lights; ++light) {
                     gl::Command command = context.fullscreen("shared/direct.frag");
-                    inputs.bindView(command)
-                        .storage("Lights", inputs.lights)
-                        .storage("Materials", inputs.gpuScene.materials())
-                        .texture("receiver", data.eye.receiver)
+                    command.texture("receiver", data.eye.receiver)
                         .texture("receiverSurface", data.eye.receiverSurface)
                         .texture("visibility", data.shadows.visibility)
-                        .texture("sceneImages", inputs.gpuScene.images())
                         .set("lightIndex", light);
                     command.target(direct.irradiance);
                     if (direct.radiance.valid()) {
@@ -119,13 +115,10 @@ Radiance shadeReceivers(FrameBuilder& frame, EyeBuffer eye, const DirectLight& d
             },
             [&inputs = frame.inputs()](const Data& data, gl::PassContext& context) {
                 gl::Command command = context.fullscreen("shared/radiance.frag");
-                inputs.bindView(command)
-                    .texture("receiver", data.eye.receiver)
-                    .texture("receiverAlbedo", data.eye.receiverAlbedo)
-                    .texture("sceneImages", inputs.gpuScene.images());
+                command.texture("receiver", data.eye.receiver)
+                    .texture("receiverAlbedo", data.eye.receiverAlbedo);
                 if (data.direct.radiance.valid()) {
                     command.define("GLOSSY_RECEIVERS")
-                        .storage("Materials", inputs.gpuScene.materials())
                         .texture("receiverSurface", data.eye.receiverSurface)
                         .texture("directRadiance", data.direct.radiance);
                 } else {
@@ -173,9 +166,7 @@ Radiance lookThroughMedium(FrameBuilder& frame, EyeBuffer eye, Radiance seen,
             },
             [&inputs = frame.inputs()](const Data& data, gl::PassContext& context) {
                 gl::Command command = context.fullscreen("shared/medium.frag");
-                inputs.bindView(command)
-                    .storage("Materials", inputs.gpuScene.materials())
-                    .texture("receiver", data.eye.receiver)
+                command.texture("receiver", data.eye.receiver)
                     .texture("seenRadiance", data.seen.radiance);
                 if (data.inScattered.radiance.valid()) {
                     command.define("SCATTERS").texture("inScattered", data.inScattered.radiance);

@@ -113,8 +113,7 @@ Shadows lookUpShadowMaps(FrameBuilder& frame, const ShadowMapParams& params, Geo
             [&inputs = frame.inputs(), views](const Data& data, gl::PassContext& context) {
                 for (std::size_t light = 0; light < views.size(); ++light) {
                     gl::Command command = context.fullscreen("shared/shadow_lookup.frag");
-                    inputs.bindView(command)
-                        .texture("receiver", data.eye.receiver)
+                    command.texture("receiver", data.eye.receiver)
                         .texture("receiverSurface", data.eye.receiverSurface)
                         .texture("shadowMap", data.maps.map)
                         .set("firstLayer", views[light].firstLayer)

@@ -30,7 +30,7 @@ std::string whyBoth(const scene::SceneNeeds& needs) {
 
 }  // namespace
 
-Hits interactAsNeeded(FrameBuilder& frame, const params::NoParams&, Hits hits) {
+Photons interactAsNeeded(FrameBuilder& frame, const params::NoParams&, Hits hits) {
     const std::string why = whyBoth(frame.needs());
     const bool isFirst = frame.runsOf(SpecularStage::name) == 1;
     if (!why.empty()) {

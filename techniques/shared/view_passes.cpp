@@ -105,10 +105,7 @@ ViewPass declareLook(const FrameBuilder& frame, graph::PassSetup& setup,
 
 void bindLook(const FrameInputs& inputs, gl::Command& command, const ViewPass& pass,
               const SceneLookParams& look) {
-    inputs.bindView(command)
-        .storage("Materials", inputs.gpuScene.materials())
-        .texture("sceneImages", inputs.gpuScene.images())
-        .texture("interfaceDepth", pass.eye.interface)
+    command.texture("interfaceDepth", pass.eye.interface)
         .texture("interfaceSurface", pass.eye.interfaceSurface)
         .texture("receiver", pass.eye.receiver)
         .texture("receiverSurface", pass.eye.receiverSurface)
@@ -122,8 +119,7 @@ void bindLook(const FrameInputs& inputs, gl::Command& command, const ViewPass& p
     if (inputs.needs.refractors > 0) command.define("DIELECTRICS");
     const bool isGlossy = pass.shadows.visibility.valid();
     const bool looksInLayers = pass.sceneLayers.depth.valid();
-    if (isGlossy || looksInLayers)
-        command.storage("Lights", inputs.lights).set("lightCount", inputs.needs.lights);
+    if (isGlossy || looksInLayers) command.set("lightCount", inputs.needs.lights);
     if (isGlossy)
         command.define("GLOSSY_RECEIVERS").texture("directVisibility", pass.shadows.visibility);
     if (!looksInLayers) {
@@ -147,7 +143,8 @@ std::size_t countExits(const gl::Texture& exitDirection, float ending) {
 void keepToExitLimit(FrameBuilder& frame, const std::string& pass, const View& seen,
                      const std::string& parameter, const std::string& unit, int value, float ending,
                      const std::string& fate) {
-    frame.keepsTo({pass, seen.exitDirection,
+    frame.keepsTo({pass,
+                   {seen.exitDirection},
                    [=, exits = seen.exitDirection](
                        const gl::Executor& executor) -> std::optional<ReachedLimit> {
                        const std::size_t rays = countExits(executor.texture(exits), ending);

@@ -26,32 +26,24 @@ struct SpoiledParams {
 SpoiledParams spoiled;
 
 Hits traceSpoiled(FrameBuilder& frame, const params::NoParams&, Photons photons,
-                  LayeredDepth layers, Hits previous) {
+                  Surfaces surfaces) {
     const auto& lines = *static_cast<const TraceStage::Build*>(
         frame.inputs().registry.findNode("trace", "lines").build.get());
-    const Hits hits = lines(frame, photons, layers, previous);
-    struct Data {
-        Hits hits;
-    };
-    return frame
-        .pass<Data>(
-            "trace.spoiled", "a test",
-            [&](graph::PassSetup& setup, Data& data) {
-                data.hits = hits;
-                data.hits.position = setup.write(hits.position);
-                data.hits.flux = setup.write(hits.flux);
-            },
-            [&inputs = frame.inputs()](const Data& data, gl::PassContext& context) {
-                gl::Command command = context.compute("tests/audit/shaders/spoil_hits.comp");
-                inputs.bindView(command)
-                    .image("hitPosition", data.hits.position)
-                    .image("hitFlux", data.hits.flux)
-                    .set("shiftPixels", spoiled.shiftPixels)
-                    .set("dropped", spoiled.dropped ? 1 : 0)
-                    .set("notANumber", spoiled.notANumber ? 1 : 0)
-                    .dispatchOver(data.hits.incoming.width, 8, data.hits.incoming.height, 8);
-            })
-        .hits;
+    const Hits hits = lines(frame, photons, surfaces);
+    return frame.pass<Hits>(
+        "trace.spoiled", "a test",
+        [&](graph::PassSetup& setup, Hits& data) {
+            data = hits;
+            data.position = setup.image("hitPosition", setup.write(hits.position));
+            data.flux = setup.image("hitFlux", setup.write(hits.flux));
+        },
+        [](const Hits& data, gl::PassContext& context) {
+            context.compute("tests/audit/shaders/spoil_hits.comp")
+                .set("shiftPixels", spoiled.shiftPixels)
+                .set("dropped", spoiled.dropped ? 1 : 0)
+                .set("notANumber", spoiled.notANumber ? 1 : 0)
+                .dispatchOver(data.incoming.width, 8, data.incoming.height, 8);
+        });
 }
 
 class Audited {
@@ -74,8 +66,7 @@ class Audited {
         hits = audit::auditHits(*renderer_, embree_);
         emittedWatts = renderer_->ledger().watts[transport::kAccountEmitted];
         ledger = audit::resolveLedger(*renderer_, hits, emittedWatts);
-        const EnergyLedger traced =
-            renderer_->ledger(renderer_->traces().back().hits.incoming.ledger);
+        const EnergyLedger traced = audit::bookedByTracers(*renderer_);
         for (const unsigned account : {transport::kAccountOffScreen, transport::kAccountBehindEye,
                                        transport::kAccountUnresolved}) {
             lostByTracersWatts += traced.watts[account];

@@ -3,6 +3,7 @@
 // a slab of glass under two suns: light keeps its azimuth, and across the slab its direction's
 // horizontal part is the sun's outside and that over the index inside.
 #include "framework/gui/photon_probe.h"
+#include "framework/pipeline/photon_texels.h"
 
 #include <algorithm>
 #include <array>
@@ -82,11 +83,11 @@ class PhotonsUnderASlab : public testing::Test {
                           glm::dvec4(glm::dvec3(pointVs), 1.0));
     }
     [[nodiscard]] std::size_t arrivals() const {
-        const std::vector<float> fluxes =
-            renderer->texture(renderer->traces().back().hits.flux).read();
         std::size_t count = 0;
-        for (std::size_t i = 3; i < fluxes.size(); i += 4)
-            count += static_cast<unsigned>(fluxes[i]) == transport::kFateReceiver ? 1 : 0;
+        for (const TraceRecord& record : renderer->traces()) {
+            for (const HitTexel& hit : readHits(*renderer, record.hits))
+                count += hit.fate == transport::kFateReceiver ? 1 : 0;
+        }
         return count;
     }
 
@@ -110,7 +111,7 @@ TEST_F(PhotonsUnderASlab, ComeFromTheirOwnSunByTheLawsOfRefraction) {
         for (const glm::vec3& point : path.points)
             points.push_back(world(point));
         ASSERT_GE(points.size(), 4u) << "a light, two interfaces and the floor";
-        const std::size_t light = static_cast<std::size_t>(path.photon.y / kPhotonRows % 2);
+        const std::size_t light = path.origin.light;
         const glm::dvec3 sun = kSuns[light];
         EXPECT_NEAR(glm::length(glm::normalize(points[1] - points[0]) - sun), 0.0, 1e-4);
         EXPECT_TRUE(isOn(points.back(), kFloor));
@@ -134,13 +135,13 @@ TEST_F(PhotonsUnderASlab, ComeFromTheirOwnSunByTheLawsOfRefraction) {
     EXPECT_GT(judged[1], 10);
 }
 
-TEST_F(PhotonsUnderASlab, AreAllFoundHoweverOftenTheMapHasGrown) {
+TEST_F(PhotonsUnderASlab, AreAllFoundHoweverOftenTheListHasGrown) {
     for (const char* splits : {"0", "1", "2", "3"}) {
         const gui::PhotonProbe probe = this->probe(splits, kEverywhere);
         EXPECT_EQ(probe.landed, arrivals()) << splits;
-        std::set<std::pair<int, int>> photons;
+        std::set<std::array<std::uint32_t, 3>> photons;
         for (const gui::PhotonPath& path : probe.paths)
-            photons.emplace(path.photon.x, path.photon.y);
+            photons.insert({path.origin.cell, path.origin.light, path.origin.path});
         EXPECT_EQ(photons.size(), probe.paths.size()) << splits;
     }
 }

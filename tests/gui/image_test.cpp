@@ -281,9 +281,9 @@ TEST_F(EditedShaders, ABrokenShaderIsExplainedAndTheLastGoodOneStaysInUse) {
 class ProbedPhotons : public ImagePanel {
   protected:
     ProbedPhotons() {
-        renderSmall({"--save", "hits.position", "--save", "hits.flux", "--out", "hits"});
-        const Image positions = readImage(folder / "hits" / ("hits.position" + extension));
-        const Image fluxes = readImage(folder / "hits" / ("hits.flux" + extension));
+        renderSmall({"--save", "hits.position_1", "--save", "hits.flux_1", "--out", "hits"});
+        const Image positions = readImage(folder / "hits" / ("hits.position_1" + extension));
+        const Image fluxes = readImage(folder / "hits" / ("hits.flux_1" + extension));
         constexpr float reachedReceiver = 2.0f;
         const double tangent = std::tan(45.0 / 2.0 * std::acos(-1.0) / 180.0);
         for (int y = 0; y < positions.height; ++y) {

@@ -145,7 +145,7 @@ void drawProbe(Bench& bench) {
             for (const PhotonPath& path : probe->paths) {
                 ImGui::TableNextRow();
                 ImGui::TableNextColumn();
-                ImGui::Text("%d, %d", path.photon.x, path.photon.y);
+                ImGui::Text("%u of light %u", path.origin.cell, path.origin.light + 1);
                 ImGui::TableNextColumn();
                 ImGui::Text("%.2f", double(path.pixels));
                 ImGui::TableNextColumn();

@@ -13,16 +13,17 @@ namespace kaustik::test {
 namespace {
 
 // A node that asks OpenGL for what there is not.
-IrradianceMap enableNothing(FrameBuilder& frame, const params::NoParams&, Hits hits, EyeBuffer) {
-    return frame.pass<IrradianceMap>(
+CausticMap enableNothing(FrameBuilder& frame, const params::NoParams&, Hits hits, Surfaces,
+                         CausticMap before) {
+    return frame.pass<CausticMap>(
         "reconstruct.wrong", "a test",
-        [&](graph::PassSetup& setup, IrradianceMap& data) {
-            data.irradiance =
-                setup.create<IrradianceTexel>("caustic.irradiance", frame.width(), frame.height());
+        [&](graph::PassSetup& setup, CausticMap& data) {
+            data = CausticMap::deposit(setup, before, frame.width(), frame.height(), false,
+                                       "caustic.flux");
             data.ledger = hits.incoming.ledger;
         },
-        [](const IrradianceMap& data, gl::PassContext& context) {
-            context.texture(data.irradiance).clear({0, 0, 0, 0});
+        [](const CausticMap& data, gl::PassContext& context) {
+            context.texture(data.flux).clear({0, 0, 0, 0});
             glEnable(0xdead);
         });
 }

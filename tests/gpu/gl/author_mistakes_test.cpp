@@ -143,7 +143,7 @@ TEST(AuthorMistakes, WhatNothingAskedForCannotBeReadAfterTheFrame) {
               std::string::npos);
 }
 
-Hits noHits(FrameBuilder&, const params::NoParams&, Photons, LayeredDepth, Hits) {
+Hits noHits(FrameBuilder&, const params::NoParams&, Photons, Surfaces) {
     return {};
 }
 

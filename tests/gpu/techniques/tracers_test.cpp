@@ -17,7 +17,7 @@ TEST_P(Marching, FindsTheHitsOfTheLines) {
     const auto settings = [&, t = test](const char* tracer) {
         return Frame::Settings{{"trace", tracer}, {"trace.test", t}, {"emit.photons", "64x64"}};
     };
-    const std::vector<std::string> saved = {"hits.position", "hits.surface", "hits.flux"};
+    const std::vector<std::string> saved = {"hits.position_2", "hits.surface_2", "hits.flux_2"};
     const Frame lines(scene, 160, 120, settings("lines"), saved);
     const Frame marched(scene, 160, 120, settings(node), saved);
     for (const std::string& name : saved) {

@@ -67,7 +67,7 @@ TEST(DepthComplexity, IsTheSameByReduceAndByAtomics) {
 
 TEST(LineSource, OfTheGeometryShaderFindsTheSameHits) {
     const scene::Scene scene = scene::loadScene("glass-sphere");
-    const std::vector<std::string> saved = {"hits.position", "hits.surface", "hits.flux"};
+    const std::vector<std::string> saved = {"hits.position_2", "hits.surface_2", "hits.flux_2"};
     const Settings settings = {{"trace", "lines"}, {"emit.photons", "64x64"}};
     Settings made = settings;
     made.emplace_back("trace.lines.source", "geometry");
@@ -260,8 +260,8 @@ position = [0, -0.5, 0]
     const Settings settings = {{"emit.photons", "64x64"}};
     Settings all = settings;
     all.emplace_back("trace", "all_hits");
-    const Frame first(scene, 200, 150, settings, {"hits.flux"});
-    const Frame every(scene, 200, 150, all, {"hits.flux_all_1"});
+    const Frame first(scene, 200, 150, settings, {"hits.flux_1"});
+    const Frame every(scene, 200, 150, all, {"hits.flux_1_all"});
     const auto count = [](const Texels& flux) {
         int hits = 0;
         for (int y = 0; y < flux.height; ++y) {
@@ -270,10 +270,10 @@ position = [0, -0.5, 0]
         }
         return hits;
     };
-    EXPECT_EQ(count(first.read("hits.flux")), 64 * 64);
+    EXPECT_EQ(count(first.read("hits.flux_1")), 64 * 64);
     // A quarter of the photons would meet the floor under the plate too. Its edges are known to a
     // pixel, 2 cm, which is more than a photon.
-    const int further = count(every.read("hits.flux_all_1")) - 64 * 64;
+    const int further = count(every.read("hits.flux_1_all")) - 64 * 64;
     EXPECT_GE(further, 30 * 30);
     EXPECT_LE(further, 36 * 36);
 }

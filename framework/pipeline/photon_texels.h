@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// Lists of photons and their hits as the processor reads them back: for whoever judges, probes or
+// shows them. Eye view space, m, W. All of it waits for the device, and needs what it reads to have
+// been asked for (graph::Graph::request).
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "framework/pipeline/renderer.h"
+
+namespace kaustik {
+
+// A word of a texel (a fate, a material, media) that is none.
+inline constexpr std::uint32_t kNoWord = ~0u;
+
+// As transport::Photon and transport::Hit.
+struct PhotonTexel {
+    glm::vec3 position{0.0f};
+    float footprintMeters = 0.0f;
+    glm::vec3 direction{0.0f};
+    std::uint32_t fate = transport::kFateNone;
+    glm::vec3 fluxWatts{0.0f};
+    std::uint32_t media = 0;
+    transport::PhotonOrigin origin{};
+};
+struct HitTexel {
+    glm::vec3 position{0.0f};
+    float distanceMeters = 0.0f;
+    glm::vec3 normal{0.0f};
+    std::uint32_t material = 0;  // index + 1
+    glm::vec3 fluxWatts{0.0f};
+    std::uint32_t fate = transport::kFateNone;
+    [[nodiscard]] bool isHit() const {
+        return fate == transport::kFateReceiver || fate == transport::kFateSpecular;
+    }
+};
+
+// In the order of the list.
+[[nodiscard]] std::vector<PhotonTexel> readPhotons(const Renderer& renderer,
+                                                   const Photons& photons);
+[[nodiscard]] std::vector<HitTexel> readHits(const Renderer& renderer, const Hits& hits);
+
+}  // namespace kaustik

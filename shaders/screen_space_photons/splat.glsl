@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// The splat of a photon of a list, as both passes over its pixels make it.
+#include "common/hits.glsl"
+#include "common/photon_thread.glsl"
+#include "screen_space_photons/sprite.glsl"
+
+// Where a photon has arrived; `wanted`: the radius that it asks for, m, and `largest` the one that
+// it may have.
+Sprite splatOf(ivec2 texel, out float wanted, out float largest) {
+    Sprite sprite;
+    sprite.center = texelFetch(hitPosition, texel, 0).xyz;
+    sprite.normal = texelFetch(hitSurface, texel, 0).xyz;
+    sprite.direction = texelFetch(photonDirection, texel, 0).xyz;
+    wanted = reconstruct_sprites_radius > 0.0
+                 ? reconstruct_sprites_radius
+                 : reconstruct_sprites_footprints * texelFetch(photonPosition, texel, 0).w;
+    float pixel = pixelFootprint(-sprite.center.z);
+    largest = float(reconstruct_sprites_maximum) * pixel;
+    sprite.radius = clamp(wanted, pixel, largest);
+    return sprite;
+}

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// Each pixel's share of a splat, so that exactly the photon's flux is deposited at every
+// orientation, size and distance (sampled at pixel centres a kernel of few pixels does not sum to
+// 1). One thread a photon.
+#include "common/flux_sum.glsl"
+#include "common/surface_data.glsl"
+#include "screen_space_photons/splat.glsl"
+#ifdef GLOSSY_RECEIVERS
+#include "common/receiver_brdf.glsl"
+#endif
+
+layout(std430) readonly buffer SplatTotals {
+    float splatTotals[];
+};
+
+void deposit(Sprite sprite, ivec2 pixel, vec3 flux) {
+    fluxAdd(pixel, kFluxPart, flux);
+#ifdef GLOSSY_RECEIVERS
+    vec4 surface = texelFetch(receiverSurface, pixel, 0);
+    fluxAdd(pixel, kIntensityPart, flux * receiverReflection(pixel, surface, -sprite.direction));
+#endif
+}
+
+void main() {
+    uint index = photonOfThread();
+    if (index >= photons.count) return;
+    float total = splatTotals[index];
+    if (total <= 0.0) return;
+    ivec2 texel = ivec2(photonTexel(photons, index));
+    vec3 flux = texelFetch(hitFlux, texel, 0).rgb;
+    float wanted;
+    float largest;
+    Sprite sprite = splatOf(texel, wanted, largest);
+    ivec2 reach = spriteReach(sprite);
+    ivec2 middle = ivec2(floor(pixelOf(sprite.center)));
+    ivec2 first = max(middle - reach, ivec2(0));
+    ivec2 last = min(middle + reach, ivec2(view.sizePixels.xy) - 1);
+    for (int y = first.y; y <= last.y; ++y) {
+        for (int x = first.x; x <= last.x; ++x) {
+            SpritePixel part = spriteAt(sprite, ivec2(x, y));
+            if (part.where == kSpriteOn && part.weight > 0.0)
+                deposit(sprite, ivec2(x, y), flux * (part.weight * part.area / total));
+        }
+    }
+}

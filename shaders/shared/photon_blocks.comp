@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// How many photons of every workgroup's go on, since they have met a specular surface.
+#include "common/hits.glsl"
+#include "common/photon_thread.glsl"
+
+layout(std430) writeonly buffer NextFirsts {
+    uint nextFirsts[];
+};
+shared uint goingOn;
+
+void main() {
+    if (gl_LocalInvocationIndex == 0u) goingOn = 0u;
+    barrier();
+    uint index = photonOfThread();
+    if (index < photons.count) {
+        float fate = texelFetch(hitFlux, ivec2(photonTexel(photons, index)), 0).w;
+        if (uint(fate) == kFateSpecular) atomicAdd(goingOn, 1u);
+    }
+    barrier();
+    if (gl_LocalInvocationIndex == 0u && workgroupNumber() * kPhotonGroup < photons.count)
+        nextFirsts[workgroupNumber()] = goingOn;
+}

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// gather.screen: a map of flux that was stored by the eye's own pixels becomes irradiance over the
+// area of the receiver that each sees. In: flux, W (W/sr towards the eye); out: W/m² (W/m²/sr).
+#include "framework/pipeline/frame_builder.h"
+#include "techniques/shared/nodes.h"
+
+namespace kaustik {
+
+IrradianceMap gatherOnScreen(FrameBuilder& frame, const params::NoParams&, CausticMap map,
+                             Surfaces surfaces) {
+    return frame.pass<IrradianceMap>(
+        "gather.screen", "what was deposited is spread over what each pixel sees",
+        [&](graph::PassSetup& setup, IrradianceMap& data) {
+            setup.sample("fluxSums", map.flux);
+            setup.sample("receiver", surfaces.eye.receiver);
+            data.ledger = map.ledger;
+            data.irradiance =
+                setup.create<IrradianceTexel>("caustic.irradiance", frame.width(), frame.height());
+            setup.bypass(data.irradiance, {0, 0, 0, 0});
+            if (!map.hasIntensity) return;
+            data.radiance =
+                setup.create<RadianceTexel>("caustic.radiance", frame.width(), frame.height());
+            setup.bypass(data.radiance, {0, 0, 0, 0});
+        },
+        [](const IrradianceMap& data, gl::PassContext& context) {
+            gl::Command command = context.fullscreen("shared/gather_screen.frag");
+            command.target(data.irradiance);
+            if (data.radiance.valid()) command.define("HAS_INTENSITY").target(data.radiance);
+            command.draw();
+        });
+}
+
+}  // namespace kaustik

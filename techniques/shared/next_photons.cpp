@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#include "techniques/shared/next_photons.h"
+
+#include <fmt/format.h>
+
+namespace kaustik {
+
+NextPhotons makeRoom(FrameBuilder& frame, const Hits& hits, int branches) {
+    return frame.pass<NextPhotons>(
+        "specular.list", "photons that end leave no gaps",
+        [&](graph::PassSetup& setup, NextPhotons& data) {
+            const Photons& before = hits.incoming;
+            hits.sample(setup);
+            before.sample(setup);
+            ModelledPaths paths = before.paths;
+            ++paths.interactions;
+            data.photons = Photons::create(setup, before.width, before.rowsThatGoOn * branches,
+                                           fmt::format("_{}", paths.interactions));
+            data.photons.paths = paths;
+            setup.storage("NextPhotons", data.photons.list);
+            const auto groups =
+                (static_cast<std::size_t>(before.capacity()) + transport::kPhotonGroup - 1) /
+                transport::kPhotonGroup;
+            data.firsts = setup.storage(
+                "NextFirsts",
+                setup.createBuffer<std::uint32_t>("photons.firsts" + data.photons.suffix, groups));
+        },
+        [list = hits.incoming, branches](const NextPhotons& data, gl::PassContext& context) {
+            dispatchOver(context.compute("shared/photon_blocks.comp"), list);
+            context.compute("shared/photon_offsets.comp")
+                .set("branches", branches)
+                .set("nextRowLength", data.photons.width)
+                .dispatch(1);
+        });
+}
+
+Photons sendOn(graph::PassSetup& setup, const Hits& hits, const NextPhotons& next) {
+    hits.sample(setup);
+    hits.incoming.sample(setup);
+    setup.storage("NextFirsts", next.firsts);
+    Photons photons = next.photons;
+    photons.position = setup.image("nextPosition", setup.write(photons.position));
+    photons.direction = setup.image("nextDirection", setup.write(photons.direction));
+    photons.flux = setup.image("nextFlux", setup.write(photons.flux));
+    photons.origin = setup.image("nextOrigin", setup.write(photons.origin));
+    setup.storage("NextPhotons", photons.list);
+    photons.ledger = hits.incoming.ledger;
+    photons.account(setup);
+    return photons;
+}
+
+}  // namespace kaustik
