@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "techniques/register_all.h"
 
+#ifdef KAUSTIK_HAS_EMBREE
+#include "techniques/raytraced/nodes.h"
+#endif
 #include "techniques/screen_space_photons/nodes.h"
 #include "techniques/shared/nodes.h"
 
@@ -10,6 +13,9 @@ Registry registerAll() {
     Registry registry;
     registerSharedNodes(registry);
     registerScreenSpacePhotons(registry);
+#ifdef KAUSTIK_HAS_EMBREE
+    registerRaytraced(registry);
+#endif
     registerMediaLeftOut(registry);
     return registry;
 }

@@ -106,13 +106,17 @@ class Counter {
             audit_.falseHits[cause] = 0;
     }
 
-    void add(const TracedPhoton& traced, const reference::FirstHit& exact, const PhotonFate& fate) {
+    void add(const TracedPhoton& traced, const reference::FirstHit& exact, const PhotonFate& fate,
+             Sees sees) {
         const bool isRight = fate.verdict == Verdict::right;
         ++audit_.photons;
         if (exact.exists()) ++audit_.exactHits;
         if (fate.isVisible()) ++audit_.visible;
         if (isRight) ++audit_.right;
         if (isRight && fate.isVisible()) ++audit_.rightVisible;
+        const bool isReachable = sees == Sees::everything ? exact.exists() : fate.isVisible();
+        if (isReachable) ++audit_.reachable;
+        if (isRight && isReachable) ++audit_.rightReachable;
         if (fate.distanceMeters) meters_.push_back(*fate.distanceMeters);
         if (fate.distancePixels) pixels_.push_back(*fate.distancePixels);
         if (fate.distanceMeters && !fate.distancePixels) ++audit_.unplaced;
@@ -216,6 +220,10 @@ std::optional<double> HitAudit::agreementVisible() const {
     return share(rightVisible, visible);
 }
 
+std::optional<double> HitAudit::agreementReachable() const {
+    return share(rightReachable, reachable);
+}
+
 HitAudit auditHits(const Renderer& renderer, const reference::EmbreeScene& scene, int threads) {
     HitAudit audit;
     const render::EyeView& view = renderer.view();
@@ -231,7 +239,7 @@ HitAudit auditHits(const Renderer& renderer, const reference::EmbreeScene& scene
         const std::vector<reference::FirstHit> exact =
             reference::exactFirstHits(scene, photons, viewToWorld, threads);
         for (std::size_t i = 0; i < traced.size(); ++i) {
-            counter.add(traced[i], exact[i], judge(view, layers, traced[i], exact[i]));
+            counter.add(traced[i], exact[i], judge(view, layers, traced[i], exact[i]), trace.sees);
         }
     }
     counter.finish();

@@ -34,12 +34,14 @@ struct WrongPhoton {
 };
 
 struct HitAudit {
-    std::uint64_t photons = 0;        // that were traced, of all tracings of the frame
-    std::uint64_t notANumber = 0;     // photons that are none themselves; not among them
-    std::uint64_t exactHits = 0;      // photons that have a first hit
-    std::uint64_t visible = 0;        // photons whose first hit the screen could show
-    std::uint64_t right = 0;          // of all
-    std::uint64_t rightVisible = 0;   // of those that are visible
+    std::uint64_t photons = 0;       // that were traced, of all tracings of the frame
+    std::uint64_t notANumber = 0;    // photons that are none themselves; not among them
+    std::uint64_t exactHits = 0;     // photons that have a first hit
+    std::uint64_t visible = 0;       // photons whose first hit the screen could show
+    std::uint64_t reachable = 0;     // photons whose first hit the tracer itself can find
+    std::uint64_t right = 0;         // of all
+    std::uint64_t rightVisible = 0;  // of those that are visible
+    std::uint64_t rightReachable = 0;
     std::optional<Quantiles> meters;  // from the exact hit, where there are both
     std::optional<Quantiles> pixels;
     std::uint64_t unplaced = 0;  // pairs of hits of which one is not before the eye: no pixels
@@ -53,6 +55,7 @@ struct HitAudit {
     // Nothing where there is no photon to judge.
     [[nodiscard]] std::optional<double> agreement() const;
     [[nodiscard]] std::optional<double> agreementVisible() const;
+    [[nodiscard]] std::optional<double> agreementReachable() const;
 };
 
 // Of the frame that `renderer` has rendered for Purpose::audit. `scene`: the same one.

@@ -39,6 +39,8 @@ nlohmann::json toJson(const HitAudit& audit) {
     set("agreement", audit.agreement(), "no photon was traced");
     set("agreement_visible", audit.agreementVisible(),
         "the screen shows no photon's exact first hit");
+    set("agreement_reachable", audit.agreementReachable(),
+        "the tracer can find no photon's exact first hit");
     const auto setAll = [&](const std::string& unit, const std::optional<Quantiles>& of) {
         const auto value = [&](double Quantiles::*part) {
             return of ? std::optional<double>((*of).*part) : std::nullopt;

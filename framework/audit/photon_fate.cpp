@@ -81,8 +81,9 @@ PhotonFate judgeFate(const render::EyeView& view, const Layers& layers, const gl
         std::abs(glm::dot(exact.geometricNormal, exact.position)) / toEye, kSmallestCosine);
     const double footprint = std::abs(exact.position.z) * view.footprintPerMeter() / cosine;
     const auto isWithin = [&](double times) {
-        return fate.distancePixels && *fate.distancePixels <= times &&
-               distance <= times * footprint;
+        // Neither may be before the eye, where there are no pixels: then metres alone tell.
+        const bool isOnScreen = fate.distancePixels && *fate.distancePixels <= times;
+        return (isOnScreen || (!a && !b)) && distance <= times * footprint;
     };
     if (isWithin(1.0)) return fate;
     if (isWithin(kDisplaced)) {

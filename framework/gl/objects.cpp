@@ -138,6 +138,22 @@ std::vector<float> Texture::read() const {
     return values;
 }
 
+std::vector<glm::vec4> Texture::readRows(int rows) const {
+    std::vector<glm::vec4> texels(static_cast<std::size_t>(desc_.width) *
+                                  static_cast<std::size_t>(rows));
+    if (texels.empty()) return texels;
+    glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
+    glGetTextureSubImage(id(), 0, 0, 0, 0, desc_.width, rows, 1, GL_RGBA, GL_FLOAT,
+                         static_cast<GLsizei>(texels.size() * sizeof(glm::vec4)), texels.data());
+    return texels;
+}
+
+void Texture::writeRows(const std::vector<glm::vec4>& texels) const {
+    const auto rows = static_cast<GLsizei>(texels.size() / static_cast<std::size_t>(desc_.width));
+    if (rows == 0) return;
+    glTextureSubImage2D(id(), 0, 0, 0, desc_.width, rows, GL_RGBA, GL_FLOAT, texels.data());
+}
+
 std::vector<std::uint32_t> Texture::readWords() const {
     const FormatInfo info = formatInfo(desc_.format);
     if (!info.isInteger) {

@@ -5,6 +5,7 @@
 #include <epoxy/gl.h>
 
 #include <cstddef>
+#include <glm/glm.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -77,6 +78,9 @@ class Texture {
     // All layers as floats (integers are converted), channels interleaved, bottom row first.
     // Waits for the device.
     [[nodiscard]] std::vector<float> read() const;
+    // The first rows of a plain texture of floats, to read and to write; four channels.
+    [[nodiscard]] std::vector<glm::vec4> readRows(int rows) const;
+    void writeRows(const std::vector<glm::vec4>& texels) const;
     // The same of whole numbers, exactly; GraphError where the texture has none.
     [[nodiscard]] std::vector<std::uint32_t> readWords() const;
 

@@ -171,6 +171,7 @@ struct Compiled {
     // (resource, version) → resource whose memory holds it, through bypasses; SIZE_MAX where it
     // has none.
     [[nodiscard]] std::size_t slotOf(const ResourceRef& handle) const;
+    static constexpr std::size_t kNowhere = ~std::size_t{0};
 
     // What an execute asks for must be what its setup has declared, and of the kind that it is:
     // these give the slot, or throw a GraphError that names pass and resource.

@@ -55,6 +55,11 @@ Lab::Choice Lab::choose(const std::string& stage, const std::string& node) const
     return {registry_.techniques().front().name, {{stage, node}}, stage + "." + node};
 }
 
+Sees Lab::seenBy(const Choice& tracer) const {
+    const std::size_t dot = tracer.subject.find('.');
+    return registry_.findNode(TraceStage::name, tracer.subject.substr(dot + 1)).description.sees;
+}
+
 Frame Lab::render(const Technique& technique, const scene::Scene& scene, FrameRequest request) {
     request.keepsAll = true;
     request.poison = true;

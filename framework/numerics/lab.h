@@ -54,6 +54,9 @@ class Lab {
         return choices;
     }
 
+    // What a tracer can find.
+    [[nodiscard]] Sees seenBy(const Choice& tracer) const;
+
     // Renders with every texture kept, and memory that starts as NaN; each texture is scanned, and
     // the case gets a row that says how many values were none.
     [[nodiscard]] Frame render(const Technique& technique, const scene::Scene& scene,

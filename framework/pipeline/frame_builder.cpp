@@ -16,6 +16,11 @@ const Registry::Node& FrameBuilder::chosenNode(const std::string& stage) {
     return inputs_.registry.findNode(stage, inputs_.params.choice(stage));
 }
 
+Sees FrameBuilder::tracerSees() const {
+    return inputs_.registry.findNode(TraceStage::name, inputs_.params.choice(TraceStage::name))
+        .description.sees;
+}
+
 int FrameBuilder::runsOf(const std::string& stage) const {
     return static_cast<int>(std::count(stagesRun_.begin(), stagesRun_.end(), stage));
 }
@@ -26,6 +31,7 @@ Hits FrameBuilder::recorded(const TraceStage::Build& build, const Photons& photo
     TraceRecord record;
     record.before = copyLedger(*this, photons.ledger, name + "_before");
     record.hits = build(*this, photons, surfaces);
+    record.sees = tracerSees();
     record.after = copyLedger(*this, record.hits.incoming.ledger, name + "_after");
     traces_.push_back(record);
     return record.hits;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -111,6 +112,19 @@ class FrameBuilder {
     // Outlives the graph: what execute functions capture, by reference.
     [[nodiscard]] const FrameInputs& inputs() const { return inputs_; }
 
+    // What several nodes or runs of one share, made by the first of them: an acceleration
+    // structure, say. Lives as long as the frame.
+    template <class T, class Make>
+    std::shared_ptr<T> once(const std::string& name, Make&& make) {
+        std::shared_ptr<void>& shared = shared_[name];
+        if (!shared) {
+            shared = make();
+            kept_.push_back(shared);
+        }
+        return std::static_pointer_cast<T>(shared);
+    }
+    // What the chosen tracer can find.
+    [[nodiscard]] Sees tracerSees() const;
     // Keeps `object` (a buffer of a node's own, say) alive as long as the frame.
     template <class T>
     const T& keep(T&& object) {
@@ -147,6 +161,7 @@ class FrameBuilder {
     graph::Graph& graph_;
     const FrameInputs& inputs_;
     std::vector<std::shared_ptr<void>> kept_;
+    std::map<std::string, std::shared_ptr<void>> shared_;
     std::vector<std::string> warnings_;
     std::vector<NodeLimit> limits_;
     std::vector<std::string> stagesRun_;

@@ -30,7 +30,8 @@ class Suite;
 
 struct NodeDescription {
     std::string sentence;
-    std::string source;  // paper, section, equation; "" for our own
+    std::string source;           // paper, section, equation; "" for our own
+    Sees sees = Sees::eyeLayers;  // of a tracer
 };
 
 // What a technique hands to the report, besides the picture.

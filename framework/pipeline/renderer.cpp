@@ -164,7 +164,6 @@ graph::Compiled Renderer::compile(Purpose purpose, const std::vector<std::string
     if (outputs_.inScattered.radiance.valid()) graph_->request(outputs_.inScattered.radiance);
     if (purpose != Purpose::picture) {
         graph_->request(closedLedger_);
-        if (outputs_.layers.statistics.valid()) graph_->request(outputs_.layers.statistics);
     }
     traces_ = frame.traces();
     if (purpose == Purpose::audit) requestForAudit();
@@ -181,6 +180,14 @@ graph::Compiled Renderer::compile(Purpose purpose, const std::vector<std::string
     graph::Compiled compiled = settings_.disabledPasses.empty()
                                    ? graph_->compile()
                                    : compileWithout(*graph_, settings_.disabledPasses);
+    // Of layers that something else needs: a measurement asks for no pass of its own.
+    const graph::ResourceRef& statistics = outputs_.layers.statistics;
+    hasLayerStatistics_ = statistics.valid() && purpose != Purpose::picture &&
+                          compiled.slotOf(statistics) != graph::Compiled::kNowhere;
+    if (hasLayerStatistics_) {
+        graph_->request(statistics);
+        compiled = graph_->compile();
+    }
     limits_.clear();
     if (purpose == Purpose::measurement || purpose == Purpose::audit)
         compiled = keepLimits(compiled, frame.limits());
@@ -268,7 +275,7 @@ std::vector<ReachedLimit> Renderer::reachedLimits() const {
 }
 
 transport::LayerStatistics Renderer::layerStatistics() const {
-    if (!outputs_.layers.statistics.valid()) return {};
+    if (!hasLayerStatistics_) return {};
     return executor_.buffer(outputs_.layers.statistics).read<transport::LayerStatistics>().front();
 }
 
@@ -283,6 +290,7 @@ const gl::Buffer& Renderer::buffer(const graph::ResourceRef& handle) const {
 void Renderer::measureDepthComplexity() {
     const FrameBuilder frame = declareFrame();
     if (!outputs_.layers.statistics.valid()) return;
+    hasLayerStatistics_ = true;
     graph_->request(outputs_.layers.statistics);
     executor_.prepare(graph_->compile());
     gl::PassTimer timer(gl::TimerMode::finish);

@@ -128,6 +128,7 @@ class Renderer {
     std::vector<std::string> warnings_;
     double buildMilliseconds_ = 0.0;
     bool isRandom_ = false;
+    bool hasLayerStatistics_ = false;
 };
 
 }  // namespace kaustik

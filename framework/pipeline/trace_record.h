@@ -14,6 +14,7 @@ struct TraceRecord {
     // Right before and after: what the tracer itself has booked lies between.
     Ledger before;
     Ledger after;
+    Sees sees = Sees::eyeLayers;
 };
 
 // Adds a pass, not part of any technique, that copies the ledger as it is at this point.

@@ -227,6 +227,10 @@ struct Picture {
     View view;
 };
 
+// Which surfaces a tracer can find. What it cannot see it cannot be expected to hit: the photon
+// audit, the hard cases and nodes that trace rays of their own ask for this.
+enum class Sees { eyeLayers, everything };
+
 class FrameBuilder;
 
 // A stage is its name and its signature.

@@ -268,11 +268,3 @@ SmoothSurface smoothSurfaceAt(vec3 pointVs, vec4 surface, LayerSurface layerHit)
 vec3 normalAtHit(vec3 hitVs, vec4 surface, LayerSurface layerHit, bool arrives) {
     return arrives ? surface.xyz : smoothSurfaceAt(hitVs, surface, layerHit).normal;
 }
-
-// The normal of a receiver: the shading normal, unless that takes the eye or the arriving light for
-// being on the other side than the triangle does.
-vec3 receiverNormal(vec3 positionVs, vec3 direction, vec3 shading, vec3 geometric) {
-    bool sameLight = (dot(direction, shading) < 0.0) == (dot(direction, geometric) < 0.0);
-    bool sameEye = (dot(positionVs, shading) < 0.0) == (dot(positionVs, geometric) < 0.0);
-    return sameLight && sameEye ? shading : geometric;
-}

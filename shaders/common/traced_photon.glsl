@@ -1,17 +1,10 @@
 // SPDX-License-Identifier: MIT
 // What tracers that search in order share: what makes of what was found a hit, with the normal and
 // the flux that arrives, or an entry in the ledger.
+#include "common/deliver.glsl"
 #include "common/exit_test.glsl"
-#include "common/ledger.glsl"
-#include "common/medium.glsl"
 
-// What the list says of a photon that was not on its way, or met nothing.
-Hit nothingMet() {
-    return Hit(vec3(0.0), 0.0, vec3(0.0), 0u, vec3(0.0), kFateEnded);
-}
-
-// Accounts for the photon's flux: what was absorbed on the way, what arrives at a receiver, or why
-// nothing was met.
+// The hit, or, where nothing was met, the account of the reason.
 Hit deliver(Photon photon, FirstHit first) {
     Hit hit = nothingMet();
     if (!isNumber(photon)) {
@@ -24,8 +17,8 @@ Hit deliver(Photon photon, FirstHit first) {
     }
     vec4 surface = texelFetch(layerSurfaces, ivec3(first.pixel, first.hit.layer), 0);
     LayerSurface layer = layerAt(first.pixel, first.hit.layer);
-    hit.material = uint(surface.w);
-    bool arrives = isReceiver(materialKind(hit.material - 1u));
+    uint material = uint(surface.w);
+    bool arrives = isReceiver(materialKind(material - 1u));
     Crossing met = Crossing(first.hit.t, surface.xyz, layer.normal);
     if (first.isExit) {
         met = smoothCrossing(photon.positionVs, photon.directionVs, met.t, surface, layer);
@@ -33,18 +26,5 @@ Hit deliver(Photon photon, FirstHit first) {
         vec3 there = photon.positionVs + met.t * photon.directionVs;
         met.shading = normalAtHit(there, surface, layer, arrives);
     }
-    hit.positionVs = photon.positionVs + met.t * photon.directionVs;
-    hit.distanceMeters = met.t;
-    hit.normalVs =
-        arrives
-            ? receiverNormal(hit.positionVs, photon.directionVs, met.shading, met.geometric)
-            : bendingNormal(photon.directionVs, met.shading, met.geometric, hit.material,
-                            photon.media);
-    // Asking whether there is a medium would cost more than adding its zeros.
-    vec3 left = transmittanceOver(extinctionAround(photon.media), hit.distanceMeters);
-    hit.fluxWatts = photon.fluxWatts * left;
-    ledgerAdd(kAccountAbsorbed, photon.fluxWatts * (1.0 - left));
-    hit.fate = arrives ? kFateReceiver : kFateSpecular;
-    if (arrives) ledgerAdd(kAccountArrived, hit.fluxWatts);
-    return hit;
+    return deliverTo(photon, met.t, met.shading, met.geometric, material);
 }

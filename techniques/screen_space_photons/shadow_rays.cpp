@@ -5,6 +5,7 @@
 // 1 a pixel and light.
 #include <fmt/format.h>
 
+#include "framework/core/error.h"
 #include "techniques/screen_space_photons/hit_testing.h"
 #include "techniques/screen_space_photons/nodes.h"
 
@@ -44,6 +45,12 @@ Shadows traceShadowRays(FrameBuilder& frame, const params::NoParams&, Geometry g
     if (lights == 0) {
         frame.leaveOut("shadow.rays", "the scene has no light");
         return {};
+    }
+    if (frame.tracerSees() != Sees::eyeLayers) {
+        throw ConfigError(
+            "shadow=rays looks through the layers that the eye sees, and the chosen tracer does "
+            "not: "
+            "set shadow=map, or a tracer of the layers, trace=hierarchical say.");
     }
     const FrameBuilder::Within within(frame, "shadow");
     Shadows shadows;

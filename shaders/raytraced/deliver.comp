@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// trace.raytraced: makes hits of what the processor has found. One thread a photon.
+#include "common/deliver.glsl"
+#include "common/photon_thread.glsl"
+#include "common/store_hits.glsl"
+
+uniform sampler2D foundShading;    // xyz: unit, outward; w: material + 1, 0 nothing
+uniform sampler2D foundGeometric;  // xyz: the same of the triangle; w: distance, m
+
+void main() {
+    uint index = photonOfThread();
+    if (index >= photons.count) return;
+    ivec2 texel = ivec2(photonTexel(photons, index));
+    Photon photon = photonAt(texel);
+    Hit hit = nothingMet();
+    if (photon.fate == kFateInFlight) {
+        vec4 shading = texelFetch(foundShading, texel, 0);
+        vec4 geometric = texelFetch(foundGeometric, texel, 0);
+        if (!isNumber(photon)) {
+            ledgerAdd(kAccountNotANumber, vec3(0.0));
+        } else if (shading.w > 0.0) {
+            hit = deliverTo(photon, geometric.w, shading.xyz, geometric.xyz, uint(shading.w));
+        } else {
+            ledgerAdd(kAccountLeftScene, photon.fluxWatts);
+        }
+    }
+    storeHit(texel, hit);
+}
