@@ -30,6 +30,16 @@ float totalOf(ivec2 texel) {
         ledgerAdd(kAccountOccludedSplat, flux.rgb);
         return 0.0;
     }
+    // A tracer may find what no pixel is near.
+    if (!(-sprite.center.z > view.tangents.z)) {
+        ledgerAdd(kAccountBehindEye, flux.rgb);
+        return 0.0;
+    }
+    vec2 beside = max(-pixelOf(sprite.center), pixelOf(sprite.center) - view.sizePixels.xy);
+    if (any(greaterThan(beside, vec2(spriteReach(sprite)) + 1.0))) {
+        ledgerAdd(kAccountOffScreen, flux.rgb);
+        return 0.0;
+    }
     float on = 0.0;
     float occluded = 0.0;
     float offScreen = 0.0;
