@@ -138,6 +138,53 @@ TEST(Graph, ReportsAllProblemsTogether) {
     EXPECT_TRUE(contains(problems, "there is no pass 's.b' to disable; did you mean 's.a'?"));
 }
 
+TEST(Graph, WhatAPassBindsItHasDeclared) {
+    Graph graph;
+    const Texture<Color> source = filter(graph, "source", {});
+    struct Data {
+        Texture<Color> made;
+    };
+    const Data& data = graph.addPass<Data, FakeContext>(
+        {"binds", "test"},
+        [&](PassSetup& setup, Data& made) {
+            setup.sample("source", source);
+            made.made = setup.image("made", setup.create<Color>("made", 8, 8));
+        },
+        [](const Data&, FakeContext&) {});
+    graph.request(data.made);
+    const Compiled compiled = graph.compile();
+    ASSERT_EQ(compiled.steps.size(), 2u);  // the source's pass is needed
+    const Step& step = compiled.steps.back();
+    ASSERT_EQ(step.bindings.size(), 2u);
+    EXPECT_EQ(step.bindings[0].name, "source");
+    EXPECT_EQ(step.bindings[0].as, BindAs::sampler);
+    EXPECT_EQ(step.bindings[1].name, "made");
+    EXPECT_EQ(step.bindings[1].as, BindAs::image);
+    EXPECT_EQ(step.reads.size(), 1u);  // what it makes it does not read
+}
+
+TEST(Graph, TwoResourcesOfOneNameAreAnErrorThatNamesPassAndName) {
+    Graph graph;
+    const Texture<Color> one = filter(graph, "one", {});
+    const Texture<Color> two = filter(graph, "two", {});
+    graph.addPass<None, FakeContext>(
+        {"binds", "test"},
+        [&](PassSetup& setup, None&) {
+            setup.sample("source", one);
+            setup.sample("source", two);
+            setup.sideEffect();
+        },
+        [](const None&, FakeContext&) {});
+    try {
+        static_cast<void>(graph.compile());
+        FAIL() << "no error";
+    } catch (const GraphError& error) {
+        EXPECT_NE(std::string(error.what()).find("pass 'binds' binds two resources as 'source'"),
+                  std::string::npos)
+            << error.what();
+    }
+}
+
 TEST(Graph, ADisabledPassForwardsItsInput) {
     //  a ──▶ [b] ──▶ c     b disabled: c reads a's memory
     Graph graph;
