@@ -11,13 +11,13 @@
 namespace kaustik::graph {
 
 ResourceRef PassSetup::createResource(const std::string& name, ResourceDesc desc) {
-    for (const Graph::Resource& other : graph_.resources_) {
-        if (other.name == name) {
-            graph_.problems_.push_back(
-                fmt::format("pass '{}' creates '{}', which pass '{}' has created already",
-                            graph_.passes_[pass_].info.name, name,
-                            graph_.passes_[other.writers.front()].info.name));
-        }
+    const auto [known, isNew] = graph_.resourceOfName_.emplace(name, graph_.resources_.size());
+    if (!isNew) {
+        const Graph::Resource& other = graph_.resources_[known->second];
+        graph_.problems_.push_back(
+            fmt::format("pass '{}' creates '{}', which pass '{}' has created already",
+                        graph_.passes_[pass_].info.name, name,
+                        graph_.passes_[other.writers.front()].info.name));
     }
     if (bytesOf(desc) == 0) {
         graph_.problems_.push_back(fmt::format("pass '{}' creates '{}' with no bytes",

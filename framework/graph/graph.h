@@ -9,6 +9,7 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -279,6 +280,7 @@ class Graph {
 
     std::vector<Pass> passes_;
     std::vector<Resource> resources_;
+    std::unordered_map<std::string, std::size_t> resourceOfName_;
     std::vector<ResourceRef> requested_;
     std::set<std::string> disabled_;
     std::vector<std::string> problems_;

@@ -6,7 +6,9 @@
 
 #include "framework/numerics/frame.h"
 #include "framework/pipeline/frame_builder.h"
+#include "framework/pipeline/ledger.h"
 #include "framework/pipeline/photon_texels.h"
+#include "framework/pipeline/stage_params.h"
 #include "framework/scene/dielectrics.h"
 
 namespace kaustik::numerics {
@@ -164,7 +166,8 @@ Traced tracePhotons(Lab& lab, const Lab::Choice& tracer, const scene::Scene& sce
             photons.suffix = "_1";  // the case's own hits have the plain names
             const Hits hits = builder.run<TraceStage>(photons, Surfaces{geometry, eye, layers});
             builder.request(hits);
-            const Nothing nothing = addNothing(builder, hits.incoming.ledger);
+            const Nothing nothing =
+                addNothing(builder, closeBatch(builder, hits, hits.incoming.ledger));
             return FrameOutputs{nothing.picture,
                                 nothing.caustic,
                                 eye,
@@ -255,7 +258,13 @@ Bent emitAndInteract(Lab& lab, const Lab::Choice& emitter, const scene::Scene& s
     const Frame frame = renderBench(lab, emitter, scene, settings, {}, [&](FrameBuilder& builder) {
         const Geometry geometry = builder.run<GeometryStage>();
         const EyeBuffer eye = builder.run<EyeStage>(geometry);
-        const Hits hits = builder.run<EmitStage>(Surfaces{geometry, eye, {}});
+        const Hits hits = builder.run<EmitStage>(
+            Surfaces{geometry, eye, {}}, Samples{0,
+                                                 builder.needs().lights,
+                                                 0,
+                                                 builder.params<EmitParams>("emit").photons.height,
+                                                 "",
+                                                 {}});
         before = keepPhotons(builder, hits.incoming);
         after = keepPhotons(builder, builder.run<SpecularStage>(hits));
         const Nothing nothing = addNothing(builder, after.ledger);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "framework/pipeline/ledger.h"
 #include "framework/pipeline/stage_params.h"
 #include "framework/transport/photon_list.h"
 
@@ -109,28 +110,54 @@ IrradianceMap leaveOutCaustic(FrameBuilder& frame, const std::string& why) {
 }
 
 struct Caustic {
-    Hits hits;  // of the last tracing
+    Hits last;  // of the last tracing
     CausticMap map;
     InScattered inScattered;
 };
+
+// All photons at once, or, where they are more than a batch may hold, whole rows of one light's
+// grid after the other.
+std::vector<Samples> batchesOf(const FrameBuilder& frame) {
+    const auto& emit = frame.params<EmitParams>("emit");
+    const int lights = std::max(frame.needs().lights, 1);
+    const std::int64_t all = std::int64_t{emit.photons.width} * emit.photons.height * lights;
+    if (all <= emit.batch) return {{0, lights, 0, emit.photons.height, "", {}}};
+    const int rows = std::clamp(emit.batch / emit.photons.width, 1, emit.photons.height);
+    std::vector<Samples> batches;
+    for (int light = 0; light < lights; ++light) {
+        for (int row = 0; row < emit.photons.height; row += rows) {
+            const std::string suffix =
+                batches.empty() ? "" : fmt::format(".{}", batches.size() + 1);
+            batches.push_back(
+                {light, 1, row, std::min(rows, emit.photons.height - row), suffix, {}});
+        }
+    }
+    return batches;
+}
 
 // From interaction to interaction: what arrives is deposited at once, and what meets another
 // specular surface is the next list.
 Caustic followPhotons(FrameBuilder& frame, const Surfaces& surfaces) {
     const bool scatters = frame.needs().scatteringMedium;
     Caustic caustic;
-    caustic.hits = frame.run<EmitStage>(surfaces);
-    int interactions = 1;
-    for (int i = 0; i < interactions; ++i) {
-        const Photons photons = frame.run<SpecularStage>(caustic.hits);
-        interactions = interactionCount(frame, photons.paths);
-        caustic.hits = frame.run<TraceStage>(photons, surfaces);
-        caustic.map = frame.run<ReconstructStage>(caustic.hits, surfaces, caustic.map);
-        caustic.hits.incoming.ledger = caustic.map.ledger;
-        if (scatters) {
-            caustic.inScattered =
-                frame.run<MediaStage>(caustic.hits, surfaces.eye, caustic.inScattered);
+    for (Samples samples : batchesOf(frame)) {
+        samples.ledger = caustic.map.ledger;
+        Hits hits = frame.run<EmitStage>(surfaces, samples);
+        int interactions = 1;
+        for (int i = 0; i < interactions; ++i) {
+            const Photons photons = frame.run<SpecularStage>(hits);
+            interactions = interactionCount(frame, photons.paths);
+            hits = frame.run<TraceStage>(photons, surfaces);
+            caustic.map = frame.run<ReconstructStage>(hits, surfaces, caustic.map);
+            hits.incoming.ledger = caustic.map.ledger;
+            if (scatters) {
+                caustic.inScattered =
+                    frame.run<MediaStage>(hits, surfaces.eye, caustic.inScattered);
+            }
         }
+        // What is still on its way is counted at once, so that the batch need not be kept.
+        caustic.map.ledger = closeBatch(frame, hits, caustic.map.ledger);
+        caustic.last = hits;
     }
     if (scatters) {
         caustic.inScattered = frame.run<BlurStage>(caustic.inScattered);
@@ -166,7 +193,7 @@ FrameOutputs buildFrame(FrameBuilder& frame) {
             irradiance,
             eye,
             whyNot.empty() ? layers : LayeredDepth{},
-            caustic.hits,
+            caustic.last,
             irradiance.ledger,
             caustic.inScattered,
             shadows,

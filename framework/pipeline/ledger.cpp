@@ -59,45 +59,33 @@ float ledgerQuantum(const scene::Scene& scene) {
     return static_cast<float>(std::exp2(std::ceil(std::log2(total)) - 60.0));
 }
 
-namespace {
-
-// Of the map of flux, or of the photons that the last tracing has left on their way.
-Ledger close(FrameBuilder& frame, const FrameOutputs& outputs, const Ledger& ledger, bool sumsMap) {
-    struct Data {
-        Ledger ledger;
-    };
-    const Photons& photons = outputs.hits.incoming;
-    return frame
-        .pass<Data>(
-            "ledger.close", "the report accounts for every watt",
-            [&](graph::PassSetup& setup, Data& data) {
-                if (sumsMap) {
-                    setup.sample("fluxSums", outputs.map.flux);
-                } else {
-                    outputs.hits.sample(setup);
-                    photons.sample(setup);
-                }
-                data.ledger = setup.storage("LedgerEntries", setup.write(ledger));
-            },
-            [sumsMap, photons, map = outputs.map.flux](const Data&, gl::PassContext& context) {
-                gl::Command command = context.compute("common/ledger_close.comp");
-                if (!sumsMap) return dispatchOver(command, photons);
-                const graph::TextureDesc& desc = context.texture(map).desc();
-                constexpr int kRow = 32768;  // workgroups
-                const int groups = (desc.width * desc.height + 63) / 64;
-                command.define("SUMS_MAP")
-                    .dispatch(std::min(groups, kRow), (groups + kRow - 1) / kRow);
-            })
-        .ledger;
+Ledger closeBatch(FrameBuilder& frame, const Hits& hits, const Ledger& ledger) {
+    return frame.pass<Ledger>(
+        "ledger.bounces", "photons that are still on their way are counted",
+        [&](graph::PassSetup& setup, Ledger& data) {
+            hits.sample(setup);
+            hits.incoming.sample(setup);
+            data = setup.storage("LedgerEntries", setup.write(ledger));
+            setup.bypass(data, ledger);
+        },
+        [photons = hits.incoming](const Ledger&, gl::PassContext& context) {
+            dispatchOver(context.compute("common/ledger_bounces.comp"), photons);
+        });
 }
 
-}  // namespace
-
 Ledger closeLedger(FrameBuilder& frame, const FrameOutputs& outputs) {
-    Ledger ledger = outputs.ledger;
-    if (outputs.map.flux.valid()) ledger = close(frame, outputs, ledger, true);
-    if (outputs.hits.flux.valid()) ledger = close(frame, outputs, ledger, false);
-    return ledger;
+    const CausticMap& map = outputs.map;
+    if (!map.flux.valid()) return outputs.ledger;  // no photon was ever on its way
+    return frame.pass<Ledger>(
+        "ledger.close", "the report accounts for every watt",
+        [&](graph::PassSetup& setup, Ledger& data) {
+            setup.sample("fluxSums", map.flux);
+            data = setup.storage("LedgerEntries", setup.write(outputs.ledger));
+        },
+        [map](const Ledger&, gl::PassContext& context) {
+            const graph::TextureDesc& desc = context.texture(map.flux).desc();
+            context.compute("common/ledger_close.comp").dispatchOver(desc.width, 8, desc.height, 8);
+        });
 }
 
 EnergyLedger readLedger(const gl::Buffer& buffer, float quantumWatts) {

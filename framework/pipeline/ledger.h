@@ -30,7 +30,10 @@ struct EnergyLedger {
 // flux of all lights fits into 2^60 units: of 65536² photons each has 2^28.
 [[nodiscard]] float ledgerQuantum(const scene::Scene& scene);
 
-// Adds the pass that sums what was deposited and what was still on its way; gives the final ledger.
+// Adds the pass that counts what of the last hits of a batch of photons was still on its way.
+[[nodiscard]] Ledger closeBatch(FrameBuilder& frame, const Hits& hits, const Ledger& ledger);
+
+// Adds the pass that sums what was deposited; gives the final ledger.
 [[nodiscard]] Ledger closeLedger(FrameBuilder& frame, const FrameOutputs& outputs);
 
 // Waits for the device.

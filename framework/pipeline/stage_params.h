@@ -18,10 +18,17 @@ struct LayersParams {
 
 struct EmitParams {
     params::Extent photons{256, 256};
+    int batch = 4194304;
     template <class R>
     void reflect(R& r) {
         r.field(photons, "photons", "Photons along each side of a light's grid", "",
-                params::range(1, 4096));
+                params::range(1, 16384));
+        r.field(
+            batch, "batch",
+            "Most photons that are emitted at once, which bounds the memory of lists, 112 bytes "
+            "a photon and list, or twice that with both branches; more follow in batches of "
+            "whole rows",
+            "", params::range(1, 268435456));
     }
 };
 

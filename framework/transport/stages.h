@@ -141,6 +141,7 @@ struct Photons {
     int height = 0;
     // Rows that suffice for those that go on: fewer where a list holds photons more than once.
     int rowsThatGoOn = 0;
+    std::string batch;   // the suffix of its batch of emission
     std::string suffix;  // tells the names of its resources from those of other lists
     [[nodiscard]] int capacity() const { return width * height; }
 
@@ -231,6 +232,17 @@ struct Picture {
 // audit, the hard cases and nodes that trace rays of their own ask for this.
 enum class Sees { eyeLayers, everything };
 
+// Which of the photons of the lights' grids are emitted at once: rows [firstRow, firstRow + rows)
+// of each light's.
+struct Samples {
+    int firstLight = 0;
+    int lights = 1;
+    int firstRow = 0;
+    int rows = 1;
+    std::string suffix;  // of this batch's resources; "" of the first
+    Ledger ledger;       // of the batches before; invalid before the first
+};
+
 class FrameBuilder;
 
 // A stage is its name and its signature.
@@ -254,7 +266,7 @@ struct LayersStage : Stage<LayeredDepth(Geometry)> {
     static constexpr const char* name = "layers";
     static constexpr const char* question = "Which surfaces lie along each eye ray?";
 };
-struct EmitStage : Stage<Hits(Surfaces)> {
+struct EmitStage : Stage<Hits(Surfaces, Samples)> {
     static constexpr const char* name = "emit";
     static constexpr const char* question = "Where does light first meet a specular surface?";
 };

@@ -50,6 +50,7 @@ Hits traceAllHits(FrameBuilder& frame, const AllHitsParams& params, Photons phot
                                             photons.suffix + "_all");
             every.paths = photons.paths;
             every.rowsThatGoOn = photons.rowsThatGoOn;
+            every.batch = photons.batch;
             every.ledger = photons.ledger;
             every.store(setup, "next", "NextPhotons");
             every.account(setup);
@@ -70,7 +71,7 @@ Hits traceAllHits(FrameBuilder& frame, const AllHitsParams& params, Photons phot
                 dispatchOver(command, photons);
             }
         });
-    keepToSlots(frame, params, traced);
+    if (photons.batch.empty()) keepToSlots(frame, params, traced);
     return traced;
 }
 

@@ -6,6 +6,9 @@
 // m.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <memory>
+
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/shared/nodes.h"
 
@@ -29,9 +32,11 @@ scene::Bounds specularBounds(const scene::Scene& scene) {
     return bounds;
 }
 
-std::vector<LightGrid> makeGrids(FrameBuilder& frame) {
+// The same for every batch.
+using LightGrids = std::vector<LightGrid>;
+std::shared_ptr<LightGrids> makeGrids(FrameBuilder& frame) {
     const scene::Bounds target = specularBounds(frame.scene());
-    std::vector<LightGrid> grids;
+    auto grids = std::make_shared<LightGrids>();
     if (target.empty) return grids;
     for (const scene::Light& light : frame.scene().lights) {
         const render::LightView view =
@@ -44,41 +49,46 @@ std::vector<LightGrid> makeGrids(FrameBuilder& frame) {
         }
         const render::ViewInstances& instances =
             frame.keep(frame.gpuScene().makeInstances(view.worldToLight));
-        grids.push_back({view.projection(), glm::vec2(view.halfExtent), &instances});
+        grids->push_back({view.projection(), glm::vec2(view.halfExtent), &instances});
     }
     return grids;
 }
 
 }  // namespace
 
-Hits emitGrid(FrameBuilder& frame, const params::NoParams&, Surfaces surfaces) {
+Hits emitGrid(FrameBuilder& frame, const params::NoParams&, Surfaces surfaces, Samples samples) {
     const params::Extent grid = frame.params<EmitParams>("emit").photons;
-    const std::vector<LightGrid> grids = makeGrids(frame);
+    const auto grids = frame.once<LightGrids>("emit.grids", [&frame] { return makeGrids(frame); });
     struct Data {
         Hits hits;
         graph::Texture<DepthBuffer> depth;
         Geometry geometry;
     };
-    const int rows = grid.height * std::max<int>(static_cast<int>(grids.size()), 1);
     const std::string why =
-        grids.empty() ? "keeps the transfer map empty: no light, or nothing specular"
-                      : fmt::format("{} photons a light, {} light{}", grid.width * grid.height,
-                                    grids.size(), grids.size() == 1 ? "" : "s");
+        grids->empty() ? "keeps the transfer map empty: no light, or nothing specular"
+                       : fmt::format("{} photons a light, {} light{}", grid.width * grid.height,
+                                     grids->size(), grids->size() == 1 ? "" : "s");
     return frame
         .pass<Data>(
             "emit.grid", why,
             [&](graph::PassSetup& setup, Data& data) {
                 data.geometry = surfaces.geometry;
                 if (data.geometry.heightFields.valid()) setup.read(data.geometry.heightFields);
-                Photons photons = Photons::create(setup, grid.width, rows, "");
-                photons.ledger =
-                    setup.createBuffer<transport::LedgerEntry>("ledger", transport::kAccountCount);
+                const int rows = samples.rows * samples.lights;
+                Photons photons = Photons::create(setup, grid.width, rows, samples.suffix);
+                photons.batch = samples.suffix;
+                photons.ledger = samples.ledger.valid()
+                                     ? setup.write(samples.ledger)
+                                     : setup.createBuffer<transport::LedgerEntry>(
+                                           "ledger", transport::kAccountCount);
                 data.hits = Hits::create(setup, photons);
-                data.depth = setup.create<DepthBuffer>("emit.depth_buffer", grid.width, rows);
+                data.depth = setup.create<DepthBuffer>("emit.depth_buffer" + samples.suffix,
+                                                       grid.width, rows);
             },
-            [&inputs = frame.inputs(), grids, grid](const Data& data, gl::PassContext& context) {
+            [&inputs = frame.inputs(), grids, grid, samples](const Data& data,
+                                                             gl::PassContext& context) {
                 const Photons& photons = data.hits.incoming;
-                context.buffer(photons.ledger).clear();
+                if (!samples.ledger.valid()) context.buffer(photons.ledger).clear();
                 fillList(context, photons);
                 const auto addTargets = [&](gl::Command& command, bool clear) {
                     const auto add = [&](const graph::ResourceRef& handle) {
@@ -95,7 +105,7 @@ Hits emitGrid(FrameBuilder& frame, const params::NoParams&, Surfaces surfaces) {
                     command.depth(data.depth, gl::DepthTest::nearerReversed);
                     if (clear) command.clear();
                 };
-                if (grids.empty()) {
+                if (grids->empty()) {
                     for (const graph::ResourceRef& handle :
                          std::initializer_list<graph::ResourceRef>{
                              photons.position, photons.direction, photons.flux, photons.origin,
@@ -103,16 +113,21 @@ Hits emitGrid(FrameBuilder& frame, const params::NoParams&, Surfaces surfaces) {
                         context.texture(handle).clear({0, 0, 0, 0});
                     }
                 }
-                for (std::size_t light = 0; light < grids.size(); ++light) {
-                    const int bottom = static_cast<int>(light) * grid.height;
+                const int end =
+                    std::min(samples.firstLight + samples.lights, static_cast<int>(grids->size()));
+                for (int light = samples.firstLight; light < end; ++light) {
+                    const LightGrid& seen = (*grids)[static_cast<std::size_t>(light)];
+                    // The rows of the batch are those that fall into the target.
+                    const int bottom =
+                        (light - samples.firstLight) * samples.rows - samples.firstRow;
                     gl::Command command =
                         context.shaders({"shared/emit_grid.vert", "shared/emit_grid.frag"});
-                    addTargets(command, light == 0);
+                    addTargets(command, light == samples.firstLight);
                     command.viewport(0, bottom, grid.width, grid.height)
-                        .storage("LightInstances", grids[light].instances->instances)
-                        .set("projection", grids[light].projection)
-                        .set("lightIndex", static_cast<int>(light))
-                        .set("halfExtent", grids[light].halfExtent)
+                        .storage("LightInstances", seen.instances->instances)
+                        .set("projection", seen.projection)
+                        .set("lightIndex", light)
+                        .set("halfExtent", seen.halfExtent)
                         .set("gridSize", glm::vec2(grid.width, grid.height))
                         .set("gridBottom", static_cast<float>(bottom));
                     inputs.gpuScene.draw(command, context, data.geometry, inputs.instances,

@@ -15,7 +15,8 @@ NextPhotons makeRoom(FrameBuilder& frame, const Hits& hits, int branches) {
             ModelledPaths paths = before.paths;
             ++paths.interactions;
             data.photons = Photons::create(setup, before.width, before.rowsThatGoOn * branches,
-                                           fmt::format("_{}", paths.interactions));
+                                           fmt::format("{}_{}", before.batch, paths.interactions));
+            data.photons.batch = before.batch;
             data.photons.paths = paths;
             setup.storage("NextPhotons", data.photons.list);
             const auto groups =

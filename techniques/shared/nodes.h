@@ -21,7 +21,7 @@ Geometry makeHeightFields(FrameBuilder& frame, const params::NoParams&);
 
 EyeBuffer renderEye(FrameBuilder& frame, const params::NoParams&, Geometry geometry);
 
-Hits emitGrid(FrameBuilder& frame, const params::NoParams&, Surfaces surfaces);
+Hits emitGrid(FrameBuilder& frame, const params::NoParams&, Surfaces surfaces, Samples samples);
 
 Photons interactAtInterface(FrameBuilder& frame, const params::NoParams&, Hits hits);
 Photons interactAsNeeded(FrameBuilder& frame, const params::NoParams&, Hits hits);

@@ -37,7 +37,8 @@ void keepToLevels(FrameBuilder& frame, const SplitParams& params, const Hits& be
 Photons splitAtInterface(FrameBuilder& frame, const SplitParams& params, Hits hits) {
     const int run = hits.incoming.paths.interactions + 1;
     const bool splits = run <= params.levels;
-    if (run == params.levels + 1) keepToLevels(frame, params, hits);
+    // Of the first batch alone: what is counted must be kept to the end of the frame.
+    if (run == params.levels + 1 && hits.incoming.batch.empty()) keepToLevels(frame, params, hits);
     if (!splits) frame.drawsAtRandom();
     const NextPhotons next = makeRoom(frame, hits, splits ? 2 : 1);
     return frame.pass<Photons>(
