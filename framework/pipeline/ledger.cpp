@@ -61,7 +61,7 @@ float ledgerQuantum(const scene::Scene& scene) {
 
 Ledger closeBatch(FrameBuilder& frame, const Hits& hits, const Ledger& ledger) {
     return frame.pass<Ledger>(
-        "ledger.bounces", "photons that are still on their way are counted",
+        "reconstruct.left_over", "photons that are still on their way are counted",
         [&](graph::PassSetup& setup, Ledger& data) {
             hits.sample(setup);
             hits.incoming.sample(setup);
