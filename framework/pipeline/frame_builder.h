@@ -20,19 +20,16 @@
 
 namespace kaustik {
 
-// What a frame is made of, owned by the renderer; all of it outlives the graph.
+// What a frame is made of, owned by the renderer; all of it outlives the graph. The view, the
+// lights, the materials, the images and the ledger's unit are bound to every command.
 struct FrameInputs {
     const Registry& registry;
     const params::ParamSet& params;
     const render::GpuScene& gpuScene;
     const scene::SceneNeeds& needs;
     const render::EyeView& view;
-    const gl::Buffer& viewBlock;             // transport::ViewData
     const render::ViewInstances& instances;  // as the eye sees them
-    const gl::Buffer& lights;                // transport::LightData
-    // Watts that one unit of the ledger stands for, a power of two.
-    float ledgerQuantumWatts;
-    const std::uint64_t& seed;  // of whatever a node draws at random
+    const std::uint64_t& seed;               // of whatever a node draws at random
 };
 
 // Issues a compute thread a photon of the list: shaders include common/photon_thread.glsl.

@@ -103,8 +103,7 @@ Renderer::Renderer(gl::Context& context, const Registry& registry, const scene::
       instances_(gpuScene_.makeInstances(view_.worldToView)),
       needs_(sceneNeeds(scene)),
       ledgerQuantumWatts_(ledgerQuantum(scene)),
-      inputs_{registry_,  settings_.params, gpuScene_,           needs_,        view_, viewBlock_,
-              instances_, lights_,          ledgerQuantumWatts_, settings_.seed},
+      inputs_{registry_, settings_.params, gpuScene_, needs_, view_, instances_, settings_.seed},
       executor_(context, programs_) {
     bindToAll();
     context_.check();

@@ -87,7 +87,7 @@ View refractInImageSpace(FrameBuilder& frame, const ImageSpaceViewParams& params
                     gl::Command command =
                         context.fullscreen("screen_space_photons/image_space.frag");
                     command.params("view.image_space", params);
-                    bindLook(inputs, command, data.look, params.look);
+                    setLook(inputs, command, data.look, params.look);
                     if (data.faces.depth.valid()) {
                         command.texture("backDepth", data.faces.depth)
                             .texture("backSurface", data.faces.surface);

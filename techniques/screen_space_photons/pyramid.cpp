@@ -28,18 +28,18 @@ LayeredDepth addPyramid(FrameBuilder& frame, const LayeredDepth& layers) {
         "layers.pyramid", "the tracer leaves out what a ray cannot meet",
         [&](graph::PassSetup& setup, LayeredDepth& data) {
             data = layers;
-            setup.read(layers.depth);
-            data.pyramid = setup.create<SquarePlane>(
-                "layers.pyramid", squares(w, 1) + squares(w, 2),
-                std::max(squares(h, 1), squares(h, 2) + squares(h, 3)), layers.layers);
+            setup.image("layerDepths", layers.depth);
+            data.pyramid = setup.image(
+                "pyramid",
+                setup.create<SquarePlane>("layers.pyramid", squares(w, 1) + squares(w, 2),
+                                          std::max(squares(h, 1), squares(h, 2) + squares(h, 3)),
+                                          layers.layers));
         },
-        [&inputs = frame.inputs(), w, h](const LayeredDepth& data, gl::PassContext& context) {
+        [w, h](const LayeredDepth& data, gl::PassContext& context) {
             // Empty: a square's layers behind its last, and the corners beside the levels.
             context.texture(data.pyramid).clear({0, 0, 0, 0});
             for (int level = 1; level <= kLevels; ++level) {
-                gl::Command command = context.compute("screen_space_photons/pyramid.comp");
-                command.image("layerDepths", data.depth)
-                    .image("pyramid", data.pyramid)
+                context.compute("screen_space_photons/pyramid.comp")
                     .set("layerCount", data.layers)
                     .set("level", level)
                     .dispatchOver(squares(w, level), 8, squares(h, level), 8);

@@ -124,7 +124,7 @@ View traceRefraction(FrameBuilder& frame, const RefractionViewParams& wanted, Ge
                                   gl::Command command =
                                       context.fullscreen("screen_space_photons/refraction.frag");
                                   command.params("view.refraction", params);
-                                  bindLook(inputs, command, data.look, params.look);
+                                  setLook(inputs, command, data.look, params.look);
                                   if (data.dielectrics.depth.valid()) {
                                       if (box.holdsScene) command.define("SCENE_INSIDE");
                                       setHitTesting(command, testing, data.dielectrics);

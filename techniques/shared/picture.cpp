@@ -34,105 +34,65 @@ struct DirectLight {
 };
 
 DirectLight lightDirectly(FrameBuilder& frame, const Shadows& shadows, EyeBuffer eye) {
-    struct Data {
-        DirectLight direct;
-        Shadows shadows;
-        EyeBuffer eye;
-    };
     const bool isGlossy = frame.needs().glossyReceivers;
     const int lights = frame.needs().lights;
-    return frame
-        .pass<Data>(
-            "compose.direct", "receivers are lit directly too",
-            [&](graph::PassSetup& setup, Data& data) {
-                data.shadows = shadows;
-                data.eye = eye;
-                if (lights > 0) setup.read(shadows.visibility);
-                setup.read(eye.receiver);
-                setup.read(eye.receiverSurface);
-                DirectLight& direct = data.direct;
-                direct.irradiance = setup.create<IrradianceTexel>("direct.irradiance",
-                                                                  frame.width(), frame.height());
-                setup.bypass(direct.irradiance, {0, 0, 0, 0});
-                if (!isGlossy) return;
-                setup.read(eye.receiverAlbedo);
-                direct.radiance =
-                    setup.create<RadianceTexel>("direct.radiance", frame.width(), frame.height());
-                setup.bypass(direct.radiance, {0, 0, 0, 0});
-            },
-            [&inputs = frame.inputs(), lights](const Data& data, gl::PassContext& context) {
-                const DirectLight& direct = data.direct;
-                context.texture(direct.irradiance).clear({0, 0, 0, 0});
-                if (direct.radiance.valid()) context.texture(direct.radiance).clear({0, 0, 0, 0});
-                for (int light = 0; light < lights; ++light) {
-                    gl::Command command = context.fullscreen("shared/direct.frag");
-                    command.texture("receiver", data.eye.receiver)
-                        .texture("receiverSurface", data.eye.receiverSurface)
-                        .texture("visibility", data.shadows.visibility)
-                        .set("lightIndex", light);
-                    command.target(direct.irradiance);
-                    if (direct.radiance.valid()) {
-                        command.define("GLOSSY_RECEIVERS")
-                            .texture("receiverAlbedo", data.eye.receiverAlbedo)
-                            .target(direct.radiance);
-                    }
-                    command.blend(gl::Blend::add).draw();
-                }
-            })
-        .direct;
+    return frame.pass<DirectLight>(
+        "compose.direct", "receivers are lit directly too",
+        [&](graph::PassSetup& setup, DirectLight& direct) {
+            if (lights > 0) setup.sample("visibility", shadows.visibility);
+            setup.sample("receiver", eye.receiver);
+            setup.sample("receiverSurface", eye.receiverSurface);
+            direct.irradiance =
+                setup.create<IrradianceTexel>("direct.irradiance", frame.width(), frame.height());
+            setup.bypass(direct.irradiance, {0, 0, 0, 0});
+            if (!isGlossy) return;
+            setup.sample("receiverAlbedo", eye.receiverAlbedo);
+            direct.radiance =
+                setup.create<RadianceTexel>("direct.radiance", frame.width(), frame.height());
+            setup.bypass(direct.radiance, {0, 0, 0, 0});
+        },
+        [lights](const DirectLight& direct, gl::PassContext& context) {
+            context.texture(direct.irradiance).clear({0, 0, 0, 0});
+            if (direct.radiance.valid()) context.texture(direct.radiance).clear({0, 0, 0, 0});
+            for (int light = 0; light < lights; ++light) {
+                gl::Command command = context.fullscreen("shared/direct.frag");
+                command.set("lightIndex", light).target(direct.irradiance);
+                if (direct.radiance.valid())
+                    command.define("GLOSSY_RECEIVERS").target(direct.radiance);
+                command.blend(gl::Blend::add).draw();
+            }
+        });
 }
 
 Radiance shadeReceivers(FrameBuilder& frame, EyeBuffer eye, const DirectLight& direct,
                         const IrradianceMap& caustic) {
-    struct Data {
-        Radiance out;
-        EyeBuffer eye;
-        DirectLight direct;
-        IrradianceMap caustic;
-    };
-    return frame
-        .pass<Data>(
-            "compose.radiance", "the picture shows the receivers",
-            [&](graph::PassSetup& setup, Data& data) {
-                data.eye = eye;
-                data.direct = direct;
-                data.caustic = caustic;
-                setup.read(eye.receiver);
-                setup.read(eye.receiverAlbedo);
-                if (direct.radiance.valid()) {
-                    setup.read(direct.radiance);
-                    setup.read(eye.receiverSurface);
-                } else {
-                    setup.read(direct.irradiance);
-                }
-                if (caustic.radiance.valid()) {
-                    setup.read(caustic.radiance);
-                } else {
-                    setup.read(caustic.irradiance);
-                }
-                data.out.radiance = setup.create<RadianceTexel>("compose.receiver_radiance",
-                                                                frame.width(), frame.height());
-            },
-            [&inputs = frame.inputs()](const Data& data, gl::PassContext& context) {
-                gl::Command command = context.fullscreen("shared/radiance.frag");
-                command.texture("receiver", data.eye.receiver)
-                    .texture("receiverAlbedo", data.eye.receiverAlbedo);
-                if (data.direct.radiance.valid()) {
-                    command.define("GLOSSY_RECEIVERS")
-                        .texture("receiverSurface", data.eye.receiverSurface)
-                        .texture("directRadiance", data.direct.radiance);
-                } else {
-                    command.texture("directIrradiance", data.direct.irradiance);
-                }
-                if (data.caustic.radiance.valid()) {
-                    command.define("CAUSTIC_RADIANCE")
-                        .texture("causticRadiance", data.caustic.radiance);
-                } else {
-                    command.texture("causticIrradiance", data.caustic.irradiance);
-                }
-                command.target(data.out.radiance).draw();
-            })
-        .out;
+    const bool isGlossy = direct.radiance.valid();
+    const bool isCausticGlossy = caustic.radiance.valid();
+    return frame.pass<Radiance>(
+        "compose.radiance", "the picture shows the receivers",
+        [&](graph::PassSetup& setup, Radiance& out) {
+            setup.sample("receiver", eye.receiver);
+            setup.sample("receiverAlbedo", eye.receiverAlbedo);
+            if (isGlossy) {
+                setup.sample("directRadiance", direct.radiance);
+                setup.sample("receiverSurface", eye.receiverSurface);
+            } else {
+                setup.sample("directIrradiance", direct.irradiance);
+            }
+            if (isCausticGlossy) {
+                setup.sample("causticRadiance", caustic.radiance);
+            } else {
+                setup.sample("causticIrradiance", caustic.irradiance);
+            }
+            out.radiance = setup.create<RadianceTexel>("compose.receiver_radiance", frame.width(),
+                                                       frame.height());
+        },
+        [isGlossy, isCausticGlossy](const Radiance& out, gl::PassContext& context) {
+            gl::Command command = context.fullscreen("shared/radiance.frag");
+            if (isGlossy) command.define("GLOSSY_RECEIVERS");
+            if (isCausticGlossy) command.define("CAUSTIC_RADIANCE");
+            command.target(out.radiance).draw();
+        });
 }
 
 // What the eye sees is weakened along the straight eye ray, and what the medium scatters on it
@@ -144,36 +104,22 @@ Radiance lookThroughMedium(FrameBuilder& frame, EyeBuffer eye, Radiance seen,
         frame.leaveOut("compose.medium", "the scene has no medium");
         return seen;
     }
-    struct Data {
-        Radiance out;
-        EyeBuffer eye;
-        Radiance seen;
-        InScattered inScattered;
-    };
-    return frame
-        .pass<Data>(
-            "compose.medium", "the eye looks through the medium",
-            [&](graph::PassSetup& setup, Data& data) {
-                data.eye = eye;
-                data.seen = seen;
-                data.inScattered = inScattered;
-                setup.read(eye.receiver);
-                setup.read(seen.radiance);
-                if (inScattered.radiance.valid()) setup.read(inScattered.radiance);
-                data.out.radiance =
-                    setup.create<RadianceTexel>("compose.radiance", frame.width(), frame.height());
-                setup.bypass(data.out.radiance, seen.radiance);
-            },
-            [&inputs = frame.inputs()](const Data& data, gl::PassContext& context) {
-                gl::Command command = context.fullscreen("shared/medium.frag");
-                command.texture("receiver", data.eye.receiver)
-                    .texture("seenRadiance", data.seen.radiance);
-                if (data.inScattered.radiance.valid()) {
-                    command.define("SCATTERS").texture("inScattered", data.inScattered.radiance);
-                }
-                command.target(data.out.radiance).draw();
-            })
-        .out;
+    const bool scatters = inScattered.radiance.valid();
+    return frame.pass<Radiance>(
+        "compose.medium", "the eye looks through the medium",
+        [&](graph::PassSetup& setup, Radiance& out) {
+            setup.sample("receiver", eye.receiver);
+            setup.sample("seenRadiance", seen.radiance);
+            if (scatters) setup.sample("inScattered", inScattered.radiance);
+            out.radiance =
+                setup.create<RadianceTexel>("compose.radiance", frame.width(), frame.height());
+            setup.bypass(out.radiance, seen.radiance);
+        },
+        [scatters](const Radiance& out, gl::PassContext& context) {
+            gl::Command command = context.fullscreen("shared/medium.frag");
+            if (scatters) command.define("SCATTERS");
+            command.target(out.radiance).draw();
+        });
 }
 
 }  // namespace
@@ -189,13 +135,12 @@ Picture composePicture(FrameBuilder& frame, const PictureParams& params, Geometr
     return frame.pass<Picture>(
         "compose.display", "the display image is an output",
         [&](graph::PassSetup& setup, Picture& data) {
-            data.radiance = setup.read(whole.radiance);
+            data.radiance = setup.sample("radiance", whole.radiance);
             data.view = seen;
             data.display = setup.create<DisplayTexel>("display", frame.width(), frame.height());
         },
         [exposure](const Picture& data, gl::PassContext& context) {
             context.fullscreen("shared/display.frag")
-                .texture("radiance", data.radiance)
                 .set("exposure", exposure)
                 .target(data.display)
                 .draw();

@@ -90,43 +90,29 @@ Shadows lookUpShadowMaps(FrameBuilder& frame, const ShadowMapParams& params, Geo
         frame.leaveOut("shadow.map", "the scene has no light");
         return {};
     }
-    struct Data {
-        ShadowMaps maps;
-        EyeBuffer eye;
-        Shadows shadows;
-    };
     const ShadowMaps maps = renderShadowMaps(frame, params, views, geometry);
-    return frame
-        .pass<Data>(
-            "shadow.lookup", "receivers may lie in shadow",
-            [&](graph::PassSetup& setup, Data& data) {
-                data.maps = maps;
-                data.eye = eye;
-                setup.read(maps.map);
-                setup.read(eye.receiver);
-                setup.read(eye.receiverSurface);
-                data.shadows.visibility =
-                    setup.create<VisibilityTexel>("shadow.visibility", frame.width(),
-                                                  frame.height(), static_cast<int>(views.size()));
-                setup.bypass(data.shadows.visibility, {1, 1, 1, 1});
-            },
-            [&inputs = frame.inputs(), views](const Data& data, gl::PassContext& context) {
-                for (std::size_t light = 0; light < views.size(); ++light) {
-                    gl::Command command = context.fullscreen("shared/shadow_lookup.frag");
-                    command.texture("receiver", data.eye.receiver)
-                        .texture("receiverSurface", data.eye.receiverSurface)
-                        .texture("shadowMap", data.maps.map)
-                        .set("firstLayer", views[light].firstLayer)
-                        .set("faceCount", static_cast<int>(views[light].eyeToLight.size()))
-                        .set("projection", views[light].projection);
-                    for (std::size_t face = 0; face < views[light].eyeToLight.size(); ++face) {
-                        command.set(fmt::format("eyeToLight[{}]", face),
-                                    views[light].eyeToLight[face]);
-                    }
-                    command.target(data.shadows.visibility, static_cast<int>(light)).draw();
+    return frame.pass<Shadows>(
+        "shadow.lookup", "receivers may lie in shadow",
+        [&](graph::PassSetup& setup, Shadows& data) {
+            setup.sample("shadowMap", maps.map);
+            setup.sample("receiver", eye.receiver);
+            setup.sample("receiverSurface", eye.receiverSurface);
+            data.visibility = setup.create<VisibilityTexel>(
+                "shadow.visibility", frame.width(), frame.height(), static_cast<int>(views.size()));
+            setup.bypass(data.visibility, {1, 1, 1, 1});
+        },
+        [views](const Shadows& data, gl::PassContext& context) {
+            for (std::size_t light = 0; light < views.size(); ++light) {
+                gl::Command command = context.fullscreen("shared/shadow_lookup.frag");
+                command.set("firstLayer", views[light].firstLayer)
+                    .set("faceCount", static_cast<int>(views[light].eyeToLight.size()))
+                    .set("projection", views[light].projection);
+                for (std::size_t face = 0; face < views[light].eyeToLight.size(); ++face) {
+                    command.set(fmt::format("eyeToLight[{}]", face), views[light].eyeToLight[face]);
                 }
-            })
-        .shadows;
+                command.target(data.visibility, static_cast<int>(light)).draw();
+            }
+        });
 }
 
 }  // namespace kaustik

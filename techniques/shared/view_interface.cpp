@@ -25,7 +25,7 @@ View viewThroughInterface(FrameBuilder& frame, const InterfaceViewParams& params
                 [&inputs = frame.inputs(), params](const ViewPass& data, gl::PassContext& context) {
                     gl::Command command = context.fullscreen("shared/view_interface.frag");
                     command.params("view.interface", params);
-                    bindLook(inputs, command, data, params.look);
+                    setLook(inputs, command, data, params.look);
                     command.draw();
                 })
             .seen;

@@ -77,20 +77,20 @@ ViewPass declareLook(const FrameBuilder& frame, graph::PassSetup& setup,
                      const SceneLookParams& look, const EyeBuffer& eye,
                      const LayeredDepth& sceneLayers, const Radiance& receivers,
                      const Shadows& shadows) {
-    setup.read(eye.interface);
-    setup.read(eye.interfaceSurface);
-    setup.read(eye.receiver);
-    setup.read(eye.receiverSurface);
-    setup.read(receivers.radiance);
-    ViewPass pass{eye, {}, receivers, {}, {}};
+    setup.sample("interfaceDepth", eye.interface);
+    setup.sample("interfaceSurface", eye.interfaceSurface);
+    setup.sample("receiver", eye.receiver);
+    setup.sample("receiverSurface", eye.receiverSurface);
+    setup.sample("receiverRadiance", receivers.radiance);
+    ViewPass pass;
     if (frame.needs().glossyReceivers && frame.needs().lights > 0) {
-        pass.shadows = shadows;
-        setup.read(shadows.visibility);
+        pass.isGlossy = true;
+        setup.sample("directVisibility", shadows.visibility);
     }
     if (look.surfaces == LookSurfaces::layers) {
-        pass.sceneLayers = sceneLayers;
-        setup.read(sceneLayers.depth);
-        setup.read(sceneLayers.surface);
+        pass.sceneLayers = sceneLayers.layers;
+        setup.sample("sceneDepths", sceneLayers.depth);
+        setup.sample("sceneSurfaces", sceneLayers.surface);
     }
     const int w = frame.width();
     const int h = frame.height();
@@ -103,33 +103,23 @@ ViewPass declareLook(const FrameBuilder& frame, graph::PassSetup& setup,
     return pass;
 }
 
-void bindLook(const FrameInputs& inputs, gl::Command& command, const ViewPass& pass,
-              const SceneLookParams& look) {
-    command.texture("interfaceDepth", pass.eye.interface)
-        .texture("interfaceSurface", pass.eye.interfaceSurface)
-        .texture("receiver", pass.eye.receiver)
-        .texture("receiverSurface", pass.eye.receiverSurface)
-        .texture("receiverRadiance", pass.receivers.radiance)
-        .set("looksIntoScene", look.scene ? 1 : 0)
+void setLook(const FrameInputs& inputs, gl::Command& command, const ViewPass& pass,
+             const SceneLookParams& look) {
+    command.set("looksIntoScene", look.scene ? 1 : 0)
         .set("reflectsScene", look.scene && look.reflection ? 1 : 0)
         .set("lookMirrors", look.mirrors)
         .target(pass.seen.radiance)
         .target(pass.seen.exitPosition)
         .target(pass.seen.exitDirection);
     if (inputs.needs.refractors > 0) command.define("DIELECTRICS");
-    const bool isGlossy = pass.shadows.visibility.valid();
-    const bool looksInLayers = pass.sceneLayers.depth.valid();
-    if (isGlossy || looksInLayers) command.set("lightCount", inputs.needs.lights);
-    if (isGlossy)
-        command.define("GLOSSY_RECEIVERS").texture("directVisibility", pass.shadows.visibility);
-    if (!looksInLayers) {
+    const bool looksInLayers = look.surfaces == LookSurfaces::layers;
+    if (pass.isGlossy || looksInLayers) command.set("lightCount", inputs.needs.lights);
+    if (pass.isGlossy) command.define("GLOSSY_RECEIVERS");
+    if (looksInLayers) {
+        command.define("LOOK_IN_LAYERS").set("sceneLayers", pass.sceneLayers);
+    } else {
         command.set("lookStride", look.stride);
-        return;
     }
-    command.define("LOOK_IN_LAYERS")
-        .texture("sceneDepths", pass.sceneLayers.depth)
-        .texture("sceneSurfaces", pass.sceneLayers.surface)
-        .set("sceneLayers", pass.sceneLayers.layers);
 }
 
 std::size_t countExits(const gl::Texture& exitDirection, float ending) {

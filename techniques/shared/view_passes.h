@@ -49,26 +49,24 @@ struct DielectricsBox {
 };
 [[nodiscard]] DielectricsBox boxOfDielectrics(const FrameBuilder& frame);
 
-// What such a pass is given and gives.
+// What such a pass gives, and what its shaders are told of what it was given.
 struct ViewPass {
-    EyeBuffer eye;
-    LayeredDepth sceneLayers;  // invalid where the picture's receivers are looked at
-    Radiance receivers;
-    Shadows shadows;  // invalid where no receiver is glossy
     View seen;
+    int sceneLayers = 0;    // where they are looked at
+    bool isGlossy = false;  // some receiver is
 };
 
-// Declares what such a pass reads and the outputs of its View. A pass that is disabled shows the
+// Declares what such a pass reads, by the names of common/scene_look.glsl, and the outputs of its
+// View. A pass that is disabled shows the
 // receivers and no exits.
 [[nodiscard]] ViewPass declareLook(const FrameBuilder& frame, graph::PassSetup& setup,
                                    const SceneLookParams& look, const EyeBuffer& eye,
                                    const LayeredDepth& sceneLayers, const Radiance& receivers,
                                    const Shadows& shadows);
 
-// Binds what declareLook has declared, the view, the materials, the images and the outputs as
-// targets: what common/scene_look.glsl needs.
-void bindLook(const FrameInputs& inputs, gl::Command& command, const ViewPass& pass,
-              const SceneLookParams& look);
+// Sets what common/scene_look.glsl is told besides, and the outputs as targets.
+void setLook(const FrameInputs& inputs, gl::Command& command, const ViewPass& pass,
+             const SceneLookParams& look);
 
 // How many pixels' ways have ended so (transport::kWay…). Waits for the device.
 [[nodiscard]] std::size_t countExits(const gl::Texture& exitDirection, float ending);

@@ -73,15 +73,8 @@ class ShippedScene : public testing::TestWithParam<std::string> {};
 TEST_P(ShippedScene, HasTheCausticOfTheTruth) {
     const scene::Scene scene = scene::loadScene(GetParam());  // says which mesh is missing
     const Registry registry = registerAll();
-    RenderSettings settings;
-    settings.technique = registry.findTechnique("screen_space_photons");
-    settings.params = registry.makeParams(settings.technique);
-    settings.width = kWidth;
-    settings.height = kHeight;
-    Renderer renderer(context(), registry, scene, std::move(settings));
-    renderer.build(Purpose::audit);
-    gl::PassTimer timer(gl::TimerMode::finish);
-    renderer.renderFrame(timer);
+    const auto owner = rendered(registry, scene, kWidth, kHeight, Purpose::audit);
+    const Renderer& renderer = *owner;
 
     const reference::EmbreeScene embree(scene);
     const reference::Reference truth = truthOf(embree, renderer.outputs().hits.incoming.paths);
@@ -112,15 +105,8 @@ TEST(GlassTeapot, HasTheTruthsLightAlongAllPaths) {
         GTEST_SKIP() << "experiments/fetch_meshes.sh --teapot fetches the mesh";
     const scene::Scene scene = scene::loadScene("glass-teapot");
     const Registry registry = registerAll();
-    RenderSettings settings;
-    settings.technique = registry.findTechnique("screen_space_photons");
-    settings.params = registry.makeParams(settings.technique);
-    settings.width = kWidth;
-    settings.height = kHeight;
-    Renderer renderer(context(), registry, scene, std::move(settings));
-    renderer.build(Purpose::audit);
-    gl::PassTimer timer(gl::TimerMode::finish);
-    renderer.renderFrame(timer);
+    const auto owner = rendered(registry, scene, kWidth, kHeight, Purpose::audit);
+    const Renderer& renderer = *owner;
     const reference::EmbreeScene embree(scene);
     const measure::ImageErrors errors =
         causticErrors(renderer, truthOf(embree, {.transmissionOnly = false, .interactions = 64}));

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -13,6 +14,8 @@
 #include "framework/core/files.h"
 #include "framework/gl/objects.h"
 #include "framework/image/image.h"
+#include "framework/pipeline/renderer.h"
+#include "tests/gpu/fixture.h"
 
 namespace kaustik::test {
 
@@ -28,6 +31,21 @@ inline std::vector<std::string> shippedScenes() {
     }
     std::sort(names.begin(), names.end());
     return names;
+}
+
+// A frame of the default technique, rendered for a purpose. `registry` and `scene` must outlive it.
+inline std::unique_ptr<Renderer> rendered(const Registry& registry, const scene::Scene& scene,
+                                          int width, int height, Purpose purpose) {
+    RenderSettings settings;
+    settings.technique = registry.findTechnique("screen_space_photons");
+    settings.params = registry.makeParams(settings.technique);
+    settings.width = width;
+    settings.height = height;
+    auto renderer = std::make_unique<Renderer>(context(), registry, scene, std::move(settings));
+    renderer->build(purpose);
+    gl::PassTimer timer(gl::TimerMode::finish);
+    renderer->renderFrame(timer);
+    return renderer;
 }
 
 // For the names of tests.

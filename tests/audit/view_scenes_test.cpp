@@ -48,15 +48,8 @@ class ShippedView : public testing::TestWithParam<std::string> {};
 TEST_P(ShippedView, ShowsWhatTheTruthShows) {
     const scene::Scene scene = scene::loadScene(GetParam());
     const Registry registry = registerAll();
-    RenderSettings settings;
-    settings.technique = registry.findTechnique("screen_space_photons");
-    settings.params = registry.makeParams(settings.technique);
-    settings.width = kWidth;
-    settings.height = kHeight;
-    Renderer renderer(context(), registry, scene, std::move(settings));
-    renderer.build(Purpose::view);
-    gl::PassTimer timer(gl::TimerMode::finish);
-    renderer.renderFrame(timer);
+    const auto owner = rendered(registry, scene, kWidth, kHeight, Purpose::view);
+    const Renderer& renderer = *owner;
 
     const reference::EmbreeScene embree(scene);
     reference::ViewTruthRequest request;
