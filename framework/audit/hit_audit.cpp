@@ -96,7 +96,7 @@ const char* falseHitName(const PhotonFate& fate) {
 
 class Counter {
   public:
-    Counter(HitAudit& audit, const render::EyeView& view) : audit_(audit), view_(view) {
+    Counter(HitAudit& audit, const render::RasterView& view) : audit_(audit), view_(view) {
         for (const Sight sight : {Sight::offScreen, Sight::behindEye, Sight::beyondLayers,
                                   Sight::edgeOn, Sight::shown}) {
             audit_.missed[nameOf(sight)] = 0;
@@ -144,7 +144,7 @@ class Counter {
 
   private:
     HitAudit& audit_;
-    const render::EyeView& view_;
+    const render::RasterView& view_;
     std::vector<double> meters_;
     std::vector<double> pixels_;
 };
@@ -167,15 +167,15 @@ Layers readLayers(const Renderer& renderer) {
     const std::vector<float> texels = texture.read();
     const int width = texture.desc().width;
     const int height = texture.desc().height;
-    const render::EyeView& view = renderer.view();
+    const render::RasterView& view = renderer.view();
     std::vector<float> depths;  // and extents
     depths.reserve(texels.size() / 2);
     for (std::size_t i = 0; i + 3 < texels.size(); i += 4) {
         const std::size_t pixel = i / 4 % static_cast<std::size_t>(width * height);
         const double x = static_cast<double>(pixel % static_cast<std::size_t>(width)) + 0.5;
         const double y = static_cast<double>(pixel / static_cast<std::size_t>(width)) + 0.5;
-        const glm::dvec3 ray((2.0 * x / width - 1.0) * view.tangents.x,
-                             (2.0 * y / height - 1.0) * view.tangents.y, -1.0);
+        const glm::dvec3 ray((2.0 * x / width - 1.0) * view.halfExtent.x,
+                             (2.0 * y / height - 1.0) * view.halfExtent.y, -1.0);
         const double depth = static_cast<double>(texels[i]);
         const glm::dvec3 normal = unfoldUnitVector(glm::dvec2(texels[i + 1], texels[i + 2]));
         const double slope = (std::abs(normal.x) + std::abs(normal.y)) /
@@ -191,7 +191,7 @@ std::optional<double> share(std::uint64_t part, std::uint64_t whole) {
     return static_cast<double>(part) / static_cast<double>(whole);
 }
 
-PhotonFate judge(const render::EyeView& view, const Layers& layers, const TracedPhoton& traced,
+PhotonFate judge(const render::RasterView& view, const Layers& layers, const TracedPhoton& traced,
                  const reference::FirstHit& exact) {
     const bool isNumber = !traced.found || isFinite(*traced.found);
     PhotonFate fate = judgeFate(view, layers, traced.photon.position,
@@ -226,7 +226,7 @@ std::optional<double> HitAudit::agreementReachable() const {
 
 HitAudit auditHits(const Renderer& renderer, const reference::EmbreeScene& scene, int threads) {
     HitAudit audit;
-    const render::EyeView& view = renderer.view();
+    const render::RasterView& view = renderer.view();
     const Layers layers = readLayers(renderer);
     const glm::dmat4 viewToWorld = glm::inverse(view.worldToView);
     Counter counter(audit, view);

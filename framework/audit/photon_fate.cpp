@@ -11,11 +11,12 @@ namespace {
 constexpr double kSmallestCosine = 1e-6;
 constexpr double kDisplaced = 4.0;  // pixels and footprints
 
-bool isOnScreen(const render::EyeView& view, const glm::dvec2& pixel) {
+bool isOnScreen(const render::RasterView& view, const glm::dvec2& pixel) {
     return pixel.x >= 0.0 && pixel.y >= 0.0 && pixel.x < view.width && pixel.y < view.height;
 }
 
-Sight sightOf(const render::EyeView& view, const Layers& layers, const reference::FirstHit& exact) {
+Sight sightOf(const render::RasterView& view, const Layers& layers,
+              const reference::FirstHit& exact) {
     if (!exact.exists()) return Sight::none;
     const double depth = -exact.position.z;
     if (!(depth >= view.nearMeters)) return Sight::behindEye;
@@ -61,7 +62,7 @@ Sight Layers::sightOf(const glm::dvec2& pixel, double depth, double footprint) c
     return last > 0.0 && depth > last ? Sight::beyondLayers : Sight::edgeOn;
 }
 
-PhotonFate judgeFate(const render::EyeView& view, const Layers& layers, const glm::dvec3& origin,
+PhotonFate judgeFate(const render::RasterView& view, const Layers& layers, const glm::dvec3& origin,
                      const std::optional<glm::dvec3>& found, const reference::FirstHit& exact) {
     PhotonFate fate;
     fate.sight = sightOf(view, layers, exact);

@@ -67,7 +67,7 @@ class Layers {
 };
 
 // `found`: where the tracer says that the photon arrived. `exact` in eye view space.
-[[nodiscard]] PhotonFate judgeFate(const render::EyeView& view, const Layers& layers,
+[[nodiscard]] PhotonFate judgeFate(const render::RasterView& view, const Layers& layers,
                                    const glm::dvec3& origin, const std::optional<glm::dvec3>& found,
                                    const reference::FirstHit& exact);
 

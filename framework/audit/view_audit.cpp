@@ -16,7 +16,7 @@ glm::dvec3 vectorAt(const Image& image, int x, int y) {
 }
 
 // Pixels from the middle of the picture; a point beside the eye is as far as can be.
-glm::dvec2 onScreen(const render::EyeView& view, const glm::dvec3& position) {
+glm::dvec2 onScreen(const render::RasterView& view, const glm::dvec3& position) {
     const double depth = std::max(-position.z, view.nearMeters);
     return glm::dvec2(position) / (depth * view.footprintPerMeter());
 }
@@ -53,7 +53,7 @@ json toJson(const ExitErrors& errors) {
 }  // namespace
 
 ViewAudit auditView(const Image& exitPosition, const Image& exitDirection,
-                    const reference::ViewTruth& truth, const render::EyeView& view) {
+                    const reference::ViewTruth& truth, const render::RasterView& view) {
     ViewAudit audit;
     double interfaces = 0.0;
     for (int y = 0; y < truth.mask.height; ++y) {

@@ -32,7 +32,8 @@ struct ViewAudit {
 
 // `exitPosition` and `exitDirection`: View's, rows from the top, 4 channels.
 [[nodiscard]] ViewAudit auditView(const Image& exitPosition, const Image& exitDirection,
-                                  const reference::ViewTruth& truth, const render::EyeView& view);
+                                  const reference::ViewTruth& truth,
+                                  const render::RasterView& view);
 
 // For report.json; a number that does not exist is null.
 [[nodiscard]] nlohmann::json toJson(const ViewAudit& audit);

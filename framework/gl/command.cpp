@@ -109,6 +109,18 @@ Command& Command::storage(const std::string& block, const Buffer& buffer) {
     return *this;
 }
 
+Command& Command::offer(const std::string& block, const Buffer& buffer) {
+    uniformBlocks_.push_back({block, buffer.id(), {}, true});
+    return *this;
+}
+
+Command& Command::offer(const std::string& name, Value value) {
+    offers_ = true;
+    set(name, std::move(value));
+    offers_ = false;
+    return *this;
+}
+
 Command& Command::uniforms(const std::string& block, const Buffer& buffer) {
     uniformBlocks_.push_back({block, buffer.id(), {}, offers_});
     return *this;

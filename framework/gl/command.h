@@ -53,9 +53,13 @@ class Command {
     Command& storage(const std::string& block, const Buffer& buffer);
     Command& uniforms(const std::string& block, const Buffer& buffer);
 
+    // What shaders use if they declare it, in place of what is bound to all.
+    Command& offer(const std::string& block, const Buffer& buffer);
+
     using Value = std::variant<int, unsigned, float, glm::vec2, glm::vec3, glm::vec4, glm::ivec2,
                                glm::mat3, glm::mat4>;
     Command& set(const std::string& name, Value value);
+    Command& offer(const std::string& name, Value value);
     // Every field of a parameter struct as a uniform: scope "trace.lines", field "width" is
     // `trace_lines_width`; a choice also declares a constant a name: `trace_test_epsilon`.
     template <class Params>

@@ -76,7 +76,7 @@ glm::dvec3 lightHandle(const scene::Light& light, const scene::Bounds& bounds) {
 }
 
 scene::Light dragLight(const scene::Light& light, const scene::Bounds& bounds,
-                       const render::EyeView& view, glm::dvec2 pixels) {
+                       const render::RasterView& view, glm::dvec2 pixels) {
     scene::Light result = light;
     const glm::dmat3 toWorld = glm::transpose(glm::dmat3(view.worldToView));
     const glm::dvec3 handle = lightHandle(light, bounds);

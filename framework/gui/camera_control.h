@@ -25,6 +25,6 @@ namespace kaustik::gui {
 // The light after its handle has been dragged by `pixels` on the picture: a directional one turns
 // about the middle of the scene, another moves at right angles to the view.
 [[nodiscard]] scene::Light dragLight(const scene::Light& light, const scene::Bounds& bounds,
-                                     const render::EyeView& view, glm::dvec2 pixels);
+                                     const render::RasterView& view, glm::dvec2 pixels);
 
 }  // namespace kaustik::gui

@@ -23,7 +23,7 @@ glm::dvec2 edgePoint(const glm::dvec2& low, const glm::dvec2& high, const glm::d
 
 }  // namespace
 
-std::optional<LightMarker> markLight(const render::EyeView& view, const glm::dvec3& handleWs,
+std::optional<LightMarker> markLight(const render::RasterView& view, const glm::dvec3& handleWs,
                                      const PictureArea& area, double margin) {
     const glm::dvec2 low = area.low + margin;
     const glm::dvec2 high = area.high - margin;

@@ -28,7 +28,7 @@ struct LightMarker {
 
 // `margin`: least distance of a mark from the edges, pixels. Nothing where there is no way to point
 // to, straight behind the eye, and where the area has no room.
-[[nodiscard]] std::optional<LightMarker> markLight(const render::EyeView& view,
+[[nodiscard]] std::optional<LightMarker> markLight(const render::RasterView& view,
                                                    const glm::dvec3& handleWs,
                                                    const PictureArea& area, double margin);
 

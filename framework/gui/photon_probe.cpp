@@ -47,7 +47,7 @@ std::vector<glm::vec3> pathOf(const Renderer& renderer, const std::vector<Tracin
 
 }  // namespace
 
-Projected project(const render::EyeView& view, const glm::vec3& pointVs) {
+Projected project(const render::RasterView& view, const glm::vec3& pointVs) {
     if (!(-double(pointVs.z) >= view.nearMeters)) return {};
     const glm::dvec2 pixel = pixelOf(view, pointVs).value();
     return {glm::vec2(pixel.x, view.height - pixel.y), true};

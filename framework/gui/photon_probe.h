@@ -38,6 +38,6 @@ struct Projected {
     glm::vec2 pixel{0.0f};
     bool visible = false;
 };
-[[nodiscard]] Projected project(const render::EyeView& view, const glm::vec3& pointVs);
+[[nodiscard]] Projected project(const render::RasterView& view, const glm::vec3& pointVs);
 
 }  // namespace kaustik::gui

@@ -162,9 +162,9 @@ Traced tracePhotons(Lab& lab, const Lab::Choice& tracer, const scene::Scene& sce
             const Geometry geometry = builder.run<GeometryStage>();
             const EyeBuffer eye = builder.run<EyeStage>(geometry);
             const LayeredDepth layers = builder.run<LayersStage>(geometry);
-            Photons photons = inject(builder, batch).incoming;
-            photons.suffix = "_1";  // the case's own hits have the plain names
-            const Hits hits = builder.run<TraceStage>(photons, Surfaces{geometry, eye, layers});
+            Photons injected = inject(builder, batch).incoming;
+            injected.suffix = "_1";  // the case's own hits have the plain names
+            const Hits hits = builder.run<TraceStage>(injected, Surfaces{geometry, eye, layers});
             builder.request(hits);
             const Nothing nothing =
                 addNothing(builder, closeBatch(builder, hits, hits.incoming.ledger));

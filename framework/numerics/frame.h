@@ -68,11 +68,11 @@ class Frame {
     // World position that a pixel centre sees at a view depth.
     [[nodiscard]] glm::dvec3 worldAt(int x, int y, double depth) const;
     [[nodiscard]] glm::dvec3 toWorld(const glm::dvec3& positionVs) const;
-    [[nodiscard]] const render::EyeView& view() const { return view_; }
+    [[nodiscard]] const render::RasterView& view() const { return view_; }
 
   private:
     std::unique_ptr<Renderer> renderer_;
-    render::EyeView view_;
+    render::RasterView view_;
 };
 
 }  // namespace kaustik::numerics

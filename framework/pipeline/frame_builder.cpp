@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "framework/core/error.h"
 #include "framework/pipeline/ledger.h"
 #include "framework/pipeline/stage_params.h"
 #include "framework/transport/photon_list.h"
@@ -36,6 +37,26 @@ Hits FrameBuilder::recorded(const TraceStage::Build& build, const Photons& photo
     record.after = copyLedger(*this, record.hits.incoming.ledger, name + "_after");
     traces_.push_back(record);
     return record.hits;
+}
+
+Views FrameBuilder::eyeViews() {
+    return once<render::RasterViews>("eye.views", [this] {
+        return std::make_shared<render::RasterViews>(inputs_.view, inputs_.instances);
+    });
+}
+
+Views FrameBuilder::makeViews(render::Space space, std::vector<render::RasterView> views) {
+    auto made = std::make_shared<render::RasterViews>(space, std::move(views), inputs_.gpuScene,
+                                                      inputs_.view);
+    kept_.push_back(made);
+    return made;
+}
+
+void needsEyesView(const std::string& node, const std::string& what, const Views& views) {
+    if (views->isEyes()) return;
+    throw ConfigError(fmt::format("{} works on the screen, but {} it is given {} {}.", node, what,
+                                  what.ends_with('s') ? "are" : "is",
+                                  render::describe(views->space())));
 }
 
 void FrameBuilder::request(const Photons& photons) {

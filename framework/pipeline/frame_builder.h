@@ -16,6 +16,7 @@
 #include "framework/pipeline/registry.h"
 #include "framework/pipeline/trace_record.h"
 #include "framework/render/gpu_scene.h"
+#include "framework/render/raster_views.h"
 #include "framework/scene/needs.h"
 
 namespace kaustik {
@@ -27,7 +28,7 @@ struct FrameInputs {
     const params::ParamSet& params;
     const render::GpuScene& gpuScene;
     const scene::SceneNeeds& needs;
-    const render::EyeView& view;
+    const render::RasterView& view;
     const render::ViewInstances& instances;  // as the eye sees them
     const std::uint64_t& seed;               // of whatever a node draws at random
 };
@@ -42,6 +43,10 @@ inline void dispatchOver(gl::Command&& command, const Photons& photons) {
 void drawOver(gl::Command& command);
 // A list that fills its textures, in every texel a photon or nobody.
 void fillList(gl::PassContext& context, const Photons& photons);
+
+// For a node that works on the screen alone: ConfigError where what it is given, `what`, is not in
+// the eye's view.
+void needsEyesView(const std::string& node, const std::string& what, const Views& views);
 
 class FrameBuilder {
   public:
@@ -103,7 +108,10 @@ class FrameBuilder {
     [[nodiscard]] const scene::Scene& scene() const { return inputs_.gpuScene.scene(); }
     [[nodiscard]] const render::GpuScene& gpuScene() const { return inputs_.gpuScene; }
     [[nodiscard]] const scene::SceneNeeds& needs() const { return inputs_.needs; }
-    [[nodiscard]] const render::EyeView& view() const { return inputs_.view; }
+    [[nodiscard]] const render::RasterView& view() const { return inputs_.view; }
+    // The eye's view for what works in any, and others, which live as long as the frame.
+    [[nodiscard]] Views eyeViews();
+    [[nodiscard]] Views makeViews(render::Space space, std::vector<render::RasterView> views);
     [[nodiscard]] int width() const { return inputs_.view.width; }
     [[nodiscard]] int height() const { return inputs_.view.height; }
     // Outlives the graph: what execute functions capture, by reference.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "framework/render/raster_views.h"
 #include "framework/transport/watts.h"
 
 namespace kaustik {
@@ -39,6 +40,8 @@ const std::vector<std::pair<unsigned, std::string>>& lossCauses() {
         {kAccountNestingLimit, "nesting_limit"},
         {kAccountBatchLimit, "batch_limit"},
         {kAccountOccludedSplat, "occluded"},
+        {kAccountOutsideMap, "outside_map"},
+        {kAccountHiddenInMap, "hidden_in_map"},
         {kAccountNotANumber, "not_a_number"},
         {kAccountUnresolved, "unresolved"}};
     return causes;
@@ -84,7 +87,10 @@ Ledger closeLedger(FrameBuilder& frame, const FrameOutputs& outputs) {
         },
         [map](const Ledger&, gl::PassContext& context) {
             const graph::TextureDesc& desc = context.texture(map.flux).desc();
-            context.compute("common/ledger_close.comp").dispatchOver(desc.width, 8, desc.height, 8);
+            context.compute("common/ledger_close.comp")
+                .set("mapCount", map.views->count())
+                .set("wordsPerMap", map.wordsPerView())
+                .dispatchOver(desc.width, 8, desc.height, 8);
         });
 }
 

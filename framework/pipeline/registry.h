@@ -74,10 +74,16 @@ class Registry {
         declarations_.push_back([](params::ParamSet& set) { set.declare<Params>(Stage::name); });
     }
 
-    // Adds a node that answers a stage. The first one added is the stage's default.
+    // Adds a node that answers a stage, a function or a closure. The first one added is the stage's
+    // default.
     template <class Stage, class Params, class... In>
     void node(const std::string& name, NodeDescription description,
               typename Stage::Output (*build)(FrameBuilder&, const Params&, In...)) {
+        node<Stage>(name, std::move(description), std::function(build));
+    }
+    template <class Stage, class Params, class... In>
+    void node(const std::string& name, NodeDescription description,
+              std::function<typename Stage::Output(FrameBuilder&, const Params&, In...)> build) {
         using Build = typename Stage::Build;
         static_assert(
             std::is_same_v<Build, std::function<typename Stage::Output(FrameBuilder&, In...)>>,

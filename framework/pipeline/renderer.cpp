@@ -12,12 +12,12 @@
 namespace kaustik {
 namespace {
 
-gl::Buffer makeViewBlock(const scene::Scene& scene, const render::EyeView& view) {
-    const transport::ViewData data = viewData(scene, view);
+gl::Buffer makeViewBlock(const scene::Scene& scene, const render::RasterView& view) {
+    const transport::ViewData data = viewData(scene, view, view);
     return {sizeof(data), &data, "view"};
 }
 
-gl::Buffer makeLights(const scene::Scene& scene, const render::EyeView& view) {
+gl::Buffer makeLights(const scene::Scene& scene, const render::RasterView& view) {
     std::vector<transport::LightData> lights;
     for (const scene::Light& light : scene.lights)
         lights.push_back(lightData(light, view));

@@ -88,7 +88,7 @@ class Renderer {
     void measureDepthComplexity();
     [[nodiscard]] const scene::SceneNeeds& needs() const { return needs_; }
     [[nodiscard]] const scene::Scene& scene() const { return scene_; }
-    [[nodiscard]] const render::EyeView& view() const { return view_; }
+    [[nodiscard]] const render::RasterView& view() const { return view_; }
     [[nodiscard]] const render::GpuScene& gpuScene() const { return gpuScene_; }
     [[nodiscard]] const RenderSettings& settings() const { return settings_; }
     [[nodiscard]] gl::Executor& executor() { return executor_; }
@@ -108,7 +108,7 @@ class Renderer {
     const Registry& registry_;
     const scene::Scene& scene_;
     RenderSettings settings_;
-    render::EyeView view_;
+    render::RasterView view_;
     render::GpuScene gpuScene_;
     gl::Buffer viewBlock_;
     gl::Buffer lights_;

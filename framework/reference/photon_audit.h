@@ -32,8 +32,8 @@ struct FirstHit {
 };
 
 // One hit a photon, in their order; the same at any number of threads (0: all). `toWorld`: a rigid
-// motion, the identity for photons in world space or the inverse of EyeView::worldToView for those
-// of the GPU. A photon that is no number meets nothing.
+// motion, the identity for photons in world space or the inverse of RasterView::worldToView for
+// those of the GPU. A photon that is no number meets nothing.
 [[nodiscard]] std::vector<FirstHit> exactFirstHits(const EmbreeScene& scene,
                                                    std::span<const AuditPhoton> photons,
                                                    const glm::dmat4& toWorld = glm::dmat4(1.0),

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "framework/transport/stages.h"
 
+#include "framework/render/raster_views.h"
+
 namespace kaustik {
 
 Photons Photons::create(graph::PassSetup& setup, int width, int height, const std::string& suffix) {
@@ -62,16 +64,17 @@ void Hits::store(graph::PassSetup& setup) const {
     setup.image("hitFlux", flux);
 }
 
-CausticMap CausticMap::deposit(graph::PassSetup& setup, const CausticMap& before, int width,
-                               int height, bool hasIntensity, const std::string& name) {
+CausticMap CausticMap::deposit(graph::PassSetup& setup, const CausticMap& before,
+                               const Views& views, bool hasIntensity, const std::string& name) {
     CausticMap map = before;
     if (before.flux.valid()) {
         map.flux = setup.write(before.flux);
         setup.bypass(map.flux, before.flux);
     } else {
         map.hasIntensity = hasIntensity;
-        const int words = static_cast<int>(transport::kFluxWords) * (hasIntensity ? 2 : 1);
-        map.flux = setup.create<FluxWord>(name, width, height, words);
+        map.views = views;
+        map.flux = setup.create<FluxWord>(name, views->width(), views->height(),
+                                          views->layers(map.wordsPerView()));
         setup.bypass(map.flux, {0, 0, 0, 0});
     }
     setup.image("fluxSums", map.flux);

@@ -4,7 +4,7 @@
 #pragma once
 
 #include <functional>
-
+#include <memory>
 #include <string>
 
 #include "framework/graph/graph.h"
@@ -12,7 +12,13 @@
 
 namespace kaustik {
 
+namespace render {
+class RasterViews;
+}
+
 using graph::Format;
+// The views that textures were rasterised in; those of cubes hold their faces one after the other.
+using Views = std::shared_ptr<const render::RasterViews>;
 
 // What one texel means. Textures are read by texelFetch; (0, 0) is the lower left.
 struct ViewDepth {  // x: view depth in m, 0 none; y: half of its extent over the pixel, m
@@ -91,24 +97,32 @@ struct Geometry {
     graph::Buffer<transport::VertexData> heightFields;
 };
 
-// What the eye sees. The receiver is the first diffuse surface on the straight eye ray, dielectrics
-// being invisible to it (design, section 1); a pixel that ends on a mirror has none.
-struct EyeBuffer {
+// Where light can be stored: the first diffuse or glossy surface on each pixel's straight ray,
+// dielectrics being invisible to it; a pixel that ends on a mirror has none. 2D, or of a cube
+// arrays.
+struct ReceiverView {
     graph::Texture<ReceiverTexel> receiver;
     graph::Texture<SurfaceTexel> receiverSurface;  // where the ray ends on a mirror, the mirror's
     graph::Texture<AlbedoTexel> receiverAlbedo;
+    Views views;
+};
+
+// What the eye sees.
+struct EyeBuffer : ReceiverView {
     // The first specular surface before the receiver; invalid where the scene has none.
     graph::Texture<ViewDepth> interface;
     graph::Texture<SurfaceTexel> interfaceSurface;
 };
 
-// All surfaces along each pixel's ray, front to back (K06, section 2.2).
+// All surfaces along each pixel's ray, front to back (K06, section 2.2). Of a cube the arrays hold
+// `layers` for each face.
 struct LayeredDepth {
     graph::Texture<LayerTexel> depth;      // array, one layer a surface
     graph::Texture<SurfaceTexel> surface;  // array
     graph::Texture<SquarePlane> pyramid;   // array; planes of the layers over squares of pixels
     graph::Buffer<transport::LayerStatistics> statistics;
     int layers = 0;
+    Views views;
 };
 
 // The paths that photons stand for, of all that light takes: what a technique claims to model. The
@@ -171,17 +185,22 @@ struct Hits {
     void store(graph::PassSetup& setup) const;
 };
 
-// Flux that has arrived, W a texel, in the space of a view: sums that depend neither on the order
+// Flux that has arrived, W a texel, in the space of views: sums that depend neither on the order
 // nor on the batches of what was added. Names in shaders: common/flux_sum.glsl.
 struct CausticMap {
     graph::Texture<FluxWord> flux;
     bool hasIntensity = false;  // and what of it goes to the eye, W/sr, in as many layers more
+    Views views;
     Ledger ledger;
+    // Layers of `flux` that each view has.
+    [[nodiscard]] int wordsPerView() const {
+        return static_cast<int>(transport::kFluxWords) * (hasIntensity ? 2 : 1);
+    }
 
     // For a pass that adds to what `before` holds, as the image "fluxSums"; where that is invalid,
-    // to a new map, which the pass has to clear first.
-    static CausticMap deposit(graph::PassSetup& setup, const CausticMap& before, int width,
-                              int height, bool hasIntensity, const std::string& name);
+    // to a new map, which the pass has to clear first. Only the eye's view has intensity.
+    static CausticMap deposit(graph::PassSetup& setup, const CausticMap& before, const Views& views,
+                              bool hasIntensity, const std::string& name);
 };
 
 // In screen space, at the eye buffer's receivers.

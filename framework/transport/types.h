@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The types that flow between stages, defined once: C++ and GLSL both read this file. SI units,
 // linear Rec.709, view space of the eye (right-handed, the eye looks down -Z, camera-relative);
-// depth is planar view depth, -z, in metres.
+// depth is planar view depth, -z, in metres, of the view that a texture was rasterised in.
 #pragma once
 
 #ifdef __cplusplus
@@ -15,12 +15,15 @@ using glm::vec4;
 using uint = unsigned int;
 #endif
 
-// The view of the eye, as a uniform block (std140).
+// A view, the eye's or another, in a uniform block (std140).
 struct ViewData {
-    vec4 tangents;     // tan of half the field of view in x and y; near plane in m; metres that a
-                       // pixel covers at a depth of 1 m
-    vec4 sizePixels;   // width, height, 1/width, 1/height
-    mat4 viewToWorld;  // rotation only
+    // xy: tan of half the field of view, or where rays are parallel half of the extent in m; z:
+    // near plane in m; w: metres that a pixel covers at a depth of 1 m, or at any.
+    vec4 frustum;
+    vec4 sizePixels;      // width, height, 1/width, 1/height
+    mat4 viewToWorld;     // rotation only
+    mat4 fromEye;         // from the eye's view space to this view's, rigid
+    vec4 farMeters;       // x: far plane where rays are parallel, m
     vec4 boundsCenterVs;  // of the scene's world-axis bounding box, m
     // Along the world's axes, m; w: the margin in it that rays are cut with (viewData), m.
     vec4 boundsHalfExtent;
@@ -30,6 +33,8 @@ struct ViewData {
     vec4 mediumExtinction;  // rgb: scattering and absorption, 1/m
     vec4 environment;       // x: image layer of what surrounds the scene, -1 none; y: its turn, rad
 };
+
+const uint kMostViews = 6u;  // of a block: the faces of a cube
 
 // One placed mesh, for one view (std430).
 struct InstanceData {
@@ -175,7 +180,10 @@ const uint kAccountUnresolved = 16u;
 const uint kAccountArrived = 17u;
 // A dielectric inside of more others than a stack holds.
 const uint kAccountNestingLimit = 18u;
-const uint kAccountCount = 19u;
+// Stored in another view than the eye's: what arrived beside it, and behind what it sees.
+const uint kAccountOutsideMap = 19u;
+const uint kAccountHiddenInMap = 20u;
+const uint kAccountCount = 21u;
 
 // A sum of watts in 64-bit fixed point, so that it neither drifts nor depends on the order:
 // watts = (high * 2^32 + low) * quantum. `events` counts the additions.

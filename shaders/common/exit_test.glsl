@@ -127,7 +127,7 @@ Crossing smoothCrossing(vec3 origin, vec3 direction, float t, vec4 surface, Laye
 
 // The shading normal alone, where the ray came out at `exitVs` past this pixel and layer.
 vec3 normalAtExit(vec3 exitVs, ivec2 texel, int exitLayer) {
-    vec4 surface = texelFetch(layerSurfaces, ivec3(texel, exitLayer), 0);
+    vec4 surface = texelFetch(layerSurfaces, layerTexel(texel, exitLayer), 0);
     return smoothSurfaceAt(exitVs, surface, layerAt(texel, exitLayer)).normal;
 }
 
@@ -136,16 +136,18 @@ struct FirstHit {
     LayerHit hit;  // hit.layer < 0: none
     ivec2 pixel;
     bool isExit;  // the photon came out, or in, between two pixels
+    int face;     // of many views, the one that it was met in
 };
 
 FirstHit noHit() {
-    return FirstHit(LayerHit(0.0, -1), ivec2(0), false);
+    return FirstHit(LayerHit(0.0, -1), ivec2(0), false, viewIndex);
 }
 
 // What one step of a ray meets: a layer's plane, or, where the scene has closed dielectrics, the
 // way out of one, or into a body that lies in it, that no plane shows. Every tracer asks here.
 FirstHit hitOfStep(RaySegment segment, TracedRay ray, int i, int n) {
-    FirstHit found = FirstHit(testStep(segment, ray, i, n), texelOfStep(segment, i, n), false);
+    FirstHit found =
+        FirstHit(testStep(segment, ray, i, n), texelOfStep(segment, i, n), false, viewIndex);
 #ifdef CLOSED_DIELECTRICS
     if (found.hit.layer < 0) {
         found.hit = testExit(segment, ray, i, n);
@@ -179,3 +181,10 @@ FirstHit firstHitOfSteps(RaySegment segment, TracedRay ray, int n) {
     }
     return first;
 }
+
+#ifdef MANY_VIEWS
+FirstHit nearerHit(FirstHit a, FirstHit b) {
+    if (a.hit.layer < 0) return b;
+    return b.hit.layer >= 0 && b.hit.t < a.hit.t ? b : a;
+}
+#endif

@@ -10,9 +10,9 @@ layout(r32ui) uniform uimage2DArray fluxSums;
 const uint kFluxPart = 0u;
 const uint kIntensityPart = 1u;  // W/sr towards the eye
 
-// Rounded to the nearest unit, so that a great many small deposits are right on the whole. What is
+// `face`: of a cube, of which each has a map. Rounded to the nearest unit, so that a great many small deposits are right on the whole. What is
 // not a number, or negative, adds nothing: whoever deposits has checked.
-void fluxAdd(ivec2 texel, uint part, vec3 amount) {
+void fluxAdd(ivec2 texel, int face, uint part, vec3 amount) {
     vec3 units = amount * (part == kFluxPart ? ledgerUnitsPerWatt
                                              : ledgerUnitsPerWatt / kIntensityQuantum);
     for (int channel = 0; channel < 3; ++channel) {
@@ -21,7 +21,7 @@ void fluxAdd(ivec2 texel, uint part, vec3 amount) {
         if (!(whole > 0.0)) continue;
         float high = floor(whole * (1.0 / 4294967296.0));
         uint low = uint(whole - high * 4294967296.0);
-        ivec3 word = ivec3(texel, int(kFluxWords * part) + 2 * channel);
+        ivec3 word = ivec3(texel, int(kFluxWords) * (int(part) + face) + 2 * channel);
         uint before = imageAtomicAdd(fluxSums, word, low);
         uint above = uint(high) + (before > 0xffffffffu - low ? 1u : 0u);
         if (above > 0u) imageAtomicAdd(fluxSums, word + ivec3(0, 0, 1), above);

@@ -16,8 +16,13 @@ struct LayerSurface {
     uint material;  // index + 1
 };
 
+// Where a layer of the view is in the arrays.
+ivec3 layerTexel(ivec2 texel, int layer) {
+    return ivec3(texel, viewIndex * layerCount + layer);
+}
+
 LayerSurface layerAt(ivec2 texel, int layer) {
-    vec4 data = texelFetch(layerDepths, ivec3(texel, layer), 0);
+    vec4 data = texelFetch(layerDepths, layerTexel(texel, layer), 0);
     vec3 normal = unpackUnitVector(data.yz);
     float margin = depthMargin(viewRay(vec2(texel) + 0.5), data.x, normal);
     return LayerSurface(data.x, margin, normal, uint(data.w));
@@ -62,7 +67,7 @@ bool isFacing(TracedRay ray, uint material, vec3 normal, float height, float res
 
 // How far a point lies above the plane with this normal through what a pixel sees at this depth, m.
 float heightAbove(vec3 point, vec3 normal, ivec2 texel, float depth) {
-    return dot(normal, point - viewRay(vec2(texel) + 0.5) * depth);
+    return dot(normal, point - viewPoint(vec2(texel) + 0.5, depth));
 }
 
 struct LayerHit {
@@ -226,15 +231,14 @@ SmoothSurface smoothSurfaceAt(vec3 pointVs, vec4 surface, LayerSurface layerHit)
         ivec2 step = ivec2(i & 1, i >> 1);
         ivec2 texel = clamp(first + step, ivec2(0), ivec2(view.sizePixels.xy) - 1);
         vec2 axis = mix(1.0 - f, f, vec2(step));
-        vec3 ray = viewRay(vec2(texel) + 0.5);
         for (int layer = 0; layer < layerCount; ++layer) {
-            float depth = texelFetch(layerDepths, ivec3(texel, layer), 0).x;
+            float depth = texelFetch(layerDepths, layerTexel(texel, layer), 0).x;
             if (depth <= 0.0) break;
             if (abs(depth - layerHit.depth) > reach) continue;
-            vec4 other = texelFetch(layerSurfaces, ivec3(texel, layer), 0);
+            vec4 other = texelFetch(layerSurfaces, layerTexel(texel, layer), 0);
             // A crease of more than 60 degrees is an edge, not a curve.
             if (other.w != surface.w || dot(other.xyz, surface.xyz) < 0.5) continue;
-            vec3 offset = ray * depth - pointVs;
+            vec3 offset = viewPoint(vec2(texel) + 0.5, depth) - pointVs;
             // All pixels count a little, so that there are enough to tell a slope from.
             float weight = (axis.x * axis.y + 1e-3) / (1.0 + dot(offset, offset) / (near * near));
             weights += weight;

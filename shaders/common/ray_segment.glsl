@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// A photon's ray as every screen-space tracer sees it: clipped in view space, before anything is
-// divided, to the part that is inside the scene's bounds, before the near plane and on the screen;
-// then projected. Along it 1/z interpolates linearly in screen space, by index.
+// A photon's ray as every tracer through a view's layers sees it: clipped in view space, before
+// anything is divided, to the part that is inside the scene's bounds, before the near plane and on
+// the screen; then projected. Along it 1/z interpolates linearly in screen space, by index; depth
+// itself where the view's rays are parallel.
 #include "common/view.glsl"
 
 struct RaySegment {
@@ -11,8 +12,8 @@ struct RaySegment {
     float farT;
     vec2 nearPixel;    // pixel positions of the ends
     vec2 farPixel;
-    float nearInverseZ;  // 1 / view depth at the ends
-    float farInverseZ;
+    float nearNearness;  // nearnessOf the depths at the ends
+    float farNearness;
 };
 
 // Cuts [low, high] to where a + b t >= 0; returns whether the far end was cut.
@@ -47,17 +48,21 @@ void cutToBox(vec3 origin, vec3 direction, vec3 centerVs, vec3 halfExtent, inout
 
 // The part of the ray before the near plane; returns whether the far end was cut.
 bool cutToNearPlane(vec3 origin, vec3 direction, inout float low, inout float high) {
-    return cutHalfSpace(-origin.z - view.tangents.z, -direction.z, low, high);
+    return cutHalfSpace(-origin.z - view.frustum.z, -direction.z, low, high);
 }
 
-// The part of the ray between the sides of a frame around the view's axis, of which `tangents` are
-// those of half its angles; the screen's are view.tangents. Returns whether the far end was cut.
-bool cutToScreen(vec3 origin, vec3 direction, vec2 tangents, inout float low, inout float high) {
+// The part of the ray between the sides of a frame around the view's axis, `frame` as the screen's
+// is view.frustum. Returns whether the far end was cut.
+bool cutToScreen(vec3 origin, vec3 direction, vec2 frame, inout float low, inout float high) {
     bool isCut = false;
     for (int axis = 0; axis < 2; ++axis) {
-        float slope = tangents[axis];
-        float depth = -origin.z * slope;
-        float rise = -direction.z * slope;
+#ifdef ORTHOGRAPHIC_VIEW
+        float depth = frame[axis];
+        float rise = 0.0;
+#else
+        float depth = -origin.z * frame[axis];
+        float rise = -direction.z * frame[axis];
+#endif
         isCut = cutHalfSpace(depth - origin[axis], rise - direction[axis], low, high) || isCut;
         isCut = cutHalfSpace(depth + origin[axis], rise + direction[axis], low, high) || isCut;
     }
@@ -71,12 +76,12 @@ void setEnds(inout RaySegment segment, vec3 origin, vec3 direction, float low, f
     vec3 a = origin + low * direction;
     vec3 b = origin + high * direction;
     // Rounding may leave an end a little before the near plane.
-    a.z = min(a.z, -view.tangents.z);
-    b.z = min(b.z, -view.tangents.z);
+    a.z = min(a.z, -view.frustum.z);
+    b.z = min(b.z, -view.frustum.z);
     segment.nearPixel = pixelOf(a);
     segment.farPixel = pixelOf(b);
-    segment.nearInverseZ = -1.0 / a.z;
-    segment.farInverseZ = -1.0 / b.z;
+    segment.nearNearness = nearnessOf(-a.z);
+    segment.farNearness = nearnessOf(-b.z);
 }
 
 RaySegment clipRay(vec3 origin, vec3 direction) {
@@ -91,9 +96,14 @@ RaySegment clipRay(vec3 origin, vec3 direction) {
     bool behind = cutToNearPlane(origin, direction, low, high);
     if (behind || low > high) segment.cause = kAccountBehindEye;
     if (low <= high) {
-        bool off = cutToScreen(origin, direction, view.tangents.xy, low, high);
+        bool off = cutToScreen(origin, direction, view.frustum.xy, low, high);
         if (off || low > high) segment.cause = kAccountOffScreen;
     }
+#ifdef MANY_VIEWS
+    segment.cause = kAccountUnresolved;  // another face goes on
+#elif defined(OTHER_VIEW)
+    if (segment.cause != kAccountUnresolved) segment.cause = kAccountOutsideMap;
+#endif
     segment.visible = low <= high;
     if (segment.visible) setEnds(segment, origin, direction, low, high);
     return segment;
@@ -109,13 +119,17 @@ int stepCount(RaySegment segment, int minimum, int maximum) {
 // Written so that both ends come out exactly and the error stays at a few units of the last place
 // over any length (hard case 5).
 float depthAtIndex(RaySegment segment, float i, float n) {
-    float inverse = (segment.nearInverseZ * (n - i) + segment.farInverseZ * i) / n;
-    return 1.0 / inverse;
+    float nearness = (segment.nearNearness * (n - i) + segment.farNearness * i) / n;
+    return depthOfNearness(nearness);
 }
 float parameterAtIndex(RaySegment segment, float i, float n) {
-    float a = segment.nearInverseZ * (n - i);
-    float b = segment.farInverseZ * i;
+#ifdef ORTHOGRAPHIC_VIEW
+    return (segment.nearT * (n - i) + segment.farT * i) / n;
+#else
+    float a = segment.nearNearness * (n - i);
+    float b = segment.farNearness * i;
     return (segment.nearT * a + segment.farT * b) / (a + b);
+#endif
 }
 
 // The pixel under the middle of step [i, i + 1] of `n`.

@@ -56,7 +56,7 @@ SceneHit nothingFound(vec3 origin, vec3 direction, bool isOpen) {
     if (high < low) return none;
     none.t = high;
     vec3 end = origin + high * direction;
-    vec2 pixel = pixelOf(vec3(end.xy, min(end.z, -view.tangents.z)));
+    vec2 pixel = pixelOf(vec3(end.xy, min(end.z, -view.frustum.z)));
     none.lastPixel = ivec2(clamp(floor(pixel), vec2(0.0), view.sizePixels.xy - 1.0));
     return none;
 }

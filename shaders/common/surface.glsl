@@ -39,6 +39,15 @@ vec3 surfaceAlbedo(uint material, vec2 uv) {
     return albedo;
 }
 
+// From a surface towards whoever sees it; of any length.
+vec3 towardsViewer(vec3 positionVs) {
+#ifdef ORTHOGRAPHIC_VIEW
+    return vec3(0.0, 0.0, 1.0);
+#else
+    return -positionVs;
+#endif
+}
+
 // The unit normal of the triangle, towards the side that its winding calls the outside.
 vec3 geometricNormal(vec3 positionVs, vec3 towardsViewer) {
     vec3 n = cross(dFdx(positionVs), dFdy(positionVs));

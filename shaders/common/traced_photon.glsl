@@ -4,6 +4,13 @@
 #include "common/deliver.glsl"
 #include "common/exit_test.glsl"
 
+// The photon in the space of the view whose layers are asked.
+Photon photonInView(Photon photon) {
+    photon.positionVs = pointFromEye(photon.positionVs);
+    photon.directionVs = directionFromEye(photon.directionVs);
+    return photon;
+}
+
 // The hit, or, where nothing was met, the account of the reason.
 Hit deliver(Photon photon, FirstHit first) {
     Hit hit = nothingMet();
@@ -11,20 +18,25 @@ Hit deliver(Photon photon, FirstHit first) {
         ledgerAdd(kAccountNotANumber, vec3(0.0));
         return hit;
     }
+#ifdef MANY_VIEWS
+    viewIndex = first.face;
+#endif
+    Photon seen = photonInView(photon);
     if (first.hit.layer < 0) {
-        ledgerAdd(clipRay(photon.positionVs, photon.directionVs).cause, photon.fluxWatts);
+        ledgerAdd(clipRay(seen.positionVs, seen.directionVs).cause, photon.fluxWatts);
         return hit;
     }
-    vec4 surface = texelFetch(layerSurfaces, ivec3(first.pixel, first.hit.layer), 0);
+    vec4 surface = texelFetch(layerSurfaces, layerTexel(first.pixel, first.hit.layer), 0);
     LayerSurface layer = layerAt(first.pixel, first.hit.layer);
     uint material = uint(surface.w);
     bool arrives = isReceiver(materialKind(material - 1u));
     Crossing met = Crossing(first.hit.t, surface.xyz, layer.normal);
     if (first.isExit) {
-        met = smoothCrossing(photon.positionVs, photon.directionVs, met.t, surface, layer);
+        met = smoothCrossing(seen.positionVs, seen.directionVs, met.t, surface, layer);
     } else {
-        vec3 there = photon.positionVs + met.t * photon.directionVs;
+        vec3 there = seen.positionVs + met.t * seen.directionVs;
         met.shading = normalAtHit(there, surface, layer, arrives);
     }
-    return deliverTo(photon, met.t, met.shading, met.geometric, material);
+    return deliverTo(photon, met.t, directionToEye(met.shading), directionToEye(met.geometric),
+                     material);
 }

@@ -1,25 +1,111 @@
 // SPDX-License-Identifier: MIT
-// The eye's view: between view space (m) and pixels (continuous, centres at .5, lower left 0).
+// A view: between its view space (m) and pixels (continuous, centres at .5, lower left 0). The
+// eye's, unless a command has been given others (render::RasterViews):
+//   OTHER_VIEW         positions and directions of photons have to be brought into it
+//   ORTHOGRAPHIC_VIEW  its rays are parallel
+//   MANY_VIEWS         the faces of a cube; viewIndex says which, and arrays hold one after the other
 #include "framework/transport/types.h"
 
+#ifdef MANY_VIEWS
+layout(std140) uniform View {
+    ViewData views[kMostViews];
+};
+uniform int viewCount;
+int viewIndex = 0;
+#define view views[viewIndex]
+#else
 layout(std140) uniform View {
     ViewData view;
 };
+const int viewCount = 1;
+const int viewIndex = 0;
+#endif
 
-// The direction through a pixel position, at a depth of 1 m: multiply by depth for the point.
+// The direction through a pixel position, of a depth of 1 m.
 vec3 viewRay(vec2 pixel) {
+#ifdef ORTHOGRAPHIC_VIEW
+    return vec3(0.0, 0.0, -1.0);
+#else
     vec2 ndc = pixel * view.sizePixels.zw * 2.0 - 1.0;
-    return vec3(ndc * view.tangents.xy, -1.0);
+    return vec3(ndc * view.frustum.xy, -1.0);
+#endif
+}
+
+// The point at a depth, m, that is seen at a pixel position.
+vec3 viewPoint(vec2 pixel, float depth) {
+#ifdef ORTHOGRAPHIC_VIEW
+    vec2 ndc = pixel * view.sizePixels.zw * 2.0 - 1.0;
+    return vec3(ndc * view.frustum.xy, -depth);
+#else
+    return viewRay(pixel) * depth;
+#endif
+}
+
+// The direction in which a point is seen; of any length.
+vec3 viewDirection(vec3 positionVs) {
+#ifdef ORTHOGRAPHIC_VIEW
+    return vec3(0.0, 0.0, -1.0);
+#else
+    return positionVs;
+#endif
 }
 
 vec2 pixelOf(vec3 positionVs) {
-    vec2 ndc = positionVs.xy / (-positionVs.z * view.tangents.xy);
+#ifdef ORTHOGRAPHIC_VIEW
+    vec2 ndc = positionVs.xy / view.frustum.xy;
+#else
+    vec2 ndc = positionVs.xy / (-positionVs.z * view.frustum.xy);
+#endif
     return (ndc * 0.5 + 0.5) * view.sizePixels.xy;
 }
 
 // Metres that one pixel covers at this depth.
 float pixelFootprint(float depth) {
-    return view.tangents.w * depth;
+#ifdef ORTHOGRAPHIC_VIEW
+    return view.frustum.w;
+#else
+    return view.frustum.w * depth;
+#endif
+}
+
+// A measure of depth in which planes and rays are linear on the screen, and what is nearer is more:
+// 1/z in perspective, 1/m; what is left to the far plane, m, where rays are parallel.
+float nearnessOf(float depth) {
+#ifdef ORTHOGRAPHIC_VIEW
+    return view.farMeters.x - depth;
+#else
+    return 1.0 / depth;
+#endif
+}
+float depthOfNearness(float nearness) {
+#ifdef ORTHOGRAPHIC_VIEW
+    return view.farMeters.x - nearness;
+#else
+    return 1.0 / nearness;
+#endif
+}
+
+// From the eye's view space, in which photons and hits are, to this view's, and back.
+vec3 pointFromEye(vec3 point) {
+#ifdef OTHER_VIEW
+    return (view.fromEye * vec4(point, 1.0)).xyz;
+#else
+    return point;
+#endif
+}
+vec3 directionFromEye(vec3 direction) {
+#ifdef OTHER_VIEW
+    return mat3(view.fromEye) * direction;
+#else
+    return direction;
+#endif
+}
+vec3 directionToEye(vec3 direction) {
+#ifdef OTHER_VIEW
+    return direction * mat3(view.fromEye);  // a rotation's inverse
+#else
+    return direction;
+#endif
 }
 
 // Half of what the depth of a plane with unit normal `normalVs` differs by over a pixel, m; bounded

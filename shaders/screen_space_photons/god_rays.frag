@@ -57,8 +57,8 @@ void main() {
     if (part.x >= part.y) discard;
 
     RaySegment way;
-    way.nearInverseZ = wayEnds.x;
-    way.farInverseZ = wayEnds.y;
+    way.nearNearness = wayEnds.x;
+    way.farNearness = wayEnds.y;
     way.nearT = wayEnds.z;
     way.farT = wayEnds.w;
     // The middle of a pixel's part; of more pieces where a pixel holds much of the way.

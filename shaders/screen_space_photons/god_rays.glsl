@@ -11,7 +11,7 @@ RaySegment clipWay(vec3 origin, vec3 direction, float end, float marginPixels) {
     float low = 0.0;
     float high = min(end, boundsInterval(origin, direction).y);
     cutToNearPlane(origin, direction, low, high);
-    vec2 tangents = view.tangents.xy * (1.0 + 2.0 * marginPixels * view.sizePixels.zw);
+    vec2 tangents = view.frustum.xy * (1.0 + 2.0 * marginPixels * view.sizePixels.zw);
     cutToScreen(origin, direction, tangents, low, high);
     way.visible = low < high;
     if (way.visible) setEnds(way, origin, direction, low, high);
@@ -22,7 +22,7 @@ RaySegment clipWay(vec3 origin, vec3 direction, float end, float marginPixels) {
 // that. A footprint's width goes with 1/depth, so it is linear along the line as 1/depth is.
 float wantedWidth(float footprintMeters, float inverseZ) {
     if (media_lines_width > 0.0) return media_lines_width;
-    return media_lines_footprints * footprintMeters * inverseZ / view.tangents.w;
+    return media_lines_footprints * footprintMeters * inverseZ / view.frustum.w;
 }
 float halfWidth(float footprintMeters, float inverseZ) {
     return 0.5 * clamp(wantedWidth(footprintMeters, inverseZ), 1.0, float(media_lines_maximum));

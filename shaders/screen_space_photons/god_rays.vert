@@ -41,12 +41,12 @@ void main() {
         way.farPixel = way.farPixel.yx;
     }
     wayPixels = vec4(way.nearPixel, way.farPixel);
-    wayEnds = vec4(way.nearInverseZ, way.farInverseZ, way.nearT, way.farT);
+    wayEnds = vec4(way.nearNearness, way.farNearness, way.nearT, way.farT);
     wayDirection = photon.directionVs;
     wayExtinction = extinctionAround(photon.media);
-    float pixel = view.tangents.w;
+    float pixel = view.frustum.w;
     wayPower = photon.fluxWatts * view.mediumScattering.rgb *
-               ((way.farT - way.nearT) * way.nearInverseZ * way.farInverseZ / (pixel * pixel));
+               ((way.farT - way.nearT) * way.nearNearness * way.farNearness / (pixel * pixel));
     // A line of less than a pixel has no direction on the screen.
     float slope = abs(along.x) > 1.0 ? along.y / along.x : 0.0;
     wayWidth = vec2(photon.footprintMeters, sqrt(1.0 + slope * slope));
@@ -58,7 +58,7 @@ void main() {
     const float rounding = 0.05;
     float forward = along.x < 0.0 ? -1.0 : 1.0;
     float beyond = (0.5 + rounding) * (isEnd ? forward : -forward);
-    float nearest = max(way.nearInverseZ, way.farInverseZ);
+    float nearest = max(way.nearNearness, way.farNearness);
     float wanted = wantedWidth(photon.footprintMeters, nearest);
     if (gl_VertexID == 0 && wanted > float(media_lines_maximum)) {
         atomicAdd(narrowed.count, 1u);

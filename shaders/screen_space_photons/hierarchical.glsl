@@ -13,9 +13,9 @@ struct Way {
     vec2 start;  // px
     vec2 perStep;
     vec2 stepsPerPixel;  // 1 / perStep; 0 where it does not move
-    float inverseZ;      // at the start, 1/m
-    float inverseZPerStep;
-    float slack;  // in 1/z, for rounding or the paper's epsilon
+    float nearness;      // at the start
+    float nearnessPerStep;
+    float slack;  // in nearness, for rounding or the paper's epsilon
 };
 
 Way wayOf(RaySegment segment, int n) {
@@ -25,14 +25,12 @@ Way wayOf(RaySegment segment, int n) {
     way.perStep = (segment.farPixel - segment.nearPixel) / count;
     way.stepsPerPixel = vec2(way.perStep.x != 0.0 ? 1.0 / way.perStep.x : 0.0,
                              way.perStep.y != 0.0 ? 1.0 / way.perStep.y : 0.0);
-    way.inverseZ = segment.nearInverseZ;
-    way.inverseZPerStep = (segment.farInverseZ - segment.nearInverseZ) / count;
-    float largest = max(segment.nearInverseZ, segment.farInverseZ);
+    way.nearness = segment.nearNearness;
+    way.nearnessPerStep = (segment.farNearness - segment.nearNearness) / count;
+    float largest = max(segment.nearNearness, segment.farNearness);
     way.slack = 4e-7 * largest;
 #ifdef EPSILON_TEST
-    way.slack = largest * trace_epsilon < 0.999
-                    ? largest * largest * trace_epsilon / (1.0 - largest * trace_epsilon)
-                    : 1e30;
+    way.slack = nearnessMargin(depthOfNearness(largest), trace_epsilon);
 #endif
     return way;
 }
@@ -71,7 +69,7 @@ struct Asked {
     uvec2 layers;
 };
 
-// Which of the steps [first, end) may meet a layer of the square. Along the ray 1/z is linear, as
+// Which of the steps [first, end) may meet a layer of the square. Along the ray nearness is linear, as
 // on the squares' planes, and so is the ray's distance from one.
 Asked stepsThatMayMeet(Way way, ivec2 square, int level, int first, int end) {
     vec2 start = way.start - (vec2(square) + 0.5) * float(1 << (2 * level));
@@ -81,10 +79,10 @@ Asked stepsThatMayMeet(Way way, ivec2 square, int level, int first, int end) {
     bool wasBehind = false;  // the layer before, at some step
 #endif
     for (int layer = 0; layer < layerCount; ++layer) {
-        vec4 plane = texelFetch(layerPyramid, ivec3(texel, layer), 0);
+        vec4 plane = texelFetch(layerPyramid, layerTexel(texel, layer), 0);
         if (plane.x <= 0.0) break;  // nor has it a deeper layer
-        float away = way.inverseZ - plane.x - dot(plane.yz, start);
-        float awayPerStep = way.inverseZPerStep - dot(plane.yz, way.perStep);
+        float away = way.nearness - plane.x - dot(plane.yz, start);
+        float awayPerStep = way.nearnessPerStep - dot(plane.yz, way.perStep);
         vec2 across = abs(plane.yz * way.perStep);
         float reach = plane.w + way.slack + 0.5 * (across.x + across.y);
 #ifdef IN_OUT_TEST
@@ -109,7 +107,7 @@ Asked stepsThatMayMeet(Way way, ivec2 square, int level, int first, int end) {
 
 // Three loops in one: squares until steps are found that may meet something, their layers until the
 // ray crosses one, and what that means. Devices that run many photons in step do each for many.
-FirstHit traverse(Photon photon, int minimumSteps, int maximumSteps) {
+FirstHit traverseView(Photon photon, int minimumSteps, int maximumSteps) {
     FirstHit first = noHit();
     if (!isNumber(photon)) return first;
     RaySegment segment = clipRay(photon.positionVs, photon.directionVs);
@@ -185,7 +183,7 @@ FirstHit traverse(Photon photon, int minimumSteps, int maximumSteps) {
 #endif
                     if (way.layer >= 0 && (first.hit.layer < 0 || way.t < first.hit.t)) {
                         if (first.hit.layer < 0) end = min(end, i + 2);
-                        first = FirstHit(way, texelOfStep(segment, there, steps), true);
+                        first = FirstHit(way, texelOfStep(segment, there, steps), true, viewIndex);
                         firstStep = i;
                     }
                 }
@@ -209,10 +207,24 @@ FirstHit traverse(Photon photon, int minimumSteps, int maximumSteps) {
                 float next = parameterAtIndex(segment, float(step) + 2.0, float(steps));
                 bool mayBeNearer = t > at.tEnd - 0.51 * (next - at.tEnd) - 2e-6 * at.zEnd;
                 end = min(end, mayBeNearer ? step + 2 : step + 1);
-                first = FirstHit(LayerHit(t, layer), at.texel, false);
+                first = FirstHit(LayerHit(t, layer), at.texel, false, viewIndex);
                 firstStep = step;
             }
         }
     }
     return first;
+}
+
+// The same in all views.
+FirstHit traverse(Photon photon, int minimumSteps, int maximumSteps) {
+#ifdef MANY_VIEWS
+    FirstHit first = noHit();
+    for (int face = 0; face < viewCount; ++face) {
+        viewIndex = face;
+        first = nearerHit(first, traverseView(photonInView(photon), minimumSteps, maximumSteps));
+    }
+    return first;
+#else
+    return traverseView(photonInView(photon), minimumSteps, maximumSteps);
+#endif
 }

@@ -15,7 +15,7 @@ uniform sampler2D backDepth;
 uniform sampler2D backSurface;
 
 ivec2 texelAt(vec3 positionVs) {
-    return ivec2(floor(pixelOf(vec3(positionVs.xy, min(positionVs.z, -view.tangents.z)))));
+    return ivec2(floor(pixelOf(vec3(positionVs.xy, min(positionVs.z, -view.frustum.z)))));
 }
 
 // Depth of the back faces, 0 where there are none.
@@ -54,7 +54,7 @@ float distanceAlongNormal(vec3 entry, vec3 normal, float longest) {
 
 // The normal of the back faces around a point: bilinear between the pixels that have one.
 vec3 backNormalAround(vec3 positionVs, ivec2 fallback) {
-    vec2 corner = pixelOf(vec3(positionVs.xy, min(positionVs.z, -view.tangents.z))) - 0.5;
+    vec2 corner = pixelOf(vec3(positionVs.xy, min(positionVs.z, -view.frustum.z))) - 0.5;
     ivec2 first = ivec2(floor(corner));
     vec2 f = corner - vec2(first);
     vec3 sum = vec3(0.0);

@@ -19,8 +19,8 @@ void main() {
     RaySegment segment;
     segment.nearPixel = endPixels.xy;
     segment.farPixel = endPixels.zw;
-    segment.nearInverseZ = ends.x;
-    segment.farInverseZ = ends.y;
+    segment.nearNearness = ends.x;
+    segment.farNearness = ends.y;
     segment.nearT = ends.z;
     segment.farT = ends.w;
     ivec2 texel = ivec2(photonTexel(photons, uint(photonIndex)));

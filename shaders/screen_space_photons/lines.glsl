@@ -33,7 +33,7 @@ bool placeLineEnd(int row, bool isEnd) {
     steps = stepCount(segment, trace_lines_minimum, rowsSize.x);
     if (isEnd) atomicMax(rowExtents[batch], uint(steps));
     endPixels = vec4(segment.nearPixel, segment.farPixel);
-    ends = vec4(segment.nearInverseZ, segment.farInverseZ, segment.nearT, segment.farT);
+    ends = vec4(segment.nearNearness, segment.farNearness, segment.nearT, segment.farT);
     float column = isEnd ? float(steps) + 0.5 : -0.5;
     vec2 position = vec2(column, float(row) + 0.5) / vec2(rowsSize);
     gl_Position = vec4(position * 2.0 - 1.0, 0.0, 1.0);

@@ -3,10 +3,24 @@
 // what the lines are compared with).
 #include "common/traced_photon.glsl"
 
-FirstHit march(Photon photon, int minimumSteps, int maximumSteps) {
+FirstHit marchView(Photon photon, int minimumSteps, int maximumSteps) {
     if (!isNumber(photon)) return noHit();
     RaySegment segment = clipRay(photon.positionVs, photon.directionVs);
     if (!segment.visible) return noHit();
     TracedRay ray = tracedRay(photon.positionVs, photon.directionVs, photon.media);
     return firstHitOfSteps(segment, ray, stepCount(segment, minimumSteps, maximumSteps));
+}
+
+// The same in all views.
+FirstHit march(Photon photon, int minimumSteps, int maximumSteps) {
+#ifdef MANY_VIEWS
+    FirstHit first = noHit();
+    for (int face = 0; face < viewCount; ++face) {
+        viewIndex = face;
+        first = nearerHit(first, marchView(photonInView(photon), minimumSteps, maximumSteps));
+    }
+    return first;
+#else
+    return marchView(photonInView(photon), minimumSteps, maximumSteps);
+#endif
 }

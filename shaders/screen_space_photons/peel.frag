@@ -17,7 +17,7 @@ const float kDepthScale = 1.0 / 1048576.0;
 
 void main() {
     float depth = -positionVs.z;
-    vec3 geometric = geometricNormal(positionVs, -positionVs);
+    vec3 geometric = geometricNormal(positionVs, towardsViewer(positionVs));
     if (layer > 0) {
         float depthBefore = texelFetch(layerDepths, ivec3(gl_FragCoord.xy, before), 0).x;
         if (depthBefore <= 0.0 || depth <= depthBefore) discard;

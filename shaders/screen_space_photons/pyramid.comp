@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One level of the layers' pyramid (pyramid_layout.glsl): for each square and layer a plane in 1/z,
-// which is linear on the screen where a surface is flat, and how far what a ray may meet there lies
+// One level of the layers' pyramid (pyramid_layout.glsl): for each square and layer a plane in
+// nearness, which is linear on the screen where a surface is flat, and how far what a ray may meet there lies
 // from it. One thread a square.
 #include "common/octahedral.glsl"
 #include "common/view.glsl"
@@ -13,6 +13,9 @@ layout(rgba32f) uniform image2DArray pyramid;
 layout(rgba32f) readonly uniform image2DArray layerDepths;
 uniform int layerCount;
 uniform int level;
+#ifdef MANY_VIEWS
+uniform int face;
+#endif
 
 void main() {
     ivec2 pixels = imageSize(layerDepths).xy;
@@ -23,7 +26,11 @@ void main() {
     ivec2 sizeBelow = level == 1 ? pixels : pyramidSize(pixels, level - 1);
     ivec2 count = min(sizeBelow - 4 * square, 4);
     float side = float(1 << (2 * (level - 1)));  // of a part, px
-    for (int layer = 0; layer < layerCount; ++layer) {
+#ifdef MANY_VIEWS
+    viewIndex = face;
+#endif
+    int first = viewIndex * layerCount;
+    for (int layer = first; layer < first + layerCount; ++layer) {
         // Parts of the square: pixels, or squares of the level below.
         vec4 parts[16];
         vec2 slope = vec2(0.0);
@@ -39,8 +46,8 @@ void main() {
                     float depth = texel.x;
                     float margin = depthMargin(viewRay(vec2(pixel) + 0.5), depth,
                                                unpackUnitVector(texel.yz));
-                    part = vec4(depth > 0.0 ? 1.0 / depth : 0.0, 0.0, 0.0,
-                                inverseMargin(depth, margin));
+                    part = vec4(depth > 0.0 ? nearnessOf(depth) : 0.0, 0.0, 0.0,
+                                nearnessMargin(depth, margin));
                 } else {
                     part = imageLoad(pyramid, ivec3(from + 4 * square + at, layer));
                 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The layers' pyramid: where its levels lie in its texture, level 1 at the left, the others right
-// of it, one above the other. A texel of level k covers a square of 4^k pixels; x: 1/z in its middle
-// (1/m, 0: the layer is empty there), yz: by how much it grows a pixel, w: how far from that plane
-// a ray may be and still meet the layer.
+// of it, one above the other. A texel of level k covers a square of 4^k pixels; x: nearness in its
+// middle (common/view.glsl; 0: the layer is empty there), yz: by how much it grows a pixel, w: how
+// far from that plane a ray may be and still meet the layer.
 const int kPyramidLevels = 3;
 
 ivec2 pyramidSize(ivec2 pixels, int level) {
@@ -14,8 +14,11 @@ ivec2 pyramidOffset(ivec2 pixels, int level) {
     return ivec2(pyramidSize(pixels, 1).x, level == 2 ? 0 : pyramidSize(pixels, 2).y);
 }
 
-// The most that 1/z differs within a margin around a depth.
-float inverseMargin(float depth, float margin) {
+// The most that nearness differs within a margin around a depth.
+float nearnessMargin(float depth, float margin) {
     if (depth <= 0.0) return 0.0;
+#ifdef ORTHOGRAPHIC_VIEW
+    return margin;
+#endif
     return margin < 0.999 * depth ? margin / (depth * (depth - margin)) : 1e30;
 }

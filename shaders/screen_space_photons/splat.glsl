@@ -8,13 +8,19 @@
 // it may have.
 Sprite splatOf(ivec2 texel, out float wanted, out float largest) {
     Sprite sprite;
-    sprite.center = texelFetch(hitPosition, texel, 0).xyz;
-    sprite.normal = texelFetch(hitSurface, texel, 0).xyz;
-    sprite.direction = texelFetch(photonDirection, texel, 0).xyz;
+    sprite.center = pointFromEye(texelFetch(hitPosition, texel, 0).xyz);
+    sprite.normal = directionFromEye(texelFetch(hitSurface, texel, 0).xyz);
+    sprite.direction = directionFromEye(texelFetch(photonDirection, texel, 0).xyz);
     wanted = reconstruct_sprites_radius > 0.0
                  ? reconstruct_sprites_radius
                  : reconstruct_sprites_footprints * texelFetch(photonPosition, texel, 0).w;
+#ifdef MANY_VIEWS
+    // The same in all faces: as in the one that it lies in.
+    vec3 there = abs(sprite.center);
+    float pixel = pixelFootprint(max(max(there.x, there.y), there.z));
+#else
     float pixel = pixelFootprint(-sprite.center.z);
+#endif
     largest = float(reconstruct_sprites_maximum) * pixel;
     sprite.radius = clamp(wanted, pixel, largest);
     return sprite;

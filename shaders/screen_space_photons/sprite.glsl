@@ -4,8 +4,29 @@
 // from the photon's path, so that light that grazes a wall leaves no gaps between its splats.
 #include "common/view.glsl"
 
-uniform sampler2D receiver;         // view depth and area of the surface that each pixel sees
+// View depth and area of the surface that each pixel sees.
+#ifdef MANY_VIEWS
+uniform sampler2DArray receiver;
+uniform sampler2DArray receiverSurface;
+#else
+uniform sampler2D receiver;
 uniform sampler2D receiverSurface;
+#endif
+
+vec2 receiverAt(ivec2 pixel) {
+#ifdef MANY_VIEWS
+    return texelFetch(receiver, ivec3(pixel, viewIndex), 0).xy;
+#else
+    return texelFetch(receiver, pixel, 0).xy;
+#endif
+}
+vec4 receiverSurfaceAt(ivec2 pixel) {
+#ifdef MANY_VIEWS
+    return texelFetch(receiverSurface, ivec3(pixel, viewIndex), 0);
+#else
+    return texelFetch(receiverSurface, pixel, 0);
+#endif
+}
 
 struct Sprite {
     vec3 center;
@@ -39,8 +60,11 @@ float splatKernel(float share) {
 float splatDistance(Sprite sprite, vec3 offset) {
     if (reconstruct_sprites_shape == reconstruct_sprites_shape_disc) return length(offset);
     if (reconstruct_sprites_shape == reconstruct_sprites_shape_screen) {
-        // At right angles to the eye's axis, at the centre's depth, whatever the receiver does.
+        // At right angles to the view's axis, at the centre's depth, whatever the receiver does.
         vec3 point = sprite.center + offset;
+#ifdef ORTHOGRAPHIC_VIEW
+        return length(offset.xy);
+#endif
         return length(point.xy * (sprite.center.z / min(point.z, -1e-20)) - sprite.center.xy);
     }
     return length(cross(offset, boundedDirection(sprite.direction, sprite.normal)));
@@ -68,13 +92,19 @@ SpritePixel spriteAt(Sprite sprite, ivec2 pixel) {
     vec3 ray = viewRay(vec2(pixel) + 0.5);
     float facing = dot(sprite.normal, ray);
     if (abs(facing) < 1e-5) return result;
+#ifdef ORTHOGRAPHIC_VIEW
+    vec3 from = viewPoint(vec2(pixel) + 0.5, 0.0);
+    float depth = dot(sprite.normal, sprite.center - from) / facing;
+#else
     float depth = dot(sprite.normal, sprite.center) / facing;
-    if (!(depth > view.tangents.z)) return result;
+#endif
+    if (!(depth > view.frustum.z)) return result;
     // On a slanted surface a splat is thinner than a pixel and may fall between the middles of all:
     // it reaches a pixel's width far on the screen whatever it covers on the surface, so that some
     // pixel always gets the flux (hard case 31); but only pixels that see the surface there, as the
     // splat itself ends before.
-    float own = splatDistance(sprite, depth * ray - sprite.center) / sprite.radius;
+    vec3 offset = viewPoint(vec2(pixel) + 0.5, depth) - sprite.center;
+    float own = splatDistance(sprite, offset) / sprite.radius;
     float share = min(own, length(vec2(pixel) + 0.5 - pixelOf(sprite.center)));
     if (share >= 1.0) return result;
     bool isReached = own < 1.0;
@@ -84,7 +114,7 @@ SpritePixel spriteAt(Sprite sprite, ivec2 pixel) {
         if (isReached) result.where = kSpriteOffScreen;
         return result;
     }
-    vec2 seen = texelFetch(receiver, pixel, 0).xy;
+    vec2 seen = receiverAt(pixel);
     // Only visible receivers are lit. How far a curved surface may leave its tangent plane follows
     // from the disc, and never falls below what a pixel resolves.
     float tolerance = 0.5 * sprite.radius + pixelFootprint(depth);
@@ -94,7 +124,7 @@ SpritePixel spriteAt(Sprite sprite, ivec2 pixel) {
         if (isReached) result.where = kSpriteOccluded;
         return result;
     }
-    vec3 seenNormal = texelFetch(receiverSurface, pixel, 0).xyz;
+    vec3 seenNormal = receiverSurfaceAt(pixel).xyz;
     bool isOther =
         isMirror || seenDepth > depth + tolerance || dot(seenNormal, sprite.normal) <= 0.0;
     if (seenDepth > 0.0 && !isOther) {
@@ -127,12 +157,28 @@ vec2 wholeReach(Sprite sprite) {
     // The nearest part of the ellipse is the largest on the screen; x and y shift with depth too.
     float centerDepth = -sprite.center.z;
     float depth = max(centerDepth - extent.z, 0.25 * centerDepth);
+#ifdef ORTHOGRAPHIC_VIEW
+    vec2 shift = vec2(0.0);
+#else
     vec2 shift = abs(sprite.center.xy) / centerDepth * extent.z;
+#endif
     return ceil((extent.xy + shift) / pixelFootprint(depth)) + 1.0;
 }
+
+uniform int mostReach;  // px
 
 // A splat ends there however far perspective or grazing light stretch it: its cost is bounded. The
 // weights are summed and drawn over the same pixels, so that no flux is lost.
 ivec2 spriteReach(Sprite sprite) {
-    return ivec2(min(wholeReach(sprite), vec2(reconstruct_sprites_reach)));
+    return ivec2(min(wholeReach(sprite), vec2(mostReach)));
+}
+
+// Whether any pixel of the view may see the splat: a photon may arrive where none is near.
+bool isBeforeView(Sprite sprite) {
+    return -sprite.center.z > view.frustum.z;
+}
+bool isNearView(Sprite sprite) {
+    if (!isBeforeView(sprite)) return false;
+    vec2 beside = max(-pixelOf(sprite.center), pixelOf(sprite.center) - view.sizePixels.xy);
+    return all(lessThanEqual(beside, vec2(spriteReach(sprite)) + 1.0));
 }

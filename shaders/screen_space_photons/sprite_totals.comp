@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What each splat's weights sum to over the pixels' areas. The part hidden from the eye or off the
-// screen goes to the ledger; the part that hangs off the surface's edge is redistributed on it. One
-// thread a photon.
+// What each splat's weights sum to over the pixels' areas. The part that is hidden from the view, or
+// beside it, goes to the ledger; the part that hangs off the surface's edge is redistributed on it.
+// One thread a photon.
 #include "common/ledger.glsl"
 #include "common/surface_data.glsl"
 #include "screen_space_photons/splat.glsl"
@@ -14,10 +14,45 @@ layout(std430) buffer CutSplats {
     Narrowed shrunk;
 };
 
-// Whether the eye looks at the side of the surface on which light arrives.
+#ifdef OTHER_VIEW
+const uint kAccountHidden = kAccountHiddenInMap;
+const uint kAccountBeside = kAccountOutsideMap;
+const uint kAccountBehind = kAccountOutsideMap;
+#else
+const uint kAccountHidden = kAccountOccludedSplat;
+const uint kAccountBeside = kAccountOffScreen;
+const uint kAccountBehind = kAccountBehindEye;
+#endif
+
+// Whether the view looks at a surface's front.
+bool seesFront(Sprite sprite) {
+    return dot(sprite.normal, viewDirection(sprite.center)) < 0.0;
+}
+
+// Whether the view looks at the side of the surface on which light arrives.
 bool seesLitSide(Sprite sprite) {
-    bool isEyeInFront = dot(sprite.normal, sprite.center) < 0.0;
-    return isEyeInFront == (dot(sprite.normal, sprite.direction) < 0.0);
+    return seesFront(sprite) == (dot(sprite.normal, sprite.direction) < 0.0);
+}
+
+// Weights, m².
+struct Parts {
+    float on;
+    float occluded;
+    float beside;
+};
+
+void addParts(Sprite sprite, inout Parts parts) {
+    ivec2 reach = spriteReach(sprite);
+    ivec2 middle = ivec2(floor(pixelOf(sprite.center)));
+    for (int y = -reach.y; y <= reach.y; ++y) {
+        for (int x = -reach.x; x <= reach.x; ++x) {
+            SpritePixel part = spriteAt(sprite, middle + ivec2(x, y));
+            float amount = part.weight * part.area;
+            if (part.where == kSpriteOn) parts.on += amount;
+            if (part.where == kSpriteOccluded) parts.occluded += amount;
+            if (part.where == kSpriteOffScreen) parts.beside += amount;
+        }
+    }
 }
 
 float totalOf(ivec2 texel) {
@@ -27,39 +62,31 @@ float totalOf(ivec2 texel) {
     float largest;
     Sprite sprite = splatOf(texel, wanted, largest);
     if (isOpen(uint(texelFetch(hitSurface, texel, 0).w) - 1u) && !seesLitSide(sprite)) {
-        ledgerAdd(kAccountOccludedSplat, flux.rgb);
+        ledgerAdd(kAccountHidden, flux.rgb);
         return 0.0;
     }
-    // A tracer may find what no pixel is near.
-    if (!(-sprite.center.z > view.tangents.z)) {
-        ledgerAdd(kAccountBehindEye, flux.rgb);
+    Parts parts = Parts(0.0, 0.0, 0.0);
+#ifdef MANY_VIEWS
+    for (int face = 0; face < viewCount; ++face) {
+        viewIndex = face;
+        Sprite inFace = splatOf(texel, wanted, largest);
+        if (!isNearView(inFace)) continue;
+        addParts(inFace, parts);
+        sprite = inFace;
+    }
+    parts.beside = 0.0;  // of one face is in another
+#else
+    if (!isNearView(sprite)) {
+        ledgerAdd(isBeforeView(sprite) ? kAccountBeside : kAccountBehind, flux.rgb);
         return 0.0;
     }
-    vec2 beside = max(-pixelOf(sprite.center), pixelOf(sprite.center) - view.sizePixels.xy);
-    if (any(greaterThan(beside, vec2(spriteReach(sprite)) + 1.0))) {
-        ledgerAdd(kAccountOffScreen, flux.rgb);
-        return 0.0;
-    }
-    float on = 0.0;
-    float occluded = 0.0;
-    float offScreen = 0.0;
-    ivec2 reach = spriteReach(sprite);
-    ivec2 middle = ivec2(floor(pixelOf(sprite.center)));
-    for (int y = -reach.y; y <= reach.y; ++y) {
-        for (int x = -reach.x; x <= reach.x; ++x) {
-            SpritePixel part = spriteAt(sprite, middle + ivec2(x, y));
-            float amount = part.weight * part.area;
-            if (part.where == kSpriteOn) on += amount;
-            if (part.where == kSpriteOccluded) occluded += amount;
-            if (part.where == kSpriteOffScreen) offScreen += amount;
-        }
-    }
-    float total = on + occluded + offScreen;
+    addParts(sprite, parts);
+#endif
+    float total = parts.on + parts.occluded + parts.beside;
     if (total <= 0.0) {
         // No pixel shows the surface where the light arrives: it is turned away and hidden by its
         // own object, or it is edge-on or below a pixel.
-        bool isTurnedAway = dot(sprite.normal, sprite.center) > 0.0;
-        ledgerAdd(isTurnedAway ? kAccountOccludedSplat : kAccountEdgeOn, flux.rgb);
+        ledgerAdd(seesFront(sprite) ? kAccountEdgeOn : kAccountHidden, flux.rgb);
         return 0.0;
     }
     if (wanted > largest) {
@@ -69,13 +96,13 @@ float totalOf(ivec2 texel) {
     }
     vec2 whole = wholeReach(sprite);
     float farther = max(whole.x, whole.y);
-    if (farther > float(reconstruct_sprites_reach)) {
+    if (farther > float(mostReach)) {
         atomicAdd(cutOff.count, 1u);
         atomicMax(cutOff.widestBits, floatBitsToUint(farther));
     }
-    if (occluded > 0.0) ledgerAdd(kAccountOccludedSplat, flux.rgb * (occluded / total));
-    if (offScreen > 0.0) ledgerAdd(kAccountOffScreen, flux.rgb * (offScreen / total));
-    return on > 0.0 ? total : 0.0;
+    if (parts.occluded > 0.0) ledgerAdd(kAccountHidden, flux.rgb * (parts.occluded / total));
+    if (parts.beside > 0.0) ledgerAdd(kAccountBeside, flux.rgb * (parts.beside / total));
+    return parts.on > 0.0 ? total : 0.0;
 }
 
 void main() {

@@ -14,23 +14,15 @@ layout(std430) readonly buffer SplatTotals {
 };
 
 void deposit(Sprite sprite, ivec2 pixel, vec3 flux) {
-    fluxAdd(pixel, kFluxPart, flux);
+    fluxAdd(pixel, viewIndex, kFluxPart, flux);
 #ifdef GLOSSY_RECEIVERS
     vec4 surface = texelFetch(receiverSurface, pixel, 0);
-    fluxAdd(pixel, kIntensityPart, flux * receiverReflection(pixel, surface, -sprite.direction));
+    fluxAdd(pixel, viewIndex, kIntensityPart, flux * receiverReflection(pixel, surface, -sprite.direction));
 #endif
 }
 
-void main() {
-    uint index = photonOfThread();
-    if (index >= photons.count) return;
-    float total = splatTotals[index];
-    if (total <= 0.0) return;
-    ivec2 texel = ivec2(photonTexel(photons, index));
-    vec3 flux = texelFetch(hitFlux, texel, 0).rgb;
-    float wanted;
-    float largest;
-    Sprite sprite = splatOf(texel, wanted, largest);
+void depositInView(Sprite sprite, vec3 flux, float total) {
+    if (!isNearView(sprite)) return;
     ivec2 reach = spriteReach(sprite);
     ivec2 middle = ivec2(floor(pixelOf(sprite.center)));
     ivec2 first = max(middle - reach, ivec2(0));
@@ -42,4 +34,19 @@ void main() {
                 deposit(sprite, ivec2(x, y), flux * (part.weight * part.area / total));
         }
     }
+}
+
+void main() {
+    uint index = photonOfThread();
+    if (index >= photons.count) return;
+    float total = splatTotals[index];
+    if (total <= 0.0) return;
+    ivec2 texel = ivec2(photonTexel(photons, index));
+    vec3 flux = texelFetch(hitFlux, texel, 0).rgb;
+    float wanted;
+    float largest;
+#ifdef MANY_VIEWS
+    for (viewIndex = 0; viewIndex < viewCount; ++viewIndex)
+#endif
+        depositInView(splatOf(texel, wanted, largest), flux, total);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The receiver of each pixel: depth, the area seen, normal, material, reflectance. A mirror is none
+// The receiver of each pixel of a view: depth, the area seen, normal, material, reflectance. A mirror is none
 // but hides what is behind it: its depth is negative, and the normal and the material are its own.
 #include "common/scene_fragment.glsl"
 #include "common/surface.glsl"
@@ -9,9 +9,16 @@ layout(location = 0) out vec4 receiver;
 layout(location = 1) out vec4 receiverSurface;
 layout(location = 2) out vec4 receiverAlbedo;
 
+#ifdef MANY_VIEWS
+uniform int face;
+#endif
+
 void main() {
+#ifdef MANY_VIEWS
+    viewIndex = face;
+#endif
     float depth = -positionVs.z;
-    vec3 geometric = geometricNormal(positionVs, -positionVs);
+    vec3 geometric = geometricNormal(positionVs, towardsViewer(positionVs));
     vec3 albedo = surfaceAlbedo(material, uv);
     bool isLit = isReceiver(materialKind(material));
     vec3 ray = viewRay(gl_FragCoord.xy);

@@ -14,7 +14,7 @@ layout(location = 2) out vec4 exitDirection;
 ivec2 pixelBehind(vec3 entry, vec3 direction, float distanceBehind, ivec2 pixel) {
     if (view_interface_refract == false) return pixel;
     vec3 there = entry + direction * distanceBehind;
-    if (there.z > -view.tangents.z) return pixel;
+    if (there.z > -view.frustum.z) return pixel;
     ivec2 found = ivec2(floor(pixelOf(there)));
     if (any(lessThan(found, ivec2(0))) || any(greaterThanEqual(found, ivec2(view.sizePixels.xy)))) {
         return pixel;

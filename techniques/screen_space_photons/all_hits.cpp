@@ -38,9 +38,11 @@ void keepToSlots(FrameBuilder& frame, const AllHitsParams& params, const Hits& h
 
 Hits traceAllHits(FrameBuilder& frame, const AllHitsParams& params, Photons photons,
                   Surfaces surfaces) {
+    needsEyesView("trace.all_hits", "the layers", surfaces.layers.views);
     AllHitsParams marching = params;
     if (marching.march.steps == 0) marching.march.steps = std::max(frame.width(), frame.height());
-    keepToSteps(frame, "trace.all_hits", "trace.all_hits.steps", marching.march.steps);
+    keepToSteps(frame, "trace.all_hits", "trace.all_hits.steps", marching.march.steps,
+                surfaces.layers);
     const Hits traced = frame.pass<Hits>(
         "trace.all_hits", "every receiver on a ray is lit, for comparison",
         [&](graph::PassSetup& setup, Hits& hits) {

@@ -13,8 +13,8 @@ HitTesting hitTesting(const FrameBuilder& frame) {
 }
 
 void keepToSteps(FrameBuilder& frame, const std::string& pass, const std::string& parameter,
-                 int steps) {
-    const int longerSide = std::max(frame.width(), frame.height());
+                 int steps, const LayeredDepth& layers) {
+    const int longerSide = std::max(layers.views->width(), layers.views->height());
     if (steps >= longerSide) return;
     const ReachedLimit limit{
         parameter,
@@ -41,6 +41,7 @@ gl::Command& setHitTesting(gl::Command& command, const HitTesting& testing,
     if (testing.hasInside && testing.params.test != HitTest::epsilon)
         command.define("CLOSED_DIELECTRICS");
     if (testing.mayBeNested) command.define("NESTED_BODIES");
+    if (layers.views) layers.views->bindTo(command);
     return command.params("trace", testing.params).set("layerCount", layers.layers);
 }
 

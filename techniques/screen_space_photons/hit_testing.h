@@ -17,7 +17,7 @@ struct HitTesting {
 // Says that the pass `pass` asks a ray in so many steps at most, its parameter `parameter`, where
 // that is fewer than the picture's longer side has pixels.
 void keepToSteps(FrameBuilder& frame, const std::string& pass, const std::string& parameter,
-                 int steps);
+                 int steps, const LayeredDepth& layers);
 
 // Declares that a pass looks these layers up, under the names of common/hit_test.glsl, and tells
 // its command how.

@@ -191,9 +191,10 @@ Reduced reduceRows(FrameBuilder& frame, const LinesParams& params, const Layered
 Hits traceLines(FrameBuilder& frame, const LinesParams& params, Photons photons,
                 Surfaces surfaces) {
     const LayeredDepth& layers = surfaces.layers;
+    needsEyesView("trace.lines", "the layers", layers.views);
     // The device alone knows how many there are: rows for as many as there may be.
     const Layout layout = makeLayout(frame, params, photons.capacity());
-    keepToSteps(frame, "trace.lines", "trace.lines.width", layout.width);
+    keepToSteps(frame, "trace.lines", "trace.lines.width", layout.width, layers);
     if (layout.batches > 1)
         frame.keepsTo({"trace.lines", {}, [=](const gl::Executor&) { return layout.limit; }});
     RowTextures textures;

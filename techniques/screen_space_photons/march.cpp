@@ -16,8 +16,8 @@ namespace kaustik {
 namespace {
 
 // With 0 for as many steps as the longer side has pixels.
-MarchParams withSteps(const FrameBuilder& frame, MarchParams params) {
-    if (params.steps == 0) params.steps = std::max(frame.width(), frame.height());
+MarchParams withSteps(const LayeredDepth& layers, MarchParams params) {
+    if (params.steps == 0) params.steps = std::max(layers.views->width(), layers.views->height());
     return params;
 }
 
@@ -26,10 +26,10 @@ Hits march(FrameBuilder& frame, const std::string& node, const std::string& shad
            const std::string& why, const MarchParams& wanted, const Photons& photons,
            const LayeredDepth& layers) {
     const std::string name = "trace." + node;
-    const MarchParams params = withSteps(frame, wanted);
+    const MarchParams params = withSteps(layers, wanted);
     const bool isHierarchical = node.starts_with("hierarchical");
     const bool isThread = shader.ends_with(".comp");
-    keepToSteps(frame, name, name + ".steps", params.steps);
+    keepToSteps(frame, name, name + ".steps", params.steps, layers);
     return frame.pass<Hits>(
         name, why,
         [&](graph::PassSetup& setup, Hits& hits) {

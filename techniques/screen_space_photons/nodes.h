@@ -25,6 +25,7 @@ struct LayersRequest {
     int layers = 8;
     bool reducesCounts = false;               // by a texture reduce instead of atomics
     std::string reader = "the tracer needs";  // that needs them, for people
+    Views views = nullptr;                    // the eye's
 };
 // Adds the pass that counts the fragments of every pixel (K06, section 2.2).
 [[nodiscard]] graph::Buffer<transport::LayerStatistics> measureComplexity(
@@ -165,6 +166,10 @@ struct SpritesParams {
 };
 CausticMap splatSprites(FrameBuilder& frame, const SpritesParams& params, Hits hits,
                         Surfaces surfaces, CausticMap before);
+// The same on what any views see; adds to a map called `name`.
+CausticMap splatInto(FrameBuilder& frame, const SpritesParams& params, const Hits& hits,
+                     const ReceiverView& receivers, const CausticMap& before,
+                     const std::string& name);
 
 struct GodRayParams {
     float width = 0.0f;

@@ -25,6 +25,7 @@ struct Complexity {
     graph::Texture<ReducedCounts> half;
     graph::Texture<ReducedCounts> quarter;
     Geometry geometry;
+    Views views;
 };
 
 int halved(int side) {
@@ -65,9 +66,10 @@ graph::Buffer<transport::LayerStatistics> measureComplexity(FrameBuilder& frame,
             "layers.complexity", "peeling stops at the measured depth complexity",
             [&](graph::PassSetup& setup, Complexity& data) {
                 data.geometry = geometry;
+                data.views = request.views ? request.views : frame.eyeViews();
                 if (geometry.heightFields.valid()) setup.read(geometry.heightFields);
-                const int w = frame.width();
-                const int h = frame.height();
+                const int w = data.views->width();
+                const int h = data.views->height();
                 data.counts = setup.create<CountTexel>(request.name + ".counts", w, h);
                 data.statistics =
                     setup.createBuffer<transport::LayerStatistics>(request.name + ".statistics", 1);
@@ -78,24 +80,28 @@ graph::Buffer<transport::LayerStatistics> measureComplexity(FrameBuilder& frame,
                                                            halved(halved(w)), halved(halved(h)));
             },
             [&inputs = frame.inputs(), request](const Complexity& data, gl::PassContext& context) {
-                gl::Command count =
-                    context.shaders({"shared/eye.vert", "screen_space_photons/peel_count.frag"});
-                count.set("projection", inputs.view.projection())
-                    .target(data.counts)
-                    .clear()
-                    .blend(gl::Blend::add);
-                inputs.gpuScene.draw(count, context, data.geometry, inputs.instances, request.set);
-                if (request.reducesCounts) {
-                    reduceCounts(data, context, request.layers, inputs.view.width,
-                                 inputs.view.height);
-                    return;
+                const int w = data.views->width();
+                const int h = data.views->height();
+                if (!request.reducesCounts) context.buffer(data.statistics).clear();
+                for (int face = 0; face < data.views->count(); ++face) {
+                    gl::Command count = context.shaders(
+                        {"shared/eye.vert", "screen_space_photons/peel_count.frag"});
+                    count.set("projection", data.views->view(face).projection())
+                        .target(data.counts)
+                        .clear()
+                        .blend(gl::Blend::add);
+                    inputs.gpuScene.draw(count, context, data.geometry, data.views->instances(face),
+                                         request.set);
+                    if (request.reducesCounts) {
+                        reduceCounts(data, context, request.layers, w, h);
+                        continue;
+                    }
+                    context.compute("screen_space_photons/peel_statistics.comp")
+                        .texture("counts", data.counts)
+                        .storage("Statistics", data.statistics)
+                        .set("layerCount", request.layers)
+                        .dispatchOver(w, 8, h, 8);
                 }
-                context.buffer(data.statistics).clear();
-                context.compute("screen_space_photons/peel_statistics.comp")
-                    .texture("counts", data.counts)
-                    .storage("Statistics", data.statistics)
-                    .set("layerCount", request.layers)
-                    .dispatchOver(inputs.view.width, 8, inputs.view.height, 8);
             })
         .statistics;
 }
@@ -120,12 +126,14 @@ LayeredDepth peel(FrameBuilder& frame, Geometry geometry, const LayersRequest& r
                 [&](graph::PassSetup& setup, Data& data) {
                     data.geometry = geometry;
                     if (geometry.heightFields.valid()) setup.read(geometry.heightFields);
-                    const int w = frame.width();
-                    const int h = frame.height();
-                    data.layers.depth =
-                        setup.create<LayerTexel>(request.name + ".depth", w, h, layers);
-                    data.layers.surface =
-                        setup.create<SurfaceTexel>(request.name + ".surface", w, h, layers);
+                    data.layers.views = request.views ? request.views : frame.eyeViews();
+                    const render::RasterViews& views = *data.layers.views;
+                    const int w = views.width();
+                    const int h = views.height();
+                    data.layers.depth = setup.create<LayerTexel>(request.name + ".depth", w, h,
+                                                                 views.layers(layers));
+                    data.layers.surface = setup.create<SurfaceTexel>(request.name + ".surface", w,
+                                                                     h, views.layers(layers));
                     data.layers.statistics = setup.read(statistics);
                     data.layers.layers = layers;
                     data.depth = setup.create<DepthBuffer>(request.name + ".depth_buffer", w, h);
@@ -142,19 +150,23 @@ LayeredDepth peel(FrameBuilder& frame, Geometry geometry, const LayersRequest& r
                         .set("commandCount", static_cast<int>(commandCount))
                         .set("layerCount", layers)
                         .dispatchOver(static_cast<int>(commandCount) * layers, 64);
-                    for (int layer = 0; layer < layers; ++layer) {
+                    const render::RasterViews& views = *data.layers.views;
+                    for (int i = 0; i < views.layers(layers); ++i) {
+                        const int face = i / layers;
+                        const int layer = i % layers;
                         // The layer before is read from the array that this one is written to.
                         glTextureBarrier();
                         gl::Command command =
                             context.shaders({"shared/eye.vert", "screen_space_photons/peel.frag"});
-                        command.set("projection", inputs.view.projection())
+                        views.bindTo(command)
+                            .set("projection", views.view(face).projection())
                             .set("layer", layer)
-                            .set("before", layer - 1)
+                            .set("before", i - 1)
                             .texture("layerDepths", data.layers.depth);
-                        command.target(data.layers.depth, layer).clear();
-                        command.target(data.layers.surface, layer).clear();
+                        command.target(data.layers.depth, i).clear();
+                        command.target(data.layers.surface, i).clear();
                         command.depth(data.depth, gl::DepthTest::nearer).clear({1, 0, 0, 0});
-                        inputs.gpuScene.draw(command, context, data.geometry, inputs.instances,
+                        inputs.gpuScene.draw(command, context, data.geometry, views.instances(face),
                                              request.set,
                                              &context.buffer(data.commands, gl::Use::drawCommands),
                                              static_cast<std::size_t>(layer) * commandCount);

@@ -51,6 +51,7 @@ LayeredDepth peelObjects(FrameBuilder& frame, const params::NoParams&, Geometry 
                 [&](graph::PassSetup& setup, Data& data) {
                     data.geometry = geometry;
                     if (geometry.heightFields.valid()) setup.read(geometry.heightFields);
+                    data.layers.views = frame.eyeViews();
                     const int w = frame.width();
                     const int h = frame.height();
                     data.layers.depth = setup.create<LayerTexel>("layers.depth", w, h, layers);

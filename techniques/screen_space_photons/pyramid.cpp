@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // layers.pyramid: over squares of 4, 16 and 64 pixels and for each layer a plane in 1/z and how far
-// from it a ray may meet the layer; 1/z is linear on the screen where a surface is flat, so that
-// the plane of a floor is exact at any size. Left out where no tracer reads it. In: layered depth;
-// out: planes, 1/m, the levels side by side in one array texture
+// from it a ray may meet the layer; 1/z (of parallel rays: z) is linear on the screen where a
+// surface is flat, so that the plane of a floor is exact at any size. Left out where no tracer
+// reads it. In: layered depth; out: planes, 1/m, the levels side by side in one array texture
 // (shaders/screen_space_photons/pyramid_layout.glsl).
 #include <algorithm>
 
@@ -22,8 +22,8 @@ int squares(int pixels, int level) {
 }  // namespace
 
 LayeredDepth addPyramid(FrameBuilder& frame, const LayeredDepth& layers) {
-    const int w = frame.width();
-    const int h = frame.height();
+    const int w = layers.views->width();
+    const int h = layers.views->height();
     return frame.pass<LayeredDepth>(
         "layers.pyramid", "the tracer leaves out what a ray cannot meet",
         [&](graph::PassSetup& setup, LayeredDepth& data) {
@@ -33,16 +33,18 @@ LayeredDepth addPyramid(FrameBuilder& frame, const LayeredDepth& layers) {
                 "pyramid",
                 setup.create<SquarePlane>("layers.pyramid", squares(w, 1) + squares(w, 2),
                                           std::max(squares(h, 1), squares(h, 2) + squares(h, 3)),
-                                          layers.layers));
+                                          layers.views->layers(layers.layers)));
         },
         [w, h](const LayeredDepth& data, gl::PassContext& context) {
             // Empty: a square's layers behind its last, and the corners beside the levels.
             context.texture(data.pyramid).clear({0, 0, 0, 0});
             for (int level = 1; level <= kLevels; ++level) {
-                context.compute("screen_space_photons/pyramid.comp")
-                    .set("layerCount", data.layers)
-                    .set("level", level)
-                    .dispatchOver(squares(w, level), 8, squares(h, level), 8);
+                for (int face = 0; face < data.views->count(); ++face) {
+                    gl::Command command = context.compute("screen_space_photons/pyramid.comp");
+                    data.views->bindTo(command).set("layerCount", data.layers).set("level", level);
+                    if (data.views->count() > 1) command.set("face", face);
+                    command.dispatchOver(squares(w, level), 8, squares(h, level), 8);
+                }
             }
         });
 }

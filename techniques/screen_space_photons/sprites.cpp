@@ -3,11 +3,12 @@
 // disc in the tangent plane of its receiver, or what its beam cuts out of it, falling off to the
 // edge. Its weights are first summed over the receivers that the pixels see, so that the flux
 // deposited is the photon's flux. A compute thread a photon does one and then the other. In: hits
-// (eye view space, W) and the eye buffer; out: flux a pixel, W, and where a receiver is glossy
-// radiant intensity towards the eye, W/sr: each splat by the BRDF at each pixel, with the pixel's
-// normal and reflectance.
+// (eye view space, W) and what the eye, or any other views, see; out: flux a pixel, W, and where a
+// receiver is glossy radiant intensity towards the eye, W/sr: each splat by the BRDF at each pixel,
+// with the pixel's normal and reflectance.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 
 #include "framework/pipeline/frame_builder.h"
@@ -20,6 +21,10 @@ namespace {
 using CutSplats = graph::Buffer<transport::Narrowed>;
 constexpr std::size_t kCutOff = 0;
 constexpr std::size_t kShrunk = 1;
+
+// Of a cube a splat may touch three faces, and Mesa's software rasteriser ends all loops of a
+// thread after 65,535 turns together.
+constexpr int kMostReachOnCubes = 72;
 
 void keepToLimit(FrameBuilder& frame, const CutSplats& cut, std::size_t which,
                  const std::string& parameter, int pixels, const std::string& sentence) {
@@ -44,7 +49,17 @@ void keepToLimit(FrameBuilder& frame, const CutSplats& cut, std::size_t which,
 
 CausticMap splatSprites(FrameBuilder& frame, const SpritesParams& params, Hits hits,
                         Surfaces surfaces, CausticMap before) {
-    const bool isGlossy = frame.needs().glossyReceivers;
+    return splatInto(frame, params, hits, surfaces.eye, before, "caustic.flux");
+}
+
+CausticMap splatInto(FrameBuilder& frame, const SpritesParams& params, const Hits& hits,
+                     const ReceiverView& receivers, const CausticMap& before,
+                     const std::string& name) {
+    // What goes to the eye only the eye's pixels know.
+    const bool isGlossy = receivers.views->isEyes() && frame.needs().glossyReceivers;
+    const int reach = receivers.views->count() == 1
+                          ? params.reachPixels
+                          : std::min(params.reachPixels, kMostReachOnCubes);
     const bool isFirst = !before.flux.valid();
     struct Data {
         CutSplats cut;
@@ -56,12 +71,11 @@ CausticMap splatSprites(FrameBuilder& frame, const SpritesParams& params, Hits h
                    "goes to the eye"
                  : "photons deposit flux at the receivers",
         [&](graph::PassSetup& setup, Data& data) {
-            const EyeBuffer& eye = surfaces.eye;
             hits.sample(setup);
             hits.incoming.sample(setup);
-            setup.sample("receiver", eye.receiver);
-            setup.sample("receiverSurface", eye.receiverSurface);
-            if (isGlossy) setup.sample("receiverAlbedo", eye.receiverAlbedo);
+            setup.sample("receiver", receivers.receiver);
+            setup.sample("receiverSurface", receivers.receiverSurface);
+            if (isGlossy) setup.sample("receiverAlbedo", receivers.receiverAlbedo);
             data.cut = setup.storage("CutSplats", setup.createBuffer<transport::Narrowed>(
                                                       "reconstruct.cut" + hits.incoming.suffix, 2));
             setup.bypass(data.cut, {0, 0, 0, 0});
@@ -70,25 +84,25 @@ CausticMap splatSprites(FrameBuilder& frame, const SpritesParams& params, Hits h
                                            "reconstruct.totals" + hits.incoming.suffix,
                                            static_cast<std::size_t>(hits.incoming.capacity()))),
                          {0, 0, 0, 0});
-            data.map = CausticMap::deposit(setup, before, frame.width(), frame.height(), isGlossy,
-                                           "caustic.flux");
+            data.map = CausticMap::deposit(setup, before, receivers.views, isGlossy, name);
             data.map.ledger = setup.storage("LedgerEntries", setup.write(hits.incoming.ledger));
             setup.bypass(data.map.ledger, hits.incoming.ledger);
         },
-        [params, isGlossy, isFirst, list = hits.incoming](const Data& data,
-                                                          gl::PassContext& context) {
+        [params, reach, isGlossy, isFirst, views = receivers.views, list = hits.incoming](
+            const Data& data, gl::PassContext& context) {
             context.buffer(data.cut).clear();
             if (isFirst) context.texture(data.map.flux).clear({0, 0, 0, 0});
-            dispatchOver(context.compute("screen_space_photons/sprite_totals.comp")
-                             .params("reconstruct.sprites", params),
-                         list);
-            gl::Command command = context.compute("screen_space_photons/sprites.comp");
-            command.params("reconstruct.sprites", params);
-            if (isGlossy) command.define("GLOSSY_RECEIVERS");
-            dispatchOver(command, list);
+            for (const char* shader : {"sprite_totals", "sprites"}) {
+                gl::Command command =
+                    context.compute(fmt::format("screen_space_photons/{}.comp", shader));
+                views->bindTo(command).params("reconstruct.sprites", params);
+                command.set("mostReach", reach);
+                if (isGlossy && shader == std::string("sprites"))
+                    command.define("GLOSSY_RECEIVERS");
+                dispatchOver(command, list);
+            }
         });
-    keepToLimit(frame, splatted.cut, kCutOff, "reconstruct.sprites.reach", params.reachPixels,
-                "cut off");
+    keepToLimit(frame, splatted.cut, kCutOff, "reconstruct.sprites.reach", reach, "cut off");
     keepToLimit(frame, splatted.cut, kShrunk, "reconstruct.sprites.maximum", params.maximumPixels,
                 "smaller than they were to be");
     return splatted.map;

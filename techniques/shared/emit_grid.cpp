@@ -39,7 +39,7 @@ std::shared_ptr<LightGrids> makeGrids(FrameBuilder& frame) {
     auto grids = std::make_shared<LightGrids>();
     if (target.empty) return grids;
     for (const scene::Light& light : frame.scene().lights) {
-        const render::LightView view =
+        const render::RasterView view =
             render::makeLightView(light, target, sceneBounds(frame.scene()));
         if (view.isClipped) {
             frame.warn(fmt::format(
@@ -48,7 +48,7 @@ std::shared_ptr<LightGrids> makeGrids(FrameBuilder& frame) {
                 light.name));
         }
         const render::ViewInstances& instances =
-            frame.keep(frame.gpuScene().makeInstances(view.worldToLight));
+            frame.keep(frame.gpuScene().makeInstances(view.worldToView));
         grids->push_back({view.projection(), glm::vec2(view.halfExtent), &instances});
     }
     return grids;

@@ -8,6 +8,42 @@
 
 namespace kaustik {
 
+SeenReceivers seeReceivers(FrameBuilder& frame, Geometry geometry, const Views& views,
+                           const std::string& name, const std::string& why) {
+    return frame.pass<SeenReceivers>(
+        name + ".receivers", why,
+        [&](graph::PassSetup& setup, SeenReceivers& data) {
+            data.geometry = geometry;
+            if (geometry.heightFields.valid()) setup.read(geometry.heightFields);
+            const int w = views->width();
+            const int h = views->height();
+            const int layers = views->layers();
+            ReceiverView& seen = data.receivers;
+            seen.views = views;
+            seen.receiver = setup.create<ReceiverTexel>(name + ".receiver", w, h, layers);
+            seen.receiverSurface =
+                setup.create<SurfaceTexel>(name + ".receiver_surface", w, h, layers);
+            seen.receiverAlbedo =
+                setup.create<AlbedoTexel>(name + ".receiver_albedo", w, h, layers);
+            data.depth = setup.create<DepthBuffer>(name + ".depth_buffer", w, h);
+        },
+        [&inputs = frame.inputs()](const SeenReceivers& data, gl::PassContext& context) {
+            const ReceiverView& seen = data.receivers;
+            for (int face = 0; face < seen.views->count(); ++face) {
+                gl::Command command =
+                    context.shaders({"shared/eye.vert", "shared/eye_receiver.frag"});
+                seen.views->bindTo(command).set("projection", seen.views->view(face).projection());
+                if (seen.views->count() > 1) command.set("face", face);
+                command.target(seen.receiver, face).clear();
+                command.target(seen.receiverSurface, face).clear();
+                command.target(seen.receiverAlbedo, face).clear();
+                command.depth(data.depth, gl::DepthTest::nearerReversed).clear();
+                inputs.gpuScene.draw(command, context, data.geometry, seen.views->instances(face),
+                                     render::DrawSet::nonDielectrics);
+            }
+        });
+}
+
 EyeBuffer renderEye(FrameBuilder& frame, const params::NoParams&, Geometry geometry) {
     struct Data {
         EyeBuffer eye;
@@ -15,45 +51,29 @@ EyeBuffer renderEye(FrameBuilder& frame, const params::NoParams&, Geometry geome
         Geometry geometry;
     };
     const glm::mat4 projection = frame.view().projection();
-    Data receivers = frame.pass<Data>(
-        "eye.receivers", "caustics are measured at the receivers that the eye sees",
-        [&](graph::PassSetup& setup, Data& data) {
-            data.geometry = geometry;
-            if (geometry.heightFields.valid()) setup.read(geometry.heightFields);
-            const int w = frame.width();
-            const int h = frame.height();
-            data.eye.receiver = setup.create<ReceiverTexel>("eye.receiver", w, h);
-            data.eye.receiverSurface = setup.create<SurfaceTexel>("eye.receiver_surface", w, h);
-            data.eye.receiverAlbedo = setup.create<AlbedoTexel>("eye.receiver_albedo", w, h);
-            data.depth = setup.create<DepthBuffer>("eye.depth_buffer", w, h);
-        },
-        [&inputs = frame.inputs(), projection](const Data& data, gl::PassContext& context) {
-            gl::Command command = context.shaders({"shared/eye.vert", "shared/eye_receiver.frag"});
-            command.set("projection", projection);
-            command.target(data.eye.receiver).clear();
-            command.target(data.eye.receiverSurface).clear();
-            command.target(data.eye.receiverAlbedo).clear();
-            command.depth(data.depth, gl::DepthTest::nearerReversed).clear();
-            inputs.gpuScene.draw(command, context, data.geometry, inputs.instances,
-                                 render::DrawSet::nonDielectrics);
-        });
+    const SeenReceivers seen =
+        seeReceivers(frame, geometry, frame.eyeViews(), "eye",
+                     "caustics are measured at the receivers that the eye sees");
+    EyeBuffer receivers;
+    static_cast<ReceiverView&>(receivers) = seen.receivers;
     if (frame.needs().specularInterfaces == 0) {
         frame.leaveOut("eye.interface", "the scene has no specular surface");
-        return receivers.eye;
+        return receivers;
     }
     return frame
         .pass<Data>(
             "eye.interface", "the scene has specular surfaces that the eye looks through",
             [&](graph::PassSetup& setup, Data& data) {
-                data = receivers;
+                data.eye = receivers;
+                data.geometry = geometry;
                 if (geometry.heightFields.valid()) setup.read(geometry.heightFields);
-                data.depth = setup.write(receivers.depth);
+                data.depth = setup.write(seen.depth);
                 const int w = frame.width();
                 const int h = frame.height();
                 data.eye.interface = setup.create<ViewDepth>("eye.interface", w, h);
                 data.eye.interfaceSurface =
                     setup.create<SurfaceTexel>("eye.interface_surface", w, h);
-                setup.bypass(data.depth, receivers.depth);
+                setup.bypass(data.depth, seen.depth);
                 setup.bypass(data.eye.interface, {0, 0, 0, 0});
                 setup.bypass(data.eye.interfaceSurface, {0, 0, 0, 0});
             },

@@ -8,6 +8,7 @@ namespace kaustik {
 
 IrradianceMap gatherOnScreen(FrameBuilder& frame, const params::NoParams&, CausticMap map,
                              Surfaces surfaces) {
+    needsEyesView("gather.screen", "the map of flux", map.views);
     return frame.pass<IrradianceMap>(
         "gather.screen", "what was deposited is spread over what each pixel sees",
         [&](graph::PassSetup& setup, IrradianceMap& data) {

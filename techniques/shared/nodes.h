@@ -19,6 +19,16 @@ void addSharedCases(numerics::Suite& suite);
 
 Geometry makeHeightFields(FrameBuilder& frame, const params::NoParams&);
 
+// Adds the pass that draws the receivers that any views see, as NAME.receiver,
+// NAME.receiver_surface and NAME.receiver_albedo, with the depth buffer (reversed z) of the last.
+struct SeenReceivers {
+    ReceiverView receivers;
+    graph::Texture<DepthBuffer> depth;
+    Geometry geometry;
+};
+[[nodiscard]] SeenReceivers seeReceivers(FrameBuilder& frame, Geometry geometry, const Views& views,
+                                         const std::string& name, const std::string& why);
+
 EyeBuffer renderEye(FrameBuilder& frame, const params::NoParams&, Geometry geometry);
 
 Hits emitGrid(FrameBuilder& frame, const params::NoParams&, Surfaces surfaces, Samples samples);

@@ -31,12 +31,13 @@ std::vector<ShadowView> makeShadowViews(FrameBuilder& frame) {
         shadow.firstLayer = layer;
         const int faces = light.kind == scene::LightKind::directional ? 1 : 6;
         for (int face = 0; face < faces; ++face) {
-            const render::LightView view = faces == 1 ? render::makeLightView(light, bounds, bounds)
-                                                      : render::makeCubeFaceView(light, face);
+            const render::RasterView view = faces == 1
+                                                ? render::makeLightView(light, bounds, bounds)
+                                                : render::makeCubeFaceView(light.position, face);
             shadow.projection = view.projection();
-            shadow.eyeToLight.push_back(render::eyeToLight(view, frame.view()));
+            shadow.eyeToLight.push_back(render::between(frame.view(), view));
             shadow.instances.push_back(
-                &frame.keep(frame.gpuScene().makeInstances(view.worldToLight)));
+                &frame.keep(frame.gpuScene().makeInstances(view.worldToView)));
         }
         layer += faces;
         views.push_back(std::move(shadow));

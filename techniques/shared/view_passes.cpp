@@ -63,7 +63,7 @@ DielectricsBox boxOfDielectrics(const FrameBuilder& frame) {
             box.holdsScene = box.holdsScene || overlap(inside, other);
     }
     box.nested = deepestNesting(closed);
-    const render::EyeView& view = frame.view();
+    const render::RasterView& view = frame.view();
     const glm::dvec3 extent = all.maximum - all.minimum;
     const glm::dvec3 center(view.worldToView * glm::dvec4(0.5 * (all.minimum + all.maximum), 1.0));
     const double farthest = std::max(-center.z + 0.5 * glm::length(extent), view.nearMeters);

@@ -79,7 +79,7 @@ TEST(PhotonAudit, PhotonsThatAreNoNumbersMeetNothing) {
 TEST(PhotonAudit, ViewSpaceGivesTheSameHitsAtAnyNumberOfThreads) {
     const scene::Scene scene = floorGlassAndMirror();
     const EmbreeScene embree(scene);
-    const render::EyeView view = render::makeEyeView(scene.camera, 64, 48);
+    const render::RasterView view = render::makeEyeView(scene.camera, 64, 48);
     std::vector<AuditPhoton> world;
     std::vector<AuditPhoton> seen;
     Random random(3, 0, 0);

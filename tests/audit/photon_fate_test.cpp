@@ -13,9 +13,9 @@ namespace {
 constexpr int kSide = 100;
 constexpr double kFootprint = 0.2;
 
-render::EyeView squareEye() {
-    render::EyeView view;
-    view.tangents = {1.0, 1.0};
+render::RasterView squareEye() {
+    render::RasterView view;
+    view.halfExtent = {1.0, 1.0};
     view.nearMeters = 0.5;
     view.width = kSide;
     view.height = kSide;

@@ -24,7 +24,7 @@ class ExitErrorsOf : public testing::Test {
             put(position_, x, {0, 0, -2, 2});
             put(direction_, x, {0, 0, -1, 1});
         }
-        view_.tangents = glm::dvec2(1.0);
+        view_.halfExtent = glm::dvec2(1.0);
         view_.width = 100;
         view_.height = 100;
     }
@@ -38,7 +38,7 @@ class ExitErrorsOf : public testing::Test {
     Image position_;
     Image direction_;
     reference::ViewTruth truth_;
-    render::EyeView view_;
+    render::RasterView view_;
 };
 
 TEST_F(ExitErrorsOf, AreZeroWhereAllIsRight) {

@@ -48,7 +48,7 @@ void drawMarker(const LightMarker& marker, float radius, ImU32 color, float scal
 }
 
 // Whence a directional light comes to the middle of the scene.
-void drawWayToMiddle(const Bench& bench, const PictureFrame& frame, const render::EyeView& view,
+void drawWayToMiddle(const Bench& bench, const PictureFrame& frame, const render::RasterView& view,
                      const LightMarker& marker) {
     const scene::Bounds& bounds = bench.result->scene->bounds;
     const glm::dvec3 middle = 0.5 * (bounds.minimum + bounds.maximum);
@@ -65,14 +65,14 @@ const char* describe(const LightMarker& marker) {
 
 }  // namespace
 
-render::EyeView eyeViewOf(const Bench& bench, const PictureFrame& frame) {
+render::RasterView eyeViewOf(const Bench& bench, const PictureFrame& frame) {
     return render::makeEyeView(bench.camera(), frame.width, frame.height);
 }
 
 int drawLights(Bench& bench, const PictureFrame& frame, bool isHovered, int held) {
     if (!bench.view.showsLights || !bench.isSceneCurrent()) return -1;
     const SceneFacts& facts = *bench.result->scene;
-    const render::EyeView view = eyeViewOf(bench, frame);
+    const render::RasterView view = eyeViewOf(bench, frame);
     const auto radius = static_cast<float>(bench.px(9.0));
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     int found = -1;
@@ -111,7 +111,7 @@ void drawPhotons(const Bench& bench, const PictureFrame& frame) {
     draw.AddCircle(frame.windowAt(middle), std::max(state.probeRadius * frame.zoom, 4.0f),
                    IM_COL32(255, 60, 60, 255), 0, 1.5f * bench.scale);
     if (!probe || probe->pixel != state.probePixel) return;
-    const render::EyeView view = eyeViewOf(bench, frame);
+    const render::RasterView view = eyeViewOf(bench, frame);
     for (const PhotonPath& path : probe->paths) {
         for (std::size_t i = 1; i < path.points.size(); ++i) {
             const Projected from = project(view, path.points[i - 1]);

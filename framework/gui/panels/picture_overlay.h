@@ -33,7 +33,7 @@ struct PictureFrame {
     }
 };
 
-[[nodiscard]] render::EyeView eyeViewOf(const Bench& bench, const PictureFrame& frame);
+[[nodiscard]] render::RasterView eyeViewOf(const Bench& bench, const PictureFrame& frame);
 
 // The light whose handle is under the mouse and can be dragged; -1: none. `held`: the one that is
 // being dragged.

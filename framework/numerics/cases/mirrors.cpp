@@ -78,7 +78,7 @@ std::optional<double> toFace(const Face& face, const glm::dvec3& from, const glm
 }
 
 bool isOnScreen(const Frame& frame, const glm::dvec3& world) {
-    const render::EyeView& view = frame.view();
+    const render::RasterView& view = frame.view();
     const auto pixel = render::pixelOf(view, glm::dvec3(view.worldToView * glm::dvec4(world, 1.0)));
     constexpr double kBorder = 3.0;  // px
     return pixel && pixel->x > kBorder && pixel->y > kBorder && pixel->x < view.width - kBorder &&

@@ -23,7 +23,7 @@ const Tolerance kTwoUlpOfMeter{2.4e-7, "two steps of a 32-bit float at 1 m"};
 // A square picture, 90 degrees wide, in the middle of bounds of ±2000 m.
 gl::Buffer viewBlock() {
     ViewData data{};
-    data.tangents = {1.0f, 1.0f, static_cast<float>(kNear), 2.0f / kSide};
+    data.frustum = {1.0f, 1.0f, static_cast<float>(kNear), 2.0f / kSide};
     data.sizePixels = {kSide, kSide, 1.0f / kSide, 1.0f / kSide};
     data.viewToWorld = glm::mat4(1.0f);
     data.boundsHalfExtent = glm::vec4(2000.0f);

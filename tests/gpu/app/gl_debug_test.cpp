@@ -13,13 +13,12 @@ namespace kaustik::test {
 namespace {
 
 // A node that asks OpenGL for what there is not.
-CausticMap enableNothing(FrameBuilder& frame, const params::NoParams&, Hits hits, Surfaces,
+CausticMap enableNothing(FrameBuilder& frame, const params::NoParams&, Hits hits, Surfaces surfaces,
                          CausticMap before) {
     return frame.pass<CausticMap>(
         "reconstruct.wrong", "a test",
         [&](graph::PassSetup& setup, CausticMap& data) {
-            data = CausticMap::deposit(setup, before, frame.width(), frame.height(), false,
-                                       "caustic.flux");
+            data = CausticMap::deposit(setup, before, surfaces.eye.views, false, "caustic.flux");
             data.ledger = hits.incoming.ledger;
         },
         [](const CausticMap& data, gl::PassContext& context) {

@@ -76,7 +76,7 @@ TEST(LightHandle, FollowsTheHand) {
     scene::Bounds bounds;
     bounds.include({-1.0, -1.0, -1.0});
     bounds.include({1.0, 1.0, 1.0});
-    const render::EyeView view = render::makeEyeView(camera(), 800, 600);
+    const render::RasterView view = render::makeEyeView(camera(), 800, 600);
     const auto seen = [&](const scene::Light& light) {
         return project(view,
                        glm::vec3(view.worldToView * glm::dvec4(lightHandle(light, bounds), 1.0)))
@@ -101,9 +101,9 @@ TEST(LightHandle, FollowsTheHand) {
 }
 
 TEST(Projection, IsTheOneOfTheDevice) {
-    const render::EyeView view = render::makeEyeView(camera(), 800, 600);
+    const render::RasterView view = render::makeEyeView(camera(), 800, 600);
     EXPECT_EQ(project(view, {0.0f, 0.0f, -2.0f}).pixel, glm::vec2(400.0f, 300.0f));
-    const auto top = static_cast<float>(2.0 * view.tangents.y);
+    const auto top = static_cast<float>(2.0 * view.halfExtent.y);
     EXPECT_NEAR(project(view, {0.0f, top, -2.0f}).pixel.y, 0.0f, 1e-3);
     EXPECT_FALSE(project(view, {0.0f, 0.0f, 1.0f}).visible);
     EXPECT_FALSE(project(view, {0.0f, 0.0f, -0.5f * static_cast<float>(view.nearMeters)}).visible);
