@@ -185,6 +185,7 @@ void expectClosedForm(const MakeViews& makeViews, double tolerance) {
     const Texels irradiance = frame.causticIrradiance();
     int floorPixels = 0;
     double largest = 0.0;
+    double sum = 0.0;
     for (int y = 0; y < receiver.height; ++y) {
         for (int x = 0; x < receiver.width; ++x) {
             const auto depth = static_cast<double>(receiver.at(x, y, 0));
@@ -193,11 +194,14 @@ void expectClosedForm(const MakeViews& makeViews, double tolerance) {
             const bool isInside = std::abs(world.x) < 1.8 && std::abs(world.z) < 1.3;
             if (!isInside || std::abs(world.y + 1.2) > 1e-3) continue;
             ++floorPixels;
+            sum += irradiance.rgb(x, y).g;
             largest = std::max(largest, std::abs(irradiance.rgb(x, y).g / expected - 1.0));
         }
     }
     EXPECT_GT(floorPixels, 5000);
+    // A texel's middle stands for all of it, which shows where it sees the floor at a slant.
     EXPECT_LE(largest, tolerance);
+    EXPECT_NEAR(sum / floorPixels, expected, 1e-3 * expected);
     // What the map holds is what the ledger says, whatever the screen shows of it.
     const EnergyLedger ledger = frame.renderer().ledger();
     EXPECT_LT(std::abs(ledger.balance()), 1e-6);
@@ -210,7 +214,7 @@ void expectClosedForm(const MakeViews& makeViews, double tolerance) {
 }
 
 TEST(LightInTheSunsView, HasTheIrradianceOfTheClosedForm) {
-    expectClosedForm([](FrameBuilder& frame) { return sunViews(frame, 128); }, 1e-3);
+    expectClosedForm([](FrameBuilder& frame) { return sunViews(frame, 128); }, 4e-3);
 }
 
 TEST(LightOnACube, HasTheIrradianceOfTheClosedForm) {
