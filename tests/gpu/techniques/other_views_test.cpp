@@ -222,7 +222,7 @@ TEST(LightOnACube, HasTheIrradianceOfTheClosedForm) {
         [](FrameBuilder& frame) {
             return cubeViews(frame, {0.1, -0.5, 0.2}, 96);
         },
-        5e-3);
+        2e-2);
 }
 
 std::string refusalOf(const std::function<void()>& act) {
