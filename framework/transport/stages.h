@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The stages of every technique as types: what each takes and gives (design, section 1). A node is
-// one answer to a stage; handles are the only thing that connects two nodes.
+// The stages of every technique as types: what each takes and gives (framework/README.md, "Stages,
+// nodes, techniques"). A node is one answer to a stage; handles are the only thing that connects
+// two nodes.
 #pragma once
 
 #include <functional>
@@ -92,7 +93,7 @@ struct Geometry {
 };
 
 // What the eye sees. The receiver is the first diffuse surface on the straight eye ray, dielectrics
-// being invisible to it (design, section 1); a pixel that ends on a mirror has none.
+// being invisible to it (framework/README.md, "Outputs"); a pixel that ends on a mirror has none.
 struct EyeBuffer {
     graph::Texture<ReceiverTexel> receiver;
     graph::Texture<SurfaceTexel> receiverSurface;  // where the ray ends on a mirror, the mirror's
