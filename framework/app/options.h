@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the command line asks for (design, section 7).
+// What the command line asks for.
 #pragma once
 
 #include <optional>

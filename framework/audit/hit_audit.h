@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The photon audit: for every photon that a tracer handled in a frame, the exact first hit by
-// Embree from the same transfer map, and what became of it (design, sections 5 and 7).
+// Embree from the same transfer map, and what became of it (framework/README.md, "The energy
+// ledger" and "The report").
 #pragma once
 
 #include <array>

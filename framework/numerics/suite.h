@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The hard cases as a suite: each a row of HARD_CASES.md with a function that measures. Common
-// cases (framework/numerics/cases) ask the registry for the nodes that answer a stage, so that a
-// new tracer joins by being registered; a technique adds cases of its own nodes with
-// Registry::hardCases.
+// The hard cases as a suite: each a row of framework/numerics/README.md, "The cases", with
+// functions that measure. Common cases (framework/numerics/cases) ask the registry for the nodes
+// that answer a stage, so that a new tracer joins by being registered; a technique adds cases of
+// its own nodes with Registry::hardCases.
 #pragma once
 
 #include <functional>
@@ -31,7 +31,7 @@ struct Row {
 
 struct Case {
     std::string
-        id;  // "A5", "C28a"; those of section E, which has no numbers, are words: "E.no_light"
+        id;  // "A5", "C28a"; those of section E, which has no numbers, are words: "E.lacking"
     std::string sentence;
     std::vector<std::function<void(Lab&)>> measure;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A parameter is declared once, in its struct's `reflect`, with a name, a sentence, a unit, a range
 // and a default; the command line, experiment files, the report, the GUI and the shader constants
-// all read that one line (design, section 4):
+// all read that one line (framework/README.md, "Parameters"):
 //
 //     struct TraceParams {
 //         float epsilonMeters = 0.01f;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The energy ledger of a frame (design, section 5): every account summed on its own, none as a
-// remainder.
+// The energy ledger of a frame (framework/README.md, "The energy ledger"): every account summed on
+// its own, none as a remainder.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The energy ledger of the reference: the accounts of transport/types.h in double precision. Every
-// account is summed on its own, none as a remainder (design, section 5).
+// account is summed on its own, none as a remainder (framework/README.md, "The energy ledger").
 #pragma once
 
 #include <array>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Estimator 1 (design, section 6): light tracing. Every photon that reaches a receiver after at
-// least one specular surface is joined to the camera's pinhole by a straight ray to which
-// dielectrics are invisible. Unbiased for the caustic irradiance of a pixel, the mean over the
-// pixel's area; and, where the scene has a medium, for the caustic light that it scatters once
+// Estimator 1 (framework/README.md, "The reference"): light tracing. Every photon that reaches a
+// receiver after at least one specular surface is joined to the camera's pinhole by a straight ray
+// to which dielectrics are invisible. Unbiased for the caustic irradiance of a pixel, the mean over
+// the pixel's area; and, where the scene has a medium, for the caustic light that it scatters once
 // towards the eye (Henyey-Greenstein), with the transmittance to the eye. Where it has a glossy
 // receiver, also for caustic radiance: the same light through the receiver's BRDF towards the eye
 // (transport/brdf.h), as it leaves the surface. Out: W/m² and W/m²/sr.

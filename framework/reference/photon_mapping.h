@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Estimator 2 (design, section 6): progressive photon mapping with a fixed sequence of radii and
-// independent passes (Hachisuka and Jensen 2009; Knaus and Zwicker 2011, equations 15 and 20).
+// Estimator 2 (framework/README.md, "The reference"): progressive photon mapping with a fixed
+// sequence of radii and independent passes (Hachisuka and Jensen 2009; Knaus and Zwicker 2011,
+// equations 15 and 20).
 // In each pass an eye ray through a random point of every pixel looks, straight through
 // dielectrics, for its receiver, and the photons within a radius of it are its irradiance, W/m².
 //

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a run found out, as report.json (schema kaustik.report/1; design, section 7), as a table for
-// people, and as Chrome trace events.
+// What a run found out, as report.json (schema kaustik.report/1; framework/README.md, "The
+// report"), as a table for people, and as Chrome trace events.
 #pragma once
 
 #include <nlohmann/json.hpp>

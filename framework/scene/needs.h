@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a scene makes a technique model, so that nothing else is built (design, section 3).
+// What a scene makes a technique model, so that nothing else is built (framework/README.md,
+// "Only what a scene needs").
 #pragma once
 
 #include "framework/scene/light_paths.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The stages of every technique as types: what each takes and gives (design, section 1). A node is
-// one answer to a stage; handles are the only thing that connects two nodes.
+// The stages of every technique as types: what each takes and gives (framework/README.md, "Stages,
+// nodes, techniques"). A node is one answer to a stage; handles are the only thing that connects
+// two nodes.
 #pragma once
 
 #include <functional>

@@ -129,7 +129,8 @@ const uint kEmittedPath = 1u;
 // three RGBA32F textures.
 struct Photon {
     vec3 positionVs;
-    float footprintMeters;  // side of the square that its beam covers, at right angles to it
+    float footprintMeters;  // side of the square that its beam covers, at right angles to it, when
+                            // it is emitted: interactions leave it as it is
     vec3 directionVs;       // unit
     uint fate;
     vec3 fluxWatts;
@@ -157,8 +158,8 @@ const float kWayMirroredTooOften = -2.0f;  // by mirrors; it is taken to see the
 const float kWayNestedTooDeep = -3.0f;     // in more dielectrics at once than a stack holds
 const float kWayStoppedInside = 2.0f;
 
-// Accounts of the energy ledger (design, section 5). The device sums the three channels; reports
-// say their mean (transport/watts.h).
+// Accounts of the energy ledger (framework/README.md, "The energy ledger"). The device sums the
+// three channels; reports say their mean (transport/watts.h).
 const uint kAccountEmitted = 0u;
 const uint kAccountDeposited = 1u;
 const uint kAccountAbsorbed = 2u;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Direct irradiance of one light at the receivers, W/m². Every specular object blocks it wholly:
-// what passes through arrives as caustic light (design, section 1). Where a receiver is glossy,
-// also what of it goes to the eye, W/m²/sr.
+// what passes through arrives as caustic light (framework/README.md, "Outputs"). Where a receiver
+// is glossy, also what of it goes to the eye, W/m²/sr.
 #include "common/lights.glsl"
 #include "common/surface_data.glsl"
 #include "common/view.glsl"

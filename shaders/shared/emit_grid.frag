@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One photon a texel of the light's grid, where the first surface is specular: its flux is what the
-// light sends through the texel, by its area (directional) or its solid angle (cos³; METHODS.md,
-// section 7). An opaque surface nearer to the light leaves the texel empty.
+// light sends through the texel, by its area (directional) or its solid angle (cos³; hard case
+// 34a). An opaque surface nearer to the light leaves the texel empty.
 #include "common/scene_fragment.glsl"
 #include "common/surface.glsl"
 #include "common/specular.glsl"

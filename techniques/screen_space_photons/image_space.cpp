@@ -5,10 +5,10 @@
 // looks up what it sees there as view.refraction does. In: eye buffer, radiance of the receivers;
 // out: radiance, W/m²/sr, and where each ray left, view space, m.
 //
-// W05's weights and its precomputed distance along the inverse normal are not in our texts: the
-// weight here is the ratio of the angles of refraction and incidence, and the distance is searched
-// among the back faces, `steps` looks and four bisections. What is totally reflected at the second
-// interface is told apart and goes on unbent.
+// W05's weights and its precomputed distance along the inverse normal are in neither paper that
+// describes it (techniques/README.md): the weight here is the ratio of the angles of refraction and
+// incidence, and the distance is searched among the back faces, `steps` looks and four bisections.
+// What is totally reflected at the second interface is told apart and goes on unbent.
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/screen_space_photons/nodes.h"
 

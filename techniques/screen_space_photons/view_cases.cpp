@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Hard cases of the nodes that follow the eye's rays through specular surfaces, against closed
 // forms in double: a plane-parallel slab (C25), an index of 1 (C19), total reflection and Snell's
-// window (C22), a ball (F), and that both searches find the same in convex bodies.
+// window (C22), a ball (F.ball), and that both searches find the same in convex bodies.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// eye.surfaces: the eye buffer (design, section 1). `eye.receivers` draws all but dielectrics,
-// which are invisible to the straight ray; `eye.interface` the first specular surface of each
-// pixel, with that depth buffer: dielectrics before what it holds, and the mirrors that it holds
-// (B16: geometry drawn twice has the same depth). View space, m; receiver areas in m².
+// eye.surfaces: the eye buffer (framework/README.md, "Outputs"). `eye.receivers` draws all but
+// dielectrics, which are invisible to the straight ray; `eye.interface` the first specular surface
+// of each pixel, with that depth buffer: dielectrics before what it holds, and the mirrors that it
+// holds (B16: geometry drawn twice has the same depth). View space, m; receiver areas in m².
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/shared/nodes.h"
 

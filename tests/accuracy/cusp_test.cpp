@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // At a cusp the irradiance goes as |x|^(-2/3) across it and as one over the distance along its axis
-// (HARD_CASES.md, F): light from straight above through a crest of the water A cos kx, whose first
-// focus is n/((n-1) A k²) below the crest. To third order a ray that enters at t arrives at
-// x = (s/F) t + b t³ on a plane that lies s before the focus F, with b near k²/6.
+// (framework/numerics/README.md, "Closed forms"): light from straight above through a crest of the
+// water A cos kx, whose first focus is n/((n-1) A k²) below the crest. To third order a ray that
+// enters at t arrives at x = (s/F) t + b t³ on a plane that lies s before the focus F, with b near
+// k²/6.
 #include <cmath>
 #include <numbers>
 #include <vector>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Near a fold the irradiance grows as one over the square root of the distance from it
-// (HARD_CASES.md, F): light through a wave A cos kx on a floor beyond its first focus.
+// (framework/numerics/README.md, "Closed forms"): light through a wave A cos kx on a floor beyond
+// its first focus.
 #include <array>
 #include <cmath>
 #include <numbers>

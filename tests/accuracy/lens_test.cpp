@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Refraction by curved glass and water against closed forms (HARD_CASES.md, F). Meshes with exact
-// normals at their vertices stand for the curved surfaces: tolerances follow from their fineness.
+// Refraction by curved glass and water against closed forms (framework/numerics/README.md, "Closed
+// forms"). Meshes with exact normals at their vertices stand for the curved surfaces: tolerances
+// follow from their fineness.
 #include <cmath>
 #include <functional>
 #include <numbers>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Caustics of curved mirrors against their closed forms (HARD_CASES.md, F). The mirrors are meshes
-// with the exact normals at their vertices; between two vertices an angle h apart the interpolated
-// normal's rate of turn is off by about h²/8, which sets the tolerances.
+// Caustics of curved mirrors against their closed forms (framework/numerics/README.md, "Closed
+// forms"). The mirrors are meshes with the exact normals at their vertices; between two vertices an
+// angle h apart the interpolated normal's rate of turn is off by about h²/8, which sets the
+// tolerances.
 #include <cmath>
 #include <numbers>
 

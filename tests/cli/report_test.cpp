@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// report.json, schema kaustik.report/1 (design, section 7), and how --set and --disable show in it.
+// report.json, schema kaustik.report/1 (framework/README.md, "The report"), and how --set and
+// --disable show in it.
 #include <algorithm>
 #include <cmath>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// D36: the way of one photon through a homogeneous medium, against the integral of what it scatters
-// towards the eye, in double. Summed over the pixels of a picture, mean radiance times the area of
-// a pixel at a depth of 1 m is the integral of Φ(t) σs p(cosθ) Tr(eye) d/z³ over the way: d is the
-// distance from the eye, z the depth.
+// D34 and D36: the way of one photon through a homogeneous medium, against the integral of what it
+// scatters towards the eye, in double. Summed over the pixels of a picture, mean radiance times the
+// area of a pixel at a depth of 1 m is the integral of Φ(t) σs p(cosθ) Tr(eye) d/z³ over the way: d
+// is the distance from the eye, z the depth.
 #include <algorithm>
 #include <cmath>
 #include <functional>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// C26 to C28a on nodes: the side of a surface, absorption, nested dielectrics and what the eye sees
-// through water, against optics in double (framework/numerics/exact.h).
+// C26 to C28a on nodes, and A9 inside a ball: the side of a surface, absorption, nested dielectrics
+// and what the eye sees through water, against optics in double (framework/numerics/exact.h).
 #include <algorithm>
 #include <cmath>
 #include <limits>

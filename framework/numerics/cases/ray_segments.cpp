@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A1 to A5 on common/ray_segment.glsl: how every screen-space tracer clips and interpolates a
-// photon's ray, against clipping and projection in double.
+// A1 to A5 and A7 on common/ray_segment.glsl: how every screen-space tracer clips and interpolates
+// a photon's ray, against clipping and projection in double.
 #include <algorithm>
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// D31, D32 and D34a for every node that answers `reconstruct` or `emit`: hits made up one by one,
-// and what becomes of their flux.
+// D31, D32, D34 and D34a for every node that answers `reconstruct` or `emit`: hits made up one by
+// one, and what becomes of their flux.
 #include <algorithm>
 #include <cmath>
 

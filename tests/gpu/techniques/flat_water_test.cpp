@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Still water under a sun that stands straight above. Every ray goes straight down, so the floor's
-// caustic irradiance is (1 - ((n-1)/(n+1))²) times the sun's, everywhere (HARD_CASES.md, F and 20).
+// caustic irradiance is (1 - ((n-1)/(n+1))²) times the sun's, everywhere
+// (framework/numerics/README.md, "Closed forms"; hard case 20).
 #include <algorithm>
 #include <cmath>
 #include <numeric>
