@@ -138,6 +138,16 @@ void insideABall(Lab& lab) {
     }
     for (const Lab::Choice& tracer : lab.each<TraceStage>()) {
         const Traced traced = tracePhotons(lab, tracer, scene, photons, {}, {400, 300});
+        if (lab.seenBy(tracer) == Sees::flatReceivers) {
+            lab.expect(tracer.subject,
+                       "hits of photons inside a ball of glass, whose far side it does not see", 0,
+                       static_cast<double>(traced.hitCount()), kExactly);
+            lab.expect(
+                tracer.subject, "their flux that counts as missed by it, share", 1.0,
+                traced.ledger.watts[kAccountMissedByTracer] / static_cast<double>(photons.size()),
+                {1e-5, "photons of 1 W, by the ledger's quantum"});
+            continue;
+        }
         int wrong = 0;
         double worst = 0.0;
         for (std::size_t i = 0; i < photons.size(); ++i) {
@@ -177,9 +187,11 @@ void shadingNormalOfATracedHit(Lab& lab) {
         const Traced traced = tracePhotons(lab, tracer, scene, photons, {}, {512, 512});
         int wrong = 0;
         int found = 0;
+        std::size_t passed = 0;
         double worst = 0.0;
         for (std::size_t i = 0; i < photons.size(); ++i) {
             const BenchHit& hit = traced.hits[i];
+            passed += hit.material == kGrey ? 1 : 0;
             if (hit.material != kMirror) continue;
             const auto surface = surfaceAt(scene, scene.objects[0], hit.position);
             // Near an edge the pixel may see the other triangle.
@@ -192,6 +204,12 @@ void shadingNormalOfATracedHit(Lab& lab) {
             // Where the rule just decides, a normal that is off by a little decides otherwise.
             if (exact.margin < 0.05) continue;
             worst = std::max(worst, glm::length(bent - exact.direction));
+        }
+        if (lab.seenBy(tracer) == Sees::flatReceivers) {
+            lab.expect(tracer.subject,
+                       "hits of the wall behind a mirrored ball, which it does not see",
+                       static_cast<double>(photons.size()), static_cast<double>(passed), kExactly);
+            continue;
         }
         lab.expect(tracer.subject, "hits of a coarse mirrored ball that reflect into it", 0, wrong,
                    kExactly);
@@ -400,6 +418,20 @@ void cubeWithInternalReflections(Lab& lab) {
             lab.expect(tracer.subject, fmt::format("balance of {} interactions", bounces), 0.0,
                        ledger.balance(), {2e-6, "sums of 32-bit fluxes and areas in fixed point"});
             const double share = ledger.watts[kAccountBounceLimit] / ledger.watts[kAccountEmitted];
+            if (lab.seenBy(tracer) == Sees::flatReceivers) {
+                lab.expect(tracer.subject,
+                           fmt::format("share at the limit of {}, of a body that it cannot leave",
+                                       bounces),
+                           0.0, share, kExactly);
+                // What the first interaction sends back is another branch, or goes to the floor.
+                lab.expect(
+                    tracer.subject, "is most of it counted as missed by it", 1.0,
+                    ledger.watts[kAccountMissedByTracer] > 0.8 * ledger.watts[kAccountEmitted]
+                        ? 1.0
+                        : 0.0,
+                    kExactly);
+                continue;
+            }
             if (bounces > 1) {
                 lab.expect(tracer.subject,
                            fmt::format("is less at the limit of {} than of fewer", bounces), 1.0,
