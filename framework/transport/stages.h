@@ -233,8 +233,8 @@ struct Picture {
 // of scene/flat_faces.h by photons outside of closed dielectrics, wherever the eye looks.
 enum class Sees { eyeLayers, everything, flatReceivers };
 
-// Which of the photons of the lights' grids are emitted at once: rows [firstRow, firstRow + rows)
-// of each light's.
+// Which of the lights' photons (FrameBuilder::photonsOfALight) are emitted at once: rows
+// [firstRow, firstRow + rows) of each light's.
 struct Samples {
     int firstLight = 0;
     int lights = 1;

@@ -116,26 +116,20 @@ void expectDark(Lab& lab, const std::string& what, const scene::Scene& scene) {
     });
 }
 
+// Behind a body, for which a sheet whose normals are missing counts, a tracer of flat receivers
+// finds nothing; the ledger has to say so.
 void expectLit(Lab& lab, const std::string& what, const scene::Scene& scene,
                const FrameRequest& request) {
     renderAll(lab, what, scene, request, [&](const Technique& technique, const Frame& frame) {
+        if (lab.seenBy(technique) == Sees::flatReceivers &&
+            frame.renderer().needs().closedDielectrics) {
+            lab.expect(technique.name, "is light in a body counted as missed by it: " + what, 1.0,
+                       frame.renderer().ledger().watts[kAccountMissedByTracer] > 0.0 ? 1.0 : 0.0,
+                       kExactly);
+            return;
+        }
         lab.expect(technique.name, "is there caustic light: " + what, 1.0,
                    frame.causticIrradiance().sum() > 0.0 ? 1.0 : 0.0, kExactly);
-    });
-}
-
-// A tracer of flat receivers sees no far side of glass: there is none behind it, and the ledger
-// says why.
-void expectLitThroughGlass(Lab& lab, const std::string& what, const scene::Scene& scene) {
-    renderAll(lab, what, scene, kSmall, [&](const Technique& technique, const Frame& frame) {
-        const bool isSeen = lab.seenBy(technique) != Sees::flatReceivers;
-        const EnergyLedger ledger = frame.renderer().ledger();
-        lab.expect(technique.name, "is there caustic light: " + what, isSeen ? 1.0 : 0.0,
-                   frame.causticIrradiance().sum() > 0.0 ? 1.0 : 0.0, kExactly);
-        if (!isSeen) {
-            lab.expect(technique.name, "is it counted as missed by the tracer: " + what, 1.0,
-                       ledger.watts[kAccountMissedByTracer] > 0.0 ? 1.0 : 0.0, kExactly);
-        }
     });
 }
 
@@ -212,11 +206,11 @@ void vertexThatIsNoNumber(Lab& lab) {
     scene::Scene badNormal = scene;
     std::vector<glm::vec3>& normals = badNormal.meshes[1].normals;
     normals[normals.size() / 2] = noNumber;
-    expectLitThroughGlass(lab, "a normal that is no number", badNormal);
+    expectLit(lab, "a normal that is no number", badNormal, kSmall);
     scene::Scene badPosition = scene;
     std::vector<glm::vec3>& positions = badPosition.meshes[1].positions;
     positions[positions.size() / 2] = noNumber;
-    expectLitThroughGlass(lab, "a position that is no number", badPosition);
+    expectLit(lab, "a position that is no number", badPosition, kSmall);
 }
 
 }  // namespace
