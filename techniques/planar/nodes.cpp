@@ -16,7 +16,10 @@ void registerPlanar(Registry& registry) {
                         "Photons meet flat receivers analytically and nothing else; else as "
                         "screen_space_photons.",
                         "K06, section 1.1, Fig. 2",
-                        {{"trace", "plane"}},
+                        {{"layers", "peel"},
+                         {"trace", "plane"},
+                         {"reconstruct", "sprites"},
+                         {"view", "refraction"}},
                         {}});
 }
 

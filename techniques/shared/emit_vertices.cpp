@@ -4,9 +4,10 @@
 // irradiance at the vertex times the area across the light, of triangles that face the light on the
 // side that it comes from. Both sides of a sheet count; a body is met from within only by a light
 // that is inside of it. Which vertices the light sees first is decided by a depth image from the
-// light, by the planes of its texels (common/light_depth.glsl): a vertex counts if it lies before
-// one of the four around it. Out: photons that arrive (flux in W) and the hits that they make; eye
-// view space, m; cells number the vertices of the specular objects.
+// light, by the planes of its texels (common/light_depth.glsl). A mesh too coarse for its shadows
+// loses or gains light by them: the sampling error of the truth's report. Out: photons that arrive
+// (flux in W) and the hits that they make; eye view space, m; cells number the vertices of the
+// specular objects.
 #include <fmt/format.h>
 
 #include <algorithm>

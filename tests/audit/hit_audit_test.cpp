@@ -236,7 +236,9 @@ TEST(HitAudit, JudgesATracerOfPlanesByFlatReceiversWhereverTheyAre) {
     expectAccounted(pool);
     EXPECT_LT(pool.hits.reachable, pool.hits.exactHits);
     EXPECT_EQ(pool.hits.rightReachable, pool.hits.reachable);
-    EXPECT_EQ(pool.hits.falseHits.at("tracer"), pool.hits.photons - pool.hits.right);
+    EXPECT_GT(pool.hits.falseHits.at("tracer"), 10u);
+    for (const auto& [cause, count] : pool.hits.missed)
+        EXPECT_EQ(count, 0u) << cause;
 
     // Nothing behind glass is, and what is missed there is the tracer's.
     const Audited ball(scene::loadScene("glass-sphere"), {{"trace", "plane"}});

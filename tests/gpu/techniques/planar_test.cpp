@@ -157,7 +157,7 @@ TEST_F(TracePlane, HitsTheFiveFacesOfARoomFromInside) {
         EXPECT_LT(glm::length(back * traced.hits[i].normal - inward), 1e-6);
     }
     for (const int face : {0, 1, 2, 4, 5})
-        EXPECT_GT(hits[static_cast<std::size_t>(face)], 300) << face;
+        EXPECT_GT(hits[static_cast<std::size_t>(face)], 200) << face;
     EXPECT_EQ(hits[3], 0);
     EXPECT_GT(left, 1000);
 }
@@ -277,7 +277,9 @@ TEST(Planar, KeepsEveryWattAndSaysWhatItDoesNotSee) {
             said += warning;
         if (std::string(name) == "flat-water") {
             EXPECT_EQ(said, "");
-            EXPECT_GT(ledger.watts[kAccountDeposited], 0.97 * emitted);
+            const double below = (1.333 - 1.0) / (1.333 + 1.0);
+            EXPECT_NEAR(ledger.watts[kAccountArrived], (1.0 - below * below) * emitted,
+                        1e-5 * emitted);
         } else if (std::string(name) == "pool") {
             EXPECT_NE(said.find("light passes 'bunny'"), std::string::npos) << said;
             EXPECT_EQ(ledger.watts[kAccountMissedByTracer], 0.0);
