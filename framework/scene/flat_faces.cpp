@@ -39,19 +39,15 @@ class Sets {
     std::vector<std::size_t> parent_;
 };
 
-std::vector<Triangle> trianglesOf(const Mesh& mesh, double size) {
-    std::vector<Triangle> triangles;
-    triangles.reserve(mesh.triangles.size());
-    for (const glm::uvec3& t : mesh.triangles) {
-        Triangle one;
-        for (int i = 0; i < 3; ++i)
-            one.corners[static_cast<std::size_t>(i)] = glm::dvec3(mesh.positions[t[i]]);
-        one.area = glm::cross(one.corners[1] - one.corners[0], one.corners[2] - one.corners[0]);
-        const double length = glm::length(one.area);
-        if (length > kFlat * kFlat * size * size) one.normal = one.area / length;
-        triangles.push_back(one);
-    }
-    return triangles;
+Triangle triangleOf(const Mesh& mesh, std::size_t index, double size) {
+    const glm::uvec3& t = mesh.triangles[index];
+    Triangle one;
+    for (int i = 0; i < 3; ++i)
+        one.corners[static_cast<std::size_t>(i)] = glm::dvec3(mesh.positions[t[i]]);
+    one.area = glm::cross(one.corners[1] - one.corners[0], one.corners[2] - one.corners[0]);
+    const double length = glm::length(one.area);
+    if (length > kFlat * kFlat * size * size) one.normal = one.area / length;
+    return one;
 }
 
 bool isOnPlane(const Triangle& plane, const Triangle& other, double size) {
@@ -59,6 +55,22 @@ bool isOnPlane(const Triangle& plane, const Triangle& other, double size) {
     return std::all_of(other.corners.begin(), other.corners.end(), [&](const glm::dvec3& corner) {
         return std::abs(glm::dot(corner - plane.corners[0], plane.normal)) <= kFlat * size;
     });
+}
+
+// Whether a triangle shares an edge with another one of its plane, if it has an area at all.
+bool hasNeighbour(const Mesh& mesh, std::size_t index, double size) {
+    const Triangle triangle = triangleOf(mesh, index, size);
+    if (triangle.normal == glm::dvec3(0.0)) return true;
+    for (std::size_t other = 0; other < mesh.triangles.size(); ++other) {
+        int shared = 0;
+        for (int i = 0; i < 3; ++i) {
+            const glm::vec3& a = mesh.positions[mesh.triangles[other][i]];
+            for (int j = 0; j < 3; ++j)
+                shared += a == mesh.positions[mesh.triangles[index][j]] ? 1 : 0;
+        }
+        if (shared == 2 && isOnPlane(triangle, triangleOf(mesh, other, size), size)) return true;
+    }
+    return false;
 }
 
 // Sets of coplanar triangles that share edges.
@@ -177,7 +189,15 @@ std::vector<Parallelogram> flatFaces(const Mesh& mesh) {
     for (const glm::vec3& position : mesh.positions)
         bounds.include(position);
     const double size = glm::length(bounds.maximum - bounds.minimum);
-    const std::vector<Triangle> triangles = trianglesOf(mesh, size);
+    // A few triangles tell most curved meshes, however large, at once.
+    const std::size_t step = std::max<std::size_t>(mesh.triangles.size() / 8, 1);
+    for (std::size_t t = 0; t < mesh.triangles.size(); t += step) {
+        if (!hasNeighbour(mesh, t, size)) return {};
+    }
+    std::vector<Triangle> triangles;
+    triangles.reserve(mesh.triangles.size());
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+        triangles.push_back(triangleOf(mesh, t, size));
     Sets sets = joinCoplanar(mesh, triangles, size);
     std::vector<std::vector<const Triangle*>> members(triangles.size());
     for (std::size_t t = 0; t < triangles.size(); ++t) {
