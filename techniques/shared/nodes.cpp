@@ -37,9 +37,10 @@ void registerSharedNodes(Registry& registry) {
                               "K06, section 1.1"},
                              &emitGrid);
     registry.node<EmitStage>("vertices",
-                             {"One photon a vertex of the specular surfaces, with the light that "
-                              "falls on the area around it.",
-                              "Shah, Pattanaik 2005 (SP05)", Sees::eyeLayers, &verticesOfALight},
+                             {.sentence = "One photon a vertex of the specular surfaces, with the "
+                                          "light that falls on the area around it.",
+                              .source = "Shah, Pattanaik 2005 (SP05)",
+                              .photons = &verticesOfALight},
                              &emitVertices);
     registry.node<SpecularStage>("auto",
                                  {"Follows both Fresnel branches where water or a pane reflects "
