@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "techniques/register_all.h"
 
+#include "techniques/planar/nodes.h"
 #ifdef KAUSTIK_HAS_EMBREE
 #include "techniques/raytraced/nodes.h"
 #endif
@@ -16,6 +17,7 @@ Registry registerAll() {
 #ifdef KAUSTIK_HAS_EMBREE
     registerRaytraced(registry);
 #endif
+    registerPlanar(registry);
     registerMediaLeftOut(registry);
     return registry;
 }

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "framework/audit/hit_audit.h"
+
 #include "framework/pipeline/photon_texels.h"
+#include "framework/scene/dielectrics.h"
+#include "framework/scene/flat_faces.h"
+#include "framework/scene/light_paths.h"
 #include "framework/transport/watts.h"
 
 #include <algorithm>
@@ -50,8 +54,9 @@ std::vector<TracedPhoton> readTrace(const Renderer& renderer, const TraceRecord&
     return traced;
 }
 
-// The account of a photon that got no hit.
-unsigned accountOf(Sight sight) {
+// The account of a photon that got no hit. The screen excuses only those that look there.
+unsigned accountOf(Sight sight, Sees sees) {
+    if (sees != Sees::eyeLayers && sight != Sight::none) return kAccountMissedByTracer;
     switch (sight) {
         case Sight::none:
             return kAccountLeftScene;
@@ -69,7 +74,8 @@ unsigned accountOf(Sight sight) {
     return kAccountUnresolved;
 }
 
-const char* nameOf(Sight sight) {
+const char* nameOf(Sight sight, Sees sees = Sees::eyeLayers) {
+    if (sees != Sees::eyeLayers && sight != Sight::none) return nameOf(Sight::shown);
     switch (sight) {
         case Sight::none:
             return "no_surface";
@@ -87,16 +93,38 @@ const char* nameOf(Sight sight) {
     return "";
 }
 
-const char* falseHitName(const PhotonFate& fate) {
+const char* falseHitName(const PhotonFate& fate, Sees sees) {
     if (fate.verdict == Verdict::notANumber) return "not_a_number";
     if (fate.verdict == Verdict::displaced) return "displaced";
     if (fate.verdict == Verdict::tooNear) return "too_near";
-    return nameOf(fate.sight);  // no surface at all, or why the exact hit was passed
+    return nameOf(fate.sight, sees);  // no surface at all, or why the exact hit was passed
 }
+
+// What tracers of flat receivers can find.
+class FlatReach {
+  public:
+    explicit FlatReach(const scene::Scene& scene)
+        : flat_(scene::flatReceivers(scene)), dielectrics_(numberDielectrics(scene)) {
+        for (std::size_t material = 0; material < scene.materials.size(); ++material)
+            isOpen_.push_back(isOpen(scene, material));
+    }
+    [[nodiscard]] bool holds(const TracedPhoton& traced, const reference::FirstHit& exact) const {
+        if (!exact.exists() || !flat_.isFlat[exact.triangle.object]) return false;
+        const std::vector<std::uint32_t> around = unpackMedia(dielectrics_, traced.photon.media);
+        return std::all_of(around.begin(), around.end(),
+                           [&](std::uint32_t medium) { return isOpen_[medium - 1]; });
+    }
+
+  private:
+    scene::FlatReceivers flat_;
+    scene::Dielectrics dielectrics_;
+    std::vector<bool> isOpen_;
+};
 
 class Counter {
   public:
-    Counter(HitAudit& audit, const render::RasterView& view) : audit_(audit), view_(view) {
+    Counter(HitAudit& audit, const render::RasterView& view, const scene::Scene& scene)
+        : audit_(audit), view_(view), scene_(scene) {
         for (const Sight sight : {Sight::offScreen, Sight::behindEye, Sight::beyondLayers,
                                   Sight::edgeOn, Sight::shown}) {
             audit_.missed[nameOf(sight)] = 0;
@@ -114,22 +142,22 @@ class Counter {
         if (fate.isVisible()) ++audit_.visible;
         if (isRight) ++audit_.right;
         if (isRight && fate.isVisible()) ++audit_.rightVisible;
-        const bool isReachable = sees == Sees::everything ? exact.exists() : fate.isVisible();
-        if (isReachable) ++audit_.reachable;
-        if (isRight && isReachable) ++audit_.rightReachable;
+        const bool reachable = isReachable(traced, exact, fate, sees);
+        if (reachable) ++audit_.reachable;
+        if (isRight && reachable) ++audit_.rightReachable;
         if (fate.distanceMeters) meters_.push_back(*fate.distanceMeters);
         if (fate.distancePixels) pixels_.push_back(*fate.distancePixels);
         if (fate.distanceMeters && !fate.distancePixels) ++audit_.unplaced;
         if (!traced.found) {
-            const unsigned account = accountOf(fate.sight);
+            const unsigned account = accountOf(fate.sight, sees);
             audit_.missedWatts[account] += transport::wattsOf(traced.fluxWatts);
             ++audit_.missedPhotons[account];
         }
         if (isRight) return;
         if (fate.verdict == Verdict::missed) {
-            ++audit_.missed[nameOf(fate.sight)];
+            ++audit_.missed[nameOf(fate.sight, sees)];
         } else {
-            ++audit_.falseHits[falseHitName(fate)];
+            ++audit_.falseHits[falseHitName(fate, sees)];
         }
         const bool isPlaced = traced.found && fate.verdict != Verdict::notANumber;
         if (!isPlaced && !exact.exists()) return;
@@ -143,8 +171,24 @@ class Counter {
     }
 
   private:
+    bool isReachable(const TracedPhoton& traced, const reference::FirstHit& exact,
+                     const PhotonFate& fate, Sees sees) {
+        switch (sees) {
+            case Sees::eyeLayers:
+                return fate.isVisible();
+            case Sees::everything:
+                return exact.exists();
+            case Sees::flatReceivers:
+                if (!flat_) flat_.emplace(scene_);
+                return flat_->holds(traced, exact);
+        }
+        return false;
+    }
+
     HitAudit& audit_;
     const render::RasterView& view_;
+    const scene::Scene& scene_;
+    std::optional<FlatReach> flat_;  // once it is asked for
     std::vector<double> meters_;
     std::vector<double> pixels_;
 };
@@ -229,7 +273,7 @@ HitAudit auditHits(const Renderer& renderer, const reference::EmbreeScene& scene
     const render::RasterView& view = renderer.view();
     const Layers layers = readLayers(renderer);
     const glm::dmat4 viewToWorld = glm::inverse(view.worldToView);
-    Counter counter(audit, view);
+    Counter counter(audit, view, renderer.scene());
     for (const TraceRecord& trace : renderer.traces()) {
         const std::vector<TracedPhoton> traced = readTrace(renderer, trace, audit.notANumber);
         std::vector<reference::AuditPhoton> photons;

@@ -223,7 +223,7 @@ Traced interactPhotons(Lab& lab, const Lab::Choice& specular, const scene::Scene
 
 namespace {
 
-// By the cells of the light's grid, of which emission fills every one.
+// By the numbers that the emitter gave them.
 Emitted emittedOf(const Frame& frame, const Photons& photons, std::size_t cells) {
     const glm::dmat3 back(glm::transpose(glm::dmat3(frame.view().worldToView)));
     const scene::Dielectrics dielectrics = numberDielectrics(frame.renderer().scene());
@@ -231,7 +231,7 @@ Emitted emittedOf(const Frame& frame, const Photons& photons, std::size_t cells)
     emitted.hits.resize(cells);
     emitted.directions.resize(cells);
     emitted.media.resize(cells);
-    // The lights' grids follow one another.
+    // The lights follow one another.
     const std::size_t lights = std::max<std::size_t>(frame.renderer().scene().lights.size(), 1);
     for (const PhotonTexel& photon : readPhotons(frame.renderer(), photons)) {
         const std::size_t cell = photon.origin.light * (cells / lights) + photon.origin.cell;
@@ -259,12 +259,8 @@ Bent emitAndInteract(Lab& lab, const Lab::Choice& emitter, const scene::Scene& s
         const Geometry geometry = builder.run<GeometryStage>();
         const EyeBuffer eye = builder.run<EyeStage>(geometry);
         const Hits hits = builder.run<EmitStage>(
-            Surfaces{geometry, eye, {}}, Samples{0,
-                                                 builder.needs().lights,
-                                                 0,
-                                                 builder.params<EmitParams>("emit").photons.height,
-                                                 "",
-                                                 {}});
+            Surfaces{geometry, eye, {}},
+            Samples{0, builder.needs().lights, 0, builder.photonsOfALight().height, "", {}});
         before = keepPhotons(builder, hits.incoming);
         after = keepPhotons(builder, builder.run<SpecularStage>(hits));
         const Nothing nothing = addNothing(builder, after.ledger);

@@ -60,6 +60,11 @@ Sees Lab::seenBy(const Choice& tracer) const {
     return registry_.findNode(TraceStage::name, tracer.subject.substr(dot + 1)).description.sees;
 }
 
+Sees Lab::seenBy(const Technique& technique) const {
+    const std::string tracer = registry_.makeParams(technique).choice(TraceStage::name);
+    return registry_.findNode(TraceStage::name, tracer).description.sees;
+}
+
 Frame Lab::render(const Technique& technique, const scene::Scene& scene, FrameRequest request) {
     request.keepsAll = true;
     request.poison = true;

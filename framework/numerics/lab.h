@@ -56,6 +56,7 @@ class Lab {
 
     // What a tracer can find.
     [[nodiscard]] Sees seenBy(const Choice& tracer) const;
+    [[nodiscard]] Sees seenBy(const Technique& technique) const;
 
     // Renders with every texture kept, and memory that starts as NaN; each texture is scanned, and
     // the case gets a row that says how many values were none.

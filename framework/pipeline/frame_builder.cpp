@@ -23,6 +23,12 @@ Sees FrameBuilder::tracerSees() const {
         .description.sees;
 }
 
+params::Extent FrameBuilder::photonsOfALight() const {
+    const auto& own = inputs_.registry.findNode(EmitStage::name, inputs_.params.choice("emit"))
+                          .description.photons;
+    return own ? own(*this) : params<EmitParams>("emit").photons;
+}
+
 int FrameBuilder::runsOf(const std::string& stage) const {
     return static_cast<int>(std::count(stagesRun_.begin(), stagesRun_.end(), stage));
 }
@@ -137,20 +143,20 @@ struct Caustic {
 };
 
 // All photons at once, or, where they are more than a batch may hold, whole rows of one light's
-// grid after the other.
+// photons after the other.
 std::vector<Samples> batchesOf(const FrameBuilder& frame) {
-    const auto& emit = frame.params<EmitParams>("emit");
+    const int most = frame.params<EmitParams>("emit").batch;
+    const params::Extent photons = frame.photonsOfALight();
     const int lights = std::max(frame.needs().lights, 1);
-    const std::int64_t all = std::int64_t{emit.photons.width} * emit.photons.height * lights;
-    if (all <= emit.batch) return {{0, lights, 0, emit.photons.height, "", {}}};
-    const int rows = std::clamp(emit.batch / emit.photons.width, 1, emit.photons.height);
+    const std::int64_t all = std::int64_t{photons.width} * photons.height * lights;
+    if (all <= most) return {{0, lights, 0, photons.height, "", {}}};
+    const int rows = std::clamp(most / photons.width, 1, photons.height);
     std::vector<Samples> batches;
     for (int light = 0; light < lights; ++light) {
-        for (int row = 0; row < emit.photons.height; row += rows) {
+        for (int row = 0; row < photons.height; row += rows) {
             const std::string suffix =
                 batches.empty() ? "" : fmt::format(".{}", batches.size() + 1);
-            batches.push_back(
-                {light, 1, row, std::min(rows, emit.photons.height - row), suffix, {}});
+            batches.push_back({light, 1, row, std::min(rows, photons.height - row), suffix, {}});
         }
     }
     return batches;

@@ -130,6 +130,8 @@ class FrameBuilder {
     }
     // What the chosen tracer can find.
     [[nodiscard]] Sees tracerSees() const;
+    // How many photons each light emits, as rows of so many: what Samples are taken from.
+    [[nodiscard]] params::Extent photonsOfALight() const;
     // Keeps `object` (a buffer of a node's own, say) alive as long as the frame.
     template <class T>
     const T& keep(T&& object) {

@@ -32,6 +32,8 @@ struct NodeDescription {
     std::string sentence;
     std::string source;           // paper, section, equation; "" for our own
     Sees sees = Sees::eyeLayers;  // of a tracer
+    // Of an emitter: rows and columns of one light's photons, where emit.photons does not say it.
+    std::function<params::Extent(const FrameBuilder&)> photons = {};
 };
 
 // What a technique hands to the report, besides the picture.

@@ -200,20 +200,13 @@ void GpuScene::uploadMaterials() {
     };
     for (std::size_t m = 0; m < scene_.materials.size(); ++m) {
         const scene::Material& material = scene_.materials[m];
-        const bool isOpen = std::any_of(
-            scene_.objects.begin(), scene_.objects.end(), [&](const scene::Object& object) {
-                const scene::Mesh& mesh = scene_.meshes[object.mesh];
-                // A dielectric with open seams has an inside all the same.
-                const bool isDielectric = material.kind == scene::MaterialKind::dielectric;
-                return object.material == m && (isDielectric ? isSheet(mesh) : !mesh.closed);
-            });
         MaterialData data{};
         data.albedo = glm::vec4(material.albedo, static_cast<float>(material.kind));
         data.patternAlbedo =
             glm::vec4(material.patternAlbedo, static_cast<float>(material.pattern));
         data.absorption = glm::vec4(material.absorptionPerMeter, material.ior);
-        data.uv =
-            glm::vec4(material.uvScale, static_cast<float>(material.image), isOpen ? 1.0f : 0.0f);
+        data.uv = glm::vec4(material.uvScale, static_cast<float>(material.image),
+                            isOpen(scene_, m) ? 1.0f : 0.0f);
         data.specular = glm::vec4(material.specular, material.exponent);
         data.medium = mediumOf(m);
         materials.push_back(data);

@@ -161,6 +161,15 @@ bool isSheet(const Mesh& mesh) {
                        [&](const glm::vec3& normal) { return glm::dot(normal, mean) > 0.0f; });
 }
 
+bool isOpen(const Scene& scene, std::size_t material) {
+    // A dielectric with open seams has an inside all the same.
+    const bool isDielectric = scene.materials[material].kind == MaterialKind::dielectric;
+    return std::any_of(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
+        const Mesh& mesh = scene.meshes[object.mesh];
+        return object.material == material && (isDielectric ? isSheet(mesh) : !mesh.closed);
+    });
+}
+
 MeetingsAgain meetingsAgain(const Scene& scene) {
     const Object* sheet = nullptr;
     for (const Object& object : scene.objects) {

@@ -3,6 +3,7 @@
 // photon is traced: whether one can meet them again, and whether reflected light is seen.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -13,6 +14,9 @@ namespace kaustik::scene {
 // Whether a surface bounds no volume and does not turn back: water, a pane, but not a teapot with
 // open seams.
 [[nodiscard]] bool isSheet(const Mesh& mesh);
+
+// Whether surfaces of a material bound no volume: one object that does not is enough.
+[[nodiscard]] bool isOpen(const Scene& scene, std::size_t material);
 
 // Whether light that has met a specular surface can meet one again.
 struct MeetingsAgain {

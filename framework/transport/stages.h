@@ -249,11 +249,12 @@ struct Picture {
 };
 
 // Which surfaces a tracer can find. What it cannot see it cannot be expected to hit: the photon
-// audit, the hard cases and nodes that trace rays of their own ask for this.
-enum class Sees { eyeLayers, everything };
+// audit, the hard cases and nodes that trace rays of their own ask for this. flatReceivers: those
+// of scene/flat_faces.h by photons outside of closed dielectrics, wherever the eye looks.
+enum class Sees { eyeLayers, everything, flatReceivers };
 
-// Which of the photons of the lights' grids are emitted at once: rows [firstRow, firstRow + rows)
-// of each light's.
+// Which of the lights' photons (FrameBuilder::photonsOfALight) are emitted at once: rows
+// [firstRow, firstRow + rows) of each light's.
 struct Samples {
     int firstLight = 0;
     int lights = 1;

@@ -36,6 +36,12 @@ void registerSharedNodes(Registry& registry) {
                               "texel.",
                               "K06, section 1.1"},
                              &emitGrid);
+    registry.node<EmitStage>("vertices",
+                             {.sentence = "One photon a vertex of the specular surfaces, with the "
+                                          "light that falls on the area around it.",
+                              .source = "Shah, Pattanaik 2005 (SP05)",
+                              .photons = &verticesOfALight},
+                             &emitVertices);
     registry.node<SpecularStage>("auto",
                                  {"Follows both Fresnel branches where water or a pane reflects "
                                   "much light to a receiver, else the refracted one.",

@@ -33,6 +33,20 @@ EyeBuffer renderEye(FrameBuilder& frame, const params::NoParams&, Geometry geome
 
 Hits emitGrid(FrameBuilder& frame, const params::NoParams&, Surfaces surfaces, Samples samples);
 
+struct VertexEmissionParams {
+    int size = 1024;
+    template <class R>
+    void reflect(R& r) {
+        r.field(size, "size",
+                "Side of the depth image from each light that says which vertices it sees",
+                "texels", params::range(16, 8192));
+    }
+};
+Hits emitVertices(FrameBuilder& frame, const VertexEmissionParams& params, Surfaces surfaces,
+                  Samples samples);
+// Rows and columns of its photons.
+params::Extent verticesOfALight(const FrameBuilder& frame);
+
 Photons interactAtInterface(FrameBuilder& frame, const params::NoParams&, Hits hits);
 Photons interactAsNeeded(FrameBuilder& frame, const params::NoParams&, Hits hits);
 

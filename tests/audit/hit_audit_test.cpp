@@ -67,8 +67,9 @@ class Audited {
         emittedWatts = renderer_->ledger().watts[transport::kAccountEmitted];
         ledger = audit::resolveLedger(*renderer_, hits, emittedWatts);
         const EnergyLedger traced = audit::bookedByTracers(*renderer_);
-        for (const unsigned account : {transport::kAccountOffScreen, transport::kAccountBehindEye,
-                                       transport::kAccountUnresolved}) {
+        for (const unsigned account :
+             {transport::kAccountOffScreen, transport::kAccountBehindEye,
+              transport::kAccountUnresolved, transport::kAccountMissedByTracer}) {
             lostByTracersWatts += traced.watts[account];
         }
     }
@@ -217,6 +218,35 @@ TEST(HitAudit, SeesFalseHitsOfAnEpsilonThatIsTooLarge) {
     for (const auto& [cause, count] : audited.hits.falseHits)
         falseHits += count;
     EXPECT_GT(falseHits, audited.hits.photons / 2);
+}
+
+TEST(HitAudit, JudgesATracerOfPlanesByFlatReceiversWhereverTheyAre) {
+    scene::Scene scene = scene::loadScene("flat-water");
+    scene.camera.target.x += 3.0;  // half of the pool is off the screen
+    const Audited aside(scene, {{"trace", "plane"}});
+    expectAccounted(aside);
+    EXPECT_GT(aside.hits.photons, 3000u);
+    EXPECT_LT(aside.hits.visible, aside.hits.photons);
+    EXPECT_EQ(aside.hits.reachable, aside.hits.photons);
+    EXPECT_EQ(aside.hits.rightReachable, aside.hits.reachable);
+    EXPECT_LT(aside.hits.meters.value().maximum, 1e-4);
+
+    // The bunny is not flat: who should meet it does not count as reachable, and goes on.
+    const Audited pool(scene::loadScene("pool"), {{"trace", "plane"}});
+    expectAccounted(pool);
+    EXPECT_LT(pool.hits.reachable, pool.hits.exactHits);
+    EXPECT_EQ(pool.hits.rightReachable, pool.hits.reachable);
+    EXPECT_GT(pool.hits.falseHits.at("tracer"), 10u);
+    for (const auto& [cause, count] : pool.hits.missed)
+        EXPECT_EQ(count, 0u) << cause;
+
+    // Nothing behind glass is, and what is missed there is the tracer's.
+    const Audited ball(scene::loadScene("glass-sphere"), {{"trace", "plane"}});
+    expectAccounted(ball);
+    EXPECT_EQ(ball.hits.reachable, 0u);
+    EXPECT_EQ(ball.hits.missed.at("tracer"), ball.hits.photons);
+    EXPECT_GT(ball.ledger.watts[transport::kAccountMissedByTracer], 0.9 * ball.emittedWatts);
+    EXPECT_EQ(ball.ledger.watts[transport::kAccountOffScreen], 0.0);
 }
 
 TEST(HitAudit, FollowsPhotonsThroughEveryInteraction) {

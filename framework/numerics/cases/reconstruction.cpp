@@ -161,7 +161,8 @@ void pointLightGrid(Lab& lab) {
         camera, fmt::format("[[light]]\nname = \"lamp\"\ntype = \"point\"\nposition = [0, {}, 0]\n"
                             "intensity = {}\n",
                             number(height), number(intensity)) +
-                    floorPlane("water", "water", 2.0 * half, {0, 0, 0}) +
+                    object("water", "plane", "water", {0, 0, 0},
+                           fmt::format("size = [{0}, {0}]\ncells = [64, 64]", number(2.0 * half))) +
                     floorPlane("floor", "grey", 12.0, {0, -1, 0}));
     constexpr int kTexels = 32;
     for (const Lab::Choice& node : lab.each<EmitStage>()) {
@@ -173,7 +174,8 @@ void pointLightGrid(Lab& lab) {
                    intensity * solidAngle, frame.renderer().ledger().watts[kAccountEmitted],
                    {1e-3 * intensity * solidAngle,
                     "a texel's solid angle is that of its middle: 1/12 of its angle squared, "
-                    "(2 tan 30° / 32)²/12 = 1e-4, several times where cos³ bends"});
+                    "(2 tan 30° / 32)²/12 = 1e-4, several times where cos³ bends; the trapezoid "
+                    "rule over 64 x 64 cells errs by as little"});
     }
 }
 

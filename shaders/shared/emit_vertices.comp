@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+// One photon a vertex of a specular mesh, for one light: a thread a vertex. What the light does not
+// see first is nobody.
+#include "common/light_depth.glsl"
+#include "common/lights.glsl"
+#include "common/specular.glsl"
+#include "common/store_hits.glsl"
+#include "common/store_photons.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(std430) readonly buffer Instances {
+    InstanceData instances[];
+};
+layout(std430) readonly buffer MeshVertices {
+    VertexData meshVertices[];
+};
+layout(std430) readonly buffer Fans {
+    uvec2 fans[];  // the other two corners of each triangle around a vertex
+};
+layout(std430) readonly buffer FanFirsts {
+    uint fanFirsts[];
+};
+uniform sampler2DArray lightDepths;
+uniform mat4 projection;
+uniform mat4 eyeToLight;
+uniform int lightIndex;
+uniform uint object;
+uniform int sides;         // from which light comes, kFrom…
+uniform uint vertexCount;  // of the object
+uniform uint firstVertex;
+uniform uint firstFan;
+uniform uint firstCell;
+uniform int batchCells;    // of one light in this batch
+uniform int firstOfBatch;  // the cell that the batch begins with
+uniform int firstOfLight;  // where its photons begin in the list
+
+const int kFromOutside = 1;
+const int kFromWithin = 2;
+
+// What of the triangles around a vertex the light meets from one side.
+struct LitArea {
+    float across;  // a third of their areas across the light's direction, m²
+    vec3 outward;  // mean normal, weighted by area; any length
+};
+
+void addTriangle(inout LitArea lit, float across, vec3 area) {
+    lit.across += across / 6.0;
+    lit.outward += area;
+}
+
+// The side that light comes from; where a sheet shows both at a vertex, the one that takes more.
+LitArea litAround(uint vertex, vec3 direction, out bool isWithin) {
+    mat3 toView = mat3(instances[object].modelToView);
+    // A mirrored mesh is wound the other way round.
+    float winding = determinant(toView) < 0.0 ? -1.0 : 1.0;
+    LitArea outside = LitArea(0.0, vec3(0.0));
+    LitArea within = LitArea(0.0, vec3(0.0));
+    vec3 middle = meshVertices[firstVertex + vertex].position;
+    uint end = fanFirsts[firstFan + vertex + 1u];
+    for (uint i = fanFirsts[firstFan + vertex]; i < end; ++i) {
+        vec3 b = toView * (meshVertices[firstVertex + fans[i].x].position - middle);
+        vec3 c = toView * (meshVertices[firstVertex + fans[i].y].position - middle);
+        vec3 area = winding * cross(b, c);
+        float across = dot(direction, area);
+        if (across < 0.0) {
+            addTriangle(outside, -across, area);
+        } else if (across > 0.0) {
+            addTriangle(within, across, area);
+        }
+    }
+    isWithin = sides == kFromWithin || (sides != kFromOutside && within.across > outside.across);
+    return isWithin ? within : outside;
+}
+
+// Whether the light sees the point before anything else: by most of the four texels around it, each
+// by its nearness, so that no shadow's edge is off by more than half a texel on the average.
+bool isSeen(vec3 positionVs, vec3 normalVs) {
+    vec3 positionLs = (eyeToLight * vec4(positionVs, 1.0)).xyz;
+    vec4 clip = projection * vec4(positionLs, 1.0);
+    // The view ends at the outermost vertices, give or take their rounding.
+    if (!(clip.w > 0.0) || any(greaterThan(abs(clip.xy), vec2(1.0001 * clip.w)))) return false;
+    ivec2 size = textureSize(lightDepths, 0).xy;
+    vec2 at = (clip.xy / clip.w * 0.5 + 0.5) * vec2(size);
+    vec2 texelMeters = 2.0 * clip.w / (vec2(projection[0][0], projection[1][1]) * vec2(size));
+    vec3 normalLs = mat3(eyeToLight) * normalVs;
+    ivec2 first = ivec2(floor(at - 0.5));
+    vec2 f = at - 0.5 - vec2(first);
+    float seen = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 step = ivec2(i & 1, i >> 1);
+        ivec2 texel = clamp(first + step, ivec2(0), size - 1);
+        vec2 axis = mix(1.0 - f, f, vec2(step));
+        vec4 nearest = texelFetch(lightDepths, ivec3(texel, lightIndex), 0);
+        vec2 beside = at - (vec2(texel) + 0.5);
+        bool reaches = reachesLight(nearest, beside, texelMeters, -positionLs.z, normalLs);
+        seen += reaches ? axis.x * axis.y : 0.0;
+    }
+    return seen >= 0.5;
+}
+
+void main() {
+    uint vertex = gl_GlobalInvocationID.x;
+    if (vertex >= vertexCount) return;
+    uint cell = firstCell + vertex;
+    int inBatch = int(cell) - firstOfBatch;
+    if (inBatch < 0 || inBatch >= batchCells) return;
+    InstanceData instance = instances[object];
+    LightData light = lights[lightIndex];
+    VertexData data = meshVertices[firstVertex + vertex];
+    vec3 positionVs = (instance.modelToView * vec4(data.position, 1.0)).xyz;
+    if (!isFinite(positionVs)) return;
+    vec3 direction = lightDirection(light, positionVs);
+    bool isWithin;
+    LitArea lit = litAround(vertex, direction, isWithin);
+    float size = length(lit.outward);
+    if (!(lit.across > 0.0) || !(size > 0.0)) return;
+    vec3 geometric = lit.outward / size;
+    if (!isSeen(positionVs, geometric)) return;
+
+    uint material = instance.material.x;
+    bool isDielectric = materialKind(material) == kMaterialDielectric;
+    uint media = isDielectric && isWithin ? enterMedium(0u, material + 1u) : 0u;
+    float footprint = sqrt(lit.across);
+    vec3 flux = light.power.rgb * lit.across;
+    if (uint(light.positionVs.w) != kLightDirectional) {
+        float distance = length(positionVs - light.positionVs.xyz);
+        flux = lightIntensity(light, positionVs, footprint / distance) *
+               (lit.across / (distance * distance)) *
+               mediumTransmittance(innerMedium(media), distance);
+    }
+    if (!isFinite(flux) || !(flux.r + flux.g + flux.b > 0.0)) return;
+    vec3 shading = mat3(instance.normalToView) * data.normal;
+    float length2 = dot(shading, shading);
+    shading = length2 > 1e-24 ? shading * inversesqrt(length2) : geometric;
+    vec3 normal = bendingNormal(direction, shading, geometric, material + 1u, media);
+    uint slot = uint(firstOfLight + inBatch);
+    storeNext(slot, Photon(positionVs, footprint, direction, kFateSpecular, flux, media),
+              PhotonOrigin(cell, uint(lightIndex), kEmittedPath, 0u));
+    storeHit(ivec2(photonTexel(nextPhotons, slot)),
+             Hit(positionVs, 0.0, normal, material + 1u, flux, kFateSpecular));
+}

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#include "techniques/planar/nodes.h"
+
+#include "framework/pipeline/frame_builder.h"
+
+namespace kaustik {
+
+void registerPlanar(Registry& registry) {
+    registry.node<TraceStage>(
+        "plane",
+        {"Meets each photon's ray with the planes of flat receivers; no other "
+         "surface is seen.",
+         "K06, section 1.1, Fig. 2", Sees::flatReceivers},
+        &tracePlane);
+    registry.technique({"planar",
+                        "Photons meet flat receivers analytically and nothing else; else as "
+                        "screen_space_photons.",
+                        "K06, section 1.1, Fig. 2",
+                        {{"layers", "peel"},
+                         {"trace", "plane"},
+                         {"reconstruct", "sprites"},
+                         {"view", "refraction"}},
+                        {}});
+}
+
+}  // namespace kaustik

@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: MIT
+// emit.vertices: one photon a vertex of the specular meshes and of wavy water (Shah, Pattanaik
+// 2005). It stands for a third of every triangle around the vertex, and carries what falls on that:
+// irradiance at the vertex times the area across the light, of triangles that face the light on the
+// side that it comes from. Both sides of a sheet count; a body is met from within only by a light
+// that is inside of it. Which vertices the light sees first is decided by a depth image from the
+// light, by the planes of its texels (common/light_depth.glsl). A mesh too coarse for its shadows
+// loses or gains light by them: the sampling error of the truth's report. Out: photons that arrive
+// (flux in W) and the hits that they make; eye view space, m; cells number the vertices of the
+// specular objects.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "framework/pipeline/frame_builder.h"
+#include "framework/scene/light_paths.h"
+#include "techniques/shared/nodes.h"
+
+namespace kaustik {
+namespace {
+
+constexpr int kRowLength = 1024;
+
+// As shared/shadow.frag writes it: planar depth from the light, m, and its growth.
+struct LightDepth {
+    static constexpr Format format = Format::rgba32f;
+};
+
+// From which side of its triangles light meets an object, as shared/emit_vertices.comp has it.
+constexpr int kFromOutside = 1;
+constexpr int kFromWithin = 2;
+
+struct EmittingObject {
+    std::uint32_t object = 0;
+    bool isHeightField = false;
+    std::uint32_t vertices = 0;
+    std::uint32_t firstVertex = 0;  // among the static vertices, or those of the height fields
+    std::uint32_t firstFan = 0;     // of its vertices, in fanFirsts
+    std::uint32_t firstCell = 0;
+    std::vector<int> sides;  // by light
+};
+
+struct LightSight {
+    glm::mat4 projection{1.0f};
+    glm::mat4 eyeToLight{1.0f};
+    render::ViewInstances instances;
+};
+
+struct Emission {
+    std::vector<EmittingObject> objects;
+    std::vector<LightSight> lights;
+    gl::Buffer vertices;   // VertexData, of what is no height field
+    gl::Buffer fans;       // uvec2: the other two corners of each triangle around a vertex
+    gl::Buffer fanFirsts;  // uint, by vertex of every mesh and one more each: where its fan begins
+    graph::Texture<LightDepth> depths;
+};
+
+bool isSpecular(const scene::Scene& scene, const scene::Object& object) {
+    return !isReceiver(scene.materials[object.material].kind) &&
+           !scene.meshes[object.mesh].triangles.empty();
+}
+
+// Whether a point is inside of a mesh: its triangles then fill the sphere around the point. By the
+// solid angle of each (van Oosterom, Strackee 1983).
+bool isInside(const scene::Mesh& mesh, const glm::dvec3& point) {
+    double solidAngle = 0.0;
+    for (const glm::uvec3& triangle : mesh.triangles) {
+        const glm::dvec3 a = mesh.origin + glm::dvec3(mesh.positions[triangle.x]) - point;
+        const glm::dvec3 b = mesh.origin + glm::dvec3(mesh.positions[triangle.y]) - point;
+        const glm::dvec3 c = mesh.origin + glm::dvec3(mesh.positions[triangle.z]) - point;
+        const double la = glm::length(a);
+        const double lb = glm::length(b);
+        const double lc = glm::length(c);
+        const double numerator = glm::dot(a, glm::cross(b, c));
+        const double denominator =
+            la * lb * lc + glm::dot(a, b) * lc + glm::dot(a, c) * lb + glm::dot(b, c) * la;
+        const double part = 2.0 * std::atan2(numerator, denominator);
+        if (std::isfinite(part)) solidAngle += part;
+    }
+    return std::abs(solidAngle) > 2.0 * 3.14159265358979323846;
+}
+
+int sidesOf(const scene::Scene& scene, const scene::Object& object, const scene::Light& light) {
+    if (isOpen(scene, object.material)) return kFromOutside | kFromWithin;
+    const bool isDielectric =
+        scene.materials[object.material].kind == scene::MaterialKind::dielectric;
+    if (!isDielectric || light.kind == scene::LightKind::directional) return kFromOutside;
+    const glm::dvec3 position(glm::inverse(object.toWorld) * glm::dvec4(light.position, 1.0));
+    return isInside(scene.meshes[object.mesh], position) ? kFromWithin : kFromOutside;
+}
+
+// The triangles around each vertex, after those of other meshes.
+void addFans(const scene::Mesh& mesh, std::vector<glm::uvec2>& fans,
+             std::vector<std::uint32_t>& firsts) {
+    std::vector<std::uint32_t> count(mesh.positions.size() + 1, 0);
+    for (const glm::uvec3& triangle : mesh.triangles) {
+        for (int i = 0; i < 3; ++i)
+            ++count[triangle[i] + 1];
+    }
+    count[0] = static_cast<std::uint32_t>(fans.size());
+    for (std::size_t v = 1; v < count.size(); ++v)
+        count[v] += count[v - 1];
+    firsts.insert(firsts.end(), count.begin(), count.end());
+    fans.resize(count.back());
+    for (const glm::uvec3& triangle : mesh.triangles) {
+        for (int i = 0; i < 3; ++i)
+            fans[count[triangle[i]]++] = {triangle[(i + 1) % 3], triangle[(i + 2) % 3]};
+    }
+}
+
+void addObjects(const FrameBuilder& frame, Emission& emission) {
+    const scene::Scene& scene = frame.scene();
+    struct MeshRange {
+        bool isThere = false;
+        std::uint32_t firstVertex = 0;
+        std::uint32_t firstFan = 0;
+    };
+    std::vector<MeshRange> ranges(scene.meshes.size());
+    for (const render::GpuScene::HeightFieldRange& field : frame.gpuScene().heightFields())
+        ranges[field.mesh].firstVertex = static_cast<std::uint32_t>(field.firstVertex);
+    std::vector<transport::VertexData> vertices;
+    std::vector<glm::uvec2> fans;
+    std::vector<std::uint32_t> firsts;
+    std::uint32_t cells = 0;
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        const scene::Object& object = scene.objects[i];
+        if (!isSpecular(scene, object)) continue;
+        const scene::Mesh& mesh = scene.meshes[object.mesh];
+        MeshRange& range = ranges[object.mesh];
+        if (!range.isThere) {
+            range.isThere = true;
+            range.firstFan = static_cast<std::uint32_t>(firsts.size());
+            addFans(mesh, fans, firsts);
+            if (!mesh.heightField) {
+                range.firstVertex = static_cast<std::uint32_t>(vertices.size());
+                for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+                    vertices.push_back({mesh.positions[v], 0.0f, mesh.normals[v], 0.0f});
+            }
+        }
+        const auto count = static_cast<std::uint32_t>(mesh.positions.size());
+        EmittingObject emitting{static_cast<std::uint32_t>(i),
+                                mesh.heightField.has_value(),
+                                count,
+                                range.firstVertex,
+                                range.firstFan,
+                                cells,
+                                {}};
+        for (const scene::Light& light : scene.lights)
+            emitting.sides.push_back(sidesOf(scene, object, light));
+        emission.objects.push_back(std::move(emitting));
+        cells += count;
+    }
+    vertices.push_back({});  // blocks are never empty
+    fans.emplace_back(0u);
+    firsts.push_back(0);
+    emission.vertices = gl::Buffer(vertices, "specular vertices");
+    emission.fans = gl::Buffer(fans, "specular fans");
+    emission.fanFirsts = gl::Buffer(firsts, "specular fan firsts");
+}
+
+void addLights(FrameBuilder& frame, Emission& emission) {
+    const scene::Scene& scene = frame.scene();
+    scene::Bounds target;
+    for (const EmittingObject& emitting : emission.objects) {
+        const scene::Bounds bounds = objectBounds(scene, scene.objects[emitting.object]);
+        target.include(bounds.minimum);
+        target.include(bounds.maximum);
+    }
+    if (target.empty) return;
+    for (const scene::Light& light : scene.lights) {
+        const render::RasterView view = render::makeLightView(light, target, sceneBounds(scene));
+        if (view.isClipped) {
+            frame.warn(fmt::format(
+                "Light '{}' sees the specular objects wider than 160 degrees; photons outside of "
+                "that are not emitted and are in no account.",
+                light.name));
+        }
+        emission.lights.push_back({view.projection(), render::between(frame.view(), view),
+                                   frame.gpuScene().makeInstances(view.worldToView)});
+    }
+}
+
+void renderDepths(FrameBuilder& frame, int size, const Geometry& geometry,
+                  const std::shared_ptr<Emission>& emission) {
+    struct Data {
+        graph::Texture<LightDepth> depths;
+        graph::Texture<DepthBuffer> buffer;
+        Geometry geometry;
+    };
+    const int lights = std::max(static_cast<int>(emission->lights.size()), 1);
+    const Data& made = frame.pass<Data>(
+        "emit.light_depths", "a light emits only where it is the first surface that it sees",
+        [&](graph::PassSetup& setup, Data& data) {
+            data.geometry = geometry;
+            if (geometry.heightFields.valid()) setup.read(geometry.heightFields);
+            data.depths = setup.create<LightDepth>("emit.light_depths", size, size, lights);
+            data.buffer = setup.create<DepthBuffer>("emit.light_depth_buffer", size, size);
+            setup.bypass(data.depths, {0, 0, 0, 0});
+            setup.bypass(data.buffer, {0, 0, 0, 0});
+        },
+        [&inputs = frame.inputs(), emission](const Data& data, gl::PassContext& context) {
+            for (std::size_t light = 0; light < emission->lights.size(); ++light) {
+                const LightSight& sight = emission->lights[light];
+                gl::Command command = context.shaders({"shared/eye.vert", "shared/shadow.frag"});
+                command.set("projection", sight.projection)
+                    .target(data.depths, static_cast<int>(light))
+                    .clear()
+                    .depth(data.buffer, gl::DepthTest::nearerReversed)
+                    .clear();
+                inputs.gpuScene.draw(command, context, data.geometry, sight.instances,
+                                     render::DrawSet::all);
+            }
+        });
+    emission->depths = made.depths;
+}
+
+// Of the first batch; the others share it.
+std::shared_ptr<Emission> makeEmission(FrameBuilder& frame, const VertexEmissionParams& params,
+                                       const Geometry& geometry) {
+    auto emission = std::make_shared<Emission>();
+    addObjects(frame, *emission);
+    addLights(frame, *emission);
+    renderDepths(frame, params.size, geometry, emission);
+    if (frame.inputs().params.isSetByUser("emit.photons"))
+        frame.warn("emit.photons has no effect: emit=vertices takes one photon a vertex.");
+    return emission;
+}
+
+}  // namespace
+
+params::Extent verticesOfALight(const FrameBuilder& frame) {
+    std::size_t count = 0;
+    for (const scene::Object& object : frame.scene().objects) {
+        if (isSpecular(frame.scene(), object))
+            count += frame.scene().meshes[object.mesh].positions.size();
+    }
+    const int photons = std::max(static_cast<int>(count), 1);
+    const int width = std::min(photons, kRowLength);
+    return {width, (photons + width - 1) / width};
+}
+
+Hits emitVertices(FrameBuilder& frame, const VertexEmissionParams& params, Surfaces surfaces,
+                  Samples samples) {
+    const int width = verticesOfALight(frame).width;
+    const auto emission = frame.once<Emission>(
+        "emit.vertices", [&] { return makeEmission(frame, params, surfaces.geometry); });
+    std::size_t vertices = 0;
+    for (const EmittingObject& emitting : emission->objects)
+        vertices += emitting.vertices;
+    struct Data {
+        Hits hits;
+        Geometry geometry;
+    };
+    return frame
+        .pass<Data>(
+            "emit.vertices",
+            fmt::format("{} vertices, {} light{}", vertices, emission->lights.size(),
+                        emission->lights.size() == 1 ? "" : "s"),
+            [&](graph::PassSetup& setup, Data& data) {
+                data.geometry = surfaces.geometry;
+                if (data.geometry.heightFields.valid()) setup.read(data.geometry.heightFields);
+                setup.sample("lightDepths", emission->depths);
+                Photons photons =
+                    Photons::create(setup, width, samples.rows * samples.lights, samples.suffix);
+                photons.batch = samples.suffix;
+                photons.ledger = samples.ledger.valid()
+                                     ? setup.write(samples.ledger)
+                                     : setup.createBuffer<transport::LedgerEntry>(
+                                           "ledger", transport::kAccountCount);
+                photons.store(setup, "next", "NextPhotons");
+                data.hits = Hits::create(setup, photons);
+                data.hits.store(setup);
+            },
+            [&inputs = frame.inputs(), emission, samples](const Data& data,
+                                                          gl::PassContext& context) {
+                const Photons& photons = data.hits.incoming;
+                if (!samples.ledger.valid()) context.buffer(photons.ledger).clear();
+                fillList(context, photons);
+                // Vertices that the light does not see are nobody.
+                for (const graph::ResourceRef& handle : std::initializer_list<graph::ResourceRef>{
+                         photons.position, photons.direction, photons.flux, photons.origin,
+                         data.hits.position, data.hits.surface, data.hits.flux}) {
+                    context.texture(handle).clear({0, 0, 0, 0});
+                }
+                const int end = std::min(samples.firstLight + samples.lights,
+                                         static_cast<int>(emission->lights.size()));
+                for (int light = samples.firstLight; light < end; ++light) {
+                    const auto number = static_cast<std::size_t>(light);
+                    const LightSight& sight = emission->lights[number];
+                    for (const EmittingObject& emitting : emission->objects) {
+                        gl::Command command = context.compute("shared/emit_vertices.comp");
+                        if (emitting.isHeightField) {
+                            command.storage("MeshVertices", data.geometry.heightFields);
+                        } else {
+                            command.storage("MeshVertices", emission->vertices);
+                        }
+                        command.storage("Instances", inputs.instances.instances)
+                            .storage("Fans", emission->fans)
+                            .storage("FanFirsts", emission->fanFirsts)
+                            .set("projection", sight.projection)
+                            .set("eyeToLight", sight.eyeToLight)
+                            .set("lightIndex", light)
+                            .set("object", emitting.object)
+                            .set("sides", emitting.sides[number])
+                            .set("vertexCount", emitting.vertices)
+                            .set("firstVertex", emitting.firstVertex)
+                            .set("firstFan", emitting.firstFan)
+                            .set("firstCell", emitting.firstCell)
+                            .set("batchCells", samples.rows * photons.width)
+                            .set("firstOfBatch", samples.firstRow * photons.width)
+                            .set("firstOfLight",
+                                 (light - samples.firstLight) * samples.rows * photons.width)
+                            .dispatchOver(static_cast<int>(emitting.vertices), 64);
+                    }
+                }
+            })
+        .hits;
+}
+
+}  // namespace kaustik
