@@ -85,12 +85,22 @@ GLuint PassContext::framebuffer(const std::vector<Attachment>& attachments) {
     return executor_.framebuffer(attachments);
 }
 
+GLuint PassContext::bareFramebuffer(glm::ivec2 size) {
+    const GLuint framebuffer = executor_.bareFramebuffer_.id();
+    glNamedFramebufferParameteri(framebuffer, GL_FRAMEBUFFER_DEFAULT_WIDTH, size.x);
+    glNamedFramebufferParameteri(framebuffer, GL_FRAMEBUFFER_DEFAULT_HEIGHT, size.y);
+    return framebuffer;
+}
+
 GLuint PassContext::emptyVertexArray() const {
     return executor_.emptyVertexArray_.id();
 }
 
 Executor::Executor(Context& context, ProgramCache& programs)
-    : context_(context), programs_(programs), emptyVertexArray_(makeVertexArray()) {
+    : context_(context),
+      programs_(programs),
+      emptyVertexArray_(makeVertexArray()),
+      bareFramebuffer_(makeFramebuffer()) {
     // Depth runs from 0 to 1 everywhere, so that reversed z keeps the precision of its floats.
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     glDisable(GL_DITHER);
@@ -107,8 +117,10 @@ void Executor::prepare(graph::Compiled compiled) {
     framebuffers_.clear();
     std::vector<Physical> old = std::exchange(slots_, {});
     for (const graph::Slot& slot : compiled_.slots) {
-        const auto kept = std::find_if(old.begin(), old.end(),
-                                       [&](const Physical& p) { return p.desc == slot.desc; });
+        const std::string lastingName = slot.lasts ? slot.firstName : "";
+        const auto kept = std::find_if(old.begin(), old.end(), [&](const Physical& p) {
+            return p.desc == slot.desc && p.lastingName == lastingName;
+        });
         if (kept != old.end()) {
             slots_.push_back(std::move(*kept));
             old.erase(kept);
@@ -117,6 +129,7 @@ void Executor::prepare(graph::Compiled compiled) {
         context_.setScope("while allocating '" + slot.firstName + "'");
         Physical physical;
         physical.desc = slot.desc;
+        physical.lastingName = lastingName;
         if (const auto* texture = std::get_if<graph::TextureDesc>(&slot.desc)) {
             const DeviceInfo& info = context_.info();
             if (texture->width > info.maxTextureSize || texture->height > info.maxTextureSize ||
@@ -132,6 +145,8 @@ void Executor::prepare(graph::Compiled compiled) {
         } else {
             physical.buffer = Buffer(graph::bytesOf(slot.desc), nullptr, slot.firstName);
         }
+        if (slot.lasts && physical.texture.id() != 0) physical.texture.clear({0, 0, 0, 0});
+        if (slot.lasts && physical.buffer.id() != 0) physical.buffer.clear();
         context_.check();
         slots_.push_back(std::move(physical));
     }

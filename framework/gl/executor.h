@@ -53,6 +53,8 @@ class PassContext : public graph::ExecuteContext {
     void order(const std::vector<Access>& accesses) const;
     [[nodiscard]] ProgramCache& programs();
     [[nodiscard]] GLuint framebuffer(const std::vector<Attachment>& attachments);
+    // Of so many pixels, without a texture.
+    [[nodiscard]] GLuint bareFramebuffer(glm::ivec2 size);
     [[nodiscard]] GLuint emptyVertexArray() const;
 
   private:
@@ -92,6 +94,7 @@ class Executor {
         Texture texture;
         Buffer buffer;
         graph::ResourceDesc desc;
+        std::string lastingName;  // of the resource whose it is from frame to frame
     };
     void clearSlot(std::size_t slot, const graph::ClearValue& value);
     void poison(const graph::Step& step);
@@ -106,6 +109,7 @@ class Executor {
     Barriers barriers_;
     std::map<std::vector<std::tuple<GLuint, int, bool>>, FramebufferObject> framebuffers_;
     VertexArrayObject emptyVertexArray_;
+    FramebufferObject bareFramebuffer_;
     bool poison_ = false;
     bool isFresh_ = true;  // no frame has been run since prepare()
 };

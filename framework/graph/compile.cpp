@@ -75,20 +75,35 @@ void Graph::planRequired(Plan& plan) const {
     const auto need = [&](const ResourceRef& handle) {
         plan.needed[resources_[handle.index].writers[handle.version]] = true;
     };
+    const auto walkBack = [&] {
+        for (std::size_t p = passes_.size(); p-- > 0;) {
+            const Pass& pass = passes_[p];
+            if (pass.hasSideEffect && !plan.bypassed[p]) plan.needed[p] = true;
+            if (!plan.needed[p]) continue;
+            if (plan.bypassed[p]) {
+                for (const Bypass& bypass : pass.bypasses) {
+                    if (bypass.input.valid()) need(bypass.input);
+                }
+            } else {
+                for (const ResourceRef& handle : pass.reads)
+                    need(handle);
+            }
+        }
+    };
     for (const ResourceRef& handle : requested_)
         need(handle);
-    for (std::size_t p = passes_.size(); p-- > 0;) {
-        const Pass& pass = passes_[p];
-        if (pass.hasSideEffect && !plan.bypassed[p]) plan.needed[p] = true;
-        if (!plan.needed[p]) continue;
-        if (plan.bypassed[p]) {
-            for (const Bypass& bypass : pass.bypasses) {
-                if (bypass.input.valid()) need(bypass.input);
-            }
-        } else {
-            for (const ResourceRef& handle : pass.reads)
-                need(handle);
+    walkBack();
+    // The next frame reads what this one leaves in a resource that lasts.
+    for (bool found = true; found;) {
+        found = false;
+        for (const Resource& resource : resources_) {
+            if (!resource.lasts || plan.needed[resource.writers.back()]) continue;
+            const auto isNeeded = [&](std::size_t pass) { return plan.needed[pass]; };
+            if (!std::any_of(resource.writers.begin(), resource.writers.end(), isNeeded)) continue;
+            plan.needed[resource.writers.back()] = true;
+            found = true;
         }
+        if (found) walkBack();
     }
 }
 
@@ -182,6 +197,9 @@ void Graph::assignSlots(const Plan& plan, Compiled& compiled) const {
     }
     for (const ResourceRef& handle : requested_)
         touch(handle, passOfStep.size());
+    for (std::size_t r = 0; r < resources_.size(); ++r) {
+        if (resources_[r].lasts && lives[r].first != kNoSlot) lives[r].last = passOfStep.size();
+    }
     if (keepAll_) {
         for (Life& life : lives) {
             if (life.first != kNoSlot) life.last = passOfStep.size();
@@ -207,18 +225,20 @@ void Graph::assignSlots(const Plan& plan, Compiled& compiled) const {
             if (lives[r].first > step || lives[r].last < step) continue;
             alive += bytesOf(resources_[r].desc);
             if (lives[r].first != step) continue;
+            const bool lasts = resources_[r].lasts;
             std::size_t slot = kNoSlot;
-            for (std::size_t s = 0; s < compiled.slots.size() && slot == kNoSlot; ++s) {
+            for (std::size_t s = 0; s < compiled.slots.size() && slot == kNoSlot && !lasts; ++s) {
                 const bool isFree = freeAfter[s] < step;
                 if (isFree && compiled.slots[s].desc == resources_[r].desc) slot = s;
             }
             if (slot == kNoSlot) {
                 slot = compiled.slots.size();
-                compiled.slots.push_back({resources_[r].desc, resources_[r].name});
+                compiled.slots.push_back({resources_[r].desc, resources_[r].name, lasts});
                 freeAfter.push_back(0);
             }
             freeAfter[slot] = lives[r].last;
             compiled.slotOfResource[r] = slot;
+            if (lasts) continue;  // it is born once
             compiledStep.births.push_back(slot);
             if (lives[r].last == passOfStep.size()) compiledStep.keptBirths.push_back(slot);
         }

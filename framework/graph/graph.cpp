@@ -23,10 +23,14 @@ ResourceRef PassSetup::createResource(const std::string& name, ResourceDesc desc
         graph_.problems_.push_back(fmt::format("pass '{}' creates '{}' with no bytes",
                                                graph_.passes_[pass_].info.name, name));
     }
-    graph_.resources_.push_back({name, desc, {pass_}});
+    graph_.resources_.push_back({name, desc, {pass_}, false});
     const ResourceRef handle{static_cast<std::uint32_t>(graph_.resources_.size() - 1), 0};
     graph_.passes_[pass_].outputs.push_back(handle);
     return handle;
+}
+
+void PassSetup::makeLasting(const ResourceRef& handle) {
+    graph_.resources_[handle.index].lasts = true;
 }
 
 void PassSetup::readResource(const ResourceRef& handle) {

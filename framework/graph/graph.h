@@ -70,6 +70,22 @@ class PassSetup {
             createResource(name, BufferDesc{count * sizeof(Content)});
         return handle;
     }
+    // The same, but what this frame leaves in it the next one finds: zeros before the first frame,
+    // and after the graph has been built anew what a resource of the same name and shape had. What
+    // is written to it last runs whenever anything of it is read.
+    template <class Content>
+    [[nodiscard]] Texture<Content> createLasting(const std::string& name, int width, int height,
+                                                 int layers = 0) {
+        const Texture<Content> handle = create<Content>(name, width, height, layers);
+        makeLasting(handle);
+        return handle;
+    }
+    template <class Content>
+    [[nodiscard]] Buffer<Content> createLastingBuffer(const std::string& name, std::size_t count) {
+        const Buffer<Content> handle = createBuffer<Content>(name, count);
+        makeLasting(handle);
+        return handle;
+    }
     template <class Handle>
     Handle read(const Handle& handle) {
         readResource(handle);
@@ -118,6 +134,7 @@ class PassSetup {
     friend class Graph;
     PassSetup(Graph& graph, std::size_t pass) : graph_(graph), pass_(pass) {}
     ResourceRef createResource(const std::string& name, ResourceDesc desc);
+    void makeLasting(const ResourceRef& handle);
     void readResource(const ResourceRef& handle);
     ResourceRef writeResource(const ResourceRef& handle);
     void bypassForward(const ResourceRef& output, const ResourceRef& input);
@@ -132,6 +149,7 @@ class PassSetup {
 struct Slot {
     ResourceDesc desc;
     std::string firstName;  // of the resource that lives in it first, for debug labels
+    bool lasts = false;     // it is that resource's alone, from frame to frame
 };
 
 struct Step {
@@ -262,6 +280,7 @@ class Graph {
         std::string name;
         ResourceDesc desc;
         std::vector<std::size_t> writers;  // pass of each version
+        bool lasts = false;
     };
     struct Plan;
 

@@ -96,14 +96,6 @@ void fillList(gl::PassContext& context, const Photons& photons) {
 
 namespace {
 
-// A path through still water meets it once. Where one can come back, the limit decides, and the
-// ledger says what it cost.
-int interactionCount(const FrameBuilder& frame, const ModelledPaths& paths) {
-    const scene::MeetingsAgain& again = frame.needs().meetsAgain;
-    const bool canRepeat = paths.transmissionOnly ? again.transmitted : again.reflected;
-    return canRepeat ? frame.params<SpecularParams>("specular").bounces : 1;
-}
-
 // Why the frame has no caustic; "" if it may have one.
 std::string whyNoCaustic(const FrameBuilder& frame) {
     const scene::SceneNeeds& needs = frame.needs();
@@ -116,9 +108,9 @@ std::string whyNoCaustic(const FrameBuilder& frame) {
 
 // Irradiance of zero and an empty ledger, in place of all that follows photons.
 IrradianceMap leaveOutCaustic(FrameBuilder& frame, const std::string& why) {
-    for (const char* stage :
-         {EmitStage::name, SpecularStage::name, TraceStage::name, MediaStage::name, BlurStage::name,
-          ReconstructStage::name, GatherStage::name}) {
+    for (const char* stage : {DriverStage::name, EmitStage::name, SpecularStage::name,
+                              TraceStage::name, MediaStage::name, BlurStage::name,
+                              ReconstructStage::name, FilterStage::name, GatherStage::name}) {
         const std::string node = frame.chosenNode(stage).name;
         frame.leaveOut(std::string(stage) + "." + node, why);
     }
@@ -136,67 +128,6 @@ IrradianceMap leaveOutCaustic(FrameBuilder& frame, const std::string& why) {
         });
 }
 
-struct Caustic {
-    Hits last;  // of the last tracing
-    CausticMap map;
-    InScattered inScattered;
-};
-
-// All photons at once, or, where they are more than a batch may hold, whole rows of one light's
-// photons after the other.
-std::vector<Samples> batchesOf(const FrameBuilder& frame) {
-    const int most = frame.params<EmitParams>("emit").batch;
-    const params::Extent photons = frame.photonsOfALight();
-    const int lights = std::max(frame.needs().lights, 1);
-    const std::int64_t all = std::int64_t{photons.width} * photons.height * lights;
-    if (all <= most) return {{0, lights, 0, photons.height, "", {}}};
-    const int rows = std::clamp(most / photons.width, 1, photons.height);
-    std::vector<Samples> batches;
-    for (int light = 0; light < lights; ++light) {
-        for (int row = 0; row < photons.height; row += rows) {
-            const std::string suffix =
-                batches.empty() ? "" : fmt::format(".{}", batches.size() + 1);
-            batches.push_back({light, 1, row, std::min(rows, photons.height - row), suffix, {}});
-        }
-    }
-    return batches;
-}
-
-// From interaction to interaction: what arrives is deposited at once, and what meets another
-// specular surface is the next list.
-Caustic followPhotons(FrameBuilder& frame, const Surfaces& surfaces) {
-    const bool scatters = frame.needs().scatteringMedium;
-    Caustic caustic;
-    for (Samples samples : batchesOf(frame)) {
-        samples.ledger = caustic.map.ledger;
-        Hits hits = frame.run<EmitStage>(surfaces, samples);
-        int interactions = 1;
-        for (int i = 0; i < interactions; ++i) {
-            const Photons photons = frame.run<SpecularStage>(hits);
-            interactions = interactionCount(frame, photons.paths);
-            hits = frame.run<TraceStage>(photons, surfaces);
-            caustic.map = frame.run<ReconstructStage>(hits, surfaces, caustic.map);
-            hits.incoming.ledger = caustic.map.ledger;
-            if (scatters) {
-                caustic.inScattered =
-                    frame.run<MediaStage>(hits, surfaces.eye, caustic.inScattered);
-            }
-        }
-        // What is still on its way is counted at once, so that the batch need not be kept.
-        caustic.map.ledger = closeBatch(frame, hits, caustic.map.ledger);
-        caustic.last = hits;
-    }
-    if (scatters) {
-        caustic.inScattered = frame.run<BlurStage>(caustic.inScattered);
-    } else {
-        for (const char* stage : {MediaStage::name, BlurStage::name}) {
-            frame.leaveOut(std::string(stage) + "." + frame.chosenNode(stage).name,
-                           "the scene has no medium that scatters");
-        }
-    }
-    return caustic;
-}
-
 }  // namespace
 
 FrameOutputs buildFrame(FrameBuilder& frame) {
@@ -209,7 +140,8 @@ FrameOutputs buildFrame(FrameBuilder& frame) {
     Caustic caustic;
     IrradianceMap irradiance;
     if (whyNot.empty()) {
-        caustic = followPhotons(frame, surfaces);
+        caustic = frame.run<DriverStage>(surfaces);
+        caustic.map = frame.run<FilterStage>(caustic.map);
         irradiance = frame.run<GatherStage>(caustic.map, surfaces);
     } else {
         irradiance = leaveOutCaustic(frame, whyNot);

@@ -68,7 +68,7 @@ struct HitSurface {  // xyz: outward normal; w: material + 1
 struct HitFlux {  // rgb: W that arrive; w: fate
     static constexpr Format format = Format::rgba32f;
 };
-struct FluxWord {  // array: words of sums in fixed point (transport::kFluxWords), W, and W/sr
+struct FluxWord {  // array: words of sums in fixed point (transport::kFluxWords)
     static constexpr Format format = Format::r32ui;
 };
 struct IrradianceTexel {  // rgb: W/m²
@@ -220,6 +220,8 @@ struct Radiance {
 // transmittance to the eye; invalid where the scene has no medium that scatters.
 struct InScattered {
     graph::Texture<RadianceTexel> radiance;
+    // The sums that it is made of, in fixed point, for nodes that add to them (K06, section 3.2).
+    graph::Texture<FluxWord> sums;
 };
 
 // Which direct light reaches the receivers; invalid where the scene has no light.
@@ -264,6 +266,13 @@ struct Samples {
     Ledger ledger;       // of the batches before; invalid before the first
 };
 
+// What following photons leaves.
+struct Caustic {
+    Hits last;  // of the last tracing
+    CausticMap map;
+    InScattered inScattered;
+};
+
 class FrameBuilder;
 
 // A stage is its name and its signature.
@@ -287,6 +296,11 @@ struct LayersStage : Stage<LayeredDepth(Geometry)> {
     static constexpr const char* name = "layers";
     static constexpr const char* question = "Which surfaces lie along each eye ray?";
 };
+// Drives the stages from emit to media: which photons are emitted, and when.
+struct DriverStage : Stage<Caustic(Surfaces)> {
+    static constexpr const char* name = "driver";
+    static constexpr const char* question = "Which photons are followed, and in which order?";
+};
 struct EmitStage : Stage<Hits(Surfaces, Samples)> {
     static constexpr const char* name = "emit";
     static constexpr const char* question = "Where does light first meet a specular surface?";
@@ -304,6 +318,11 @@ struct TraceStage : Stage<Hits(Photons, Surfaces)> {
 struct ReconstructStage : Stage<CausticMap(Hits, Surfaces, CausticMap)> {
     static constexpr const char* name = "reconstruct";
     static constexpr const char* question = "How does flux at points become a map of flux?";
+};
+// Once all light has been stored.
+struct FilterStage : Stage<CausticMap(CausticMap)> {
+    static constexpr const char* name = "filter";
+    static constexpr const char* question = "How is the map of flux smoothed?";
 };
 struct GatherStage : Stage<IrradianceMap(CausticMap, Surfaces)> {
     static constexpr const char* name = "gather";

@@ -6,6 +6,7 @@
 // the line on the screen 1/z goes from 1/z0 to 1/z1 linearly, and so dt/z² = (t1 - t0)/(z0 z1) di:
 // nothing is singular for a way towards the eye, and a column of pixels gets its share of the line
 // exactly (hard case 36). Across the line the shares of a column's pixels add up to 1.
+#include "common/flux_sum.glsl"
 #include "screen_space_photons/god_rays.glsl"
 
 flat in vec4 wayPixels;
@@ -17,8 +18,7 @@ flat in vec2 wayWidth;
 flat in int isSteep;
 
 uniform sampler2D receiver;
-
-layout(location = 0) out vec4 radiance;
+uniform float radianceScale;  // units of the sums are so many of the ledger's, 1/(m² sr)
 
 // The part of a parabola on [-1, 1], of area 1, that lies below x.
 float parabolaBelow(float x) {
@@ -80,5 +80,6 @@ void main() {
         float cosine = -dot(wayDirection, ray) / slant;
         sum += across * slant * phaseFunction(cosine) * exp(-opticalDepth);
     }
-    radiance = vec4(wayPower * (sum * piece), 0.0);
+    vec3 radiance = wayPower * (sum * piece);
+    sumAdd(ivec2(pixel), 0, radiance * (ledgerUnitsPerWatt / radianceScale));
 }

@@ -9,7 +9,6 @@
 layout(std430) buffer NarrowedLines {
     Narrowed narrowed;
 };
-uniform int firstPhoton;  // of the batch
 
 flat out vec4 wayPixels;  // of both ends; the longer axis of the line comes first
 flat out vec4 wayEnds;    // 1/z and t of both ends
@@ -21,7 +20,7 @@ flat out int isSteep;
 
 void main() {
     gl_Position = vec4(-2.0, -2.0, 0.0, 1.0);
-    uint index = uint(firstPhoton + gl_InstanceID);
+    uint index = uint(gl_InstanceID);
     if (index >= photons.count) return;
     ivec2 texel = ivec2(photonTexel(photons, index));
     Photon photon = photonAt(texel);

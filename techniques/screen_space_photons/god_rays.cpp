@@ -12,14 +12,14 @@
 // half times the beam, which has the least error (experiments/krueger2006_god_rays.toml: a third of
 // the one-pixel lines' for 64 x 64 photons, the same where beams are no wider than pixels). Where
 // many photons cross a pixel, as at a focus or before an eye in the medium, a plain sum drifts
-// (hard case 34): they come in batches whose sums are added up with compensation.
+// (hard case 34): they are summed in fixed point, which no order and no batch changes.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <bit>
+#include <cmath>
+#include <cstddef>
 
 #include "framework/pipeline/frame_builder.h"
-#include "techniques/screen_space_photons/batch_sum.h"
 #include "techniques/screen_space_photons/nodes.h"
 
 namespace kaustik {
@@ -47,17 +47,25 @@ void keepToWidth(FrameBuilder& frame, const GodRayParams& params,
                    }});
 }
 
+// The unit of the sums of radiance in units of the ledger's, a power of two: where all light passes
+// through one pixel as far from the eye as the scene is wide, a 2⁻¹⁴th of what they hold.
+float radianceScaleOf(const FrameBuilder& frame) {
+    const scene::Bounds bounds = sceneBounds(frame.scene());
+    const double extent = bounds.empty ? 1.0 : glm::length(bounds.maximum - bounds.minimum);
+    const double pixel = extent * frame.view().footprintPerMeter();
+    return static_cast<float>(std::exp2(std::round(std::log2(1024.0 / (pixel * pixel)))));
+}
+
 }  // namespace
 
 InScattered drawGodRays(FrameBuilder& frame, const GodRayParams& params, Hits hits, EyeBuffer eye,
                         InScattered before) {
-    const int photons = hits.incoming.capacity();
-    const bool isBatched = photons > kBatchPhotons;
-    const bool isFirst = !before.radiance.valid();
+    const bool isFirst = !before.sums.valid();
     const int run = frame.runsOf(MediaStage::name);
+    const int w = frame.width();
+    const int h = frame.height();
     struct Data {
         InScattered out;
-        BatchSum<RadianceTexel> parts;
         graph::Buffer<transport::Narrowed> narrowed;
     };
     const Data& drawn = frame.pass<Data>(
@@ -67,41 +75,50 @@ InScattered drawGodRays(FrameBuilder& frame, const GodRayParams& params, Hits hi
             hits.incoming.sample(setup);
             setup.sample("receiver", eye.receiver);
             if (isFirst) {
-                data.out.radiance = setup.create<RadianceTexel>("media.in_scattered", frame.width(),
-                                                                frame.height());
-                setup.bypass(data.out.radiance, {0, 0, 0, 0});
+                data.out.sums = setup.create<FluxWord>("media.sums", w, h,
+                                                       static_cast<int>(transport::kFluxWords));
+                setup.bypass(data.out.sums, {0, 0, 0, 0});
             } else {
-                data.out.radiance = setup.write(before.radiance);
-                setup.bypass(data.out.radiance, before.radiance);
+                data.out.sums = setup.write(before.sums);
+                setup.bypass(data.out.sums, before.sums);
             }
-            data.narrowed = setup.createBuffer<transport::Narrowed>(
-                run == 1 ? "media.narrowed" : fmt::format("media.narrowed_{}", run), 1);
+            setup.image("fluxSums", data.out.sums);
+            data.narrowed = setup.storage(
+                "NarrowedLines",
+                setup.createBuffer<transport::Narrowed>(
+                    run == 1 ? "media.narrowed" : fmt::format("media.narrowed_{}", run), 1));
             setup.bypass(data.narrowed, {0, 0, 0, 0});
-            if (isBatched) {
-                data.parts = createBatchSum<RadianceTexel>(
-                    setup, frame, "media",
-                    run == 1 ? "in_scattered" : fmt::format("in_scattered_{}", run));
-            }
         },
-        [&inputs = frame.inputs(), params, photons, isBatched, isFirst](const Data& data,
-                                                                        gl::PassContext& context) {
-            if (isFirst) context.texture(data.out.radiance).clear({0, 0, 0, 0});
-            clear(context, data.parts);
+        [params, isFirst, w, h, list = hits.incoming.list, scale = radianceScaleOf(frame)](
+            const Data& data, gl::PassContext& context) {
+            if (isFirst) context.texture(data.out.sums).clear({0, 0, 0, 0});
             context.buffer(data.narrowed).clear();
-            gl::Command command = context.shaders(
-                {"screen_space_photons/god_rays.vert", "screen_space_photons/god_rays.frag"});
-            command.params("media.lines", params)
-                .storage("NarrowedLines", data.narrowed)
-                .target(isBatched ? data.parts.batch : data.out.radiance)
-                .blend(gl::Blend::add);
-            for (int first = 0; first < photons; first += kBatchPhotons) {
-                command.set("firstPhoton", first)
-                    .drawArrays(GL_TRIANGLE_STRIP, 4, std::min(kBatchPhotons, photons - first));
-                if (isBatched) addBatch(context, inputs, data.out.radiance, data.parts);
-            }
+            context
+                .shaders(
+                    {"screen_space_photons/god_rays.vert", "screen_space_photons/god_rays.frag"})
+                .params("media.lines", params)
+                .set("radianceScale", scale)
+                .pixels(w, h)
+                .drawIndirect(GL_TRIANGLE_STRIP, list, offsetof(transport::PhotonList, vertices));
         });
     keepToWidth(frame, params, drawn.narrowed);
-    return drawn.out;
+    InScattered out = drawn.out;
+    out.radiance = frame.pass<graph::Texture<RadianceTexel>>(
+        "media.sum", "what photons scatter becomes radiance",
+        [&](graph::PassSetup& setup, graph::Texture<RadianceTexel>& radiance) {
+            setup.sample("fluxSums", out.sums);
+            radiance = isFirst ? setup.create<RadianceTexel>("media.in_scattered", w, h)
+                               : setup.write(before.radiance);
+            setup.bypass(radiance, {0, 0, 0, 0});
+        },
+        [scale = radianceScaleOf(frame)](const graph::Texture<RadianceTexel>& radiance,
+                                         gl::PassContext& context) {
+            context.fullscreen("screen_space_photons/god_rays_sum.frag")
+                .set("radianceScale", scale)
+                .target(radiance)
+                .draw();
+        });
+    return out;
 }
 
 }  // namespace kaustik

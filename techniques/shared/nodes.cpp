@@ -9,12 +9,14 @@ void registerSharedNodes(Registry& registry) {
     registry.stage<EyeStage>();
     registry.stage<LayersStage>();
     registry.stage<ShadowStage>();
+    registry.stage<DriverStage>();
     registry.stage<EmitStage>();
     registry.stage<SpecularStage>();
     registry.stage<TraceStage>();
     registry.stage<ReconstructStage>();
     registry.stage<MediaStage>();
     registry.stage<BlurStage>();
+    registry.stage<FilterStage>();
     registry.stage<GatherStage>();
     registry.stage<ViewStage>();
     registry.stage<ComposeStage>();
@@ -31,6 +33,10 @@ void registerSharedNodes(Registry& registry) {
                              "every pixel.",
                              ""},
                             &renderEye);
+    registry.node<DriverStage>(
+        "dense",
+        {"Every photon of every light, from interaction to interaction.", "K06, section 2.3"},
+        &followAllPhotons);
     registry.node<EmitStage>("grid",
                              {"Rasterises the specular surfaces from each light, one photon a "
                               "texel.",
@@ -57,6 +63,8 @@ void registerSharedNodes(Registry& registry) {
     registry.node<SpecularStage>(
         "split", {"Refracts and reflects: follows both Fresnel branches.", "K06, section 2.3"},
         &splitAtInterface);
+    registry.node<FilterStage>("none", {"Leaves the map of flux as it was stored.", ""},
+                               &leaveUnfiltered);
     registry.node<GatherStage>("screen",
                                {"Flux that was stored by the eye's pixels, over what they see.",
                                 "Krüger et al. 2006, section 3.1"},

@@ -31,6 +31,10 @@ struct SeenReceivers {
 
 EyeBuffer renderEye(FrameBuilder& frame, const params::NoParams&, Geometry geometry);
 
+Caustic followAllPhotons(FrameBuilder& frame, const params::NoParams&, Surfaces surfaces);
+
+CausticMap leaveUnfiltered(FrameBuilder& frame, const params::NoParams&, CausticMap map);
+
 Hits emitGrid(FrameBuilder& frame, const params::NoParams&, Surfaces surfaces, Samples samples);
 
 struct VertexEmissionParams {

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+// filter.none: the map of flux as it was stored.
+#include "framework/pipeline/frame_builder.h"
+#include "techniques/shared/nodes.h"
+
+namespace kaustik {
+
+CausticMap leaveUnfiltered(FrameBuilder& frame, const params::NoParams&, CausticMap map) {
+    frame.leaveOut("filter.none", "splats spread what they store");
+    return map;
+}
+
+}  // namespace kaustik
