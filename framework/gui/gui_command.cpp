@@ -3,7 +3,7 @@
 
 #include "framework/app/progress.h"
 #include "framework/gui/workbench.h"
-#include "framework/scene/scene_file.h"
+#include "framework/scene/files/scene_file.h"
 
 namespace kaustik::gui {
 

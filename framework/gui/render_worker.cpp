@@ -15,8 +15,8 @@
 #include "framework/core/error.h"
 #include "framework/core/files.h"
 #include "framework/gui/file_watch.h"
-#include "framework/scene/height_field.h"
-#include "framework/scene/scene_file.h"
+#include "framework/scene/files/scene_file.h"
+#include "framework/scene/shapes/height_field.h"
 
 namespace kaustik::gui {
 namespace {

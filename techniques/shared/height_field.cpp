@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "framework/pipeline/frame_builder.h"
-#include "framework/scene/height_field.h"
+#include "framework/scene/shapes/height_field.h"
 #include "techniques/shared/nodes.h"
 
 namespace kaustik {

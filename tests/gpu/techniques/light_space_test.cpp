@@ -7,7 +7,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "framework/numerics/frame.h"
-#include "framework/scene/scene_file.h"
+#include "framework/scene/files/scene_file.h"
 #include "techniques/register_all.h"
 #include "tests/gpu/fixture.h"
 

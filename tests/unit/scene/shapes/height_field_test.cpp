@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "framework/scene/height_field.h"
+#include "framework/scene/shapes/height_field.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "framework/core/error.h"
-#include "tests/unit/scene/shapes_measures.h"
+#include "tests/unit/scene/shapes/shapes_measures.h"
 
 namespace kaustik::scene {
 namespace {

@@ -6,8 +6,8 @@
 #include <glm/gtc/constants.hpp>
 
 #include "framework/core/error.h"
-#include "framework/scene/shapes.h"
-#include "tests/unit/scene/shapes_measures.h"
+#include "framework/scene/shapes/shapes.h"
+#include "tests/unit/scene/shapes/shapes_measures.h"
 
 namespace kaustik::scene {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "framework/core/error.h"
-#include "framework/scene/shapes.h"
+#include "framework/scene/shapes/shapes.h"
 
 namespace kaustik::scene {
 

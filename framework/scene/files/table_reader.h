@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "framework/scene/toml_node.h"
+#include "framework/scene/files/toml_node.h"
 
 namespace kaustik::scene {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "framework/scene/position_welding.h"
+#include "framework/scene/meshes/position_welding.h"
 
 #include <glm/gtx/hash.hpp>
 #include <unordered_map>

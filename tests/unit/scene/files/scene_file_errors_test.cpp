@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "framework/core/error.h"
-#include "framework/scene/scene_file.h"
-#include "tests/unit/scene/scene_file_fixture.h"
+#include "framework/scene/files/scene_file.h"
+#include "tests/unit/scene/files/scene_file_fixture.h"
 
 namespace kaustik::scene {
 namespace {

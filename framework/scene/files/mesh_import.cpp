@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "framework/scene/mesh_import.h"
+#include "framework/scene/files/mesh_import.h"
 
-#include "framework/scene/mesh_checks.h"
-#include "framework/scene/scene_wire.h"
+#include "framework/scene/files/scene_wire.h"
+#include "framework/scene/meshes/mesh_checks.h"
 
 namespace kaustik::scene {
 

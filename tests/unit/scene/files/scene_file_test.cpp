@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a scene file says is what the scene holds.
-#include "framework/scene/scene_file.h"
+#include "framework/scene/files/scene_file.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <glm/gtc/constants.hpp>
 
 #include "framework/core/error.h"
-#include "framework/scene/height_field.h"
-#include "tests/unit/scene/scene_file_fixture.h"
+#include "framework/scene/shapes/height_field.h"
+#include "tests/unit/scene/files/scene_file_fixture.h"
 
 namespace kaustik::scene {
 namespace {

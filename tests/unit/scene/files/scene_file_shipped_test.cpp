@@ -8,11 +8,11 @@
 #include <set>
 
 #include "framework/core/error.h"
-#include "framework/scene/height_field.h"
+#include "framework/scene/files/scene_file.h"
 #include "framework/scene/needs.h"
-#include "framework/scene/scene_file.h"
+#include "framework/scene/shapes/height_field.h"
 #include "tests/unit/importers/mesh_file_fixture.h"
-#include "tests/unit/scene/scene_file_fixture.h"
+#include "tests/unit/scene/files/scene_file_fixture.h"
 
 namespace kaustik::scene {
 namespace {

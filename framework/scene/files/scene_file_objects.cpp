@@ -11,8 +11,8 @@
 #include "framework/core/error.h"
 #include "framework/core/files.h"
 #include "framework/core/names.h"
-#include "framework/scene/mesh_import.h"
-#include "framework/scene/scene_file_parts.h"
+#include "framework/scene/files/mesh_import.h"
+#include "framework/scene/files/scene_file_parts.h"
 
 namespace kaustik::scene {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "framework/scene/mesh_checks.h"
+#include "framework/scene/meshes/mesh_checks.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "framework/core/error.h"
-#include "framework/scene/position_welding.h"
+#include "framework/scene/meshes/position_welding.h"
 
 namespace kaustik::scene {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "framework/scene/table_reader.h"
+#include "framework/scene/files/table_reader.h"
 
 #include <fmt/format.h>
 

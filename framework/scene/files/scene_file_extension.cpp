@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Scene files with `extends`: another scene with another camera, other waves, lights elsewhere.
 #include "framework/core/error.h"
-#include "framework/scene/scene_file_parts.h"
+#include "framework/scene/files/scene_file_parts.h"
 
 namespace kaustik::scene {
 namespace {

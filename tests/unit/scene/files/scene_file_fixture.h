@@ -10,7 +10,7 @@
 #include <string>
 
 #include "framework/core/files.h"
-#include "framework/scene/scene_file.h"
+#include "framework/scene/files/scene_file.h"
 
 namespace kaustik::scene::test {
 

@@ -9,7 +9,7 @@
 #include "framework/core/error.h"
 #include "framework/image/pfm.h"
 #include "framework/scene/environment.h"
-#include "framework/scene/scene_file_parts.h"
+#include "framework/scene/files/scene_file_parts.h"
 
 namespace kaustik::scene {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "framework/scene/height_field.h"
+#include "framework/scene/shapes/height_field.h"
 
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <utility>
 
-#include "framework/scene/mesh_builder.h"
-#include "framework/scene/shape_checks.h"
+#include "framework/scene/meshes/mesh_builder.h"
+#include "framework/scene/shapes/shape_checks.h"
 
 namespace kaustik::scene {
 namespace {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <vector>
 
-#include "framework/scene/mesh_builder.h"
-#include "framework/scene/shape_checks.h"
-#include "framework/scene/shapes.h"
+#include "framework/scene/meshes/mesh_builder.h"
+#include "framework/scene/shapes/shape_checks.h"
+#include "framework/scene/shapes/shapes.h"
 
 namespace kaustik::scene {
 namespace {

@@ -6,9 +6,9 @@
 #include <functional>
 
 #include "framework/core/error.h"
-#include "framework/scene/height_field.h"
-#include "framework/scene/scene_file_parts.h"
-#include "framework/scene/shapes.h"
+#include "framework/scene/files/scene_file_parts.h"
+#include "framework/scene/shapes/height_field.h"
+#include "framework/scene/shapes/shapes.h"
 
 namespace kaustik::scene {
 namespace {

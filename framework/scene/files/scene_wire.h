@@ -7,7 +7,7 @@
 #include <type_traits>
 
 #include "framework/reading/wire.h"
-#include "framework/scene/mesh_import.h"
+#include "framework/scene/files/mesh_import.h"
 #include "framework/scene/scene.h"
 
 namespace kaustik::scene {

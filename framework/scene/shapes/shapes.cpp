@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Shapes with flat faces: plane, box, prism.
-#include "framework/scene/shapes.h"
+#include "framework/scene/shapes/shapes.h"
 
 #include <glm/gtc/constants.hpp>
 
-#include "framework/scene/mesh_builder.h"
-#include "framework/scene/shape_checks.h"
+#include "framework/scene/meshes/mesh_builder.h"
+#include "framework/scene/shapes/shape_checks.h"
 
 namespace kaustik::scene {
 namespace {

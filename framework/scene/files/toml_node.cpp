@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "framework/scene/toml_node.h"
+#include "framework/scene/files/toml_node.h"
 
 #include <algorithm>
 

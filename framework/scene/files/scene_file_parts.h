@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <string>
 
+#include "framework/scene/files/table_reader.h"
 #include "framework/scene/scene.h"
 #include "framework/scene/scene_edits.h"
-#include "framework/scene/table_reader.h"
 
 namespace kaustik::scene {
 

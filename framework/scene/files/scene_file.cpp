@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "framework/scene/scene_file.h"
+#include "framework/scene/files/scene_file.h"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,8 @@
 #include "framework/core/error.h"
 #include "framework/core/files.h"
 #include "framework/core/names.h"
-#include "framework/scene/gltf_import.h"
-#include "framework/scene/scene_file_parts.h"
+#include "framework/scene/files/gltf_import.h"
+#include "framework/scene/files/scene_file_parts.h"
 
 namespace kaustik::scene {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "framework/scene/mesh_builder.h"
+#include "framework/scene/meshes/mesh_builder.h"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <utility>
 
-#include "framework/scene/mesh_checks.h"
+#include "framework/scene/meshes/mesh_checks.h"
 
 namespace kaustik::scene {
 

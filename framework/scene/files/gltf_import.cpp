@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "framework/scene/gltf_import.h"
+#include "framework/scene/files/gltf_import.h"
 
 #include <fmt/format.h>
 
 #include "framework/core/error.h"
 #include "framework/reading/reader_process.h"
-#include "framework/scene/mesh_checks.h"
-#include "framework/scene/scene_wire.h"
+#include "framework/scene/files/scene_wire.h"
+#include "framework/scene/meshes/mesh_checks.h"
 
 namespace kaustik::scene {
 namespace {
