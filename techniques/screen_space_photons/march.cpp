@@ -44,7 +44,7 @@ Hits march(FrameBuilder& frame, const std::string& node, const std::string& shad
             const Hits& hits, gl::PassContext& context) {
             const std::string file = "screen_space_photons/" + shader;
             gl::Command command = isThread ? context.compute(file)
-                                           : context.shaders({"common/photon_rows.vert", file});
+                                           : context.shaders({"framework/photon_rows.vert", file});
             setHitTesting(command, testing, layers).params(name, params);
             if (isThread) return dispatchOver(command, hits.incoming);
             command.target(hits.position).target(hits.surface).target(hits.flux);

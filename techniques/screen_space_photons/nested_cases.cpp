@@ -204,10 +204,10 @@ void deeperThanTheStack(Lab& lab) {
                                      {"view.refraction.interfaces", "8"},
                                      {"view.refraction.layers", "12"}}});
     const EnergyLedger ledger = frame.renderer().ledger();
-    lab.expect("common/interaction.glsl", "is flux counted that goes deeper than the stack", 1.0,
+    lab.expect("include/interaction.glsl", "is flux counted that goes deeper than the stack", 1.0,
                ledger.watts[kAccountNestingLimit] > 0.1 * ledger.watts[kAccountEmitted] ? 1.0 : 0.0,
                kExactly);
-    lab.expect("common/interaction.glsl", "balance of the ledger", 0.0, ledger.balance(),
+    lab.expect("include/interaction.glsl", "balance of the ledger", 0.0, ledger.balance(),
                {1e-5, "sums of 32-bit fluxes and areas in fixed point"});
     const std::vector<ReachedLimit> limits = frame.renderer().reachedLimits();
     const auto found = std::find_if(limits.begin(), limits.end(), [](const ReachedLimit& limit) {

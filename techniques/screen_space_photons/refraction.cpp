@@ -2,7 +2,7 @@
 // view.refraction: screen-space refraction tracing (K06, section 4). The passes "view.layers.…"
 // peel the transmitting objects alone; "view.refraction" follows the eye's transmitted ray of every
 // pixel through them, and from mirror to mirror, and looks up what it sees: the refracted scene
-// (Fig. 10; common/scene_look.glsl), else what surrounds it. The reflection at the first interface
+// (Fig. 10; include/scene_look.glsl), else what surrounds it. The reflection at the first interface
 // is looked up the same way; later partial reflections are left out. In: eye buffer, layers,
 // radiance of the receivers; out: radiance, W/m²/sr, and where each ray left for good, view space,
 // m.

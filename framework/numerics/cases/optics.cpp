@@ -233,7 +233,7 @@ void transmittance(Lab& lab) {
         probe(lab.context(), "numerics/transmittance.comp", inputs, static_cast<int>(paths.size()),
               1, [&](gl::Command& command) { command.storage("Materials", buffer); });
     for (std::size_t i = 0; i < paths.size(); ++i) {
-        lab.expect("common/surface_data.glsl", std::string("transmittance: ") + paths[i].what,
+        lab.expect("include/surface_data.glsl", std::string("transmittance: ") + paths[i].what,
                    paths[i].expected, static_cast<double>(out[i].g),
                    paths[i].expected == 1.0 || paths[i].expected == 0.0
                        ? kExactly

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What the light's view holds where a receiver lies, over the texel's area on the receiver.
-#include "common/flux_sum_read.glsl"
-#include "common/lights.glsl"
-#include "common/view.glsl"
+#include "include/flux_sum_read.glsl"
+#include "include/lights.glsl"
+#include "include/view.glsl"
 
 uniform sampler2D receiver;
 uniform sampler2D receiverSurface;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // All of a photon's flux to the texel of the light's view that it lies in. One thread a photon.
-#include "common/flux_sum.glsl"
-#include "common/hits.glsl"
-#include "common/ledger.glsl"
-#include "common/photon_thread.glsl"
+#include "include/flux_sum.glsl"
+#include "include/hits.glsl"
+#include "include/ledger.glsl"
+#include "include/photon_thread.glsl"
 
 uniform mat4 eyeToMap;  // from the eye's view space to texels
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The energy ledger: sums of watts in 64-bit fixed point by integer atomics, so that they neither
 // drift nor depend on the order in which photons come.
-#include "common/ledger_unit.glsl"
+#include "include/ledger_unit.glsl"
 #include "framework/transport/types.h"
 
 layout(std430) buffer LedgerEntries {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // What makes of a surface that a photon reaches a hit, with the normal and the flux that arrives:
 // what every tracer ends with.
-#include "common/ledger.glsl"
-#include "common/medium.glsl"
-#include "common/specular.glsl"
-#include "common/transfer_map.glsl"
+#include "include/ledger.glsl"
+#include "include/medium.glsl"
+#include "include/specular.glsl"
+#include "include/transfer_map.glsl"
 
 // What the list says of a photon that was not on its way, or met nothing.
 Hit nothingMet() {

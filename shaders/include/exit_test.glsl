@@ -3,7 +3,7 @@
 // that lies in it, although it crossed none of their planes: at a silhouette the surface bends away
 // within a pixel, and beside it there is no layer left to meet. Between the layers of one pixel
 // inside and outside are known.
-#include "common/hit_test.glsl"
+#include "include/hit_test.glsl"
 
 // Whether a range of depths overlaps the inside of a dielectric at a pixel. Layers come front to
 // back; one that faces the eye opens the inside, one that faces away closes it. Unknown is inside:

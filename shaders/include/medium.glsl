@@ -3,9 +3,9 @@
 // loses on a way, and what is scattered. For photons it ends at the scene's bounding box; the
 // straight ray to the eye loses light to it all the way (the reference's light_tracing.h does the
 // same).
-#include "common/dielectrics.glsl"
-#include "common/transfer_map.glsl"
-#include "common/view.glsl"
+#include "include/dielectrics.glsl"
+#include "include/transfer_map.glsl"
+#include "include/view.glsl"
 
 // Of the scene's medium and of the innermost dielectric around a photon, 1/m.
 vec3 extinctionAround(uint media) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Lights in the eye's view space; units as in LightData.
-#include "common/scene_images.glsl"
+#include "include/scene_images.glsl"
 #include "framework/transport/types.h"
 
 layout(std430) readonly buffer Lights {

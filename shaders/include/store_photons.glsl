@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The next list of photons, to write, as Photons::store binds it under "next".
-#include "common/transfer_map.glsl"
+#include "include/transfer_map.glsl"
 #include "framework/transport/photon_list.h"
 
 layout(rgba32f) writeonly uniform image2D nextPosition;

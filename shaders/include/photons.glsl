@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A list of photons to read, as Photons::sample binds it.
-#include "common/transfer_map.glsl"
+#include "include/transfer_map.glsl"
 #include "framework/transport/photon_list.h"
 
 uniform sampler2D photonPosition;

@@ -4,11 +4,11 @@
 // "This is an approximation that can only simulate the refraction of [...] objects that are visible
 // to the viewer in the absence of the water surface". LOOK_IN_LAYERS: surfaces are looked for in
 // the layered depth of the scene, as in the paper; one that the image does not show is lit here.
-#include "common/hit_test.glsl"
-#include "common/surroundings.glsl"
+#include "include/hit_test.glsl"
+#include "include/surroundings.glsl"
 #include "framework/transport/brdf.h"
 #if defined(LOOK_IN_LAYERS) || defined(GLOSSY_RECEIVERS)
-#include "common/lights.glsl"
+#include "include/lights.glsl"
 
 uniform int lightCount;
 #endif

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // How the receiver that a pixel sees reflects towards the eye.
 #include "framework/transport/brdf.h"
-#include "common/surface_data.glsl"
-#include "common/view.glsl"
+#include "include/surface_data.glsl"
+#include "include/view.glsl"
 
 uniform sampler2D receiverAlbedo;
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What tracers that search in order share: what makes of what was found a hit, with the normal and
 // the flux that arrives, or an entry in the ledger.
-#include "common/deliver.glsl"
-#include "common/exit_test.glsl"
+#include "include/deliver.glsl"
+#include "include/exit_test.glsl"
 
 // The hit, or, where nothing was met, the account of the reason.
 Hit deliver(Photon photon, FirstHit first) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Hits to read, as Hits::sample binds them.
-#include "common/transfer_map.glsl"
+#include "include/transfer_map.glsl"
 
 uniform sampler2D hitPosition;
 uniform sampler2D hitSurface;

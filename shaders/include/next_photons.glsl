@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // For shaders that send photons on from where they have met a specular surface: one thread a photon
 // of the list before, and its place in the next one (techniques/shared/next_photons.h).
-#include "common/hits.glsl"
-#include "common/photon_thread.glsl"
-#include "common/store_photons.glsl"
+#include "include/hits.glsl"
+#include "include/photon_thread.glsl"
+#include "include/store_photons.glsl"
 
 layout(std430) readonly buffer NextFirsts {
     uint nextFirsts[];

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What comes from outside of the scene: the background radiance, times the environment's picture
 // where there is one (scene/environment.h has the same in double).
-#include "common/scene_images.glsl"
-#include "common/view.glsl"
+#include "include/scene_images.glsl"
+#include "include/view.glsl"
 
 // Radiance that comes along a ray which meets nothing more, W/m²/sr. `directionVs`: unit, along the
 // ray, away from the eye.

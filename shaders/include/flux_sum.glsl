@@ -2,7 +2,7 @@
 // A map of flux in 64-bit fixed point (CausticMap), of which the sums depend neither on the order
 // nor on the batches in which flux arrives (hard case 34: a plain 32-bit sum of 2^25 deposits is
 // 15 % off). Its unit is the ledger's.
-#include "common/ledger_unit.glsl"
+#include "include/ledger_unit.glsl"
 #include "framework/transport/types.h"
 
 layout(r32ui) uniform uimage2DArray fluxSums;

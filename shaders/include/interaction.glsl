@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What becomes of a photon where it has met a specular surface (K06, section 2.3).
-#include "common/ledger.glsl"
-#include "common/specular.glsl"
+#include "include/ledger.glsl"
+#include "include/specular.glsl"
 
 // The ways on: fate kFateNone where there is none. Their flux is the photon's, less what a mirror
 // absorbs and what enters a dielectric inside of more others than a stack holds, which both go to

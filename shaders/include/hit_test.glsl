@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Whether a step of a photon's ray meets a surface of the layered depth. All tracers ask here.
-#include "common/octahedral.glsl"
-#include "common/ray_segment.glsl"
-#include "common/specular.glsl"
+#include "include/octahedral.glsl"
+#include "include/ray_segment.glsl"
+#include "include/specular.glsl"
 
 uniform sampler2DArray layerDepths;
 uniform sampler2DArray layerSurfaces;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Closes the ledger of a frame: sums what the map of flux holds. A thread a texel.
-#include "common/flux_sum_read.glsl"
-#include "common/ledger.glsl"
+#include "include/flux_sum_read.glsl"
+#include "include/ledger.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 

@@ -2,7 +2,7 @@
 // A photon's ray as every screen-space tracer sees it: clipped in view space, before anything is
 // divided, to the part that is inside the scene's bounds, before the near plane and on the screen;
 // then projected. Along it 1/z interpolates linearly in screen space, by index.
-#include "common/view.glsl"
+#include "include/view.glsl"
 
 struct RaySegment {
     bool visible;      // some part is on the screen
