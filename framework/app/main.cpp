@@ -15,7 +15,9 @@ extern "C" const char* __asan_default_options() {
 int main(int argc, char** argv) {
     kaustik::app::GuiCommand gui = nullptr;
 #ifdef KAUSTIK_HAS_GUI
-    gui = &kaustik::gui::guiCommand;
+    gui = [](const kaustik::app::GuiOptions& options, const kaustik::Registry& registry) {
+        kaustik::gui::guiCommand(options.scene, options.describe, registry);
+    };
 #endif
     return kaustik::app::runCommandLine(argc, argv, kaustik::registerAll(), gui);
 }

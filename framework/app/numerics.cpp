@@ -9,13 +9,13 @@
 
 #include "framework/app/commands.h"
 #include "framework/app/numerics.h"
-#include "framework/app/output.h"
-#include "framework/app/progress.h"
 #include "framework/core/error.h"
 #include "framework/core/files.h"
 #include "framework/core/json_text.h"
 #include "framework/numerics/lab.h"
 #include "framework/numerics/table.h"
+#include "framework/run/output.h"
+#include "framework/run/progress.h"
 
 namespace kaustik::app {
 namespace {
@@ -43,22 +43,22 @@ void runSuite(const ExperimentOptions& options, const experiment::Spec& spec,
     table.cases = chosenCases(suite, spec);
     const fs::path out = options.out.empty() ? fs::path("results/runs/experiments") / spec.name
                                              : fs::path(options.out);
-    requireWritable(out, "--out");
+    run::requireWritable(out, "--out");
     const std::unique_ptr<gl::Context> context = gl::Context::createHeadless();
     table.device = context->info().renderer;
     numerics::Lab lab(*context, registry, suite);
-    catchInterrupts();
+    run::catchInterrupts();
     {
-        Progress progress("case", static_cast<int>(table.cases.size()));
+        run::Progress progress("case", static_cast<int>(table.cases.size()));
         int done = 0;
         for (const numerics::Case& hardCase : table.cases) {
-            throwIfInterrupted();
+            run::throwIfInterrupted();
             for (numerics::Row& row : lab.run(hardCase))
                 table.rows.push_back(std::move(row));
             progress.update(++done);
         }
     }
-    throwIfInterrupted();
+    run::throwIfInterrupted();
     writeFileWhole(out / "numerics.csv", numerics::makeCsv(table));
     writeFileWhole(out / "numerics.json", jsonText(numerics::makeJson(table), 2) + "\n");
     writeFileWhole(out / "numerics.md", numerics::makeMarkdown(table));

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 #ifdef KAUSTIK_HAS_EMBREE
 
-#include "framework/app/caustic_errors.h"
+#include "framework/run/caustic_errors.h"
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "framework/app/output.h"
 #include "framework/core/error.h"
 #include "framework/measure/heat_map.h"
 #include "framework/measure/image_errors.h"
+#include "framework/run/output.h"
 
-namespace kaustik::app {
+namespace kaustik::run {
 
 using nlohmann::json;
 using reference::Reference;
@@ -91,6 +91,6 @@ Image errorPicture(const measure::ImagePair& pair) {
     return measure::heatMap(pair, differences, measure::heatMapScale(errors, differences));
 }
 
-}  // namespace kaustik::app
+}  // namespace kaustik::run
 
 #endif

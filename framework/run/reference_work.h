@@ -4,10 +4,10 @@
 
 #include <filesystem>
 
-#include "framework/app/progress.h"
 #include "framework/reference/reference.h"
+#include "framework/run/progress.h"
 
-namespace kaustik::app {
+namespace kaustik::run {
 
 // $KAUSTIK_CACHE, else $XDG_CACHE_HOME/kaustik, else ~/.cache/kaustik. Throws IoError where there
 // is none of them.
@@ -24,4 +24,4 @@ namespace kaustik::app {
                                                    reference::RunOptions options,
                                                    const Watch& watch);
 
-}  // namespace kaustik::app
+}  // namespace kaustik::run

@@ -11,7 +11,7 @@
 #include "framework/pipeline/renderer.h"
 #include "framework/reference/reference.h"
 
-namespace kaustik::app {
+namespace kaustik::run {
 
 // An output of the frame beside the same of a reference.
 struct Output {
@@ -46,4 +46,4 @@ struct Outputs {
 // Where the image is wrong, as heat colours.
 [[nodiscard]] Image errorPicture(const measure::ImagePair& pair);
 
-}  // namespace kaustik::app
+}  // namespace kaustik::run

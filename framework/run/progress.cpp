@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "framework/app/progress.h"
+#include "framework/run/progress.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -9,7 +9,7 @@
 
 #include "framework/core/error.h"
 
-namespace kaustik::app {
+namespace kaustik::run {
 namespace {
 volatile std::sig_atomic_t interrupted = 0;
 
@@ -70,4 +70,4 @@ void throwIfInterrupted() {
     if (interrupted != 0) throw Error("Interrupted; nothing was written.", kExitFailed);
 }
 
-}  // namespace kaustik::app
+}  // namespace kaustik::run

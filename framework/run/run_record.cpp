@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "framework/app/run_record.h"
+#include "framework/run/run_record.h"
 
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
-#include "framework/app/output.h"
-#include "framework/app/progress.h"
 #include "framework/core/error.h"
 #include "framework/core/files.h"
 #include "framework/core/json_text.h"
+#include "framework/run/output.h"
+#include "framework/run/progress.h"
 
-namespace kaustik::app {
+namespace kaustik::run {
 namespace fs = std::filesystem;
 
 report::RunRecord startRecord(const Renderer& renderer, gl::TimerMode timer) {
@@ -75,4 +75,4 @@ std::vector<fs::path> finishRun(Renderer& renderer, const Truth& truth, report::
     }
 }
 
-}  // namespace kaustik::app
+}  // namespace kaustik::run

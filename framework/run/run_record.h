@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "framework/app/truth.h"
 #include "framework/pipeline/renderer.h"
 #include "framework/report/run_report.h"
+#include "framework/run/truth.h"
 
-namespace kaustik::app {
+namespace kaustik::run {
 
 // What the renderer's graph, built for what is timed, says of itself; without frames.
 [[nodiscard]] report::RunRecord startRecord(const Renderer& renderer, gl::TimerMode timer);
@@ -24,4 +24,4 @@ std::vector<std::filesystem::path> finishRun(Renderer& renderer, const Truth& tr
                                              const std::vector<std::string>& saved,
                                              const gl::DeviceInfo& device);
 
-}  // namespace kaustik::app
+}  // namespace kaustik::run

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "framework/app/reference_work.h"
+#include "framework/run/reference_work.h"
 
 #include <fmt/format.h>
 
@@ -8,10 +8,10 @@
 #include <cstdlib>
 #include <utility>
 
-#include "framework/app/progress.h"
 #include "framework/core/error.h"
+#include "framework/run/progress.h"
 
-namespace kaustik::app {
+namespace kaustik::run {
 namespace {
 
 namespace fs = std::filesystem;
@@ -99,4 +99,4 @@ Reference obtainReference(const EmbreeScene& scene, const ReferenceRequest& requ
     }
 }
 
-}  // namespace kaustik::app
+}  // namespace kaustik::run

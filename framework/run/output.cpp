@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "framework/app/output.h"
+#include "framework/run/output.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -12,7 +12,7 @@
 #include "framework/core/error.h"
 #include "framework/gl/objects.h"
 
-namespace kaustik::app {
+namespace kaustik::run {
 namespace fs = std::filesystem;
 namespace {
 
@@ -148,4 +148,4 @@ std::vector<std::string> unusedSettings(const Renderer& renderer) {
     return unused;
 }
 
-}  // namespace kaustik::app
+}  // namespace kaustik::run

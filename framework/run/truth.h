@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "framework/app/progress.h"
 #include "framework/pipeline/renderer.h"
 #include "framework/report/run_report.h"
+#include "framework/run/progress.h"
 
-namespace kaustik::app {
+namespace kaustik::run {
 
 class Truth {
   public:
@@ -49,4 +49,4 @@ class Truth {
     std::unique_ptr<Loaded> loaded_;
 };
 
-}  // namespace kaustik::app
+}  // namespace kaustik::run

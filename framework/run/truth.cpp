@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: MIT
-#include "framework/app/truth.h"
+#include "framework/run/truth.h"
 
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "framework/app/caustic_errors.h"
-#include "framework/app/output.h"
 #include "framework/core/error.h"
+#include "framework/run/caustic_errors.h"
+#include "framework/run/output.h"
 
 #ifdef KAUSTIK_HAS_EMBREE
-#include "framework/app/reference_work.h"
 #include "framework/audit/hit_audit.h"
 #include "framework/audit/shadow_audit.h"
 #include "framework/audit/view_audit.h"
 #include "framework/measure/image_errors.h"
+#include "framework/run/reference_work.h"
 #endif
 
-namespace kaustik::app {
+namespace kaustik::run {
 namespace fs = std::filesystem;
 
 #ifndef KAUSTIK_HAS_EMBREE
@@ -236,4 +236,4 @@ std::vector<fs::path> Truth::judgeView(Renderer& renderer, const fs::path& folde
 
 #endif
 
-}  // namespace kaustik::app
+}  // namespace kaustik::run

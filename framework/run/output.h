@@ -9,7 +9,7 @@
 #include "framework/image/image.h"
 #include "framework/pipeline/renderer.h"
 
-namespace kaustik::app {
+namespace kaustik::run {
 
 // Makes the folder and throws IoError if nothing can be written there, before the long work. The
 // message begins with who wants it: an option, say.
@@ -30,4 +30,4 @@ std::vector<std::filesystem::path> writePictures(const std::filesystem::path& fo
 // Parameters that the user has set and that belong to nodes which the run did not choose.
 [[nodiscard]] std::vector<std::string> unusedSettings(const Renderer& renderer);
 
-}  // namespace kaustik::app
+}  // namespace kaustik::run

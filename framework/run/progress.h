@@ -7,7 +7,7 @@
 #include <functional>
 #include <string>
 
-namespace kaustik::app {
+namespace kaustik::run {
 
 class Progress {
   public:
@@ -44,4 +44,4 @@ void catchInterrupts();
 // Throws Error when one was noted.
 void throwIfInterrupted();
 
-}  // namespace kaustik::app
+}  // namespace kaustik::run
