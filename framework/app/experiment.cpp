@@ -39,10 +39,11 @@ RunDefaults runDefaults() {
                 kExitFailed);
 }
 
-void runStudy(const ExperimentOptions& options, const Registry& registry) {
+void runStudy(const ExperimentOptions& options, const Registry& registry,
+              AddHardCases addHardCases) {
     const Spec spec = readSpec(options.target);
     if (!spec.suite.empty()) {
-        runSuite(options, spec, registry);
+        runSuite(options, spec, registry, addHardCases);
         return;
     }
     const Plan plan = makePlan(spec, runDefaults(), [&](const std::string& technique) {
@@ -118,10 +119,11 @@ void drawReport(const ExperimentOptions& options) {
 
 }  // namespace
 
-void experimentCommand(const ExperimentOptions& options, const Registry& registry) {
+void experimentCommand(const ExperimentOptions& options, const Registry& registry,
+                       AddHardCases addHardCases) {
     const std::vector<std::string> actions = {"run", "report"};
     if (options.action == "run") {
-        runStudy(options, registry);
+        runStudy(options, registry, addHardCases);
     } else if (options.action == "report") {
         drawReport(options);
     } else {

@@ -34,11 +34,12 @@ std::vector<numerics::Case> chosenCases(const numerics::Suite& suite,
 }  // namespace
 
 void runSuite(const ExperimentOptions& options, const experiment::Spec& spec,
-              const Registry& registry) {
+              const Registry& registry, AddHardCases addHardCases) {
     if (options.resume) {
         throw ConfigError("--resume: a suite is measured as a whole; leave the option out.");
     }
-    const numerics::Suite suite = numerics::makeSuite(registry);
+    numerics::Suite suite = numerics::commonCases();
+    if (addHardCases != nullptr) addHardCases(suite);
     numerics::Table table;
     table.cases = chosenCases(suite, spec);
     const fs::path out = options.out.empty() ? fs::path("results/runs/experiments") / spec.name

@@ -11,7 +11,6 @@
 #include "framework/core/error.h"
 #include "framework/core/names.h"
 #include "framework/numerics/cases/common_cases.h"
-#include "framework/pipeline/registry.h"
 
 namespace kaustik::numerics {
 namespace {
@@ -54,7 +53,7 @@ bool Suite::mayBeUnwritten(const std::string& name) const {
                        [&](const std::string& prefix) { return name.starts_with(prefix); });
 }
 
-Suite makeSuite(const Registry& registry) {
+Suite commonCases() {
     Suite suite;
     addRaySegmentCases(suite);
     addTracingCases(suite);
@@ -66,8 +65,6 @@ Suite makeSuite(const Registry& registry) {
     addMirrorCases(suite);
     addBallCases(suite);
     addWholeFrameCases(suite);
-    for (const auto& add : registry.hardCases())
-        add(suite);
     return suite;
 }
 

@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The hard cases as a suite: each a row of HARD_CASES.md with a function that measures. Common
 // cases (framework/numerics/cases) ask the registry for the nodes that answer a stage, so that a
-// new tracer joins by being registered; a technique adds cases of its own nodes with
-// Registry::hardCases.
+// new tracer joins by being registered; a technique adds cases of its own nodes to the suite
+// (techniques/register_hard_cases.cpp).
 #pragma once
 
 #include <functional>
 #include <string>
 #include <vector>
-
-namespace kaustik {
-class Registry;
-}
 
 namespace kaustik::numerics {
 
@@ -53,8 +49,8 @@ class Suite {
     std::vector<std::string> unwritten_;
 };
 
-// The common cases and those of the registry's techniques.
-[[nodiscard]] Suite makeSuite(const Registry& registry);
+// The cases that all nodes of a stage share.
+[[nodiscard]] Suite commonCases();
 
 // The cases that any of the patterns names: "A5", "B*". Throws ConfigError, with the nearest that
 // exists, for one that names none.

@@ -13,7 +13,7 @@
 #include "framework/numerics/lab.h"
 #include "framework/pipeline/photon_texels.h"
 #include "framework/scene/dielectrics.h"
-#include "techniques/screen_space_photons/nodes.h"
+#include "techniques/screen_space_photons/hard_cases.h"
 
 namespace kaustik {
 namespace {

@@ -78,9 +78,6 @@ void registerScreenSpacePhotons(Registry& registry) {
                          {"reconstruct", "sprites"},
                          {"view", "refraction"}},
                         {}});
-    registry.hardCases(&addScreenSpacePhotonCases);
-    registry.hardCases(&addViewCases);
-    registry.hardCases(&addNestedCases);
 }
 
 }  // namespace kaustik

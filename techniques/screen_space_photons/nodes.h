@@ -12,11 +12,6 @@ namespace kaustik {
 
 void registerScreenSpacePhotons(Registry& registry);
 
-// What the hard cases need to know of these nodes, and cases of their own.
-void addScreenSpacePhotonCases(numerics::Suite& suite);
-void addViewCases(numerics::Suite& suite);
-void addNestedCases(numerics::Suite& suite);
-
 // Which surfaces a layered depth image holds, and its resources' names ("layers" gives
 // "layers.depth").
 struct LayersRequest {

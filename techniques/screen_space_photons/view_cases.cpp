@@ -12,7 +12,7 @@
 #include "framework/numerics/cases/scene_text.h"
 #include "framework/numerics/exact.h"
 #include "framework/numerics/lab.h"
-#include "techniques/screen_space_photons/nodes.h"
+#include "techniques/screen_space_photons/hard_cases.h"
 
 namespace kaustik {
 namespace {

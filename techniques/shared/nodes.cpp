@@ -66,7 +66,6 @@ void registerSharedNodes(Registry& registry) {
                                  "sees through specular surfaces.",
                                  ""},
                                 &composePicture);
-    registry.hardCases(&addSharedCases);
 }
 
 void registerMediaLeftOut(Registry& registry) {

@@ -14,9 +14,6 @@ void registerSharedNodes(Registry& registry);
 // stage's default.
 void registerMediaLeftOut(Registry& registry);
 
-// Hard cases of the shared nodes alone.
-void addSharedCases(numerics::Suite& suite);
-
 Geometry makeHeightFields(FrameBuilder& frame, const params::NoParams&);
 
 EyeBuffer renderEye(FrameBuilder& frame, const params::NoParams&, Geometry geometry);

@@ -6,6 +6,7 @@
 
 #include "framework/numerics/lab.h"
 #include "techniques/register_all.h"
+#include "techniques/register_hard_cases.h"
 
 namespace kaustik::numerics {
 namespace {
@@ -16,7 +17,11 @@ const Registry& registry() {
 }
 
 const Suite& suite() {
-    static const Suite instance = makeSuite(registry());
+    static const Suite instance = [] {
+        Suite all = commonCases();
+        registerHardCases(all);
+        return all;
+    }();
     return instance;
 }
 
