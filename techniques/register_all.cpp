@@ -16,7 +16,7 @@ Registry registerAll() {
 #ifdef KAUSTIK_HAS_EMBREE
     registerRaytraced(registry);
 #endif
-    registerMediaLeftOut(registry);
+    registerNoMedia(registry);
     return registry;
 }
 

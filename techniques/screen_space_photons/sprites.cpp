@@ -16,6 +16,48 @@
 namespace kaustik {
 namespace {
 
+// What a splat covers of its receiver's tangent plane.
+enum class SpriteShape : int { beam, disc, screen };
+
+// How a splat falls off from its middle to its radius.
+enum class SpriteKernel : int { gaussian, linear, epanechnikov };
+
+struct SpritesParams {
+    SpriteShape shape = SpriteShape::beam;
+    SpriteKernel kernel = SpriteKernel::gaussian;
+    float radiusMeters = 0.0f;
+    float footprints = 2.5f;
+    int maximumPixels = 64;
+    int reachPixels = 120;
+    template <class R>
+    void reflect(R& r) {
+        r.choice(
+            shape, "shape",
+            "beam: what a round beam along the photon's path cuts out of the tangent plane, "
+            "longer where light grazes; disc: the paper's circle in that plane; screen: a circle "
+            "on the screen, the paper's comparison (Fig. 6)",
+            {"beam", "disc", "screen"});
+        r.choice(kernel, "kernel",
+                 "gaussian: cut off at 3 sigma, evens out the photons' grid best; linear: the "
+                 "paper's; epanechnikov: a parabola",
+                 {"gaussian", "linear", "epanechnikov"});
+        r.field(radiusMeters, "radius",
+                "Radius of a photon's splat; 0: follows the photon's footprint", "m",
+                params::range(0.0f, 1e6f));
+        r.field(footprints, "footprints",
+                "Radius of a splat in widths of its photon's beam, when no radius is set", "",
+                params::range(0.1f, 100.0f));
+        r.field(maximumPixels, "maximum", "Largest radius on the screen; splats shrink to it", "px",
+                params::range(1, 100));
+        // Mesa's software rasteriser silently ends a shader's loops after 65,535 turns, and a
+        // splat's weights are summed in one of (2 reach + 1)².
+        r.field(reachPixels, "reach",
+                "Farthest from its middle that a splat goes on the screen where perspective or "
+                "grazing light stretch it; it is cut off there, and keeps its flux",
+                "px", params::range(1, 127));
+    }
+};
+
 // Splats that a parameter has cut off, and those that one has made smaller.
 using CutSplats = graph::Buffer<transport::Narrowed>;
 constexpr std::size_t kCutOff = 0;
@@ -39,8 +81,6 @@ void keepToLimit(FrameBuilder& frame, const CutSplats& cut, std::size_t which,
                  0.0};
          }});
 }
-
-}  // namespace
 
 CausticMap splatSprites(FrameBuilder& frame, const SpritesParams& params, Hits hits,
                         Surfaces surfaces, CausticMap before) {
@@ -92,6 +132,16 @@ CausticMap splatSprites(FrameBuilder& frame, const SpritesParams& params, Hits h
     keepToLimit(frame, splatted.cut, kShrunk, "reconstruct.sprites.maximum", params.maximumPixels,
                 "smaller than they were to be");
     return splatted.map;
+}
+
+}  // namespace
+
+void registerSprites(Registry& registry) {
+    registry.node<ReconstructStage>("sprites",
+                                    {"Splats each photon as a disc in its receiver's tangent "
+                                     "plane, ray-cast per pixel; the flux is kept exactly.",
+                                     "K06, section 3.1, Eq. 1"},
+                                    &splatSprites);
 }
 
 }  // namespace kaustik

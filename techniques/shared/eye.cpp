@@ -7,6 +7,7 @@
 #include "techniques/shared/nodes.h"
 
 namespace kaustik {
+namespace {
 
 EyeBuffer renderEye(FrameBuilder& frame, const params::NoParams&, Geometry geometry) {
     struct Data {
@@ -77,6 +78,16 @@ EyeBuffer renderEye(FrameBuilder& frame, const params::NoParams&, Geometry geome
                                      render::DrawSet::mirrors);
             })
         .eye;
+}
+
+}  // namespace
+
+void registerEyeSurfaces(Registry& registry) {
+    registry.node<EyeStage>("surfaces",
+                            {"Rasterises the first receiver and the first specular surface of "
+                             "every pixel.",
+                             ""},
+                            &renderEye);
 }
 
 }  // namespace kaustik
