@@ -69,10 +69,10 @@ void runSuite(const ExperimentOptions& options, const experiment::Spec& spec,
     if (numerics::countFailures(table) > 0) {
         const numerics::Row& first = *std::find_if(table.rows.begin(), table.rows.end(),
                                                    [](const auto& row) { return !row.passes(); });
-        throw Error(fmt::format("{} of {} rows fail, the first is {}, {}: {} should be {:.7g} and "
-                                "is {:.7g}.",
+        throw Error(fmt::format("{} of {} rows fail, the first is {}, {}: {} should be {} and is "
+                                "{:.7g}.",
                                 numerics::countFailures(table), table.rows.size(), first.caseId,
-                                first.subject, first.what, first.expected, first.measured),
+                                first.subject, first.what, first.expectedText(), first.measured),
                     kExitFailed);
     }
 }

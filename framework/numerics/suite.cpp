@@ -32,7 +32,22 @@ bool matches(const std::string& pattern, const std::string& id) {
 }  // namespace
 
 bool Row::passes() const {
-    return std::abs(measured - expected) <= tolerance;
+    switch (bound) {
+        case Bound::near:
+            return std::abs(measured - expected) <= tolerance;
+        case Bound::atLeast:
+            return measured >= expected - tolerance;
+        case Bound::atMost:
+            return measured <= expected + tolerance;
+    }
+    return false;
+}
+
+std::string Row::expectedText() const {
+    const char* words = bound == Bound::near      ? ""
+                        : bound == Bound::atLeast ? "at least "
+                                                  : "at most ";
+    return fmt::format("{}{:.7g}", words, expected);
 }
 
 void Suite::add(const std::string& id, const std::string& sentence,

@@ -13,6 +13,10 @@ namespace kaustik::numerics {
 
 class Lab;
 
+// What a measured number is held to: within the tolerance of what is expected, or no further than
+// that below or above it.
+enum class Bound { near, atLeast, atMost };
+
 // One measured number beside what it must be.
 struct Row {
     std::string caseId;
@@ -20,9 +24,12 @@ struct Row {
     std::string what;
     double expected = 0.0;  // in double precision, independent of the code under test
     double measured = 0.0;
-    double tolerance = 0.0;             // largest |measured - expected|
-    std::string reason;                 // why the tolerance is what it is
+    double tolerance = 0.0;  // largest |measured - expected|, where it is bounded
+    std::string reason;      // why the tolerance, or the bound, is what it is
+    Bound bound = Bound::near;
     [[nodiscard]] bool passes() const;  // what is not a number never does
+    // "12", "at least 12", "at most 12".
+    [[nodiscard]] std::string expectedText() const;
 };
 
 struct Case {

@@ -34,7 +34,7 @@ TEST_P(HardCase, MeasuresWhatIsRight) {
     EXPECT_FALSE(rows.empty());
     for (const Row& row : rows) {
         EXPECT_TRUE(row.passes()) << row.subject << ": " << row.what << " should be "
-                                  << row.expected << " within " << row.tolerance << " and is "
+                                  << row.expectedText() << " within " << row.tolerance << " and is "
                                   << row.measured << " (" << row.reason << ")";
     }
 }
