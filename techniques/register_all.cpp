@@ -18,7 +18,7 @@ Registry registerAll() {
     registerRaytraced(registry);
 #endif
     registerPlanar(registry);
-    registerMediaLeftOut(registry);
+    registerNoMedia(registry);
     return registry;
 }
 

@@ -122,7 +122,8 @@ int fail(const std::string& message, int exitCode) {
 
 }  // namespace
 
-int runCommandLine(int argc, const char* const* argv, const Registry& registry, GuiCommand gui) {
+int runCommandLine(int argc, const char* const* argv, const Registry& registry,
+                   const ProgramParts& parts) {
     // A file that grows past the shell's limit is then an error of the write, as a full disk is.
     std::signal(SIGXFSZ, SIG_IGN);
     CLI::App app("Real-time caustics by screen-space and image-space photon tracing.", "kaustik");
@@ -249,15 +250,15 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry, 
         if (explainApp->parsed()) explainCommand(explain, registry);
         if (referenceApp->parsed()) referenceCommand(reference);
         if (compareApp->parsed()) compareCommand(compare);
-        if (experimentApp->parsed()) experimentCommand(experiment, registry);
+        if (experimentApp->parsed()) experimentCommand(experiment, registry, parts.addHardCases);
         if (checkApp->parsed()) checkCommand();
         if (guiApp->parsed()) {
-            if (gui == nullptr) {
+            if (parts.gui == nullptr) {
                 throw ConfigError(
                     "This program was built without the workbench (KAUSTIK_WITH_GUI); 'kaustik "
                     "run' renders without it.");
             }
-            gui(guiOptions, registry);
+            parts.gui(guiOptions, registry);
         }
         requirePrinted();
         return kExitDone;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "framework/app/options.h"
+#include "framework/numerics/suite.h"
 #include "framework/pipeline/registry.h"
 #include "framework/pipeline/renderer.h"
 
@@ -14,16 +15,27 @@ void listCommand(const ListOptions& options, const Registry& registry);
 void explainCommand(const ExplainOptions& options, const Registry& registry);
 void referenceCommand(const ReferenceOptions& options);
 void compareCommand(const CompareOptions& options);
-void experimentCommand(const ExperimentOptions& options, const Registry& registry);
+
+// Adds to the common hard cases those of a program's techniques; null where there are none.
+using AddHardCases = void (*)(numerics::Suite& suite);
+void experimentCommand(const ExperimentOptions& options, const Registry& registry,
+                       AddHardCases addHardCases);
+
 void checkCommand();
 
 // `kaustik gui`, which sits on top of this; null in a program that was built without it.
 using GuiCommand = void (*)(const GuiOptions& options, const Registry& registry);
 
+// What a program may bring besides techniques.
+struct ProgramParts {
+    GuiCommand gui = nullptr;
+    AddHardCases addHardCases = nullptr;
+};
+
 // The whole command line: parses, runs, prints errors; gives the exit code. A program that adds
 // techniques of its own passes its registry.
 [[nodiscard]] int runCommandLine(int argc, const char* const* argv, const Registry& registry,
-                                 GuiCommand gui = nullptr);
+                                 const ProgramParts& parts = {});
 
 // Checks everything that the options name, before any device is asked for.
 [[nodiscard]] RenderSettings makeSettings(const SceneOptions& options, const Registry& registry);

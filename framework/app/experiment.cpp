@@ -6,12 +6,12 @@
 
 #include "framework/app/commands.h"
 #include "framework/app/numerics.h"
-#include "framework/app/progress.h"
 #include "framework/core/error.h"
 #include "framework/core/files.h"
 #include "framework/core/names.h"
 #include "framework/experiment/process.h"
 #include "framework/experiment/runner.h"
+#include "framework/run/progress.h"
 
 namespace kaustik::app {
 namespace {
@@ -39,10 +39,11 @@ RunDefaults runDefaults() {
                 kExitFailed);
 }
 
-void runStudy(const ExperimentOptions& options, const Registry& registry) {
+void runStudy(const ExperimentOptions& options, const Registry& registry,
+              AddHardCases addHardCases) {
     const Spec spec = readSpec(options.target);
     if (!spec.suite.empty()) {
-        runSuite(options, spec, registry);
+        runSuite(options, spec, registry, addHardCases);
         return;
     }
     const Plan plan = makePlan(spec, runDefaults(), [&](const std::string& technique) {
@@ -50,12 +51,12 @@ void runStudy(const ExperimentOptions& options, const Registry& registry) {
     });
     const fs::path out = options.out.empty() ? fs::path("results/runs/experiments") / plan.spec.name
                                              : fs::path(options.out);
-    catchInterrupts();
-    requireDisabledPasses(plan, kThisProgram, isInterrupted);
-    std::unique_ptr<Progress> progress;
-    const RunnerHooks hooks{isInterrupted, [&](int done, int total) {
+    run::catchInterrupts();
+    requireDisabledPasses(plan, kThisProgram, run::isInterrupted);
+    std::unique_ptr<run::Progress> progress;
+    const RunnerHooks hooks{run::isInterrupted, [&](int done, int total) {
                                 if (!progress) {
-                                    progress = std::make_unique<Progress>("run", total);
+                                    progress = std::make_unique<run::Progress>("run", total);
                                 }
                                 progress->update(done);
                             }};
@@ -105,23 +106,24 @@ void drawReport(const ExperimentOptions& options) {
                         "packages python3 and python3-matplotlib.",
                         python.string()));
     }
-    catchInterrupts();
+    run::catchInterrupts();
     std::fflush(stdout);
     const fs::path script = projectRoot() / "experiments/plotting/report.py";
     // -B: leaves no compiled files in the source tree.
     const ProcessOutcome outcome =
         runProcess(python, {"python3", "-B", script.string(), folder.string()},
-                   StandardOutput::shared, isInterrupted);
+                   StandardOutput::shared, run::isInterrupted);
     if (outcome.interrupted) throw Error("Interrupted; no report was written.", kExitFailed);
     if (outcome.exitCode != 0) throw IoError(outcome.problem());
 }
 
 }  // namespace
 
-void experimentCommand(const ExperimentOptions& options, const Registry& registry) {
+void experimentCommand(const ExperimentOptions& options, const Registry& registry,
+                       AddHardCases addHardCases) {
     const std::vector<std::string> actions = {"run", "report"};
     if (options.action == "run") {
-        runStudy(options, registry);
+        runStudy(options, registry, addHardCases);
     } else if (options.action == "report") {
         drawReport(options);
     } else {

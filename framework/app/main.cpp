@@ -4,6 +4,7 @@
 #include "framework/gui/gui_command.h"
 #endif
 #include "techniques/register_all.h"
+#include "techniques/register_hard_cases.h"
 
 #ifdef __SANITIZE_ADDRESS__
 // Drivers keep memory, and are unloaded before leaks are looked for: nobody could tell whose it is.
@@ -13,9 +14,12 @@ extern "C" const char* __asan_default_options() {
 #endif
 
 int main(int argc, char** argv) {
-    kaustik::app::GuiCommand gui = nullptr;
+    kaustik::app::ProgramParts parts;
+    parts.addHardCases = &kaustik::registerHardCases;
 #ifdef KAUSTIK_HAS_GUI
-    gui = &kaustik::gui::guiCommand;
+    parts.gui = [](const kaustik::app::GuiOptions& options, const kaustik::Registry& registry) {
+        kaustik::gui::guiCommand(options.scene, options.describe, registry);
+    };
 #endif
-    return kaustik::app::runCommandLine(argc, argv, kaustik::registerAll(), gui);
+    return kaustik::app::runCommandLine(argc, argv, kaustik::registerAll(), parts);
 }

@@ -9,13 +9,13 @@
 
 #include "framework/app/commands.h"
 #include "framework/app/numerics.h"
-#include "framework/app/output.h"
-#include "framework/app/progress.h"
 #include "framework/core/error.h"
 #include "framework/core/files.h"
 #include "framework/core/json_text.h"
 #include "framework/numerics/lab.h"
 #include "framework/numerics/table.h"
+#include "framework/run/output.h"
+#include "framework/run/progress.h"
 
 namespace kaustik::app {
 namespace {
@@ -34,31 +34,32 @@ std::vector<numerics::Case> chosenCases(const numerics::Suite& suite,
 }  // namespace
 
 void runSuite(const ExperimentOptions& options, const experiment::Spec& spec,
-              const Registry& registry) {
+              const Registry& registry, AddHardCases addHardCases) {
     if (options.resume) {
         throw ConfigError("--resume: a suite is measured as a whole; leave the option out.");
     }
-    const numerics::Suite suite = numerics::makeSuite(registry);
+    numerics::Suite suite = numerics::commonCases();
+    if (addHardCases != nullptr) addHardCases(suite);
     numerics::Table table;
     table.cases = chosenCases(suite, spec);
     const fs::path out = options.out.empty() ? fs::path("results/runs/experiments") / spec.name
                                              : fs::path(options.out);
-    requireWritable(out, "--out");
+    run::requireWritable(out, "--out");
     const std::unique_ptr<gl::Context> context = gl::Context::createHeadless();
     table.device = context->info().renderer;
     numerics::Lab lab(*context, registry, suite);
-    catchInterrupts();
+    run::catchInterrupts();
     {
-        Progress progress("case", static_cast<int>(table.cases.size()));
+        run::Progress progress("case", static_cast<int>(table.cases.size()));
         int done = 0;
         for (const numerics::Case& hardCase : table.cases) {
-            throwIfInterrupted();
+            run::throwIfInterrupted();
             for (numerics::Row& row : lab.run(hardCase))
                 table.rows.push_back(std::move(row));
             progress.update(++done);
         }
     }
-    throwIfInterrupted();
+    run::throwIfInterrupted();
     writeFileWhole(out / "numerics.csv", numerics::makeCsv(table));
     writeFileWhole(out / "numerics.json", jsonText(numerics::makeJson(table), 2) + "\n");
     writeFileWhole(out / "numerics.md", numerics::makeMarkdown(table));
@@ -68,10 +69,10 @@ void runSuite(const ExperimentOptions& options, const experiment::Spec& spec,
     if (numerics::countFailures(table) > 0) {
         const numerics::Row& first = *std::find_if(table.rows.begin(), table.rows.end(),
                                                    [](const auto& row) { return !row.passes(); });
-        throw Error(fmt::format("{} of {} rows fail, the first is {}, {}: {} should be {:.7g} and "
-                                "is {:.7g}.",
+        throw Error(fmt::format("{} of {} rows fail, the first is {}, {}: {} should be {} and is "
+                                "{:.7g}.",
                                 numerics::countFailures(table), table.rows.size(), first.caseId,
-                                first.subject, first.what, first.expected, first.measured),
+                                first.subject, first.what, first.expectedText(), first.measured),
                     kExitFailed);
     }
 }

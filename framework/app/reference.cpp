@@ -5,11 +5,11 @@
 #include <cmath>
 
 #include "framework/app/commands.h"
-#include "framework/app/output.h"
 #include "framework/core/error.h"
+#include "framework/run/output.h"
 
 #ifdef KAUSTIK_HAS_EMBREE
-#include "framework/app/reference_work.h"
+#include "framework/run/reference_work.h"
 #endif
 
 namespace kaustik::app {
@@ -112,9 +112,9 @@ void referenceCommand(const ReferenceOptions& options) {
     const std::string extension = file.extension().string();
     if (extension != ".exr" && extension != ".pfm")
         throw ConfigError(fmt::format("--out: {} must end in .exr or .pfm.", file.string()));
-    requireWritable(file.parent_path().empty() ? fs::path(".") : file.parent_path(), "--out");
+    run::requireWritable(file.parent_path().empty() ? fs::path(".") : file.parent_path(), "--out");
     const EmbreeScene embree(scene);
-    const Reference result = obtainReference(embree, request, run);
+    const Reference result = run::obtainReference(embree, request, run);
     writeReference(file, result);
     print(result, file);
 }

@@ -6,12 +6,12 @@
 #include <chrono>
 
 #include "framework/app/commands.h"
-#include "framework/app/output.h"
-#include "framework/app/progress.h"
-#include "framework/app/run_record.h"
-#include "framework/app/truth.h"
 #include "framework/core/error.h"
 #include "framework/report/limits.h"
+#include "framework/run/output.h"
+#include "framework/run/progress.h"
+#include "framework/run/run_record.h"
+#include "framework/run/truth.h"
 
 namespace kaustik::app {
 namespace {
@@ -35,13 +35,13 @@ std::vector<gl::FrameTime> renderTimedFrames(Renderer& renderer, gl::PassTimer& 
                                              const RunOptions& options) {
     const int total = options.warmup + options.frames;
     std::vector<gl::FrameTime> times;
-    Progress progress("frame", total);
+    run::Progress progress("frame", total);
     const auto take = [&](bool wait) {
         for (gl::FrameTime& frame : timer.takeFinished(wait))
             times.push_back(std::move(frame));
     };
     for (int frame = 0; frame < total; ++frame) {
-        throwIfInterrupted();
+        run::throwIfInterrupted();
         renderer.renderFrame(timer);
         // A ring slot is read when its frame is done; here, unlike in a window, no frame may be
         // lost, so the ring is emptied before it is full.
@@ -72,24 +72,24 @@ void runCommand(const RunOptions& options, const Registry& registry) {
     const std::unique_ptr<gl::Context> context = gl::Context::createHeadless(options.scene.glDebug);
     Renderer renderer(*context, registry, scene, std::move(settings));
     renderer.build(Purpose::measurement, options.saved);  // finds every mistake before the work
-    requireTextures(renderer, options.saved);
+    run::requireTextures(renderer, options.saved);
     renderer.build(Purpose::picture);
-    requireWritable(folder, "--out");
-    catchInterrupts();
+    run::requireWritable(folder, "--out");
+    run::catchInterrupts();
 
-    report::RunRecord record =
-        startRecord(renderer, options.precise ? gl::TimerMode::finish : gl::TimerMode::timestamps);
+    report::RunRecord record = run::startRecord(
+        renderer, options.precise ? gl::TimerMode::finish : gl::TimerMode::timestamps);
     record.warmup = options.warmup;
     record.seed = options.seed;
     gl::PassTimer timer(record.timer);
     record.startupMilliseconds =
         std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-    const Truth truth(options.reference, static_cast<std::uint64_t>(options.referencePhotons),
-                      renderer);  // before the frames: it may be refused
+    const run::Truth truth(options.reference, static_cast<std::uint64_t>(options.referencePhotons),
+                           renderer);  // before the frames: it may be refused
     record.frames = renderTimedFrames(renderer, timer, options);
 
     const std::vector<fs::path> files =
-        finishRun(renderer, truth, record, folder, options.saved, context->info());
+        run::finishRun(renderer, truth, record, folder, options.saved, context->info());
 
     fmt::print("{} with {}, {}x{}, on {}{}\n", scene.name, renderer.settings().technique.name,
                renderer.settings().width, renderer.settings().height, context->info().renderer,

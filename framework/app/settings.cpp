@@ -6,8 +6,8 @@
 
 #include "framework/app/commands.h"
 #include "framework/core/error.h"
-#include "framework/scene/height_field.h"
-#include "framework/scene/scene_file.h"
+#include "framework/scene/files/scene_file.h"
+#include "framework/scene/shapes/height_field.h"
 
 namespace kaustik::app {
 

@@ -193,7 +193,7 @@ class Counter {
     std::vector<double> pixels_;
 };
 
-// As common/octahedral.glsl folds it.
+// As include/octahedral.glsl folds it.
 glm::dvec3 unfoldUnitVector(const glm::dvec2& folded) {
     glm::dvec3 n(folded, 1.0 - std::abs(folded.x) - std::abs(folded.y));
     if (n.z < 0.0) {

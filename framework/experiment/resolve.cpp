@@ -11,7 +11,7 @@
 #include "framework/core/files.h"
 #include "framework/core/names.h"
 #include "framework/experiment/fingerprint.h"
-#include "framework/scene/scene_file.h"
+#include "framework/scene/files/scene_file.h"
 
 namespace kaustik::experiment {
 namespace {

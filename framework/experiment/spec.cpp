@@ -10,7 +10,7 @@
 
 #include "framework/core/error.h"
 #include "framework/experiment/value_range.h"
-#include "framework/scene/table_reader.h"
+#include "framework/scene/files/table_reader.h"
 
 namespace kaustik::experiment {
 namespace {

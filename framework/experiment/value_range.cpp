@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "framework/scene/table_reader.h"
+#include "framework/scene/files/table_reader.h"
 
 namespace kaustik::experiment {
 namespace {

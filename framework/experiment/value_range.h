@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/scene/toml_node.h"
+#include "framework/scene/files/toml_node.h"
 
 namespace kaustik::experiment {
 

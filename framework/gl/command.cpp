@@ -329,7 +329,7 @@ void Command::bindState() {
 }
 
 void Command::draw() {
-    key_.files.insert(key_.files.begin(), "common/fullscreen.vert");
+    key_.files.insert(key_.files.begin(), "framework/fullscreen.vert");
     drawArrays(GL_TRIANGLES, 3);
 }
 

@@ -17,7 +17,7 @@
 #include "framework/gui/shown.h"
 #include "framework/gui/state.h"
 #include "framework/gui/truth_worker.h"
-#include "framework/scene/scene_file.h"
+#include "framework/scene/files/scene_file.h"
 
 namespace kaustik::gui {
 

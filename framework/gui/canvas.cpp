@@ -29,7 +29,7 @@ gl::Object<gl::detail::deleteTexture> makeTexture(GLenum format, int width, int 
 Canvas::Canvas()
     : palette_(makeTexture(GL_RGBA8, kPaletteSize, 1)),
       vertexArray_(gl::makeVertexArray()),
-      program_({{"common/fullscreen.vert", "gui/tone.frag"}, ""}) {
+      program_({{"framework/fullscreen.vert", "gui/tone.frag"}, ""}) {
     std::vector<float> colors;
     for (int i = 0; i < kPaletteSize; ++i) {
         for (const float c : measure::heatColor(double(i) / (kPaletteSize - 1)))

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "framework/scene/scene_file.h"
+#include "framework/scene/files/scene_file.h"
 
 namespace kaustik::gui {
 namespace {

@@ -9,7 +9,7 @@
 #include "framework/core/error.h"
 #include "framework/core/files.h"
 #include "framework/core/names.h"
-#include "framework/scene/scene_file.h"
+#include "framework/scene/files/scene_file.h"
 
 namespace kaustik::gui {
 namespace {

@@ -21,7 +21,7 @@
 #include "framework/report/run_report.h"
 #include "framework/scene/scene.h"
 
-namespace kaustik::app {
+namespace kaustik::run {
 struct Outputs;
 }
 
@@ -71,7 +71,7 @@ struct VariantResult {
     // Of one more frame, once the order is settled.
     std::optional<EnergyLedger> ledger;
     std::vector<ReachedLimit> limits;
-    std::shared_ptr<const app::Outputs> outputs;  // where asked for
+    std::shared_ptr<const run::Outputs> outputs;  // where asked for
     ModelledPaths paths;
 };
 

@@ -2,12 +2,16 @@
 // kaustik gui.
 #pragma once
 
-#include "framework/app/options.h"
+#include <filesystem>
+#include <string>
+
 #include "framework/pipeline/registry.h"
 
 namespace kaustik::gui {
 
-// Opens the workbench; returns when its window is closed. Throws DeviceError without a display.
-void guiCommand(const app::GuiOptions& options, const Registry& registry);
+// Opens the workbench; returns when its window is closed. `scene`: "" for as it was left;
+// `describe`: the file of the screen map, "" for none. Throws DeviceError without a display.
+void guiCommand(const std::string& scene, const std::filesystem::path& describe,
+                const Registry& registry);
 
 }  // namespace kaustik::gui

@@ -9,14 +9,14 @@
 #include <array>
 #include <utility>
 
-#include "framework/app/output.h"
-#include "framework/app/run_record.h"
-#include "framework/app/truth.h"
 #include "framework/core/error.h"
 #include "framework/core/files.h"
 #include "framework/gui/file_watch.h"
-#include "framework/scene/height_field.h"
-#include "framework/scene/scene_file.h"
+#include "framework/run/output.h"
+#include "framework/run/run_record.h"
+#include "framework/run/truth.h"
+#include "framework/scene/files/scene_file.h"
+#include "framework/scene/shapes/height_field.h"
 
 namespace kaustik::gui {
 namespace {
@@ -411,7 +411,7 @@ void RenderWorker::reloadShaders(Device& device) {
 
 void RenderWorker::writeRecording(Device& device, const RecordRequest& request) {
     try {
-        app::requireWritable(request.folder, "Recording");
+        run::requireWritable(request.folder, "Recording");
         if (request.what == RecordRequest::What::report) {
             writeReport(device, request);
         } else {
@@ -438,16 +438,16 @@ void RenderWorker::writeReport(Device& device, const RecordRequest& request) {
     Renderer renderer(*device.context, registry_, *device.scene,
                       settingsOf(document.variant, document.size, registry_));
     renderer.build(Purpose::picture);
-    const app::Watch watch{
+    const run::Watch watch{
         [this] { return !stop_ && !cancelRecording_; },
         [this](double share, const std::string& reached) {
             setRecording(
                 {true, fmt::format("reference, {:.0f} %: {}", 100.0 * share, reached), false});
         }};
     if (request.truthPhotons > 0) setRecording({true, "looking for a reference", false});
-    const app::Truth truth(request.truthPhotons > 0 ? "auto" : "none", request.truthPhotons,
+    const run::Truth truth(request.truthPhotons > 0 ? "auto" : "none", request.truthPhotons,
                            renderer, watch);
-    report::RunRecord record = app::startRecord(renderer, mode);
+    report::RunRecord record = run::startRecord(renderer, mode);
     record.warmup = 1;
     gl::PassTimer timer(mode);
     for (int frame = 0; frame <= request.frames; ++frame) {
@@ -462,7 +462,7 @@ void RenderWorker::writeReport(Device& device, const RecordRequest& request) {
     setRecording(
         {true, truth.purpose() == Purpose::audit ? "measuring and writing" : "writing", false});
     const std::vector<fs::path> files =
-        app::finishRun(renderer, truth, record, request.folder, {}, device.context->info());
+        run::finishRun(renderer, truth, record, request.folder, {}, device.context->info());
     setRecording({false,
                   fmt::format("Wrote {} files into {}.", files.size(), request.folder.string()),
                   false});
@@ -490,7 +490,7 @@ void RenderWorker::writeSequence(Device& device, const RecordRequest& request) {
         }
         static_cast<void>(timer.takeFinished(true));
         writeImage(request.folder / fmt::format("{:04}{}", frame, displayImageExtension()),
-                   app::readTexture(renderer.texture(renderer.outputs().picture.display), 0, 3));
+                   run::readTexture(renderer.texture(renderer.outputs().picture.display), 0, 3));
     }
     setRecording(
         {false, fmt::format("Wrote {} pictures into {}.", request.frames, request.folder.string()),

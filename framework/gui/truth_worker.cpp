@@ -11,9 +11,9 @@
 
 #include "framework/core/error.h"
 #ifdef KAUSTIK_HAS_EMBREE
-#include "framework/app/caustic_errors.h"
-#include "framework/app/reference_work.h"
 #include "framework/reference/reference.h"
+#include "framework/run/caustic_errors.h"
+#include "framework/run/reference_work.h"
 #endif
 
 namespace kaustik::gui {
@@ -144,7 +144,7 @@ class AtWork {
 };
 
 std::filesystem::path cache() {
-    return app::cacheFolder() / "references";
+    return run::cacheFolder() / "references";
 }
 
 }  // namespace
@@ -287,7 +287,7 @@ void TruthWorker::judgeFrames(Loaded& loaded, const std::array<JudgedFrame, 2>& 
     for (std::size_t i = 0; i < frames.size(); ++i) {
         TruthState::Judgement judgement;
         if (frames[i].outputs) {
-            const app::Outputs& outputs = *frames[i].outputs;
+            const run::Outputs& outputs = *frames[i].outputs;
             const Image& image = outputs.images.front().image;
             if (image.width != loaded.request.width || image.height != loaded.request.height)
                 continue;
@@ -296,7 +296,7 @@ void TruthWorker::judgeFrames(Loaded& loaded, const std::array<JudgedFrame, 2>& 
             if (loaded.modelled) judgement.modelled = errorsAgainst(outputs, *loaded.modelled);
             if (outputs.seesReceivers && !judgement.whole.at("caustic_irradiance").is_null()) {
                 judgement.heatMap = std::make_shared<const Image>(
-                    app::errorPicture(pairOf(outputs, outputs.images.front(), *loaded.whole)));
+                    run::errorPicture(pairOf(outputs, outputs.images.front(), *loaded.whole)));
             }
         }
         working_.judgements[i] = std::move(judgement);

@@ -19,7 +19,7 @@
 #include "framework/gui/document.h"
 #include "framework/image/image.h"
 
-namespace kaustik::app {
+namespace kaustik::run {
 struct Outputs;
 }
 
@@ -38,7 +38,7 @@ struct TruthAim {
 // A frame to be judged.
 struct JudgedFrame {
     std::uint64_t order = 0;
-    std::shared_ptr<const app::Outputs> outputs;
+    std::shared_ptr<const run::Outputs> outputs;
 };
 
 struct TruthState {

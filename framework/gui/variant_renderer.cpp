@@ -3,11 +3,11 @@
 
 #include <algorithm>
 
-#include "framework/app/output.h"
-#include "framework/app/run_record.h"
 #include "framework/core/error.h"
+#include "framework/run/output.h"
+#include "framework/run/run_record.h"
 #ifdef KAUSTIK_HAS_EMBREE
-#include "framework/app/caustic_errors.h"
+#include "framework/run/caustic_errors.h"
 #endif
 
 namespace kaustik::gui {
@@ -77,7 +77,7 @@ bool VariantRenderer::guarded(const std::function<bool()>& work) {
 }
 
 void VariantRenderer::restartTimes(gl::TimerMode timer) {
-    const report::RunRecord now = app::startRecord(*renderer_, timer);
+    const report::RunRecord now = run::startRecord(*renderer_, timer);
     if (now.stepNames != record_.stepNames || now.timer != record_.timer || !timer_) {
         timer_ = std::make_unique<gl::PassTimer>(timer);
         record_.frames.clear();
@@ -121,11 +121,11 @@ ViewedTexture VariantRenderer::viewPicture() {
     ViewedTexture viewed;
     viewed.version = ++versions_;
     viewed.isEncoded = true;
-    viewed.values = app::readTexture(renderer_->texture(picture.display), 0, 3);
+    viewed.values = run::readTexture(renderer_->texture(picture.display), 0, 3);
     // What is no number is black in a picture, and no other black.
     viewed.checked = renderer_->graph().nameOf(picture.radiance);
     viewed.notFinite =
-        measure::findNotFinite(app::readTexture(renderer_->texture(picture.radiance), 0, 3));
+        measure::findNotFinite(run::readTexture(renderer_->texture(picture.radiance), 0, 3));
     viewed.histogram = histogramOf(viewed.values);
     return viewed;
 }
@@ -149,7 +149,7 @@ ViewedTexture VariantRenderer::view(const Viewing& viewing) {
         return viewed;
     }
     viewed.values =
-        app::readTexture(texture, viewing.layer, gl::formatInfo(texture.desc().format).channels);
+        run::readTexture(texture, viewing.layer, gl::formatInfo(texture.desc().format).channels);
     viewed.notFinite = measure::findNotFinite(viewed.values);
     viewed.histogram = histogramOf(viewed.values);
     return viewed;
@@ -166,7 +166,7 @@ void VariantRenderer::readBack(const Viewing& viewing) {
         result_.frameMs.push_back(frame.frameMs);
     result_.textures = texturesOf(*renderer_);
     result_.warnings = renderer_->warnings();
-    for (const std::string& name : app::unusedSettings(*renderer_))
+    for (const std::string& name : run::unusedSettings(*renderer_))
         result_.warnings.push_back(name + " was set, but no node in use reads it.");
     result_.peakBytes = renderer_->compiled().peakBytes;
     result_.paths = outputs.hits.incoming.paths;
@@ -177,7 +177,7 @@ void VariantRenderer::readBack(const Viewing& viewing) {
     result_.outputs.reset();
 #ifdef KAUSTIK_HAS_EMBREE
     if (viewing.readsOutputs && outputs.eye.receiver.valid())
-        result_.outputs = std::make_shared<const app::Outputs>(app::readOutputs(*renderer_));
+        result_.outputs = std::make_shared<const run::Outputs>(run::readOutputs(*renderer_));
 #endif
 }
 

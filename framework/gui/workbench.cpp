@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "framework/app/progress.h"
 #include "framework/core/error.h"
 #include "framework/core/names.h"
 #include "framework/gui/panels/panels.h"
 #include "framework/gui/recording_name.h"
 #include "framework/gui/widgets.h"
+#include "framework/run/progress.h"
 
 namespace kaustik::gui {
 namespace {
@@ -105,7 +105,7 @@ void Workbench::run() {
                               Clock::now() - turnedAt_ < std::chrono::milliseconds(500);
         // Dear ImGui needs a few frames to answer what it was told.
         if (hasInput) framesToDraw_ = 3;
-        if (app::isInterrupted()) window_.close();
+        if (run::isInterrupted()) window_.close();
         takeNews();
         takeDropped();
         bench_.isDragging = false;

@@ -4,11 +4,11 @@
 
 #include <filesystem>
 
-#include "framework/scene/mesh_import.h"
+#include "framework/scene/files/mesh_import.h"
 
 namespace kaustik::scene {
 
-// As importMeshWithWarnings (framework/scene/mesh_import.h).
+// As importMeshWithWarnings (framework/scene/files/mesh_import.h).
 [[nodiscard]] ImportedMesh readMeshFile(const std::filesystem::path& path);
 
 }  // namespace kaustik::scene

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "framework/scene/toml_node.h"
+#include "framework/scene/files/toml_node.h"
 
 namespace kaustik::scene {
 

@@ -12,8 +12,8 @@
 #include <unordered_map>
 
 #include "framework/core/error.h"
-#include "framework/scene/mesh_checks.h"
-#include "framework/scene/position_welding.h"
+#include "framework/scene/meshes/mesh_checks.h"
+#include "framework/scene/meshes/position_welding.h"
 
 namespace kaustik::scene {
 namespace {

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "framework/scene/scene_file.h"
+#include "framework/scene/files/scene_file.h"
 
 namespace kaustik::numerics {
 namespace {

@@ -39,6 +39,16 @@ void Lab::expect(const std::string& subject, const std::string& what, double exp
         {caseId_, subject, what, expected, measured, tolerance.value, tolerance.reason});
 }
 
+void Lab::expectAtLeast(const std::string& subject, const std::string& what, double least,
+                        double measured, const std::string& reason) {
+    rows_.push_back({caseId_, subject, what, least, measured, 0.0, reason, Bound::atLeast});
+}
+
+void Lab::expectAtMost(const std::string& subject, const std::string& what, double most,
+                       double measured, const std::string& reason) {
+    rows_.push_back({caseId_, subject, what, most, measured, 0.0, reason, Bound::atMost});
+}
+
 std::vector<std::string> Lab::nodesOf(const std::string& stage) const {
     std::vector<std::string> nodes;
     for (const Registry::Node& node : registry_.nodes()) {

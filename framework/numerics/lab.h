@@ -17,6 +17,7 @@ struct Tolerance {
     std::string reason;
 };
 inline const Tolerance kExactly{0.0, "a count, or exact in 32 bits"};
+inline constexpr const char* kEnough = "of fewer the case would say little";
 
 class Lab {
   public:
@@ -35,6 +36,12 @@ class Lab {
                          const Tolerance& tolerance) {
         expect(subject, what, 0.0, worst, tolerance);
     }
+    // A number that is bounded on one side alone: how many photons a case compares, say. `reason`:
+    // why the bound is what it is.
+    void expectAtLeast(const std::string& subject, const std::string& what, double least,
+                       double measured, const std::string& reason);
+    void expectAtMost(const std::string& subject, const std::string& what, double most,
+                      double measured, const std::string& reason);
 
     // The nodes that answer a stage, and the settings that choose one: those of the first technique
     // that uses it, else of the first technique with this node put into it.

@@ -2,20 +2,20 @@
 // The hard cases as a suite: each a row of framework/numerics/README.md, "The cases", with
 // functions that measure. Common cases (framework/numerics/cases) ask the registry for the nodes
 // that answer a stage, so that a new tracer joins by being registered; a technique adds cases of
-// its own nodes with Registry::hardCases.
+// its own nodes to the suite (techniques/register_hard_cases.cpp).
 #pragma once
 
 #include <functional>
 #include <string>
 #include <vector>
 
-namespace kaustik {
-class Registry;
-}
-
 namespace kaustik::numerics {
 
 class Lab;
+
+// What a measured number is held to: within the tolerance of what is expected, or no further than
+// that below or above it.
+enum class Bound { near, atLeast, atMost };
 
 // One measured number beside what it must be.
 struct Row {
@@ -24,9 +24,12 @@ struct Row {
     std::string what;
     double expected = 0.0;  // in double precision, independent of the code under test
     double measured = 0.0;
-    double tolerance = 0.0;             // largest |measured - expected|
-    std::string reason;                 // why the tolerance is what it is
+    double tolerance = 0.0;  // largest |measured - expected|, where it is bounded
+    std::string reason;      // why the tolerance, or the bound, is what it is
+    Bound bound = Bound::near;
     [[nodiscard]] bool passes() const;  // what is not a number never does
+    // "12", "at least 12", "at most 12".
+    [[nodiscard]] std::string expectedText() const;
 };
 
 struct Case {
@@ -53,8 +56,8 @@ class Suite {
     std::vector<std::string> unwritten_;
 };
 
-// The common cases and those of the registry's techniques.
-[[nodiscard]] Suite makeSuite(const Registry& registry);
+// The cases that all nodes of a stage share.
+[[nodiscard]] Suite commonCases();
 
 // The cases that any of the patterns names: "A5", "B*". Throws ConfigError, with the nearest that
 // exists, for one that names none.

@@ -31,6 +31,12 @@ std::string shortNumber(double value) {
     return fmt::format("{:.7g}", value);
 }
 
+// With its bound: the columns of numbers hold numbers alone.
+std::string whatOf(const Row& row) {
+    if (row.bound == Bound::near) return row.what;
+    return row.what + (row.bound == Bound::atLeast ? ", at least" : ", at most");
+}
+
 nlohmann::json jsonNumber(double value) {
     return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr);
 }
@@ -51,9 +57,10 @@ std::size_t countFailures(const Table& table) {
 std::string makeCsv(const Table& table) {
     std::string text = "case,subject,what,expected,measured,tolerance,verdict,reason\n";
     for (const Row& row : table.rows) {
-        text += fmt::format("{},{},{},{},{},{},{},{}\n", row.caseId, quoted(row.subject),
-                            quoted(row.what), exactNumber(row.expected), exactNumber(row.measured),
-                            exactNumber(row.tolerance), verdict(row), quoted(row.reason));
+        text +=
+            fmt::format("{},{},{},{},{},{},{},{}\n", row.caseId, quoted(row.subject),
+                        quoted(whatOf(row)), exactNumber(row.expected), exactNumber(row.measured),
+                        exactNumber(row.tolerance), verdict(row), quoted(row.reason));
     }
     return text;
 }
@@ -69,7 +76,7 @@ nlohmann::json makeJson(const Table& table) {
         for (const Row& row : table.rows) {
             if (row.caseId != c.id) continue;
             rows.push_back({{"subject", row.subject},
-                            {"what", row.what},
+                            {"what", whatOf(row)},
                             {"expected", jsonNumber(row.expected)},
                             {"measured", jsonNumber(row.measured)},
                             {"tolerance", jsonNumber(row.tolerance)},
@@ -90,7 +97,7 @@ std::string makeMarkdown(const Table& table) {
             "|\n| --- | --- | --- | --- | --- | --- | --- |\n";
         for (const Row& row : table.rows) {
             if (row.caseId != c.id) continue;
-            text += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", row.subject, row.what,
+            text += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", row.subject, whatOf(row),
                                 shortNumber(row.expected), shortNumber(row.measured),
                                 shortNumber(row.tolerance), verdict(row), row.reason);
         }
@@ -103,7 +110,7 @@ std::string makeText(const Table& table) {
     std::size_t whatWidth = 4;
     for (const Row& row : table.rows) {
         subjectWidth = std::max(subjectWidth, row.subject.size());
-        whatWidth = std::max(whatWidth, row.what.size());
+        whatWidth = std::max(whatWidth, whatOf(row).size());
     }
     const auto line = [&](const auto&... cells) {
         return fmt::format("{:<{}}  {:<{}}  {:>13}  {:>13}  {:>10}  {}\n", cells...);
@@ -115,7 +122,7 @@ std::string makeText(const Table& table) {
                             "tolerance", "");
         for (const Row& row : table.rows) {
             if (row.caseId != c.id) continue;
-            text += "  " + line(row.subject, subjectWidth, row.what, whatWidth,
+            text += "  " + line(row.subject, subjectWidth, whatOf(row), whatWidth,
                                 shortNumber(row.expected), shortNumber(row.measured),
                                 fmt::format("{:.3g}", row.tolerance), verdict(row));
         }

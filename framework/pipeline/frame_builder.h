@@ -33,13 +33,13 @@ struct FrameInputs {
     const std::uint64_t& seed;               // of whatever a node draws at random
 };
 
-// Issues a compute thread a photon of the list: shaders include common/photon_thread.glsl.
+// Issues a compute thread a photon of the list: shaders include include/photon_thread.glsl.
 void dispatchOver(gl::Command& command, const Photons& photons);
 inline void dispatchOver(gl::Command&& command, const Photons& photons) {
     dispatchOver(command, photons);
 }
 // Draws a fragment a photon of the list; the targets are of the list's size. The command starts
-// with common/photon_rows.vert.
+// with framework/photon_rows.vert.
 void drawOver(gl::Command& command);
 // A list that fills its textures, in every texel a photon or nobody.
 void fillList(gl::PassContext& context, const Photons& photons);

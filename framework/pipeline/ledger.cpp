@@ -72,7 +72,7 @@ Ledger closeBatch(FrameBuilder& frame, const Hits& hits, const Ledger& ledger) {
             setup.bypass(data, ledger);
         },
         [photons = hits.incoming](const Ledger&, gl::PassContext& context) {
-            dispatchOver(context.compute("common/ledger_bounces.comp"), photons);
+            dispatchOver(context.compute("framework/ledger_bounces.comp"), photons);
         });
 }
 
@@ -87,7 +87,7 @@ Ledger closeLedger(FrameBuilder& frame, const FrameOutputs& outputs) {
         },
         [map](const Ledger&, gl::PassContext& context) {
             const graph::TextureDesc& desc = context.texture(map.flux).desc();
-            context.compute("common/ledger_close.comp")
+            context.compute("framework/ledger_close.comp")
                 .set("mapCount", map.views->count())
                 .set("wordsPerMap", map.wordsPerView())
                 .dispatchOver(desc.width, 8, desc.height, 8);

@@ -24,9 +24,6 @@
 namespace kaustik {
 
 class FrameBuilder;
-namespace numerics {
-class Suite;
-}
 
 struct NodeDescription {
     std::string sentence;
@@ -100,15 +97,6 @@ class Registry {
 
     void technique(Technique technique);
 
-    // Adds the hard cases of a technique's own nodes (framework/numerics/suite.h); those that all
-    // nodes of a stage share need nothing.
-    void hardCases(std::function<void(numerics::Suite&)> add) {
-        hardCases_.push_back(std::move(add));
-    }
-    [[nodiscard]] const std::vector<std::function<void(numerics::Suite&)>>& hardCases() const {
-        return hardCases_;
-    }
-
     struct StageEntry {
         std::string name;
         std::string question;
@@ -142,7 +130,6 @@ class Registry {
     std::vector<Node> nodes_;
     std::vector<Technique> techniques_;
     std::vector<std::function<void(params::ParamSet&)>> declarations_;
-    std::vector<std::function<void(numerics::Suite&)>> hardCases_;
 };
 
 }  // namespace kaustik

@@ -109,7 +109,7 @@ Renderer::Renderer(gl::Context& context, const Registry& registry, const scene::
     context_.check();
 }
 
-// By the names of common/view.glsl, surface_data.glsl, lights.glsl, scene_images.glsl and
+// By the names of include/view.glsl, surface_data.glsl, lights.glsl, scene_images.glsl and
 // ledger.glsl.
 void Renderer::bindToAll() {
     executor_.bindToAll({{{"View", &viewBlock_}},

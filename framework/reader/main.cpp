@@ -9,7 +9,7 @@
 #include "framework/importers/mesh_file.h"
 #include "framework/importers/toml_file.h"
 #include "framework/reading/service.h"
-#include "framework/scene/scene_wire.h"
+#include "framework/scene/files/scene_wire.h"
 
 #ifdef __SANITIZE_ADDRESS__
 // As in the program: what libraries keep is theirs.

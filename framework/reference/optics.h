@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A smooth dielectric interface in double precision: the laws of shaders/common/fresnel.glsl.
+// A smooth dielectric interface in double precision: the laws of shaders/include/fresnel.glsl.
 #pragma once
 
 #include <cmath>

@@ -30,7 +30,7 @@ class GpuScene {
     [[nodiscard]] const scene::Scene& scene() const { return scene_; }
 
     // Issues `command` for the static meshes and the height fields of `set`. The vertex shader
-    // includes common/scene_vertex.glsl. `commands`: other indirect commands than the scene's own,
+    // includes include/scene_vertex.glsl. `commands`: other indirect commands than the scene's own,
     // laid out the same, or null.
     void draw(gl::Command& command, const gl::PassContext& context, const Geometry& geometry,
               const ViewInstances& view, DrawSet set, const gl::Buffer* commands = nullptr,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Where surfaces are rasterised and light is stored: on the screen, in a light's view, or on the
 // faces of a cube. Passes that draw into views or look things up in them are written once for all:
-// shaders by common/view.glsl, C++ by asking here.
+// shaders by include/view.glsl, C++ by asking here.
 #pragma once
 
 #include <string>

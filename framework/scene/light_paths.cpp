@@ -7,7 +7,7 @@
 #include <limits>
 #include <optional>
 
-#include "framework/scene/height_field.h"
+#include "framework/scene/shapes/height_field.h"
 
 namespace kaustik::scene {
 namespace {

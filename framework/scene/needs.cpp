@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "framework/scene/height_field.h"
+#include "framework/scene/shapes/height_field.h"
 
 namespace kaustik::scene {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "framework/core/error.h"
 #include "framework/core/names.h"
-#include "framework/scene/height_field.h"
-#include "framework/scene/table_reader.h"
+#include "framework/scene/files/table_reader.h"
+#include "framework/scene/shapes/height_field.h"
 
 namespace kaustik::scene {
 namespace {

@@ -33,7 +33,7 @@ struct SquarePlane {  // xyz: 1/z in a square's middle, 1/m, 0 empty, and its gr
     static constexpr Format format = Format::rgba32f;
 };
 // All that a hit test asks of a layer, in one place. x: view depth in m, 0 none; yz: the triangle's
-// outward unit normal, octahedral (common/octahedral.glsl); w: material + 1.
+// outward unit normal, octahedral (include/octahedral.glsl); w: material + 1.
 struct LayerTexel {
     static constexpr Format format = Format::rgba32f;
 };
@@ -142,7 +142,7 @@ struct Surfaces {
 };
 
 // A list of photons, as texels of the transfer map (K06, section 2; PhotonList says how many), with
-// the account of what they have lost so far. Names in shaders: common/photons.glsl.
+// the account of what they have lost so far. Names in shaders: include/photons.glsl.
 struct Photons {
     graph::Texture<PhotonPosition> position;
     graph::Texture<PhotonDirection> direction;
@@ -187,7 +187,7 @@ struct Hits {
 };
 
 // Flux that has arrived, W a texel, in the space of views: sums that depend neither on the order
-// nor on the batches of what was added. Names in shaders: common/flux_sum.glsl.
+// nor on the batches of what was added. Names in shaders: include/flux_sum.glsl.
 struct CausticMap {
     graph::Texture<FluxWord> flux;
     bool hasIntensity = false;  // and what of it goes to the eye, W/sr, in as many layers more

@@ -142,7 +142,7 @@ struct Hit {
     vec3 positionVs;
     float distanceMeters;  // travelled since the last interaction
     vec3 normalVs;         // outward: the shading normal, or the triangle's where the shading
-                           // normal would send light to the wrong side (common/specular.glsl)
+                           // normal would send light to the wrong side (include/specular.glsl)
     uint material;         // index + 1; 0: no surface
     vec3 fluxWatts;        // that arrives
     uint fate;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // trace.plane: the nearest flat receiver on each photon's ray. One thread a photon.
-#include "common/deliver.glsl"
-#include "common/photon_thread.glsl"
-#include "common/store_hits.glsl"
+#include "include/deliver.glsl"
+#include "include/photon_thread.glsl"
+#include "include/store_hits.glsl"
 #include "techniques/planar/flat_face.h"
 
 layout(std430) readonly buffer FlatFaces {

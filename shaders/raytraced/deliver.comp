@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // trace.raytraced: makes hits of what the processor has found. One thread a photon.
-#include "common/deliver.glsl"
-#include "common/photon_thread.glsl"
-#include "common/store_hits.glsl"
+#include "include/deliver.glsl"
+#include "include/photon_thread.glsl"
+#include "include/store_hits.glsl"
 
 uniform sampler2D foundShading;    // xyz: unit, outward; w: material + 1, 0 nothing
 uniform sampler2D foundGeometric;  // xyz: the same of the triangle; w: distance, m

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // trace.all_hits: one thread a photon, for one slot; slot 0 holds the first hit, the others the
 // receivers that the ray would meet behind it.
-#include "common/photon_thread.glsl"
-#include "common/store_hits.glsl"
-#include "common/store_photons.glsl"
-#include "common/traced_photon.glsl"
+#include "include/photon_thread.glsl"
+#include "include/store_hits.glsl"
+#include "include/store_photons.glsl"
+#include "include/traced_photon.glsl"
 
 uniform int slot;
 

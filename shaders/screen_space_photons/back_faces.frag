@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The back faces of the transmitting objects, the farthest of each pixel (W05).
-#include "common/scene_fragment.glsl"
-#include "common/surface.glsl"
+#include "include/scene_fragment.glsl"
+#include "include/surface.glsl"
 
 layout(location = 0) out vec4 backDepth;
 layout(location = 1) out vec4 backSurface;

@@ -6,7 +6,7 @@
 // the line on the screen 1/z goes from 1/z0 to 1/z1 linearly, and so dt/z² = (t1 - t0)/(z0 z1) di:
 // nothing is singular for a way towards the eye, and a column of pixels gets its share of the line
 // exactly (hard case 36). Across the line the shares of a column's pixels add up to 1.
-#include "common/flux_sum.glsl"
+#include "include/flux_sum.glsl"
 #include "screen_space_photons/god_rays.glsl"
 
 flat in vec4 wayPixels;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The way of a photon through the medium as a line on the screen: a RaySegment whose ends are the
 // photon's, in pixels that may lie a little beside the screen, so that a wide line is whole there.
-#include "common/medium.glsl"
-#include "common/ray_segment.glsl"
+#include "include/medium.glsl"
+#include "include/ray_segment.glsl"
 
 // The way up to `end` m, as far as it is inside of the medium, before the near plane and within so
 // many pixels of the screen.

@@ -2,8 +2,8 @@
 // The line of one photon: a parallelogram that covers every pixel which may hold a part of it. The
 // fragments work their shares out themselves, so that a device's rules for lines do not matter
 // (hard case 6), nor how far beyond the line the parallelogram reaches. A strip of four vertices.
-#include "common/hits.glsl"
-#include "common/photons.glsl"
+#include "include/hits.glsl"
+#include "include/photons.glsl"
 #include "screen_space_photons/god_rays.glsl"
 
 layout(std430) buffer NarrowedLines {

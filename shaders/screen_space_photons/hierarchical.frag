@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // trace.hierarchical: one fragment a photon, drawn over the transfer map.
-#include "common/photon_fragment.glsl"
+#include "include/photon_fragment.glsl"
 #include "screen_space_photons/hierarchical.glsl"
 
 layout(location = 0) out vec4 hitPosition;

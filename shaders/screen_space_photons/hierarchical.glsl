@@ -3,7 +3,7 @@
 // over squares of 64, 16 and 4 pixels planes through the layers, with how far these stray from
 // them, say so. What is left is asked step by step, by the test of all tracers, so that the hits
 // are those of a march over every step.
-#include "common/traced_photon.glsl"
+#include "include/traced_photon.glsl"
 #include "screen_space_photons/pyramid_layout.glsl"
 
 uniform sampler2DArray layerPyramid;

@@ -4,7 +4,7 @@
 // eye's ray, d_V, and that along the inverse normal, d_N. The weight of d_V is the ratio of the
 // angles of refraction and incidence: right for an index of 1, where the ray goes straight on, and
 // for one without limit, where it follows the normal.
-#include "common/scene_look.glsl"
+#include "include/scene_look.glsl"
 
 layout(location = 0) out vec4 radiance;
 layout(location = 1) out vec4 exitPosition;

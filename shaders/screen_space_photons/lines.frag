@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One step of a photon's ray: looks the layers up at its pixel and keeps a hit's place on the ray.
-#include "common/exit_test.glsl"
-#include "common/photons.glsl"
+#include "include/exit_test.glsl"
+#include "include/photons.glsl"
 #include "screen_space_photons/row_texel.glsl"
 
 flat in vec4 endPixels;

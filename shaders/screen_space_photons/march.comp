@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // trace.march_compute: one thread a photon.
-#include "common/photon_thread.glsl"
-#include "common/store_hits.glsl"
+#include "include/photon_thread.glsl"
+#include "include/store_hits.glsl"
 #include "screen_space_photons/march.glsl"
 
 void main() {

@@ -2,9 +2,9 @@
 // One depth layer: the nearest surface behind the layer before (Everitt 2001). The depth buffer
 // holds view depth itself, scaled by a power of two and so without rounding: layers are told apart
 // down to what 32-bit view depth can (hard cases 12, 13).
-#include "common/octahedral.glsl"
-#include "common/scene_fragment.glsl"
-#include "common/surface.glsl"
+#include "include/octahedral.glsl"
+#include "include/scene_fragment.glsl"
+#include "include/surface.glsl"
 
 layout(location = 0) out vec4 layerDepth;
 layout(location = 1) out vec4 layerSurface;

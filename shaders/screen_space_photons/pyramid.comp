@@ -2,8 +2,8 @@
 // One level of the layers' pyramid (pyramid_layout.glsl): for each square and layer a plane in
 // nearness, which is linear on the screen where a surface is flat, and how far what a ray may meet there lies
 // from it. One thread a square.
-#include "common/octahedral.glsl"
-#include "common/view.glsl"
+#include "include/octahedral.glsl"
+#include "include/view.glsl"
 #include "screen_space_photons/pyramid_layout.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;

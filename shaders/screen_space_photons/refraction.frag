@@ -3,7 +3,7 @@
 // interface and then traced on the screen through the layers of the transmitting objects, and from
 // mirror to mirror. Radiance changes by T at every interface and by 1/n² where what is seen lies in
 // a medium of index n (hard case 28a), and is absorbed on the way.
-#include "common/scene_look.glsl"
+#include "include/scene_look.glsl"
 #ifdef DIELECTRICS
 #include "screen_space_photons/next_interface.glsl"
 #endif

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The last part of the reduce: the column of first hits becomes hits in the transfer map, or, for a
 // photon that met nothing, an entry in the ledger. One thread a row.
-#include "common/photons.glsl"
-#include "common/store_hits.glsl"
-#include "common/traced_photon.glsl"
+#include "include/photons.glsl"
+#include "include/store_hits.glsl"
+#include "include/traced_photon.glsl"
 #include "screen_space_photons/row_extent.glsl"
 #include "screen_space_photons/row_texel.glsl"
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // A ray from each receiver that faces the light, back to it. It carries a flux, so that a tracer
 // takes it for a photon; where no light can arrive there is none.
-#include "common/lights.glsl"
-#include "common/surface_data.glsl"
-#include "common/transfer_map.glsl"
-#include "common/view.glsl"
+#include "include/lights.glsl"
+#include "include/surface_data.glsl"
+#include "include/transfer_map.glsl"
+#include "include/view.glsl"
 
 layout(location = 0) out vec4 rayPosition;
 layout(location = 1) out vec4 rayDirection;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Whether a ray to a light met nothing before it.
-#include "common/hits.glsl"
-#include "common/lights.glsl"
-#include "common/photons.glsl"
+#include "include/hits.glsl"
+#include "include/lights.glsl"
+#include "include/photons.glsl"
 
 layout(location = 0) out vec4 visibility;
 

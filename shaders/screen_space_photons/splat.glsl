@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The splat of a photon of a list, as both passes over its pixels make it.
-#include "common/hits.glsl"
-#include "common/photon_thread.glsl"
+#include "include/hits.glsl"
+#include "include/photon_thread.glsl"
 #include "screen_space_photons/sprite.glsl"
 
 // Where a photon has arrived; `wanted`: the radius that it asks for, m, and `largest` the one that

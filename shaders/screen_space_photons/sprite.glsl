@@ -2,7 +2,7 @@
 // A photon's splat in the receiver's tangent plane, seen through each pixel (K06, section 3.1,
 // Eq. 1 with D = N·C). The weight falls with the distance: from the centre, as in the paper, or
 // from the photon's path, so that light that grazes a wall leaves no gaps between its splats.
-#include "common/view.glsl"
+#include "include/view.glsl"
 
 // View depth and area of the surface that each pixel sees.
 #ifdef MANY_VIEWS

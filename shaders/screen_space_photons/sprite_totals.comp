@@ -2,8 +2,8 @@
 // What each splat's weights sum to over the pixels' areas. The part that is hidden from the view, or
 // beside it, goes to the ledger; the part that hangs off the surface's edge is redistributed on it.
 // One thread a photon.
-#include "common/ledger.glsl"
-#include "common/surface_data.glsl"
+#include "include/ledger.glsl"
+#include "include/surface_data.glsl"
 #include "screen_space_photons/splat.glsl"
 
 layout(std430) writeonly buffer SplatTotals {

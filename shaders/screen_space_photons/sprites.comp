@@ -2,11 +2,11 @@
 // Each pixel's share of a splat, so that exactly the photon's flux is deposited at every
 // orientation, size and distance (sampled at pixel centres a kernel of few pixels does not sum to
 // 1). One thread a photon.
-#include "common/flux_sum.glsl"
-#include "common/surface_data.glsl"
+#include "include/flux_sum.glsl"
+#include "include/surface_data.glsl"
 #include "screen_space_photons/splat.glsl"
 #ifdef GLOSSY_RECEIVERS
-#include "common/receiver_brdf.glsl"
+#include "include/receiver_brdf.glsl"
 #endif
 
 layout(std430) readonly buffer SplatTotals {

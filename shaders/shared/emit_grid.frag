@@ -2,10 +2,10 @@
 // One photon a texel of the light's grid, where the first surface is specular: its flux is what the
 // light sends through the texel, by its area (directional) or its solid angle (cos³; hard case
 // 34a). An opaque surface nearer to the light leaves the texel empty.
-#include "common/scene_fragment.glsl"
-#include "common/surface.glsl"
-#include "common/specular.glsl"
-#include "common/lights.glsl"
+#include "include/scene_fragment.glsl"
+#include "include/surface.glsl"
+#include "include/specular.glsl"
+#include "include/lights.glsl"
 
 layout(location = 0) out vec4 photonPosition;
 layout(location = 1) out vec4 photonDirection;

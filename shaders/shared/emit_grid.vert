@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The scene as a light sees it; positions and normals go on in the eye's view space.
-#include "common/scene_vertex.glsl"
+#include "include/scene_vertex.glsl"
 
 layout(std430) readonly buffer LightInstances {
     InstanceData lightInstances[];

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // One photon a vertex of a specular mesh, for one light: a thread a vertex. What the light does not
 // see first is nobody.
-#include "common/light_depth.glsl"
-#include "common/lights.glsl"
-#include "common/specular.glsl"
-#include "common/store_hits.glsl"
-#include "common/store_photons.glsl"
+#include "include/light_depth.glsl"
+#include "include/lights.glsl"
+#include "include/specular.glsl"
+#include "include/store_hits.glsl"
+#include "include/store_photons.glsl"
 
 layout(local_size_x = 64) in;
 

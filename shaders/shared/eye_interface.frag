@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The first specular surface of each pixel, where it lies before the receiver.
-#include "common/scene_fragment.glsl"
-#include "common/surface.glsl"
+#include "include/scene_fragment.glsl"
+#include "include/surface.glsl"
 
 layout(location = 0) out vec4 interfaceDepth;
 layout(location = 1) out vec4 interfaceSurface;

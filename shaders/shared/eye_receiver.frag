@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The receiver of each pixel of a view: depth, the area seen, normal, material, reflectance. A mirror is none
 // but hides what is behind it: its depth is negative, and the normal and the material are its own.
-#include "common/scene_fragment.glsl"
-#include "common/surface.glsl"
-#include "common/view.glsl"
+#include "include/scene_fragment.glsl"
+#include "include/surface.glsl"
+#include "include/view.glsl"
 
 layout(location = 0) out vec4 receiver;
 layout(location = 1) out vec4 receiverSurface;

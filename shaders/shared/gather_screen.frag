@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Flux over the area that a pixel sees of its receiver.
-#include "common/flux_sum_read.glsl"
+#include "include/flux_sum_read.glsl"
 
 uniform sampler2D receiver;
 

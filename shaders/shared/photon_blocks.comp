@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // How many photons of every workgroup's go on, since they have met a specular surface.
-#include "common/hits.glsl"
-#include "common/photon_thread.glsl"
+#include "include/hits.glsl"
+#include "include/photon_thread.glsl"
 
 layout(std430) writeonly buffer NextFirsts {
     uint nextFirsts[];

@@ -3,9 +3,9 @@
 // fill light; what surrounds the scene where there is no receiver. GLOSSY_RECEIVERS: direct light
 // has gone through the BRDF already; CAUSTIC_RADIANCE: so has the caustic. All else is reflected
 // diffusely.
-#include "common/surroundings.glsl"
+#include "include/surroundings.glsl"
 #ifdef GLOSSY_RECEIVERS
-#include "common/surface_data.glsl"
+#include "include/surface_data.glsl"
 #endif
 
 layout(location = 0) out vec4 radiance;

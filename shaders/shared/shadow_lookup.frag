@@ -2,8 +2,8 @@
 // Share of one light that reaches each receiver past the surfaces of its shadow map. A texel of the
 // map stands for the plane of its triangle, so that a surface seen edge-on from the light neither
 // shadows itself nor lets light pass beside it.
-#include "common/light_depth.glsl"
-#include "common/view.glsl"
+#include "include/light_depth.glsl"
+#include "include/view.glsl"
 
 layout(location = 0) out vec4 visibility;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What photons do where they have met a specular surface: one thread a photon.
-#include "common/interaction.glsl"
-#include "common/next_photons.glsl"
+#include "include/interaction.glsl"
+#include "include/next_photons.glsl"
 
 void main() {
     uint index = photonOfThread();

@@ -2,8 +2,8 @@
 // Both Fresnel branches of photons that have met a specular surface: one thread a photon. The first
 // half of the next list are the transmitted branches, or the only ones, the second half the
 // reflected ones. Without room for both, one is drawn by its share, and carries all of the flux.
-#include "common/interaction.glsl"
-#include "common/next_photons.glsl"
+#include "include/interaction.glsl"
+#include "include/next_photons.glsl"
 
 uniform int splits;  // the list has a second half
 uniform uint seedLow;

@@ -4,7 +4,7 @@
 // picture shows there is looked up; the reflected one sees what surrounds the scene. Radiance
 // changes by T/n² where it leaves the medium that the receiver lies in (hard case 28a). A mirror
 // shows the scene.
-#include "common/scene_look.glsl"
+#include "include/scene_look.glsl"
 
 layout(location = 0) out vec4 radiance;
 layout(location = 1) out vec4 exitPosition;

@@ -8,7 +8,6 @@ namespace kaustik {
 
 void registerRaytraced(Registry& registry);
 
-Hits traceRaytraced(FrameBuilder& frame, const params::NoParams&, Photons photons,
-                    Surfaces surfaces);
+void registerExactTracing(Registry& registry);  // in its own file, trace.cpp
 
 }  // namespace kaustik

@@ -61,8 +61,6 @@ void findHits(const FrameInputs& inputs, const reference::EmbreeScene& scene, co
     context.texture(found.geometric).writeRows(geometric);
 }
 
-}  // namespace
-
 Hits traceRaytraced(FrameBuilder& frame, const params::NoParams&, Photons photons,
                     Surfaces /*surfaces*/) {
     const auto scene = frame.once<reference::EmbreeScene>("reference.embree_scene", [&] {
@@ -91,6 +89,15 @@ Hits traceRaytraced(FrameBuilder& frame, const params::NoParams&, Photons photon
                              data.hits.incoming);
             })
         .hits;
+}
+
+}  // namespace
+
+void registerExactTracing(Registry& registry) {
+    registry.node<TraceStage>(
+        "raytraced",
+        {"Exact first hits by ray tracing on the processor (Embree).", "", Sees::everything},
+        &traceRaytraced);
 }
 
 }  // namespace kaustik

@@ -8,10 +8,21 @@
 #include <algorithm>
 
 #include "techniques/screen_space_photons/hit_testing.h"
+#include "techniques/screen_space_photons/march_params.h"
 #include "techniques/screen_space_photons/nodes.h"
 
 namespace kaustik {
 namespace {
+
+struct AllHitsParams {
+    int slots = 4;
+    MarchParams march;
+    template <class R>
+    void reflect(R& r) {
+        r.field(slots, "slots", "Most hits of a ray that are kept", "", params::range(1, 16));
+        march.reflect(r);
+    }
+};
 
 // Which rays may have met more receivers than they could keep.
 void keepToSlots(FrameBuilder& frame, const AllHitsParams& params, const Hits& hits) {
@@ -33,8 +44,6 @@ void keepToSlots(FrameBuilder& frame, const AllHitsParams& params, const Hits& h
                  0.0};
          }});
 }
-
-}  // namespace
 
 Hits traceAllHits(FrameBuilder& frame, const AllHitsParams& params, Photons photons,
                   Surfaces surfaces) {
@@ -75,6 +84,16 @@ Hits traceAllHits(FrameBuilder& frame, const AllHitsParams& params, Photons phot
         });
     if (photons.batch.empty()) keepToSlots(frame, params, traced);
     return traced;
+}
+
+}  // namespace
+
+void registerAllHits(Registry& registry) {
+    registry.node<TraceStage>("all_hits",
+                              {"Lights every receiver on a photon's ray instead of the first: the "
+                               "wrong picture, for comparison.",
+                               "K06, section 2, Fig. 3"},
+                              &traceAllHits);
 }
 
 }  // namespace kaustik

@@ -15,6 +15,15 @@
 namespace kaustik {
 namespace {
 
+struct GaussianBlurParams {
+    float sigma = 2.0f;
+    template <class R>
+    void reflect(R& r) {
+        r.field(sigma, "sigma", "Standard deviation of the Gaussian", "px",
+                params::range(0.1f, 64.0f));
+    }
+};
+
 InScattered blurAlong(FrameBuilder& frame, const GaussianBlurParams& params, InScattered sharp,
                       const std::string& name, glm::ivec2 step) {
     struct Data {
@@ -42,8 +51,6 @@ InScattered blurAlong(FrameBuilder& frame, const GaussianBlurParams& params, InS
         .out;
 }
 
-}  // namespace
-
 InScattered blurGaussian(FrameBuilder& frame, const GaussianBlurParams& params, InScattered sharp) {
     if (!sharp.radiance.valid()) {
         frame.leaveOut("blur.gaussian", "no in-scattered light is made");
@@ -51,6 +58,16 @@ InScattered blurGaussian(FrameBuilder& frame, const GaussianBlurParams& params, 
     }
     const InScattered rows = blurAlong(frame, params, sharp, "blur.rows", {1, 0});
     return blurAlong(frame, params, rows, "blur.in_scattered", {0, 1});
+}
+
+}  // namespace
+
+void registerGaussianBlur(Registry& registry) {
+    registry.node<BlurStage>("gaussian",
+                             {"Smooths in-scattered light with a Gaussian of constant size on the "
+                              "screen.",
+                              "K06, section 3.2"},
+                             &blurGaussian);
 }
 
 }  // namespace kaustik

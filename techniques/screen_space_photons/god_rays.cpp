@@ -25,6 +25,24 @@
 namespace kaustik {
 namespace {
 
+struct GodRayParams {
+    float width = 0.0f;
+    float footprints = 1.5f;
+    int maximum = 64;
+    template <class R>
+    void reflect(R& r) {
+        r.field(width, "width",
+                "Width of a photon's line, 1 at least (the paper's); 0: follows the photon's "
+                "footprint",
+                "px", params::range(0.0f, 64.0f));
+        r.field(footprints, "footprints",
+                "Width of a line in widths of its photon's beam, when no width is set", "",
+                params::range(0.1f, 100.0f));
+        r.field(maximum, "maximum", "Largest width on the screen; lines shrink to it", "px",
+                params::range(1, 256));
+    }
+};
+
 // Which lines are narrower than they were to be: their light is less spread, and none is lost.
 void keepToWidth(FrameBuilder& frame, const GodRayParams& params,
                  const graph::Buffer<transport::Narrowed>& narrowed) {
@@ -119,6 +137,16 @@ InScattered drawGodRays(FrameBuilder& frame, const GodRayParams& params, Hits hi
                 .draw();
         });
     return out;
+}
+
+}  // namespace
+
+void registerGodRays(Registry& registry) {
+    registry.node<MediaStage>("lines",
+                              {"Draws each photon's way through the medium as a line of the light "
+                               "that is scattered towards the eye.",
+                               "K06, section 3.2"},
+                              &drawGodRays);
 }
 
 }  // namespace kaustik

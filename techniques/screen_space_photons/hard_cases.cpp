@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Hard cases of these nodes alone; those that all tracers share are in framework/numerics/cases.
+#include "techniques/screen_space_photons/hard_cases.h"
+
 #include <fmt/format.h>
 
 #include "framework/numerics/kernel_weights.h"
-#include "techniques/screen_space_photons/nodes.h"
 
 namespace kaustik {
 namespace {

@@ -19,7 +19,7 @@ struct HitTesting {
 void keepToSteps(FrameBuilder& frame, const std::string& pass, const std::string& parameter,
                  int steps, const LayeredDepth& layers);
 
-// Declares that a pass looks these layers up, under the names of common/hit_test.glsl, and tells
+// Declares that a pass looks these layers up, under the names of include/hit_test.glsl, and tells
 // its command how.
 void readLayers(graph::PassSetup& setup, const LayeredDepth& layers);
 gl::Command& setHitTesting(gl::Command& command, const HitTesting& testing,

@@ -11,9 +11,23 @@
 // What is totally reflected at the second interface is told apart and goes on unbent.
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/screen_space_photons/nodes.h"
+#include "techniques/shared/view_passes.h"
 
 namespace kaustik {
 namespace {
+
+struct ImageSpaceViewParams {
+    int steps = 8;
+    SceneLookParams look;
+    template <class R>
+    void reflect(R& r) {
+        r.field(steps, "steps",
+                "Looks at the back faces along the inverse normal, for the distance to them; 0: "
+                "only the distance along the eye's ray is used",
+                "", params::range(0, 64));
+        look.reflect(r);
+    }
+};
 
 struct BackFaces {
     graph::Texture<ViewDepth> depth;
@@ -51,8 +65,6 @@ BackFaces drawBackFaces(FrameBuilder& frame, Geometry geometry) {
             })
         .faces;
 }
-
-}  // namespace
 
 View refractInImageSpace(FrameBuilder& frame, const ImageSpaceViewParams& params, Geometry geometry,
                          EyeBuffer eye, LayeredDepth layers, Radiance receivers, Shadows shadows) {
@@ -97,6 +109,16 @@ View refractInImageSpace(FrameBuilder& frame, const ImageSpaceViewParams& params
             .look.seen;
     keepToMirrors(frame, "view.image_space", view, params.look);
     return view;
+}
+
+}  // namespace
+
+void registerImageSpace(Registry& registry) {
+    registry.node<ViewStage>("image_space",
+                             {"Refracts the eye's rays at two interfaces, with the distance inside "
+                              "estimated from the back faces.",
+                              "Wyman 2005 (W05), K06's comparison"},
+                             &refractInImageSpace);
 }
 
 }  // namespace kaustik

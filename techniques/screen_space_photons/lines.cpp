@@ -17,6 +17,36 @@
 namespace kaustik {
 namespace {
 
+// How each photon's line gets its vertices (K06, section 2.1; section 6, future work).
+enum class LineSource : int { vertex, geometry };
+
+struct LinesParams {
+    LineSource source = LineSource::vertex;
+    int width = 0;
+    int rows = 0;
+    int memoryMebibytes = 64;
+    int minimum = 4;
+    template <class R>
+    void reflect(R& r) {
+        r.choice(source, "source",
+                 "vertex: a vertex shader places both ends of each line; geometry: a geometry "
+                 "shader makes the line from one point",
+                 {"vertex", "geometry"});
+        r.field(width, "width",
+                "Most fragments of a photon's line; 0: as many as the longer side of the picture "
+                "has pixels, so that no step skips one",
+                "texels", params::range(0, 16384));
+        r.field(rows, "rows", "Photons in a batch, one row each; 0: as many as the memory allows",
+                "", params::range(0, 16384));
+        r.field(memoryMebibytes, "memory",
+                "Most memory for the row texture and its reductions; fewer rows mean more batches",
+                "MiB", params::range(1, 8192));
+        r.field(minimum, "minimum",
+                "Fewest fragments of a line, for rays almost parallel to the view direction",
+                "texels", params::range(1, 64));
+    }
+};
+
 struct RowTexel {  // x: ray parameter of a hit, m, 0 none; y: step and layer
     static constexpr Format format = Format::rg32f;
 };
@@ -186,8 +216,6 @@ Reduced reduceRows(FrameBuilder& frame, const LinesParams& params, const Layered
         });
 }
 
-}  // namespace
-
 Hits traceLines(FrameBuilder& frame, const LinesParams& params, Photons photons,
                 Surfaces surfaces) {
     const LayeredDepth& layers = surfaces.layers;
@@ -208,6 +236,16 @@ Hits traceLines(FrameBuilder& frame, const LinesParams& params, Photons photons,
         photons.ledger = hits.incoming.ledger;
     }
     return hits;
+}
+
+}  // namespace
+
+void registerLines(Registry& registry) {
+    registry.node<TraceStage>("lines",
+                              {"Rasterises each photon's ray as a line into a row of a texture and "
+                               "reduces the row to its first hit.",
+                               "K06, section 2.1"},
+                              &traceLines);
 }
 
 }  // namespace kaustik

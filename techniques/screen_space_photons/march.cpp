@@ -10,6 +10,7 @@
 
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/screen_space_photons/hit_testing.h"
+#include "techniques/screen_space_photons/march_params.h"
 #include "techniques/screen_space_photons/nodes.h"
 
 namespace kaustik {
@@ -44,15 +45,13 @@ Hits march(FrameBuilder& frame, const std::string& node, const std::string& shad
             const Hits& hits, gl::PassContext& context) {
             const std::string file = "screen_space_photons/" + shader;
             gl::Command command = isThread ? context.compute(file)
-                                           : context.shaders({"common/photon_rows.vert", file});
+                                           : context.shaders({"framework/photon_rows.vert", file});
             setHitTesting(command, testing, layers).params(name, params);
             if (isThread) return dispatchOver(command, hits.incoming);
             command.target(hits.position).target(hits.surface).target(hits.flux);
             drawOver(command);
         });
 }
-
-}  // namespace
 
 Hits traceMarch(FrameBuilder& frame, const MarchParams& params, Photons photons,
                 Surfaces surfaces) {
@@ -76,6 +75,28 @@ Hits traceHierarchicalCompute(FrameBuilder& frame, const MarchParams& params, Ph
                               Surfaces surfaces) {
     return march(frame, "hierarchical_compute", "hierarchical.comp",
                  "one thread a photon follows its ray", params, photons, surfaces.layers);
+}
+
+}  // namespace
+
+void registerMarch(Registry& registry) {
+    registry.node<TraceStage>("march",
+                              {"Follows each photon's ray over the screen in a fragment shader, "
+                               "a pixel a step, to its first hit.",
+                               "K06, section 2.1, the comparison"},
+                              &traceMarch);
+    registry.node<TraceStage>(
+        "march_compute",
+        {"The same in a compute shader, one thread a photon.", "K06, section 2.1, the comparison"},
+        &traceMarchCompute);
+    registry.node<TraceStage>("hierarchical",
+                              {"Follows each photon's ray in a fragment shader and leaves out "
+                               "squares of pixels whose layers it cannot meet.",
+                               ""},
+                              &traceHierarchical);
+    registry.node<TraceStage>("hierarchical_compute",
+                              {"The same in a compute shader, one thread a photon.", ""},
+                              &traceHierarchicalCompute);
 }
 
 }  // namespace kaustik

@@ -8,8 +8,11 @@
 #include <utility>
 
 #include "framework/pipeline/frame_builder.h"
+#include "framework/pipeline/stage_params.h"
 #include "techniques/screen_space_photons/nodes.h"
+#include "techniques/screen_space_photons/peel.h"
 #include "techniques/screen_space_photons/peel_resources.h"
+#include "techniques/screen_space_photons/pyramid.h"
 
 namespace kaustik {
 namespace {
@@ -176,11 +179,37 @@ LayeredDepth peel(FrameBuilder& frame, Geometry geometry, const LayersRequest& r
     return peeled;
 }
 
+namespace {
+
+// How the fragments of all pixels become their maximum and sums (K06, section 2.2).
+enum class Counting : int { atomics, reduce };
+
+struct PeelParams {
+    Counting counting = Counting::atomics;
+    template <class R>
+    void reflect(R& r) {
+        r.choice(counting, "counting",
+                 "atomics: each pixel adds to shared numbers; reduce: the paper's texture reduce, "
+                 "exact to 16 million fragments",
+                 {"atomics", "reduce"});
+    }
+};
+
 LayeredDepth peelLayers(FrameBuilder& frame, const PeelParams& params, Geometry geometry) {
     const int layers = frame.params<LayersParams>("layers").count;
     return addPyramid(
         frame, peel(frame, geometry,
                     {"layers", render::DrawSet::all, layers, params.counting == Counting::reduce}));
+}
+
+}  // namespace
+
+void registerPeel(Registry& registry) {
+    registry.node<LayersStage>("peel",
+                               {"Depth peeling into a layered depth image, no deeper than the "
+                                "picture's measured depth complexity.",
+                                "K06, section 2.2"},
+                               &peelLayers);
 }
 
 }  // namespace kaustik

@@ -9,8 +9,11 @@
 #include <algorithm>
 
 #include "framework/pipeline/frame_builder.h"
+#include "framework/pipeline/stage_params.h"
 #include "techniques/screen_space_photons/nodes.h"
+#include "techniques/screen_space_photons/peel.h"
 #include "techniques/screen_space_photons/peel_resources.h"
+#include "techniques/screen_space_photons/pyramid.h"
 
 namespace kaustik {
 namespace {
@@ -24,8 +27,6 @@ int mostLayers(const scene::Scene& scene, std::size_t object, int allowed) {
     const std::size_t triangles = scene.meshes[scene.objects[object].mesh].triangles.size();
     return static_cast<int>(std::min(triangles, static_cast<std::size_t>(allowed)));
 }
-
-}  // namespace
 
 LayeredDepth peelObjects(FrameBuilder& frame, const params::NoParams&, Geometry geometry) {
     const int layers = frame.params<LayersParams>("layers").count;
@@ -134,6 +135,16 @@ LayeredDepth peelObjects(FrameBuilder& frame, const params::NoParams&, Geometry 
                 })
             .layers;
     return addPyramid(frame, peeled);
+}
+
+}  // namespace
+
+void registerPeelObjects(Registry& registry) {
+    registry.node<LayersStage>("per_object",
+                               {"Peels every object by itself, no deeper than it is, and merges "
+                                "them: less geometry where many objects overlap.",
+                                "K06, section 2.2"},
+                               &peelObjects);
 }
 
 }  // namespace kaustik

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "framework/pipeline/frame_builder.h"
-#include "techniques/screen_space_photons/nodes.h"
+#include "techniques/screen_space_photons/pyramid.h"
 
 namespace kaustik {
 namespace {

@@ -2,7 +2,7 @@
 // view.refraction: screen-space refraction tracing (K06, section 4). The passes "view.layers.…"
 // peel the transmitting objects alone; "view.refraction" follows the eye's transmitted ray of every
 // pixel through them, and from mirror to mirror, and looks up what it sees: the refracted scene
-// (Fig. 10; common/scene_look.glsl), else what surrounds it. The reflection at the first interface
+// (Fig. 10; include/scene_look.glsl), else what surrounds it. The reflection at the first interface
 // is looked up the same way; later partial reflections are left out. In: eye buffer, layers,
 // radiance of the receivers; out: radiance, W/m²/sr, and where each ray left for good, view space,
 // m.
@@ -18,10 +18,53 @@
 #include "framework/scene/dielectrics.h"
 #include "techniques/screen_space_photons/hit_testing.h"
 #include "techniques/screen_space_photons/nodes.h"
+#include "techniques/screen_space_photons/peel.h"
+#include "techniques/shared/view_passes.h"
 
 namespace kaustik {
-
 namespace {
+
+// Where an eye ray's next interface is looked for.
+enum class RefractionSearch : int { automatic, monotonic, all };
+
+// When the monotonic search takes a layer for met.
+enum class RefractionStop : int { crossing, depth };
+
+struct RefractionViewParams {
+    RefractionSearch search = RefractionSearch::automatic;
+    RefractionStop stop = RefractionStop::crossing;
+    int interfaces = 0;
+    int reflections = 4;
+    int layers = 8;
+    SceneLookParams look;
+    template <class R>
+    void reflect(R& r) {
+        r.choice(search, "search",
+                 "monotonic: the paper's, between the layer that the ray has passed last and the "
+                 "next one; all: in every layer of every pixel on its way; auto: monotonic, unless "
+                 "dielectrics lie in one another, of which it knows no order",
+                 {"auto", "monotonic", "all"});
+        r.choice(stop, "stop",
+                 "depth: the paper's, as soon as the ray is deeper than the next layer or nearer "
+                 "than the one passed; crossing: it must cross that layer's plane nearby too, so "
+                 "that one which passes behind another part of the object goes on. For the "
+                 "monotonic search",
+                 {"crossing", "depth"});
+        r.field(interfaces, "interfaces",
+                "Most refractions of an eye ray; the paper's table has 2, and 1 is its Fig. 9, "
+                "left. 0: "
+                "4, or 2 for each closed dielectric of those that lie in one another",
+                "", params::range(0, 16));
+        r.field(reflections, "reflections",
+                "Most total internal reflections of an eye ray; what needs more is lost", "",
+                params::range(0, 64));
+        r.field(layers, "layers",
+                "Most layers of transmitting objects that are peeled; the monotonic search needs "
+                "no more than its interfaces",
+                "", params::range(1, 64));
+        look.reflect(r);
+    }
+};
 
 // As many interfaces as the scene needs, and the search that finds them. A path crosses a sheet
 // once: where there is nothing else, no more are looked for, nor peeled, than there are sheets.
@@ -79,8 +122,6 @@ void keepToLimits(FrameBuilder& frame, const RefractionViewParams& params,
          }});
 }
 
-}  // namespace
-
 View traceRefraction(FrameBuilder& frame, const RefractionViewParams& wanted, Geometry geometry,
                      EyeBuffer eye, LayeredDepth sceneLayers, Radiance receivers, Shadows shadows) {
     if (!eye.interface.valid()) {
@@ -137,6 +178,16 @@ View traceRefraction(FrameBuilder& frame, const RefractionViewParams& wanted, Ge
     keepToMirrors(frame, "view.refraction", view, params.look);
     if (dielectrics.depth.valid()) keepToLimits(frame, params, dielectrics, view);
     return view;
+}
+
+}  // namespace
+
+void registerRefraction(Registry& registry) {
+    registry.node<ViewStage>("refraction",
+                             {"Traces the eye's refracted rays on the screen through the layers of "
+                              "the transmitting objects, and on into the scene.",
+                              "K06, section 4"},
+                             &traceRefraction);
 }
 
 }  // namespace kaustik

@@ -37,8 +37,6 @@ Photons aimAtLight(FrameBuilder& frame, const EyeBuffer& eye, int light) {
         });
 }
 
-}  // namespace
-
 Shadows traceShadowRays(FrameBuilder& frame, const params::NoParams&, Geometry geometry,
                         EyeBuffer eye, LayeredDepth layers) {
     const int lights = frame.needs().lights;
@@ -79,6 +77,15 @@ Shadows traceShadowRays(FrameBuilder& frame, const params::NoParams&, Geometry g
             });
     }
     return shadows;
+}
+
+}  // namespace
+
+void registerShadowRays(Registry& registry) {
+    registry.node<ShadowStage>(
+        "rays",
+        {"Traces a ray from every receiver to the light through the layers.", "K06, section 5"},
+        &traceShadowRays);
 }
 
 }  // namespace kaustik

@@ -13,6 +13,7 @@
 
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/screen_space_photons/nodes.h"
+#include "techniques/screen_space_photons/sprites.h"
 
 namespace kaustik {
 namespace {
@@ -45,12 +46,12 @@ void keepToLimit(FrameBuilder& frame, const CutSplats& cut, std::size_t which,
          }});
 }
 
-}  // namespace
-
 CausticMap splatSprites(FrameBuilder& frame, const SpritesParams& params, Hits hits,
                         Surfaces surfaces, CausticMap before) {
     return splatInto(frame, params, hits, surfaces.eye, before, "caustic.flux");
 }
+
+}  // namespace
 
 CausticMap splatInto(FrameBuilder& frame, const SpritesParams& params, const Hits& hits,
                      const ReceiverView& receivers, const CausticMap& before,
@@ -106,6 +107,14 @@ CausticMap splatInto(FrameBuilder& frame, const SpritesParams& params, const Hit
     keepToLimit(frame, splatted.cut, kShrunk, "reconstruct.sprites.maximum", params.maximumPixels,
                 "smaller than they were to be");
     return splatted.map;
+}
+
+void registerSprites(Registry& registry) {
+    registry.node<ReconstructStage>("sprites",
+                                    {"Splats each photon as a disc in its receiver's tangent "
+                                     "plane, ray-cast per pixel; the flux is kept exactly.",
+                                     "K06, section 3.1, Eq. 1"},
+                                    &splatSprites);
 }
 
 }  // namespace kaustik

@@ -44,8 +44,6 @@ std::vector<Samples> batchesOf(const FrameBuilder& frame) {
     return batches;
 }
 
-}  // namespace
-
 Caustic followAllPhotons(FrameBuilder& frame, const params::NoParams&, Surfaces surfaces) {
     const bool scatters = frame.needs().scatteringMedium;
     Caustic caustic;
@@ -77,6 +75,15 @@ Caustic followAllPhotons(FrameBuilder& frame, const params::NoParams&, Surfaces 
         }
     }
     return caustic;
+}
+
+}  // namespace
+
+void registerDenseDriver(Registry& registry) {
+    registry.node<DriverStage>(
+        "dense",
+        {"Every photon of every light, from interaction to interaction.", "K06, section 2.3"},
+        &followAllPhotons);
 }
 
 }  // namespace kaustik

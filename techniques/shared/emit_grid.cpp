@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "framework/pipeline/frame_builder.h"
+#include "framework/pipeline/stage_params.h"
 #include "techniques/shared/nodes.h"
 
 namespace kaustik {
@@ -53,8 +54,6 @@ std::shared_ptr<LightGrids> makeGrids(FrameBuilder& frame) {
     }
     return grids;
 }
-
-}  // namespace
 
 Hits emitGrid(FrameBuilder& frame, const params::NoParams&, Surfaces surfaces, Samples samples) {
     const params::Extent grid = frame.params<EmitParams>("emit").photons;
@@ -135,6 +134,16 @@ Hits emitGrid(FrameBuilder& frame, const params::NoParams&, Surfaces surfaces, S
                 }
             })
         .hits;
+}
+
+}  // namespace
+
+void registerGridEmission(Registry& registry) {
+    registry.node<EmitStage>("grid",
+                             {"Rasterises the specular surfaces from each light, one photon a "
+                              "texel.",
+                              "K06, section 1.1"},
+                             &emitGrid);
 }
 
 }  // namespace kaustik

@@ -4,7 +4,7 @@
 // irradiance at the vertex times the area across the light, of triangles that face the light on the
 // side that it comes from. Both sides of a sheet count; a body is met from within only by a light
 // that is inside of it. Which vertices the light sees first is decided by a depth image from the
-// light, by the planes of its texels (common/light_depth.glsl). A mesh too coarse for its shadows
+// light, by the planes of its texels (include/light_depth.glsl). A mesh too coarse for its shadows
 // loses or gains light by them: the sampling error of the truth's report. Out: photons that arrive
 // (flux in W) and the hits that they make; eye view space, m; cells number the vertices of the
 // specular objects.
@@ -20,6 +20,16 @@
 
 namespace kaustik {
 namespace {
+
+struct VertexEmissionParams {
+    int size = 1024;
+    template <class R>
+    void reflect(R& r) {
+        r.field(size, "size",
+                "Side of the depth image from each light that says which vertices it sees",
+                "texels", params::range(16, 8192));
+    }
+};
 
 constexpr int kRowLength = 1024;
 
@@ -228,8 +238,7 @@ std::shared_ptr<Emission> makeEmission(FrameBuilder& frame, const VertexEmission
     return emission;
 }
 
-}  // namespace
-
+// Rows and columns of one light's photons.
 params::Extent verticesOfALight(const FrameBuilder& frame) {
     std::size_t count = 0;
     for (const scene::Object& object : frame.scene().objects) {
@@ -317,6 +326,17 @@ Hits emitVertices(FrameBuilder& frame, const VertexEmissionParams& params, Surfa
                 }
             })
         .hits;
+}
+
+}  // namespace
+
+void registerVertexEmission(Registry& registry) {
+    registry.node<EmitStage>("vertices",
+                             {.sentence = "One photon a vertex of the specular surfaces, with the "
+                                          "light that falls on the area around it.",
+                              .source = "Shah, Pattanaik 2005 (SP05)",
+                              .photons = &verticesOfALight},
+                             &emitVertices);
 }
 
 }  // namespace kaustik

@@ -5,6 +5,7 @@
 // holds (B16: geometry drawn twice has the same depth). View space, m; receiver areas in m².
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/shared/nodes.h"
+#include "techniques/shared/receivers.h"
 
 namespace kaustik {
 
@@ -43,6 +44,8 @@ SeenReceivers seeReceivers(FrameBuilder& frame, Geometry geometry, const Views& 
             }
         });
 }
+
+namespace {
 
 EyeBuffer renderEye(FrameBuilder& frame, const params::NoParams&, Geometry geometry) {
     struct Data {
@@ -97,6 +100,16 @@ EyeBuffer renderEye(FrameBuilder& frame, const params::NoParams&, Geometry geome
                                      render::DrawSet::mirrors);
             })
         .eye;
+}
+
+}  // namespace
+
+void registerEyeSurfaces(Registry& registry) {
+    registry.node<EyeStage>("surfaces",
+                            {"Rasterises the first receiver and the first specular surface of "
+                             "every pixel.",
+                             ""},
+                            &renderEye);
 }
 
 }  // namespace kaustik

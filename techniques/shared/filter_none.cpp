@@ -4,10 +4,18 @@
 #include "techniques/shared/nodes.h"
 
 namespace kaustik {
+namespace {
 
 CausticMap leaveUnfiltered(FrameBuilder& frame, const params::NoParams&, CausticMap map) {
     frame.leaveOut("filter.none", "splats spread what they store");
     return map;
+}
+
+}  // namespace
+
+void registerNoFilter(Registry& registry) {
+    registry.node<FilterStage>("none", {"Leaves the map of flux as it was stored.", ""},
+                               &leaveUnfiltered);
 }
 
 }  // namespace kaustik

@@ -5,6 +5,7 @@
 #include "techniques/shared/nodes.h"
 
 namespace kaustik {
+namespace {
 
 IrradianceMap gatherOnScreen(FrameBuilder& frame, const params::NoParams&, CausticMap map,
                              Surfaces surfaces) {
@@ -29,6 +30,15 @@ IrradianceMap gatherOnScreen(FrameBuilder& frame, const params::NoParams&, Caust
             if (data.radiance.valid()) command.define("HAS_INTENSITY").target(data.radiance);
             command.draw();
         });
+}
+
+}  // namespace
+
+void registerScreenGather(Registry& registry) {
+    registry.node<GatherStage>("screen",
+                               {"Flux that was stored by the eye's pixels, over what they see.",
+                                "Krüger et al. 2006, section 3.1"},
+                               &gatherOnScreen);
 }
 
 }  // namespace kaustik

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Hard cases of the shared nodes alone.
+#include "techniques/shared/hard_cases.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "framework/numerics/bench.h"
 #include "framework/numerics/cases/scene_text.h"
-#include "techniques/shared/nodes.h"
 
 namespace kaustik {
 namespace {

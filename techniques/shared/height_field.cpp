@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "framework/pipeline/frame_builder.h"
-#include "framework/scene/height_field.h"
+#include "framework/scene/shapes/height_field.h"
 #include "techniques/shared/nodes.h"
 
 namespace kaustik {
@@ -35,8 +35,6 @@ std::vector<FieldData> collectFields(const FrameBuilder& frame, std::vector<glm:
     return fields;
 }
 
-}  // namespace
-
 Geometry makeHeightFields(FrameBuilder& frame, const params::NoParams&) {
     if (frame.gpuScene().heightFields().empty()) {
         frame.leaveOut("geometry.height_field", "the scene has no height field");
@@ -65,6 +63,13 @@ Geometry makeHeightFields(FrameBuilder& frame, const params::NoParams&) {
                     .dispatchOver((field.cells.x + 1) * (field.cells.y + 1), 64);
             }
         });
+}
+
+}  // namespace
+
+void registerHeightField(Registry& registry) {
+    registry.node<GeometryStage>(
+        "height_field", {"Makes the vertices of wavy water on the GPU.", ""}, &makeHeightFields);
 }
 
 }  // namespace kaustik

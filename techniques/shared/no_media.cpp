@@ -4,6 +4,7 @@
 #include "techniques/shared/nodes.h"
 
 namespace kaustik {
+namespace {
 
 InScattered leaveOutScattering(FrameBuilder& frame, const params::NoParams&, Hits /*hits*/,
                                EyeBuffer /*eye*/, InScattered before) {
@@ -14,6 +15,16 @@ InScattered leaveOutScattering(FrameBuilder& frame, const params::NoParams&, Hit
 InScattered leaveUnblurred(FrameBuilder& frame, const params::NoParams&, InScattered sharp) {
     frame.leaveOut("blur.none", "the settings leave in-scattered light as it is");
     return sharp;
+}
+
+}  // namespace
+
+void registerNoMedia(Registry& registry) {
+    registry.node<MediaStage>("none", {"Leaves in-scattered light out.", ""}, &leaveOutScattering);
+}
+
+void registerNoBlur(Registry& registry) {
+    registry.node<BlurStage>("none", {"Leaves in-scattered light as it is.", ""}, &leaveUnblurred);
 }
 
 }  // namespace kaustik

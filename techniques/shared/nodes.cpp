@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "techniques/shared/nodes.h"
 
+#include "framework/pipeline/stage_params.h"
+
 namespace kaustik {
 
 void registerSharedNodes(Registry& registry) {
@@ -26,65 +28,20 @@ void registerSharedNodes(Registry& registry) {
     registry.sharedParams<SpecularStage, SpecularParams>();
     registry.sharedParams<TraceStage, TraceParams>();
 
-    registry.node<GeometryStage>(
-        "height_field", {"Makes the vertices of wavy water on the GPU.", ""}, &makeHeightFields);
-    registry.node<EyeStage>("surfaces",
-                            {"Rasterises the first receiver and the first specular surface of "
-                             "every pixel.",
-                             ""},
-                            &renderEye);
-    registry.node<DriverStage>(
-        "dense",
-        {"Every photon of every light, from interaction to interaction.", "K06, section 2.3"},
-        &followAllPhotons);
-    registry.node<EmitStage>("grid",
-                             {"Rasterises the specular surfaces from each light, one photon a "
-                              "texel.",
-                              "K06, section 1.1"},
-                             &emitGrid);
-    registry.node<EmitStage>("vertices",
-                             {.sentence = "One photon a vertex of the specular surfaces, with the "
-                                          "light that falls on the area around it.",
-                              .source = "Shah, Pattanaik 2005 (SP05)",
-                              .photons = &verticesOfALight},
-                             &emitVertices);
-    registry.node<SpecularStage>("auto",
-                                 {"Follows both Fresnel branches where water or a pane reflects "
-                                  "much light to a receiver, else the refracted one.",
-                                  ""},
-                                 &interactAsNeeded);
-    registry.node<SpecularStage>("interface",
-                                 {"Refracts, or reflects totally or at a mirror; the other Fresnel "
-                                  "branch goes to the ledger.",
-                                  "K06, section 2.3"},
-                                 &interactAtInterface);
-    registry.node<ShadowStage>(
-        "map", {"Draws the scene from each light and compares distances.", ""}, &lookUpShadowMaps);
-    registry.node<SpecularStage>(
-        "split", {"Refracts and reflects: follows both Fresnel branches.", "K06, section 2.3"},
-        &splitAtInterface);
-    registry.node<FilterStage>("none", {"Leaves the map of flux as it was stored.", ""},
-                               &leaveUnfiltered);
-    registry.node<GatherStage>("screen",
-                               {"Flux that was stored by the eye's pixels, over what they see.",
-                                "Krüger et al. 2006, section 3.1"},
-                               &gatherOnScreen);
-    registry.node<BlurStage>("none", {"Leaves in-scattered light as it is.", ""}, &leaveUnblurred);
-    registry.node<ViewStage>("interface",
-                             {"Looks through the first specular surface with one refraction, at "
-                              "the distance of the receiver straight behind it.",
-                              ""},
-                             &viewThroughInterface);
-    registry.node<ComposeStage>("picture",
-                                {"Direct light with its shadows, the caustic, and what the eye "
-                                 "sees through specular surfaces.",
-                                 ""},
-                                &composePicture);
-    registry.hardCases(&addSharedCases);
-}
-
-void registerMediaLeftOut(Registry& registry) {
-    registry.node<MediaStage>("none", {"Leaves in-scattered light out.", ""}, &leaveOutScattering);
+    registerHeightField(registry);
+    registerEyeSurfaces(registry);
+    registerDenseDriver(registry);
+    registerGridEmission(registry);
+    registerVertexEmission(registry);
+    registerSpecularAuto(registry);
+    registerSpecularInterface(registry);
+    registerShadowMap(registry);
+    registerSpecularSplit(registry);
+    registerNoFilter(registry);
+    registerScreenGather(registry);
+    registerNoBlur(registry);
+    registerInterfaceView(registry);
+    registerPicture(registry);
 }
 
 }  // namespace kaustik

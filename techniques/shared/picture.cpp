@@ -12,6 +12,17 @@
 namespace kaustik {
 namespace {
 
+struct PictureParams {
+    float exposure = 0.0f;
+    template <class R>
+    void reflect(R& r) {
+        r.field(
+            exposure, "exposure",
+            "Brightness of the display image; 0: from the irradiance at the middle of the scene",
+            "1/(W/m²/sr)", params::range(0.0f, 1e6f));
+    }
+};
+
 // What makes a half-reflecting receiver in the middle of the scene a middle grey.
 float automaticExposure(const scene::Scene& scene) {
     const scene::Bounds bounds = sceneBounds(scene);
@@ -122,8 +133,6 @@ Radiance lookThroughMedium(FrameBuilder& frame, EyeBuffer eye, Radiance seen,
         });
 }
 
-}  // namespace
-
 Picture composePicture(FrameBuilder& frame, const PictureParams& params, Geometry geometry,
                        EyeBuffer eye, LayeredDepth layers, LightParts light) {
     const DirectLight direct = lightDirectly(frame, light.shadows, eye);
@@ -145,6 +154,16 @@ Picture composePicture(FrameBuilder& frame, const PictureParams& params, Geometr
                 .target(data.display)
                 .draw();
         });
+}
+
+}  // namespace
+
+void registerPicture(Registry& registry) {
+    registry.node<ComposeStage>("picture",
+                                {"Direct light with its shadows, the caustic, and what the eye "
+                                 "sees through specular surfaces.",
+                                 ""},
+                                &composePicture);
 }
 
 }  // namespace kaustik

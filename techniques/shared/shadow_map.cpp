@@ -9,6 +9,14 @@
 namespace kaustik {
 namespace {
 
+struct ShadowMapParams {
+    int size = 1024;
+    template <class R>
+    void reflect(R& r) {
+        r.field(size, "size", "Side of a light's shadow map", "texels", params::range(16, 8192));
+    }
+};
+
 // x: planar depth from the light, m, 0 none; yz: its growth a texel, as a share of it.
 struct LightDepth {
     static constexpr Format format = Format::rgba32f;
@@ -82,8 +90,6 @@ ShadowMaps renderShadowMaps(FrameBuilder& frame, const ShadowMapParams& params,
         });
 }
 
-}  // namespace
-
 Shadows lookUpShadowMaps(FrameBuilder& frame, const ShadowMapParams& params, Geometry geometry,
                          EyeBuffer eye, LayeredDepth /*layers*/) {
     const std::vector<ShadowView> views = makeShadowViews(frame);
@@ -114,6 +120,13 @@ Shadows lookUpShadowMaps(FrameBuilder& frame, const ShadowMapParams& params, Geo
                 command.target(data.visibility, static_cast<int>(light)).draw();
             }
         });
+}
+
+}  // namespace
+
+void registerShadowMap(Registry& registry) {
+    registry.node<ShadowStage>(
+        "map", {"Draws the scene from each light and compares distances.", ""}, &lookUpShadowMaps);
 }
 
 }  // namespace kaustik

@@ -8,6 +8,7 @@
 
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/shared/nodes.h"
+#include "techniques/shared/specular.h"
 
 namespace kaustik {
 namespace {
@@ -28,8 +29,6 @@ std::string whyBoth(const scene::SceneNeeds& needs) {
     return "";
 }
 
-}  // namespace
-
 Photons interactAsNeeded(FrameBuilder& frame, const params::NoParams&, Hits hits) {
     const std::string why = whyBoth(frame.needs());
     const bool isFirst = frame.runsOf(SpecularStage::name) == 1;
@@ -43,6 +42,16 @@ Photons interactAsNeeded(FrameBuilder& frame, const params::NoParams&, Hits hits
                        "bodies are convex; specular=split follows what is reflected all the same");
     }
     return interactAtInterface(frame, {}, hits);
+}
+
+}  // namespace
+
+void registerSpecularAuto(Registry& registry) {
+    registry.node<SpecularStage>("auto",
+                                 {"Follows both Fresnel branches where water or a pane reflects "
+                                  "much light to a receiver, else the refracted one.",
+                                  ""},
+                                 &interactAsNeeded);
 }
 
 }  // namespace kaustik

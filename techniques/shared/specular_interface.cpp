@@ -5,6 +5,7 @@
 // followed goes to the ledger as untraced. Exact unpolarised Fresnel; eye view space, m and W.
 #include "techniques/shared/next_photons.h"
 #include "techniques/shared/nodes.h"
+#include "techniques/shared/specular.h"
 
 namespace kaustik {
 
@@ -19,6 +20,14 @@ Photons interactAtInterface(FrameBuilder& frame, const params::NoParams&, Hits h
         [list = hits.incoming](const Photons&, gl::PassContext& context) {
             dispatchOver(context.compute("shared/specular_interface.comp"), list);
         });
+}
+
+void registerSpecularInterface(Registry& registry) {
+    registry.node<SpecularStage>("interface",
+                                 {"Refracts, or reflects totally or at a mirror; the other Fresnel "
+                                  "branch goes to the ledger.",
+                                  "K06, section 2.3"},
+                                 &interactAtInterface);
 }
 
 }  // namespace kaustik

@@ -7,6 +7,7 @@
 
 #include "techniques/shared/next_photons.h"
 #include "techniques/shared/nodes.h"
+#include "techniques/shared/specular.h"
 
 namespace kaustik {
 namespace {
@@ -54,6 +55,12 @@ Photons splitAtInterface(FrameBuilder& frame, const SplitParams& params, Hits hi
                              .set("seedHigh", static_cast<unsigned>(inputs.seed >> 32)),
                          list);
         });
+}
+
+void registerSpecularSplit(Registry& registry) {
+    registry.node<SpecularStage>(
+        "split", {"Refracts and reflects: follows both Fresnel branches.", "K06, section 2.3"},
+        &splitAtInterface);
 }
 
 }  // namespace kaustik

@@ -5,8 +5,21 @@
 // radiance, W/m²/sr, and the refracted ray, view space, m.
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/shared/nodes.h"
+#include "techniques/shared/view_passes.h"
 
 namespace kaustik {
+namespace {
+
+struct InterfaceViewParams {
+    bool refract = true;
+    SceneLookParams look;
+    template <class R>
+    void reflect(R& r) {
+        r.field(refract, "refract",
+                "Bend the eye's ray at the surface; off: look straight through");
+        look.reflect(r);
+    }
+};
 
 View viewThroughInterface(FrameBuilder& frame, const InterfaceViewParams& params,
                           Geometry /*geometry*/, EyeBuffer eye, LayeredDepth layers,
@@ -31,6 +44,16 @@ View viewThroughInterface(FrameBuilder& frame, const InterfaceViewParams& params
             .seen;
     keepToMirrors(frame, "view.interface", view, params.look);
     return view;
+}
+
+}  // namespace
+
+void registerInterfaceView(Registry& registry) {
+    registry.node<ViewStage>("interface",
+                             {"Looks through the first specular surface with one refraction, at "
+                              "the distance of the receiver straight behind it.",
+                              ""},
+                             &viewThroughInterface);
 }
 
 }  // namespace kaustik

@@ -56,7 +56,7 @@ struct ViewPass {
     bool isGlossy = false;  // some receiver is
 };
 
-// Declares what such a pass reads, by the names of common/scene_look.glsl, and the outputs of its
+// Declares what such a pass reads, by the names of include/scene_look.glsl, and the outputs of its
 // View. A pass that is disabled shows the
 // receivers and no exits.
 [[nodiscard]] ViewPass declareLook(const FrameBuilder& frame, graph::PassSetup& setup,
@@ -64,7 +64,7 @@ struct ViewPass {
                                    const LayeredDepth& sceneLayers, const Radiance& receivers,
                                    const Shadows& shadows);
 
-// Sets what common/scene_look.glsl is told besides, and the outputs as targets.
+// Sets what include/scene_look.glsl is told besides, and the outputs as targets.
 void setLook(const FrameInputs& inputs, gl::Command& command, const ViewPass& pass,
              const SceneLookParams& look);
 

@@ -9,7 +9,7 @@
 
 #include "framework/reference/light_tracing.h"
 #include "framework/reference/photon_mapping.h"
-#include "framework/scene/scene_file.h"
+#include "framework/scene/files/scene_file.h"
 
 namespace kaustik::reference {
 namespace {

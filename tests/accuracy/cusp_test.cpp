@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "framework/reference/light_sampling.h"
-#include "framework/scene/height_field.h"
+#include "framework/scene/shapes/height_field.h"
 #include "tests/accuracy/path_fixture.h"
 
 namespace kaustik::reference {

@@ -6,7 +6,7 @@
 #include <functional>
 #include <numbers>
 
-#include "framework/scene/height_field.h"
+#include "framework/scene/shapes/height_field.h"
 #include "tests/accuracy/path_fixture.h"
 
 namespace kaustik::reference {

@@ -8,7 +8,7 @@
 
 #include "framework/core/error.h"
 #include "framework/reference/eye.h"
-#include "framework/scene/scene_file.h"
+#include "framework/scene/files/scene_file.h"
 #include "tests/accuracy/path_fixture.h"
 
 namespace kaustik::reference {

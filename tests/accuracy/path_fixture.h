@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "framework/reference/light_transport.h"
-#include "framework/scene/mesh_builder.h"
+#include "framework/scene/meshes/mesh_builder.h"
 #include "framework/scene/scene.h"
-#include "framework/scene/shapes.h"
+#include "framework/scene/shapes/shapes.h"
 
 namespace kaustik::reference {
 

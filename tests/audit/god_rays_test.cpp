@@ -8,7 +8,7 @@
 
 #include "framework/measure/image_errors.h"
 #include "framework/reference/reference.h"
-#include "framework/scene/scene_file.h"
+#include "framework/scene/files/scene_file.h"
 #include "tests/gpu/fixture.h"
 
 namespace kaustik::test {

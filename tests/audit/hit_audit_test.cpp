@@ -9,7 +9,7 @@
 
 #include "framework/numerics/frame.h"
 #include "framework/pipeline/frame_builder.h"
-#include "framework/scene/scene_file.h"
+#include "framework/scene/files/scene_file.h"
 #include "tests/gpu/fixture.h"
 
 namespace kaustik::test {

@@ -10,7 +10,7 @@
 #include "framework/core/files.h"
 #include "framework/measure/image_errors.h"
 #include "framework/reference/reference.h"
-#include "framework/scene/scene_file.h"
+#include "framework/scene/files/scene_file.h"
 #include "tests/audit/shipped_scenes.h"
 #include "tests/gpu/fixture.h"
 

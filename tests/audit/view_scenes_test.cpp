@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "framework/audit/view_audit.h"
-#include "framework/scene/scene_file.h"
+#include "framework/scene/files/scene_file.h"
 #include "tests/audit/shipped_scenes.h"
 #include "tests/gpu/fixture.h"
 

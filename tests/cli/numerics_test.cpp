@@ -25,7 +25,7 @@ TEST_F(NumericsStudy, WritesOneTableInThreeFormsAndPrintsIt) {
     EXPECT_EQ(files(), (std::set<std::string>{"study.toml", "out/numerics.csv", "out/numerics.json",
                                               "out/numerics.md"}));
     EXPECT_EQ(contents("out/numerics.csv").substr(0, 67),
-              "case,subject,what,expected,measured,tolerance,verdict,reason\nA4,com");
+              "case,subject,what,expected,measured,tolerance,verdict,reason\nA4,inc");
     const nlohmann::json json = nlohmann::json::parse(contents("out/numerics.json"));
     EXPECT_EQ(json["schema"], "kaustik.numerics/1");
     EXPECT_EQ(json["failures"], 0);
@@ -44,7 +44,7 @@ TEST_F(NumericsStudy, ThatFailsSaysWhichRowAndKeepsTheTable) {
     fs::create_directories(root / "framework");
     fs::copy(projectRoot() / "shaders", root / "shaders", fs::copy_options::recursive);
     fs::copy(projectRoot() / "framework/transport", root / "framework/transport");
-    const fs::path file = root / "shaders/common/fresnel.glsl";
+    const fs::path file = root / "shaders/include/fresnel.glsl";
     std::string text = readFile(file);
     const std::string line = "result.reflectance = clamp(0.5 *";
     ASSERT_NE(text.find(line), std::string::npos);
@@ -54,7 +54,7 @@ TEST_F(NumericsStudy, ThatFailsSaysWhichRowAndKeepsTheTable) {
     conditions.environment["KAUSTIK_ROOT"] = root.string();
     const Outcome outcome = run(study("cases = [\"C20\"]\n"), conditions);
     EXPECT_EQ(outcome.exitCode, 1);
-    EXPECT_NE(outcome.err.find("2 of 2 rows fail, the first is C20, common/fresnel.glsl"),
+    EXPECT_NE(outcome.err.find("2 of 2 rows fail, the first is C20, include/fresnel.glsl"),
               std::string::npos)
         << outcome.err;
     EXPECT_NE(contents("out/numerics.csv").find(",FAIL,"), std::string::npos);

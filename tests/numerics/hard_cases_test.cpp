@@ -6,6 +6,7 @@
 
 #include "framework/numerics/lab.h"
 #include "techniques/register_all.h"
+#include "techniques/register_hard_cases.h"
 
 namespace kaustik::numerics {
 namespace {
@@ -16,7 +17,11 @@ const Registry& registry() {
 }
 
 const Suite& suite() {
-    static const Suite instance = makeSuite(registry());
+    static const Suite instance = [] {
+        Suite all = commonCases();
+        registerHardCases(all);
+        return all;
+    }();
     return instance;
 }
 
@@ -29,7 +34,7 @@ TEST_P(HardCase, MeasuresWhatIsRight) {
     EXPECT_FALSE(rows.empty());
     for (const Row& row : rows) {
         EXPECT_TRUE(row.passes()) << row.subject << ": " << row.what << " should be "
-                                  << row.expected << " within " << row.tolerance << " and is "
+                                  << row.expectedText() << " within " << row.tolerance << " and is "
                                   << row.measured << " (" << row.reason << ")";
     }
 }

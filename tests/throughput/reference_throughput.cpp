@@ -15,7 +15,7 @@
 #include "framework/reference/eye.h"
 #include "framework/reference/light_sampling.h"
 #include "framework/reference/light_tracing.h"
-#include "framework/scene/scene_file.h"
+#include "framework/scene/files/scene_file.h"
 
 namespace {
 

@@ -7,10 +7,10 @@
 
 namespace kaustik::numerics {
 
-void addRaySegmentCases(Suite& suite);      // A1 to A5, A7: common/ray_segment.glsl
+void addRaySegmentCases(Suite& suite);      // A1 to A5, A7: include/ray_segment.glsl
 void addTracingCases(Suite& suite);         // A1 to A3, A6 to A11, B17: every tracer
 void addLayerCases(Suite& suite);           // B12 to B16: every node of layers
-void addInterfaceCases(Suite& suite);       // C19 to C25: common/fresnel.glsl
+void addInterfaceCases(Suite& suite);       // C19 to C25: include/fresnel.glsl
 void addOpticsCases(Suite& suite);          // C26 to C28a, A9: emission, interaction, tracers, view
 void addReconstructionCases(Suite& suite);  // D31, D32, D34, D34a: reconstruction, emission
 void addMediaCases(Suite& suite);           // D34, D36: nodes of media

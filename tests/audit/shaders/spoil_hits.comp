@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Moves hits sideways by a number of pixels, or drops them.
-#include "common/transfer_map.glsl"
-#include "common/view.glsl"
+#include "include/transfer_map.glsl"
+#include "include/view.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 

@@ -10,7 +10,7 @@
 
 #include "framework/core/files.h"
 #include "framework/numerics/frame.h"
-#include "framework/scene/scene_file.h"
+#include "framework/scene/files/scene_file.h"
 #include "readme_example/techniques/my_family/points.cpp"
 #include "techniques/register_all.h"
 #include "tests/gpu/app/command_line.h"

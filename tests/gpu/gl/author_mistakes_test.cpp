@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "framework/core/error.h"
-#include "framework/scene/scene_file.h"
+#include "framework/scene/files/scene_file.h"
 #include "tests/gpu/fixture.h"
 
 namespace kaustik::test {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What other views hold where one of the eye's receivers lies, over the texel's area on it.
-#include "common/flux_sum_read.glsl"
-#include "common/view.glsl"
+#include "include/flux_sum_read.glsl"
+#include "include/view.glsl"
 
 layout(std140) uniform MapViews {
     ViewData mapViews[kMostViews];

@@ -3,7 +3,7 @@
 // again, and over no more than they can meet.
 #include <algorithm>
 
-#include "framework/scene/scene_file.h"
+#include "framework/scene/files/scene_file.h"
 #include "tests/gpu/fixture.h"
 
 namespace kaustik::test {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "framework/scene/scene_file.h"
+#include "framework/scene/files/scene_file.h"
 #include "tests/gpu/fixture.h"
 
 namespace kaustik::test {

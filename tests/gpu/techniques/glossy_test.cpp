@@ -6,7 +6,7 @@
 
 #include "framework/core/files.h"
 #include "framework/image/image.h"
-#include "framework/scene/scene_file.h"
+#include "framework/scene/files/scene_file.h"
 #include "framework/transport/brdf.h"
 #include "tests/gpu/fixture.h"
 #include "tests/unit/temporary_folder.h"

@@ -10,8 +10,10 @@
 #include "framework/numerics/frame.h"
 #include "framework/scene/scene_file.h"
 #include "techniques/register_all.h"
-#include "techniques/screen_space_photons/nodes.h"
-#include "techniques/shared/nodes.h"
+#include "techniques/screen_space_photons/peel.h"
+#include "techniques/screen_space_photons/pyramid.h"
+#include "techniques/screen_space_photons/sprites.h"
+#include "techniques/shared/receivers.h"
 #include "tests/gpu/fixture.h"
 
 namespace kaustik::test {

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <cmath>
 
-#include "framework/scene/scene_file.h"
+#include "framework/scene/files/scene_file.h"
 #include "tests/gpu/fixture.h"
 
 namespace kaustik::test {

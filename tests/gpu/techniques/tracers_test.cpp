@@ -3,7 +3,7 @@
 // ask all at once.
 #include <cmath>
 
-#include "framework/scene/scene_file.h"
+#include "framework/scene/files/scene_file.h"
 #include "tests/gpu/fixture.h"
 
 namespace kaustik::test {

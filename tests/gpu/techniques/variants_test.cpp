@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "framework/pipeline/ledger.h"
-#include "framework/scene/scene_file.h"
+#include "framework/scene/files/scene_file.h"
 #include "framework/transport/types.h"
 #include "framework/transport/watts.h"
 #include "tests/gpu/fixture.h"

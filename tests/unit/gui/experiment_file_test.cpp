@@ -6,7 +6,7 @@
 #include "framework/core/error.h"
 #include "framework/core/files.h"
 #include "framework/experiment/plan.h"
-#include "framework/scene/scene_file.h"
+#include "framework/scene/files/scene_file.h"
 #include "techniques/register_all.h"
 #include "tests/unit/temporary_folder.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "framework/importers/triangle_soup.h"
-#include "framework/scene/mesh_checks.h"
+#include "framework/scene/meshes/mesh_checks.h"
 #include "tests/unit/importers/mesh_file_fixture.h"
 
 namespace kaustik::scene::test {

@@ -8,7 +8,7 @@
 
 #include "framework/core/error.h"
 #include "framework/scene/texture.h"
-#include "tests/unit/scene/scene_file_fixture.h"
+#include "tests/unit/scene/files/scene_file_fixture.h"
 
 namespace kaustik::scene {
 namespace {

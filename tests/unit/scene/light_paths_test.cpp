@@ -8,9 +8,9 @@
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "framework/scene/height_field.h"
-#include "framework/scene/scene_file.h"
-#include "framework/scene/shapes.h"
+#include "framework/scene/files/scene_file.h"
+#include "framework/scene/shapes/height_field.h"
+#include "framework/scene/shapes/shapes.h"
 
 namespace kaustik::scene {
 namespace {

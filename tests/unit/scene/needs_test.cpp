@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "framework/scene/height_field.h"
-#include "framework/scene/shapes.h"
+#include "framework/scene/shapes/height_field.h"
+#include "framework/scene/shapes/shapes.h"
 
 namespace kaustik::scene {
 namespace {

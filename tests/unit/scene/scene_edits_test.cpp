@@ -2,7 +2,7 @@
 #include "framework/scene/scene_edits.h"
 
 #include "framework/core/error.h"
-#include "tests/unit/scene/scene_file_fixture.h"
+#include "tests/unit/scene/files/scene_file_fixture.h"
 
 namespace kaustik::scene::test {
 namespace {

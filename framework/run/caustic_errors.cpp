@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#ifdef KAUSTIK_HAS_EMBREE
+
+#include "framework/run/caustic_errors.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "framework/core/error.h"
+#include "framework/measure/heat_map.h"
+#include "framework/measure/image_errors.h"
+#include "framework/run/output.h"
+
+namespace kaustik::run {
+
+using nlohmann::json;
+using reference::Reference;
+
+Outputs readOutputs(const Renderer& renderer) {
+    const FrameOutputs& frame = renderer.outputs();
+    Outputs outputs;
+    outputs.images.push_back({"caustic_irradiance",
+                              readTexture(renderer.texture(frame.caustic.irradiance), 0, 3),
+                              &Reference::irradiance, &Reference::irradianceError});
+    if (frame.caustic.radiance.valid()) {
+        outputs.images.push_back({"caustic_radiance",
+                                  readTexture(renderer.texture(frame.caustic.radiance), 0, 3),
+                                  &Reference::causticRadiance, &Reference::causticRadianceError});
+    }
+    if (frame.inScattered.radiance.valid()) {
+        outputs.images.push_back({"in_scattered",
+                                  readTexture(renderer.texture(frame.inScattered.radiance), 0, 3),
+                                  &Reference::inScattered, &Reference::inScatteredError, false});
+    }
+    const Image receiver = readTexture(renderer.texture(frame.eye.receiver), 0, 2);
+    outputs.receiver = Image(receiver.width, receiver.height, 1);
+    outputs.area = Image(receiver.width, receiver.height, 1);
+    for (std::size_t i = 0; i < outputs.area.values.size(); ++i) {
+        const bool sees = receiver.values[2 * i] > 0.0f;
+        outputs.seesReceivers = outputs.seesReceivers || sees;
+        outputs.receiver.values[i] = sees ? 1.0f : 0.0f;
+        outputs.area.values[i] = sees ? receiver.values[2 * i + 1] : 0.0f;
+    }
+    return outputs;
+}
+
+measure::ImagePair pairOf(const Outputs& outputs, const Output& output, const Reference& truth) {
+    return measure::ImagePair({.image = output.image,
+                               .reference = truth.*output.truth,
+                               .mask = output.isOfReceivers ? &outputs.receiver : nullptr,
+                               .standardError = &(truth.*output.truthError),
+                               .area = output.isOfReceivers ? &outputs.area : nullptr,
+                               .imageName = output.name});
+}
+
+json errorsAgainst(const Outputs& outputs, const Reference& truth) {
+    json result = {{"reference_estimator",
+                    truth.request.estimator == reference::Estimator::light ? "light" : "sppm"},
+                   {"reference_photons", truth.photons},
+                   {"reference_key", truth.key}};
+    if (std::isfinite(truth.relativeError)) {
+        result["reference_relative_stderr"] = truth.relativeError;
+    } else {
+        result["reference_relative_stderr"] = nullptr;
+        result["reasons"]["reference_relative_stderr"] = "no pixel of the reference is lit";
+    }
+    for (const Output& output : outputs.images) {
+        if ((truth.*output.truth).values.empty()) continue;
+        if (output.isOfReceivers && !outputs.seesReceivers) {
+            result[output.name] = nullptr;
+            result["reasons"][output.name] = "no pixel of this view sees a receiver";
+            continue;
+        }
+        try {
+            const measure::ImageErrors errors = measureErrors(pairOf(outputs, output, truth));
+            result[output.name] = measure::toJson(errors);
+            if (&output == &outputs.images.front())
+                result["reference_stderr"] = errors.truthNoise ? errors.truthNoise->rmse : 0.0;
+        } catch (const IoError& error) {
+            result[output.name] = nullptr;
+            result["reasons"][output.name] = error.what();
+        }
+    }
+    return result;
+}
+
+Image errorPicture(const measure::ImagePair& pair) {
+    const measure::Plane<float> differences = measure::absoluteErrorPlane(pair);
+    measure::ImageErrors errors;
+    errors.scale = measure::referenceScale(pair);
+    return measure::heatMap(pair, differences, measure::heatMapScale(errors, differences));
+}
+
+}  // namespace kaustik::run
+
+#endif

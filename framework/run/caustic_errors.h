@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// The caustic outputs of a frame, read back once, and how wrong each is against a reference. Needs
+// Embree's part of the build: KAUSTIK_HAS_EMBREE.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <vector>
+
+#include "framework/image/image.h"
+#include "framework/measure/image_pair.h"
+#include "framework/pipeline/renderer.h"
+#include "framework/reference/reference.h"
+
+namespace kaustik::run {
+
+// An output of the frame beside the same of a reference.
+struct Output {
+    const char* name;  // in the report
+    Image image;
+    Image reference::Reference::*truth;
+    Image reference::Reference::*truthError;
+    // Whether it is of receivers: pixels that see none do not count then, and the others by the
+    // area that they see.
+    bool isOfReceivers = true;
+};
+
+// What the frame is judged by, read back once.
+struct Outputs {
+    std::vector<Output> images;  // the first is the caustic irradiance
+    Image receiver;              // 1 where the pixel sees one, else 0
+    Image area;                  // of the receiver that the pixel sees, m²
+    bool seesReceivers = false;
+};
+
+// Of the frame that was rendered last; waits for the device. eye.receiver must have been kept.
+[[nodiscard]] Outputs readOutputs(const Renderer& renderer);
+
+[[nodiscard]] measure::ImagePair pairOf(const Outputs& outputs, const Output& output,
+                                        const reference::Reference& truth);
+
+// Every output's errors against one reference; what that does not have is left out. An output that
+// holds values that are no numbers has no errors, but a reason.
+[[nodiscard]] nlohmann::json errorsAgainst(const Outputs& outputs,
+                                           const reference::Reference& truth);
+
+// Where the image is wrong, as heat colours.
+[[nodiscard]] Image errorPicture(const measure::ImagePair& pair);
+
+}  // namespace kaustik::run

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "framework/run/reference_work.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <utility>
+
+#include "framework/core/error.h"
+#include "framework/run/progress.h"
+
+namespace kaustik::run {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace reference;
+
+// How much of the work is done: the furthest of what may stop it. The error falls with the root of
+// the work.
+double shareOf(const reference::Progress& progress, const StopWhen& stop) {
+    double share = 0.0;
+    const auto count = [&](double done, double wanted) {
+        if (wanted > 0.0) share = std::max(share, done / wanted);
+    };
+    if (stop.batches) {
+        count(static_cast<double>(progress.batches), static_cast<double>(*stop.batches));
+    }
+    if (stop.photons) {
+        count(static_cast<double>(progress.photons), static_cast<double>(*stop.photons));
+    }
+    if (stop.seconds) count(progress.seconds, *stop.seconds);
+    if (stop.relativeError && std::isfinite(progress.relativeError)) {
+        share = std::max(share, std::pow(*stop.relativeError / progress.relativeError, 2.0));
+    }
+    return std::min(share, 1.0);
+}
+
+std::string reachedBy(const reference::Progress& progress) {
+    std::string text =
+        fmt::format("{:.1f} million photons", static_cast<double>(progress.photons) * 1e-6);
+    if (std::isfinite(progress.relativeError)) {
+        text += fmt::format(", standard error {:.2f} %", 100.0 * progress.relativeError);
+    }
+    return text;
+}
+
+}  // namespace
+
+fs::path cacheFolder() {
+    const auto variable = [](const char* name) {
+        const char* value = std::getenv(name);
+        return value != nullptr ? fs::path(value) : fs::path();
+    };
+    if (const fs::path own = variable("KAUSTIK_CACHE"); !own.empty()) return own;
+    if (const fs::path xdg = variable("XDG_CACHE_HOME"); !xdg.empty()) return xdg / "kaustik";
+    if (const fs::path home = variable("HOME"); !home.empty()) return home / ".cache/kaustik";
+    throw IoError(
+        "There is no folder to keep references in; set KAUSTIK_CACHE to one that can be written.");
+}
+
+Reference obtainReference(const EmbreeScene& scene, const ReferenceRequest& request,
+                          RunOptions options) {
+    catchInterrupts();
+    Progress progress(request.filter.transmissionOnly ? "reference of the modelled paths:"
+                                                      : "reference:");
+    return obtainReference(
+        scene, request, std::move(options),
+        {[] { return !isInterrupted(); },
+         [&](double share, const std::string& reached) { progress.updateShare(share, reached); }});
+}
+
+Reference obtainReference(const EmbreeScene& scene, const ReferenceRequest& request,
+                          RunOptions options, const Watch& watch) {
+    std::uint64_t photons = 0;
+    options.progress = [&](const reference::Progress& now) {
+        photons = now.photons;
+        watch.tell(shareOf(now, options.stop), reachedBy(now));
+        return watch.goesOn();
+    };
+    options.pulse = [&](std::uint64_t) { return watch.goesOn(); };
+    const auto failIfInterrupted = [&] {
+        if (watch.goesOn()) return;
+        throw Error(
+            fmt::format("Interrupted after {} photons; the same command goes on from there.",
+                        photons),
+            kExitFailed);
+    };
+    try {
+        const Reference reference =
+            loadOrCompute(scene, request, cacheFolder() / "references", options,
+                          [](const std::string& damage) { fmt::print(stderr, "{}\n", damage); });
+        failIfInterrupted();
+        return reference;
+    } catch (const ConfigError&) {
+        failIfInterrupted();  // below two batches there is no reference to give
+        throw;
+    }
+}
+
+}  // namespace kaustik::run

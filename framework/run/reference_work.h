@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// References as the commands make them: cached, with progress, stopped by Ctrl-C without loss.
+#pragma once
+
+#include <filesystem>
+
+#include "framework/reference/reference.h"
+#include "framework/run/progress.h"
+
+namespace kaustik::run {
+
+// $KAUSTIK_CACHE, else $XDG_CACHE_HOME/kaustik, else ~/.cache/kaustik. Throws IoError where there
+// is none of them.
+[[nodiscard]] std::filesystem::path cacheFolder();
+
+// From the cache, or computed with its progress on standard error and cached. Throws Error when
+// interrupted; the next call goes on from there.
+[[nodiscard]] reference::Reference obtainReference(const reference::EmbreeScene& scene,
+                                                   const reference::ReferenceRequest& request,
+                                                   reference::RunOptions options);
+// The same for who watches it in another way.
+[[nodiscard]] reference::Reference obtainReference(const reference::EmbreeScene& scene,
+                                                   const reference::ReferenceRequest& request,
+                                                   reference::RunOptions options,
+                                                   const Watch& watch);
+
+}  // namespace kaustik::run

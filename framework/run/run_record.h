@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// From timed frames to what a run leaves behind: the same for the command line and the workbench.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "framework/pipeline/renderer.h"
+#include "framework/report/run_report.h"
+#include "framework/run/truth.h"
+
+namespace kaustik::run {
+
+// What the renderer's graph, built for what is timed, says of itself; without frames.
+[[nodiscard]] report::RunRecord startRecord(const Renderer& renderer, gl::TimerMode timer);
+
+// Renders one more frame, which is not timed, for the ledger, the pictures, the resources `saved`
+// and the truth's judgement; completes the record and writes everything into `folder`: all of it
+// or nothing. Gives the files. The renderer is left built for something else.
+std::vector<std::filesystem::path> finishRun(Renderer& renderer, const Truth& truth,
+                                             report::RunRecord& record,
+                                             const std::filesystem::path& folder,
+                                             const std::vector<std::string>& saved,
+                                             const gl::DeviceInfo& device);
+
+}  // namespace kaustik::run

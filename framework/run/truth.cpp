@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: MIT
+#include "framework/run/truth.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "framework/core/error.h"
+#include "framework/run/caustic_errors.h"
+#include "framework/run/output.h"
+
+#ifdef KAUSTIK_HAS_EMBREE
+#include "framework/audit/hit_audit.h"
+#include "framework/audit/shadow_audit.h"
+#include "framework/audit/view_audit.h"
+#include "framework/measure/image_errors.h"
+#include "framework/run/reference_work.h"
+#endif
+
+namespace kaustik::run {
+namespace fs = std::filesystem;
+
+#ifndef KAUSTIK_HAS_EMBREE
+
+struct Truth::Loaded {};
+Truth::Truth(const std::string& wanted, std::uint64_t photons, const Renderer& renderer)
+    : Truth(wanted, photons, renderer, {}) {}
+Truth::Truth(const std::string& wanted, std::uint64_t, const Renderer&, const Watch&) {
+    if (wanted != "none") {
+        throw ConfigError("--reference: this program was built without Embree and knows no truth.");
+    }
+}
+Truth::~Truth() = default;
+Purpose Truth::purpose() const {
+    return Purpose::measurement;
+}
+std::vector<fs::path> Truth::judge(const Renderer&, const fs::path&, report::RunRecord&) const {
+    return {};
+}
+std::vector<fs::path> Truth::judgeView(Renderer&, const fs::path&, report::RunRecord&) const {
+    return {};
+}
+
+#else
+
+namespace {
+
+using nlohmann::json;
+using reference::Reference;
+using reference::ReferenceRequest;
+
+Reference readFor(const std::string& file, const Renderer& renderer) {
+    Reference found = reference::readReference(file);
+    const ReferenceRequest& request = found.request;
+    const RenderSettings& settings = renderer.settings();
+    if (request.width != settings.width || request.height != settings.height) {
+        throw ConfigError(
+            fmt::format("--reference: {} has {}x{} pixels and this run {}x{}; use "
+                        "--size {}x{} or another reference.",
+                        file, request.width, request.height, settings.width, settings.height,
+                        request.width, request.height));
+    }
+    const scene::Scene& scene = renderer.scene();
+    if (found.key != referenceKey(scene, request)) {
+        throw ConfigError(fmt::format(
+            "--reference: {} is of another scene ('{}') or of this one as it was at another time "
+            "or before a change; 'kaustik reference {} --size {}x{} --time {}' makes one that "
+            "fits.",
+            file, found.scene, scene.file.string(), settings.width, settings.height,
+            scene.timeSeconds));
+    }
+    const reference::PathFilter all;
+    if (request.filter.transmissionOnly ||
+        request.filter.maximumInteractions < all.maximumInteractions) {
+        throw ConfigError(fmt::format(
+            "--reference: {} follows only a part of the paths of light; a run is judged "
+            "by all of them, and with 'auto' also by those that it models.",
+            file));
+    }
+    return found;
+}
+
+ReferenceRequest requestFor(const Renderer& renderer) {
+    ReferenceRequest request;
+    request.width = renderer.settings().width;
+    request.height = renderer.settings().height;
+    return request;
+}
+
+}  // namespace
+
+struct Truth::Loaded {
+    explicit Loaded(const scene::Scene& of) : scene(of) {}
+    std::string name;
+    reference::EmbreeScene scene;
+    Reference whole;
+    std::optional<Reference> modelled;  // only the paths that the technique claims to model
+    ModelledPaths paths;
+};
+
+Truth::Truth(const std::string& wanted, std::uint64_t photons, const Renderer& renderer)
+    : Truth(wanted, photons, renderer, {}) {}
+
+Truth::Truth(const std::string& wanted, std::uint64_t photons, const Renderer& renderer,
+             const Watch& watch) {
+    if (wanted == "none") return;
+    std::optional<Reference> fromFile;
+    if (wanted != "auto") fromFile = readFor(wanted, renderer);
+    loaded_ = std::make_unique<Loaded>(renderer.scene());
+    loaded_->name = wanted;
+    if (fromFile) {
+        loaded_->whole = std::move(*fromFile);
+        return;
+    }
+    reference::RunOptions options;
+    options.stop.photons = photons;
+    const auto obtain = [&](const ReferenceRequest& request) {
+        return watch.goesOn ? obtainReference(loaded_->scene, request, options, watch)
+                            : obtainReference(loaded_->scene, request, options);
+    };
+    ReferenceRequest request = requestFor(renderer);
+    loaded_->whole = obtain(request);
+    loaded_->paths = renderer.outputs().hits.incoming.paths;
+    if (loaded_->paths.interactions == 0) return;  // nothing is modelled: there is no caustic
+    request.filter.transmissionOnly = loaded_->paths.transmissionOnly;
+    request.filter.maximumInteractions = loaded_->paths.interactions;
+    loaded_->modelled = obtain(request);
+}
+
+Truth::~Truth() = default;
+
+Purpose Truth::purpose() const {
+    return loaded_ ? Purpose::audit : Purpose::measurement;
+}
+
+std::vector<fs::path> Truth::judge(const Renderer& renderer, const fs::path& folder,
+                                   report::RunRecord& record) const {
+    if (!loaded_) return {};
+    std::vector<fs::path> files;
+    const auto write = [&](const std::string& name, const Image& image) {
+        files.push_back(folder / name);
+        writeImage(files.back(), image);
+    };
+    const audit::HitAudit hits = audit::auditHits(renderer, loaded_->scene);
+    record.ledger = audit::resolveLedger(renderer, hits,
+                                         loaded_->whole.energy.watts[transport::kAccountEmitted]);
+    record.hits = audit::toJson(hits);
+    write("hits" + displayImageExtension(),
+          audit::wrongPhotonsPicture(
+              hits, readTexture(renderer.texture(renderer.outputs().picture.display), 0, 3)));
+    write("reference" + floatImageExtension(), loaded_->whole.irradiance);
+    if (!loaded_->whole.inScattered.values.empty())
+        write("reference_in_scattered" + floatImageExtension(), loaded_->whole.inScattered);
+
+    const Outputs outputs = readOutputs(renderer);
+    record.error = {{"reference", loaded_->name}};
+    record.error.update(errorsAgainst(outputs, loaded_->whole));
+    if (!outputs.seesReceivers) {
+        // Nothing is wrong with the picture: a caustic has nowhere to be seen.
+    } else if (record.error.at("caustic_irradiance").is_null()) {
+        record.warnings.push_back(record.error.at("reasons").at("caustic_irradiance"));
+    } else {
+        write("error" + displayImageExtension(),
+              errorPicture(pairOf(outputs, outputs.images.front(), loaded_->whole)));
+    }
+    if (loaded_->modelled) {
+        json modelled = errorsAgainst(outputs, *loaded_->modelled);
+        modelled["transmission_only"] = loaded_->paths.transmissionOnly;
+        modelled["maximum_interactions"] = loaded_->paths.interactions;
+        record.error["modelled_paths"] = std::move(modelled);
+    }
+    const graph::ResourceRef& visibility = renderer.outputs().shadows.visibility;
+    if (visibility.valid()) {
+        audit::ShadowAudit shadows;
+        const std::size_t lights = renderer.scene().lights.size();
+        for (std::size_t light = 0; light < lights; ++light) {
+            shadows.add(audit::auditShadow(
+                readTexture(renderer.texture(visibility), static_cast<int>(light), 1), light,
+                loaded_->scene));
+        }
+        record.error["shadow"] = audit::toJson(shadows);
+    }
+    return files;
+}
+
+std::vector<fs::path> Truth::judgeView(Renderer& renderer, const fs::path& folder,
+                                       report::RunRecord& record) const {
+    if (!loaded_ || renderer.needs().specularInterfaces == 0) return {};
+    renderer.build(Purpose::view);
+    gl::PassTimer untimed(gl::TimerMode::finish);
+    renderer.renderFrame(untimed);
+    reference::ViewTruthRequest request;
+    request.width = renderer.settings().width;
+    request.height = renderer.settings().height;
+    const reference::ViewTruth truth = traceView(loaded_->scene, request);
+    json& error = record.error["view"];
+    if (truth.pixels == 0) {
+        error = nullptr;
+        record.error["reasons"]["view"] = "no pixel of this view sees a specular surface";
+        return {};
+    }
+    const View& seen = renderer.outputs().picture.view;
+    if (seen.exitPosition.valid()) {
+        const Image position = readTexture(renderer.texture(seen.exitPosition), 0, 4);
+        const Image direction = readTexture(renderer.texture(seen.exitDirection), 0, 4);
+        error = audit::toJson(audit::auditView(position, direction, truth, renderer.view()));
+    } else {
+        error["reasons"]["exit_direction_deg"] = "this node follows no rays";
+    }
+    if (renderer.needs().medium) {
+        error["radiance"] = nullptr;
+        error["reasons"]["radiance"] = "the truth of the view knows no medium that fills the scene";
+        return {};
+    }
+    const Image radiance = readTexture(renderer.texture(seen.radiance), 0, 3);
+    try {
+        const measure::ImagePair pair({.image = radiance,
+                                       .reference = truth.radiance,
+                                       .mask = &truth.mask,
+                                       .standardError = &truth.radianceError,
+                                       .imageName = "the view's radiance"});
+        error["radiance"] = measure::toJson(measureErrors(pair));
+        const std::vector<fs::path> files = {folder / ("view_error" + displayImageExtension()),
+                                             folder / ("view_reference" + floatImageExtension())};
+        writeImage(files[0], errorPicture(pair));
+        writeImage(files[1], truth.radiance);
+        return files;
+    } catch (const IoError& problem) {
+        error["radiance"] = nullptr;
+        error["reasons"]["radiance"] = problem.what();
+        record.warnings.push_back(problem.what());
+        return {};
+    }
+}
+
+#endif
+
+}  // namespace kaustik::run

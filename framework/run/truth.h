@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// The ray-traced truth of a run (`--reference`): where it comes from, and what a rendered frame is
+// found to be worth beside it. `none` needs no Embree; the rest is a ConfigError without it.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "framework/pipeline/renderer.h"
+#include "framework/report/run_report.h"
+#include "framework/run/progress.h"
+
+namespace kaustik::run {
+
+class Truth {
+  public:
+    // `wanted`: none, auto (of at least so many photons) or the file of a reference. Reads or
+    // computes what there is to compare with, for the renderer's scene and size, as of its last
+    // build. Throws ConfigError for a reference of another scene or size, IoError for a damaged
+    // one.
+    Truth(const std::string& wanted, std::uint64_t photons, const Renderer& renderer);
+    // The same for who watches in another way how it is computed.
+    Truth(const std::string& wanted, std::uint64_t photons, const Renderer& renderer,
+          const Watch& watch);
+    ~Truth();
+    Truth(const Truth&) = delete;
+    Truth& operator=(const Truth&) = delete;
+
+    // What the frame must be built for.
+    [[nodiscard]] Purpose purpose() const;
+
+    // Judges the frame that was rendered for purpose(): fills the record's hits and error, and the
+    // causes in its ledger. Writes pictures into `folder` and gives their names.
+    std::vector<std::filesystem::path> judge(const Renderer& renderer,
+                                             const std::filesystem::path& folder,
+                                             report::RunRecord& record) const;
+
+    // Judges what the eye sees through specular surfaces, without caustics on either side: renders
+    // a frame of its own and fills `view` of the record's error. Writes pictures as judge() does.
+    // The renderer is left with that frame.
+    std::vector<std::filesystem::path> judgeView(Renderer& renderer,
+                                                 const std::filesystem::path& folder,
+                                                 report::RunRecord& record) const;
+
+  private:
+    struct Loaded;
+    std::unique_ptr<Loaded> loaded_;
+};
+
+}  // namespace kaustik::run

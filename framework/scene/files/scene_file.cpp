@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+#include "framework/scene/files/scene_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <system_error>
+
+#include "framework/core/error.h"
+#include "framework/core/files.h"
+#include "framework/core/names.h"
+#include "framework/scene/files/gltf_import.h"
+#include "framework/scene/files/scene_file_parts.h"
+
+namespace kaustik::scene {
+namespace {
+namespace fs = std::filesystem;
+
+template <class Named>
+void requireNewName(const std::vector<Named>& others, const std::string& name,
+                    const TableReader& reader) {
+    for (const Named& other : others) {
+        if (other.name == name) reader.fail("name", "this name is used twice; names are unique");
+    }
+}
+
+fs::path sceneFolder() {
+    return projectRoot() / "experiments" / "scenes";
+}
+
+// By name.
+std::vector<fs::path> shippedSceneFiles() {
+    std::vector<fs::path> files;
+    std::error_code error;
+    for (const fs::directory_entry& entry : fs::directory_iterator(sceneFolder(), error)) {
+        const fs::path file = entry.path();
+        if (file.extension() == ".toml" && !file.filename().string().starts_with('.'))
+            files.push_back(file);
+    }
+    std::sort(files.begin(), files.end(),
+              [](const fs::path& a, const fs::path& b) { return a.stem() < b.stem(); });
+    return files;
+}
+
+// A file that says `extends`: only what it changes is in it.
+Scene loadExtension(TableReader& top, const fs::path& path) {
+    const std::string base = top.text("extends");
+    const std::string name = top.text("name", path.stem().string());
+    const std::string description = top.text("description", "");
+    const SceneEdits edits = readEdits(top);
+    // A scene that extends itself, by whatever way, would be loaded for ever.
+    static thread_local int depth = 0;
+    struct Deeper {
+        Deeper() { ++depth; }
+        ~Deeper() { --depth; }
+    } const deeper;
+    if (depth > 16) top.fail("extends", "scenes extend each other without an end");
+    Scene scene;
+    try {
+        scene = loadScene(isSceneFile(base) ? (path.parent_path() / base).string() : base);
+    } catch (const ConfigError& error) {
+        top.fail("extends", error.what());
+    }
+    scene.name = name;
+    if (!description.empty()) scene.description = description;
+    scene.extendedFiles.insert(scene.extendedFiles.begin(), scene.file);
+    scene.file = path;
+    try {
+        applyEdits(scene, edits);
+    } catch (const ConfigError& error) {
+        top.fail("extends", error.what());
+    }
+    return scene;
+}
+
+}  // namespace
+
+std::string lowerExtension(const fs::path& path) {
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+    return extension;
+}
+
+Scene loadSceneFile(const fs::path& path) {
+    // One process for the scene and its meshes; each file has all of the time.
+    reading::ReaderProcess process;
+    const TomlNode document = readToml(path, process);
+    TableReader top(document, path, "");
+    if (top.has("extends")) return loadExtension(top, path);
+    Scene scene;
+    scene.file = path;
+    scene.name = top.text("name", path.stem().string());
+    scene.description = top.text("description", "");
+    scene.backgroundRadiance =
+        top.uniformOrVector3("background_radiance", kNotNegative, glm::dvec3(0.0));
+    scene.ambientIrradiance =
+        top.uniformOrVector3("ambient_irradiance", kNotNegative, glm::dvec3(0.0));
+    scene.timeSeconds = top.number("time", kAnyNumber, 0.0);
+    std::optional<TableReader> camera = top.table("camera");
+    std::optional<TableReader> medium = top.table("medium");
+    std::optional<TableReader> environment = top.table("environment");
+    std::vector<TableReader> lights = top.tables("light");
+    std::vector<TableReader> materials = top.tables("material");
+    std::vector<TableReader> objects = top.tables("object");
+    // Before the tables: a misspelt [[materials]] is not a missing material.
+    top.finish();
+
+    if (camera) scene.camera = readCamera(*camera);
+    if (medium) scene.medium = readMedium(*medium);
+    if (environment) readEnvironment(*environment, scene);
+    for (TableReader& reader : lights) {
+        Light light = readLight(reader, scene);
+        requireNewName(scene.lights, light.name, reader);
+        scene.lights.push_back(std::move(light));
+    }
+    for (TableReader& reader : materials) {
+        Material material = readMaterial(reader, scene);
+        requireNewName(scene.materials, material.name, reader);
+        scene.materials.push_back(std::move(material));
+    }
+    for (TableReader& reader : objects) {
+        Object object = readObject(reader, scene, process);
+        requireNewName(scene.objects, object.name, reader);
+        scene.objects.push_back(std::move(object));
+    }
+    return scene;
+}
+
+bool isSceneFile(const fs::path& path) {
+    const std::string extension = lowerExtension(path);
+    return extension == ".toml" || extension == ".gltf" || extension == ".glb";
+}
+
+Scene loadScene(const std::string& nameOrPath) {
+    if (isSceneFile(nameOrPath)) {
+        return lowerExtension(nameOrPath) == ".toml" ? loadSceneFile(nameOrPath)
+                                                     : importGltf(nameOrPath);
+    }
+    std::vector<std::string> names;
+    for (const fs::path& file : shippedSceneFiles()) {
+        names.push_back(file.stem().string());
+        if (names.back() == nameOrPath) return loadSceneFile(file);
+    }
+    if (names.empty()) {
+        throw ConfigError(fmt::format("There is no scene '{}': {} has no scene files.", nameOrPath,
+                                      sceneFolder().string()));
+    }
+    const std::string suggestion = didYouMean(nameOrPath, names);
+    throw ConfigError(fmt::format(
+        "There is no scene '{}'{} The scenes are {}; a path to a .toml, .gltf or .glb file will do "
+        "as well.",
+        nameOrPath, suggestion.empty() ? "." : suggestion, joinNames(names)));
+}
+
+std::vector<SceneListing> listScenes() {
+    std::vector<SceneListing> listings;
+    reading::ReaderProcess reader;
+    for (const fs::path& file : shippedSceneFiles()) {
+        SceneListing listing{file.stem().string(), "", file};
+        try {
+            const TomlNode document = readToml(file, reader);
+            const TomlNode* const found = document.find("description");
+            const auto* const text = found != nullptr ? found->as<std::string>() : nullptr;
+            if (text != nullptr) listing.description = *text;
+        } catch (const Error& problem) {
+            listing.description = problem.what();
+        }
+        listings.push_back(std::move(listing));
+    }
+    return listings;
+}
+
+}  // namespace kaustik::scene

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// The tables of a scene file, one reader each; `scene_file.h` describes their keys.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "framework/scene/files/table_reader.h"
+#include "framework/scene/scene.h"
+#include "framework/scene/scene_edits.h"
+
+namespace kaustik::scene {
+
+[[nodiscard]] Camera readCamera(TableReader& reader);
+[[nodiscard]] Medium readMedium(TableReader& reader);
+
+// Sets what surrounds the scene; a pattern becomes one of its images.
+void readEnvironment(TableReader& reader, Scene& scene);
+
+// These add the texture, if there is one, to the scene's images.
+[[nodiscard]] Light readLight(TableReader& reader, Scene& scene);
+[[nodiscard]] Material readMaterial(TableReader& reader, Scene& scene);
+
+// Adds the object's mesh to the scene; objects of the same mesh file share it. The materials must
+// have been read. `process` reads mesh files.
+[[nodiscard]] Object readObject(TableReader& reader, Scene& scene, reading::ReaderProcess& process);
+
+// The waves of a table: [{…}, …] under `waves`, or [[….wave]].
+[[nodiscard]] std::vector<Wave> readWaves(TableReader& reader);
+
+// What a scene file that extends another one may say: scene_file_extension.cpp.
+[[nodiscard]] SceneEdits readEdits(TableReader& top);
+
+// The mesh of a `shape = …` object at the scene's time.
+[[nodiscard]] Mesh readShape(TableReader& reader, double timeSeconds);
+
+// ".pfm" of "a/B.PFM".
+[[nodiscard]] std::string lowerExtension(const std::filesystem::path& path);
+
+}  // namespace kaustik::scene

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// What makes of a surface that a photon reaches a hit, with the normal and the flux that arrives:
+// what every tracer ends with.
+#include "include/ledger.glsl"
+#include "include/medium.glsl"
+#include "include/specular.glsl"
+#include "include/transfer_map.glsl"
+
+// What the list says of a photon that was not on its way, or met nothing.
+Hit nothingMet() {
+    return Hit(vec3(0.0), 0.0, vec3(0.0), 0u, vec3(0.0), kFateEnded);
+}
+
+// The normal of a receiver: the shading normal, unless that takes the eye or the arriving light for
+// being on the other side than the triangle does.
+vec3 receiverNormal(vec3 positionVs, vec3 direction, vec3 shading, vec3 geometric) {
+    bool sameLight = (dot(direction, shading) < 0.0) == (dot(direction, geometric) < 0.0);
+    bool sameEye = (dot(positionVs, shading) < 0.0) == (dot(positionVs, geometric) < 0.0);
+    return sameLight && sameEye ? shading : geometric;
+}
+
+// Accounts for what was absorbed on the way and what arrives at a receiver. `shading`, `geometric`:
+// unit, outward; `material`: index + 1.
+Hit deliverTo(Photon photon, float distance, vec3 shading, vec3 geometric, uint material) {
+    Hit hit = nothingMet();
+    bool arrives = isReceiver(materialKind(material - 1u));
+    hit.material = material;
+    hit.positionVs = photon.positionVs + distance * photon.directionVs;
+    hit.distanceMeters = distance;
+    hit.normalVs =
+        arrives ? receiverNormal(hit.positionVs, photon.directionVs, shading, geometric)
+                : bendingNormal(photon.directionVs, shading, geometric, material, photon.media);
+    // Asking whether there is a medium would cost more than adding its zeros.
+    vec3 left = transmittanceOver(extinctionAround(photon.media), hit.distanceMeters);
+    hit.fluxWatts = photon.fluxWatts * left;
+    ledgerAdd(kAccountAbsorbed, photon.fluxWatts * (1.0 - left));
+    hit.fate = arrives ? kFateReceiver : kFateSpecular;
+    if (arrives) ledgerAdd(kAccountArrived, hit.fluxWatts);
+    return hit;
+}

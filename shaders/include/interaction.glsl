@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// What becomes of a photon where it has met a specular surface (K06, section 2.3).
+#include "include/ledger.glsl"
+#include "include/specular.glsl"
+
+// The ways on: fate kFateNone where there is none. Their flux is the photon's, less what a mirror
+// absorbs and what enters a dielectric inside of more others than a stack holds, which both go to
+// the ledger here.
+struct Branches {
+    Photon transmitted;
+    Photon reflected;
+};
+
+Branches branchesOf(Photon photon, Hit hit) {
+    uint surface = hit.material - 1u;
+    MaterialData data = materials[surface];
+    photon.positionVs = hit.positionVs;
+    photon.fluxWatts = hit.fluxWatts;
+    photon.fate = kFateInFlight;
+    // The hit's normal has the triangle's side: see bendingNormal.
+    bool enters = dot(photon.directionVs, hit.normalVs) < 0.0;
+    photon.media = withLeftSide(photon.media, kLeftNothing);
+    Branches branches = Branches(photon, photon);
+    if (uint(data.albedo.w) == kMaterialMirror) {
+        branches.transmitted.fate = kFateNone;
+        branches.transmitted.fluxWatts = vec3(0.0);
+        branches.reflected.directionVs = normalize(reflect(photon.directionVs, hit.normalVs));
+        ledgerAdd(kAccountAbsorbed, photon.fluxWatts * (1.0 - data.albedo.rgb));
+        branches.reflected.fluxWatts *= data.albedo.rgb;
+        if (isOpen(surface)) {
+            branches.reflected.media =
+                withLeftSide(photon.media, enters ? kLeftOutside : kLeftInside);
+        }
+        return branches;
+    }
+    vec2 indices = indicesAt(hit.material, photon.media, enters);
+    Interface meeting = interactAt(photon.directionVs, hit.normalVs, indices.x, indices.y);
+    // Where one dielectric ends inside of another nothing is reflected, to the last bit.
+    if (indices.x == indices.y) meeting.reflectance = 0.0;
+    branches.reflected.directionVs = meeting.reflected;
+    branches.reflected.fluxWatts *= meeting.reflectance;
+    branches.transmitted.fluxWatts *= 1.0 - meeting.reflectance;
+    branches.transmitted.directionVs = meeting.refracted;
+    if (meeting.reflectance <= 0.0) branches.reflected.fate = kFateNone;
+    if (meeting.reflectance >= 1.0) {
+        branches.transmitted.fate = kFateNone;
+    } else if (!enters) {
+        branches.transmitted.media = leaveMedium(photon.media, hit.material);
+    } else if (canEnter(photon.media, hit.material)) {
+        branches.transmitted.media = enterMedium(photon.media, hit.material);
+    } else {
+        ledgerAdd(kAccountNestingLimit, branches.transmitted.fluxWatts);
+        branches.transmitted.fate = kFateNone;
+    }
+    return branches;
+}

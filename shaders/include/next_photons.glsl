@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// For shaders that send photons on from where they have met a specular surface: one thread a photon
+// of the list before, and its place in the next one (techniques/shared/next_photons.h).
+#include "include/hits.glsl"
+#include "include/photon_thread.glsl"
+#include "include/store_photons.glsl"
+
+layout(std430) readonly buffer NextFirsts {
+    uint nextFirsts[];
+};
+shared uint goOn[2];
+
+// To be called once by every thread of the workgroup; the place of this one's photon, where it goes
+// on.
+uint nextSlot(bool goesOn) {
+    uint local = gl_LocalInvocationIndex;
+    if (local < 2u) goOn[local] = 0u;
+    barrier();
+    if (goesOn) atomicOr(goOn[local >> 5u], 1u << (local & 31u));
+    barrier();
+    uint below = bitfieldExtract(goOn[local >> 5u], 0, int(local & 31u));
+    uint slot = uint(bitCount(below)) + (local < 32u ? 0u : uint(bitCount(goOn[0])));
+    return goesOn ? nextFirsts[workgroupNumber()] + slot : 0u;
+}
+
+// Of a photon that is sent on by the thread's.
+PhotonOrigin originOfNext(PhotonOrigin before, uint index, bool isReflected) {
+    return PhotonOrigin(before.cell, before.light, (before.path << 1) | uint(isReflected), index);
+}

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// Materials for shaders that are no fragments (include/surface.glsl needs derivatives).
+#include "framework/transport/types.h"
+
+layout(std430) readonly buffer Materials {
+    MaterialData materials[];
+};
+
+uint materialKind(uint material) {
+    return uint(materials[material].albedo.w);
+}
+
+// Light ends on a receiver; it goes on from every other surface.
+bool isReceiver(uint kind) {
+    return kind == kMaterialLambertian || kind == kMaterialGlossy;
+}
+
+// Whether the surface bounds no volume: a sheet.
+bool isOpen(uint material) {
+    return materials[material].uv.w > 0.0;
+}
+
+// Index of refraction of a medium: material index + 1, or 0 for vacuum.
+float mediumIndex(uint medium) {
+    return medium == 0u ? 1.0 : materials[medium - 1u].absorption.w;
+}
+
+// Share of the flux that is left after a way (Beer-Lambert). Zero length or zero extinction leave
+// all of it, whatever the other is: infinite for a black tint.
+vec3 transmittanceOver(vec3 extinctionPerMeter, float distanceMeters) {
+    vec3 depth = extinctionPerMeter * distanceMeters;
+    return exp(-mix(vec3(0.0), depth, greaterThan(depth, vec3(0.0))));
+}
+
+// What a dielectric absorbs, 1/m.
+vec3 mediumAbsorption(uint medium) {
+    return medium == 0u ? vec3(0.0) : materials[medium - 1u].absorption.rgb;
+}
+
+// The share that a way through a dielectric leaves.
+vec3 mediumTransmittance(uint medium, float distanceMeters) {
+    return transmittanceOver(mediumAbsorption(medium), distanceMeters);
+}

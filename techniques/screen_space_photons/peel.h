@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// Depth peeling (K06, section 2.2), for whoever needs layers of some of the scene's surfaces.
+#pragma once
+
+#include <string>
+
+#include "framework/pipeline/frame_builder.h"
+#include "framework/render/gpu_scene.h"
+
+namespace kaustik {
+
+// Which surfaces a layered depth image holds, and its resources' names ("layers" gives
+// "layers.depth").
+struct LayersRequest {
+    std::string name;
+    render::DrawSet set = render::DrawSet::all;
+    int layers = 8;
+    bool reducesCounts = false;               // by a texture reduce instead of atomics
+    std::string reader = "the tracer needs";  // that needs them, for people
+    Views views = nullptr;                    // the eye's
+};
+// Adds the pass that counts the fragments of every pixel (K06, section 2.2).
+[[nodiscard]] graph::Buffer<transport::LayerStatistics> measureComplexity(
+    FrameBuilder& frame, Geometry geometry, const LayersRequest& request);
+// Adds the passes of a layered depth image without a pyramid.
+[[nodiscard]] LayeredDepth peel(FrameBuilder& frame, Geometry geometry,
+                                const LayersRequest& request);
+
+}  // namespace kaustik

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// The receivers that views see, for whoever stores light there: see eye.cpp.
+#pragma once
+
+#include "framework/pipeline/frame_builder.h"
+
+namespace kaustik {
+
+struct SeenReceivers {
+    ReceiverView receivers;
+    graph::Texture<DepthBuffer> depth;  // reversed z; of a cube the last face's
+    Geometry geometry;
+};
+
+// Adds the pass that draws them, as NAME.receiver, NAME.receiver_surface and NAME.receiver_albedo.
+[[nodiscard]] SeenReceivers seeReceivers(FrameBuilder& frame, Geometry geometry, const Views& views,
+                                         const std::string& name, const std::string& why);
+
+}  // namespace kaustik
