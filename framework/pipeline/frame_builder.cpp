@@ -99,7 +99,7 @@ namespace {
 // Why the frame has no caustic; "" if it may have one.
 std::string whyNoCaustic(const FrameBuilder& frame) {
     const scene::SceneNeeds& needs = frame.needs();
-    if (frame.leavesOutCaustic()) return "what the eye sees is judged without it";
+    if (frame.skipsCaustic()) return "what the eye sees is judged without it";
     if (needs.lights == 0) return "the scene has no light";
     if (needs.specularInterfaces == 0) return "the scene has no specular surface";
     if (!needs.receivers) return "the scene has no receiver";
@@ -107,12 +107,12 @@ std::string whyNoCaustic(const FrameBuilder& frame) {
 }
 
 // Irradiance of zero and an empty ledger, in place of all that follows photons.
-IrradianceMap leaveOutCaustic(FrameBuilder& frame, const std::string& why) {
+IrradianceMap skipCaustic(FrameBuilder& frame, const std::string& why) {
     for (const char* stage : {DriverStage::name, EmitStage::name, SpecularStage::name,
                               TraceStage::name, MediaStage::name, BlurStage::name,
                               ReconstructStage::name, FilterStage::name, GatherStage::name}) {
         const std::string node = frame.chosenNode(stage).name;
-        frame.leaveOut(std::string(stage) + "." + node, why);
+        frame.skip(std::string(stage) + "." + node, why);
     }
     return frame.pass<IrradianceMap>(
         "reconstruct.nothing", "stands for a caustic that cannot be: " + why,
@@ -144,7 +144,7 @@ FrameOutputs buildFrame(FrameBuilder& frame) {
         caustic.map = frame.run<FilterStage>(caustic.map);
         irradiance = frame.run<GatherStage>(caustic.map, surfaces);
     } else {
-        irradiance = leaveOutCaustic(frame, whyNot);
+        irradiance = skipCaustic(frame, whyNot);
     }
     const Picture picture = frame.run<ComposeStage>(
         geometry, eye, layers, LightParts{shadows, irradiance, caustic.inScattered});

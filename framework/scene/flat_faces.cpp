@@ -7,8 +7,8 @@
 #include <numeric>
 #include <optional>
 
-#include "framework/scene/height_field.h"
-#include "framework/scene/position_welding.h"
+#include "framework/scene/meshes/position_welding.h"
+#include "framework/scene/shapes/height_field.h"
 
 namespace kaustik::scene {
 namespace {

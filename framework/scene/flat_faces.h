@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The faces of flat meshes, found from their triangles, wherever these come from: a plane, the
-// sides of a box or of a room, an imported wall. Whoever meets rays with them needs no triangles.
+// sides of a box or of a room, an imported wall. Whoever hits rays with them needs no triangles.
 #pragma once
 
 #include <cstdint>

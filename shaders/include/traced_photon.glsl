@@ -11,9 +11,9 @@ Photon photonInView(Photon photon) {
     return photon;
 }
 
-// The hit, or, where nothing was met, the account of the reason.
+// The hit, or, where nothing was hit, the account of the reason.
 Hit deliver(Photon photon, FirstHit first) {
-    Hit hit = nothingMet();
+    Hit hit = nothingHit();
     if (!isNumber(photon)) {
         ledgerAdd(kAccountNotANumber, vec3(0.0));
         return hit;
@@ -30,13 +30,13 @@ Hit deliver(Photon photon, FirstHit first) {
     LayerSurface layer = layerAt(first.pixel, first.hit.layer);
     uint material = uint(surface.w);
     bool arrives = isReceiver(materialKind(material - 1u));
-    Crossing met = Crossing(first.hit.t, surface.xyz, layer.normal);
+    Crossing crossing = Crossing(first.hit.t, surface.xyz, layer.normal);
     if (first.isExit) {
-        met = smoothCrossing(seen.positionVs, seen.directionVs, met.t, surface, layer);
+        crossing = smoothCrossing(seen.positionVs, seen.directionVs, crossing.t, surface, layer);
     } else {
-        vec3 there = seen.positionVs + met.t * seen.directionVs;
-        met.shading = normalAtHit(there, surface, layer, arrives);
+        vec3 there = seen.positionVs + crossing.t * seen.directionVs;
+        crossing.shading = normalAtHit(there, surface, layer, arrives);
     }
-    return deliverTo(photon, met.t, directionToEye(met.shading), directionToEye(met.geometric),
+    return deliverTo(photon, crossing.t, directionToEye(crossing.shading), directionToEye(crossing.geometric),
                      material);
 }

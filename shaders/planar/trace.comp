@@ -16,7 +16,7 @@ const float kRounding = 5e-7;
 // Cosines to a plane below this are rounding of its normal.
 const float kParallel = 1e-6;
 
-// Where the ray meets a face, m; below 0: nowhere.
+// Where the ray hits a face, m; below 0: nowhere.
 float meetFace(FlatFace face, vec3 origin, vec3 direction) {
     const float nowhere = -1.0;
     float closing = dot(face.normal.xyz, direction);
@@ -25,7 +25,7 @@ float meetFace(FlatFace face, vec3 origin, vec3 direction) {
     float height = dot(face.normal.xyz, toCorner);
     float t = height / closing;
     // A photon that starts in the plane, at glass that stands on a floor or at a mirror that lies
-    // on it, meets the plane if it goes to its back, and has come from it otherwise.
+    // on it, hits the plane if it goes to its back, and has come from it otherwise.
     float size = max(length(face.corner.xyz), length(origin));
     bool startsInPlane = abs(height) <= kRounding * size;
     if (startsInPlane) t = closing < 0.0 ? max(t, 0.0) : nowhere;
@@ -33,7 +33,7 @@ float meetFace(FlatFace face, vec3 origin, vec3 direction) {
     vec3 on = t * direction - toCorner;
     float u = dot(face.acrossU.xyz, on);
     float v = dot(face.acrossV.xyz, on);
-    // Nothing slips through between two faces that meet.
+    // Nothing slips through between two faces that hit.
     vec2 slack = kRounding * (size + t) * vec2(face.acrossU.w, face.acrossV.w);
     bool isInside = abs(u - 0.5) <= 0.5 + slack.x && abs(v - 0.5) <= 0.5 + slack.y;
     return isInside ? t : nowhere;
@@ -51,11 +51,11 @@ bool isInBody(uint media) {
 Hit traceToPlanes(Photon photon) {
     if (!isNumber(photon)) {
         ledgerAdd(kAccountNotANumber, vec3(0.0));
-        return nothingMet();
+        return nothingHit();
     }
     if (isInBody(photon.media)) {
         ledgerAdd(kAccountMissedByTracer, photon.fluxWatts);
-        return nothingMet();
+        return nothingHit();
     }
     int nearest = -1;
     float nearestT = 0.0;
@@ -67,7 +67,7 @@ Hit traceToPlanes(Photon photon) {
     }
     if (nearest < 0) {
         ledgerAdd(missAccount, photon.fluxWatts);
-        return nothingMet();
+        return nothingHit();
     }
     vec4 normal = flatFaces[nearest].normal;
     return deliverTo(photon, nearestT, normal.xyz, normal.xyz, uint(normal.w));
@@ -78,7 +78,7 @@ void main() {
     if (index >= photons.count) return;
     ivec2 texel = ivec2(photonTexel(photons, index));
     Photon photon = photonAt(texel);
-    Hit hit = nothingMet();
+    Hit hit = nothingHit();
     if (photon.fate == kFateInFlight) hit = traceToPlanes(photon);
     storeHit(texel, hit);
 }

@@ -38,7 +38,7 @@ uniform int firstOfLight;  // where its photons begin in the list
 const int kFromOutside = 1;
 const int kFromWithin = 2;
 
-// What of the triangles around a vertex the light meets from one side.
+// What of the triangles around a vertex the light hits from one side.
 struct LitArea {
     float across;  // a third of their areas across the light's direction, m²
     vec3 outward;  // mean normal, weighted by area; any length

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The receiver of each pixel of a view: depth, the area seen, normal, material, reflectance. A mirror is none
-// but hides what is behind it: its depth is negative, and the normal and the material are its own.
+// The receiver of each pixel of a view: depth, the area seen, normal, material, reflectance. A
+// mirror is none but hides what is beyond it: its depth is negative, and the normal and the
+// material are its own.
 #include "include/scene_fragment.glsl"
 #include "include/surface.glsl"
 #include "include/view.glsl"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A flat receiver as trace.plane meets it: a parallelogram in eye view space, m. C++ and GLSL both
+// A flat receiver as trace.plane hits it: a parallelogram in eye view space, m. C++ and GLSL both
 // read this file.
 #pragma once
 

@@ -6,14 +6,13 @@
 namespace kaustik {
 
 void registerPlanar(Registry& registry) {
-    registry.node<TraceStage>(
-        "plane",
-        {"Meets each photon's ray with the planes of flat receivers; no other "
-         "surface is seen.",
-         "K06, section 1.1, Fig. 2", Sees::flatReceivers},
-        &tracePlane);
+    registry.node<TraceStage>("plane",
+                              {"Hits each photon's ray with the planes of flat receivers; no other "
+                               "surface is seen.",
+                               "K06, section 1.1, Fig. 2", Sees::flatReceivers},
+                              &tracePlane);
     registry.technique({"planar",
-                        "Photons meet flat receivers analytically and nothing else; else as "
+                        "Photons hit flat receivers analytically and nothing else; else as "
                         "screen_space_photons.",
                         "K06, section 1.1, Fig. 2",
                         {{"layers", "peel"},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// trace.plane: photons' rays met analytically with the scene's flat receivers, one compute thread a
+// trace.plane: photons' rays hit analytically with the scene's flat receivers, one compute thread a
 // photon (K06, section 1.1: what was done before rays were traced on the screen; Fig. 2: a plane
 // and the faces of a box). Flat are planes and the faces of boxes, of either side
 // (scene/flat_faces.h). In: photons, eye view space, m; out: hits, W that arrive after absorption.
@@ -23,7 +23,7 @@ namespace {
 struct Planes {
     gl::Buffer faces;
     int count = 0;
-    // Of a photon that meets none of them: whether it may have met something else.
+    // Of a photon that hits none of them: whether it may have hit something else.
     unsigned missAccount = transport::kAccountLeftScene;
 };
 
@@ -52,10 +52,10 @@ std::string quoted(const std::vector<std::string>& names) {
 }
 
 // What of the scene the tracer does not see, in a sentence; "" where that is nothing that a photon
-// can meet.
+// can hit.
 std::string whatIsNotSeen(const FrameBuilder& frame, const std::vector<std::string>& curved) {
     const scene::Scene& scene = frame.scene();
-    const scene::MeetingsAgain& again = frame.needs().meetsAgain;
+    const scene::HitsAgain& again = frame.needs().hitsAgain;
     std::vector<std::string> bodies;
     std::vector<std::string> sheets;
     for (const scene::Object& object : scene.objects) {
@@ -73,7 +73,7 @@ std::string whatIsNotSeen(const FrameBuilder& frame, const std::vector<std::stri
     std::vector<std::string> parts;
     if (!curved.empty()) parts.push_back(fmt::format("light passes {}", quoted(curved)));
     if (!sheets.empty()) {
-        parts.push_back(fmt::format("what would meet {} a second time does not", quoted(sheets)));
+        parts.push_back(fmt::format("what would hit {} a second time does not", quoted(sheets)));
     }
     if (!bodies.empty()) {
         parts.push_back(
@@ -110,7 +110,7 @@ Hits tracePlane(FrameBuilder& frame, const params::NoParams&, Photons photons,
     const auto planes = frame.once<Planes>("trace.planes", [&] { return makePlanes(frame); });
     return frame.pass<Hits>(
         "trace.plane",
-        fmt::format("one thread a photon meets {} flat face{} of receivers", planes->count,
+        fmt::format("one thread a photon hits {} flat face{} of receivers", planes->count,
                     planes->count == 1 ? "" : "s"),
         [&](graph::PassSetup& setup, Hits& hits) {
             photons.sample(setup);

@@ -16,10 +16,10 @@
 namespace kaustik {
 namespace {
 
-// A path through still water meets it once. Where one can come back, the limit decides, and the
+// A path through still water hits it once. Where one can come back, the limit decides, and the
 // ledger says what it cost.
 int interactionCount(const FrameBuilder& frame, const ModelledPaths& paths) {
-    const scene::MeetingsAgain& again = frame.needs().meetsAgain;
+    const scene::HitsAgain& again = frame.needs().hitsAgain;
     const bool canRepeat = paths.transmissionOnly ? again.transmitted : again.reflected;
     return canRepeat ? frame.params<SpecularParams>("specular").bounces : 1;
 }
@@ -70,8 +70,8 @@ Caustic followAllPhotons(FrameBuilder& frame, const params::NoParams&, Surfaces 
         caustic.inScattered = frame.run<BlurStage>(caustic.inScattered);
     } else {
         for (const char* stage : {MediaStage::name, BlurStage::name}) {
-            frame.leaveOut(std::string(stage) + "." + frame.chosenNode(stage).name,
-                           "the scene has no medium that scatters");
+            frame.skip(std::string(stage) + "." + frame.chosenNode(stage).name,
+                       "the scene has no medium that scatters");
         }
     }
     return caustic;

@@ -2,12 +2,12 @@
 // emit.vertices: one photon a vertex of the specular meshes and of wavy water (Shah, Pattanaik
 // 2005). It stands for a third of every triangle around the vertex, and carries what falls on that:
 // irradiance at the vertex times the area across the light, of triangles that face the light on the
-// side that it comes from. Both sides of a sheet count; a body is met from within only by a light
+// side that it comes from. Both sides of a sheet count; a body is hit from within only by a light
 // that is inside of it. Which vertices the light sees first is decided by a depth image from the
 // light, by the planes of its texels (include/light_depth.glsl). A mesh too coarse for its shadows
-// loses or gains light by them: the sampling error of the truth's report. Out: photons that arrive
-// (flux in W) and the hits that they make; eye view space, m; cells number the vertices of the
-// specular objects.
+// loses or gains light by them: the sampling error of the reference's report. Out: photons that
+// arrive (flux in W) and the hits that they make; eye view space, m; cells number the vertices of
+// the specular objects.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -38,7 +38,7 @@ struct LightDepth {
     static constexpr Format format = Format::rgba32f;
 };
 
-// From which side of its triangles light meets an object, as shared/emit_vertices.comp has it.
+// From which side of its triangles light hits an object, as shared/emit_vertices.comp has it.
 constexpr int kFromOutside = 1;
 constexpr int kFromWithin = 2;
 

@@ -7,7 +7,7 @@ namespace kaustik {
 namespace {
 
 CausticMap leaveUnfiltered(FrameBuilder& frame, const params::NoParams&, CausticMap map) {
-    frame.leaveOut("filter.none", "splats spread what they store");
+    frame.skip("filter.none", "splats spread what they store");
     return map;
 }
 

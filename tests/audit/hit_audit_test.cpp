@@ -231,7 +231,7 @@ TEST(HitAudit, JudgesATracerOfPlanesByFlatReceiversWhereverTheyAre) {
     EXPECT_EQ(aside.hits.rightReachable, aside.hits.reachable);
     EXPECT_LT(aside.hits.meters.value().maximum, 1e-4);
 
-    // The bunny is not flat: who should meet it does not count as reachable, and goes on.
+    // The bunny is not flat: who should hit it does not count as reachable, and goes on.
     const Audited pool(scene::loadScene("pool"), {{"trace", "plane"}});
     expectAccounted(pool);
     EXPECT_LT(pool.hits.reachable, pool.hits.exactHits);

@@ -54,7 +54,7 @@ const Tolerance kNothing{5e-4,
                          "nothing but what enters within a thousandth of the rim comes so near to "
                          "the critical angle, half of it reflected"};
 
-// An account's share of what has met the ball when the interactions end: what is still on its way
+// An account's share of what has hit the ball when the interactions end: what is still on its way
 // in it, say.
 double shareOf(Lab& lab, unsigned account, const Lab::Choice& choice, const scene::Scene& scene,
                int bounces, const Settings& more) {

@@ -8,7 +8,7 @@
 
 #include "framework/core/error.h"
 #include "framework/numerics/frame.h"
-#include "framework/scene/scene_file.h"
+#include "framework/scene/files/scene_file.h"
 #include "techniques/register_all.h"
 #include "techniques/screen_space_photons/peel.h"
 #include "techniques/screen_space_photons/pyramid.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// trace.plane against where rays in double meet planes: tilted ones, the nearest of several, the
+// trace.plane against where rays in double hit planes: tilted ones, the nearest of several, the
 // inside of a room, on and off the screen; and what becomes of what it does not see.
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 #include "framework/numerics/bench.h"
 #include "framework/numerics/cases/scene_text.h"
-#include "framework/scene/scene_file.h"
+#include "framework/scene/files/scene_file.h"
 #include "framework/transport/watts.h"
 #include "tests/gpu/fixture.h"
 
@@ -86,7 +86,7 @@ TEST_F(TracePlane, HitsATiltedPlaneWhereTheRayMeetsIt) {
     }
     EXPECT_GT(hits, 500);
     EXPECT_GT(passed, 3000);
-    // All flux of 1 W each is either arrived or has met nothing there was.
+    // All flux of 1 W each is either arrived or has hit nothing there was.
     EXPECT_NEAR(traced.ledger.watts[kAccountArrived] + traced.ledger.watts[kAccountLeftScene],
                 static_cast<double>(photons.size()), 1e-5 * static_cast<double>(photons.size()));
 }

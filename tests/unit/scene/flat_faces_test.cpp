@@ -7,8 +7,8 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "framework/scene/height_field.h"
-#include "framework/scene/shapes.h"
+#include "framework/scene/shapes/height_field.h"
+#include "framework/scene/shapes/shapes.h"
 
 namespace kaustik::scene {
 namespace {
