@@ -61,7 +61,7 @@ def error_measures(study: Study) -> list[Measure]:
     ):
         for column in study.columns_like(rf"error\..*\.{metric}"):
             if "truth_noise" in column:
-                continue  # what the truth's own error would give: no property of a run
+                continue  # what the reference's own error would give: no property of a run
             output = column.split(".", 1)[1].rsplit(".", 1)[0]
             unit = ""
             if metric == "rmse":
@@ -131,7 +131,8 @@ def speed_against_error(study: Study, measure: Measure) -> Figure | None:
         own = measure.column.removesuffix("rmse") + "truth_noise.rmse"
         noise = [n for c in shown for n in c.numbers(own)]
     if noise:
-        axes.axhline(max(noise), color="#555555", linestyle=":", label="the truth's standard error")
+        label = "the reference's standard error"
+        axes.axhline(max(noise), color="#555555", linestyle=":", label=label)
     # Only the front is named, else the names hide each other; the table has them all.
     middle = 0.5 * (front[0][0] + front[-1][0])
     for configuration, point in zip(shown, points):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Pictures of the runs: read, brought to one exposure, and set beside the truth."""
+"""Pictures of the runs: read, brought to one exposure, and set beside the reference."""
 
 import base64
 import io
@@ -64,7 +64,7 @@ class Output:
     """What runs are judged by, and the files of it."""
 
     file: str
-    truth: str
+    reference: str
     kind: str  # for people
     unit: str
 
@@ -75,10 +75,10 @@ IN_SCATTERED = Output(
 )
 
 
-def find_truth(configuration: Configuration, output: Output) -> Path | None:
+def find_reference(configuration: Configuration, output: Output) -> Path | None:
     """The reference picture of a configuration: beside its report, or where that says it is."""
     for folder in configuration.folders:
-        beside = find_image(folder, output.truth, (".exr", ".pfm"))
+        beside = find_image(folder, output.reference, (".exr", ".pfm"))
         if beside:
             return beside
         if output is not CAUSTIC:
@@ -118,12 +118,12 @@ def white_of(image: np.ndarray) -> float:
 
 
 class Pictures:
-    """One output of some configurations and their truths, at one exposure."""
+    """One output of some configurations and their references, at one exposure."""
 
     def __init__(self, configurations: list[Configuration], output: Output):
         self.output = output
         self.images: list[tuple[Configuration, np.ndarray]] = []
-        self.truths: dict[str, np.ndarray] = {}  # by configuration
+        self.references: dict[str, np.ndarray] = {}  # by configuration
         self.problems: list[str] = []
         self.beauties: list[Picture] = []
         for configuration in configurations:
@@ -136,8 +136,8 @@ class Pictures:
                 return
             except (OSError, ValueError) as error:
                 self.problems.append(f"{error}.")
-        truths = list(self.truths.values())
-        linear = truths or [image for _, image in self.images]
+        references = list(self.references.values())
+        linear = references or [image for _, image in self.images]
         self.white = max((white_of(image) for image in linear), default=1.0)
 
     def _read(self, configuration: Configuration) -> None:
@@ -150,25 +150,25 @@ class Pictures:
             return
         image = read_image(file)
         self.images.append((configuration, image))
-        truth = find_truth(configuration, self.output)
-        if truth:
-            true_image = read_image(truth)
+        reference = find_reference(configuration, self.output)
+        if reference:
+            true_image = read_image(reference)
             if true_image.shape == image.shape:
-                self.truths[configuration.hash] = true_image
+                self.references[configuration.hash] = true_image
             else:
-                self.problems.append(f"{truth} is of another size than {file}.")
+                self.problems.append(f"{reference} is of another size than {file}.")
 
     def for_page(self) -> list[Picture]:
-        """The truths first, each once."""
+        """The references first, each once."""
         pictures: list[Picture] = []
         seen: list[np.ndarray] = []
         for configuration, _ in self.images:
-            truth = self.truths.get(configuration.hash)
-            if truth is None or any(truth.shape == s.shape and (truth == s).all() for s in seen):
+            reference = self.references.get(configuration.hash)
+            if reference is None or any(np.array_equal(reference, s) for s in seen):
                 continue
-            seen.append(truth)
-            label = "truth" if len(seen) == 1 else f"truth of {configuration.label}"
-            pictures.append(Picture(label, self.output.kind, displayed(truth, self.white)))
+            seen.append(reference)
+            label = "reference" if len(seen) == 1 else f"reference of {configuration.label}"
+            pictures.append(Picture(label, self.output.kind, displayed(reference, self.white)))
         for configuration, image in self.images:
             pictures.append(
                 Picture(configuration.label, self.output.kind, displayed(image, self.white))
@@ -177,15 +177,15 @@ class Pictures:
 
 
 def side_by_side(pictures: Pictures) -> Figure | None:
-    """One row a configuration: the truth, the technique and where it is wrong."""
-    shown = [(c, image) for c, image in pictures.images if c.hash in pictures.truths]
+    """One row a configuration: the reference, the technique and where it is wrong."""
+    shown = [(c, image) for c, image in pictures.images if c.hash in pictures.references]
     if not shown:
         return None
     height, width = shown[0][1].shape[:2]
     shown = evenly(shown, MOST_ROWS)
     errors = []
     for configuration, image in shown:
-        difference = np.abs(image - pictures.truths[configuration.hash])
+        difference = np.abs(image - pictures.references[configuration.hash])
         errors.append(np.nan_to_num(difference, nan=np.inf) @ LUMINANCE)
     finite = np.concatenate([e[np.isfinite(e)] for e in errors])
     largest = float(np.percentile(finite, 99.0)) if finite.size else 1.0
@@ -197,7 +197,7 @@ def side_by_side(pictures: Pictures) -> Figure | None:
         layout="constrained",
     )
     for (configuration, image), error, row in zip(shown, errors, rows):
-        row[0].imshow(displayed(pictures.truths[configuration.hash], pictures.white))
+        row[0].imshow(displayed(pictures.references[configuration.hash], pictures.white))
         row[1].imshow(displayed(image, pictures.white))
         shade = row[2].imshow(error, cmap="cividis", vmin=0.0, vmax=largest or 1.0)
         row[1].set_title(configuration.label, fontsize=8)
@@ -205,7 +205,7 @@ def side_by_side(pictures: Pictures) -> Figure | None:
             axes.set_xticks([])
             axes.set_yticks([])
             axes.grid(False)
-    rows[0][0].set_title("truth", fontsize=8)
+    rows[0][0].set_title("reference", fontsize=8)
     rows[0][2].set_title("error", fontsize=8)
     output = pictures.output
     figure.colorbar(
@@ -215,8 +215,8 @@ def side_by_side(pictures: Pictures) -> Figure | None:
 
 
 def gallery(pictures: Pictures) -> Figure | None:
-    """The images alone, where there is no truth to set them beside."""
-    if not pictures.images or pictures.truths:
+    """The images alone, where there is no reference to set them beside."""
+    if not pictures.images or pictures.references:
         return None
     count = len(pictures.images)
     across = min(count, 3)

@@ -81,7 +81,7 @@ def draw(folder: Path) -> None:
         of_pictures += [
             (
                 name,
-                f"The truth, {what}, and where it is wrong; one exposure.",
+                f"The reference, {what}, and where it is wrong; one exposure.",
                 side_by_side(pictures),
             ),
             (name, f"{what.capitalize()}, at one exposure.", gallery(pictures)),

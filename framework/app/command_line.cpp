@@ -142,7 +142,7 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry,
                      "Times each pass with the device finished around it (software rasterisers)");
     runApp
         ->add_option("--reference", run.reference,
-                     "Compare with the truth: none, auto (computed once and kept) or a file of "
+                     "Compare with the reference: none, auto (computed once and kept) or a file of "
                      "'kaustik reference'")
         ->capture_default_str();
     runApp
@@ -165,13 +165,13 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry,
 
     ExplainOptions explain;
     CLI::App* explainApp =
-        app.add_subcommand("explain", "Prints every pass and why it runs or was left out");
+        app.add_subcommand("explain", "Prints every pass and why it runs or was skipped");
     addSceneOptions(*explainApp, explain.scene);
     explainApp->add_option("--dot", explain.dotFile, "Writes the graph as Graphviz");
 
     ReferenceOptions reference;
     CLI::App* referenceApp =
-        app.add_subcommand("reference", "Computes the ray-traced truth of a scene");
+        app.add_subcommand("reference", "Computes the ray-traced reference of a scene");
     referenceApp
         ->add_option("scene", reference.scene, "A name from 'list scenes', a .toml, .gltf or .glb")
         ->required();
@@ -204,7 +204,7 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry,
     CLI::App* compareApp =
         app.add_subcommand("compare", "Prints how wrong an image is against a reference");
     compareApp->add_option("image", compare.image, "An .exr, .pfm or .png")->required();
-    compareApp->add_option("reference", compare.reference, "The truth, of the same size")
+    compareApp->add_option("reference", compare.reference, "The reference, of the same size")
         ->required();
     compareApp->add_flag("--json", compare.json, "As JSON, with formulas");
     compareApp->add_option("--heatmap", compare.heatMapFile, "Writes where it is wrong, as .png");

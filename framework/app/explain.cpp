@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// kaustik explain: what a scene needs, every pass with the reason that it runs or was left out, and
+// kaustik explain: what a scene needs, every pass with the reason that it runs or was skipped, and
 // every resource; kaustik check: what this device offers.
 #include <fmt/format.h>
 
@@ -21,8 +21,8 @@ const char* stateName(graph::PassState state) {
             return "bypassed";
         case graph::PassState::culled:
             return "culled";
-        case graph::PassState::leftOut:
-            return "left out";
+        case graph::PassState::skipped:
+            return "skipped";
     }
     return "";
 }

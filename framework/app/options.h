@@ -36,7 +36,7 @@ struct ReferenceOptions {
     std::string time;  // seconds; "" for the scene's own
     std::string size = "800x600";
     std::string estimator = "light";
-    std::optional<long long> photons;     // where to stop: what is met first
+    std::optional<long long> photons;     // where to stop: what is reached first
     std::optional<double> seconds;        //
     std::optional<double> standardError;  // relative
     long long seed = 1;

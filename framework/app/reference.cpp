@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// kaustik reference: computes the ray-traced truth of a scene, or goes on with it.
+// kaustik reference: computes the ray-traced reference of a scene, or goes on with it.
 #include <fmt/format.h>
 
 #include <cmath>

@@ -11,7 +11,7 @@
 #include "framework/run/output.h"
 #include "framework/run/progress.h"
 #include "framework/run/run_record.h"
-#include "framework/run/truth.h"
+#include "framework/run/run_reference.h"
 
 namespace kaustik::app {
 namespace {
@@ -84,12 +84,13 @@ void runCommand(const RunOptions& options, const Registry& registry) {
     gl::PassTimer timer(record.timer);
     record.startupMilliseconds =
         std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-    const run::Truth truth(options.reference, static_cast<std::uint64_t>(options.referencePhotons),
-                           renderer);  // before the frames: it may be refused
+    const run::RunReference reference(options.reference,
+                                      static_cast<std::uint64_t>(options.referencePhotons),
+                                      renderer);  // before the frames: it may be refused
     record.frames = renderTimedFrames(renderer, timer, options);
 
     const std::vector<fs::path> files =
-        run::finishRun(renderer, truth, record, folder, options.saved, context->info());
+        run::finishRun(renderer, reference, record, folder, options.saved, context->info());
 
     fmt::print("{} with {}, {}x{}, on {}{}\n", scene.name, renderer.settings().technique.name,
                renderer.settings().width, renderer.settings().height, context->info().renderer,

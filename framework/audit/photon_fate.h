@@ -2,8 +2,8 @@
 // Whether a tracer has found the first hit of a photon (design, section 7, `hits`). Pure geometry
 // in eye view space, m; pixels are continuous, from the lower left corner.
 //
-// A fate is right when tracer and truth both have a hit, these lie within one pixel on the screen
-// and within one footprint (footprint / cos, m), or when both have none.
+// A fate is right when tracer and reference both have a hit, these lie within one pixel on the
+// screen and within one footprint (footprint / cos, m), or when both have none.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -14,12 +14,12 @@ namespace {
 constexpr double kLeastCosine = 0.01;
 
 // The direction to the light and how far it is; no distance for one without a place.
-struct Way {
+struct LightPath {
     glm::dvec3 direction;
     double meters;
 };
 
-Way wayTo(const scene::Light& light, const glm::dvec3& from, const glm::dvec3& sceneCenter) {
+LightPath pathTo(const scene::Light& light, const glm::dvec3& from, const glm::dvec3& sceneCenter) {
     if (light.kind == scene::LightKind::directional)
         return {-light.direction, std::numeric_limits<double>::infinity()};
     const glm::dvec3 offset = light.position - sceneCenter - from;
@@ -48,17 +48,17 @@ ShadowAudit auditShadow(const Image& visibility, std::size_t light,
             const glm::dvec3 ray = glm::normalize(eye.ray(x + 0.5, y + 0.5));
             if (!scene.intersectStraight(eye.position(), ray, seen)) continue;
             if (!isReceiver(scene.scene().materials[seen.material].kind)) continue;
-            const Way way = wayTo(source, seen.position, scene.center());
+            const LightPath path = pathTo(source, seen.position, scene.center());
             const bool seesFront = glm::dot(seen.geometricNormal, ray) < 0.0;
             const double side = seesFront ? 1.0 : -1.0;
             // Both normals must face the light: what a shading normal alone turns to it is in the
             // shadow of its own triangle.
-            if (side * glm::dot(seen.geometricNormal, way.direction) < kLeastCosine ||
-                side * glm::dot(seen.shadingNormal, way.direction) < kLeastCosine) {
+            if (side * glm::dot(seen.geometricNormal, path.direction) < kLeastCosine ||
+                side * glm::dot(seen.shadingNormal, path.direction) < kLeastCosine) {
                 continue;
             }
-            const bool isBlocked =
-                shadowRays.isBlocked(seen, side * seen.geometricNormal, way.direction, way.meters);
+            const bool isBlocked = shadowRays.isBlocked(seen, side * seen.geometricNormal,
+                                                        path.direction, path.meters);
             const bool isDark = !(visibility.at(x, y, 0) > 0.5f);
             ++audit.asked;
             audit.inShadow += isBlocked ? 1 : 0;

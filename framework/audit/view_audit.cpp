@@ -53,18 +53,18 @@ json toJson(const ExitErrors& errors) {
 }  // namespace
 
 ViewAudit auditView(const Image& exitPosition, const Image& exitDirection,
-                    const reference::ViewTruth& truth, const render::EyeView& view) {
+                    const reference::ViewReference& reference, const render::EyeView& view) {
     ViewAudit audit;
     double interfaces = 0.0;
-    for (int y = 0; y < truth.mask.height; ++y) {
-        for (int x = 0; x < truth.mask.width; ++x) {
-            if (truth.mask.at(x, y, 0) == 0.0f) continue;
+    for (int y = 0; y < reference.mask.height; ++y) {
+        for (int x = 0; x < reference.mask.width; ++x) {
+            if (reference.mask.at(x, y, 0) == 0.0f) continue;
             ++audit.pixels;
-            const float exactCount = truth.exitPosition.at(x, y, 3);
+            const float exactCount = reference.exitPosition.at(x, y, 3);
             interfaces += static_cast<double>(exactCount);
             const bool isSame = exitPosition.at(x, y, 3) == exactCount;
             if (isSame) ++audit.interfacesRight;
-            if (truth.exitDirection.at(x, y, 3) == 0.0f) continue;
+            if (reference.exitDirection.at(x, y, 3) == 0.0f) continue;
             const glm::dvec3 position = vectorAt(exitPosition, x, y);
             const glm::dvec3 direction = vectorAt(exitDirection, x, y);
             const double length = glm::length(direction);
@@ -72,12 +72,12 @@ ViewAudit auditView(const Image& exitPosition, const Image& exitDirection,
                 ++audit.notANumber;
                 continue;
             }
-            if (exitDirection.at(x, y, 3) <= transport::kWayLost || length == 0.0) {
+            if (exitDirection.at(x, y, 3) <= transport::kPathLost || length == 0.0) {
                 ++audit.lost;
                 continue;
             }
-            const glm::dvec3 exactPosition = vectorAt(truth.exitPosition, x, y);
-            const glm::dvec3 exactDirection = vectorAt(truth.exitDirection, x, y);
+            const glm::dvec3 exactPosition = vectorAt(reference.exitPosition, x, y);
+            const glm::dvec3 exactDirection = vectorAt(reference.exitDirection, x, y);
             const glm::dvec3 unit = direction / length;
             // By sine and cosine: exact for small angles and for large ones.
             const double degrees = glm::degrees(std::atan2(

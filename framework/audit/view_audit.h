@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // How wrong the rays are that a node of the stage `view` follows: where and in which direction each
-// leaves the specular surfaces, beside the exact way through the same pixel's middle.
+// leaves the specular surfaces, beside the exact path through the same pixel's middle.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "framework/image/image.h"
-#include "framework/reference/view_truth.h"
+#include "framework/reference/view_reference.h"
 #include "framework/render/view.h"
 
 namespace kaustik::audit {
@@ -22,17 +22,18 @@ struct ExitErrors {
 
 struct ViewAudit {
     std::size_t pixels = 0;           // whose middle sees a specular surface
-    std::size_t interfacesRight = 0;  // of these: as many specular surfaces met
+    std::size_t interfacesRight = 0;  // of these: as many specular surfaces hit
     std::size_t lost = 0;             // of these: the exact ray came out, the other did not
     std::size_t notANumber = 0;
     ExitErrors all;
-    ExitErrors sameInterfaces;    // of those alone that met as many
+    ExitErrors sameInterfaces;    // of those alone that hit as many
     double meanInterfaces = 0.0;  // exact
 };
 
 // `exitPosition` and `exitDirection`: View's, rows from the top, 4 channels.
 [[nodiscard]] ViewAudit auditView(const Image& exitPosition, const Image& exitDirection,
-                                  const reference::ViewTruth& truth, const render::EyeView& view);
+                                  const reference::ViewReference& reference,
+                                  const render::EyeView& view);
 
 // For report.json; a number that does not exist is null.
 [[nodiscard]] nlohmann::json toJson(const ViewAudit& audit);

@@ -39,7 +39,7 @@ void Graph::planBypasses(Plan& plan) const {
     }
     for (std::size_t p = 0; p < passes_.size(); ++p) {
         const Pass& pass = passes_[p];
-        if (pass.isLeftOut || !disabled_.contains(pass.info.name)) {
+        if (pass.isSkipped || !disabled_.contains(pass.info.name)) {
             // A pass that runs must not write into memory that stands in for two resources.
             for (const ResourceRef& output : pass.outputs) {
                 if (output.version == 0) continue;
@@ -103,7 +103,7 @@ Graph::Plan Graph::plan() const {
 }
 
 std::string Graph::bypassText(const Pass& pass) const {
-    if (pass.isLeftOut || pass.bypasses.size() < pass.outputs.size()) return "";
+    if (pass.isSkipped || pass.bypasses.size() < pass.outputs.size()) return "";
     std::string text;
     for (const Bypass& bypass : pass.bypasses) {
         if (!text.empty()) text += "; ";
@@ -130,8 +130,8 @@ void Graph::fillRecords(const Plan& plan, Compiled& compiled) const {
             continue;
         }
         PassRecord record{pass.info.name, PassState::ran, pass.info.why, 1, bypassText(pass)};
-        if (pass.isLeftOut) {
-            record.state = PassState::leftOut;
+        if (pass.isSkipped) {
+            record.state = PassState::skipped;
         } else if (plan.bypassed[p]) {
             record.state = PassState::bypassed;
             record.why = "disabled; " + record.bypass;
@@ -162,7 +162,7 @@ void Graph::assignSlots(const Plan& plan, Compiled& compiled) const {
     std::vector<std::size_t> passOfStep;
     for (std::size_t p = 0; p < passes_.size(); ++p) {
         const Pass& pass = passes_[p];
-        if (pass.isLeftOut || !plan.needed[p]) continue;
+        if (pass.isSkipped || !plan.needed[p]) continue;
         const std::size_t step = passOfStep.size();
         if (!plan.bypassed[p]) {
             for (const ResourceRef& handle : pass.reads)
@@ -267,7 +267,7 @@ std::string Graph::toDot() const {
     const Plan plan = this->plan();
     std::string dot = "digraph kaustik {\n  rankdir=LR;\n  node [fontname=\"sans-serif\"];\n";
     for (std::size_t p = 0; p < passes_.size(); ++p) {
-        if (passes_[p].isLeftOut) continue;
+        if (passes_[p].isSkipped) continue;
         const char* style = plan.bypassed[p] ? ", style=dashed"
                             : plan.needed[p] ? ""
                                              : ", color=gray, fontcolor=gray";

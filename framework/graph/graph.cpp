@@ -129,10 +129,10 @@ bool Graph::checkBypassed(const ResourceRef& output, std::size_t pass) {
     return false;
 }
 
-void Graph::leaveOut(std::string name, std::string why) {
+void Graph::skip(std::string name, std::string why) {
     passes_.push_back({});
     passes_.back().info = {std::move(name), std::move(why)};
-    passes_.back().isLeftOut = true;
+    passes_.back().isSkipped = true;
 }
 
 void Graph::request(const ResourceRef& handle, const std::string& what) {
@@ -178,7 +178,7 @@ std::vector<std::string> Graph::passNames() const {
     std::vector<std::string> names;
     for (const Pass& pass : passes_) {
         const bool isNew = std::find(names.begin(), names.end(), pass.info.name) == names.end();
-        if (!pass.isLeftOut && isNew) names.push_back(pass.info.name);
+        if (!pass.isSkipped && isNew) names.push_back(pass.info.name);
     }
     return names;
 }

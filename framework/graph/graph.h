@@ -28,7 +28,7 @@ struct PassInfo {
     std::string why;   // why it runs, for `explain`
 };
 
-enum class PassState { ran, bypassed, culled, leftOut };
+enum class PassState { ran, bypassed, culled, skipped };
 
 // One line of `explain` and of the report.
 struct PassRecord {
@@ -214,7 +214,7 @@ class Graph {
     }
 
     // Records a node that the scene does not need, with the reason, for `explain`.
-    void leaveOut(std::string name, std::string why);
+    void skip(std::string name, std::string why);
 
     // Asks for a resource: it and all that leads to it runs, and it lives until the end. `what`
     // names it where nobody has made it.
@@ -255,7 +255,7 @@ class Graph {
         std::vector<Binding> bindings;
         std::vector<Bypass> bypasses;
         bool hasSideEffect = false;
-        bool isLeftOut = false;
+        bool isSkipped = false;
         std::function<void(ExecuteContext&)> execute;
     };
     struct Resource {

@@ -12,11 +12,11 @@
 #include "framework/gui/canvas.h"
 #include "framework/gui/document.h"
 #include "framework/gui/frame_result.h"
+#include "framework/gui/reference_worker.h"
 #include "framework/gui/render_worker.h"
 #include "framework/gui/screen_map.h"
 #include "framework/gui/shown.h"
 #include "framework/gui/state.h"
-#include "framework/gui/truth_worker.h"
 #include "framework/scene/files/scene_file.h"
 
 namespace kaustik::gui {
@@ -24,7 +24,7 @@ namespace kaustik::gui {
 struct Bench {
     const Registry& registry;
     RenderWorker* renderer;  // another one after the device was lost
-    TruthWorker& truthWorker;
+    ReferenceWorker& referenceWorker;
     Canvas& canvas;
     ScreenMap& map;
     float scale;  // of the interface
@@ -35,7 +35,7 @@ struct Bench {
 
     // The newest of both threads; never null.
     std::shared_ptr<const FrameResult> result;
-    std::shared_ptr<const TruthState> truth;
+    std::shared_ptr<const ReferenceState> reference;
     std::vector<scene::SceneListing> scenes;
 
     // The newest order, the one that first asked for the same picture, and the last document that

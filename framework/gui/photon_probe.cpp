@@ -15,7 +15,7 @@ struct Tracing {
     std::vector<HitTexel> hits;
 };
 
-// Whence the light came to the point where the photon first met a surface.
+// Whence the light came to the point where the photon first hit a surface.
 std::vector<glm::vec3> pathFromLight(const Renderer& renderer, const PhotonTexel& photon) {
     const std::vector<scene::Light>& lights = renderer.scene().lights;
     if (photon.origin.light >= lights.size()) return {};

@@ -12,7 +12,7 @@ namespace kaustik::gui {
 
 struct PhotonPath {
     transport::PhotonOrigin origin{};
-    // Eye view space, m: a point of the light's way before the first surface, each interaction,
+    // Eye view space, m: a point of the light's path before the first surface, each interaction,
     // and where it landed.
     std::vector<glm::vec3> points;
     glm::vec3 fluxWatts{0.0f};

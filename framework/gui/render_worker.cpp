@@ -14,7 +14,7 @@
 #include "framework/gui/file_watch.h"
 #include "framework/run/output.h"
 #include "framework/run/run_record.h"
-#include "framework/run/truth.h"
+#include "framework/run/run_reference.h"
 #include "framework/scene/files/scene_file.h"
 #include "framework/scene/shapes/height_field.h"
 
@@ -444,9 +444,9 @@ void RenderWorker::writeReport(Device& device, const RecordRequest& request) {
             setRecording(
                 {true, fmt::format("reference, {:.0f} %: {}", 100.0 * share, reached), false});
         }};
-    if (request.truthPhotons > 0) setRecording({true, "looking for a reference", false});
-    const run::Truth truth(request.truthPhotons > 0 ? "auto" : "none", request.truthPhotons,
-                           renderer, watch);
+    if (request.referencePhotons > 0) setRecording({true, "looking for a reference", false});
+    const run::RunReference reference(request.referencePhotons > 0 ? "auto" : "none",
+                                      request.referencePhotons, renderer, watch);
     report::RunRecord record = run::startRecord(renderer, mode);
     record.warmup = 1;
     gl::PassTimer timer(mode);
@@ -460,9 +460,9 @@ void RenderWorker::writeReport(Device& device, const RecordRequest& request) {
     }
     record.frames.erase(record.frames.begin());  // the first one compiles
     setRecording(
-        {true, truth.purpose() == Purpose::audit ? "measuring and writing" : "writing", false});
+        {true, reference.purpose() == Purpose::audit ? "measuring and writing" : "writing", false});
     const std::vector<fs::path> files =
-        run::finishRun(renderer, truth, record, request.folder, {}, device.context->info());
+        run::finishRun(renderer, reference, record, request.folder, {}, device.context->info());
     setRecording({false,
                   fmt::format("Wrote {} files into {}.", files.size(), request.folder.string()),
                   false});

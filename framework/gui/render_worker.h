@@ -46,7 +46,7 @@ struct RecordRequest {
     int frames = 8;  // timed, or of the sequence
     // Photons at least of the reference that a report is judged by, computed where there is none; 0
     // for a report without `error` and `hits`.
-    std::uint64_t truthPhotons = 0;
+    std::uint64_t referencePhotons = 0;
     double secondsPerFrame = 1.0 / 30.0;  // sequence
 };
 

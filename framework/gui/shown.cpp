@@ -25,8 +25,8 @@ std::string oneLine(std::string text) {
     return text;
 }
 
-Shown stale(const std::string& why, Shown::WayOut wayOut) {
-    return {Shown::Kind::stale, "Not what was asked for: " + oneLine(why), wayOut};
+Shown stale(const std::string& why, Shown::Remedy remedy) {
+    return {Shown::Kind::stale, "Not what was asked for: " + oneLine(why), remedy};
 }
 
 bool hasSettings(const Document& document) {
@@ -40,17 +40,17 @@ Shown ofProblem(const Asked& asked, const FrameResult& result,
                 const std::optional<Document>& whole) {
     if (result.isLost) {
         return stale(result.problem + " 'kaustik run' renders without this window.",
-                     Shown::WayOut::restart);
+                     Shown::Remedy::restart);
     }
     const std::string& scene = asked.document.scene;
-    if (whole && whole->scene != scene) return stale(result.problem, Shown::WayOut::back);
+    if (whole && whole->scene != scene) return stale(result.problem, Shown::Remedy::back);
     const bool isDefault = scene == Document().scene;  // whose mesh may be missing
-    return stale(result.problem, isDefault ? Shown::WayOut::none : Shown::WayOut::defaultScene);
+    return stale(result.problem, isDefault ? Shown::Remedy::none : Shown::Remedy::defaultScene);
 }
 
 Shown ofError(const Asked& asked, const std::string& error, const std::optional<Document>& whole) {
-    if (whole && !(*whole == asked.document)) return stale(error, Shown::WayOut::back);
-    return stale(error, hasSettings(asked.document) ? Shown::WayOut::forget : Shown::WayOut::none);
+    if (whole && !(*whole == asked.document)) return stale(error, Shown::Remedy::back);
+    return stale(error, hasSettings(asked.document) ? Shown::Remedy::forget : Shown::Remedy::none);
 }
 
 Shown ofMissing(const Asked& asked, const ViewedTexture& viewed, const std::string& prefix) {
@@ -58,11 +58,11 @@ Shown ofMissing(const Asked& asked, const ViewedTexture& viewed, const std::stri
         return stale(fmt::format("{}there is no texture '{}' with these settings; the picture is "
                                  "shown in its place.",
                                  prefix, asked.view.resource),
-                     Shown::WayOut::picture);
+                     Shown::Remedy::picture);
     }
     return stale(fmt::format("{}'{}' has no layer {}: it has {}, which are 0 to {}.", prefix,
                              viewed.name, viewed.layer, viewed.layers, viewed.layers - 1),
-                 Shown::WayOut::layer);
+                 Shown::Remedy::layer);
 }
 
 // What is seen until something newer is rendered.
@@ -81,14 +81,16 @@ Shown ofOlder(const FrameResult& result) {
 }
 
 // What is asked for to the right of the split and is not there.
-std::string missingBeside(const Asked& asked, const FrameResult& result, const TruthState& truth) {
-    const bool hasTruth = truth.photons > 0 && isOfSameView(truth, result.document);
-    const TruthState::Judgement& judgement = truth.judgements[asked.seen()];
+std::string missingBeside(const Asked& asked, const FrameResult& result,
+                          const ReferenceState& reference) {
+    const bool hasReference = reference.photons > 0 && isOfSameView(reference, result.document);
+    const ReferenceState::Judgement& judgement = reference.judgements[asked.seen()];
     switch (asked.view.beside) {
-        case Beside::truth:
-            return hasTruth ? "" : "there is no truth of this view to show beside it yet";
+        case Beside::reference:
+            return hasReference ? "" : "there is no reference of this view to show beside it yet";
         case Beside::error:
-            if (!hasTruth) return "there is no truth of this view to measure its error by yet";
+            if (!hasReference)
+                return "there is no reference of this view to measure its error by yet";
             return judgement.order == result.order ? ""
                                                    : "the error beside it is still being measured";
         case Beside::other:
@@ -100,9 +102,9 @@ std::string missingBeside(const Asked& asked, const FrameResult& result, const T
 
 }  // namespace
 
-bool isOfSameView(const TruthState& truth, const Document& document) {
-    return truth.aim && truth.aim->scene == document.scene && truth.aim->edits == document.edits &&
-           truth.aim->size == document.size;
+bool isOfSameView(const ReferenceState& reference, const Document& document) {
+    return reference.aim && reference.aim->scene == document.scene &&
+           reference.aim->edits == document.edits && reference.aim->size == document.size;
 }
 
 std::string whyItCannotRun(const Asked& asked, const FrameResult& result) {
@@ -127,7 +129,7 @@ bool isRendered(const Asked& asked, const FrameResult& result) {
     return true;
 }
 
-Shown shownOf(const Asked& asked, const FrameResult& result, const TruthState& truth,
+Shown shownOf(const Asked& asked, const FrameResult& result, const ReferenceState& reference,
               const std::optional<Document>& whole) {
     const Shown rendering = ofOlder(result);
     // A lost device answers no order.
@@ -148,13 +150,13 @@ Shown shownOf(const Asked& asked, const FrameResult& result, const TruthState& t
     if (!result.shaderProblem.empty()) {
         return stale(
             "the last good shaders are in use, until this is mended: " + result.shaderProblem,
-            Shown::WayOut::none);
+            Shown::Remedy::none);
     }
-    const std::string missing = missingBeside(asked, result, truth);
+    const std::string missing = missingBeside(asked, result, reference);
     return {Shown::Kind::asked,
             missing.empty() ? "What is shown is what was asked for."
                             : fmt::format("The picture is what was asked for; {}.", missing),
-            Shown::WayOut::none};
+            Shown::Remedy::none};
 }
 
 const char* nameOf(Shown::Kind kind) {
@@ -171,21 +173,21 @@ const char* nameOf(Shown::Kind kind) {
     return "stale";
 }
 
-std::string labelOf(Shown::WayOut wayOut) {
-    switch (wayOut) {
-        case Shown::WayOut::back:
+std::string labelOf(Shown::Remedy remedy) {
+    switch (remedy) {
+        case Shown::Remedy::back:
             return "Back to what is shown";
-        case Shown::WayOut::forget:
+        case Shown::Remedy::forget:
             return "Forget all settings";
-        case Shown::WayOut::defaultScene:
+        case Shown::Remedy::defaultScene:
             return "Open the default scene";
-        case Shown::WayOut::picture:
+        case Shown::Remedy::picture:
             return "Show the picture";
-        case Shown::WayOut::layer:
+        case Shown::Remedy::layer:
             return "Show the last layer";
-        case Shown::WayOut::restart:
+        case Shown::Remedy::restart:
             return "Start the renderer again";
-        case Shown::WayOut::none:
+        case Shown::Remedy::none:
             break;
     }
     return "";

@@ -9,8 +9,8 @@
 
 #include "framework/gui/document.h"
 #include "framework/gui/frame_result.h"
+#include "framework/gui/reference_worker.h"
 #include "framework/gui/state.h"
-#include "framework/gui/truth_worker.h"
 
 namespace kaustik::gui {
 
@@ -25,7 +25,7 @@ struct Shown {
     std::string sentence;
 
     // What ends a stale state.
-    enum class WayOut {
+    enum class Remedy {
         none,
         back,          // to the document that is shown
         forget,        // all settings
@@ -34,7 +34,7 @@ struct Shown {
         layer,         // the last one that there is
         restart        // the renderer
     };
-    WayOut wayOut = WayOut::none;
+    Remedy remedy = Remedy::none;
 };
 
 // What is to be seen.
@@ -56,15 +56,15 @@ struct Asked {
 [[nodiscard]] bool isRendered(const Asked& asked, const FrameResult& result);
 
 // Whether the reference is of the document's view.
-[[nodiscard]] bool isOfSameView(const TruthState& truth, const Document& document);
+[[nodiscard]] bool isOfSameView(const ReferenceState& reference, const Document& document);
 
 // `whole`: the last document that was rendered without an error, where there was one.
-[[nodiscard]] Shown shownOf(const Asked& asked, const FrameResult& result, const TruthState& truth,
-                            const std::optional<Document>& whole);
+[[nodiscard]] Shown shownOf(const Asked& asked, const FrameResult& result,
+                            const ReferenceState& reference, const std::optional<Document>& whole);
 
 // "error", "preview" …: for the screen map.
 [[nodiscard]] const char* nameOf(Shown::Kind kind);
 // What the button says.
-[[nodiscard]] std::string labelOf(Shown::WayOut wayOut);
+[[nodiscard]] std::string labelOf(Shown::Remedy remedy);
 
 }  // namespace kaustik::gui

@@ -92,7 +92,7 @@ json toJson(const Kept& kept) {
               {"precise", panels.isPrecise},
               {"endless", panels.isEndless},
               {"judged_reports", panels.judgesReports},
-              {"truth_photons", panels.truthPhotons},
+              {"truth_photons", panels.referencePhotons},
               {"record_folder", panels.recordFolder},
               {"sequence_frames", panels.sequenceFrames},
               {"sequence_step", panels.sequenceStep}}},
@@ -130,7 +130,7 @@ Kept keptFromJson(const json& j, std::vector<std::string>& problems) {
     panels.take("precise", kept.panels.isPrecise);
     panels.take("endless", kept.panels.isEndless);
     panels.take("judged_reports", kept.panels.judgesReports);
-    kept.panels.truthPhotons = double(panels.between("truth_photons", 8e6f, 1e5f, 1e12f));
+    kept.panels.referencePhotons = double(panels.between("truth_photons", 8e6f, 1e5f, 1e12f));
     panels.take("record_folder", kept.panels.recordFolder);
     kept.panels.sequenceFrames = panels.between("sequence_frames", 60, 1, 100000);
     kept.panels.sequenceStep = panels.between("sequence_step", 1.0f / 30.0f, 1e-4f, 10.0f);

@@ -15,7 +15,7 @@
 namespace kaustik::gui {
 
 // What is seen to the right of the split.
-enum class Beside : int { nothing, other, truth, error };
+enum class Beside : int { nothing, other, reference, error };
 
 struct ViewState {
     std::string resource;  // "": the picture
@@ -45,8 +45,8 @@ struct PanelState {
     int edited = 0;  // variant: 0 A, 1 B
     bool isPrecise = false;
     bool isEndless = false;     // frames go on although nothing changes
-    bool judgesReports = true;  // against the truth
-    double truthPhotons = 8e6;
+    bool judgesReports = true;  // against the reference
+    double referencePhotons = 8e6;
     std::string recordFolder = "results/runs/workbench";
     int sequenceFrames = 60;
     float sequenceStep = 1.0f / 30.0f;  // s

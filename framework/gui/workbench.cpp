@@ -37,10 +37,10 @@ Workbench::Workbench(const Registry& registry, const WorkbenchOptions& options)
               folder_.empty() ? fs::path() : folder_ / "imgui.ini"),
       map_(options.describe),
       renderer_(std::make_unique<RenderWorker>(registry, &Window::wake)),
-      truthWorker_(&Window::wake),
+      referenceWorker_(&Window::wake),
       bench_{registry_,
              renderer_.get(),
-             truthWorker_,
+             referenceWorker_,
              canvas_,
              map_,
              window_.scale(),
@@ -48,7 +48,7 @@ Workbench::Workbench(const Registry& registry, const WorkbenchOptions& options)
              settings_.kept.view,
              settings_.kept.panels,
              std::make_shared<const FrameResult>(),
-             truthWorker_.state(),
+             referenceWorker_.state(),
              scene::listScenes()} {
     if (!settings_.problems.empty()) {
         const PutAside aside = putSettingsAside(folder_, settings_.problems);
@@ -115,7 +115,7 @@ void Workbench::run() {
         rememberForUndo();
         submitChanges();
         saveExperimentOnceRendered();
-        aimTruth();
+        aimReference();
         describe();
         window_.drawFrame();
         saveScreenshot();
@@ -139,7 +139,8 @@ double Workbench::patience() const {
         const double since = std::chrono::duration<double>(Clock::now() - frameBegin_).count();
         return std::max(1.0 / 60.0 - since, 0.0);
     }
-    return bench_.renderer->progress().isBusy || truthWorker_.progress().isComputing ? 0.1 : 0.25;
+    return bench_.renderer->progress().isBusy || referenceWorker_.progress().isComputing ? 0.1
+                                                                                         : 0.25;
 }
 
 void Workbench::takeNews() {
@@ -167,8 +168,8 @@ void Workbench::takeNews() {
             settings_.kept.knowsDevice = true;
         }
     }
-    if (const auto state = truthWorker_.state(); state != bench_.truth) {
-        bench_.truth = state;
+    if (const auto state = referenceWorker_.state(); state != bench_.reference) {
+        bench_.reference = state;
         framesToDraw_ = std::max(framesToDraw_, 2);
     }
     // The next step of an animation, once this one is seen.
@@ -248,12 +249,12 @@ bool Workbench::isAtWork() {
 void Workbench::submitChanges() {
     FrameOrder order;
     order.document = bench_.document;
-    order.viewing.resource = bench_.view.beside == Beside::truth && bench_.view.resource.empty()
+    order.viewing.resource = bench_.view.beside == Beside::reference && bench_.view.resource.empty()
                                  ? "caustic.irradiance"
                                  : bench_.view.resource;
     order.viewing.layer = bench_.view.layer;
     order.viewing.readsOutputs =
-        bench_.truth->photons > 0 || !(bench_.panels.isEndless || bench_.isPlaying);
+        bench_.reference->photons > 0 || !(bench_.panels.isEndless || bench_.isPlaying);
     const double frameMs = medianOf(bench_.result->variants[0].frameMs);
     const bool isSlow = frameMs > kSlowFrameMs;
     order.frames = bench_.panels.isEndless ? 0
@@ -285,7 +286,7 @@ void Workbench::submitChanges() {
     if (!isSamePicture) bench_.pictureOrder = bench_.order;
 }
 
-void Workbench::aimTruth() {
+void Workbench::aimReference() {
     const FrameResult& result = *bench_.result;
     const VariantResult& first = result.variants[0];
     // Only of what has been rendered as it stands, and not of every step of a movement.
@@ -293,22 +294,23 @@ void Workbench::aimTruth() {
         first.order != bench_.order || !first.error.empty() || !result.problem.empty()) {
         return;
     }
-    const TruthAim aim{result.document.scene, result.document.edits, result.document.size,
-                       first.paths, submitted_.sceneReloads};
-    truthWorker_.aim(aim);
+    const ReferenceAim aim{result.document.scene, result.document.edits, result.document.size,
+                           first.paths, submitted_.sceneReloads};
+    referenceWorker_.aim(aim);
     // Frames of one order and the same shaders are the same: one is judged.
-    const bool isNew = result.order != judgedOrder_ || bench_.truth->photons != judgedPhotons_ ||
+    const bool isNew = result.order != judgedOrder_ ||
+                       bench_.reference->photons != judgedPhotons_ ||
                        result.shaderReloads != judgedReloads_;
     const VariantResult& second = result.variants[1];
     const bool hasBoth = !result.document.other || (second.outputs && second.order == bench_.order);
-    if (bench_.truth->photons == 0 || !first.outputs || !hasBoth || !isNew ||
-        bench_.truth->aim != aim) {
+    if (bench_.reference->photons == 0 || !first.outputs || !hasBoth || !isNew ||
+        bench_.reference->aim != aim) {
         return;
     }
     judgedOrder_ = result.order;
-    judgedPhotons_ = bench_.truth->photons;
+    judgedPhotons_ = bench_.reference->photons;
     judgedReloads_ = result.shaderReloads;
-    truthWorker_.judge(
+    referenceWorker_.judge(
         {JudgedFrame{result.order, first.outputs}, JudgedFrame{result.order, second.outputs}});
 }
 
@@ -347,8 +349,8 @@ void Workbench::describe() {
         "time_s",
         result.scene ? result.document.edits.timeSeconds.value_or(result.scene->timeSeconds) : 0.0);
     map_.status("playing", bench_.isPlaying);
-    map_.status("truth_photons", bench_.truth->photons);
-    map_.status("judged_order", bench_.truth->judgements[0].order);
+    map_.status("truth_photons", bench_.reference->photons);
+    map_.status("judged_order", bench_.reference->judgements[0].order);
     map_.status("message", bench_.message);
     map_.status("device", result.device.renderer);
     map_.status("window_device", window_.renderer());

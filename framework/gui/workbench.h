@@ -41,7 +41,7 @@ class Workbench {
     void saveExperimentOnceRendered();
     void submitChanges();
     [[nodiscard]] bool isAtWork();
-    void aimTruth();
+    void aimReference();
     void draw();
     void drawToolbar();
     void drawStatusBar();
@@ -62,7 +62,7 @@ class Workbench {
     Canvas canvas_;
     ScreenMap map_;
     std::unique_ptr<RenderWorker> renderer_;
-    TruthWorker truthWorker_;
+    ReferenceWorker referenceWorker_;
     Bench bench_;
 
     FrameOrder submitted_;

@@ -119,7 +119,7 @@ ImageErrors measureErrors(const ImagePair& pair, const MeasureParams& params) {
     }
     if (totalFlux(pair, pair.reference()) != 0.0) errors.energyRatio = energyRatio(pair);
     errors.encircledEnergy = compareEncircledEnergy(pair, params.encircledEnergy);
-    if (pair.hasStandardError()) errors.truthNoise = truthNoise(pair, errors.relMseEpsilon);
+    if (pair.hasStandardError()) errors.referenceNoise = referenceNoise(pair, errors.relMseEpsilon);
     return errors;
 }
 
@@ -159,7 +159,7 @@ json toJson(const ImageErrors& errors) {
     if (errors.encircledEnergy) {
         result["encircled_energy_radius"] = radiiJson(*errors.encircledEnergy);
     }
-    if (const auto& noise = errors.truthNoise) {
+    if (const auto& noise = errors.referenceNoise) {
         result["truth_noise"] = {
             {"rmse", noise->rmse},
             {"mae", noise->mae},

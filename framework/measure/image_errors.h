@@ -35,7 +35,7 @@ struct ImageErrors {
     std::optional<double> flipHdr;
     std::optional<double> energyRatio;
     std::optional<EncircledEnergyComparison> encircledEnergy;
-    std::optional<TruthNoise> truthNoise;  // where the pair has a standard error
+    std::optional<ReferenceNoise> referenceNoise;  // where the pair has a standard error
 
     // What they were measured with.
     std::size_t countedPixels = 0;

@@ -58,10 +58,10 @@ double energyRatio(const ImagePair& pair) {
     return totalFlux(pair, pair.image()) / totalFlux(pair, pair.reference());
 }
 
-TruthNoise truthNoise(const ImagePair& pair, double epsilon) {
+ReferenceNoise referenceNoise(const ImagePair& pair, double epsilon) {
     assert(pair.hasStandardError());
     const Image& errors = pair.standardError();
-    TruthNoise noise;
+    ReferenceNoise noise;
     noise.rmse =
         std::sqrt(mean(pair, errors, errors, [](double sigma, double) { return squared(sigma); }));
     noise.mae = std::sqrt(2.0 / std::numbers::pi) *

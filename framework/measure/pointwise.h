@@ -28,14 +28,14 @@ namespace kaustik::measure {
 
 // What a perfect image would be given on average, because the reference is itself an estimate with
 // the standard error σ in each pixel, normally distributed and independent from pixel to pixel.
-struct TruthNoise {
+struct ReferenceNoise {
     double rmse = 0.0;         // sqrt(mean(σ²))
     double mae = 0.0;          // sqrt(2/π) mean(σ)
     double relMse = 0.0;       // mean(σ² / (R² + epsilon)); 0 where epsilon is
     double energyRatio = 0.0;  // one standard deviation; channels vary together, as photons do
 };
 // The pair has a standard error.
-[[nodiscard]] TruthNoise truthNoise(const ImagePair& pair, double epsilon);
+[[nodiscard]] ReferenceNoise referenceNoise(const ImagePair& pair, double epsilon);
 
 // I - R, or |I - R|, in three channels; 0 where pixels are left out.
 [[nodiscard]] Image signedError(const ImagePair& pair);

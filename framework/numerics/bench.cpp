@@ -203,7 +203,7 @@ Traced interactPhotons(Lab& lab, const Lab::Choice& specular, const scene::Scene
     for (BenchHit& hit : result.hits)
         hit.fate = transport::kFateEnded;
     for (const PhotonTexel& photon : readPhotons(frame.renderer(), after)) {
-        // The way that a node takes first; the other branch of a split comes after it.
+        // The branch that a node follows first; the other branch of a split comes after it.
         if (photon.origin.cell >= photons.size()) continue;
         BenchHit& hit = result.hits[photon.origin.cell];
         if (hit.fate != transport::kFateEnded) continue;
@@ -304,8 +304,8 @@ Frame scatterPhotons(Lab& lab, const Lab::Choice& media, const scene::Scene& sce
     Batch batch =
         makeBatch(scene, photons, transport::kFateInFlight, transport::kFateReceiver, size);
     for (std::size_t i = 0; i < photons.size(); ++i) {
-        batch.photons[i].hitPosition.w = static_cast<float>(photons[i].wayMeters);
-        if (photons[i].wayMeters == 0.0)
+        batch.photons[i].hitPosition.w = static_cast<float>(photons[i].pathMeters);
+        if (photons[i].pathMeters == 0.0)
             batch.photons[i].hitFlux.w = static_cast<float>(transport::kFateEnded);
     }
     return renderBench(lab, media, scene, settings, size, [&batch](FrameBuilder& builder) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Single stages on a bench: photons and hits that a case makes up go into one node, and what comes
-// out is read back. World space, m, W; in the frame itself all is as in a technique's.
+// A test harness for single stages: photons and hits that a case makes up go into one node, and
+// what comes out is read back. World space, m, W; in the frame itself all is as in a technique's.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ struct BenchPhoton {
     glm::dvec3 startNormal{0.0};      // outward
     std::uint32_t startMaterial = 0;  // index + 1; 0: it starts in the open
     std::uint32_t startFate = transport::kFateNone;
-    double wayMeters = 0.0;  // scatterPhotons: to the receiver where its way ends; 0: it has none
+    double pathMeters = 0.0;  // scatterPhotons: to the receiver where its path ends; 0: it has none
 };
 
 // Where one arrived, or what it became.
@@ -55,14 +55,14 @@ struct Traced {
                                   const std::vector<BenchPhoton>& photons,
                                   const Settings& settings = {}, BenchSize size = {});
 
-// Photons that have just met a specular surface, at `startNormal` and `startMaterial`, interact
+// Photons that have just hit a specular surface, at `startNormal` and `startMaterial`, interact
 // there. A result of fate kFateInFlight goes on; `normal` of it is its direction.
 [[nodiscard]] Traced interactPhotons(Lab& lab, const Lab::Choice& specular,
                                      const scene::Scene& scene,
                                      const std::vector<BenchPhoton>& photons,
                                      std::vector<std::vector<std::uint32_t>>* media = nullptr);
 
-// Photons as they leave the lights of the scene: where they first meet a specular surface.
+// Photons as they leave the lights of the scene: where they first hit a specular surface.
 struct Emitted {
     std::vector<BenchHit> hits;
     std::vector<glm::dvec3> directions;

@@ -30,8 +30,8 @@ struct SurfacePoint {
                                                     const scene::Object& object,
                                                     const glm::dvec3& point);
 
-// Distance along a ray to an object's first triangle that it meets from within (it leaves there) or
-// from outside; none where it meets none. Starts count from `least` on, m.
+// Distance along a ray to an object's first triangle that it hits from within (it leaves there) or
+// from outside; none where it hits none. Starts count from `least` on, m.
 [[nodiscard]] std::optional<double> firstCrossing(const scene::Scene& scene,
                                                   const scene::Object& object,
                                                   const glm::dvec3& origin,

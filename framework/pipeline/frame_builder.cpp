@@ -69,10 +69,10 @@ void fillList(gl::PassContext& context, const Photons& photons) {
 
 namespace {
 
-// A path through still water meets it once. Where one can come back, the limit decides, and the
+// A path through still water hits it once. Where one can come back, the limit decides, and the
 // ledger says what it cost.
 int interactionCount(const FrameBuilder& frame, const ModelledPaths& paths) {
-    const scene::MeetingsAgain& again = frame.needs().meetsAgain;
+    const scene::HitsAgain& again = frame.needs().hitsAgain;
     const bool canRepeat = paths.transmissionOnly ? again.transmitted : again.reflected;
     return canRepeat ? frame.params<SpecularParams>("specular").bounces : 1;
 }
@@ -80,7 +80,7 @@ int interactionCount(const FrameBuilder& frame, const ModelledPaths& paths) {
 // Why the frame has no caustic; "" if it may have one.
 std::string whyNoCaustic(const FrameBuilder& frame) {
     const scene::SceneNeeds& needs = frame.needs();
-    if (frame.leavesOutCaustic()) return "what the eye sees is judged without it";
+    if (frame.skipsCaustic()) return "what the eye sees is judged without it";
     if (needs.lights == 0) return "the scene has no light";
     if (needs.specularInterfaces == 0) return "the scene has no specular surface";
     if (!needs.receivers) return "the scene has no receiver";
@@ -88,12 +88,12 @@ std::string whyNoCaustic(const FrameBuilder& frame) {
 }
 
 // Irradiance of zero and an empty ledger, in place of all that follows photons.
-IrradianceMap leaveOutCaustic(FrameBuilder& frame, const std::string& why) {
+IrradianceMap skipCaustic(FrameBuilder& frame, const std::string& why) {
     for (const char* stage :
          {EmitStage::name, SpecularStage::name, TraceStage::name, MediaStage::name, BlurStage::name,
           ReconstructStage::name, GatherStage::name}) {
         const std::string node = frame.chosenNode(stage).name;
-        frame.leaveOut(std::string(stage) + "." + node, why);
+        frame.skip(std::string(stage) + "." + node, why);
     }
     return frame.pass<IrradianceMap>(
         "reconstruct.nothing", "stands for a caustic that cannot be: " + why,
@@ -135,7 +135,7 @@ std::vector<Samples> batchesOf(const FrameBuilder& frame) {
     return batches;
 }
 
-// From interaction to interaction: what arrives is deposited at once, and what meets another
+// From interaction to interaction: what arrives is deposited at once, and what hits another
 // specular surface is the next list.
 Caustic followPhotons(FrameBuilder& frame, const Surfaces& surfaces) {
     const bool scatters = frame.needs().scatteringMedium;
@@ -163,8 +163,8 @@ Caustic followPhotons(FrameBuilder& frame, const Surfaces& surfaces) {
         caustic.inScattered = frame.run<BlurStage>(caustic.inScattered);
     } else {
         for (const char* stage : {MediaStage::name, BlurStage::name}) {
-            frame.leaveOut(std::string(stage) + "." + frame.chosenNode(stage).name,
-                           "the scene has no medium that scatters");
+            frame.skip(std::string(stage) + "." + frame.chosenNode(stage).name,
+                       "the scene has no medium that scatters");
         }
     }
     return caustic;
@@ -185,7 +185,7 @@ FrameOutputs buildFrame(FrameBuilder& frame) {
         caustic = followPhotons(frame, surfaces);
         irradiance = frame.run<GatherStage>(caustic.map, surfaces);
     } else {
-        irradiance = leaveOutCaustic(frame, whyNot);
+        irradiance = skipCaustic(frame, whyNot);
     }
     const Picture picture = frame.run<ComposeStage>(
         geometry, eye, layers, LightParts{shadows, irradiance, caustic.inScattered});

@@ -46,13 +46,13 @@ void fillList(gl::PassContext& context, const Photons& photons);
 class FrameBuilder {
   public:
     // `recordsTraces`: keeps what each tracing was given and what it found (for the photon audit).
-    // `leavesOutCaustic`: no photons, so that what the eye sees is judged apart.
+    // `skipsCaustic`: no photons, so that what the eye sees is judged apart.
     FrameBuilder(graph::Graph& graph, const FrameInputs& inputs, bool recordsTraces = false,
-                 bool leavesOutCaustic = false)
+                 bool skipsCaustic = false)
         : graph_(graph),
           inputs_(inputs),
           recordsTraces_(recordsTraces),
-          leavesOutCaustic_(leavesOutCaustic) {}
+          skipsCaustic_(skipsCaustic) {}
 
     // Runs the node that the settings choose for a stage.
     template <class Stage, class... In>
@@ -73,9 +73,7 @@ class FrameBuilder {
         return graph_.addPass<Data, gl::PassContext>(
             {prefix_ + name, why}, std::forward<Setup>(setup), std::forward<Execute>(execute));
     }
-    void leaveOut(const std::string& name, const std::string& why) {
-        graph_.leaveOut(prefix_ + name, why);
-    }
+    void skip(const std::string& name, const std::string& why) { graph_.skip(prefix_ + name, why); }
 
     // While it lives, passes are named "STAGE.…": for a stage that uses nodes of another one, a
     // tracer say. Such tracings are not part of what the photon audit records.
@@ -132,7 +130,7 @@ class FrameBuilder {
     }
     [[nodiscard]] std::vector<std::shared_ptr<void>> takeKept() { return std::move(kept_); }
     [[nodiscard]] const std::vector<TraceRecord>& traces() const { return traces_; }
-    [[nodiscard]] bool leavesOutCaustic() const { return leavesOutCaustic_; }
+    [[nodiscard]] bool skipsCaustic() const { return skipsCaustic_; }
     // Keeps a list, and hits, to the end of the frame for whoever reads them back
     // (photon_texels.h).
     void request(const Photons& photons);
@@ -164,7 +162,7 @@ class FrameBuilder {
     std::vector<std::string> stagesRun_;
     std::string prefix_;
     bool recordsTraces_ = false;
-    bool leavesOutCaustic_ = false;
+    bool skipsCaustic_ = false;
     bool isRandom_ = false;
     std::vector<TraceRecord> traces_;
 };

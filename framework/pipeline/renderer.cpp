@@ -77,7 +77,7 @@ graph::Compiled compileWithout(graph::Graph& graph, std::set<std::string>& disab
 
     const std::vector<std::string> declared = graph.passNames();
     for (const std::string& name : disabled) {
-        // One that this scene does not need is left out anyway.
+        // One that this scene does not need is skipped anyway.
         if (std::find(declared.begin(), declared.end(), name) == declared.end()) continue;
         graph.disable(name);
         if (!compiles(graph)) {
@@ -145,9 +145,9 @@ std::vector<std::string> Renderer::forgetAbsentPasses() {
     return absent;
 }
 
-FrameBuilder Renderer::declareFrame(bool recordsTraces, bool leavesOutCaustic) {
+FrameBuilder Renderer::declareFrame(bool recordsTraces, bool skipsCaustic) {
     graph_ = std::make_unique<graph::Graph>();
-    FrameBuilder frame(*graph_, inputs_, recordsTraces, leavesOutCaustic);
+    FrameBuilder frame(*graph_, inputs_, recordsTraces, skipsCaustic);
     outputs_ = settings_.technique.build ? settings_.technique.build(frame) : buildFrame(frame);
     return frame;
 }

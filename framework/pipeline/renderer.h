@@ -58,7 +58,7 @@ class Renderer {
     [[nodiscard]] graph::Compiled compile(Purpose purpose,
                                           const std::vector<std::string>& resources = {});
     // `goesOn` is asked before each pass (its number among compiled().steps); where it says no, the
-    // rest of the frame is left out and the result is false.
+    // rest of the frame is skipped and the result is false.
     bool renderFrame(gl::PassTimer& timer, const std::function<bool(std::size_t)>& goesOn = {});
 
     // Of the last build.
@@ -95,8 +95,7 @@ class Renderer {
     [[nodiscard]] gl::ProgramCache& programs() { return programs_; }
 
   private:
-    [[nodiscard]] FrameBuilder declareFrame(bool recordsTraces = false,
-                                            bool leavesOutCaustic = false);
+    [[nodiscard]] FrameBuilder declareFrame(bool recordsTraces = false, bool skipsCaustic = false);
 
     void bindToAll();
     void requestForAudit();

@@ -11,7 +11,7 @@ struct LayersParams {
     template <class R>
     void reflect(R& r) {
         r.field(count, "count",
-                "Most depth layers that are peeled; deeper fragments are counted and left out", "",
+                "Most depth layers that are peeled; deeper fragments are counted and skipped", "",
                 params::range(1, 64));
     }
 };
@@ -37,13 +37,13 @@ struct SpecularParams {
     template <class R>
     void reflect(R& r) {
         r.field(bounces, "bounces",
-                "Most specular interactions along a photon's path, where one can meet a surface "
+                "Most specular interactions along a photon's path, where one can hit a surface "
                 "again; at still water it cannot",
                 "", params::range(1, 32));
     }
 };
 
-// How a tracer decides that a ray meets a layer.
+// How a tracer decides that a ray hits a layer.
 enum class HitTest : int { crossing, epsilon, inOut };
 
 struct TraceParams {

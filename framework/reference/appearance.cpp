@@ -83,7 +83,7 @@ glm::dvec3 Appearance::spotColor(const scene::Light& light, const glm::dvec3& di
                   spotImagePosition(light, direction), Edge::clamp, Edge::clamp);
 }
 
-glm::dvec3 Appearance::surroundings(const glm::dvec3& direction) const {
+glm::dvec3 Appearance::environment(const glm::dvec3& direction) const {
     const glm::dvec3 background(scene_.backgroundRadiance);
     if (scene_.environmentImage < 0) return background;
     return background * sample(images_[static_cast<std::size_t>(scene_.environmentImage)],

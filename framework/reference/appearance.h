@@ -31,7 +31,7 @@ class Appearance {
 
     // What comes from outside of the scene along `direction` (unit, world space, from the eye
     // outwards), W/m²/sr.
-    [[nodiscard]] glm::dvec3 surroundings(const glm::dvec3& direction) const;
+    [[nodiscard]] glm::dvec3 environment(const glm::dvec3& direction) const;
 
   private:
     const scene::Scene& scene_;

@@ -17,7 +17,7 @@ namespace {
 
 using scene::MaterialKind;
 
-// Embree hands the context to the filters: what the ray may not meet.
+// Embree hands the context to the filters: what the ray may not hit.
 struct FilterContext {
     RTCIntersectContext embree;
     TriangleId start;
@@ -46,17 +46,17 @@ void rejectWrongSide(const RTCFilterFunctionNArguments* arguments) {
     const float size = std::sqrt(hit.Ng_x * hit.Ng_x + hit.Ng_y * hit.Ng_y + hit.Ng_z * hit.Ng_z);
     const bool leaves = closing > 0.0f;
     const bool isNear = ray.tfar * std::abs(closing) <= context.reachMeters * size;
-    bool isMet = true;
+    bool isHit = true;
     if (info.kind == MaterialKind::dielectric) {
         const std::uint32_t medium = info.material + 1;
         const bool isInner = context.media->inner() == medium;
-        isMet = leaves ? isInner || (!isNear && context.media->holds(medium)) : !isInner;
+        isHit = leaves ? isInner || (!isNear && context.media->holds(medium)) : !isInner;
     } else if (info.closed) {
-        isMet = !leaves;
+        isHit = !leaves;
     } else if (isNear) {
-        isMet = context.leftSide != (leaves ? transport::kLeftOutside : transport::kLeftInside);
+        isHit = context.leftSide != (leaves ? transport::kLeftOutside : transport::kLeftInside);
     }
-    if (!isMet) arguments->valid[0] = 0;
+    if (!isHit) arguments->valid[0] = 0;
 }
 
 // For receivers and mirrors between a point and the eye.
@@ -168,7 +168,7 @@ void EmbreeScene::attach(Filters filters) {
                                    mesh.triangles->data(), 0, sizeof(glm::uvec3),
                                    mesh.triangles->size());
         rtcSetGeometryUserData(geometry, &mesh.info);
-        // A photon's way ends at receivers, so only specular surfaces can be met again.
+        // A photon's path ends at receivers, so only specular surfaces can be hit again.
         if (filters == Filters::sideRules) {
             if (!isReceiver(mesh.info.kind))
                 rtcSetGeometryIntersectFilterFunction(geometry, rejectWrongSide);

@@ -6,7 +6,7 @@
 // vertices are floats (as on the GPU); a hit is refined in double on the plane of its triangle.
 //
 // No ray needs an epsilon to leave a surface. A ray names the triangle that it starts on, which it
-// cannot meet again, and the dielectric that it is inside of: that one it meets only from within,
+// cannot hit again, and the dielectric that it is inside of: that one it hits only from within,
 // any other only from outside (shaders/include/hit_test.glsl, `isFacing`), so rounding at the seam
 // to a neighbouring triangle does no harm either. Where dielectrics overlap, one farther out may
 // end inside of the innermost.
@@ -46,11 +46,11 @@ struct Ray {
     MediaStack media;
     SideRule sides = SideRule::transport;
     // For rays that know no triangle to start on: the side of an open mirror that they have left
-    // (transport::kLeft…), which they cannot meet from that side within this height above it, m;
+    // (transport::kLeft…), which they cannot hit from that side within this height above it, m;
     // nor within it the end of a dielectric that overlaps the innermost.
     std::uint32_t leftSide = transport::kLeftNothing;
     double reachMeters = 0.0;
-    double fromMeters = 0.0;  // what is nearer is not met
+    double fromMeters = 0.0;  // what is nearer is not hit
 };
 
 struct SurfaceHit {
@@ -75,7 +75,7 @@ class EmbreeScene {
     EmbreeScene(const EmbreeScene&) = delete;
     EmbreeScene& operator=(const EmbreeScene&) = delete;
 
-    // The first surface that the ray meets by its side rule; false: none.
+    // The first surface that the ray hits by its side rule; false: none.
     [[nodiscard]] bool intersect(const Ray& ray, SurfaceHit& hit) const;
 
     // The same for light that leaves a point or spot light. A surface that the light lies in,
@@ -88,7 +88,7 @@ class EmbreeScene {
                                          SurfaceHit& hit) const;
 
     // True when no receiver or mirror lies between `from`, a point of the triangle `start`, and
-    // `to`, where the share `ignoredEnd` of the way before `to` does not count.
+    // `to`, where the share `ignoredEnd` of the path before `to` does not count.
     [[nodiscard]] bool isVisible(const glm::dvec3& from, const TriangleId& start,
                                  const glm::dvec3& to, double ignoredEnd) const;
 

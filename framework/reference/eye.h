@@ -74,7 +74,7 @@ class Eye {
         return (glm::dot(geometricNormal, position_ - position) > 0.0) ==
                (glm::dot(geometricNormal, arriving) < 0.0);
     }
-    // What lies before the near plane hides nothing.
+    // What is nearer than the near plane hides nothing.
     [[nodiscard]] bool isVisible(const EmbreeScene& scene, const glm::dvec3& position,
                                  const TriangleId& start, double depth) const {
         return scene.isVisible(position, start, position_, nearMeters_ / depth);

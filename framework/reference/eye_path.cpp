@@ -5,7 +5,7 @@ namespace kaustik::reference {
 namespace {
 
 struct PathSink : NullSink {
-    void met(const SurfaceHit& hit, const PhotonState&) { length += hit.distance; }
+    void hitSurface(const SurfaceHit& hit, const PhotonState&) { length += hit.distance; }
     void arrived(const SurfaceHit& hit, const PhotonState& state) {
         path = {hit, state.direction, state.fluxWatts, length + hit.distance};
         medium = state.media.inner();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The way of the eye's light back through specular surfaces to the receiver that it comes from:
+// The path of the eye's light back through specular surfaces to the receiver that it comes from:
 // the photons' own rules (light_transport.h), at each dielectric one branch with the probability of
 // its share.
 #pragma once
@@ -23,7 +23,7 @@ struct EyePath {
 };
 
 // A ray of the eye as a photon that goes backwards, of throughput 1. An eye that looks at a
-// dielectric from within is inside of it, as a light is. Nothing where the ray meets no surface at
+// dielectric from within is inside of it, as a light is. Nothing where the ray hits no surface at
 // all.
 [[nodiscard]] std::optional<PhotonState> startAtEye(const EmbreeScene& scene,
                                                     const glm::dvec3& origin,

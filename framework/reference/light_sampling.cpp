@@ -48,7 +48,7 @@ struct Cell {
 };
 
 // Cells in strips of several rows, so that one photon goes much the same way as the ones before it:
-// they meet the same triangles and pixels while a cache holds them.
+// they hit the same triangles and pixels while a cache holds them.
 Cell cellOf(std::uint64_t index, std::uint64_t columns, std::uint64_t rows) {
     constexpr std::uint64_t kStripRows = 16;
     const std::uint64_t firstRow = index / (columns * kStripRows) * kStripRows;

@@ -39,7 +39,7 @@ class LightSampler {
 
     // What `photonsPerBatch` has become; 0 without a light or a specular surface.
     [[nodiscard]] std::uint64_t photonsPerBatch() const { return photonCount_; }
-    // Flux that the photons of one batch carry, W, all channels; not all of it meets a surface.
+    // Flux that the photons of one batch carry, W, all channels; not all of it hits a surface.
     [[nodiscard]] double fluxWatts() const { return fluxWatts_; }
     // The photon `index` of a batch.
     [[nodiscard]] EmittedPhoton sample(std::uint64_t index, Random& random) const;

@@ -17,7 +17,7 @@
 namespace kaustik::reference {
 namespace {
 
-// The Henyey-Greenstein phase function, 1/sr; `cosine` between the ways before and after.
+// The Henyey-Greenstein phase function, 1/sr; `cosine`: of the angle of deflection.
 double phase(double g, double cosine) {
     const double denominator = 1.0 + g * g - 2.0 * g * cosine;
     return (1.0 - g * g) / (4.0 * std::numbers::pi * denominator * std::sqrt(denominator));
@@ -27,7 +27,7 @@ bool scatters(const scene::Scene& scene) {
     return scene.medium && scene.medium->scatteringPerMeter != glm::vec3(0.0f);
 }
 
-// Turns the events of a photon's way into values of pixels.
+// Turns the events of a photon's path into values of pixels.
 class Camera {
   public:
     Camera(const EmbreeScene& scene, const Eye& eye, BatchResult& result)
@@ -39,7 +39,7 @@ class Camera {
         if (!scatters(scene.scene())) return;
         const scene::Medium& medium = *scene.scene().medium;
         scattering_ = glm::dvec3(medium.scatteringPerMeter);
-        fog_ = scattering_ + glm::dvec3(medium.absorptionPerMeter);
+        mediumExtinction_ = scattering_ + glm::dvec3(medium.absorptionPerMeter);
         anisotropy_ = static_cast<double>(medium.anisotropy);
         inScattered_ = layerSize * static_cast<std::size_t>(inScatteredLayer(scene.scene()));
     }
@@ -51,7 +51,7 @@ class Camera {
         ++result_.rays;
         result_.energy.add(transport::kAccountLeftScene, photon.fluxWatts);
     }
-    void met(const SurfaceHit&, const PhotonState&) { ++result_.rays; }
+    void hitSurface(const SurfaceHit&, const PhotonState&) { ++result_.rays; }
 
     void arrived(const SurfaceHit& hit, const PhotonState& photon) {
         ++result_.rays;
@@ -78,12 +78,12 @@ class Camera {
                                                     -photon.direction, toEye));
     }
 
-    // One point of the way, chosen by its angle from the eye (Kulla and Fajardo 2012, section 4):
+    // One point of the path, chosen by its angle from the eye (Kulla and Fajardo 2012, section 4):
     // light that passes close by the eye is no noisier than light far from it.
     void passed(const PhotonState& photon, double distance, const glm::dvec3& extinction,
                 Random& random) {
         if (inScattered_ == 0) return;
-        const double end = std::min(distance, wayInsideBounds(photon));
+        const double end = std::min(distance, pathInsideBounds(photon));
         if (!(end > 0.0)) return;
         const glm::dvec3 toEye = eye_.position() - photon.origin;
         const double nearest = glm::dot(toEye, photon.direction);
@@ -91,16 +91,16 @@ class Camera {
         const double low = std::atan(-nearest / miss);
         const double high = std::atan((end - nearest) / miss);
         const double offset = miss * std::tan(low + (high - low) * random.uniform());
-        const double way = std::clamp(nearest + offset, 0.0, end);
+        const double along = std::clamp(nearest + offset, 0.0, end);
         const double perDensity = (high - low) * (miss * miss + offset * offset) / miss;
-        const glm::dvec3 point = photon.origin + way * photon.direction;
+        const glm::dvec3 point = photon.origin + along * photon.direction;
         const Projection at = eye_.project(point);
         if (!at.onScreen || !eye_.isVisible(scene_, point, {}, at.depth)) return;
         const glm::dvec3 ray = eye_.position() - point;
         const double eyeDistance = glm::length(ray);
         const double scattered = phase(anisotropy_, glm::dot(photon.direction, ray) / eyeDistance);
         const glm::dvec3 arriving =
-            photon.fluxWatts * glm::exp(-extinction * way - fog_ * eyeDistance);
+            photon.fluxWatts * glm::exp(-extinction * along - mediumExtinction_ * eyeDistance);
         splat(inScattered_ + at.pixel * std::size_t{3},
               arriving * scattering_ *
                   (scattered * perDensity * eye_.coverageOfPoint(point, at.depth)));
@@ -114,7 +114,7 @@ class Camera {
         pixel[2] += value.z;
     }
 
-    [[nodiscard]] double wayInsideBounds(const PhotonState& photon) const {
+    [[nodiscard]] double pathInsideBounds(const PhotonState& photon) const {
         const scene::Bounds& bounds = scene_.bounds();
         double end = std::numeric_limits<double>::infinity();
         for (int axis = 0; axis < 3; ++axis) {
@@ -130,7 +130,7 @@ class Camera {
     const Eye& eye_;
     BatchResult& result_;
     glm::dvec3 scattering_{0.0};
-    glm::dvec3 fog_{0.0};
+    glm::dvec3 mediumExtinction_{0.0};
     double anisotropy_ = 0.0;
     std::size_t inScattered_ = 0;  // first value of the layer; 0: none
     std::size_t radiance_ = 0;     // the same

@@ -8,7 +8,7 @@
 // (transport/brdf.h), as it leaves the surface. Out: W/m² and W/m²/sr.
 //
 // The medium fills the scene's bounding box for photons; the straight ray to the eye loses light to
-// it all the way. Directional light is as strong as the scene file says where it meets the first
+// it all the way. Directional light is as strong as the scene file says where it hits the first
 // specular surface.
 #pragma once
 

@@ -25,7 +25,7 @@ namespace kaustik::reference {
 struct PathFilter {
     // Only the refracted branch at dielectrics; reflection at mirrors and when it is total.
     bool transmissionOnly = false;
-    int maximumInteractions = 64;  // >= 1; what meets one more is lost to the bounce limit
+    int maximumInteractions = 64;  // >= 1; what hits one more is lost to the bounce limit
     int splitInteractions = 1;     // 0 to kMaximumSplits; changes the noise, not the mean
 };
 inline constexpr int kMaximumSplits = 8;
@@ -33,7 +33,7 @@ inline constexpr int kMaximumSplits = 8;
 // How light comes from where it starts to the first surface.
 struct LightReach {
     double rangeMeters = std::numeric_limits<double>::infinity();  // beyond it there is none
-    // Comes from so far away that it is what the scene file says where it meets that surface, even
+    // Comes from so far away that it is what the scene file says where it hits that surface, even
     // where it is inside of a dielectric there.
     bool isFromAfar = false;
 };
@@ -53,14 +53,14 @@ struct NullSink {
     void emitted(const glm::dvec3&) {}
     void absorbed(const glm::dvec3&) {}
     void lost(unsigned /*account*/, const glm::dvec3&) {}
-    // After at least one interaction: the photon's way through the scene's medium to `distance`
-    // (infinite when it meets nothing), with the flux that it starts with and the extinction, 1/m.
+    // After at least one interaction: the photon's path through the scene's medium to `distance`
+    // (infinite when it hits nothing), with the flux that it starts with and the extinction, 1/m.
     void passed(const PhotonState&, double /*distance*/, const glm::dvec3& /*extinction*/,
                 Random&) {}
     void leftScene(const PhotonState&) {}
     void arrived(const SurfaceHit&, const PhotonState&) {}
     // Every interaction, before it happens.
-    void met(const SurfaceHit&, const PhotonState&) {}
+    void hitSurface(const SurfaceHit&, const PhotonState&) {}
 };
 
 // Where a photon may go from a specular surface.
@@ -86,12 +86,12 @@ struct Branches {
                 return {1.0, reflected, glm::dvec3(0.0)};
             continue;
         }
-        const Interface meeting = interactAt(direction, normal, from, to);
+        const Interface interaction = interactAt(direction, normal, from, to);
         const bool isRight =
-            glm::dot(meeting.reflected, geometric) > 0.0 &&
-            (meeting.reflectance >= 1.0 || glm::dot(meeting.refracted, geometric) < 0.0);
+            glm::dot(interaction.reflected, geometric) > 0.0 &&
+            (interaction.reflectance >= 1.0 || glm::dot(interaction.refracted, geometric) < 0.0);
         if (attempt == 1 || isRight)
-            return {meeting.reflectance, meeting.reflected, meeting.refracted};
+            return {interaction.reflectance, interaction.reflected, interaction.refracted};
     }
     return {};
 }
@@ -105,9 +105,10 @@ class LightTransport {
                     glm::length(scene.bounds().maximum - scene.bounds().minimum)) {
         const auto& medium = scene.scene().medium;
         if (medium) {
-            fog_ = glm::dvec3(medium->scatteringPerMeter) + glm::dvec3(medium->absorptionPerMeter);
+            mediumExtinction_ =
+                glm::dvec3(medium->scatteringPerMeter) + glm::dvec3(medium->absorptionPerMeter);
         }
-        hasFog_ = fog_ != glm::dvec3(0.0);
+        hasMedium_ = mediumExtinction_ != glm::dvec3(0.0);
         for (const scene::Material& material : scene.scene().materials) {
             hasAbsorption_ = hasAbsorption_ || material.absorptionPerMeter != glm::vec3(0.0f);
         }
@@ -122,7 +123,7 @@ class LightTransport {
         if (!scene_.intersectFromLight(ray, hit) || hit.distance > reach.rangeMeters) return;
         const scene::Material& material = scene_.scene().materials[hit.material];
         if (isReceiver(material.kind)) return;
-        // A light whose rays first meet a dielectric from within is inside of it.
+        // A light whose rays first hit a dielectric from within is inside of it.
         if (material.kind == scene::MaterialKind::dielectric &&
             glm::dot(photon.direction, hit.geometricNormal) > 0.0) {
             photon.media.enter(hit.material + 1);
@@ -134,7 +135,7 @@ class LightTransport {
     }
 
     // Follows a photon that is on its way between surfaces. `hit`: the specular surface that it
-    // has just met, or null.
+    // has just hit, or null.
     template <class Sink>
     void finish(PhotonState photon, const SurfaceHit* hit, Random& random, Sink& sink) const {
         SurfaceHit found;
@@ -162,11 +163,11 @@ class LightTransport {
         ray.reachMeters = rounding_;
         const bool isHit = scene_.intersect(ray, hit);
         const double distance = isHit ? hit.distance : std::numeric_limits<double>::infinity();
-        if (hasAbsorption_ || hasFog_) {
-            glm::dvec3 extinction = fog_;
+        if (hasAbsorption_ || hasMedium_) {
+            glm::dvec3 extinction = mediumExtinction_;
             if (inner != 0)
                 extinction += glm::dvec3(scene_.scene().materials[inner - 1].absorptionPerMeter);
-            if (hasFog_) sink.passed(photon, distance, extinction, random);
+            if (hasMedium_) sink.passed(photon, distance, extinction, random);
             if (isHit && extinction != glm::dvec3(0.0)) {
                 const glm::dvec3 arriving = photon.fluxWatts * decay(extinction, distance);
                 sink.absorbed(photon.fluxWatts - arriving);
@@ -210,7 +211,7 @@ class LightTransport {
     // At a specular surface; false when nothing goes on.
     template <class Sink>
     bool interact(PhotonState& photon, const SurfaceHit& hit, Random& random, Sink& sink) const {
-        sink.met(hit, photon);
+        sink.hitSurface(hit, photon);
         const scene::Material& material = scene_.scene().materials[hit.material];
         const bool isMirror = material.kind == scene::MaterialKind::mirror;
         const bool enters = glm::dot(photon.direction, hit.geometricNormal) < 0.0;
@@ -267,9 +268,9 @@ class LightTransport {
 
     const EmbreeScene& scene_;
     PathFilter filter_;
-    double rounding_;      // of positions, m: seams to neighbouring triangles are no farther off
-    glm::dvec3 fog_{0.0};  // extinction of the scene's medium, 1/m
-    bool hasFog_ = false;
+    double rounding_;  // of positions, m: seams to neighbouring triangles are no farther off
+    glm::dvec3 mediumExtinction_{0.0};  // extinction of the scene's medium, 1/m
+    bool hasMedium_ = false;
     bool hasAbsorption_ = false;
 };
 

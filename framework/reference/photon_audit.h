@@ -22,7 +22,7 @@ struct AuditPhoton {
 };
 
 struct FirstHit {
-    double distanceMeters = 0.0;    // 0: the photon meets nothing
+    double distanceMeters = 0.0;    // 0: the photon hits nothing
     glm::dvec3 position{0.0};       // in the space of the photons
     glm::dvec3 shadingNormal{0.0};  // unit, outward, in the space of the photons
     glm::dvec3 geometricNormal{0.0};
@@ -33,7 +33,7 @@ struct FirstHit {
 
 // One hit a photon, in their order; the same at any number of threads (0: all). `toWorld`: a rigid
 // motion, the identity for photons in world space or the inverse of EyeView::worldToView for those
-// of the GPU. A photon that is no number meets nothing.
+// of the GPU. A photon that is no number hits nothing.
 [[nodiscard]] std::vector<FirstHit> exactFirstHits(const EmbreeScene& scene,
                                                    std::span<const AuditPhoton> photons,
                                                    const glm::dmat4& toWorld = glm::dmat4(1.0),

@@ -102,7 +102,7 @@ class Gatherer {
         ++result_.rays;
         result_.energy.add(transport::kAccountLeftScene, photon.fluxWatts);
     }
-    void met(const SurfaceHit&, const PhotonState&) { ++result_.rays; }
+    void hitSurface(const SurfaceHit&, const PhotonState&) { ++result_.rays; }
 
     void arrived(const SurfaceHit& hit, const PhotonState& photon) {
         ++result_.rays;

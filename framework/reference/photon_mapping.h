@@ -8,7 +8,7 @@
 // first pass, its square then shrinking as i^(alpha-1). Photons are found by where they project,
 // which is why no search structure is needed.
 //
-// On request also the radiance of caustics along the eye's real ways, refracted and reflected
+// On request also the radiance of caustics along the eye's real paths, refracted and reflected
 // (viewed_caustics.h), W/m²/sr; a medium weakens it. What a medium scatters towards the eye is for
 // light tracing alone (light_tracing.h).
 #pragma once
@@ -36,13 +36,13 @@ struct PhotonMappingSettings {
 // Layers of the sums. The density is measured within the radius and within 1/sqrt(2) of it: where
 // irradiance is smooth its bias grows as the radius squared, and the extrapolation to radius 0 has
 // none of it. Where the two differ much (folds, edges) so may the extrapolated value from the
-// truth.
+// reference.
 inline constexpr int kExtrapolatedLayer = 0;
 inline constexpr int kWithinRadiusLayer = 1;
 // Caustic radiance towards the eye, extrapolated; only where a receiver is glossy.
 inline constexpr int kMappedRadianceLayer = 2;
 
-// Caustics along the eye's real ways; -1 unless asked for.
+// Caustics along the eye's real paths; -1 unless asked for.
 [[nodiscard]] int viewedCausticsLayer(const scene::Scene& scene,
                                       const PhotonMappingSettings& settings);
 

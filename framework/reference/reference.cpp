@@ -103,10 +103,10 @@ Reference makeReference(const scene::Scene& scene, const ReferenceRequest& reque
     reference.request = request;
     reference.irradiance = sums.meanImage(kIrradianceLayer);
     reference.irradianceError = sums.standardErrorImage(kIrradianceLayer);
-    const int fogLayer = inScatteredLayer(scene);
-    if (request.estimator == Estimator::light && fogLayer > 0) {
-        reference.inScattered = sums.meanImage(fogLayer);
-        reference.inScatteredError = sums.standardErrorImage(fogLayer);
+    const int scatteredLayer = inScatteredLayer(scene);
+    if (request.estimator == Estimator::light && scatteredLayer > 0) {
+        reference.inScattered = sums.meanImage(scatteredLayer);
+        reference.inScatteredError = sums.standardErrorImage(scatteredLayer);
     }
     const int radianceLayer =
         request.estimator == Estimator::light ? causticRadianceLayer(scene) : kMappedRadianceLayer;

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What is met first ends a run; so one that is met is enough.
+// What is reached first ends a run; so one that is reached is enough.
 bool isGoodEnough(const Reference& reference, const StopWhen& stop) {
     if (reference.photons == 0) return true;  // nothing is sent out: it is exact
     if (stop.batches && reference.batches >= *stop.batches) return true;

@@ -48,7 +48,7 @@ struct Edges {
     bool clampsRows = false;
 };
 
-// What an image shows decides: a spot's ends at its edge, and above what surrounds the scene there
+// What an image shows decides: a spot's ends at its edge, and above the environment there
 // is not what lies below.
 Edges edgesOf(const scene::Scene& scene, int image) {
     const bool isProjected =

@@ -138,7 +138,8 @@ LightView makeLightView(const scene::Light& light, const scene::Bounds& target,
                 farthest = std::max(farthest, depth);
             }
         }
-        // The plane that depth counts from lies before everything, so that no depth is negative.
+        // The plane that depth counts from lies in front of everything, so that no depth is
+        // negative.
         const double margin = 1e-3 * diagonal(blockers);
         view.nearMeters = margin;
         view.farMeters = farthest - nearest + 3.0 * margin;

@@ -24,12 +24,12 @@ std::vector<ReachedLimit> reachedLimits(const RunRecord& record, const Renderer&
     std::vector<ReachedLimit> limits;
     const LayerStatistics& layers = record.layers;
     const EnergyLedger& ledger = record.ledger;
-    if (layers.leftOut > 0) {
+    if (layers.skipped > 0) {
         const double lost = ledger.watts[kAccountBeyondLastLayer];
         limits.push_back({"layers.count", "layers", static_cast<double>(record.layersAllowed),
                           static_cast<double>(layers.complexity),
                           fmt::format("{} of {} fragments, in {} pixels, lie beyond the last layer",
-                                      layers.leftOut, layers.fragments, layers.pixelsLeftOut),
+                                      layers.skipped, layers.fragments, layers.pixelsSkipped),
                           lost});
     }
     const int bounces = renderer.settings().params.get<SpecularParams>("specular").bounces;

@@ -141,7 +141,7 @@ std::string shadowLine(const json& shadow) {
 }
 
 // A line for hits, and one for every output that has an error.
-std::string truthTable(const RunRecord& record) {
+std::string referenceTable(const RunRecord& record) {
     std::string table;
     const auto orNone = [](const json& value, double factor, const char* unit) {
         return value.is_null() ? std::string("none")
@@ -173,7 +173,7 @@ std::string truthTable(const RunRecord& record) {
                                  ? errors.at("truth_noise").at("rmse").get<double>()
                                  : 0.0;
         table += fmt::format(
-            "{:<24}RMSE {} {} (the truth's own {:.2g}), relMSE {}, SSIM {}, FLIP {}, energy "
+            "{:<24}RMSE {} {} (the reference's own {:.2g}), relMSE {}, SSIM {}, FLIP {}, energy "
             "ratio {}\n",
             name, value("rmse"), unit, noise, value("rel_mse"), value("ssim"), value("flip_ldr"),
             value("energy_ratio"));
@@ -253,8 +253,8 @@ json makeReport(const RunRecord& record, const Renderer& renderer, const gl::Dev
           {"peeled", std::min<std::uint64_t>(record.layers.complexity,
                                              static_cast<std::uint64_t>(record.layersAllowed))},
           {"fragments", record.layers.fragments},
-          {"fragments_left_out", record.layers.leftOut},
-          {"pixels_left_out", record.layers.pixelsLeftOut}}},
+          {"fragments_left_out", record.layers.skipped},
+          {"pixels_left_out", record.layers.pixelsSkipped}}},
         {"energy", energyJson(record.ledger)},
         {"memory",
          {{"texture_bytes", record.textureBytes},
@@ -287,7 +287,7 @@ std::string makeTable(const RunRecord& record) {
                          record.frames.size(), summarize(bookkeepingSamples(record)).median);
     for (const graph::PassRecord& pass : record.passes) {
         if (pass.state == graph::PassState::ran) continue;
-        const char* state = pass.state == graph::PassState::bypassed ? "bypassed" : "left out";
+        const char* state = pass.state == graph::PassState::bypassed ? "bypassed" : "skipped";
         table += fmt::format("{:<24}{:>10}   {}\n", pass.name, state, pass.why);
     }
     const EnergyLedger& ledger = record.ledger;
@@ -307,7 +307,7 @@ std::string makeTable(const RunRecord& record) {
         }
         table += fmt::format("; balance {:.1e}\n", ledger.balance());
     }
-    table += truthTable(record);
+    table += referenceTable(record);
     return table;
 }
 

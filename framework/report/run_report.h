@@ -46,7 +46,7 @@ struct PassTimes {
 [[nodiscard]] nlohmann::json makeReport(const RunRecord& record, const Renderer& renderer,
                                         const gl::DeviceInfo& device);
 
-// Median per pass, share of the frame, what was left out and why, and the ledger.
+// Median per pass, share of the frame, what was skipped and why, and the ledger.
 [[nodiscard]] std::string makeTable(const RunRecord& record);
 
 // Every time behind the report's statistics (schema kaustik.samples/1).

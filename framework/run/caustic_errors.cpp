@@ -44,38 +44,40 @@ Outputs readOutputs(const Renderer& renderer) {
     return outputs;
 }
 
-measure::ImagePair pairOf(const Outputs& outputs, const Output& output, const Reference& truth) {
+measure::ImagePair pairOf(const Outputs& outputs, const Output& output,
+                          const Reference& reference) {
     return measure::ImagePair({.image = output.image,
-                               .reference = truth.*output.truth,
+                               .reference = reference.*output.groundTruth,
                                .mask = output.isOfReceivers ? &outputs.receiver : nullptr,
-                               .standardError = &(truth.*output.truthError),
+                               .standardError = &(reference.*output.groundTruthError),
                                .area = output.isOfReceivers ? &outputs.area : nullptr,
                                .imageName = output.name});
 }
 
-json errorsAgainst(const Outputs& outputs, const Reference& truth) {
+json errorsAgainst(const Outputs& outputs, const Reference& reference) {
     json result = {{"reference_estimator",
-                    truth.request.estimator == reference::Estimator::light ? "light" : "sppm"},
-                   {"reference_photons", truth.photons},
-                   {"reference_key", truth.key}};
-    if (std::isfinite(truth.relativeError)) {
-        result["reference_relative_stderr"] = truth.relativeError;
+                    reference.request.estimator == reference::Estimator::light ? "light" : "sppm"},
+                   {"reference_photons", reference.photons},
+                   {"reference_key", reference.key}};
+    if (std::isfinite(reference.relativeError)) {
+        result["reference_relative_stderr"] = reference.relativeError;
     } else {
         result["reference_relative_stderr"] = nullptr;
         result["reasons"]["reference_relative_stderr"] = "no pixel of the reference is lit";
     }
     for (const Output& output : outputs.images) {
-        if ((truth.*output.truth).values.empty()) continue;
+        if ((reference.*output.groundTruth).values.empty()) continue;
         if (output.isOfReceivers && !outputs.seesReceivers) {
             result[output.name] = nullptr;
             result["reasons"][output.name] = "no pixel of this view sees a receiver";
             continue;
         }
         try {
-            const measure::ImageErrors errors = measureErrors(pairOf(outputs, output, truth));
+            const measure::ImageErrors errors = measureErrors(pairOf(outputs, output, reference));
             result[output.name] = measure::toJson(errors);
             if (&output == &outputs.images.front())
-                result["reference_stderr"] = errors.truthNoise ? errors.truthNoise->rmse : 0.0;
+                result["reference_stderr"] =
+                    errors.referenceNoise ? errors.referenceNoise->rmse : 0.0;
         } catch (const IoError& error) {
             result[output.name] = nullptr;
             result["reasons"][output.name] = error.what();

@@ -17,8 +17,8 @@ namespace kaustik::run {
 struct Output {
     const char* name;  // in the report
     Image image;
-    Image reference::Reference::*truth;
-    Image reference::Reference::*truthError;
+    Image reference::Reference::*groundTruth;
+    Image reference::Reference::*groundTruthError;
     // Whether it is of receivers: pixels that see none do not count then, and the others by the
     // area that they see.
     bool isOfReceivers = true;
@@ -36,12 +36,12 @@ struct Outputs {
 [[nodiscard]] Outputs readOutputs(const Renderer& renderer);
 
 [[nodiscard]] measure::ImagePair pairOf(const Outputs& outputs, const Output& output,
-                                        const reference::Reference& truth);
+                                        const reference::Reference& reference);
 
 // Every output's errors against one reference; what that does not have is left out. An output that
 // holds values that are no numbers has no errors, but a reason.
 [[nodiscard]] nlohmann::json errorsAgainst(const Outputs& outputs,
-                                           const reference::Reference& truth);
+                                           const reference::Reference& reference);
 
 // Where the image is wrong, as heat colours.
 [[nodiscard]] Image errorPicture(const measure::ImagePair& pair);

@@ -27,10 +27,11 @@ report::RunRecord startRecord(const Renderer& renderer, gl::TimerMode timer) {
     return record;
 }
 
-std::vector<fs::path> finishRun(Renderer& renderer, const Truth& truth, report::RunRecord& record,
-                                const fs::path& folder, const std::vector<std::string>& saved,
+std::vector<fs::path> finishRun(Renderer& renderer, const RunReference& reference,
+                                report::RunRecord& record, const fs::path& folder,
+                                const std::vector<std::string>& saved,
                                 const gl::DeviceInfo& device) {
-    renderer.build(truth.purpose(), saved);
+    renderer.build(reference.purpose(), saved);
     gl::PassTimer untimed(gl::TimerMode::finish);
     renderer.renderFrame(untimed);
     record.ledger = renderer.ledger();
@@ -55,9 +56,9 @@ std::vector<fs::path> finishRun(Renderer& renderer, const Truth& truth, report::
     try {
         const fs::path& work = together.workFolder();
         std::vector<fs::path> files = writePictures(work, renderer, saved);
-        const std::vector<fs::path> judged = truth.judge(renderer, work, record);
+        const std::vector<fs::path> judged = reference.judge(renderer, work, record);
         files.insert(files.end(), judged.begin(), judged.end());
-        const std::vector<fs::path> seen = truth.judgeView(renderer, work, record);
+        const std::vector<fs::path> seen = reference.judgeView(renderer, work, record);
         files.insert(files.end(), seen.begin(), seen.end());
         const auto write = [&](const char* name, const std::string& text) {
             files.push_back(work / name);

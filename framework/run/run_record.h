@@ -8,7 +8,7 @@
 
 #include "framework/pipeline/renderer.h"
 #include "framework/report/run_report.h"
-#include "framework/run/truth.h"
+#include "framework/run/run_reference.h"
 
 namespace kaustik::run {
 
@@ -16,9 +16,9 @@ namespace kaustik::run {
 [[nodiscard]] report::RunRecord startRecord(const Renderer& renderer, gl::TimerMode timer);
 
 // Renders one more frame, which is not timed, for the ledger, the pictures, the resources `saved`
-// and the truth's judgement; completes the record and writes everything into `folder`: all of it
-// or nothing. Gives the files. The renderer is left built for something else.
-std::vector<std::filesystem::path> finishRun(Renderer& renderer, const Truth& truth,
+// and the reference's judgement; completes the record and writes everything into `folder`: all of
+// it or nothing. Gives the files. The renderer is left built for something else.
+std::vector<std::filesystem::path> finishRun(Renderer& renderer, const RunReference& reference,
                                              report::RunRecord& record,
                                              const std::filesystem::path& folder,
                                              const std::vector<std::string>& saved,

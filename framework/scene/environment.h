@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What surrounds a scene (Scene::environmentImage): where a direction falls in its
+// The environment of a scene (Scene::environmentImage): where a direction falls in its
 // latitude-longitude picture, and pictures that need no file.
 #pragma once
 

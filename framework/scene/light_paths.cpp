@@ -70,7 +70,7 @@ std::optional<Slopes> slopesOf(const Mesh& mesh, const glm::dmat3& normalToWorld
     return Slopes{glm::normalize(normalToWorld * *up), 0.0};
 }
 
-// The largest angle of a light's rays, where they meet the sheet, against straight down on it.
+// The largest angle of a light's rays, where they hit the sheet, against straight down on it.
 double largestIncidence(const Scene& scene, const Object& object, const glm::dvec3& up,
                         const Light& light) {
     if (light.kind == LightKind::directional) return angleBetween(light.direction, -up);
@@ -161,7 +161,7 @@ bool isSheet(const Mesh& mesh) {
                        [&](const glm::vec3& normal) { return glm::dot(normal, mean) > 0.0f; });
 }
 
-MeetingsAgain meetingsAgain(const Scene& scene) {
+HitsAgain hitsAgain(const Scene& scene) {
     const Object* sheet = nullptr;
     for (const Object& object : scene.objects) {
         const MaterialKind kind = scene.materials[object.material].kind;
@@ -181,12 +181,12 @@ MeetingsAgain meetingsAgain(const Scene& scene) {
     const double steepest = slopes->steepestRadians;
     const double right = glm::half_pi<double>();
     const bool isDielectric = scene.materials[sheet->material].kind == MaterialKind::dielectric;
-    MeetingsAgain again;
+    HitsAgain again;
     for (const Light& light : scene.lights) {
         const double incidence = largestIncidence(scene, *sheet, slopes->up, light);
-        // Light that enters is bent towards the normal: it goes on between its old way and the
-        // normal's. From within, it is bent away, or reflected. A reflected way is turned by twice
-        // the slope.
+        // Light that enters is bent towards the normal: it goes on between its old direction and
+        // the normal's. From within, it is bent away, or reflected. A reflected direction is turned
+        // by twice the slope.
         const bool comesFromWithin = incidence + steepest >= right;
         const double onward = std::max(incidence, steepest);
         const double back = incidence + 2.0 * steepest;

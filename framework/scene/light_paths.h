@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the directions of a scene's light say about its ways over specular surfaces, before any
-// photon is traced: whether one can meet them again, and whether reflected light is seen.
+// What the directions of a scene's light say about its paths over specular surfaces, before any
+// photon is traced: whether one can hit them again, and whether reflected light is seen.
 #pragma once
 
 #include <optional>
@@ -14,17 +14,17 @@ namespace kaustik::scene {
 // open seams.
 [[nodiscard]] bool isSheet(const Mesh& mesh);
 
-// Whether light that has met a specular surface can meet one again.
-struct MeetingsAgain {
+// Whether light that has hit a specular surface can hit one again.
+struct HitsAgain {
     bool transmitted =
         false;               // where no branch is followed but the refracted one (or the only one)
     bool reflected = false;  // where the reflected one is, too
 };
 // Neither, where the scene's only specular surface is a plane, or water on which light comes from
-// above and which is too flat to come in its way: a ray that leaves a surface more steeply than the
-// surface is anywhere does not come back to it. Both, where nothing forbids it. Waves count with
-// the sum of their slopes, so that this holds at every time.
-[[nodiscard]] MeetingsAgain meetingsAgain(const Scene& scene);
+// above and which is too flat to come into its path: a ray that leaves a surface more steeply than
+// the surface is anywhere does not come back to it. Both, where nothing forbids it. Waves count
+// with the sum of their slopes, so that this holds at every time.
+[[nodiscard]] HitsAgain hitsAgain(const Scene& scene);
 
 // Light that a dielectric sheet, water say, sends back to a receiver.
 struct ReflectedLight {
@@ -33,12 +33,12 @@ struct ReflectedLight {
     double share = 0.0;  // of the light, by Fresnel's equations where the sheet is level
 };
 // The largest share above 4 % (that of glass at normal incidence) for which a receiver lies in the
-// way of the beam that the sheet, taken for level, reflects; by the boxes of both, so that waves
+// path of the beam that the sheet, taken for level, reflects; by the boxes of both, so that waves
 // and corners may decide otherwise. Closed dielectrics send light everywhere and are not asked.
 [[nodiscard]] std::optional<ReflectedLight> reflectedLight(const Scene& scene);
 
 // The name of a dielectric with an inside that is not convex; nothing where all are. From a convex
-// body light goes out where it first meets it from within, and loses to reflection twice; in any
+// body light goes out where it first hits it from within, and loses to reflection twice; in any
 // other, as in a teapot, it comes to many interfaces, each of which parts off its share.
 [[nodiscard]] std::optional<std::string> concaveBody(const Scene& scene);
 

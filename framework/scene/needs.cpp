@@ -63,7 +63,7 @@ SceneNeeds sceneNeeds(const Scene& scene) {
                 break;
         }
     }
-    needs.meetsAgain = meetingsAgain(scene);
+    needs.hitsAgain = hitsAgain(scene);
     needs.reflectedLight = reflectedLight(scene);
     needs.concaveBody = concaveBody(scene);
     needs.nestedBodies = needs.closedDielectrics && hasNestedBodies(scene);

@@ -8,12 +8,12 @@
 namespace kaustik::scene {
 
 struct SceneNeeds {
-    // How many specular interfaces one path can meet when it crosses every dielectric once: one
+    // How many specular interfaces one path can hit when it crosses every dielectric once: one
     // with an inside counts 2 (in and out), a sheet such as a water surface 1, and all mirrors
     // together 1. Repeated reflections, between mirrors or inside a dielectric, are not counted;
     // a technique's own bounce limit says how many it follows.
     int specularInterfaces = 0;
-    MeetingsAgain meetsAgain;  // whether there are such repeated ones at all
+    HitsAgain hitsAgain;  // whether there are such repeated ones at all
     // Which says that the reflected branch at dielectrics is seen; nothing: the other one is
     // enough.
     std::optional<ReflectedLight> reflectedLight;

@@ -138,7 +138,7 @@ struct Scene {
     std::vector<Object> objects;
     std::optional<Medium> medium;
     glm::vec3 backgroundRadiance{0.0f};  // W/m²/sr, from every direction that leaves the scene
-    // Index into Scene::images of a latitude-longitude picture of what surrounds the scene, whose
+    // Index into Scene::images of a latitude-longitude picture of the environment, whose
     // linear RGB multiplies the background radiance; -1: none. Its middle lies towards -Z, its top
     // towards +Y; it turns by `environmentTurnDegrees` about +Y, counter-clockwise from above.
     int environmentImage = -1;

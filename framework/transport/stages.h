@@ -22,7 +22,7 @@ struct SurfaceTexel {  // xyz: outward shading normal in view space; w: material
     static constexpr Format format = Format::rgba32f;
 };
 struct SquarePlane {  // xyz: 1/z in a square's middle, 1/m, 0 empty, and its growth a pixel; w: how
-                      // far from that plane a ray may meet the layer
+                      // far from that plane a ray may hit the layer
     static constexpr Format format = Format::rgba32f;
 };
 // All that a hit test asks of a layer, in one place. x: view depth in m, 0 none; yz: the triangle's
@@ -77,10 +77,10 @@ struct DisplayTexel {  // rgb: display-encoded (sRGB), [0,1]
 struct VisibilityTexel {  // x: share of a light's direct light that reaches the receiver, [0, 1]
     static constexpr Format format = Format::r32f;
 };
-struct ExitPosition {  // xyz: view space, m; w: specular surfaces that the eye's ray met, 0 none
+struct ExitPosition {  // xyz: view space, m; w: specular surfaces that the eye's ray hit, 0 none
     static constexpr Format format = Format::rgba32f;
 };
-struct ExitDirection {  // xyz: unit, view space; w: how the ray's way has ended, kWay…
+struct ExitDirection {  // xyz: unit, view space; w: how the ray's path has ended, kPath…
     static constexpr Format format = Format::rgba32f;
 };
 
@@ -97,7 +97,7 @@ struct EyeBuffer {
     graph::Texture<ReceiverTexel> receiver;
     graph::Texture<SurfaceTexel> receiverSurface;  // where the ray ends on a mirror, the mirror's
     graph::Texture<AlbedoTexel> receiverAlbedo;
-    // The first specular surface before the receiver; invalid where the scene has none.
+    // The first specular surface in front of the receiver; invalid where the scene has none.
     graph::Texture<ViewDepth> interface;
     graph::Texture<SurfaceTexel> interfaceSurface;
 };
@@ -268,7 +268,7 @@ struct LayersStage : Stage<LayeredDepth(Geometry)> {
 };
 struct EmitStage : Stage<Hits(Surfaces, Samples)> {
     static constexpr const char* name = "emit";
-    static constexpr const char* question = "Where does light first meet a specular surface?";
+    static constexpr const char* question = "Where does light first hit a specular surface?";
 };
 // Gives the photons that go on, and no others, in the order of those that were there.
 struct SpecularStage : Stage<Photons(Hits)> {
@@ -288,7 +288,7 @@ struct GatherStage : Stage<IrradianceMap(CausticMap, Surfaces)> {
     static constexpr const char* name = "gather";
     static constexpr const char* question = "What of the map do the eye's receivers get?";
 };
-// Adds what photons scatter on their way to these hits to what those of earlier ways did.
+// Adds what photons scatter on their way to these hits to what those of earlier paths did.
 struct MediaStage : Stage<InScattered(Hits, EyeBuffer, InScattered)> {
     static constexpr const char* name = "media";
     static constexpr const char* question = "What does a medium scatter towards the eye?";

@@ -28,7 +28,7 @@ struct ViewData {
     vec4 ambient;           // constant fill light for the picture, W/m²
     vec4 mediumScattering;  // of what fills the scene: rgb 1/m; w: Henyey-Greenstein g
     vec4 mediumExtinction;  // rgb: scattering and absorption, 1/m
-    vec4 environment;       // x: image layer of what surrounds the scene, -1 none; y: its turn, rad
+    vec4 environment;       // x: image layer of the environment, -1 none; y: its turn, rad
 };
 
 // One placed mesh, for one view (std430).
@@ -79,7 +79,7 @@ struct VertexData {
 };
 
 // What has become of a photon.
-const uint kFateNone = 0u;      // there is no photon: its texel met no specular surface
+const uint kFateNone = 0u;      // there is no photon: its texel hit no specular surface
 const uint kFateInFlight = 1u;  // it is to be traced
 const uint kFateReceiver = 2u;  // it has reached a receiver
 const uint kFateSpecular = 3u;  // it has reached a specular surface and will interact there
@@ -87,10 +87,10 @@ const uint kFateEnded = 4u;     // its flux is in the ledger
 
 // What a stack of dielectrics takes of a number that a float holds exactly; kLeft… takes the rest.
 const uint kMediaRoom = 4194304u;
-const uint kLeftNothing = 0u;  // or what it cannot meet again from the same side: see hit_test.glsl
+const uint kLeftNothing = 0u;  // or what it cannot hit again from the same side: see hit_test.glsl
 const uint kLeftOutside = 1u;
 const uint kLeftInside = 2u;
-// A ray that asks whether anything is in its way: it meets every surface from either side, but for
+// A ray that asks whether anything is in its way: it hits every surface from either side, but for
 // the one that it starts on.
 const uint kLeftForAll = 3u;
 
@@ -142,15 +142,15 @@ struct Hit {
     uint fate;
 };
 
-// How the eye's way through specular surfaces has ended; above 0 it has come out.
-const float kWayCameOut = 1.0f;
-const float kWayLost = 0.0f;
+// How the eye's path through specular surfaces has ended; above 0 it has come out.
+const float kPathCameOut = 1.0f;
+const float kPathLost = 0.0f;
 // Beyond a cap: totally reflected too often; refracted as often as may be, but still inside of a
 // closed object, out of which it is taken to have come as it was.
-const float kWayReflectedTooOften = -1.0f;
-const float kWayMirroredTooOften = -2.0f;  // by mirrors; it is taken to see the surroundings
-const float kWayNestedTooDeep = -3.0f;     // in more dielectrics at once than a stack holds
-const float kWayStoppedInside = 2.0f;
+const float kPathReflectedTooOften = -1.0f;
+const float kPathMirroredTooOften = -2.0f;  // by mirrors; it is taken to see the environment
+const float kPathNestedTooDeep = -3.0f;     // in more dielectrics at once than a stack holds
+const float kPathStoppedInside = 2.0f;
 
 // Accounts of the energy ledger (design, section 5). The device sums the three channels; reports
 // say their mean (transport/watts.h).
@@ -197,8 +197,8 @@ const float kIntensityQuantum = 1024.0f;
 struct LayerStatistics {
     uint complexity;     // most fragments in a pixel
     uint fragments;      // in all pixels
-    uint leftOut;        // fragments beyond the last layer
-    uint pixelsLeftOut;  // pixels that have such fragments
+    uint skipped;        // fragments beyond the last layer
+    uint pixelsSkipped;  // pixels that have such fragments
 };
 
 // Lines or splats that were drawn narrower than their photons' footprints asked for.

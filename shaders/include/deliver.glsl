@@ -6,8 +6,8 @@
 #include "include/specular.glsl"
 #include "include/transfer_map.glsl"
 
-// What the list says of a photon that was not on its way, or met nothing.
-Hit nothingMet() {
+// What the list says of a photon that was not on its way, or hit nothing.
+Hit nothingHit() {
     return Hit(vec3(0.0), 0.0, vec3(0.0), 0u, vec3(0.0), kFateEnded);
 }
 
@@ -22,7 +22,7 @@ vec3 receiverNormal(vec3 positionVs, vec3 direction, vec3 shading, vec3 geometri
 // Accounts for what was absorbed on the way and what arrives at a receiver. `shading`, `geometric`:
 // unit, outward; `material`: index + 1.
 Hit deliverTo(Photon photon, float distance, vec3 shading, vec3 geometric, uint material) {
-    Hit hit = nothingMet();
+    Hit hit = nothingHit();
     bool arrives = isReceiver(materialKind(material - 1u));
     hit.material = material;
     hit.positionVs = photon.positionVs + distance * photon.directionVs;

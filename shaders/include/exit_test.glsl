@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Whether a photon inside a closed dielectric has come out of it between two pixels, or into a body
 // that lies in it, although it crossed none of their planes: at a silhouette the surface bends away
-// within a pixel, and beside it there is no layer left to meet. Between the layers of one pixel
+// within a pixel, and beside it there is no layer left to hit. Between the layers of one pixel
 // inside and outside are known.
 #include "include/hit_test.glsl"
 
@@ -17,7 +17,8 @@ bool isInsideAt(ivec2 texel, uint medium, float zLow, float zHigh) {
         if (surface.material != medium) continue;
         float margin = surface.margin;
         if (dot(surface.normal, viewRay(vec2(texel) + 0.5)) < 0.0) {
-            // Parts of a body may overlap, or stand before a hole: it has been open since the first.
+            // Parts of a body may overlap, or stand before a hole: it has been open since the
+            // first.
             if (!isOpened) opened = surface.depth - margin;
             isOpened = true;
         } else {
@@ -31,7 +32,7 @@ bool isInsideAt(ivec2 texel, uint medium, float zLow, float zHigh) {
 
 // The layer through which the photon came out at its last pixel inside, step i - 1, when it is
 // outside at step i: the nearest in depth of those that it can leave by. `t` is where one step
-// meets the other.
+// hits the other.
 LayerHit testExit(RaySegment segment, TracedRay ray, int i, int n) {
     LayerHit none = LayerHit(0.0, -1);
     uint medium = ray.around.x;
@@ -118,9 +119,9 @@ Crossing smoothCrossing(vec3 origin, vec3 direction, float t, vec4 surface, Laye
     bool leaves = dot(direction, layer.normal) > 0.0;
     if (closing == 0.0 || (closing > 0.0) != leaves) return crossing;
     float pixel = pixelFootprint(layer.depth);
-    float way = clamp(-around.height / closing, -min(pixel, 0.5 * t), pixel);
-    crossing.t = t + way;
-    crossing.shading = normalize(around.normal + around.turning * (way * direction));
+    float shift = clamp(-around.height / closing, -min(pixel, 0.5 * t), pixel);
+    crossing.t = t + shift;
+    crossing.shading = normalize(around.normal + around.turning * (shift * direction));
     if ((dot(direction, crossing.shading) > 0.0) == leaves) crossing.geometric = crossing.shading;
     return crossing;
 }
@@ -131,7 +132,7 @@ vec3 normalAtExit(vec3 exitVs, ivec2 texel, int exitLayer) {
     return smoothSurfaceAt(exitVs, surface, layerAt(texel, exitLayer)).normal;
 }
 
-// A layer that a ray has met first, and at which pixel.
+// A layer that a ray has hit first, and at which pixel.
 struct FirstHit {
     LayerHit hit;  // hit.layer < 0: none
     ivec2 pixel;
@@ -142,7 +143,7 @@ FirstHit noHit() {
     return FirstHit(LayerHit(0.0, -1), ivec2(0), false);
 }
 
-// What one step of a ray meets: a layer's plane, or, where the scene has closed dielectrics, the
+// What one step of a ray hits: a layer's plane, or, where the scene has closed dielectrics, the
 // way out of one, or into a body that lies in it, that no plane shows. Every tracer asks here.
 FirstHit hitOfStep(RaySegment segment, TracedRay ray, int i, int n) {
     FirstHit found = FirstHit(testStep(segment, ray, i, n), texelOfStep(segment, i, n), false);

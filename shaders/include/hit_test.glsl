@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whether a step of a photon's ray meets a surface of the layered depth. All tracers ask here.
+// Whether a step of a photon's ray hits a surface of the layered depth. All tracers ask here.
 #include "include/octahedral.glsl"
 #include "include/ray_segment.glsl"
 #include "include/specular.glsl"
@@ -11,7 +11,7 @@ uniform int layerCount;
 // What a layer has at a pixel: depth 0 where nothing.
 struct LayerSurface {
     float depth;   // m
-    float margin;  // by which a ray may pass before or behind it and still meet it, m
+    float margin;  // by which a ray may pass in front of or beyond it and still hit it, m
     vec3 normal;   // the triangle's, outward
     uint material;  // index + 1
 };
@@ -38,8 +38,8 @@ bool isAround(TracedRay ray, uint medium) {
     return any(equal(ray.around, uvec4(medium)));
 }
 
-// A photon inside a dielectric can meet that dielectric only from within, any other dielectric and
-// any closed mirror only from outside. So a ray never meets the surface that it has just left, at
+// A photon inside a dielectric can hit that dielectric only from within, any other dielectric and
+// any closed mirror only from outside. So a ray never hits the surface that it has just left, at
 // any scale (hard case 10); receivers end it from either side, and so do open mirrors, but for the
 // one that it has left on that side and is still no farther from than a pixel resolves. A
 // dielectric farther out may end inside of the innermost, where they overlap; a ray that has just
@@ -129,30 +129,30 @@ float crossLayer(TracedRay ray, RayStep at, LayerSurface surface) {
     return t < at.tBegin - slack || t > at.tEnd + slack ? 0.0 : max(t, 0.0);
 }
 
-// Where the ray meets that surface by the test that is chosen; m, 0: nowhere in this step.
-float meetLayer(TracedRay ray, RayStep at, int layer, LayerSurface surface) {
+// Where the ray hits that surface by the test that is chosen; m, 0: nowhere in this step.
+float hitLayer(TracedRay ray, RayStep at, int layer, LayerSurface surface) {
     if (surface.depth <= 0.0) return 0.0;
 #ifdef EPSILON_TEST
-    // The paper's: a layer is met where it lies within a distance of the fragment's depth.
-    bool isMet = abs(surface.depth - at.zMiddle) <= trace_epsilon;
+    // The paper's: a layer is hit where it lies within a distance of the fragment's depth.
+    bool isHit = abs(surface.depth - at.zMiddle) <= trace_epsilon;
 #ifdef IN_OUT_TEST
-    isMet = isMet || isInSolid(ray, at, layer, surface);
+    isHit = isHit || isInSolid(ray, at, layer, surface);
 #endif
-    return isMet ? at.tMiddle : 0.0;
+    return isHit ? at.tMiddle : 0.0;
 #else
     return crossLayer(ray, at, surface);
 #endif
 }
 
-// Whether a surface that the ray meets there is one that ends or turns it.
+// Whether a surface that the ray hits there is one that ends or turns it.
 bool isFacingAt(TracedRay ray, ivec2 texel, LayerSurface surface) {
     float height = heightAbove(ray.origin, surface.normal, texel, surface.depth);
     return isFacing(ray, surface.material, surface.normal, height, surface.margin);
 }
 
-// Whether a hit on a layer's plane may lie on the solid that it bounds. Where a solid is about a pixel
-// thick its planes are those of its silhouette, and go on far before and behind it; but a front and
-// the back behind it meet half-way.
+// Whether a hit on a layer's plane may lie on the solid that it bounds. Where a solid is about a
+// pixel thick its planes are those of its silhouette, and go on far in front of it and beyond; but
+// a front and the back behind it meet half-way.
 bool isOnSolid(TracedRay ray, ivec2 texel, int layer, LayerSurface surface, float t) {
     vec3 eyeRay = viewRay(vec2(texel) + 0.5);
     bool isFront = dot(surface.normal, eyeRay) < 0.0;
@@ -179,7 +179,7 @@ LayerHit testStep(RaySegment segment, TracedRay ray, int i, int n) {
     for (int layer = 0; layer < layerCount; ++layer) {
         LayerSurface surface = layerAt(at.texel, layer);
         if (surface.depth <= 0.0) break;
-        float t = meetLayer(ray, at, layer, surface);
+        float t = hitLayer(ray, at, layer, surface);
         if (t <= 0.0 || (best.layer >= 0 && !isNearer(t, best.t, at, true))) continue;
         if (isFacingAt(ray, at.texel, surface) && isOnSolid(ray, at.texel, layer, surface, t))
             best = LayerHit(t, layer);
@@ -195,10 +195,10 @@ const float kNearReach = 4.0;
 // Directions along which the samples lie nearer together than this say little of a slope, px.
 const float kLeastSpread = 0.17;
 
-// A smooth surface around a point of it, from what the pixels around show of it: its normal is taken
-// to change evenly with the position, as on a sphere it does exactly. Where a silhouette leaves
-// pixels on one side only, the mean of their normals would be many degrees off, and light would be
-// caught inside; front and back meet there and both count.
+// A smooth surface around a point of it, from what the pixels around show of it: its normal is
+// taken to change evenly with the position, as on a sphere it does exactly. Where a silhouette
+// leaves pixels on one side only, the mean of their normals would be many degrees off, and light
+// would be caught inside; front and back meet there and both count.
 struct SmoothSurface {
     vec3 normal;   // at the point, unit
     mat3 turning;  // of the normal with the position, 1/m
@@ -257,13 +257,13 @@ SmoothSurface smoothSurfaceAt(vec3 pointVs, vec4 surface, LayerSurface layerHit)
     float size = length(normal);
     if (size < 1e-3) return result;
     result.normal = normal / size;
-    // A chord meets the surface at equal angles at both ends.
+    // A chord hits the surface at equal angles at both ends.
     result.height = 0.5 * (meanHeight - dot(result.normal, meanPosition));
     return result;
 }
 
-// The surface's normal where the ray meets it; the normal of one pixel alone would send all photons
-// that meet it the same way. `surface` and `layerHit` are those of the hit's own pixel and layer. A
+// The surface's normal where the ray hits it; the normal of one pixel alone would send all photons
+// that hit it the same way. `surface` and `layerHit` are those of the hit's own pixel and layer. A
 // receiver sends the light nowhere: its pixel's normal will do.
 vec3 normalAtHit(vec3 hitVs, vec4 surface, LayerSurface layerHit, bool arrives) {
     return arrives ? surface.xyz : smoothSurfaceAt(hitVs, surface, layerHit).normal;

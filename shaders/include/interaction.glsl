@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// What becomes of a photon where it has met a specular surface (K06, section 2.3).
+// What becomes of a photon where it has hit a specular surface (K06, section 2.3).
 #include "include/ledger.glsl"
 #include "include/specular.glsl"
 
-// The ways on: fate kFateNone where there is none. Their flux is the photon's, less what a mirror
+// The branches: fate kFateNone where there is none. Their flux is the photon's, less what a mirror
 // absorbs and what enters a dielectric inside of more others than a stack holds, which both go to
 // the ledger here.
 struct Branches {
@@ -34,15 +34,15 @@ Branches branchesOf(Photon photon, Hit hit) {
         return branches;
     }
     vec2 indices = indicesAt(hit.material, photon.media, enters);
-    Interface meeting = interactAt(photon.directionVs, hit.normalVs, indices.x, indices.y);
+    Interface interaction = interactAt(photon.directionVs, hit.normalVs, indices.x, indices.y);
     // Where one dielectric ends inside of another nothing is reflected, to the last bit.
-    if (indices.x == indices.y) meeting.reflectance = 0.0;
-    branches.reflected.directionVs = meeting.reflected;
-    branches.reflected.fluxWatts *= meeting.reflectance;
-    branches.transmitted.fluxWatts *= 1.0 - meeting.reflectance;
-    branches.transmitted.directionVs = meeting.refracted;
-    if (meeting.reflectance <= 0.0) branches.reflected.fate = kFateNone;
-    if (meeting.reflectance >= 1.0) {
+    if (indices.x == indices.y) interaction.reflectance = 0.0;
+    branches.reflected.directionVs = interaction.reflected;
+    branches.reflected.fluxWatts *= interaction.reflectance;
+    branches.transmitted.fluxWatts *= 1.0 - interaction.reflectance;
+    branches.transmitted.directionVs = interaction.refracted;
+    if (interaction.reflectance <= 0.0) branches.reflected.fate = kFateNone;
+    if (interaction.reflectance >= 1.0) {
         branches.transmitted.fate = kFateNone;
     } else if (!enters) {
         branches.transmitted.media = leaveMedium(photon.media, hit.material);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The homogeneous medium that fills the scene, beside and inside of its dielectrics: what light
-// loses on a way, and what is scattered. For photons it ends at the scene's bounding box; the
+// loses on a path, and what is scattered. For photons it ends at the scene's bounding box; the
 // straight ray to the eye loses light to it all the way (the reference's light_tracing.h does the
 // same).
 #include "include/dielectrics.glsl"
@@ -29,7 +29,7 @@ vec2 boundsInterval(vec3 positionVs, vec3 direction) {
     return interval;
 }
 
-// The phase function of Henyey and Greenstein, 1/sr; `cosine` between the ways before and after.
+// The phase function of Henyey and Greenstein, 1/sr; `cosine`: of the angle of deflection.
 float phaseFunction(float cosine) {
     float g = view.mediumScattering.w;
     float denominator = max(1.0 + g * g - 2.0 * g * cosine, 1e-12);

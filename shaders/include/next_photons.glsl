@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// For shaders that send photons on from where they have met a specular surface: one thread a photon
+// For shaders that send photons on from where they have hit a specular surface: one thread a photon
 // of the list before, and its place in the next one (techniques/shared/next_photons.h).
 #include "include/hits.glsl"
 #include "include/photon_thread.glsl"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A photon's ray as every screen-space tracer sees it: clipped in view space, before anything is
-// divided, to the part that is inside the scene's bounds, before the near plane and on the screen;
+// divided, to the part that is inside the scene's bounds, beyond the near plane and on the screen;
 // then projected. Along it 1/z interpolates linearly in screen space, by index.
 #include "include/view.glsl"
 
@@ -45,7 +45,7 @@ void cutToBox(vec3 origin, vec3 direction, vec3 centerVs, vec3 halfExtent, inout
     }
 }
 
-// The part of the ray before the near plane; returns whether the far end was cut.
+// The part of the ray beyond the near plane; returns whether the far end was cut.
 bool cutToNearPlane(vec3 origin, vec3 direction, inout float low, inout float high) {
     return cutHalfSpace(-origin.z - view.tangents.z, -direction.z, low, high);
 }
@@ -64,13 +64,13 @@ bool cutToScreen(vec3 origin, vec3 direction, vec2 tangents, inout float low, in
     return isCut;
 }
 
-// Makes [low, high] of a ray, which is before the near plane, the segment; projects its ends.
+// Makes [low, high] of a ray, which is beyond the near plane, the segment; projects its ends.
 void setEnds(inout RaySegment segment, vec3 origin, vec3 direction, float low, float high) {
     segment.nearT = low;
     segment.farT = high;
     vec3 a = origin + low * direction;
     vec3 b = origin + high * direction;
-    // Rounding may leave an end a little before the near plane.
+    // Rounding may leave an end a little nearer than the near plane.
     a.z = min(a.z, -view.tangents.z);
     b.z = min(b.z, -view.tangents.z);
     segment.nearPixel = pixelOf(a);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // What a ray that has left the dielectrics sees (K06, section 4, Fig. 10), from mirror to mirror:
-// the receivers of the eye buffer, where its image shows them, and else what surrounds the scene.
+// the receivers of the eye buffer, where its image shows them, and else the environment.
 // "This is an approximation that can only simulate the refraction of [...] objects that are visible
 // to the viewer in the absence of the water surface". LOOK_IN_LAYERS: surfaces are looked for in
 // the layered depth of the scene, as in the paper; one that the image does not show is lit here.
 #include "include/hit_test.glsl"
-#include "include/surroundings.glsl"
+#include "include/environment.glsl"
 #include "framework/transport/brdf.h"
 #if defined(LOOK_IN_LAYERS) || defined(GLOSSY_RECEIVERS)
 #include "include/lights.glsl"
@@ -26,10 +26,10 @@ uniform sampler2D interfaceSurface;
 uniform sampler2D receiver;
 uniform sampler2D receiverSurface;
 uniform sampler2D receiverRadiance;
-uniform int looksIntoScene;  // else only at what surrounds the scene
+uniform int looksIntoScene;  // else only at the environment
 uniform int reflectsScene;   // the same for reflections at the first interface
 uniform int lookStride;      // px
-uniform int lookMirrors;     // most mirrors that a ray meets one after the other
+uniform int lookMirrors;     // most mirrors that a ray hits one after the other
 
 struct SceneHit {
     uint material;  // index + 1 of a receiver or a mirror; 0: nothing is found
@@ -45,7 +45,7 @@ SceneHit nothingThere() {
     return SceneHit(0u, false, true, 0.0, ivec2(-1), vec3(0.0), vec3(0.0));
 }
 
-// What the ray passes last, where the screen shows nothing of what it meets.
+// What the ray passes last, where the screen shows nothing of what it hits.
 SceneHit nothingFound(vec3 origin, vec3 direction, bool isOpen) {
     float low = 0.0;
     float high = 3.0e38;
@@ -147,8 +147,8 @@ const int kAround = 1;  // so near that the pixel's depth in its middle does not
 const int kBehind = 2;
 
 // The first receiver or mirror that the eye sees. `lookStride` pixels are looked at together: where
-// the ray comes from before the surfaces to behind them, or is near one, all pixels between are
-// asked, and the last ones, since the ray ends just behind the scene's last surface.
+// the ray comes from in front of the surfaces to beyond them, or is near one, all pixels between
+// are asked, and the last ones, since the ray ends just behind the scene's last surface.
 SceneHit searchScene(TracedRay ray) {
     RaySegment segment = clipRay(ray.origin, ray.direction);
     if (!segment.visible) return nothingFound(ray.origin, ray.direction, false);
@@ -298,7 +298,7 @@ struct MirrorPath {
     vec3 direction;  // unit
     vec3 share;      // of the radiance that mirrors and the medium leave
     uint media;
-    int mirrors;     // that it has met
+    int mirrors;     // that it has hit
 };
 
 // The path goes on reflected at a mirror (material index + 1) with this outward normal.
@@ -313,7 +313,7 @@ void reflectAt(inout MirrorPath path, vec3 positionVs, vec3 normal, uint materia
 }
 
 // From mirror to mirror through the medium `medium` (material index + 1) or 0, until something
-// other than a mirror is seen. True: more mirrors than may be were met.
+// other than a mirror is seen. True: more mirrors than may be were hit.
 bool followMirrors(inout MirrorPath path, inout SceneHit seen, uint medium) {
     while (seen.material != 0u && seen.isMirror) {
         if (path.mirrors >= lookMirrors) {
@@ -327,8 +327,8 @@ bool followMirrors(inout MirrorPath path, inout SceneHit seen, uint medium) {
     return false;
 }
 
-// Mean radiance of one material's receivers around a pixel: what its pattern does there says nothing
-// of a place beside the screen. False: the pixel has none.
+// Mean radiance of one material's receivers around a pixel: what its pattern does there says
+// nothing of a place beside the screen. False: the pixel has none.
 bool meanRadianceAround(ivec2 pixel, out vec3 mean) {
     const int kReach = 3;
     const int kStep = 5;  // px
@@ -350,9 +350,9 @@ bool meanRadianceAround(ivec2 pixel, out vec3 mean) {
 }
 
 // Radiance along a ray that starts at `origin` within the medium `medium` (material index + 1) of
-// an open surface, or 0, of which `seen` is known. Where nothing is known of what it meets: in
-// water, which has no end to see, the receiver straight behind the surface at `pixel`, else those
-// that the screen shows next to where the ray leaves the scene; in the open what surrounds it.
+// an open surface, or 0, of which `seen` is known. Where nothing is known of what it hits: in
+// water, which has no end to see, the receiver straight beyond the surface at `pixel`, else those
+// that the screen shows next to where the ray leaves the scene; in the open the environment.
 vec3 radianceAlong(vec3 origin, vec3 direction, uint medium, SceneHit seen, ivec2 pixel) {
     if (seen.material != 0u) return seen.radiance * mediumTransmittance(medium, seen.t);
     if (medium != 0u && !seen.isOpen) {
@@ -365,7 +365,7 @@ vec3 radianceAlong(vec3 origin, vec3 direction, uint medium, SceneHit seen, ivec
         if (meanRadianceAround(seen.lastPixel, mean))
             return mean * mediumTransmittance(medium, seen.t);
     }
-    return surroundingRadiance(direction) * mediumTransmittance(medium, 1e30);
+    return environmentRadiance(direction) * mediumTransmittance(medium, 1e30);
 }
 
 // Radiance of the reflection at the first interface, of a ray in `medium`.
@@ -379,7 +379,7 @@ vec3 radianceReflected(vec3 origin, vec3 direction, uint medium, uint media, ive
     return path.share * radianceAlong(path.origin, path.direction, medium, seen, pixel);
 }
 
-// What the eye's ray sees that meets a mirror first: where it leaves the last one.
+// What the eye's ray sees that hits a mirror first: where it leaves the last one.
 struct MirrorView {
     vec3 radiance;
     vec4 exitPosition;   // as ExitPosition
@@ -396,5 +396,5 @@ MirrorView lookIntoMirror(ivec2 pixel, vec3 viewing) {
     return MirrorView(
         path.share * radianceAlong(path.origin, path.direction, 0u, seen, pixel),
         vec4(path.origin, float(path.mirrors)),
-        vec4(path.direction, isCut ? kWayMirroredTooOften : kWayCameOut));
+        vec4(path.direction, isCut ? kPathMirroredTooOften : kPathCameOut));
 }

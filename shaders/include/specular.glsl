@@ -10,9 +10,9 @@ bool isInsideClosed(uint media) {
     return medium != 0u && !isOpen(medium - 1u);
 }
 
-// The indices of refraction before and behind a dielectric (material index + 1) for light in
-// `media`; the same twice where one ends inside of another. The side is the triangle's, never the
-// shading normal's.
+// The indices of refraction in front of and beyond a surface of a dielectric (material index + 1)
+// for light in `media`; the same twice where one ends inside of another. The side is the
+// triangle's, never the shading normal's.
 vec2 indicesAt(uint material, uint media, bool enters) {
     uint inner = innerMedium(media);
     float before = mediumIndex(inner);
@@ -35,8 +35,8 @@ vec3 bendingNormal(vec3 direction, vec3 shading, vec3 geometric, uint material, 
         return dot(reflect(direction, normal), outer) > 0.0 ? shading : geometric;
     }
     vec2 indices = indicesAt(material, media, enters);
-    Interface meeting = interactAt(direction, normal, indices.x, indices.y);
-    bool isRight = dot(meeting.reflected, outer) > 0.0 &&
-                   (meeting.reflectance >= 1.0 || dot(meeting.refracted, outer) < 0.0);
+    Interface interaction = interactAt(direction, normal, indices.x, indices.y);
+    bool isRight = dot(interaction.reflected, outer) > 0.0 &&
+                   (interaction.reflectance >= 1.0 || dot(interaction.refracted, outer) < 0.0);
     return isRight ? shading : geometric;
 }

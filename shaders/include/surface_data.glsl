@@ -25,7 +25,7 @@ float mediumIndex(uint medium) {
     return medium == 0u ? 1.0 : materials[medium - 1u].absorption.w;
 }
 
-// Share of the flux that is left after a way (Beer-Lambert). Zero length or zero extinction leave
+// Share of the flux that is left after a path (Beer-Lambert). Zero length or zero extinction leave
 // all of it, whatever the other is: infinite for a black tint.
 vec3 transmittanceOver(vec3 extinctionPerMeter, float distanceMeters) {
     vec3 depth = extinctionPerMeter * distanceMeters;
@@ -37,7 +37,7 @@ vec3 mediumAbsorption(uint medium) {
     return medium == 0u ? vec3(0.0) : materials[medium - 1u].absorption.rgb;
 }
 
-// The share that a way through a dielectric leaves.
+// The share that a path through a dielectric leaves.
 vec3 mediumTransmittance(uint medium, float distanceMeters) {
     return transmittanceOver(mediumAbsorption(medium), distanceMeters);
 }

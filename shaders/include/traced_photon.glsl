@@ -4,9 +4,9 @@
 #include "include/deliver.glsl"
 #include "include/exit_test.glsl"
 
-// The hit, or, where nothing was met, the account of the reason.
+// The hit, or, where nothing was hit, the account of the reason.
 Hit deliver(Photon photon, FirstHit first) {
-    Hit hit = nothingMet();
+    Hit hit = nothingHit();
     if (!isNumber(photon)) {
         ledgerAdd(kAccountNotANumber, vec3(0.0));
         return hit;
@@ -19,12 +19,12 @@ Hit deliver(Photon photon, FirstHit first) {
     LayerSurface layer = layerAt(first.pixel, first.hit.layer);
     uint material = uint(surface.w);
     bool arrives = isReceiver(materialKind(material - 1u));
-    Crossing met = Crossing(first.hit.t, surface.xyz, layer.normal);
+    Crossing crossing = Crossing(first.hit.t, surface.xyz, layer.normal);
     if (first.isExit) {
-        met = smoothCrossing(photon.positionVs, photon.directionVs, met.t, surface, layer);
+        crossing = smoothCrossing(photon.positionVs, photon.directionVs, crossing.t, surface, layer);
     } else {
-        vec3 there = photon.positionVs + met.t * photon.directionVs;
-        met.shading = normalAtHit(there, surface, layer, arrives);
+        vec3 there = photon.positionVs + crossing.t * photon.directionVs;
+        crossing.shading = normalAtHit(there, surface, layer, arrives);
     }
-    return deliverTo(photon, met.t, met.shading, met.geometric, material);
+    return deliverTo(photon, crossing.t, crossing.shading, crossing.geometric, material);
 }

@@ -29,11 +29,11 @@ float pixelDepthExtent(vec3 ray, float depth, vec3 normalVs) {
     return 0.5 * pixelFootprint(depth) * slope;
 }
 
-// How far a ray may pass from a surface's depth at a pixel's middle and still meet it there: a
+// How far a ray may pass from a surface's depth at a pixel's middle and still hit it there: a
 // pixel's footprint and the extent. A surface seen more nearly edge-on than this slope is taken for
-// the silhouette of something thin, which ends within the pixel: without a bound rays meet its
-// plane far before and behind it (cornell-bunny: 99.0 % of the photons right without, 99.4 % with
-// 8, 98.8 % with 3).
+// the silhouette of something thin, which ends within the pixel: without a bound rays hit its
+// plane far in front of it and beyond (cornell-bunny: 99.0 % of the photons right without, 99.4 %
+// with 8, 98.8 % with 3).
 const float kSteepestSlope = 8.0;
 float depthMargin(vec3 ray, float depth, vec3 normalVs) {
     float footprint = pixelFootprint(depth);

@@ -16,7 +16,7 @@ void main() {
     if (i >= caseCount) return;
     vec4 a = inputs[2 * i];
     vec4 b = inputs[2 * i + 1];
-    Interface meeting = interactAt(a.xyz, b.xyz, a.w, b.w);
-    outputs[2 * i] = vec4(meeting.refracted, meeting.reflectance);
-    outputs[2 * i + 1] = vec4(meeting.reflected, 0.0);
+    Interface interaction = interactAt(a.xyz, b.xyz, a.w, b.w);
+    outputs[2 * i] = vec4(interaction.refracted, interaction.reflectance);
+    outputs[2 * i + 1] = vec4(interaction.reflected, 0.0);
 }

@@ -12,7 +12,7 @@ void main() {
     if (index >= photons.count) return;
     ivec2 texel = ivec2(photonTexel(photons, index));
     Photon photon = photonAt(texel);
-    Hit hit = nothingMet();
+    Hit hit = nothingHit();
     if (photon.fate == kFateInFlight) {
         vec4 shading = texelFetch(foundShading, texel, 0);
         vec4 geometric = texelFetch(foundGeometric, texel, 0);

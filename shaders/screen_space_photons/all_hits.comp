@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // trace.all_hits: one thread a photon, for one slot; slot 0 holds the first hit, the others the
-// receivers that the ray would meet behind it.
+// receivers that the ray would hit beyond it.
 #include "include/photon_thread.glsl"
 #include "include/store_hits.glsl"
 #include "include/store_photons.glsl"
@@ -24,7 +24,7 @@ FirstHit hitNumber(Photon photon, int wanted) {
         if (i < steps) found = hitOfStep(segment, ray, i, steps);
         bool isNew = found.hit.layer >= 0;
         if (number >= 0 && isNew) {
-            // Neighbouring steps may meet the same surface.
+            // Neighbouring steps may hit the same surface.
             float step = segment.farT - segment.nearT;
             isNew = found.hit.t > last.hit.t + step / float(steps);
             uint material = layerAt(found.pixel, found.hit.layer).material;
@@ -50,7 +50,7 @@ void main() {
     if (index >= photons.count) return;
     ivec2 texel = ivec2(photonTexel(photons, index));
     Photon photon = photonAt(texel);
-    Hit hit = nothingMet();
+    Hit hit = nothingHit();
     if (photon.fate == kFateInFlight) {
         FirstHit found = hitNumber(photon, slot);
         if (slot == 0 || found.hit.layer >= 0) hit = deliver(photon, found);

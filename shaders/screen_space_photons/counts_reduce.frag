@@ -16,8 +16,8 @@ void main() {
         if (any(greaterThanEqual(texel, size))) continue;
         vec4 part = texelFetch(source, texel, 0);
         if (isFirst != 0) {
-            float leftOut = max(part.x - float(layerCount), 0.0);
-            part = vec4(part.x, part.x, leftOut, leftOut > 0.0 ? 1.0 : 0.0);
+            float skipped = max(part.x - float(layerCount), 0.0);
+            part = vec4(part.x, part.x, skipped, skipped > 0.0 ? 1.0 : 0.0);
         }
         reduced = vec4(max(reduced.x, part.x), reduced.yzw + part.yzw);
     }

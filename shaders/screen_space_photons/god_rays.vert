@@ -11,12 +11,12 @@ layout(std430) buffer NarrowedLines {
 };
 uniform int firstPhoton;  // of the batch
 
-flat out vec4 wayPixels;  // of both ends; the longer axis of the line comes first
-flat out vec4 wayEnds;    // 1/z and t of both ends
-flat out vec3 wayDirection;
-flat out vec3 wayExtinction;  // 1/m
-flat out vec3 wayPower;       // see god_rays.frag
-flat out vec2 wayWidth;       // footprint, m; width along the shorter axis over that across
+flat out vec4 pathPixels;  // of both ends; the longer axis of the line comes first
+flat out vec4 pathEnds;    // 1/z and t of both ends
+flat out vec3 pathDirection;
+flat out vec3 pathExtinction;  // 1/m
+flat out vec3 pathPower;       // see god_rays.frag
+flat out vec2 pathWidth;       // footprint, m; width along the shorter axis over that across
 flat out int isSteep;
 
 void main() {
@@ -29,27 +29,27 @@ void main() {
     uint fate = uint(texelFetch(hitFlux, texel, 0).w);
     bool hasHit = fate == kFateReceiver || fate == kFateSpecular;
     float end = hasHit ? texelFetch(hitPosition, texel, 0).w : 3.0e38;
-    RaySegment way = clipWay(photon.positionVs, photon.directionVs, end,
+    RaySegment path = clipPath(photon.positionVs, photon.directionVs, end,
                              0.5 * float(media_lines_maximum) + 1.0);
-    if (!way.visible) return;
+    if (!path.visible) return;
 
-    vec2 along = way.farPixel - way.nearPixel;
+    vec2 along = path.farPixel - path.nearPixel;
     isSteep = abs(along.y) > abs(along.x) ? 1 : 0;
     if (isSteep != 0) {
         along = along.yx;
-        way.nearPixel = way.nearPixel.yx;
-        way.farPixel = way.farPixel.yx;
+        path.nearPixel = path.nearPixel.yx;
+        path.farPixel = path.farPixel.yx;
     }
-    wayPixels = vec4(way.nearPixel, way.farPixel);
-    wayEnds = vec4(way.nearInverseZ, way.farInverseZ, way.nearT, way.farT);
-    wayDirection = photon.directionVs;
-    wayExtinction = extinctionAround(photon.media);
+    pathPixels = vec4(path.nearPixel, path.farPixel);
+    pathEnds = vec4(path.nearInverseZ, path.farInverseZ, path.nearT, path.farT);
+    pathDirection = photon.directionVs;
+    pathExtinction = extinctionAround(photon.media);
     float pixel = view.tangents.w;
-    wayPower = photon.fluxWatts * view.mediumScattering.rgb *
-               ((way.farT - way.nearT) * way.nearInverseZ * way.farInverseZ / (pixel * pixel));
+    pathPower = photon.fluxWatts * view.mediumScattering.rgb *
+               ((path.farT - path.nearT) * path.nearInverseZ * path.farInverseZ / (pixel * pixel));
     // A line of less than a pixel has no direction on the screen.
     float slope = abs(along.x) > 1.0 ? along.y / along.x : 0.0;
-    wayWidth = vec2(photon.footprintMeters, sqrt(1.0 + slope * slope));
+    pathWidth = vec2(photon.footprintMeters, sqrt(1.0 + slope * slope));
 
     bool isEnd = (gl_VertexID & 1) == 1;
     float side = gl_VertexID < 2 ? -1.0 : 1.0;
@@ -58,15 +58,15 @@ void main() {
     const float rounding = 0.05;
     float forward = along.x < 0.0 ? -1.0 : 1.0;
     float beyond = (0.5 + rounding) * (isEnd ? forward : -forward);
-    float nearest = max(way.nearInverseZ, way.farInverseZ);
+    float nearest = max(path.nearInverseZ, path.farInverseZ);
     float wanted = wantedWidth(photon.footprintMeters, nearest);
     if (gl_VertexID == 0 && wanted > float(media_lines_maximum)) {
         atomicAdd(narrowed.count, 1u);
         atomicMax(narrowed.widestBits, floatBitsToUint(wanted));
     }
-    float reach = halfWidth(photon.footprintMeters, nearest) * wayWidth.y + 1.0 + rounding;
+    float reach = halfWidth(photon.footprintMeters, nearest) * pathWidth.y + 1.0 + rounding;
     if (slope == 0.0) reach += abs(along.y);
-    vec2 corner = isEnd ? way.farPixel : way.nearPixel;
+    vec2 corner = isEnd ? path.farPixel : path.nearPixel;
     corner += vec2(beyond, beyond * slope + side * reach);
     if (isSteep != 0) corner = corner.yx;
     gl_Position = vec4(corner * view.sizePixels.zw * 2.0 - 1.0, 0.0, 1.0);

@@ -9,7 +9,7 @@ void main() {
     if (index >= photons.count) return;
     ivec2 texel = ivec2(photonTexel(photons, index));
     Photon photon = photonAt(texel);
-    Hit hit = nothingMet();
+    Hit hit = nothingHit();
     if (photon.fate == kFateInFlight) {
         hit = deliver(photon, traverse(photon, trace_hierarchical_compute_minimum,
                                        trace_hierarchical_compute_steps));

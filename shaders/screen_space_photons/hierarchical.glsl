@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Follows one photon's ray over the screen to its first hit and leaves out what it cannot meet:
+// Follows one photon's ray over the screen to its first hit and skips what it cannot hit:
 // over squares of 64, 16 and 4 pixels planes through the layers, with how far these stray from
 // them, say so. What is left is asked step by step, by the test of all tracers, so that the hits
 // are those of a march over every step.
@@ -8,8 +8,8 @@
 
 uniform sampler2DArray layerPyramid;
 
-// A ray's way over the screen, a step at a time.
-struct Way {
+// A ray over the screen, a step at a time.
+struct ScreenRay {
     vec2 start;  // px
     vec2 perStep;
     vec2 stepsPerPixel;  // 1 / perStep; 0 where it does not move
@@ -18,34 +18,34 @@ struct Way {
     float slack;  // in 1/z, for rounding or the paper's epsilon
 };
 
-Way wayOf(RaySegment segment, int n) {
-    Way way;
+ScreenRay screenRayOf(RaySegment segment, int n) {
+    ScreenRay screenRay;
     float count = float(n);
-    way.start = segment.nearPixel;
-    way.perStep = (segment.farPixel - segment.nearPixel) / count;
-    way.stepsPerPixel = vec2(way.perStep.x != 0.0 ? 1.0 / way.perStep.x : 0.0,
-                             way.perStep.y != 0.0 ? 1.0 / way.perStep.y : 0.0);
-    way.inverseZ = segment.nearInverseZ;
-    way.inverseZPerStep = (segment.farInverseZ - segment.nearInverseZ) / count;
+    screenRay.start = segment.nearPixel;
+    screenRay.perStep = (segment.farPixel - segment.nearPixel) / count;
+    screenRay.stepsPerPixel = vec2(screenRay.perStep.x != 0.0 ? 1.0 / screenRay.perStep.x : 0.0,
+                             screenRay.perStep.y != 0.0 ? 1.0 / screenRay.perStep.y : 0.0);
+    screenRay.inverseZ = segment.nearInverseZ;
+    screenRay.inverseZPerStep = (segment.farInverseZ - segment.nearInverseZ) / count;
     float largest = max(segment.nearInverseZ, segment.farInverseZ);
-    way.slack = 4e-7 * largest;
+    screenRay.slack = 4e-7 * largest;
 #ifdef EPSILON_TEST
-    way.slack = largest * trace_epsilon < 0.999
+    screenRay.slack = largest * trace_epsilon < 0.999
                     ? largest * largest * trace_epsilon / (1.0 - largest * trace_epsilon)
                     : 1e30;
 #endif
-    return way;
+    return screenRay;
 }
 
 // The first step after `i` of which the middle lies outside of a square of the level.
-int stepBeyond(Way way, ivec2 square, int level, int i, int n) {
+int stepBeyond(ScreenRay screenRay, ivec2 square, int level, int i, int n) {
     float side = float(1 << (2 * level));
-    vec2 edge = side * (vec2(square) + vec2(greaterThan(way.perStep, vec2(0.0))));
+    vec2 edge = side * (vec2(square) + vec2(greaterThan(screenRay.perStep, vec2(0.0))));
     // A little less, so that rounding leaves no step to the wrong square.
-    vec2 steps = (edge - way.start) * way.stepsPerPixel - 0.502;
+    vec2 steps = (edge - screenRay.start) * screenRay.stepsPerPixel - 0.502;
     float beyond = float(n);
-    if (way.perStep.x != 0.0) beyond = min(beyond, steps.x);
-    if (way.perStep.y != 0.0) beyond = min(beyond, steps.y);
+    if (screenRay.perStep.x != 0.0) beyond = min(beyond, steps.x);
+    if (screenRay.perStep.y != 0.0) beyond = min(beyond, steps.y);
     return clamp(int(ceil(beyond)), i + 1, n);
 }
 
@@ -64,17 +64,17 @@ int takeLowest(inout uvec2 layers) {
     return 32 + layer;
 }
 
-// Steps [first, end) of a ray, and the layers, a bit each, that it may meet there.
+// Steps [first, end) of a ray, and the layers, a bit each, that it may hit there.
 struct Asked {
     int first;
     int end;
     uvec2 layers;
 };
 
-// Which of the steps [first, end) may meet a layer of the square. Along the ray 1/z is linear, as
+// Which of the steps [first, end) may hit a layer of the square. Along the ray 1/z is linear, as
 // on the squares' planes, and so is the ray's distance from one.
-Asked stepsThatMayMeet(Way way, ivec2 square, int level, int first, int end) {
-    vec2 start = way.start - (vec2(square) + 0.5) * float(1 << (2 * level));
+Asked stepsThatMayHit(ScreenRay screenRay, ivec2 square, int level, int first, int end) {
+    vec2 start = screenRay.start - (vec2(square) + 0.5) * float(1 << (2 * level));
     ivec2 texel = pyramidOffset(ivec2(view.sizePixels.xy), level) + square;
     Asked asked = Asked(end, first, uvec2(0u));
 #ifdef IN_OUT_TEST
@@ -83,10 +83,10 @@ Asked stepsThatMayMeet(Way way, ivec2 square, int level, int first, int end) {
     for (int layer = 0; layer < layerCount; ++layer) {
         vec4 plane = texelFetch(layerPyramid, ivec3(texel, layer), 0);
         if (plane.x <= 0.0) break;  // nor has it a deeper layer
-        float away = way.inverseZ - plane.x - dot(plane.yz, start);
-        float awayPerStep = way.inverseZPerStep - dot(plane.yz, way.perStep);
-        vec2 across = abs(plane.yz * way.perStep);
-        float reach = plane.w + way.slack + 0.5 * (across.x + across.y);
+        float away = screenRay.inverseZ - plane.x - dot(plane.yz, start);
+        float awayPerStep = screenRay.inverseZPerStep - dot(plane.yz, screenRay.perStep);
+        vec2 across = abs(plane.yz * screenRay.perStep);
+        float reach = plane.w + screenRay.slack + 0.5 * (across.x + across.y);
 #ifdef IN_OUT_TEST
         vec2 ends = away + awayPerStep * vec2(first, end);
         if (wasBehind && max(ends.x, ends.y) >= -reach)
@@ -97,17 +97,17 @@ Asked stepsThatMayMeet(Way way, ivec2 square, int level, int first, int end) {
         float scale = 1.0 / (abs(awayPerStep) > 1e-36 ? awayPerStep : 1e-36);
         float middle = -away * scale;
         float extent = abs(reach * scale) + 1e-3;
-        vec2 met = vec2(middle - extent, middle + extent);
-        if (met.y < float(first) || met.x > float(end)) continue;
-        met = clamp(met, vec2(first), vec2(end));
-        asked.first = min(asked.first, max(int(ceil(met.x)) - 1, first));
-        asked.end = max(asked.end, min(int(floor(met.y)) + 1, end));
+        vec2 hits = vec2(middle - extent, middle + extent);
+        if (hits.y < float(first) || hits.x > float(end)) continue;
+        hits = clamp(hits, vec2(first), vec2(end));
+        asked.first = min(asked.first, max(int(ceil(hits.x)) - 1, first));
+        asked.end = max(asked.end, min(int(floor(hits.y)) + 1, end));
         asked.layers |= bitOf(layer);
     }
     return asked;
 }
 
-// Three loops in one: squares until steps are found that may meet something, their layers until the
+// Three loops in one: squares until steps are found that may hit something, their layers until the
 // ray crosses one, and what that means. Devices that run many photons in step do each for many.
 FirstHit traverse(Photon photon, int minimumSteps, int maximumSteps) {
     FirstHit first = noHit();
@@ -116,7 +116,7 @@ FirstHit traverse(Photon photon, int minimumSteps, int maximumSteps) {
     if (!segment.visible) return first;
     TracedRay ray = tracedRay(photon.positionVs, photon.directionVs, photon.media);
     int steps = stepCount(segment, minimumSteps, maximumSteps);
-    Way way = wayOf(segment, steps);
+    ScreenRay screenRay = screenRayOf(segment, steps);
 #ifdef CLOSED_DIELECTRICS
     uint medium = ray.around.x;
     bool mayComeOut = medium != 0u && !isOpen(medium - 1u);
@@ -130,8 +130,8 @@ FirstHit traverse(Photon photon, int minimumSteps, int maximumSteps) {
     while (i < end) {
         while (i < end && i >= asked.end) {
             ivec2 square = texelOfStep(segment, i, steps) >> (2 * level);
-            int beyond = stepBeyond(way, square, level, i, steps);
-            Asked found = stepsThatMayMeet(way, square, level, i, beyond);
+            int beyond = stepBeyond(screenRay, square, level, i, steps);
+            Asked found = stepsThatMayHit(screenRay, square, level, i, beyond);
 #ifdef CLOSED_DIELECTRICS
             // What is inside at the square's last step came out nowhere in it, nor in.
             if (mayComeOut) {
@@ -170,22 +170,22 @@ FirstHit traverse(Photon photon, int minimumSteps, int maximumSteps) {
                 layer = takeLowest(layers);
                 RayStep at = rayStep(segment, i, steps);
                 surface = layerAt(at.texel, layer);
-                t = meetLayer(ray, at, layer, surface);
+                t = hitLayer(ray, at, layer, surface);
             }
 #ifdef CLOSED_DIELECTRICS
             else {
                 if (mayComeOut && firstStep != i) {
-                    LayerHit way = testExit(segment, ray, i, steps);
+                    LayerHit solid = testExit(segment, ray, i, steps);
                     int there = i - 1;
 #ifdef NESTED_BODIES
-                    if (way.layer < 0) {
-                        way = testEntry(segment, ray, i, steps);
+                    if (solid.layer < 0) {
+                        solid = testEntry(segment, ray, i, steps);
                         there = i;
                     }
 #endif
-                    if (way.layer >= 0 && (first.hit.layer < 0 || way.t < first.hit.t)) {
+                    if (solid.layer >= 0 && (first.hit.layer < 0 || solid.t < first.hit.t)) {
                         if (first.hit.layer < 0) end = min(end, i + 2);
-                        first = FirstHit(way, texelOfStep(segment, there, steps), true);
+                        first = FirstHit(solid, texelOfStep(segment, there, steps), true);
                         firstStep = i;
                     }
                 }
@@ -205,7 +205,7 @@ FirstHit traverse(Photon photon, int minimumSteps, int maximumSteps) {
             if ((isFirst || isNearer(t, first.hit.t, at, step == firstStep)) &&
                 isFacingAt(ray, at.texel, surface) &&
                 isOnSolid(ray, at.texel, layer, surface, t)) {
-                // The next step's surfaces are met at most half a step before it begins.
+                // The next step's surfaces are hit at most half a step before it begins.
                 float next = parameterAtIndex(segment, float(step) + 2.0, float(steps));
                 bool mayBeNearer = t > at.tEnd - 0.51 * (next - at.tEnd) - 2e-6 * at.zEnd;
                 end = min(end, mayBeNearer ? step + 2 : step + 1);

@@ -26,7 +26,7 @@ float backAt(ivec2 texel) {
 }
 
 // Along the inverse normal to the back faces, m: a point on that way is inside as long as the back
-// faces lie behind it. The paper's is precomputed for every vertex; this needs no preparation.
+// faces lie beyond it. The paper's is precomputed for every vertex; this needs no preparation.
 float distanceAlongNormal(vec3 entry, vec3 normal, float longest) {
     float inside = 0.0;
     float step = longest / float(view_image_space_steps);
@@ -86,8 +86,8 @@ void lookThroughInterfaces(ivec2 pixel, vec3 viewing, float depth, vec4 surface)
     vec3 reached = mediumTransmittance(mediumAtEye, length(entry));
     throughput *= reached;
     bool isInMedium = enters != isTotal;
-    float met = 1.0;
-    float ending = kWayCameOut;
+    float interfaces = 1.0;
+    float ending = kPathCameOut;
     float back = texelFetch(backDepth, pixel, 0).x;
     if (enters && back > depth) {
         float alongRay = (back - depth) * length(viewing);
@@ -110,13 +110,13 @@ void lookThroughInterfaces(ivec2 pixel, vec3 viewing, float depth, vec4 surface)
         vec3 normal = backNormalAround(exit, there);
         throughput *= mediumTransmittance(material, inside);
         origin = exit;
-        met = 2.0;
+        interfaces = 2.0;
         Interface second = interactAt(onward, normal, index, 1.0);
         if (second.reflectance < 1.0 && dot(onward, normal) > 0.0) {
             onward = second.refracted;
             throughput *= 1.0 - second.reflectance;
         } else {
-            ending = kWayLost;  // total internal reflection is not followed
+            ending = kPathLost;  // total internal reflection is not followed
         }
         isInMedium = false;
     }
@@ -124,8 +124,8 @@ void lookThroughInterfaces(ivec2 pixel, vec3 viewing, float depth, vec4 surface)
     float ratio = mediumIndex(mediumAtEye) / mediumIndex(isInMedium ? material : 0u);
     MirrorPath path = MirrorPath(origin, onward, vec3(1.0), 0u, 0);
     SceneHit seen = lookThrough(origin, onward, 0u);
-    if (followMirrors(path, seen, medium)) ending = kWayMirroredTooOften;
-    exitPosition = vec4(path.origin, met + float(path.mirrors));
+    if (followMirrors(path, seen, medium)) ending = kPathMirroredTooOften;
+    exitPosition = vec4(path.origin, interfaces + float(path.mirrors));
     exitDirection = vec4(path.direction, ending);
 
     radiance.rgb = throughput * path.share * ratio * ratio *

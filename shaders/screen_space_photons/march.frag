@@ -10,7 +10,7 @@ layout(location = 2) out vec4 hitFlux;
 void main() {
     if (!isPhotonHere()) discard;
     Photon photon = photonAt(ivec2(gl_FragCoord.xy));
-    Hit hit = nothingMet();
+    Hit hit = nothingHit();
     if (photon.fate == kFateInFlight)
         hit = deliver(photon, march(photon, trace_march_minimum, trace_march_steps));
     hitPosition = hitPositionTexel(hit);

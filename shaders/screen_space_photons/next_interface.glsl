@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Where a ray of the eye meets the next interface of the transmitting objects, in their layered
+// Where a ray of the eye hits the next interface of the transmitting objects, in their layered
 // depth (K06, section 4). The monotonic search keeps to two layers, the one that the ray has
-// passed and the next one: a ray that has met n interfaces is looked for between the layers n and
+// passed and the next one: a ray that has hit n interfaces is looked for between the layers n and
 // n + 1. The search of all layers is the tracers' (exit_test.glsl).
 #include "include/exit_test.glsl"
 
@@ -20,9 +20,9 @@ RaySegment clipToDielectrics(vec3 origin, vec3 direction, float reach) {
     return segment;
 }
 
-// Whether the ray can meet the surface of a layer at this pixel at all, by its side; `t`: where it
+// Whether the ray can hit the surface of a layer at this pixel at all, by its side; `t`: where it
 // crosses the tangent plane there.
-bool meetsLayer(TracedRay ray, ivec2 texel, int layer, out float t) {
+bool hitsLayer(TracedRay ray, ivec2 texel, int layer, out float t) {
     LayerSurface surface = layerAt(texel, layer);
     float height = heightAbove(ray.origin, surface.normal, texel, surface.depth);
     float closing = dot(surface.normal, ray.direction);
@@ -51,7 +51,7 @@ FirstHit searchBetweenLayers(RaySegment segment, TracedRay ray, int passed, int 
                 float t;
                 if (layer >= layerCount ||
                     texelFetch(layerDepths, ivec3(before, layer), 0).x <= 0.0 ||
-                    !meetsLayer(ray, before, layer, t)) {
+                    !hitsLayer(ray, before, layer, t)) {
                     continue;
                 }
                 return FirstHit(LayerHit(parameterAtIndex(segment, float(i), count), layer), before,
@@ -67,9 +67,9 @@ FirstHit searchBetweenLayers(RaySegment segment, TracedRay ray, int passed, int 
         before = texel;
         if (layer < 0) continue;
         float t;
-        if (!meetsLayer(ray, texel, layer, t)) continue;
+        if (!hitsLayer(ray, texel, layer, t)) continue;
         // Where the ray comes to lie behind another part of the object it does not cross that
-        // within a step or two; the paper takes it for met all the same.
+        // within a step or two; the paper takes it for a hit all the same.
         float from = parameterAtIndex(segment, max(middle - 2.0, 0.0), count);
         float to = parameterAtIndex(segment, min(middle + 1.0, count), count);
         bool isNear = t >= from && t <= to;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One depth layer: the nearest surface behind the layer before (Everitt 2001). The depth buffer
+// One depth layer: the nearest surface beyond the previous layer (Everitt 2001). The depth buffer
 // holds view depth itself, scaled by a power of two and so without rounding: layers are told apart
 // down to what 32-bit view depth can (hard cases 12, 13).
 #include "include/octahedral.glsl"

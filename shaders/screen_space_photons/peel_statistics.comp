@@ -18,7 +18,7 @@ void main() {
     atomicMax(statistics.complexity, count);
     atomicAdd(statistics.fragments, count);
     if (count > uint(layerCount)) {
-        atomicAdd(statistics.leftOut, count - uint(layerCount));
-        atomicAdd(statistics.pixelsLeftOut, 1u);
+        atomicAdd(statistics.skipped, count - uint(layerCount));
+        atomicAdd(statistics.pixelsSkipped, 1u);
     }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One level of the layers' pyramid (pyramid_layout.glsl): for each square and layer a plane in 1/z,
-// which is linear on the screen where a surface is flat, and how far what a ray may meet there lies
+// which is linear on the screen where a surface is flat, and how far what a ray may hit there lies
 // from it. One thread a square.
 #include "include/octahedral.glsl"
 #include "include/view.glsl"

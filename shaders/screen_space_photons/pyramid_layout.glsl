@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The layers' pyramid: where its levels lie in its texture, level 1 at the left, the others right
-// of it, one above the other. A texel of level k covers a square of 4^k pixels; x: 1/z in its middle
-// (1/m, 0: the layer is empty there), yz: by how much it grows a pixel, w: how far from that plane
-// a ray may be and still meet the layer.
+// of it, one above the other. A texel of level k covers a square of 4^k pixels; x: 1/z in its
+// middle (1/m, 0: the layer is empty there), yz: by how much it grows a pixel, w: how far from that
+// plane a ray may be and still hit the layer.
 const int kPyramidLevels = 3;
 
 ivec2 pyramidSize(ivec2 pixels, int level) {

@@ -24,40 +24,40 @@ uint openMedium(uint media) {
 
 struct EyePath {
     MirrorPath at;  // its last piece; its share: also what interfaces leave, without 1/n²
-    int interfaces;  // of dielectrics that it has met
+    int interfaces;  // of dielectrics that it has hit
     int refractions;
     int reflections;
     int passed;  // the layer that it has passed last
-    float ending;  // kWay…
+    float ending;  // kPath…
 };
 
 // At an interface: the path goes on refracted, or totally reflected.
 Interface bend(inout EyePath path, vec3 normal, uint material, int layer) {
     bool enters = dot(path.at.direction, normal) < 0.0;
     vec2 indices = indicesAt(material, path.at.media, enters);
-    Interface meeting = interactAt(path.at.direction, normal, indices.x, indices.y);
+    Interface interaction = interactAt(path.at.direction, normal, indices.x, indices.y);
     ++path.interfaces;
     path.at.media = withLeftSide(path.at.media, kLeftNothing);
-    if (meeting.reflectance >= 1.0) {
+    if (interaction.reflectance >= 1.0) {
         ++path.reflections;
-        path.at.direction = meeting.reflected;
-        return meeting;
+        path.at.direction = interaction.reflected;
+        return interaction;
     }
     ++path.refractions;
-    path.at.direction = meeting.refracted;
-    path.at.share *= 1.0 - meeting.reflectance;
+    path.at.direction = interaction.refracted;
+    path.at.share *= 1.0 - interaction.reflectance;
     if (enters && !canEnter(path.at.media, material)) {
-        path.ending = kWayNestedTooDeep;
+        path.ending = kPathNestedTooDeep;
     } else {
         path.at.media = enters ? enterMedium(path.at.media, material)
                                : leaveMedium(path.at.media, material);
     }
-    // Behind the layer when it comes from before it, and the other way round.
+    // Beyond the layer when it comes from in front of it, and the other way round.
     path.passed = layer > path.passed ? layer : layer - 1;
-    return meeting;
+    return interaction;
 }
 
-// To the next interface before `reach`; false: there is none. Behind a mirror nothing is known of
+// To the next interface before `reach`; false: there is none. Beyond a mirror nothing is known of
 // the order of the layers: all are asked.
 bool advance(inout EyePath path, float reach) {
     RaySegment segment = clipToDielectrics(path.at.origin, path.at.direction, reach);
@@ -69,15 +69,15 @@ bool advance(inout EyePath path, float reach) {
                              : searchBetweenLayers(segment, ray, path.passed, steps);
     if (found.hit.layer < 0) return false;
     vec4 surface = texelFetch(layerSurfaces, ivec3(found.pixel, found.hit.layer), 0);
-    LayerSurface met = layerAt(found.pixel, found.hit.layer);
+    LayerSurface layer = layerAt(found.pixel, found.hit.layer);
     path.at.share *= mediumTransmittance(innerMedium(path.at.media), found.hit.t);
     path.at.origin += found.hit.t * path.at.direction;
     vec3 shading =
         found.isExit ? normalAtExit(path.at.origin, found.pixel, found.hit.layer)
-                     : normalAtHit(path.at.origin, surface, met, false);
+                     : normalAtHit(path.at.origin, surface, layer, false);
     vec3 normal =
-        bendingNormal(path.at.direction, shading, met.normal, met.material, path.at.media);
-    bend(path, normal, met.material, found.hit.layer);
+        bendingNormal(path.at.direction, shading, layer.normal, layer.material, path.at.media);
+    bend(path, normal, layer.material, found.hit.layer);
     return true;
 }
 
@@ -94,12 +94,12 @@ SceneHit follow(inout EyePath path) {
 #endif
             seen = lookThrough(path.at.origin, path.at.direction, path.at.media);
         bool isFound = seen.material != 0u;
-        if (isReflected) path.ending = kWayReflectedTooOften;
-        if (path.ending <= kWayLost) return seen;
+        if (isReflected) path.ending = kPathReflectedTooOften;
+        if (path.ending <= kPathLost) return seen;
         if (!isLast && advance(path, isFound ? seen.t : kFar)) continue;
         if (isFound && seen.isMirror) {
             if (path.at.mirrors >= lookMirrors) {
-                path.ending = kWayMirroredTooOften;
+                path.ending = kPathMirroredTooOften;
                 return nothingThere();
             }
             path.at.share *= mediumTransmittance(innerMedium(path.at.media), seen.t);
@@ -107,7 +107,7 @@ SceneHit follow(inout EyePath path) {
                       seen.material);
             continue;
         }
-        if (isInside && !isFound) path.ending = isLast ? kWayStoppedInside : kWayLost;
+        if (isInside && !isFound) path.ending = isLast ? kPathStoppedInside : kPathLost;
         return seen;
     }
 }
@@ -129,7 +129,7 @@ void main() {
     vec3 direction = normalize(viewing);
     vec4 mirror = texelFetch(interfaceSurface, pixel, 0);
     EyePath path = EyePath(MirrorPath(vec3(0.0), direction, vec3(1.0), 0u, 0), 0, 0, 0, -1,
-                           kWayCameOut);
+                           kPathCameOut);
     uint mediaAtEye = 0u;
     vec3 reflected = vec3(0.0);
     if (materialKind(uint(mirror.w) - 1u) == kMaterialMirror) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The last part of the reduce: the column of first hits becomes hits in the transfer map, or, for a
-// photon that met nothing, an entry in the ledger. One thread a row.
+// photon that hit nothing, an entry in the ledger. One thread a row.
 #include "include/photons.glsl"
 #include "include/store_hits.glsl"
 #include "include/traced_photon.glsl"
@@ -20,7 +20,7 @@ void main() {
     ivec2 texel = ivec2(photonTexel(photons, index));
     Photon photon = photonAt(texel);
     if (photon.fate != kFateInFlight) {
-        storeHit(texel, nothingMet());
+        storeHit(texel, nothingHit());
         return;
     }
 

@@ -40,7 +40,7 @@ void main() {
     }
     bool isPhoton = !isReceiver(materialKind(material)) && flux.r + flux.g + flux.b > 0.0;
     vec3 geometric = geometricNormal(positionVs, -direction);
-    // A light whose rays first meet a dielectric from within is inside of it.
+    // A light whose rays first hit a dielectric from within is inside of it.
     bool isInside =
         materialKind(material) == kMaterialDielectric && dot(direction, geometric) > 0.0;
     uint media = isInside ? enterMedium(0u, material + 1u) : 0u;

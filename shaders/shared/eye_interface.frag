@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The first specular surface of each pixel, where it lies before the receiver.
+// The first specular surface of each pixel, where it lies in front of the receiver.
 #include "include/scene_fragment.glsl"
 #include "include/surface.glsl"
 

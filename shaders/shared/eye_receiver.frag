@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The receiver of each pixel: depth, the area seen, normal, material, reflectance. A mirror is none
-// but hides what is behind it: its depth is negative, and the normal and the material are its own.
+// but hides what is beyond it: its depth is negative, and the normal and the material are its own.
 #include "include/scene_fragment.glsl"
 #include "include/surface.glsl"
 #include "include/view.glsl"

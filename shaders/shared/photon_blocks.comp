@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How many photons of every workgroup's go on, since they have met a specular surface.
+// How many photons of every workgroup's go on, since they have hit a specular surface.
 #include "include/hits.glsl"
 #include "include/photon_thread.glsl"
 

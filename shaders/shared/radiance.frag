@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Radiance of the receivers on the straight eye rays, W/m²/sr: direct light, the caustic and the
-// fill light; what surrounds the scene where there is no receiver. GLOSSY_RECEIVERS: direct light
+// fill light; the environment where there is no receiver. GLOSSY_RECEIVERS: direct light
 // has gone through the BRDF already; CAUSTIC_RADIANCE: so has the caustic. All else is reflected
 // diffusely.
-#include "include/surroundings.glsl"
+#include "include/environment.glsl"
 #ifdef GLOSSY_RECEIVERS
 #include "include/surface_data.glsl"
 #endif
@@ -27,7 +27,7 @@ uniform sampler2D causticIrradiance;
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     if (texelFetch(receiver, pixel, 0).x <= 0.0) {
-        radiance = vec4(surroundingRadiance(normalize(viewRay(gl_FragCoord.xy))), 1.0);
+        radiance = vec4(environmentRadiance(normalize(viewRay(gl_FragCoord.xy))), 1.0);
         return;
     }
     vec3 albedo = texelFetch(receiverAlbedo, pixel, 0).rgb * (1.0 / 3.14159265);

@@ -14,9 +14,10 @@ uniform int faceCount;
 uniform mat4 eyeToLight[6];
 uniform mat4 projection;
 
-// By how much a curved surface may lie behind the plane of a triangle beside it, in what its depth
-// differs by over a texel. More takes less of `tree` for the wrong side and more of `cornell-bunny`:
-// with 0.25, 0.5, 1 and 2 it is 1.01, 0.97, 0.96, 0.93 % and 0.04, 0.04, 0.07, 0.12 % (400x300).
+// By how much a curved surface may lie beyond the plane of a triangle beside it, in what its depth
+// differs by over a texel. More takes less of `tree` for the wrong side and more of
+// `cornell-bunny`: with 0.25, 0.5, 1 and 2 it is 1.01, 0.97, 0.96, 0.93 % and 0.04, 0.04, 0.07,
+// 0.12 % (400x300).
 const float kCurvature = 0.5;
 
 // Share of the light that reaches the point: the mean of 3x3 comparisons.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What photons do where they have met a specular surface: one thread a photon.
+// What photons do where they have hit a specular surface: one thread a photon.
 #include "include/interaction.glsl"
 #include "include/next_photons.glsl"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Both Fresnel branches of photons that have met a specular surface: one thread a photon. The first
+// Both Fresnel branches of photons that have hit a specular surface: one thread a photon. The first
 // half of the next list are the transmitted branches, or the only ones, the second half the
 // reflected ones. Without room for both, one is drawn by its share, and carries all of the flux.
 #include "include/interaction.glsl"

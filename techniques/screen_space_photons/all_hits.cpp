@@ -24,7 +24,7 @@ struct AllHitsParams {
     }
 };
 
-// Which rays may have met more receivers than they could keep.
+// Which rays may have hit more receivers than they could keep.
 void keepToSlots(FrameBuilder& frame, const AllHitsParams& params, const Hits& hits) {
     frame.keepsTo(
         {"trace.all_hits",
@@ -38,8 +38,8 @@ void keepToSlots(FrameBuilder& frame, const AllHitsParams& params, const Hits& h
                  "hits",
                  static_cast<double>(slots),
                  0.0,
-                 fmt::format("{} rays have filled all of their slots; what they met "
-                             "behind is not lit",
+                 fmt::format("{} rays have filled all of their slots; what they hit "
+                             "beyond is not lit",
                              full),
                  0.0};
          }});

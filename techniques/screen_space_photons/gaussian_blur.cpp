@@ -4,9 +4,9 @@
 // which media.lines has in physical units. What is left for it is to even out the stripes of few
 // photons; there it does what lines as wide as their beams do better, and it carries light over
 // outlines, so that it is not the default (experiments/krueger2006_god_rays.toml: against the
-// truth one-pixel lines of 64 x 64 photons gain by it, up to a sigma of 1 pixel at 200 x 150; beams
-// lose, and more photons too). At the borders the picture is mirrored, so that every pixel's light
-// stays on the screen and an even picture stays even. In, out: radiance, W/m²/sr.
+// reference one-pixel lines of 64 x 64 photons gain by it, up to a sigma of 1 pixel at 200 x 150;
+// beams lose, and more photons too). At the borders the picture is mirrored, so that every pixel's
+// light stays on the screen and an even picture stays even. In, out: radiance, W/m²/sr.
 #include <cmath>
 
 #include "framework/pipeline/frame_builder.h"
@@ -53,7 +53,7 @@ InScattered blurAlong(FrameBuilder& frame, const GaussianBlurParams& params, InS
 
 InScattered blurGaussian(FrameBuilder& frame, const GaussianBlurParams& params, InScattered sharp) {
     if (!sharp.radiance.valid()) {
-        frame.leaveOut("blur.gaussian", "no in-scattered light is made");
+        frame.skip("blur.gaussian", "no in-scattered light is made");
         return sharp;
     }
     const InScattered rows = blurAlong(frame, params, sharp, "blur.rows", {1, 0});

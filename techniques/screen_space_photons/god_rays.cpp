@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// media.lines: god rays (K06, section 3.2). The way of each photon from its last specular surface
+// media.lines: god rays (K06, section 3.2). The path of each photon from its last specular surface
 // to its hit as a line on the screen, added up to what the medium scatters once towards the eye
 // along the straight eye ray. In: photons and hits in eye view space, m and W; out: in-scattered
 // radiance, W/m²/sr, the mean over each pixel, with the losses to the medium (and to the dielectric
-// around the photon) on the way and to the medium on the straight ray to the eye. What lies behind
+// around the photon) on the way and to the medium on the straight ray to the eye. What lies beyond
 // the pixel's receiver does not count; a photon without a hit goes on to the end of the screen or
 // the scene.
 //
@@ -124,7 +124,7 @@ InScattered drawGodRays(FrameBuilder& frame, const GodRayParams& params, Hits hi
 
 void registerGodRays(Registry& registry) {
     registry.node<MediaStage>("lines",
-                              {"Draws each photon's way through the medium as a line of the light "
+                              {"Draws each photon's path through the medium as a line of the light "
                                "that is scattered towards the eye.",
                                "K06, section 3.2"},
                               &drawGodRays);

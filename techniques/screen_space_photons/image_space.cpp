@@ -69,14 +69,14 @@ BackFaces drawBackFaces(FrameBuilder& frame, Geometry geometry) {
 View refractInImageSpace(FrameBuilder& frame, const ImageSpaceViewParams& params, Geometry geometry,
                          EyeBuffer eye, LayeredDepth layers, Radiance receivers, Shadows shadows) {
     if (!eye.interface.valid()) {
-        frame.leaveOut("view.image_space", "the scene has no specular surface");
+        frame.skip("view.image_space", "the scene has no specular surface");
         return {receivers.radiance, {}, {}};
     }
     BackFaces faces;
     if (frame.needs().refractors > 0) {
         faces = drawBackFaces(frame, geometry);
     } else {
-        frame.leaveOut("view.back_faces", "the scene has no dielectric");
+        frame.skip("view.back_faces", "the scene has no dielectric");
     }
     struct Data {
         ViewPass look;

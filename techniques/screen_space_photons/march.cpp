@@ -2,7 +2,7 @@
 // trace.march, trace.march_compute: each photon's ray followed over the screen a pixel a step,
 // every layer looked up, until the first hit (K06, section 2.1: what the paper compares its lines
 // with). trace.hierarchical, trace.hierarchical_compute: the same, but squares of pixels whose
-// layers the ray cannot meet are left out. One fragment or one compute thread a photon; all give
+// layers the ray cannot hit are skipped. One fragment or one compute thread a photon; all give
 // the same hits as trace.lines, whose steps and hit test they share. In: photons and layered depth
 // in eye view space, m; out: hits, W that arrive after absorption.
 #include <algorithm>
@@ -90,8 +90,8 @@ void registerMarch(Registry& registry) {
         {"The same in a compute shader, one thread a photon.", "K06, section 2.1, the comparison"},
         &traceMarchCompute);
     registry.node<TraceStage>("hierarchical",
-                              {"Follows each photon's ray in a fragment shader and leaves out "
-                               "squares of pixels whose layers it cannot meet.",
+                              {"Follows each photon's ray in a fragment shader and skips "
+                               "squares of pixels whose layers it cannot hit.",
                                ""},
                               &traceHierarchical);
     registry.node<TraceStage>("hierarchical_compute",

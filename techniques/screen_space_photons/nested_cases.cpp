@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // D38: dielectrics nested three and four deep, for photons by every tracer and for the eye's rays
 // by those that follow them: concentric balls of 1.5, 1.2, 1.8 and 1.33. A ray keeps its impact
-// parameter, the distance of its line from the middle times the index, so that the whole way is
+// parameter, the distance of its line from the middle times the index, so that the whole path is
 // known in closed form. And what lies deeper than a stack holds is a limit that is said.
 #include <fmt/format.h>
 
@@ -33,13 +33,13 @@ constexpr double kFootprint = 0.011;
 constexpr double kDegree = 0.017453292519943295;
 
 // What a ray with an impact parameter (m) does: by how much it is turned towards the middle, and
-// how many interfaces it meets.
-struct Way {
+// how many interfaces it hits.
+struct Path {
     double turnRadians = 0.0;
     int interfaces = 0;
 };
-Way wayThrough(int shells, double impact) {
-    Way way;
+Path pathThrough(int shells, double impact) {
+    Path path;
     double index = 1.0;
     for (int i = 0; i < shells; ++i) {
         const Shell& shell = kShells[static_cast<std::size_t>(i)];
@@ -47,22 +47,22 @@ Way wayThrough(int shells, double impact) {
         if (before >= 1.0) break;  // passes it by
         const double behind = impact / (shell.index * shell.radius);
         if (behind >= 1.0) {
-            way.turnRadians -= 3.14159265358979323846 - 2.0 * std::asin(before);
-            way.interfaces += 1;
+            path.turnRadians -= 3.14159265358979323846 - 2.0 * std::asin(before);
+            path.interfaces += 1;
             break;
         }
-        way.turnRadians += 2.0 * (std::asin(before) - std::asin(behind));
-        way.interfaces += 2;
+        path.turnRadians += 2.0 * (std::asin(before) - std::asin(behind));
+        path.interfaces += 2;
         index = shell.index;
     }
-    return way;
+    return path;
 }
 
-// By how much the ways of rays half a pixel to both sides differ: no more is known of one. Nothing
-// where they meet other interfaces.
+// By how much the paths of rays half a pixel to both sides differ: no more is known of one. Nothing
+// where they hit other interfaces.
 std::optional<double> differenceOverAPixel(int shells, double impact) {
-    const Way low = wayThrough(shells, std::max(impact - 0.5 * kFootprint, 0.0));
-    const Way high = wayThrough(shells, impact + 0.5 * kFootprint);
+    const Path low = pathThrough(shells, std::max(impact - 0.5 * kFootprint, 0.0));
+    const Path high = pathThrough(shells, impact + 0.5 * kFootprint);
     if (low.interfaces != high.interfaces) return std::nullopt;
     return std::abs(high.turnRadians - low.turnRadians);
 }
@@ -92,7 +92,7 @@ scene::Scene nestedBalls(int shells, int moreMaterials = 0) {
     return makeScene(camera, text);
 }
 
-// Photons: how far their way out is turned from the light's direction.
+// Photons: how far their path out is turned from the light's direction.
 void photonsThrough(Lab& lab, int shells) {
     const scene::Scene scene = nestedBalls(shells);
     const glm::dvec3 light = scene.lights[0].direction;
@@ -120,7 +120,7 @@ void photonsThrough(Lab& lab, int shells) {
                 const glm::dvec3 out = back * glm::dvec3(photons[i].direction);
                 const glm::dvec3 from = frame.toWorld(photons[i].position) - kMiddle;
                 const double impact = glm::length(glm::cross(from, out));
-                const Way exact = wayThrough(shells, impact);
+                const Path exact = pathThrough(shells, impact);
                 const std::optional<double> allowed = differenceOverAPixel(shells, impact);
                 if (!allowed) continue;
                 ++asked;
@@ -130,13 +130,14 @@ void photonsThrough(Lab& lab, int shells) {
                 right += isOut && error < kDegree + *allowed ? 1 : 0;
             }
         }
-        lab.expect(tracer.subject,
-                   fmt::format("share of photons within a degree of the exact way through {} balls",
-                               shells),
-                   1.0, static_cast<double>(right) / std::max(asked, 1),
-                   {0.02,
-                    "at silhouettes of balls of 25 to 60 pixels a pixel holds one of several "
-                    "triangles: 2 in a hundred"});
+        lab.expect(
+            tracer.subject,
+            fmt::format("share of photons within a degree of the exact path through {} balls",
+                        shells),
+            1.0, static_cast<double>(right) / std::max(asked, 1),
+            {0.02,
+             "at silhouettes of balls of 25 to 60 pixels a pixel holds one of several "
+             "triangles: 2 in a hundred"});
         lab.expectAtLeast(tracer.subject,
                           fmt::format("photons through {} balls that are compared", shells), 1000,
                           asked, kEnough);
@@ -164,7 +165,7 @@ void raysThrough(Lab& lab, int shells) {
             const glm::dvec3 along = kMiddle - eye;
             const glm::dvec3 across = along - glm::dot(along, ray) * ray;
             const double impact = glm::length(across);
-            const Way exact = wayThrough(shells, impact);
+            const Path exact = pathThrough(shells, impact);
             const std::optional<double> allowed = differenceOverAPixel(shells, impact);
             if (exact.interfaces == 0 || !allowed) continue;
             ++asked;
@@ -174,20 +175,20 @@ void raysThrough(Lab& lab, int shells) {
                                         std::sin(exact.turnRadians) * glm::normalize(across);
             const bool isNear =
                 glm::length(back * direction.rgb(x, y) - expected) < kDegree + *allowed;
-            right += isNear && direction.at(x, y, 3) == kWayCameOut ? 1 : 0;
+            right += isNear && direction.at(x, y, 3) == kPathCameOut ? 1 : 0;
         }
     }
     const Tolerance silhouettes{0.05,
                                 "beside silhouettes, where a ray turns back between two pixels "
-                                "and one of them holds no layer of what it meets"};
+                                "and one of them holds no layer of what it hits"};
     const auto share = [&](int part) { return static_cast<double>(part) / std::max(asked, 1); };
     lab.expect(node.subject,
                fmt::format("share of rays with as many interfaces in {} balls", shells), 1.0,
                share(counted), silhouettes);
     lab.expect(
         node.subject,
-        fmt::format("share of rays within a degree of the exact way through {} balls", shells), 1.0,
-        share(right), silhouettes);
+        fmt::format("share of rays within a degree of the exact path through {} balls", shells),
+        1.0, share(right), silhouettes);
     lab.expectAtLeast(node.subject, fmt::format("rays through {} balls that are compared", shells),
                       5000, asked, kEnough);
 }

@@ -17,7 +17,7 @@
 namespace kaustik {
 namespace {
 
-struct ReducedCounts {  // x: most fragments in a pixel; y: all; z: left out; w: pixels with some
+struct ReducedCounts {  // x: most fragments in a pixel; y: all; z: skipped; w: pixels with some
     static constexpr Format format = Format::rgba32f;
 };
 

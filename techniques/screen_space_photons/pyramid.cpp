@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // layers.pyramid: over squares of 4, 16 and 64 pixels and for each layer a plane in 1/z and how far
-// from it a ray may meet the layer; 1/z is linear on the screen where a surface is flat, so that
-// the plane of a floor is exact at any size. Left out where no tracer reads it. In: layered depth;
+// from it a ray may hit the layer; 1/z is linear on the screen where a surface is flat, so that
+// the plane of a floor is exact at any size. Skipped where no tracer reads it. In: layered depth;
 // out: planes, 1/m, the levels side by side in one array texture
 // (shaders/screen_space_photons/pyramid_layout.glsl).
 #include <algorithm>
@@ -25,7 +25,7 @@ LayeredDepth addPyramid(FrameBuilder& frame, const LayeredDepth& layers) {
     const int w = frame.width();
     const int h = frame.height();
     return frame.pass<LayeredDepth>(
-        "layers.pyramid", "the tracer leaves out what a ray cannot meet",
+        "layers.pyramid", "the tracer skips what a ray cannot hit",
         [&](graph::PassSetup& setup, LayeredDepth& data) {
             data = layers;
             setup.image("layerDepths", layers.depth);

@@ -2,8 +2,8 @@
 // view.refraction: screen-space refraction tracing (K06, section 4). The passes "view.layers.…"
 // peel the transmitting objects alone; "view.refraction" follows the eye's transmitted ray of every
 // pixel through them, and from mirror to mirror, and looks up what it sees: the refracted scene
-// (Fig. 10; include/scene_look.glsl), else what surrounds it. The reflection at the first interface
-// is looked up the same way; later partial reflections are left out. In: eye buffer, layers,
+// (Fig. 10; include/scene_look.glsl), else the environment. The reflection at the first interface
+// is looked up the same way; later partial reflections are not followed. In: eye buffer, layers,
 // radiance of the receivers; out: radiance, W/m²/sr, and where each ray left for good, view space,
 // m.
 //
@@ -27,7 +27,7 @@ namespace {
 // Where an eye ray's next interface is looked for.
 enum class RefractionSearch : int { automatic, monotonic, all };
 
-// When the monotonic search takes a layer for met.
+// When the monotonic search takes a layer for a hit.
 enum class RefractionStop : int { crossing, depth };
 
 struct RefractionViewParams {
@@ -82,7 +82,7 @@ RefractionViewParams forScene(const scene::Scene& scene, int nested, RefractionV
     return params;
 }
 
-// A layer more is of use to the monotonic search up to as many as it may meet interfaces.
+// A layer more is of use to the monotonic search up to as many as it may hit interfaces.
 int usefulLayers(const RefractionViewParams& params) {
     const bool isMonotonic = params.search == RefractionSearch::monotonic;
     return isMonotonic ? std::min(params.layers, params.interfaces) : params.layers;
@@ -91,15 +91,15 @@ int usefulLayers(const RefractionViewParams& params) {
 void keepToLimits(FrameBuilder& frame, const RefractionViewParams& params,
                   const LayeredDepth& layers, const View& seen) {
     keepToExitLimit(frame, "view.refraction", seen, "view.refraction.interfaces", "refractions",
-                    params.interfaces, transport::kWayStoppedInside,
+                    params.interfaces, transport::kPathStoppedInside,
                     "end inside of an object and are taken to see what they would outside");
     keepToExitLimit(frame, "view.refraction", seen, "view.refraction.reflections", "reflections",
-                    params.reflections, transport::kWayReflectedTooOften,
+                    params.reflections, transport::kPathReflectedTooOften,
                     "are lost between total reflections");
     keepToExitLimit(frame, "view.refraction", seen, "view.refraction.nesting", "dielectrics",
-                    numberDielectrics(frame.scene()).depth, transport::kWayNestedTooDeep,
+                    numberDielectrics(frame.scene()).depth, transport::kPathNestedTooDeep,
                     "are lost in a dielectric inside of more others");
-    // Fewer layers than there are interfaces to be met in them.
+    // Fewer layers than there are interfaces to be hit in them.
     const bool isMonotonic = params.search == RefractionSearch::monotonic;
     if (isMonotonic && params.layers >= params.interfaces) return;
     frame.keepsTo(
@@ -108,7 +108,7 @@ void keepToLimits(FrameBuilder& frame, const RefractionViewParams& params,
          [=](const gl::Executor& executor) -> std::optional<ReachedLimit> {
              const transport::LayerStatistics found =
                  executor.buffer(layers.statistics).read<transport::LayerStatistics>().front();
-             if (found.leftOut == 0) return {};
+             if (found.skipped == 0) return {};
              const int deepest = static_cast<int>(found.complexity);
              return ReachedLimit{
                  "view.refraction.layers",
@@ -117,7 +117,7 @@ void keepToLimits(FrameBuilder& frame, const RefractionViewParams& params,
                  static_cast<double>(isMonotonic ? std::min(deepest, params.interfaces) : deepest),
                  fmt::format("{} of {} fragments of transmitting objects, in {} pixels, lie beyond "
                              "the last layer",
-                             found.leftOut, found.fragments, found.pixelsLeftOut),
+                             found.skipped, found.fragments, found.pixelsSkipped),
                  0.0};
          }});
 }
@@ -125,7 +125,7 @@ void keepToLimits(FrameBuilder& frame, const RefractionViewParams& params,
 View traceRefraction(FrameBuilder& frame, const RefractionViewParams& wanted, Geometry geometry,
                      EyeBuffer eye, LayeredDepth sceneLayers, Radiance receivers, Shadows shadows) {
     if (!eye.interface.valid()) {
-        frame.leaveOut("view.refraction", "the scene has no specular surface");
+        frame.skip("view.refraction", "the scene has no specular surface");
         return {receivers.radiance, {}, {}};
     }
     const DielectricsBox box = boxOfDielectrics(frame);
@@ -141,7 +141,7 @@ View traceRefraction(FrameBuilder& frame, const RefractionViewParams& wanted, Ge
                             .reader = "the eye's rays need"});
     } else {
         for (const char* pass : {"view.layers.complexity", "view.layers.peel"})
-            frame.leaveOut(pass, "the scene has no dielectric");
+            frame.skip(pass, "the scene has no dielectric");
     }
     const std::string why =
         wanted.search == RefractionSearch::automatic && params.search == RefractionSearch::all

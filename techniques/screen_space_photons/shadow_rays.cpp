@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // shadow.rays: from every receiver pixel a ray back to each light, traced through the layers by the
-// node that answers stage `trace` (K06, section 5, Figs. 11 and 12). What is hidden behind the last
+// node that answers stage `trace` (K06, section 5, Figs. 11 and 12). What is hidden beyond the last
 // layer or off the screen throws no shadow. In: eye buffer and layered depth; out: visibility, 0 or
 // 1 a pixel and light.
 #include <fmt/format.h>
@@ -41,7 +41,7 @@ Shadows traceShadowRays(FrameBuilder& frame, const params::NoParams&, Geometry g
                         EyeBuffer eye, LayeredDepth layers) {
     const int lights = frame.needs().lights;
     if (lights == 0) {
-        frame.leaveOut("shadow.rays", "the scene has no light");
+        frame.skip("shadow.rays", "the scene has no light");
         return {};
     }
     if (frame.tracerSees() != Sees::eyeLayers) {

@@ -139,7 +139,7 @@ void slab(Lab& lab) {
     }
 }
 
-// A ball of radius 1 at 4 m, whose rays within 0.9 of the radius meet two interfaces.
+// A ball of radius 1 at 4 m, whose rays within 0.9 of the radius hit two interfaces.
 std::optional<ExactExit> throughBall(const glm::dvec3& eye, const glm::dvec3& ray) {
     const glm::dvec3 center(0.0, 0.0, -4.0);
     const glm::dvec3 toCenter = center - eye;
@@ -210,7 +210,8 @@ void invisible(Lab& lab) {
         const Exits exits = exitsOf(frame);
         const Deviation found = compare(frame, exits, straight);
         lab.expect(tested.subject, "lost in glass of index 1", 0.0, found.wrong, kExactly);
-        lab.expectDeviation(tested.subject, "direction behind glass of index 1, less that before",
+        lab.expectDeviation(tested.subject,
+                            "direction beyond glass of index 1, less that in front of it",
                             found.direction, {1e-6, "roundings of unit vectors of 6e-8"});
         const Texels behind = frame.read("compose.receiver_radiance");
         double worst = 0.0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // emit.grid: photons on a regular grid of each light's view (K06, section 1.1; the
-// render-to-vertex- buffer caustics of the time), where they first meet a specular surface. The
+// render-to-vertex- buffer caustics of the time), where they first hit a specular surface. The
 // grid is the tightest rectangle around the specular objects; one grid a light, stacked in the
 // transfer map. Out: photons that arrive (flux in W) and the hits that they make; eye view space,
 // m.

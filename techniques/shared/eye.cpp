@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // eye.surfaces: the eye buffer (design, section 1). `eye.receivers` draws all but dielectrics,
 // which are invisible to the straight ray; `eye.interface` the first specular surface of each
-// pixel, with that depth buffer: dielectrics before what it holds, and the mirrors that it holds
-// (B16: geometry drawn twice has the same depth). View space, m; receiver areas in m².
+// pixel, with that depth buffer: dielectrics in front of what it holds, and the mirrors that it
+// holds (B16: geometry drawn twice has the same depth). View space, m; receiver areas in m².
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/shared/nodes.h"
 
@@ -39,7 +39,7 @@ EyeBuffer renderEye(FrameBuilder& frame, const params::NoParams&, Geometry geome
                                  render::DrawSet::nonDielectrics);
         });
     if (frame.needs().specularInterfaces == 0) {
-        frame.leaveOut("eye.interface", "the scene has no specular surface");
+        frame.skip("eye.interface", "the scene has no specular surface");
         return receivers.eye;
     }
     return frame

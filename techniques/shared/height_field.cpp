@@ -37,7 +37,7 @@ std::vector<FieldData> collectFields(const FrameBuilder& frame, std::vector<glm:
 
 Geometry makeHeightFields(FrameBuilder& frame, const params::NoParams&) {
     if (frame.gpuScene().heightFields().empty()) {
-        frame.leaveOut("geometry.height_field", "the scene has no height field");
+        frame.skip("geometry.height_field", "the scene has no height field");
         return {};
     }
     std::vector<glm::vec4> waves;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The list of photons that go on from hits: those that have met a specular surface, in their order
+// The list of photons that go on from hits: those that have hit a specular surface, in their order
 // and without gaps, found by a prefix scan (Blelloch 1990, "Prefix sums and their applications").
 #pragma once
 

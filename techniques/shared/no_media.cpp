@@ -8,12 +8,12 @@ namespace {
 
 InScattered leaveOutScattering(FrameBuilder& frame, const params::NoParams&, Hits /*hits*/,
                                EyeBuffer /*eye*/, InScattered before) {
-    frame.leaveOut("media.none", "the settings leave in-scattered light out");
+    frame.skip("media.none", "the settings leave in-scattered light out");
     return before;
 }
 
 InScattered leaveUnblurred(FrameBuilder& frame, const params::NoParams&, InScattered sharp) {
-    frame.leaveOut("blur.none", "the settings leave in-scattered light as it is");
+    frame.skip("blur.none", "the settings leave in-scattered light as it is");
     return sharp;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // compose.picture: direct light of all lights, the radiance of the receivers with the caustic on
-// them, what the eye sees through specular surfaces (stage `view`), the medium before all of it,
-// and the display image. Irradiance in W/m², radiance in W/m²/sr.
+// them, what the eye sees through specular surfaces (stage `view`), the medium in front of all of
+// it, and the display image. Irradiance in W/m², radiance in W/m²/sr.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -107,12 +107,12 @@ Radiance shadeReceivers(FrameBuilder& frame, EyeBuffer eye, const DirectLight& d
 }
 
 // What the eye sees is weakened along the straight eye ray, and what the medium scatters on it
-// comes on top: after the view stage, since much of it is scattered before any specular surface and
-// must not get lost there. What is scattered behind one is shown unrefracted.
+// comes on top: after the view stage, since much of it is scattered in front of any specular
+// surface and must not get lost there. What is scattered beyond one is shown unrefracted.
 Radiance lookThroughMedium(FrameBuilder& frame, EyeBuffer eye, Radiance seen,
                            const InScattered& inScattered) {
     if (!frame.needs().medium) {
-        frame.leaveOut("compose.medium", "the scene has no medium");
+        frame.skip("compose.medium", "the scene has no medium");
         return seen;
     }
     const bool scatters = inScattered.radiance.valid();

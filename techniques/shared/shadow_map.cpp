@@ -93,7 +93,7 @@ Shadows lookUpShadowMaps(FrameBuilder& frame, const ShadowMapParams& params, Geo
                          EyeBuffer eye, LayeredDepth /*layers*/) {
     const std::vector<ShadowView> views = makeShadowViews(frame);
     if (views.empty()) {
-        frame.leaveOut("shadow.map", "the scene has no light");
+        frame.skip("shadow.map", "the scene has no light");
         return {};
     }
     const ShadowMaps maps = renderShadowMaps(frame, params, views, geometry);

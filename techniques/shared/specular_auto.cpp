@@ -16,7 +16,7 @@ namespace {
 // Why both branches are followed; "" where one is enough.
 std::string whyBoth(const scene::SceneNeeds& needs) {
     if (needs.reflectedLight) {
-        return fmt::format("{:.0f}% of the light on '{}' is reflected, and '{}' lies in its way",
+        return fmt::format("{:.0f}% of the light on '{}' is reflected, and '{}' lies in its path",
                            100.0 * needs.reflectedLight->share, needs.reflectedLight->sheet,
                            needs.reflectedLight->receiver);
     }
@@ -33,13 +33,13 @@ Photons interactAsNeeded(FrameBuilder& frame, const params::NoParams&, Hits hits
     const std::string why = whyBoth(frame.needs());
     const bool isFirst = frame.runsOf(SpecularStage::name) == 1;
     if (!why.empty()) {
-        if (isFirst) frame.leaveOut("specular.interface", why + ": both branches are followed");
+        if (isFirst) frame.skip("specular.interface", why + ": both branches are followed");
         return splitAtInterface(frame, frame.params<SplitParams>("specular.split"), hits);
     }
     if (isFirst) {
-        frame.leaveOut("specular.split",
-                       "no sheet reflects more than 4% of its light towards a receiver, and all "
-                       "bodies are convex; specular=split follows what is reflected all the same");
+        frame.skip("specular.split",
+                   "no sheet reflects more than 4% of its light towards a receiver, and all "
+                   "bodies are convex; specular=split follows what is reflected all the same");
     }
     return interactAtInterface(frame, {}, hits);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// specular.interface: reflects or refracts photons where they have met a specular surface and
+// specular.interface: reflects or refracts photons where they have hit a specular surface and
 // writes them into the next list of the transfer map (K06, section 2.3). Follows the transmitted
 // branch, the reflected one at mirrors and in total internal reflection; the flux of the branch not
 // followed goes to the ledger as untraced. Exact unpolarised Fresnel; eye view space, m and W.
@@ -12,7 +12,7 @@ namespace kaustik {
 Photons interactAtInterface(FrameBuilder& frame, const params::NoParams&, Hits hits) {
     const NextPhotons next = makeRoom(frame, hits, 1);
     return frame.pass<Photons>(
-        "specular.interface", "photons meet specular surfaces",
+        "specular.interface", "photons hit specular surfaces",
         [&](graph::PassSetup& setup, Photons& data) {
             data = sendOn(setup, hits, next);
             data.paths.transmissionOnly = true;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// specular.split: reflects and refracts photons where they have met a specular surface and follows
+// specular.split: reflects and refracts photons where they have hit a specular surface and follows
 // both Fresnel branches (K06, section 2.3). The first `levels` interactions double the transfer
-// map; from then on each photon goes one of the two ways, drawn by its share of the flux, so that
-// nothing is lost and nothing grows. Exact unpolarised Fresnel; eye view space, m and W.
+// map; from then on each photon follows one of the two branches, drawn by its share of the flux, so
+// that nothing is lost and nothing grows. Exact unpolarised Fresnel; eye view space, m and W.
 #include <fmt/format.h>
 
 #include "techniques/shared/next_photons.h"
@@ -12,25 +12,26 @@
 namespace kaustik {
 namespace {
 
-// Which photons go one way for want of room. Nothing is lost to it, and what is drawn is noise.
+// Which photons follow one branch for want of room. Nothing is lost to it, and what is drawn is
+// noise.
 void keepToLevels(FrameBuilder& frame, const SplitParams& params, const Hits& before) {
-    frame.keepsTo({"specular.split",
-                   {before.flux, before.incoming.list},
-                   [levels = params.levels,
-                    before](const gl::Executor& executor) -> std::optional<ReachedLimit> {
-                       const std::size_t met =
-                           countHits(executor, before, transport::kFateSpecular);
-                       if (met == 0) return {};
-                       return ReachedLimit{
-                           "specular.split.levels",
-                           "interactions",
-                           static_cast<double>(levels),
-                           0.0,
-                           fmt::format("{} photons met another specular surface and went one way, "
-                                       "drawn by its share; no flux is lost to it",
-                                       met),
-                           0.0};
-                   }});
+    frame.keepsTo(
+        {"specular.split",
+         {before.flux, before.incoming.list},
+         [levels = params.levels,
+          before](const gl::Executor& executor) -> std::optional<ReachedLimit> {
+             const std::size_t count = countHits(executor, before, transport::kFateSpecular);
+             if (count == 0) return {};
+             return ReachedLimit{
+                 "specular.split.levels",
+                 "interactions",
+                 static_cast<double>(levels),
+                 0.0,
+                 fmt::format("{} photons hit another specular surface and followed one branch, "
+                             "drawn by its share; no flux is lost to it",
+                             count),
+                 0.0};
+         }});
 }
 
 }  // namespace
@@ -44,8 +45,8 @@ Photons splitAtInterface(FrameBuilder& frame, const SplitParams& params, Hits hi
     const NextPhotons next = makeRoom(frame, hits, splits ? 2 : 1);
     return frame.pass<Photons>(
         "specular.split",
-        splits ? "photons meet specular surfaces and go both ways"
-               : "photons meet specular surfaces again and go one way",
+        splits ? "photons hit specular surfaces and follow both branches"
+               : "photons hit specular surfaces again and follow one branch",
         [&](graph::PassSetup& setup, Photons& data) { data = sendOn(setup, hits, next); },
         [&inputs = frame.inputs(), list = hits.incoming, splits](const Photons&,
                                                                  gl::PassContext& context) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // view.interface: a first, simple look through specular surfaces. One refraction at the surface
-// that the eye meets first, followed as far as the receiver lies straight behind it; reflections
+// that the eye hits first, followed as far as the receiver lies straight beyond it; reflections
 // see the background only, mirrors the scene. In: eye buffer and radiance of the receivers; out:
 // radiance, W/m²/sr, and the refracted ray, view space, m.
 #include "framework/pipeline/frame_builder.h"
@@ -25,7 +25,7 @@ View viewThroughInterface(FrameBuilder& frame, const InterfaceViewParams& params
                           Geometry /*geometry*/, EyeBuffer eye, LayeredDepth layers,
                           Radiance receivers, Shadows shadows) {
     if (!eye.interface.valid()) {
-        frame.leaveOut("view.interface", "the scene has no specular surface");
+        frame.skip("view.interface", "the scene has no specular surface");
         return {receivers.radiance, {}, {}};
     }
     const View view =
@@ -51,7 +51,7 @@ View viewThroughInterface(FrameBuilder& frame, const InterfaceViewParams& params
 void registerInterfaceView(Registry& registry) {
     registry.node<ViewStage>("interface",
                              {"Looks through the first specular surface with one refraction, at "
-                              "the distance of the receiver straight behind it.",
+                              "the distance of the receiver straight beyond it.",
                               ""},
                              &viewThroughInterface);
 }

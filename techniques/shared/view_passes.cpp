@@ -153,8 +153,8 @@ void keepToMirrors(FrameBuilder& frame, const std::string& pass, const View& see
                    const SceneLookParams& look) {
     if (frame.needs().reflectors == 0) return;
     keepToExitLimit(frame, pass, seen, pass + ".mirrors", "mirrors", look.mirrors,
-                    transport::kWayMirroredTooOften,
-                    "meet one more mirror, in which they see what surrounds the scene");
+                    transport::kPathMirroredTooOften,
+                    "hit one more mirror, in which they see the environment");
 }
 
 }  // namespace kaustik

@@ -19,11 +19,11 @@ struct SceneLookParams {
     template <class R>
     void reflect(R& r) {
         r.field(scene, "scene",
-                "Look for the surfaces that the ray meets where the picture shows them (the "
-                "paper's Fig. 10); off: only what surrounds the scene");
+                "Look for the surfaces that the ray hits where the picture shows them (the "
+                "paper's Fig. 10); off: only the environment");
         r.field(reflection, "reflection",
                 "The same for the reflection at the first interface and for mirrors; off: they see "
-                "what surrounds the scene");
+                "the environment");
         r.choice(surfaces, "surfaces",
                  "receivers: the first receiver or mirror of every pixel; layers: the paper's, all "
                  "surfaces of the scene's layered depth, of which those that the picture does not "
@@ -33,7 +33,7 @@ struct SceneLookParams {
                 "Pixels between two looks of a ray at the receivers; thinner ones may be missed. "
                 "Layers are looked at in every pixel",
                 "px", params::range(1, 64));
-        r.field(mirrors, "mirrors", "Most mirrors that a ray meets one after the other", "",
+        r.field(mirrors, "mirrors", "Most mirrors that a ray hits one after the other", "",
                 params::range(1, 64));
     }
 };
@@ -68,7 +68,7 @@ struct ViewPass {
 void setLook(const FrameInputs& inputs, gl::Command& command, const ViewPass& pass,
              const SceneLookParams& look);
 
-// How many pixels' ways have ended so (transport::kWay…). Waits for the device.
+// How many pixels' paths have ended so (transport::kPath…). Waits for the device.
 [[nodiscard]] std::size_t countExits(const gl::Texture& exitDirection, float ending);
 
 // What pixels whose rays end at a cap of a view node are told by. `fate`: what becomes of them.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The two estimators share a photon's way through specular surfaces and nothing after it: one
+// The two estimators share a photon's path through specular surfaces and nothing after it: one
 // projects photons and divides by areas, the other casts eye rays and counts photons in a radius.
 // Where they agree, camera, visibility, areas and normalisation are right.
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Caustics as the eye sees them through and in specular surfaces, by photon mapping, against closed
-// forms: Fresnel, T/n², absorption along the bent way, mirrors, fog.
+// forms: Fresnel, T/n², absorption along the bent path, mirrors, a medium.
 #include <cmath>
 #include <numbers>
 
@@ -93,9 +93,9 @@ TEST_F(CausticView, LooksIntoWaterWithItsRadianceOverTheSquareOfTheIndex) {
 }
 
 // Light falls through a pane that bends nothing onto a floor, and the eye sees the floor in a
-// mirror, all of it in fog that absorbs.
-TEST_F(CausticView, LooksIntoAMirrorThroughFog) {
-    const double fog = 0.1;
+// mirror, all of it in a medium that absorbs.
+TEST_F(CausticView, LooksIntoAMirrorThroughAMedium) {
+    const double extinction = 0.1;
     scene::Material silver = mirror();
     silver.albedo = glm::vec3(0.8f);
     addObject(scene_, scene::makePlane({{6.0, 6.0}, {1, 1}}), glass(1.0), {0.0, 1.0, 0.0});
@@ -103,18 +103,18 @@ TEST_F(CausticView, LooksIntoAMirrorThroughFog) {
     addObject(scene_, scene::makePlane({{3.0, 3.0}, {1, 1}}), silver);
     // Upright at z = -1, its outside towards +z.
     scene_.objects[2].toWorld = glm::dmat4(1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0.0, -1.0, 1);
-    scene_.medium = scene::Medium{glm::vec3(0.0f), glm::vec3(static_cast<float>(fog)), 0.0f};
+    scene_.medium = scene::Medium{glm::vec3(0.0f), glm::vec3(static_cast<float>(extinction)), 0.0f};
     scene_.camera.position = {0.0, 0.6, 0.6};
     scene_.camera.target = {0.0, 0.2, -1.0};
     scene_.camera.verticalFovDegrees = 10.0;
     // Pixels are small on the floor, and nothing varies within these radii.
     settings_.initialRadiusPixels = 2.0;
     settings_.photonsPerBatch = 1u << 18;
-    const double irradiance = 1000.0 * std::exp(-fog * 1.0);
+    const double irradiance = 1000.0 * std::exp(-extinction * 1.0);
     expectView(0.15, [&](const glm::dvec3& ray) {
         // The mirror image of the floor lies in the floor's plane.
         const double length = -0.6 / ray.y;
-        return irradiance * kAlbedo / kPi * 0.8 * std::exp(-fog * length);
+        return irradiance * kAlbedo / kPi * 0.8 * std::exp(-extinction * length);
     });
 }
 

@@ -25,10 +25,10 @@ constexpr double kDepthOfFloor = 15.0;  // beyond all planes
 struct Rays : NullSink {
     explicit Rays(const glm::dvec3& sceneCenter) : center(sceneCenter) {}
     void arrived(const SurfaceHit&, const PhotonState& photon) {
-        ways.push_back({photon.origin + center, photon.direction, photon.fluxWatts, 1});
+        segments.push_back({photon.origin + center, photon.direction, photon.fluxWatts, 1});
     }
     glm::dvec3 center;
-    std::vector<Way> ways;
+    std::vector<PathSegment> segments;
 };
 
 class Cusp : public testing::Test {
@@ -55,20 +55,20 @@ class Cusp : public testing::Test {
             const EmittedPhoton emitted = sampler.sample(i, random);
             transport.follow(stateOf(emitted), emitted.reach, random, rays);
         }
-        ways_ = std::move(rays.ways);
+        segments_ = std::move(rays.segments);
     }
 
     // Irradiance on the plane `below` the crest, in green, where low < |x| < high.
     [[nodiscard]] double irradiance(double below, double low, double high) const {
         double flux = 0.0;
-        for (const Way& way : ways_) {
-            const double x = std::abs(way.crossing(1, kAmplitude - below).x);
-            if (x >= low && x < high) flux += way.fluxWatts.y;
+        for (const PathSegment& segment : segments_) {
+            const double x = std::abs(segment.crossing(1, kAmplitude - below).x);
+            if (x >= low && x < high) flux += segment.fluxWatts.y;
         }
         return flux / (2.0 * (high - low) * 0.05);
     }
 
-    std::vector<Way> ways_;
+    std::vector<PathSegment> segments_;
 };
 
 // The slope of a line through points (log x, log y).

@@ -18,7 +18,7 @@ constexpr double kWaveNumber = 2.0 * std::numbers::pi / kWavelength;
 constexpr double kIndex = 1.333;
 constexpr double kDepth = 15.0;  // the first focus is at 10.1 m
 
-// Where light that meets the water at x arrives on the floor.
+// Where light that hits the water at x arrives on the floor.
 double arrival(double x) {
     const double height = kAmplitude * std::cos(kWaveNumber * x);
     const double slope = -kAmplitude * kWaveNumber * std::sin(kWaveNumber * x);

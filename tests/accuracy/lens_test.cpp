@@ -28,16 +28,16 @@ TEST(Lens, BallLensCrossesTheAxisWhereSnellSays) {
     // Facets are h = 2π/1024 wide: h²/8 = 4.7e-6 R inside of the ball, the normal off by as much.
     const double tolerance = 6e-5;
     for (const double b : {0.1, 0.3, 0.5, 0.7, 0.9}) {
-        const Way way = wayAfter(embree, 2, {b, 3.0, 0.013}, {0, -1, 0});
+        const PathSegment segment = segmentAfter(embree, 2, {b, 3.0, 0.013}, {0, -1, 0});
         const double height = std::hypot(b, 0.013);
         const double deviation =
             2.0 * (std::asin(height / radius) - std::asin(height / (kIndex * radius)));
         const double expected = height / std::sin(deviation);
         // Through the axis: distance from the y axis vanishes at -expected.
-        EXPECT_LT(way.distanceFrom({0.0, -expected, 0.0}), tolerance) << "b = " << b;
+        EXPECT_LT(segment.distanceFrom({0.0, -expected, 0.0}), tolerance) << "b = " << b;
     }
     // The number of the table.
-    const Way half = wayAfter(embree, 2, {0.5, 3.0, 1e-7}, {0, -1, 0});
+    const PathSegment half = segmentAfter(embree, 2, {0.5, 3.0, 1e-7}, {0, -1, 0});
     EXPECT_NEAR(-half.crossing(0, 0.0).y, 1.39157, 2e-4);
 }
 
@@ -45,9 +45,9 @@ TEST(Lens, BallLensHasItsFocalLengthNearTheAxis) {
     const scene::Scene scene = glassBall(1.0, 1024);
     const EmbreeScene embree(scene);
     const double focalLength = kIndex / (2.0 * (kIndex - 1.0));
-    const Way way = wayAfter(embree, 2, {0.03, 3.0, 1e-7}, {0, -1, 0});
+    const PathSegment segment = segmentAfter(embree, 2, {0.03, 3.0, 1e-7}, {0, -1, 0});
     // Spherical aberration at b = 0.03 R is b²·0.5 = 5e-4 R; the normal's 5e-6 act over b.
-    EXPECT_NEAR(-way.crossing(0, 0.0).y, focalLength, 2e-3);
+    EXPECT_NEAR(-segment.crossing(0, 0.0).y, focalLength, 2e-3);
 }
 
 // A surface of revolution about y from its profile.
@@ -74,9 +74,9 @@ TEST(Lens, EllipsoidOfEccentricityOneOverNFocusesExactly) {
     const EmbreeScene embree(scene);
     const glm::dvec3 focus(0.0, -a / kIndex, 0.0);
     for (double r = 0.05; r < 0.9 * b; r += 0.07) {
-        const Way way = wayAfter(embree, 1, {r, 3.0, 0.21 * r}, {0, -1, 0});
+        const PathSegment segment = segmentAfter(embree, 1, {r, 3.0, 0.21 * r}, {0, -1, 0});
         // Rings and sectors are at most 6e-3 wide: h²/8 = 5e-6 in position and normal.
-        EXPECT_LT(way.distanceFrom(focus), 3e-5) << "r = " << r;
+        EXPECT_LT(segment.distanceFrom(focus), 3e-5) << "r = " << r;
     }
 }
 
@@ -94,8 +94,8 @@ TEST(Lens, HyperboloidOfEccentricityNFocusesExactly) {
     const EmbreeScene embree(scene);
     const glm::dvec3 focus(0.0, -kIndex * a, 0.0);
     for (double r = 0.05; r < 0.75; r += 0.07) {
-        const Way way = wayAfter(embree, 1, {r, 3.0, 0.21 * r}, {0, -1, 0});
-        EXPECT_LT(way.distanceFrom(focus), 3e-5) << "r = " << r;
+        const PathSegment segment = segmentAfter(embree, 1, {r, 3.0, 0.21 * r}, {0, -1, 0});
+        EXPECT_LT(segment.distanceFrom(focus), 3e-5) << "r = " << r;
     }
 }
 
@@ -110,15 +110,15 @@ TEST(Lens, PlanoConvexLensHasItsFocusAtRadiusOverIndexMinusOne) {
     const EmbreeScene embree(scene);
     const double vertex = -0.5 * shape.centerThickness;
     for (const double h : {0.04, 0.1, 0.3}) {
-        const Way way = wayAfter(embree, 2, {h, 3.0, 1e-7}, {0, -1, 0});
+        const PathSegment segment = segmentAfter(embree, 2, {h, 3.0, 1e-7}, {0, -1, 0});
         // Exact for this height: i inside, the sagitta, and Snell.
         const double inside = std::asin(h / shape.bottomRadius);
         const double outside = std::asin(kIndex * h / shape.bottomRadius);
         const double sagitta = shape.bottomRadius * (1.0 - std::cos(inside));
         const double back = h / std::tan(outside - inside) - sagitta;
-        EXPECT_NEAR(vertex - way.crossing(0, 0.0).y, back, 1e-4 * back) << "h = " << h;
+        EXPECT_NEAR(vertex - segment.crossing(0, 0.0).y, back, 1e-4 * back) << "h = " << h;
     }
-    const Way nearAxis = wayAfter(embree, 2, {0.04, 3.0, 1e-7}, {0, -1, 0});
+    const PathSegment nearAxis = segmentAfter(embree, 2, {0.04, 3.0, 1e-7}, {0, -1, 0});
     // The aberration at this height is (h/R)² n²/2 = 5e-4 of it.
     const double focalLength = shape.bottomRadius / (kIndex - 1.0);
     EXPECT_NEAR(vertex - nearAxis.crossing(0, 0.0).y, focalLength, 2e-3 * focalLength);
@@ -135,8 +135,8 @@ TEST(Lens, WaterWaveFocusesFirstBelowItsCrest) {
     field.waves = {{static_cast<float>(amplitude), static_cast<float>(wavelength), 0, 0, 0}};
     const scene::Scene scene = sceneOf(scene::makeHeightField(field, 0.0), glass(index));
     const EmbreeScene embree(scene);
-    const Way way = wayAfter(embree, 1, {0.0055, 1.0, 0.003}, {0, -1, 0});
-    const double depth = amplitude - way.crossing(0, 0.0).y;
+    const PathSegment segment = segmentAfter(embree, 1, {0.0055, 1.0, 0.003}, {0, -1, 0});
+    const double depth = amplitude - segment.crossing(0, 0.0).y;
     // Third-order terms are of the order (k x)² = 1.2e-3.
     EXPECT_NEAR(depth, index / ((index - 1.0) * amplitude * k * k), 2e-3 * depth);
 }
@@ -148,8 +148,8 @@ TEST(Lens, GlassInsideWaterBendsByBothIndices) {
     const glm::dvec3 direction = glm::normalize(glm::dvec3(0.3, -1.0, 0.1));
     const double sine = std::hypot(direction.x, direction.z);
     const auto sineAfter = [&](int interactions) {
-        const Way way = wayAfter(embree, interactions, {-0.2, 2.0, 0.0}, direction);
-        return std::hypot(way.direction.x, way.direction.z);
+        const PathSegment segment = segmentAfter(embree, interactions, {-0.2, 2.0, 0.0}, direction);
+        return std::hypot(segment.direction.x, segment.direction.z);
     };
     // Flat faces with exact normals: only the index is a float, 1e-7.
     EXPECT_NEAR(sineAfter(1), sine / 1.333, 1e-7);
@@ -171,8 +171,8 @@ TEST(Lens, PrismDeviatesLeastWhereItsFormulaSays) {
         const double normalAngle = kPi - 0.5 * apex;
         const double from = normalAngle + incidence;
         const glm::dvec3 direction(-std::cos(from), -std::sin(from), 0.0);
-        const Way way = wayAfter(embree, 2, target - direction, direction);
-        least = std::min(least, std::acos(glm::dot(way.direction, direction)));
+        const PathSegment segment = segmentAfter(embree, 2, target - direction, direction);
+        least = std::min(least, std::acos(glm::dot(segment.direction, direction)));
     }
     // The deviation is flat at its minimum: steps of 1e-4 rad miss it by 1e-8; floats give 1e-7.
     EXPECT_NEAR(std::sin(0.5 * (apex + least)) / std::sin(0.5 * apex), kIndex, 1e-6);
@@ -186,11 +186,12 @@ TEST(Lens, PrimaryRainbowTurnsLeastWhereItsFormulaSays) {
     PathFilter everything;
     everything.splitInteractions = 3;
     const auto turnAt = [&](double b) {
-        for (const Way& way : waysOf(embree, {b, 3.0, 1e-7}, {0, -1, 0}, everything)) {
+        for (const PathSegment& segment :
+             segmentsOf(embree, {b, 3.0, 1e-7}, {0, -1, 0}, everything)) {
             // In, one reflection inside, out: the only way out after three.
-            const bool isOut = glm::dot(way.origin, way.direction) > 0.0;
-            if (way.interactions == 3 && isOut)
-                return 2.0 * kPi - std::acos(glm::clamp(-way.direction.y, -1.0, 1.0));
+            const bool isOut = glm::dot(segment.origin, segment.direction) > 0.0;
+            if (segment.interactions == 3 && isOut)
+                return 2.0 * kPi - std::acos(glm::clamp(-segment.direction.y, -1.0, 1.0));
         }
         ADD_FAILURE();
         return 0.0;

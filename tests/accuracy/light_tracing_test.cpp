@@ -158,16 +158,16 @@ TEST(LightTracing, EveryWattIsAccountedFor) {
         settings.filter.maximumInteractions = 2;
         const Energy some = trace(embree, settings, 4).energy();
         EXPECT_LT(std::abs(some.balance()), 1e-10) << name;
-        // The same photons meet the same first surfaces.
+        // The same photons hit the same first surfaces.
         EXPECT_NEAR(some.watts[transport::kAccountEmitted], all.watts[transport::kAccountEmitted],
                     1e-12 * all.watts[transport::kAccountEmitted])
             << name;
     }
 }
 
-// Light without a place has no way behind it to be absorbed on; the device's photons have none
+// Light without a place has no path behind it to be absorbed on; the device's photons have none
 // either.
-TEST(LightTracing, ASunThatFirstMeetsDarkWaterFromWithinIsAsStrongAsTheSceneSays) {
+TEST(LightTracing, ASunThatFirstHitsDarkWaterFromWithinIsAsStrongAsTheSceneSays) {
     scene::Scene scene;
     addObject(scene, scene::makePlane({{2.0, 3.0}, {1, 1}}), glass(1.333));
     scene.materials[0].absorptionPerMeter = glm::vec3(2.0f);

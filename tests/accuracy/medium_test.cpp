@@ -30,15 +30,15 @@ double radianceAlong(const glm::dvec3& origin, const glm::dvec3& ray) {
     constexpr int kSteps = 200;
     double sum = 0.0;
     for (int i = 0; i < kSteps; ++i) {
-        const double way = begin + (end - begin) * (i + 0.5) / kSteps;
-        const double depth = -(origin.y + way * direction.y);
-        sum += std::exp(-kExtinction * (depth + way));
+        const double along = begin + (end - begin) * (i + 0.5) / kSteps;
+        const double depth = -(origin.y + along * direction.y);
+        sum += std::exp(-kExtinction * (depth + along));
     }
     // Light goes down (0, -1, 0) and on to the eye along -direction.
     return kSun * kScattering * phase(direction.y) * sum * (end - begin) / kSteps;
 }
 
-TEST(Medium, BeamThroughFogIsTheIntegralAlongTheEyesRay) {
+TEST(Medium, BeamThroughAMediumIsTheIntegralAlongTheEyesRay) {
     scene::Scene scene;
     addObject(scene, scene::makePlane({{2.0, 2.0}, {1, 1}}), glass(1.0));
     addObject(scene, scene::makePlane({{30.0, 30.0}, {1, 1}}), scene::Material{}, {0.0, -3.0, 0.0});
@@ -75,7 +75,7 @@ TEST(Medium, BeamThroughFogIsTheIntegralAlongTheEyesRay) {
             EXPECT_LT(error, 0.04 * expected);
         }
     }
-    // On the floor the beam has lost what 3 m of fog take, and the ledger knows.
+    // On the floor the beam has lost what 3 m of the medium take, and the ledger knows.
     const Energy energy = sums.energy();
     EXPECT_NEAR(
         energy.watts[transport::kAccountDeposited] / energy.watts[transport::kAccountEmitted],

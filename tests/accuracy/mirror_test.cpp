@@ -21,8 +21,8 @@ constexpr double kStep = 8.0 * 2.0 * kPi / kSegments;
 // The envelope's point at `t` of rays that are given by their parameter.
 template <class RayAt>
 glm::dvec2 envelopePoint(const RayAt& rayAt, double t) {
-    const glm::dvec2 wide = meetingPoint(rayAt(t - kStep), rayAt(t + kStep));
-    const glm::dvec2 narrow = meetingPoint(rayAt(t - 0.5 * kStep), rayAt(t + 0.5 * kStep));
+    const glm::dvec2 wide = crossingPoint(rayAt(t - kStep), rayAt(t + kStep));
+    const glm::dvec2 narrow = crossingPoint(rayAt(t - 0.5 * kStep), rayAt(t + 0.5 * kStep));
     return (4.0 * narrow - wide) / 3.0;
 }
 
@@ -44,7 +44,7 @@ TEST(Mirror, ParallelLightInACylinderHasANephroidAsItsEnvelope) {
     const EmbreeScene embree(scene);
     for (double t = -1.2; t < 1.25; t += 0.1) {
         const auto reflected = [&](double angle) {
-            return wayAfter(embree, 1, {-0.3, kRadius * std::sin(angle), 0.0}, {1, 0, 0});
+            return segmentAfter(embree, 1, {-0.3, kRadius * std::sin(angle), 0.0}, {1, 0, 0});
         };
         const glm::dvec2 touch = envelopePoint(reflected, t);
         const glm::dvec2 nephroid = 0.25 * kRadius *
@@ -59,9 +59,9 @@ TEST(Mirror, NephroidHasItsCuspHalfARadiusFromTheAxis) {
     const EmbreeScene embree(scene);
     // Rays at height b cross the axis at R/(2 cos i), sin i = b/R: b → 0 is the cusp.
     for (const double b : {0.02, 0.1, 0.5}) {
-        const Way way = wayAfter(embree, 1, {-0.3, b, 0.0}, {1, 0, 0});
+        const PathSegment segment = segmentAfter(embree, 1, {-0.3, b, 0.0}, {1, 0, 0});
         const double crossing = 0.5 * kRadius / std::sqrt(1.0 - b * b / (kRadius * kRadius));
-        EXPECT_NEAR(way.crossing(1, 0.0).x, crossing, 2e-4 * kRadius) << "b = " << b;
+        EXPECT_NEAR(segment.crossing(1, 0.0).x, crossing, 2e-4 * kRadius) << "b = " << b;
     }
 }
 
@@ -73,7 +73,7 @@ TEST(Mirror, SourceOnTheCylinderHasACardioidAsItsEnvelope) {
             // A little inside of the wall, along the ray itself.
             const glm::dvec3 source(kRadius, 0, 0);
             const glm::dvec3 target(kRadius * std::cos(angle), kRadius * std::sin(angle), 0);
-            return wayAfter(embree, 1, source + 0.1 * (target - source), target - source);
+            return segmentAfter(embree, 1, source + 0.1 * (target - source), target - source);
         };
         const glm::dvec2 touch = envelopePoint(reflected, t);
         const glm::dvec2 cardioid = kRadius / 3.0 *
@@ -92,11 +92,11 @@ TEST(Mirror, ParaboloidSendsAllAxialRaysThroughItsFocus) {
     const EmbreeScene embree(scene);
     for (double r = 0.05; r < 1.4; r += 0.11) {
         for (const double turn : {0.1, 1.7, 4.4}) {
-            const Way way =
-                wayAfter(embree, 1, {r * std::cos(turn), 5.0, r * std::sin(turn)}, {0, -1, 0});
+            const PathSegment segment =
+                segmentAfter(embree, 1, {r * std::cos(turn), 5.0, r * std::sin(turn)}, {0, -1, 0});
             // Facets lie up to (2π r/1024)²/8r = 7e-6 m inside of the surface; the normal between
             // vertices is off by less than 1e-5.
-            EXPECT_LT(way.distanceFrom({0.0, shape.focalLength, 0.0}), 3e-5) << "r = " << r;
+            EXPECT_LT(segment.distanceFrom({0.0, shape.focalLength, 0.0}), 3e-5) << "r = " << r;
         }
     }
 }

@@ -46,8 +46,8 @@ inline scene::Scene sceneOf(scene::Mesh mesh, const scene::Material& material) {
     return scene;
 }
 
-// A straight piece of a photon's way, in world coordinates.
-struct Way {
+// A straight piece of a photon's path, in world coordinates.
+struct PathSegment {
     glm::dvec3 origin{0.0};
     glm::dvec3 direction{0.0};
     glm::dvec3 fluxWatts{0.0};
@@ -63,48 +63,48 @@ struct Way {
     }
 };
 
-// All ways that a photon and its branches take after the first interaction.
-struct WayRecorder : NullSink {
-    explicit WayRecorder(const glm::dvec3& sceneCenter) : center(sceneCenter) {}
+// All segments that a photon and its branches take after the first interaction.
+struct SegmentRecorder : NullSink {
+    explicit SegmentRecorder(const glm::dvec3& sceneCenter) : center(sceneCenter) {}
     void add(const PhotonState& photon) {
         if (photon.interactions > 0)
-            ways.push_back(
+            segments.push_back(
                 {photon.origin + center, photon.direction, photon.fluxWatts, photon.interactions});
     }
     void leftScene(const PhotonState& photon) { add(photon); }
     void arrived(const SurfaceHit&, const PhotonState& photon) { add(photon); }
-    void met(const SurfaceHit&, const PhotonState& photon) { add(photon); }
+    void hitSurface(const SurfaceHit&, const PhotonState& photon) { add(photon); }
     glm::dvec3 center;
-    std::vector<Way> ways;
+    std::vector<PathSegment> segments;
 };
 
-inline std::vector<Way> waysOf(const EmbreeScene& scene, const glm::dvec3& origin,
-                               const glm::dvec3& direction, const PathFilter& filter) {
-    WayRecorder recorder(scene.center());
+inline std::vector<PathSegment> segmentsOf(const EmbreeScene& scene, const glm::dvec3& origin,
+                                           const glm::dvec3& direction, const PathFilter& filter) {
+    SegmentRecorder recorder(scene.center());
     Random random(1, 0, 0);
     PhotonState photon;
     photon.origin = origin - scene.center();
     photon.direction = glm::normalize(direction);
     photon.fluxWatts = glm::dvec3(1.0);
     LightTransport(scene, filter).follow(photon, {}, random, recorder);
-    return recorder.ways;
+    return recorder.segments;
 }
 
-// The way after `interactions` along the refracted branch (reflected at mirrors).
-inline Way wayAfter(const EmbreeScene& scene, int interactions, const glm::dvec3& origin,
-                    const glm::dvec3& direction) {
+// The segment after `interactions` along the refracted branch (reflected at mirrors).
+inline PathSegment segmentAfter(const EmbreeScene& scene, int interactions,
+                                const glm::dvec3& origin, const glm::dvec3& direction) {
     PathFilter filter;
     filter.transmissionOnly = true;
     filter.maximumInteractions = 16;
-    for (const Way& way : waysOf(scene, origin, direction, filter)) {
-        if (way.interactions == interactions) return way;
+    for (const PathSegment& segment : segmentsOf(scene, origin, direction, filter)) {
+        if (segment.interactions == interactions) return segment;
     }
-    ADD_FAILURE() << "no way after " << interactions << " interactions";
+    ADD_FAILURE() << "no segment after " << interactions << " interactions";
     return {};
 }
 
-// Where two rays of the plane z = 0 meet: the envelope of a family, for two that are near.
-inline glm::dvec2 meetingPoint(const Way& a, const Way& b) {
+// Where two rays of the plane z = 0 intersect: the envelope of a family, for two that are near.
+inline glm::dvec2 crossingPoint(const PathSegment& a, const PathSegment& b) {
     const glm::dvec2 u(a.direction);
     const glm::dvec2 v(b.direction);
     const glm::dvec2 offset = glm::dvec2(b.origin) - glm::dvec2(a.origin);

@@ -21,7 +21,7 @@ scene::Scene floorGlassAndMirror() {
     return scene;
 }
 
-TEST(PhotonAudit, PhotonInsideADielectricMeetsItOnlyFromWithin) {
+TEST(PhotonAudit, PhotonInsideADielectricHitsItOnlyFromWithin) {
     const scene::Scene scene = floorGlassAndMirror();
     const EmbreeScene embree(scene);
     const std::uint32_t inGlass = packMedia(numberDielectrics(scene), {2});
@@ -48,7 +48,7 @@ TEST(PhotonAudit, PhotonInsideADielectricMeetsItOnlyFromWithin) {
     EXPECT_EQ(hits[5].material, 1u);
 }
 
-TEST(PhotonAudit, PhotonDoesNotMeetTheOpenMirrorThatItHasLeftOnThatSide) {
+TEST(PhotonAudit, PhotonDoesNotHitTheOpenMirrorThatItHasLeftOnThatSide) {
     const scene::Scene scene = floorGlassAndMirror();
     const EmbreeScene embree(scene);
     const auto leaves = [](std::uint32_t side) { return transport::withLeftSide(0, side); };
@@ -66,7 +66,7 @@ TEST(PhotonAudit, PhotonDoesNotMeetTheOpenMirrorThatItHasLeftOnThatSide) {
     EXPECT_EQ(hits[3].material, 3u);  // back on the side that it left
 }
 
-TEST(PhotonAudit, PhotonsThatAreNoNumbersMeetNothing) {
+TEST(PhotonAudit, PhotonsThatAreNoNumbersHitNothing) {
     const scene::Scene scene = floorGlassAndMirror();
     const EmbreeScene embree(scene);
     const double nan = std::nan("");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // God rays against the ray-traced single scattering of the same paths of light: through one
 // interface on the flooded cave, which the eye is in, and through a block of glass, where a
-// photon's way has several parts and those in the glass, which absorbs besides, scatter too.
+// photon's path has several parts and those in the glass, which absorbs besides, scatter too.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ namespace {
 constexpr int kWidth = 96;
 constexpr int kHeight = 72;
 
-reference::Reference truthOf(const scene::Scene& scene, const ModelledPaths& paths) {
+reference::Reference referenceOf(const scene::Scene& scene, const ModelledPaths& paths) {
     const reference::EmbreeScene embree(scene);
     reference::ReferenceRequest request;
     request.width = kWidth;
@@ -31,11 +31,11 @@ reference::Reference truthOf(const scene::Scene& scene, const ModelledPaths& pat
     return makeReference(scene, request, sums, 0.0);
 }
 
-void expectTruth(const scene::Scene& scene, const Settings& settings, double energyTolerance,
-                 double errorTolerance) {
+void expectReference(const scene::Scene& scene, const Settings& settings, double energyTolerance,
+                     double errorTolerance) {
     const Frame frame(scene, kWidth, kHeight, settings);
     const FrameOutputs& outputs = frame.renderer().outputs();
-    const reference::Reference truth = truthOf(scene, outputs.hits.incoming.paths);
+    const reference::Reference reference = referenceOf(scene, outputs.hits.incoming.paths);
     const Texels texels = frame.read(outputs.inScattered.radiance);
     Image image(texels.width, texels.height, 3);
     for (int y = 0; y < image.height; ++y) {
@@ -46,30 +46,32 @@ void expectTruth(const scene::Scene& scene, const Settings& settings, double ene
     }
     const measure::ImageErrors errors =
         measureErrors(measure::ImagePair({.image = image,
-                                          .reference = truth.inScattered,
-                                          .standardError = &truth.inScatteredError}));
-    ASSERT_TRUE(errors.energyRatio && errors.truthNoise);
+                                          .reference = reference.inScattered,
+                                          .standardError = &reference.inScatteredError}));
+    ASSERT_TRUE(errors.energyRatio && errors.referenceNoise);
     EXPECT_NEAR(*errors.energyRatio, 1.0, energyTolerance);
     double square = 0.0;
-    for (const float value : truth.inScattered.values)
+    for (const float value : reference.inScattered.values)
         square += std::pow(static_cast<double>(value), 2);
-    const double scale = std::sqrt(square / static_cast<double>(truth.inScattered.values.size()));
-    // What the truth's own noise does not explain.
+    const double scale =
+        std::sqrt(square / static_cast<double>(reference.inScattered.values.size()));
+    // What the reference's own noise does not explain.
     const double own = std::sqrt(std::max(
-        errors.rmse * errors.rmse - errors.truthNoise->rmse * errors.truthNoise->rmse, 0.0));
+        errors.rmse * errors.rmse - errors.referenceNoise->rmse * errors.referenceNoise->rmse,
+        0.0));
     testing::Test::RecordProperty("energy_ratio_ppm", static_cast<int>(1e6 * *errors.energyRatio));
     testing::Test::RecordProperty("error_ppm", static_cast<int>(1e6 * own / scale));
     EXPECT_LT(own / scale, errorTolerance);
 }
 
-TEST(GodRays, AreTheTruthsOnTheFloodedCave) {
+TEST(GodRays, AreTheReferencesOnTheFloodedCave) {
     // A pixel's middle says for all of it what hides the shafts behind: at outlines that is wrong,
     // and all that is left of the error.
-    expectTruth(scene::loadScene("god-rays"), {{"blur", "none"}, {"trace", "hierarchical_compute"}},
-                0.01, 0.05);
+    expectReference(scene::loadScene("god-rays"),
+                    {{"blur", "none"}, {"trace", "hierarchical_compute"}}, 0.01, 0.05);
 }
 
-TEST(GodRays, AreTheTruthsThroughABlockOfGlass) {
+TEST(GodRays, AreTheReferencesThroughABlockOfGlass) {
     const scene::Scene scene = sceneFromText(R"(
 name = "block"
 [camera]
@@ -107,7 +109,7 @@ material = "glass"
 size = [2, 0.6, 2]
 position = [0, 0.6, 0]
 )");
-    expectTruth(scene, {{"blur", "none"}, {"trace", "hierarchical_compute"}}, 0.01, 0.03);
+    expectReference(scene, {{"blur", "none"}, {"trace", "hierarchical_compute"}}, 0.01, 0.03);
 }
 
 }  // namespace

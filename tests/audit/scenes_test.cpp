@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Every scene that the project ships, rendered and held against the ray-traced truth: each watt has
-// an account, each photon a fate, and the caustic has the truth's energy in the truth's places.
+// Every scene that the project ships, rendered and held against the ray-traced reference: each watt
+// has an account, each photon a fate, and the caustic has the reference's energy in the reference's
+// places.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -29,15 +30,15 @@ struct Bounds {
     double radiusPixels = 1.0;
 };
 Bounds boundsOf(const std::string& scene) {
-    // The focus lies on a rod of a few pixels, and a tenth of the light meets the rod's silhouette.
+    // The focus lies on a rod of a few pixels, and a tenth of the light hits the rod's silhouette.
     if (scene == "blocker") return {0.95, 0.08, 2.0};
     // Triangles of the bunny are smaller than these pixels, and light crosses four of its surfaces.
     if (scene == "glass-bunny") return {0.96, 0.06, 2.0};
     return {};
 }
 
-// The truth about the paths that the frame models; a batch of photons for a few each pixel.
-reference::Reference truthOf(const reference::EmbreeScene& scene, const ModelledPaths& paths) {
+// The reference about the paths that the frame models; a batch of photons for a few each pixel.
+reference::Reference referenceOf(const reference::EmbreeScene& scene, const ModelledPaths& paths) {
     reference::ReferenceRequest request;
     request.width = kWidth;
     request.height = kHeight;
@@ -50,7 +51,8 @@ reference::Reference truthOf(const reference::EmbreeScene& scene, const Modelled
     return makeReference(scene.scene(), request, sums, 0.0);
 }
 
-measure::ImageErrors causticErrors(const Renderer& renderer, const reference::Reference& truth) {
+measure::ImageErrors causticErrors(const Renderer& renderer,
+                                   const reference::Reference& reference) {
     const FrameOutputs& outputs = renderer.outputs();
     const Image image = imageOf(renderer.texture(outputs.caustic.irradiance), 0, 3);
     Image receiver = imageOf(renderer.texture(outputs.eye.receiver), 0, 1);
@@ -61,26 +63,27 @@ measure::ImageErrors causticErrors(const Renderer& renderer, const reference::Re
         area.values[i] = sees ? area.values[i] : 0.0f;
     }
     const measure::ImagePair pair({.image = image,
-                                   .reference = truth.irradiance,
+                                   .reference = reference.irradiance,
                                    .mask = &receiver,
-                                   .standardError = &truth.irradianceError,
+                                   .standardError = &reference.irradianceError,
                                    .area = &area});
     return measure::measureErrors(pair);
 }
 
 class ShippedScene : public testing::TestWithParam<std::string> {};
 
-TEST_P(ShippedScene, HasTheCausticOfTheTruth) {
+TEST_P(ShippedScene, HasTheCausticOfTheReference) {
     const scene::Scene scene = scene::loadScene(GetParam());  // says which mesh is missing
     const Registry registry = registerAll();
     const auto owner = rendered(registry, scene, kWidth, kHeight, Purpose::audit);
     const Renderer& renderer = *owner;
 
     const reference::EmbreeScene embree(scene);
-    const reference::Reference truth = truthOf(embree, renderer.outputs().hits.incoming.paths);
+    const reference::Reference reference =
+        referenceOf(embree, renderer.outputs().hits.incoming.paths);
     const audit::HitAudit hits = audit::auditHits(renderer, embree);
     const EnergyLedger ledger =
-        audit::resolveLedger(renderer, hits, truth.energy.watts[kAccountEmitted]);
+        audit::resolveLedger(renderer, hits, reference.energy.watts[kAccountEmitted]);
     EXPECT_LT(std::abs(ledger.balance()), 1e-4);
     EXPECT_EQ(hits.notANumber, 0u);
     RecordProperty("agreement_visible_permille",
@@ -88,7 +91,7 @@ TEST_P(ShippedScene, HasTheCausticOfTheTruth) {
     const Bounds bounds = boundsOf(GetParam());
     EXPECT_GT(hits.agreementVisible().value(), bounds.agreementVisible);
 
-    const measure::ImageErrors errors = causticErrors(renderer, truth);
+    const measure::ImageErrors errors = causticErrors(renderer, reference);
     ASSERT_TRUE(errors.energyRatio);
     // What the grid missed of thin glass, what tracers missed and splats lost at edges, together.
     EXPECT_NEAR(*errors.energyRatio, 1.0, bounds.energy);
@@ -100,7 +103,7 @@ TEST_P(ShippedScene, HasTheCausticOfTheTruth) {
 }
 
 // Its mesh has seams: as long as it counted as a sheet, photons ended inside of it (0.05).
-TEST(GlassTeapot, HasTheTruthsLightAlongAllPaths) {
+TEST(GlassTeapot, HasTheReferencesLightAlongAllPaths) {
     if (!std::filesystem::exists(projectRoot() / "meshes/teapot.obj"))
         GTEST_SKIP() << "experiments/fetch_meshes.sh --teapot fetches the mesh";
     const scene::Scene scene = scene::loadScene("glass-teapot");
@@ -108,8 +111,8 @@ TEST(GlassTeapot, HasTheTruthsLightAlongAllPaths) {
     const auto owner = rendered(registry, scene, kWidth, kHeight, Purpose::audit);
     const Renderer& renderer = *owner;
     const reference::EmbreeScene embree(scene);
-    const measure::ImageErrors errors =
-        causticErrors(renderer, truthOf(embree, {.transmissionOnly = false, .interactions = 64}));
+    const measure::ImageErrors errors = causticErrors(
+        renderer, referenceOf(embree, {.transmissionOnly = false, .interactions = 64}));
     ASSERT_TRUE(errors.energyRatio);
     // Interactions end at eight, and what lies below a pixel is missed.
     EXPECT_NEAR(*errors.energyRatio, 1.0, 0.1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The scenes that the project ships, for tests that hold each of them against the truth.
+// The scenes that the project ships, for tests that hold each of them against the reference.
 #pragma once
 
 #include <gtest/gtest.h>

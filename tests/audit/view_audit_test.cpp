@@ -14,13 +14,13 @@ namespace {
 class ExitErrorsOf : public testing::Test {
   protected:
     ExitErrorsOf() : position_(4, 1, 4), direction_(4, 1, 4) {
-        truth_.exitPosition = Image(4, 1, 4);
-        truth_.exitDirection = Image(4, 1, 4);
-        truth_.mask = Image(4, 1, 1);
+        reference_.exitPosition = Image(4, 1, 4);
+        reference_.exitDirection = Image(4, 1, 4);
+        reference_.mask = Image(4, 1, 1);
         for (int x = 0; x < 3; ++x) {
-            truth_.mask.at(x, 0, 0) = 1.0f;
-            put(truth_.exitPosition, x, {0, 0, -2, 2});
-            put(truth_.exitDirection, x, {0, 0, -1, 1});
+            reference_.mask.at(x, 0, 0) = 1.0f;
+            put(reference_.exitPosition, x, {0, 0, -2, 2});
+            put(reference_.exitDirection, x, {0, 0, -1, 1});
             put(position_, x, {0, 0, -2, 2});
             put(direction_, x, {0, 0, -1, 1});
         }
@@ -33,11 +33,11 @@ class ExitErrorsOf : public testing::Test {
             image.at(x, 0, c) = value[c];
     }
     [[nodiscard]] ViewAudit audit() const {
-        return auditView(position_, direction_, truth_, view_);
+        return auditView(position_, direction_, reference_, view_);
     }
     Image position_;
     Image direction_;
-    reference::ViewTruth truth_;
+    reference::ViewReference reference_;
     render::EyeView view_;
 };
 
@@ -67,7 +67,7 @@ TEST_F(ExitErrorsOf, TellLostRaysAndWhatIsNoNumberApart) {
     put(direction_, 0, {0, 0, -1, 0});
     put(position_, 1, {std::numeric_limits<float>::quiet_NaN(), 0, 0, 2});
     // The exact ray itself is caught: nothing to compare with, nothing lost.
-    put(truth_.exitDirection, 2, {0, 0, 0, 0});
+    put(reference_.exitDirection, 2, {0, 0, 0, 0});
     const ViewAudit found = audit();
     EXPECT_EQ(found.lost, 1u);
     EXPECT_EQ(found.notANumber, 1u);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What the eye sees in and through specular surfaces, in every scene that the project ships, beside
-// ray tracing: as many surfaces met, and the truth's energy. Caustics are left out of both.
+// ray tracing: as many surfaces hit, and the reference's energy. Caustics are left out of both.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -38,30 +38,30 @@ Bounds boundsOf(const std::string& scene) {
 
 std::vector<std::string> scenesToLookInto() {
     std::vector<std::string> names = shippedScenes();
-    // The truth of the view knows no medium.
+    // The reference of the view knows no medium.
     names.erase(std::remove(names.begin(), names.end(), "god-rays"), names.end());
     return names;
 }
 
 class ShippedView : public testing::TestWithParam<std::string> {};
 
-TEST_P(ShippedView, ShowsWhatTheTruthShows) {
+TEST_P(ShippedView, ShowsWhatTheReferenceShows) {
     const scene::Scene scene = scene::loadScene(GetParam());
     const Registry registry = registerAll();
     const auto owner = rendered(registry, scene, kWidth, kHeight, Purpose::view);
     const Renderer& renderer = *owner;
 
     const reference::EmbreeScene embree(scene);
-    reference::ViewTruthRequest request;
+    reference::ViewReferenceRequest request;
     request.width = kWidth;
     request.height = kHeight;
     request.samplesPerSide = 2;
-    const reference::ViewTruth truth = reference::traceView(embree, request);
-    ASSERT_GT(truth.pixels, 300u);
+    const reference::ViewReference reference = reference::traceView(embree, request);
+    ASSERT_GT(reference.pixels, 300u);
     const View& seen = renderer.outputs().picture.view;
     const audit::ViewAudit audit =
         audit::auditView(imageOf(renderer.texture(seen.exitPosition), 0, 4),
-                         imageOf(renderer.texture(seen.exitDirection), 0, 4), truth,
+                         imageOf(renderer.texture(seen.exitDirection), 0, 4), reference,
                          render::makeEyeView(scene.camera, kWidth, kHeight));
     const Bounds bounds = boundsOf(GetParam());
     const double pixels = static_cast<double>(audit.pixels);
@@ -71,10 +71,10 @@ TEST_P(ShippedView, ShowsWhatTheTruthShows) {
     const Image radiance = imageOf(renderer.texture(seen.radiance), 0, 3);
     double found = 0.0;
     double expected = 0.0;
-    for (std::size_t i = 0; i < truth.mask.values.size(); ++i) {
-        if (truth.mask.values[i] == 0.0f) continue;
+    for (std::size_t i = 0; i < reference.mask.values.size(); ++i) {
+        if (reference.mask.values[i] == 0.0f) continue;
         found += static_cast<double>(radiance.values[3 * i + 1]);
-        expected += static_cast<double>(truth.radiance.values[3 * i + 1]);
+        expected += static_cast<double>(reference.radiance.values[3 * i + 1]);
     }
     EXPECT_NEAR(found / expected, 1.0, bounds.energy);
 }

@@ -66,7 +66,7 @@ class ExperimentReport : public CommandLine {
     }
 
     void writePictures(const std::string& name, float brightness) const {
-        Image truth(32, 24, 3);
+        Image reference(32, 24, 3);
         Image caustic(32, 24, 3);
         for (int y = 0; y < 24; ++y) {
             for (int x = 0; x < 32; ++x) {
@@ -74,13 +74,13 @@ class ExperimentReport : public CommandLine {
                     500.0f * std::exp(-0.02f * static_cast<float>((x - 16) * (x - 16) +
                                                                   (y - 12) * (y - 12)));
                 for (int c = 0; c < 3; ++c) {
-                    truth.at(x, y, c) = blob;
+                    reference.at(x, y, c) = blob;
                     caustic.at(x, y, c) = brightness * blob;
                 }
             }
         }
         fs::create_directory(folder / ("out/" + name));
-        writeImage(folder / ("out/" + name + "/reference.pfm"), truth);
+        writeImage(folder / ("out/" + name + "/reference.pfm"), reference);
         writeImage(folder / ("out/" + name + "/caustic.pfm"), caustic);
     }
 
@@ -182,7 +182,7 @@ TEST_F(ExperimentReport, OfFailuresAloneSaysThatThereIsNothingToDraw) {
 
 class ReportOfARealStudy : public ExperimentCommand {};
 
-TEST_F(ReportOfARealStudy, ShowsTimesAndPicturesThoughThereIsNoTruth) {
+TEST_F(ReportOfARealStudy, ShowsTimesAndPicturesThoughThereIsNoReference) {
     ASSERT_EQ(run(study()).exitCode, 0);
     const Outcome outcome = run({"experiment", "report", "out"});
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;

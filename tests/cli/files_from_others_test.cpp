@@ -112,14 +112,14 @@ TEST_F(FilesFromOthers, NeedNoNameThatIsUtf8ForAReference) {
     writeSceneWithoutName("wa\xff.toml");
     Conditions cached;
     cached.environment = {{"KAUSTIK_CACHE", (folder / "cache").string()}};
-    const Outcome outcome = run(
-        {"reference", "wa\xff.toml", "--size", "64x48", "--photons", "1000", "--out", "truth.exr"},
-        cached);
+    const Outcome outcome = run({"reference", "wa\xff.toml", "--size", "64x48", "--photons", "1000",
+                                 "--out", "reference.exr"},
+                                cached);
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-    EXPECT_EQ(nlohmann::json::parse(contents("truth.json")).at("scene"), "wa\xef\xbf\xbd");
-    EXPECT_EQ(
-        run(smallRun("wa\xff.toml", {"--out", "out", "--reference", "truth.exr"}), cached).exitCode,
-        0);
+    EXPECT_EQ(nlohmann::json::parse(contents("reference.json")).at("scene"), "wa\xef\xbf\xbd");
+    EXPECT_EQ(run(smallRun("wa\xff.toml", {"--out", "out", "--reference", "reference.exr"}), cached)
+                  .exitCode,
+              0);
 }
 
 }  // namespace

@@ -133,7 +133,7 @@ TEST_F(Explain, SaysOfEveryNodeWhyItRunsOrNot) {
     expectAllIn(outcome.out, {"scene ring", "technique screen_space_photons", "emit.grid",
                               "photons.flux", "caustic.irradiance"});
     EXPECT_TRUE(
-        std::regex_search(outcome.out, std::regex("geometry\\.height_field +left out +\\w+")))
+        std::regex_search(outcome.out, std::regex("geometry\\.height_field +skipped +\\w+")))
         << outcome.out;
     EXPECT_TRUE(std::regex_search(outcome.out, std::regex("trace\\.hierarchical +runs +\\w+")))
         << outcome.out;
@@ -148,8 +148,7 @@ TEST_F(Explain, LeavesOutOfAMirrorsViewWhatOnlyDielectricsNeed) {
         const std::string passes =
             view == "refraction" ? "layers\\.(complexity|peel)" : "back_faces";
         EXPECT_TRUE(std::regex_search(
-            outcome.out,
-            std::regex("view\\." + passes + " +left out +the scene has no dielectric")))
+            outcome.out, std::regex("view\\." + passes + " +skipped +the scene has no dielectric")))
             << outcome.out;
         EXPECT_TRUE(std::regex_search(outcome.out, std::regex("view\\." + view + " +runs")))
             << outcome.out;

@@ -45,7 +45,7 @@ class Limits : public CommandLine {
     }
 };
 
-TEST_F(Limits, SayWhatLayersWereLeftOut) {
+TEST_F(Limits, SayWhatLayersWereSkipped) {
     const auto limits = limitsOf("wavy.toml", {"layers.count=1"});
     ASSERT_EQ(limits.size(), 1u) << report().at("limits");
     const json& limit = limits.at("layers.count");
@@ -139,7 +139,7 @@ TEST_F(Limits, SayWhereTheEyesRaysWereCutOff) {
     EXPECT_EQ(limit.at("needed"), 2);
     EXPECT_TRUE(isReached("view.refraction.layers", "glass-sphere",
                           {"refraction.layers=1", "refraction.search=all"}));
-    // A pass that is left out reaches nothing.
+    // A pass that is skipped reaches nothing.
     limits = limitsOf("glass-sphere", {"refraction.layers=1"}, {"view.refraction"});
     EXPECT_FALSE(limits.contains("view.refraction.layers"));
 }
@@ -201,7 +201,7 @@ TEST_F(Limits, CountLinesInTheMediumThatAreNarrowerThanTheyWereToBe) {
     EXPECT_EQ(limit.at("value"), 2);
     EXPECT_GT(limit.at("needed"), 2.0);
     EXPECT_EQ(limit.at("lost_w"), 0.0);
-    // A pass that is left out reaches nothing.
+    // A pass that is skipped reaches nothing.
     EXPECT_FALSE(limitsOf("god-rays", {"media.lines.maximum=2"}, {"media.lines"})
                      .contains("media.lines.maximum"));
     // As wide as the widest was to be: none is narrower any more.
@@ -217,14 +217,14 @@ TEST_F(Limits, CountPhotonsForWhichTheMapCouldNotGrow) {
     EXPECT_EQ(limit.at("unit"), "interactions");
     EXPECT_EQ(limit.at("value"), 1);
     EXPECT_EQ(limit.at("lost_w"), 0.0);
-    // The light meets the water once.
+    // The light hits the water once.
     EXPECT_FALSE(
         isReached("specular.split.levels", "wavy.toml", {"specular=split", "split.levels=1"}));
     EXPECT_TRUE(
         isReached("specular.split.levels", "wavy.toml", {"specular=split", "split.levels=0"}));
 }
 
-TEST_F(Limits, CountRaysThatMeetMoreThanTheyCanKeep) {
+TEST_F(Limits, CountRaysThatHitMoreThanTheyCanKeep) {
     // Under the water there is the floor alone.
     const json limit =
         limitOf("trace.all_hits.slots", "wavy.toml", {"trace=all_hits", "all_hits.slots=1"});

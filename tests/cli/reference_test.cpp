@@ -33,7 +33,7 @@ class Reference : public CommandLine {
 
     // Four batches: enough for an error, and little to compute.
     [[nodiscard]] Outcome makeReference(const std::vector<std::string>& more = {},
-                                        const std::string& file = "truth.exr") const {
+                                        const std::string& file = "reference.exr") const {
         std::vector<std::string> arguments = {"reference", "wavy.toml", "--size", "64x48",
                                               "--photons", "1000000",   "--out",  file};
         arguments.insert(arguments.end(), more.begin(), more.end());
@@ -59,11 +59,11 @@ TEST_F(Reference, IsAnImageItsErrorAndWhatTheyAre) {
     const Outcome outcome = makeReference();
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_NE(outcome.out.find("standard error"), std::string::npos);
-    const Image truth = readImage(folder / "truth.exr");
-    EXPECT_EQ(truth.width, 64);
-    EXPECT_EQ(truth.height, 48);
-    EXPECT_EQ(readImage(folder / "truth.stderr.exr").width, 64);
-    const json sidecar = json::parse(contents("truth.json"));
+    const Image reference = readImage(folder / "reference.exr");
+    EXPECT_EQ(reference.width, 64);
+    EXPECT_EQ(reference.height, 48);
+    EXPECT_EQ(readImage(folder / "reference.stderr.exr").width, 64);
+    const json sidecar = json::parse(contents("reference.json"));
     EXPECT_EQ(sidecar.at("scene"), "wavy");
     EXPECT_GE(sidecar.at("photons").get<double>(), 1e6);
     EXPECT_LT(std::abs(sidecar.at("energy").at("balance").get<double>()), 1e-9);
@@ -178,7 +178,7 @@ TEST_F(Reference, OfARunGivesHitsAndErrors) {
         // 1,024 photons over 3,072 pixels lose what a pixel's ring around the water is short of.
         EXPECT_NEAR(caustic.at("energy_ratio").get<double>(), 1.0, 0.05);
     }
-    // Emitted is what the truth says; the difference to the grid is a loss by name.
+    // Emitted is what the reference says; the difference to the grid is a loss by name.
     const json& energy = result.at("energy");
     EXPECT_LT(std::abs(energy.at("balance").get<double>()), 1e-4);
     EXPECT_TRUE(energy.at("lost_w").contains("emission_sampling"));
@@ -198,23 +198,24 @@ TEST_F(Reference, OfARunIsComputedOnce) {
 
 TEST_F(Reference, FromAFileIsTakenAsItIs) {
     ASSERT_EQ(makeReference().exitCode, 0);
-    const Outcome outcome = runAgainst("truth.exr");
+    const Outcome outcome = runAgainst("reference.exr");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-    EXPECT_EQ(report().at("error").at("reference"), "truth.exr");
+    EXPECT_EQ(report().at("error").at("reference"), "reference.exr");
     EXPECT_TRUE(report().contains("hits"));
 }
 
 TEST_F(Reference, OfAnotherSizeSceneOrTimeIsRefused) {
     ASSERT_EQ(makeReference().exitCode, 0);
     expectFailure(runCached({"run", "wavy.toml", "--size", "32x24", "--out", "out", "--reference",
-                             "truth.exr"}),
-                  2, {"truth.exr", "64x48", "32x24", "--size 64x48"});
+                             "reference.exr"}),
+                  2, {"reference.exr", "64x48", "32x24", "--size 64x48"});
     std::string other = kWavyWater;
     other.replace(other.find("1.333"), 5, "1.332");
     static_cast<void>(folder.file("wavy.toml", other));
-    expectFailure(runAgainst("truth.exr"), 2, {"truth.exr", "another scene", "wavy"});
+    expectFailure(runAgainst("reference.exr"), 2, {"reference.exr", "another scene", "wavy"});
     static_cast<void>(folder.file("wavy.toml", kWavyWater));
-    expectFailure(runAgainst("truth.exr", {"--time", "0.5"}), 2, {"truth.exr", "another time"});
+    expectFailure(runAgainst("reference.exr", {"--time", "0.5"}), 2,
+                  {"reference.exr", "another time"});
     ASSERT_EQ(makeReference({"--transmission-only"}, "part.exr").exitCode, 0);
     expectFailure(runAgainst("part.exr"), 2, {"part.exr", "a part of the paths"});
     EXPECT_FALSE(files().contains("out/report.json"));
@@ -223,13 +224,14 @@ TEST_F(Reference, OfAnotherSizeSceneOrTimeIsRefused) {
 TEST_F(Reference, ThatIsMissingOrDamagedIsRefusedByName) {
     expectFailure(runAgainst("nowhere.exr"), 1, {"nowhere"});
     ASSERT_EQ(makeReference().exitCode, 0);
-    fs::resize_file(folder / "truth.exr", fs::file_size(folder / "truth.exr") / 2);
-    expectFailure(runAgainst("truth.exr"), 1, {"truth.exr"});
+    fs::resize_file(folder / "reference.exr", fs::file_size(folder / "reference.exr") / 2);
+    expectFailure(runAgainst("reference.exr"), 1, {"reference.exr"});
     // The image of another reference under this one's name.
-    ASSERT_EQ(makeReference({}, "truth.exr").exitCode, 0);
+    ASSERT_EQ(makeReference({}, "reference.exr").exitCode, 0);
     ASSERT_EQ(makeReference({"--seed", "3"}, "other.exr").exitCode, 0);
-    fs::copy_file(folder / "other.exr", folder / "truth.exr", fs::copy_options::overwrite_existing);
-    expectFailure(runAgainst("truth.exr"), 1, {"truth.exr", "does not belong"});
+    fs::copy_file(folder / "other.exr", folder / "reference.exr",
+                  fs::copy_options::overwrite_existing);
+    expectFailure(runAgainst("reference.exr"), 1, {"reference.exr", "does not belong"});
     EXPECT_FALSE(files().contains("out/report.json"));
 }
 
@@ -295,8 +297,8 @@ TEST_F(Reference, RefusesWhatMakesNoSense) {
                   {"--interactions"});
     expectFailure(runCached({"reference", "wavy.toml", "--size", "64"}), 2, {"--size"});
     expectFailure(runCached({"reference", "wavy.toml", "--caustic-view"}), 2, {"sppm"});
-    expectFailure(runCached({"reference", "wavy.toml", "--out", "truth.png"}), 2,
-                  {"truth.png", ".exr"});
+    expectFailure(runCached({"reference", "wavy.toml", "--out", "reference.png"}), 2,
+                  {"reference.png", ".exr"});
     expectFailure(runCached({"reference", "nowhere"}), 2, {"nowhere"});
     expectFailure(runAgainst("none", {"--reference-photons", "0"}), 2, {"--reference-photons"});
     EXPECT_EQ(files(), std::set<std::string>{"wavy.toml"});
@@ -334,12 +336,12 @@ size = [2, 2]
 }
 
 TEST_F(Reference, OfAMediumJudgesWhatItScatters) {
-    static_cast<void>(folder.file("fog.toml", std::string(kWavyWater) + R"(
+    static_cast<void>(folder.file("medium.toml", std::string(kWavyWater) + R"(
 [medium]
 scattering_per_meter = 0.2
 )"));
     const Outcome outcome = runCached(smallRun(
-        "fog.toml", {"--out", "out", "--reference", "auto", "--reference-photons", "600000"}));
+        "medium.toml", {"--out", "out", "--reference", "auto", "--reference-photons", "600000"}));
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_NE(outcome.out.find("in-scattered"), std::string::npos);
     const json error = report().at("error");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Photons that landed somewhere, and their ways, judged by the laws of reflection and refraction on
-// a slab of glass under two suns: light keeps its azimuth, and across the slab its direction's
+// Photons that landed somewhere, and their paths, judged by the laws of reflection and refraction
+// on a slab of glass under two suns: light keeps its azimuth, and across the slab its direction's
 // horizontal part is the sun's outside and that over the index inside.
 #include "framework/gui/photon_probe.h"
 #include "framework/pipeline/photon_texels.h"
@@ -123,12 +123,12 @@ TEST_F(PhotonsUnderASlab, ComeFromTheirOwnSunByTheLawsOfRefraction) {
         ++judged[light];
         for (std::size_t i = 1; i + 1 < points.size(); ++i) {
             if (points[i] == points[i + 1]) continue;
-            const glm::dvec3 way = glm::normalize(points[i + 1] - points[i]);
+            const glm::dvec3 segment = glm::normalize(points[i + 1] - points[i]);
             const bool isInside = !isOn(points[i + 1], kFloor);
             const double part = isInside ? 1.0 / kIndex : 1.0;
             // The tracers' depths are 32-bit floats, and the slab is 0.2 m thick.
-            EXPECT_NEAR(way.x, part * sun.x, 5e-3) << "point " << i << " of light " << light;
-            EXPECT_NEAR(way.z, part * sun.z, 5e-3) << "point " << i << " of light " << light;
+            EXPECT_NEAR(segment.x, part * sun.x, 5e-3) << "point " << i << " of light " << light;
+            EXPECT_NEAR(segment.z, part * sun.z, 5e-3) << "point " << i << " of light " << light;
         }
     }
     EXPECT_GT(judged[0], 10);

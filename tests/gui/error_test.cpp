@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The panel Error: the truth in the background, and how wrong the frame is beside it.
+// The panel Error: the reference in the background, and how wrong the frame is beside it.
 #include <fmt/format.h>
 
 #include <set>
@@ -189,7 +189,7 @@ TEST_F(ErrorPanel, AWorseFrameHasALargerError) {
     EXPECT_GT(std::stod(bench->value("error.rmse")), 1.5 * before) << "the floor is not found";
 }
 
-TEST_F(ErrorPanel, TheHeatMapAndTheTruthAreSeenBesideThePicture) {
+TEST_F(ErrorPanel, TheHeatMapAndTheReferenceAreSeenBesideThePicture) {
     start();
     computeReference();
     const Image before = seenPicture();
@@ -208,10 +208,10 @@ TEST_F(ErrorPanel, TheHeatMapAndTheTruthAreSeenBesideThePicture) {
     EXPECT_FALSE(bench->has("picture.split"));
 
     open("Image");
-    choose("image.beside", "the truth");
+    choose("image.beside", "the reference");
     untilSettled();
     ASSERT_TRUE(bench->has("picture.split"));
-    bench->keepScreenshot("error-truth");
+    bench->keepScreenshot("error-reference");
     // Irradiance on both sides: where the sun shines straight on the floor there is none of it.
     bench->hover("picture.image", pixel(50, 44));
     const std::string lit = bench->value("picture.value");

@@ -85,7 +85,7 @@ TEST_F(ImagePanel, ALayerThatIsNotThereIsNotShownUnderItsNumber) {
     EXPECT_TRUE(says("shown.sentence", "'layers.depth' has no layer 6"));
     EXPECT_TRUE(says("shown.sentence", "0 to 3"));
     bench->keepScreenshot("image-no-layer");
-    bench->click("shown.way_out");
+    bench->click("shown.remedy");
     untilSettled();
     EXPECT_EQ(bench->value("shown"), "asked");
     EXPECT_EQ(bench->value("picture.caption"), "layers.depth, layer 3");
@@ -101,7 +101,7 @@ TEST_F(ImagePanel, ATextureThatIsNoLongerThereIsSaidToBeGone) {
     untilSettled();
     EXPECT_EQ(bench->value("shown"), "stale");
     EXPECT_TRUE(says("shown.sentence", "no texture 'shadow.maps'"));
-    bench->click("shown.way_out");
+    bench->click("shown.remedy");
     untilSettled();
     EXPECT_EQ(bench->value("shown"), "asked");
     EXPECT_EQ(bench->value("picture.caption"), "");
@@ -329,7 +329,7 @@ TEST_F(ProbedPhotons, AreAsManyAsLandedNearThePixel) {
     EXPECT_EQ(many, landedWithin(4.0, 32, 25));
     EXPECT_GT(many, landedWithin(1.0, 32, 25));
     bench->keepScreenshot("image-photons");
-    // Their ways are drawn over the picture.
+    // Their paths are drawn over the picture.
     const Image ways = seenPicture();
     bench->key("p");
     EXPECT_GT(largestDifference(seenPicture(), ways), 0.1);

@@ -32,7 +32,7 @@ class PassesPanel : public WorkbenchTest {
 };
 
 // The list is a report's, which another process writes of the same scene and settings.
-TEST_F(PassesPanel, ListsTheGraphInItsOrderWithTheReasonsOfWhatWasLeftOut) {
+TEST_F(PassesPanel, ListsTheGraphInItsOrderWithTheReasonsOfWhatWasSkipped) {
     start();
     bench->keepScreenshot("passes");
     renderSmall({"--out", "report"});
@@ -44,7 +44,7 @@ TEST_F(PassesPanel, ListsTheGraphInItsOrderWithTheReasonsOfWhatWasLeftOut) {
     const std::vector<std::string> seen = passesWith("passes.name.");
     ASSERT_GE(seen.size(), 15u);
     EXPECT_TRUE(std::equal(seen.begin(), seen.end(), all.begin()));
-    EXPECT_EQ(state("media.lines"), "left out");
+    EXPECT_EQ(state("media.lines"), "skipped");
     EXPECT_EQ(bench->value("passes.why.media.lines"), "the scene has no medium that scatters");
     EXPECT_FALSE(bench->has("passes.on.media.lines"));
 

@@ -98,11 +98,11 @@ TEST_F(ABrokenNode, IsSaidWithAWayBackAndCannotBeSaved) {
     bench->click("record.report");
     EXPECT_TRUE(says("record.state", "idle"));
     EXPECT_FALSE(std::filesystem::exists(folder / "out"));
-    bench->click("shown.way_out");
+    bench->click("shown.remedy");
     untilSettled();
     EXPECT_EQ(document(), before);
     EXPECT_EQ(bench->value("shown"), "asked");
-    EXPECT_FALSE(bench->has("shown.way_out"));
+    EXPECT_FALSE(bench->has("shown.remedy"));
 }
 
 TEST_F(ABrokenNode, InTheOtherVariantIsNamed) {
@@ -113,7 +113,7 @@ TEST_F(ABrokenNode, InTheOtherVariantIsNamed) {
     EXPECT_EQ(bench->value("shown"), "stale");
     EXPECT_TRUE(says("shown.sentence", "B: ")) << bench->value("shown.sentence");
     // Nothing has been rendered yet that one could go back to.
-    bench->click("shown.way_out");
+    bench->click("shown.remedy");
     untilSettled();
     EXPECT_EQ(bench->value("shown"), "asked");
     EXPECT_TRUE(document().at("other").at("set").empty());

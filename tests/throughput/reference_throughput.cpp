@@ -40,15 +40,15 @@ struct RayRecorder {
     void absorbed(const glm::dvec3&) {}
     void lost(unsigned, const glm::dvec3&) {}
     void passed(const PhotonState&, double, const glm::dvec3&, Random&) {}
-    void leftScene(const PhotonState& photon) { addWay(photon); }
-    void met(const SurfaceHit&, const PhotonState& photon) {
-        if (photon.interactions > 0) addWay(photon);
+    void leftScene(const PhotonState& photon) { addPath(photon); }
+    void hitSurface(const SurfaceHit&, const PhotonState& photon) {
+        if (photon.interactions > 0) addPath(photon);
     }
-    void addWay(const PhotonState& photon) {
+    void addPath(const PhotonState& photon) {
         add(photon.origin, photon.direction, std::numeric_limits<double>::infinity());
     }
     void arrived(const SurfaceHit& hit, const PhotonState& photon) {
-        addWay(photon);
+        addPath(photon);
         if (!eye.project(hit.position).onScreen ||
             !eye.seesSide(hit.position, hit.geometricNormal, photon.direction)) {
             return;
@@ -67,7 +67,7 @@ std::vector<BareRay> recordRays(const EmbreeScene& scene, const LightTraceSettin
         Random random(settings.seed, 0, i);
         const EmittedPhoton emitted = sampler.sample(i, random);
         const PhotonState photon = stateOf(emitted);
-        recorder.addWay(photon);
+        recorder.addPath(photon);
         transport.follow(photon, emitted.reach, random, recorder);
     }
     return rays;
@@ -100,7 +100,7 @@ double bareSeconds(RTCScene scene, const std::vector<BareRay>& rays) {
         hits += query.hit.geomID != RTC_INVALID_GEOMETRY_ID ? 1 : 0;
     }
     const double time = processorSeconds() - start;
-    if (hits == 0) fmt::print("No ray met anything.\n");
+    if (hits == 0) fmt::print("No ray hit anything.\n");
     return time;
 }
 

@@ -21,35 +21,35 @@ std::string numberAt(const json& errors, const char* output, const char* key) {
                                                        : "–";
 }
 
-void drawTruth(Bench& bench) {
-    const TruthState& truth = *bench.truth;
+void drawReference(Bench& bench) {
+    const ReferenceState& reference = *bench.reference;
     ImGui::PushTextWrapPos(0.0f);
-    if (!truth.problem.empty())
-        ImGui::TextColored(ImVec4(1.0f, 0.45f, 0.4f, 1.0f), "%s", truth.problem.c_str());
-    bench.map.area("error.problem", 0, 0, 0, 0, truth.problem);
-    const TruthWorker::Progress progress = bench.truthWorker.progress();
-    const bool isOfThisView = isOfSameView(truth, bench.document);
-    if (truth.isLooking) {
+    if (!reference.problem.empty())
+        ImGui::TextColored(ImVec4(1.0f, 0.45f, 0.4f, 1.0f), "%s", reference.problem.c_str());
+    bench.map.area("error.problem", 0, 0, 0, 0, reference.problem);
+    const ReferenceWorker::Progress progress = bench.referenceWorker.progress();
+    const bool isOfThisView = isOfSameView(reference, bench.document);
+    if (reference.isLooking) {
         ImGui::TextDisabled("Looking for a reference …");
     } else if (!isOfThisView) {
         ImGui::TextDisabled("A reference is looked for once this view is rendered.");
-    } else if (truth.photons > 0) {
+    } else if (reference.photons > 0) {
         ImGui::Text("Reference of %.1f million photons; standard error of a lit pixel %s.",
-                    static_cast<double>(truth.photons) * 1e-6,
-                    std::isfinite(truth.relativeError)
-                        ? fmt::format("{:.2f} %", 100.0 * truth.relativeError).c_str()
+                    static_cast<double>(reference.photons) * 1e-6,
+                    std::isfinite(reference.relativeError)
+                        ? fmt::format("{:.2f} %", 100.0 * reference.relativeError).c_str()
                         : "unknown");
     } else {
         ImGui::TextUnformatted("There is no reference of this view yet.");
     }
     ImGui::PopTextWrapPos();
-    bench.map.area("error.reference", 0, 0, 0, 0, fmt::format("{}", truth.photons));
+    bench.map.area("error.reference", 0, 0, 0, 0, fmt::format("{}", reference.photons));
 
-    auto millions = static_cast<float>(bench.panels.truthPhotons * 1e-6);
+    auto millions = static_cast<float>(bench.panels.referencePhotons * 1e-6);
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.5f);
     if (ImGui::SliderFloat("million photons", &millions, 1.0f, 10000.0f, "%.3g",
                            ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp)) {
-        bench.panels.truthPhotons = double(millions) * 1e6;
+        bench.panels.referencePhotons = double(millions) * 1e6;
     }
     bench.map.control("error.photons");
     if (progress.isComputing || progress.isEnding) {
@@ -58,15 +58,17 @@ void drawTruth(Bench& bench) {
         bench.map.control("error.progress", fmt::format("{}", progress.share));
         ImGui::BeginDisabled(progress.isEnding);
         const char* label = progress.isEnding ? "Stopping …" : "Stop (what there is stays)";
-        if (ImGui::Button(label)) bench.truthWorker.stopComputing();
+        if (ImGui::Button(label)) bench.referenceWorker.stopComputing();
         bench.map.control("error.stop", progress.isEnding ? "stopping" : "");
         ImGui::EndDisabled();
     } else if (isOfThisView) {
-        const bool isEnough = static_cast<double>(truth.photons) >= bench.panels.truthPhotons;
+        const bool isEnough =
+            static_cast<double>(reference.photons) >= bench.panels.referencePhotons;
         ImGui::BeginDisabled(isEnough);
-        if (button(bench, truth.photons > 0 ? "Go on computing" : "Compute in the background",
+        if (button(bench, reference.photons > 0 ? "Go on computing" : "Compute in the background",
                    "error.compute")) {
-            bench.truthWorker.compute(static_cast<std::uint64_t>(bench.panels.truthPhotons));
+            bench.referenceWorker.compute(
+                static_cast<std::uint64_t>(bench.panels.referencePhotons));
         }
         ImGui::EndDisabled();
         tooltip(
@@ -75,7 +77,7 @@ void drawTruth(Bench& bench) {
     }
 }
 
-void drawTable(Bench& bench, const char* title, json TruthState::Judgement::*part) {
+void drawTable(Bench& bench, const char* title, json ReferenceState::Judgement::*part) {
     struct Row {
         const char* label;
         const char* key;
@@ -89,7 +91,7 @@ void drawTable(Bench& bench, const char* title, json TruthState::Judgement::*par
         Row{"HDR-FLIP", "flip_hdr"},
         Row{"energy ratio", "energy_ratio"},
         Row{"encircled energy", "encircled_energy_radius_ratio"}};
-    const auto& judgements = bench.truth->judgements;
+    const auto& judgements = bench.reference->judgements;
     const bool hasOther = bench.document.other.has_value();
     if (judgements[0].order == 0 || !(judgements[0].*part).is_object()) return;
     if (!ImGui::BeginTable(title, hasOther ? 3 : 2, ImGuiTableFlags_RowBg)) return;
@@ -97,7 +99,8 @@ void drawTable(Bench& bench, const char* title, json TruthState::Judgement::*par
     ImGui::TableSetupColumn(hasOther ? "A" : "");
     if (hasOther) ImGui::TableSetupColumn("B");
     ImGui::TableHeadersRow();
-    const std::string prefix = part == &TruthState::Judgement::whole ? "error." : "error.modelled.";
+    const std::string prefix =
+        part == &ReferenceState::Judgement::whole ? "error." : "error.modelled.";
     for (const Row& row : kRows) {
         ImGui::TableNextRow();
         ImGui::TableNextColumn();
@@ -160,17 +163,17 @@ void drawLedger(Bench& bench) {
 }  // namespace
 
 void drawError(Bench& bench) {
-    drawTruth(bench);
-    const TruthState& truth = *bench.truth;
-    if (truth.photons > 0) {
-        if (truth.judgements[0].order == 0) {
+    drawReference(bench);
+    const ReferenceState& reference = *bench.reference;
+    if (reference.photons > 0) {
+        if (reference.judgements[0].order == 0) {
             ImGui::TextDisabled("Measuring the frame …");
         } else {
-            const bool isOld = truth.judgements[0].order != bench.result->order;
+            const bool isOld = reference.judgements[0].order != bench.result->order;
             ImGui::TextDisabled(isOld ? "Of a frame before this one." : "Of this frame.");
             bench.map.control("error.frame", isOld ? "old" : "new");
-            drawTable(bench, "caustic, all paths", &TruthState::Judgement::whole);
-            drawTable(bench, "modelled paths", &TruthState::Judgement::modelled);
+            drawTable(bench, "caustic, all paths", &ReferenceState::Judgement::whole);
+            drawTable(bench, "modelled paths", &ReferenceState::Judgement::modelled);
             bool isShown = bench.view.beside == Beside::error;
             if (checkbox(bench, "heat map beside the picture", isShown, "error.heat_map"))
                 bench.view.beside = isShown ? Beside::error : Beside::nothing;

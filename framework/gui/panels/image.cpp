@@ -19,7 +19,7 @@ const std::vector<std::string>& channelNames() {
 }
 
 const std::vector<std::string>& besideNames() {
-    static const std::vector<std::string> names = {"nothing", "variant B", "the truth",
+    static const std::vector<std::string> names = {"nothing", "variant B", "the reference",
                                                    "heat map of the error"};
     return names;
 }
@@ -39,8 +39,8 @@ void drawChoiceOfTexture(Bench& bench) {
     }
     tooltip("Any texture of the graph. One whose pass nothing else needs makes that pass run.");
     if (index == 0) {
-        if (bench.view.beside == Beside::truth)
-            ImGui::TextDisabled("caustic.irradiance, of which the truth is.");
+        if (bench.view.beside == Beside::reference)
+            ImGui::TextDisabled("caustic.irradiance, of which the reference is.");
         return;
     }
     const graph::TextureDesc& desc = result.textures[static_cast<std::size_t>(index - 1)].desc;
@@ -121,7 +121,8 @@ void drawProbe(Bench& bench) {
     ViewState& view = bench.view;
     ImGui::Separator();
     static_cast<void>(checkbox(bench, "probe photons (P)", view.probes, "image.probe"));
-    tooltip("A click on the picture shows which photons landed there and the ways that they came.");
+    tooltip(
+        "A click on the picture shows which photons landed there and the paths that they took.");
     if (bench.document.other) ImGui::TextDisabled("Photons are those of variant A.");
     if (!view.probes) return;
     ImGui::SliderFloat("radius", &view.probeRadius, 0.5f, 32.0f, "%.1f px",
@@ -170,7 +171,7 @@ void drawImage(Bench& bench) {
     if (choose(bench, "beside it", besideNames(), beside, "image.beside"))
         bench.view.beside = static_cast<Beside>(beside);
     tooltip(
-        "What is seen to the right of the split, which can be dragged. The truth is of the "
+        "What is seen to the right of the split, which can be dragged. The reference is of the "
         "caustic irradiance, and shown beside that.");
     ImGui::Separator();
     if (viewed != nullptr && viewed->missing != ViewedTexture::Missing::layer)

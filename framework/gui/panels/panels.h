@@ -14,7 +14,7 @@ void drawTechnique(Bench& bench);   // technique, nodes, and a second variant be
 void drawParameters(Bench& bench);  // of the nodes in use, from their declarations
 void drawImage(Bench& bench);       // which texture, and how its values become colours
 void drawPicture(Bench& bench);     // the picture itself, with what the hand does on it
-void drawError(Bench& bench);       // how wrong the frame is, and where the truth comes from
+void drawError(Bench& bench);       // how wrong the frame is, and where the reference comes from
 void drawScene(Bench& bench);       // scene, camera, lights, water, time
 void drawRecord(Bench& bench);      // screenshots, sequences, reports, experiments
 void saveExperiment(Bench& bench);  // into the folder of recordings, under a new name

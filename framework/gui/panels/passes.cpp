@@ -57,7 +57,7 @@ void drawPassRow(Bench& bench, const VariantResult& result, const graph::PassRec
                       pass.state == graph::PassState::ran        ? "ran"
                       : pass.state == graph::PassState::bypassed ? "bypassed"
                       : pass.state == graph::PassState::culled   ? "culled"
-                                                                 : "left out");
+                                                                 : "skipped");
     tooltip(fmt::format("{}\n{}", pass.name, pass.why));
     if (times == nullptr) {
         // The reason runs over all the columns that have no numbers here.

@@ -52,7 +52,7 @@ struct Other {
 
 Other otherImage(const Bench& bench) {
     const FrameResult& result = *bench.result;
-    const TruthState& truth = *bench.truth;
+    const ReferenceState& reference = *bench.reference;
     switch (bench.view.beside) {
         case Beside::nothing:
             break;
@@ -62,14 +62,15 @@ Other otherImage(const Bench& bench) {
                 return {&b.viewed->values, b.viewed->version, b.viewed->isEncoded, "B"};
             break;
         }
-        case Beside::truth:
-            if (truth.irradiance && isOfSameView(truth, result.document))
-                return {truth.irradiance.get(), 2 * truth.version, false, "truth"};
+        case Beside::reference:
+            if (reference.irradiance && isOfSameView(reference, result.document))
+                return {reference.irradiance.get(), 2 * reference.version, false, "reference"};
             break;
         case Beside::error:
-            if (const TruthState::Judgement& judgement = truth.judgements[bench.asked().seen()];
-                judgement.heatMap && isOfSameView(truth, result.document)) {
-                return {judgement.heatMap.get(), 2 * truth.version + 1, true,
+            if (const ReferenceState::Judgement& judgement =
+                    reference.judgements[bench.asked().seen()];
+                judgement.heatMap && isOfSameView(reference, result.document)) {
+                return {judgement.heatMap.get(), 2 * reference.version + 1, true,
                         judgement.order == result.order ? "error" : "error of before"};
             }
             break;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What lies over the picture: handles of lights and the ways of photons.
+// What lies over the picture: handles of lights and the paths of photons.
 #pragma once
 
 #include <imgui.h>

@@ -27,9 +27,9 @@ void saveExperiment(Bench& bench) {
 namespace {
 
 #ifdef KAUSTIK_HAS_EMBREE
-constexpr bool kKnowsTruth = true;
+constexpr bool kKnowsReference = true;
 #else
-constexpr bool kKnowsTruth = false;
+constexpr bool kKnowsReference = false;
 #endif
 
 void drawReport(Bench& bench, const std::filesystem::path& folder,
@@ -38,23 +38,23 @@ void drawReport(Bench& bench, const std::filesystem::path& folder,
     if (button(bench, "Report of 8 frames", "record.report")) {
         RecordRequest request;
         request.folder = folder / recordingName(bench.document.scene);
-        if (kKnowsTruth && panels.judgesReports)
-            request.truthPhotons = static_cast<std::uint64_t>(panels.truthPhotons);
+        if (kKnowsReference && panels.judgesReports)
+            request.referencePhotons = static_cast<std::uint64_t>(panels.referencePhotons);
         bench.renderer->record(request);
     }
     explain(
         "What 'kaustik run' writes: pictures, caustic, report.json and the Chrome trace, of "
         "variant A.");
     ImGui::SameLine();
-    ImGui::BeginDisabled(!kKnowsTruth);
+    ImGui::BeginDisabled(!kKnowsReference);
     static_cast<void>(checkbox(bench, "with its error", panels.judgesReports, "record.judged"));
     ImGui::EndDisabled();
-    tooltip(kKnowsTruth
+    tooltip(kKnowsReference
                 ? fmt::format("What 'kaustik run --reference auto' writes, too: error and hits, "
                               "against a reference of {:.3g} million photons (panel Error), which "
                               "is computed first where there is none.",
-                              panels.truthPhotons * 1e-6)
-                : "This program was built without Embree and knows no truth.");
+                              panels.referencePhotons * 1e-6)
+                : "This program was built without Embree and knows no reference.");
 }
 
 }  // namespace

@@ -29,14 +29,14 @@ int lastLayer(const Bench& bench) {
     return layers - 1;
 }
 
-void go(Bench& bench, Shown::WayOut wayOut) {
+void go(Bench& bench, Shown::Remedy remedy) {
     Document& document = bench.document;
-    switch (wayOut) {
-        case Shown::WayOut::back:
+    switch (remedy) {
+        case Shown::Remedy::back:
             document = bench.whole.value_or(document);
             if (!document.other) bench.panels.edited = 0;
             break;
-        case Shown::WayOut::forget:
+        case Shown::Remedy::forget:
             for (Variant* variant :
                  {&document.variant, document.other ? &*document.other : nullptr}) {
                 if (variant == nullptr) continue;
@@ -44,21 +44,21 @@ void go(Bench& bench, Shown::WayOut wayOut) {
                 variant->disabled.clear();
             }
             break;
-        case Shown::WayOut::defaultScene:
+        case Shown::Remedy::defaultScene:
             document.scene = Document().scene;
             document.edits = {};
             break;
-        case Shown::WayOut::picture:
+        case Shown::Remedy::picture:
             bench.view.resource.clear();
             bench.view.layer = 0;
             break;
-        case Shown::WayOut::layer:
+        case Shown::Remedy::layer:
             bench.view.layer = lastLayer(bench);
             break;
-        case Shown::WayOut::restart:
+        case Shown::Remedy::restart:
             bench.wantsRestart = true;
             break;
-        case Shown::WayOut::none:
+        case Shown::Remedy::none:
             break;
     }
 }
@@ -66,7 +66,7 @@ void go(Bench& bench, Shown::WayOut wayOut) {
 }  // namespace
 
 void drawShown(Bench& bench) {
-    const Shown shown = shownOf(bench.asked(), *bench.result, *bench.truth, bench.whole);
+    const Shown shown = shownOf(bench.asked(), *bench.result, *bench.reference, bench.whole);
     const ImVec4 color = colorOf(shown.kind);
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const float height = ImGui::GetFrameHeight();
@@ -74,12 +74,12 @@ void drawShown(Bench& bench) {
         {corner.x + 0.5f * height, corner.y + 0.5f * height}, 0.25f * height,
         ImGui::GetColorU32(color));
     ImGui::Dummy({height, height});
-    if (shown.wayOut != Shown::WayOut::none) {
+    if (shown.remedy != Shown::Remedy::none) {
         ImGui::SameLine();
-        const bool isRestart = shown.wayOut == Shown::WayOut::restart;
-        if (button(bench, labelOf(shown.wayOut).c_str(),
-                   isRestart ? "status.restart" : "shown.way_out")) {
-            go(bench, shown.wayOut);
+        const bool isRestart = shown.remedy == Shown::Remedy::restart;
+        if (button(bench, labelOf(shown.remedy).c_str(),
+                   isRestart ? "status.restart" : "shown.remedy")) {
+            go(bench, shown.remedy);
         }
     }
     ImGui::SameLine();

@@ -54,7 +54,7 @@ const Tolerance kNothing{5e-4,
                          "nothing but what enters within a thousandth of the rim comes so near to "
                          "the critical angle, half of it reflected"};
 
-// What is still on its way in the ball when the interactions end, over what has met it.
+// What is still on its way in the ball when the interactions end, over what has hit it.
 double shareAtTheLimit(Lab& lab, const Lab::Choice& choice, const scene::Scene& scene, int bounces,
                        const Settings& more) {
     FrameRequest request{

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// B12 to B16 for every node that answers `layers`: shapes whose layers are known, before a camera
-// at the origin that looks down -Z.
+// B12 to B16 for every node that answers `layers`: shapes whose layers are known, in front of a
+// camera at the origin that looks down -Z.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -156,9 +156,9 @@ void moreThanTheCap(Lab& lab) {
         lab.expect(node.subject, "layers in a pixel, of 5 with room for 3", 3, peeled.countAt(7, 9),
                    kExactly);
         lab.expect(node.subject, "measured depth complexity", 5, statistics.complexity, kExactly);
-        lab.expect(node.subject, "fragments counted as left out", 2 * 32 * 24, statistics.leftOut,
+        lab.expect(node.subject, "fragments counted as skipped", 2 * 32 * 24, statistics.skipped,
                    kExactly);
-        lab.expect(node.subject, "pixels counted with them", 32 * 24, statistics.pixelsLeftOut,
+        lab.expect(node.subject, "pixels counted with them", 32 * 24, statistics.pixelsSkipped,
                    kExactly);
     }
 }

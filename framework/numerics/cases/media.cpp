@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// D36: the way of one photon through a homogeneous medium, against the integral of what it scatters
-// towards the eye, in double. Summed over the pixels of a picture, mean radiance times the area of
-// a pixel at a depth of 1 m is the integral of Φ(t) σs p(cosθ) Tr(eye) d/z³ over the way: d is the
-// distance from the eye, z the depth.
+// D36: the path of one photon through a homogeneous medium, against the integral of what it
+// scatters towards the eye, in double. Summed over the pixels of a picture, mean radiance times the
+// area of a pixel at a depth of 1 m is the integral of Φ(t) σs p(cosθ) Tr(eye) d/z³ over the path:
+// d is the distance from the eye, z the depth.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -41,7 +41,7 @@ double integral(const std::function<double(double)>& f, double a, double b, int 
     return integral(f, a, m, depth + 1) + integral(f, m, b, depth + 1);
 }
 
-// The part [low, high] of a photon's way, m, of the eye at the origin that looks along -z.
+// The part [low, high] of a photon's path, m, of the eye at the origin that looks along -z.
 double scattered(const BenchPhoton& photon, double low, double high, int channel) {
     const double extinction = kScattering[channel] + kAbsorption[channel];
     const auto density = [&](double t) {
@@ -57,7 +57,7 @@ double scattered(const BenchPhoton& photon, double low, double high, int channel
     return high > low ? integral(density, low, high) : 0.0;
 }
 
-// The part of a way that lies before the near plane, within the picture and up to a depth.
+// The part of a path that lies beyond the near plane, within the picture and up to a depth.
 struct Part {
     double low = 0.0;
     double high = 0.0;
@@ -81,12 +81,12 @@ Part seenPart(const BenchPhoton& photon, double end, double depth, double left =
     return part;
 }
 
-BenchPhoton photonFrom(const glm::dvec3& from, const glm::dvec3& direction, double way) {
+BenchPhoton photonFrom(const glm::dvec3& from, const glm::dvec3& direction, double path) {
     BenchPhoton photon;
     photon.position = from;
     photon.direction = glm::normalize(direction);
     photon.fluxWatts = {3.0, 2.0, 1.0};
-    photon.wayMeters = way;
+    photon.pathMeters = path;
     return photon;
 }
 
@@ -106,7 +106,7 @@ struct Shot {
     BenchPhoton photon;
     Part part;  // that the eye sees
     double tolerance = 2e-4;
-    std::string reason = "a point in the middle of each pixel's part, which is 1/64 of the way";
+    std::string reason = "a point in the middle of each pixel's part, which is 1/64 of the path";
 };
 
 void expectShots(Lab& lab, const Lab::Choice& node, const scene::Scene& scene,
@@ -130,7 +130,7 @@ void expectShots(Lab& lab, const Lab::Choice& node, const scene::Scene& scene,
     }
 }
 
-void oneWay(Lab& lab) {
+void onePath(Lab& lab) {
     const scene::Scene room = makeScene({}, kMedium + kSun + kWall + kBack);
     const BenchPhoton across = photonFrom({-2.5, 1.0, -6.0}, {5.0, -2.0, 1.0}, 5.2);
     const BenchPhoton steep = photonFrom({0.4, 2.0, -5.0}, {-0.3, -4.0, -1.5}, 4.1);
@@ -141,10 +141,10 @@ void oneWay(Lab& lab) {
     const BenchPhoton behind = photonFrom({1.0, 0.0, 5.0}, {0.0, 0.1, 1.0}, 3.0);
     const double forever = 1e9;
     const std::string nearEnd =
-        "a point in the middle of 1/64 of the way in 1/depth: most of the light is from the "
+        "a point in the middle of 1/64 of the path in 1/depth: most of the light is from the "
         "nearest of them";
     const std::vector<Shot> shots = {
-        {"radiance of a way across the view", across, seenPart(across, 5.2, forever)},
+        {"radiance of a path across the view", across, seenPart(across, 5.2, forever)},
         {"of a steep one", steep, seenPart(steep, 4.1, forever)},
         {"of one into the eye", endOn, seenPart(endOn, 20.0, forever), 2e-3, nearEnd},
         {"of one 1 mm beside the eye", besideTheEye, seenPart(besideTheEye, 20.0, forever), 2e-3,
@@ -157,30 +157,30 @@ void oneWay(Lab& lab) {
         expectShots(lab, node, room, shots);
 }
 
-// The medium ends before the eye does; a way ends there too, or where a surface hides it.
+// The medium ends before the eye does; a path ends there too, or where a surface hides it.
 void boundaries(Lab& lab) {
     const scene::Scene slab =
         makeScene({}, kMedium + kSun + kWall + facingPlane("front", "grey", 2, {25, 0, -3}));
     const BenchPhoton leaves = photonFrom({0.2, 0.3, -9.0}, {0.05, 0.02, 1.0}, 0.0);
-    const double way = 6.0 / leaves.direction.z;
+    const double path = 6.0 / leaves.direction.z;
     const scene::Scene hiding = makeScene(
         {}, kMedium + kSun + kWall + kBack + facingPlane("screen", "grey", 8, {0, 0, -5}));
     const BenchPhoton hidden = photonFrom({-1.0, 0.1, -3.0}, {2.0, 0.3, -5.0}, 5.4);
     for (const Lab::Choice& node : lab.each<MediaStage>()) {
         expectShots(lab, node, slab,
-                    {{"of a way out of the medium", leaves, seenPart(leaves, way, 1e9)}});
+                    {{"of a path out of the medium", leaves, seenPart(leaves, path, 1e9)}});
         expectShots(
             lab, node, hiding,
-            {{"of a way that a screen hides the end of", hidden, seenPart(hidden, 5.4, 5.0)}});
+            {{"of a path that a screen hides the end of", hidden, seenPart(hidden, 5.4, 5.0)}});
     }
 }
 
-// Every column of pixels holds its own part of the way.
+// Every column of pixels holds its own part of the path.
 void byColumn(Lab& lab) {
     const scene::Scene room = makeScene({}, kMedium + kSun + kWall + kBack);
     BenchPhoton photon = photonFrom({-3.3, 0.7, -6.0}, {6.0, -1.0, 4.0}, 6.8);
     photon.footprintMeters = 0.05;
-    const Part whole = seenPart(photon, photon.wayMeters, 1e9);
+    const Part whole = seenPart(photon, photon.pathMeters, 1e9);
     const double all = scattered(photon, whole.low, whole.high, 1);
     for (const Lab::Choice& node : lab.each<MediaStage>()) {
         const Frame frame = scatterPhotons(lab, node, room, {photon});
@@ -193,7 +193,7 @@ void byColumn(Lab& lab) {
             double found = 0.0;
             for (int y = 0; y < kSide; ++y)
                 found += kPixelArea * radiance.rgb(x, y).g;
-            const Part part = seenPart(photon, photon.wayMeters, 1e9, 2.0 * x / kSide - 1.0,
+            const Part part = seenPart(photon, photon.pathMeters, 1e9, 2.0 * x / kSide - 1.0,
                                        2.0 * (x + 1) / kSide - 1.0);
             const double expected = scattered(photon, part.low, part.high, 1);
             lit += expected > 0.0 ? 1 : 0;
@@ -201,7 +201,7 @@ void byColumn(Lab& lab) {
         }
         lab.expectDeviation(node.subject, "worst error of a column of pixels, share of a mean one",
                             worst * lit / all,
-                            {1e-3, "ends of the way are pixels to 1e-5, the rest as above"});
+                            {1e-3, "ends of the path are pixels to 1e-5, the rest as above"});
         lab.expectAtLeast(node.subject, "columns of pixels that the path covers", 80, lit, kEnough);
     }
 }
@@ -241,26 +241,26 @@ void noScattering(Lab& lab) {
     }
 }
 
-void manyWaysThroughOnePixel(Lab& lab) {
+void manyPathsThroughOnePixel(Lab& lab) {
     // 2^21, which is what fits, as for deposits on a receiver.
-    constexpr int kWays = 1 << 21;
+    constexpr int kPaths = 1 << 21;
     const scene::Scene room = makeScene({}, kMedium + kSun + kWall + kBack);
     const BenchPhoton photon = photonFrom({-1.0, 0.2, -6.0}, {5.0, -0.5, 1.0}, 2.0);
     const double area = std::pow(2.0 * kTangent, 2);
     for (const Lab::Choice& node : lab.each<MediaStage>()) {
-        const auto render = [&](int ways) {
+        const auto render = [&](int paths) {
             return scatterPhotons(lab, node, room,
-                                  std::vector<BenchPhoton>(static_cast<std::size_t>(ways), photon),
+                                  std::vector<BenchPhoton>(static_cast<std::size_t>(paths), photon),
                                   {}, {1, 1});
         };
         const Frame one = render(1);
         const graph::ResourceRef handle = one.renderer().outputs().inScattered.radiance;
         if (!handle.valid()) continue;
         const double single = one.read(handle).rgb(0, 0).g;
-        const Frame all = render(kWays);
+        const Frame all = render(kPaths);
         const double sum = all.read(all.renderer().outputs().inScattered.radiance).rgb(0, 0).g;
-        lab.expect(node.subject, "radiance of 2^21 ways through one pixel over that of one", kWays,
-                   sum / single, {1e-4 * kWays, "1e-4, as the case asks for"});
+        lab.expect(node.subject, "radiance of 2^21 paths through one pixel over that of one",
+                   kPaths, sum / single, {1e-4 * kPaths, "1e-4, as the case asks for"});
         // A line is a pixel wide at least, and this picture is one: some of it lies beside it.
         const double expected = scattered(photon, 0.0, 2.0, 1) / area;
         lab.expect(node.subject, "radiance of one, over the whole of it", 1.0, single / expected,
@@ -271,11 +271,11 @@ void manyWaysThroughOnePixel(Lab& lab) {
 }  // namespace
 
 void addMediaCases(Suite& suite) {
-    suite.add("D34", "", manyWaysThroughOnePixel);
+    suite.add("D34", "", manyPathsThroughOnePixel);
     suite.add("D36",
-              "A photon's way through a medium scatters what the integral says: across the view, "
+              "A photon's path through a medium scatters what the integral says: across the view, "
               "end on, out of the medium; and nothing where nothing scatters.",
-              oneWay);
+              onePath);
     suite.add("D36", "", boundaries);
     suite.add("D36", "", byColumn);
     suite.add("D36", "", noScattering);

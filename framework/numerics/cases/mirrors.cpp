@@ -57,10 +57,10 @@ struct ExactView {
     glm::dvec3 direction{0.0};
     double radiance = 0.0;
     int mirrors = 0;
-    bool isShown = true;  // the screen shows every place that the ray meets
+    bool isShown = true;  // the screen shows every place that the ray hits
 };
 
-// Distance to a face along a ray; `isNearEdge`: rounding may decide whether it is met.
+// Distance to a face along a ray; `isNearEdge`: rounding may decide whether it is hit.
 std::optional<double> toFace(const Face& face, const glm::dvec3& from, const glm::dvec3& along,
                              bool& isNearEdge) {
     constexpr double kEdge = 0.03;
@@ -85,7 +85,7 @@ bool isOnScreen(const Frame& frame, const glm::dvec3& world) {
            pixel->y < view.height - kBorder;
 }
 
-// What the ray of a pixel sees; nothing where it meets no mirror or comes too near to an edge.
+// What the ray of a pixel sees; nothing where it hits no mirror or comes too near to an edge.
 std::optional<ExactView> follow(const Frame& frame, const Setting& setting, const glm::dvec3& ray) {
     ExactView view;
     view.position = setting.eye;
@@ -94,18 +94,18 @@ std::optional<ExactView> follow(const Frame& frame, const Setting& setting, cons
     for (;;) {
         bool isNearEdge = false;
         double nearest = std::numeric_limits<double>::infinity();
-        const Face* met = nullptr;
+        const Face* hit = nullptr;
         for (const Face& face : setting.faces) {
             const auto t = toFace(face, view.position, view.direction, isNearEdge);
             if (t && *t < nearest) {
                 nearest = *t;
-                met = &face;
+                hit = &face;
             }
         }
         if (isNearEdge) return std::nullopt;
         const double toFloor =
             view.direction.y < 0.0 ? -view.position.y / view.direction.y : nearest;
-        if (met == nullptr || toFloor < nearest) {
+        if (hit == nullptr || toFloor < nearest) {
             if (view.mirrors == 0) return std::nullopt;
             if (view.direction.y >= 0.0) {
                 view.radiance = share * kBackground;
@@ -120,15 +120,15 @@ std::optional<ExactView> follow(const Frame& frame, const Setting& setting, cons
         }
         view.position += nearest * view.direction;
         view.isShown = view.isShown && isOnScreen(frame, view.position);
-        view.direction[met->axis] = -view.direction[met->axis];
+        view.direction[hit->axis] = -view.direction[hit->axis];
         share *= kReflectance;
         ++view.mirrors;
     }
 }
 
 struct Found {
-    std::array<int, 3> shown{0, 0, 0};  // pixels by mirrors met, all on the screen
-    int wrong = 0;                      // of these: lost, or other mirrors met
+    std::array<int, 3> shown{0, 0, 0};  // pixels by mirrors hit, all on the screen
+    int wrong = 0;                      // of these: lost, or other mirrors hit
     double direction = 0.0;
     double position = 0.0;  // m
     double radiance = 0.0;  // relative
@@ -147,7 +147,7 @@ Found compare(const Frame& frame, const Setting& setting) {
                 follow(frame, setting, glm::normalize(frame.worldAt(x, y, 1.0) - eye));
             if (!exact || !exact->isShown || exact->mirrors > 2) continue;
             ++found.shown[static_cast<std::size_t>(exact->mirrors)];
-            if (direction.at(x, y, 3) != transport::kWayCameOut ||
+            if (direction.at(x, y, 3) != transport::kPathCameOut ||
                 position.at(x, y, 3) != static_cast<float>(exact->mirrors)) {
                 ++found.wrong;
                 continue;
@@ -201,7 +201,7 @@ void expectMirrors(Lab& lab, const Setting& setting, int mostMirrors) {
                             found.direction, {1e-6, "roundings of unit vectors of 6e-8"});
         lab.expectDeviation(node.subject, "where a ray leaves its last mirror, m", found.position,
                             {1e-5, "32-bit view depths at 5 m, divided by cosines"});
-        lab.expectDeviation(node.subject, "radiance, reflectance to the power of the mirrors met",
+        lab.expectDeviation(node.subject, "radiance, reflectance to the power of the mirrors hit",
                             found.radiance, {1e-3, "albedo is kept in half floats"});
     }
 }

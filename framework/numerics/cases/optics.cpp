@@ -53,11 +53,11 @@ Bend exactBend(const glm::dvec3& direction, const SurfacePoint& surface, bool is
         const double incidence = glm::dot(direction, normal);
         if (!isFallBack) bend.margin = std::abs(incidence);
         if (incidence >= 0.0) continue;
-        const ExactInterface meeting = exactInterface(direction, normal, from, to);
-        const bool isReflected = isMirror || meeting.refracted == glm::dvec3(0.0);
-        bend.direction = isReflected ? meeting.reflected : meeting.refracted;
+        const ExactInterface interaction = exactInterface(direction, normal, from, to);
+        const bool isReflected = isMirror || interaction.refracted == glm::dvec3(0.0);
+        bend.direction = isReflected ? interaction.reflected : interaction.refracted;
         bend.isFallBack = isFallBack;
-        const double above = glm::dot(meeting.reflected, outer);
+        const double above = glm::dot(interaction.reflected, outer);
         const double onward = glm::dot(bend.direction, outer);
         if (!isFallBack) bend.margin = std::min({bend.margin, std::abs(above), std::abs(onward)});
         if (above > 0.0 && (onward > 0.0) == isReflected) return bend;
@@ -113,7 +113,7 @@ void shadingNormalOnTheWrongSide(Lab& lab) {
     }
 }
 
-// Photons that have entered a ball of glass meet it from within.
+// Photons that have entered a ball of glass hit it from within.
 void insideABall(Lab& lab) {
     CameraText camera;
     camera.position = {1.9, 1.7, 2.9};
@@ -154,14 +154,14 @@ void insideABall(Lab& lab) {
         for (std::size_t i = 0; i < photons.size(); ++i) {
             const BenchHit& hit = traced.hits[i];
             const double error = std::abs(hit.distanceMeters - exact[i]);
-            // A footprint is 6 mm here, and the ball is met at up to a tenth of it edge-on.
+            // A footprint is 6 mm here, and the ball is hit at up to a tenth of it edge-on.
             if (hit.material != kGlass || error > 0.06) {
                 ++wrong;
             } else {
                 worst = std::max(worst, error);
             }
         }
-        lab.expect(tracer.subject, "photons inside a ball of glass that do not meet it from within",
+        lab.expect(tracer.subject, "photons inside a ball of glass that do not hit it from within",
                    0, wrong,
                    {static_cast<double>(photons.size()) / 500.0,
                     "where the eye sees the ball edge-on a pixel holds one of several triangles: "
@@ -171,7 +171,7 @@ void insideABall(Lab& lab) {
     }
 }
 
-// Photons that a tracer finds on a coarse ball are met on the triangle's side too.
+// What a tracer finds on a coarse ball bends light by the triangle's side too.
 void shadingNormalOfATracedHit(Lab& lab) {
     const scene::Scene scene = makeScene(
         {}, sun({0, -1, 0}) +
@@ -280,10 +280,10 @@ void lampUnderWater(Lab& lab) {
             if (with.before.hits[i].fate != kFateSpecular) continue;
             ++photons;
             inWater += with.before.media[i] == Media{kWater} ? 1 : 0;
-            const double way = glm::length(with.before.hits[i].position - position);
+            const double pathMeters = glm::length(with.before.hits[i].position - position);
             const double left =
                 with.before.hits[i].fluxWatts.g / without.before.hits[i].fluxWatts.g;
-            worst = std::max(worst, std::abs(left - std::exp(-perMeter * way)));
+            worst = std::max(worst, std::abs(left - std::exp(-perMeter * pathMeters)));
             const ExactInterface exact =
                 exactInterface(with.before.directions[i], {0.0, -1.0, 0.0}, kWaterIndex, 1.0);
             const bool leaves = exact.refracted != glm::dvec3(0.0);
@@ -348,7 +348,7 @@ void nestedDielectrics(Lab& lab) {
         makeScene({}, sun({0, -1, 0}) + floorPlane("water", "water", 2, {0, 0, -4}) +
                           object("cube", "box", "glass", {0, -1, -4}, "size = [1, 1, 1]") +
                           floorPlane("floor", "grey", 20, {0, -3, -4}));
-    const auto meet = [&](double radians, bool enters, const Media& media) {
+    const auto arriving = [&](double radians, bool enters, const Media& media) {
         BenchPhoton photon;
         photon.position = {0.0, -0.5, -4.0};
         photon.direction = {std::sin(radians), enters ? -std::cos(radians) : std::cos(radians),
@@ -359,8 +359,9 @@ void nestedDielectrics(Lab& lab) {
         return photon;
     };
     const Media glassInWater = {kGlass, kWater};
-    const std::vector<BenchPhoton> photons = {
-        meet(0.6, true, {kWater}), meet(0.6, false, glassInWater), meet(1.2, false, glassInWater)};
+    const std::vector<BenchPhoton> photons = {arriving(0.6, true, {kWater}),
+                                              arriving(0.6, false, glassInWater),
+                                              arriving(1.2, false, glassInWater)};
     for (const Lab::Choice& specular : lab.each<SpecularStage>()) {
         std::vector<Media> media;
         const Traced result = interactPhotons(lab, specular, scene, photons, &media);

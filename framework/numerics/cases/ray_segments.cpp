@@ -174,7 +174,7 @@ void leavesTheScreen(Lab& lab) {
 void addRaySegmentCases(Suite& suite) {
     suite.add("A1", "A ray that crosses the near plane is clipped in view space.",
               crossesTheNearPlane);
-    suite.add("A2", "A ray wholly behind the eye meets nothing and is counted.", liesBehindTheEye);
+    suite.add("A2", "A ray wholly behind the eye hits nothing and is counted.", liesBehindTheEye);
     suite.add("A3", "A ray parallel to the view direction, or through the eye, is traced.",
               runsAlongTheViewDirection);
     suite.add("A4", "Depth interpolates as 1/z along a ray on the screen.",

@@ -91,7 +91,7 @@ void grazingEdgeAndOccluder(Lab& lab) {
         grazing.push_back(landing({0.2 * (i % 10) - 0.9, 0.0, 0.3 * (i / 10) - 1.5}, {0, 1, 0},
                                   {0.3, -1.0, 0.2}, 0.02));
     }
-    // A shelf whose edge lies in the middle of the picture, 5 m before the wall.
+    // A shelf whose edge lies in the middle of the picture, 5 m in front of the wall.
     const scene::Scene shelf = makeScene({}, kSun + facingPlane("wall", "grey", 60, {0, 0, -10}) +
                                                  facingPlane("shelf", "grey", 10, {-5.0, 0, -5}));
     const double pixel = 2.0 * kTangent * 5.0 / kSide;
@@ -113,7 +113,7 @@ void grazingEdgeAndOccluder(Lab& lab) {
         lab.expect(node.subject, "flux kept on a shelf by splats that hang off its edge, W", 60.0,
                    deposited(onEdge, edgeArea, 0, 0, 64, kSide),
                    {60e-6, "1e-6 of the flux: what hangs off is redistributed on the shelf"});
-        lab.expectDeviation(node.subject, "flux that leaks to the wall behind, W",
+        lab.expectDeviation(node.subject, "flux that leaks to the wall beyond, W",
                             deposited(onEdge, edgeArea, 64, 0, kSide, kSide), kExactly);
 
         const Frame hidden = reconstructHits(lab, node, shelf, behindTheEdge);
@@ -127,7 +127,7 @@ void grazingEdgeAndOccluder(Lab& lab) {
                           "else the edge would not be tried");
         lab.expectAtLeast(node.subject, "of it, on the wall, W", 20.0, wall,
                           "the photons lie on the wall, and so does much of each");
-        lab.expectDeviation(node.subject, "flux that leaks to the shelf before it, W",
+        lab.expectDeviation(node.subject, "flux that leaks to the shelf in front of it, W",
                             deposited(onWall, wallArea, 0, 0, 64, kSide), kExactly);
     }
 }

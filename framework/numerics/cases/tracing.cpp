@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A1 to A3, A6 to A11 and B17 for every node that answers `trace`: photons made up one by one, in
-// scenes of planes and boxes, against where a ray in double meets them.
+// scenes of planes and boxes, against where a ray in double hits them.
 #include <algorithm>
 #include <cmath>
 
@@ -17,7 +17,7 @@ using namespace transport;
 // The camera of most cases: 128 x 128 pixels of 60 degrees at the origin.
 constexpr double kFootprintPerMeter = 2.0 * 0.57735026918962576 / 128.0;
 
-// The hit on a plane lies where the ray meets the plane that the pixel holds.
+// The hit on a plane lies where the ray hits the plane that the pixel holds.
 const Tolerance kOnPlane{2e-5,
                          "t comes from a 32-bit depth of some 10 m (1e-6 m) and a 32-bit "
                          "normal, along rays that close in on the plane with a cosine of 0.1 "

@@ -128,7 +128,7 @@ void expectLit(Lab& lab, const std::string& what, const scene::Scene& scene,
 void photonCounts(Lab& lab) {
     const scene::Scene scene = makeScene(kAbove, kSun + kFloor + kWaterPlane);
     expectLit(lab, "one photon", scene, {64, 48, {{"emit.photons", "1x1"}}});
-    // Every texel of the light's grid meets the floor first.
+    // Every texel of the light's grid hits the floor first.
     expectDark(lab, "no photon",
                makeScene(kAbove, kSun + kFloor + floorPlane("water", "water", 2, {0, -0.5, 0})));
 }

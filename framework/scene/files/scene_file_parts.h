@@ -14,7 +14,7 @@ namespace kaustik::scene {
 [[nodiscard]] Camera readCamera(TableReader& reader);
 [[nodiscard]] Medium readMedium(TableReader& reader);
 
-// Sets what surrounds the scene; a pattern becomes one of its images.
+// Sets the environment; a pattern becomes one of its images.
 void readEnvironment(TableReader& reader, Scene& scene);
 
 // These add the texture, if there is one, to the scene's images.

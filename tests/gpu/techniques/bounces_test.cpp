@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Photons are followed over as many specular surfaces as is asked for, where they can meet them
-// again, and over no more than they can meet.
+// Photons are followed over as many specular surfaces as is asked for, where they can hit them
+// again, and over no more than they can hit.
 #include <algorithm>
 
 #include "framework/scene/files/scene_file.h"
@@ -11,7 +11,7 @@ namespace {
 
 using transport::kAccountBounceLimit;
 
-// A low sun on steep waves: what one crest reflects meets the next one.
+// A low sun on steep waves: what one crest reflects hits the next one.
 scene::Scene choppyWater() {
     return sceneFromText(R"(
 name = "choppy"
@@ -70,7 +70,7 @@ TEST(Bounces, AreFollowedAsFarAsIsAskedOverWavesThatLightComesBackTo) {
     }
 }
 
-TEST(Bounces, AreNoneMoreThanOneWhereLightMeetsWaterOnce) {
+TEST(Bounces, AreNoneMoreThanOneWhereLightHitsWaterOnce) {
     const scene::Scene scene = scene::loadScene("flat-water");
     const Frame frame(scene, 160, 120, {{"specular.bounces", "8"}, {"emit.photons", "32x32"}});
     EXPECT_EQ(timesRun(frame, "trace.hierarchical"), 1);

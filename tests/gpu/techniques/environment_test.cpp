@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What surrounds a scene, on the device: the colour of each direction is that of the picture there,
-// whichever way the eye looks and the picture is turned.
+// The environment of a scene, on the device: the colour of each direction is that of the picture
+// there, whichever way the eye looks and the picture is turned.
 #include "framework/scene/environment.h"
 
 #include <fmt/format.h>

@@ -212,10 +212,10 @@ class TexturedSpot : public testing::Test {
     }
     // Irradiance of the floor by hand.
     static double irradianceAt(const scene::Light& light, const glm::dvec3& point, double color) {
-        const glm::dvec3 way = point - light.position;
-        const double distance = glm::length(way);
-        const double cosine = glm::dot(way, light.direction) / distance;
-        return 100.0 * color * scene::spotFalloff(light, cosine) * (-way.y / distance) /
+        const glm::dvec3 toPoint = point - light.position;
+        const double distance = glm::length(toPoint);
+        const double cosine = glm::dot(toPoint, light.direction) / distance;
+        return 100.0 * color * scene::spotFalloff(light, cosine) * (-toPoint.y / distance) /
                (distance * distance);
     }
     const TemporaryFolder folder_;
@@ -250,12 +250,12 @@ TEST_F(TexturedSpot, ShowsItsImageInDirectLightAndInCaustics) {
             const int x = block % (200 / kBlock) * kBlock + i % kBlock;
             const int y = block / (200 / kBlock) * kBlock + i / kBlock;
             const glm::dvec3 world = frame.worldAt(x, y, static_cast<double>(receiver.at(x, y, 0)));
-            const glm::dvec3 way = glm::normalize(world - light.position);
+            const glm::dvec3 toPoint = glm::normalize(world - light.position);
             // Within 28 degrees: where the cone's flank is not dark.
-            const bool isLit = glm::dot(way, light.direction) > std::cos(28.0 * kPi / 180.0);
+            const bool isLit = glm::dot(toPoint, light.direction) > std::cos(28.0 * kPi / 180.0);
             isWhole = isWhole && isLit && world.x < -0.2;
             if (!isLit) continue;
-            const glm::dvec2 at = spotImagePosition(light, way);
+            const glm::dvec2 at = spotImagePosition(light, toPoint);
             const glm::dvec3 expected =
                 irradianceAt(light, world, 1.0) * glm::dvec3(at.x, at.y, 0.5);
             sum += caustic.rgb(x, y);

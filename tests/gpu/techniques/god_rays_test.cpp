@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // God rays on the device (K06, section 3.2) against integrals along the eye's rays, and what else a
-// medium changes: photons' flux, the picture, and which passes there are. The ray-traced truth is
-// in tests/audit/god_rays_test.cpp, single photons in the hard cases (D36).
+// medium changes: photons' flux, the picture, and which passes there are. The ray-traced reference
+// is in tests/audit/god_rays_test.cpp, single photons in the hard cases (D36).
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -22,7 +22,7 @@ const glm::dvec3 kExtinction(0.4, 0.3, 0.25);
 
 // Still water of 2 m by 2 m at y = 0 under a sun straight above, and a floor at y = -3; the eye
 // looks at the beam from the side.
-scene::Scene beamThroughFog() {
+scene::Scene beamThroughMedium() {
     scene::Scene scene = sceneFromText(R"(
 name = "beam"
 background_radiance = [1, 2, 3]
@@ -73,9 +73,9 @@ double radianceAlong(const glm::dvec3& origin, const glm::dvec3& ray, int channe
     constexpr int kSteps = 400;
     double sum = 0.0;
     for (int i = 0; i < kSteps; ++i) {
-        const double way = begin + (end - begin) * (i + 0.5) / kSteps;
-        const double depth = -(origin.y + way * ray.y);
-        sum += std::exp(-kExtinction[channel] * (depth + way));
+        const double along = begin + (end - begin) * (i + 0.5) / kSteps;
+        const double depth = -(origin.y + along * ray.y);
+        sum += std::exp(-kExtinction[channel] * (depth + along));
     }
     return kSun * kTransmitted * kScattering[channel] * phase(ray.y) * sum * (end - begin) / kSteps;
 }
@@ -101,8 +101,8 @@ Settings sharp(const std::string& key, const std::string& value) {
     return settings;
 }
 
-TEST(GodRays, BeamThroughFogIsTheIntegralAlongTheEyesRay) {
-    const scene::Scene scene = beamThroughFog();
+TEST(GodRays, BeamThroughAMediumIsTheIntegralAlongTheEyesRay) {
+    const scene::Scene scene = beamThroughMedium();
     for (const char* photons : {"128x128", "300x300"}) {
         const Frame frame(scene, 96, 72, sharp("emit.photons", photons));
         const Texels radiance = inScattered(frame);
@@ -133,7 +133,7 @@ TEST(GodRays, BeamThroughFogIsTheIntegralAlongTheEyesRay) {
 }
 
 TEST(GodRays, EveryWidthKeepsTheLight) {
-    const scene::Scene scene = beamThroughFog();
+    const scene::Scene scene = beamThroughMedium();
     const auto total = [&](const Settings& settings) {
         const Frame frame(scene, 96, 72, settings);
         return inScattered(frame).sum();
@@ -151,14 +151,14 @@ TEST(GodRays, EveryWidthKeepsTheLight) {
 }
 
 TEST(GodRays, PhotonsLoseTheirFluxToTheMedium) {
-    scene::Scene scene = beamThroughFog();
+    scene::Scene scene = beamThroughMedium();
     // All that the sun lights of the floor is on the screen.
     scene.camera.position = {0.0, -0.5, 5.0};
     scene.camera.target = {0.0, -2.5, 0.0};
     scene.camera.verticalFovDegrees = 45.0;
     Frame frame(scene, 160, 120, sharp("emit.photons", "64x64"));
     const EnergyLedger ledger = frame.renderer().ledger();
-    // Three equal channels of 4 m² of water, of which 3 m of fog leave a part.
+    // Three equal channels of 4 m² of water, of which 3 m of the medium leave a part.
     double arrives = 0.0;
     for (int c = 0; c < 3; ++c)
         arrives += std::exp(-3.0 * kExtinction[c]) * kTransmitted / 3.0;
@@ -169,7 +169,7 @@ TEST(GodRays, PhotonsLoseTheirFluxToTheMedium) {
 }
 
 TEST(GodRays, TheyComeOnTopOfWhatTheMediumLeavesOfThePicture) {
-    const scene::Scene scene = beamThroughFog();
+    const scene::Scene scene = beamThroughMedium();
     const Settings few = sharp("emit.photons", "64x64");
     const Frame whole(scene, 96, 72, few, {"view.radiance"});
     const Texels seen = whole.read("view.radiance");
@@ -195,8 +195,8 @@ TEST(GodRays, TheyComeOnTopOfWhatTheMediumLeavesOfThePicture) {
                     const double low = axis == 1 ? -3.0 : -6.0;
                     const double high = axis == 1 ? 0.0 : 6.0;
                     const double side = ray[axis] > 0.0 ? high : low;
-                    const double way = (side - eye[axis]) / ray[axis];
-                    distance = axis == 0 ? way : std::min(distance, way);
+                    const double along = (side - eye[axis]) / ray[axis];
+                    distance = axis == 0 ? along : std::min(distance, along);
                 }
             }
             for (int c = 0; c < 3; ++c) {
@@ -213,32 +213,32 @@ TEST(GodRays, TheyComeOnTopOfWhatTheMediumLeavesOfThePicture) {
 }
 
 TEST(GodRays, AreLeftOutWhereNothingScatters) {
-    scene::Scene scene = beamThroughFog();
+    scene::Scene scene = beamThroughMedium();
     scene.medium->scatteringPerMeter = glm::vec3(0.0f);
     const Settings few = {{"emit.photons", "16x16"}};
     const Frame absorbing(scene, 32, 24, few);
-    EXPECT_TRUE(hasPass(absorbing, "media.lines", graph::PassState::leftOut));
+    EXPECT_TRUE(hasPass(absorbing, "media.lines", graph::PassState::skipped));
     EXPECT_TRUE(hasPass(absorbing, "compose.medium", graph::PassState::ran));
     EXPECT_FALSE(absorbing.renderer().outputs().inScattered.radiance.valid());
     scene.medium.reset();
     const Frame clear(scene, 32, 24, few);
-    EXPECT_TRUE(hasPass(clear, "media.lines", graph::PassState::leftOut));
-    EXPECT_TRUE(hasPass(clear, "compose.medium", graph::PassState::leftOut));
+    EXPECT_TRUE(hasPass(clear, "media.lines", graph::PassState::skipped));
+    EXPECT_TRUE(hasPass(clear, "compose.medium", graph::PassState::skipped));
     // Nor is there anything to blur where the settings leave it out.
-    const Frame without(beamThroughFog(), 32, 24,
+    const Frame without(beamThroughMedium(), 32, 24,
                         {{"emit.photons", "16x16"}, {"media", "none"}, {"blur", "gaussian"}});
-    EXPECT_TRUE(hasPass(without, "blur.gaussian", graph::PassState::leftOut));
+    EXPECT_TRUE(hasPass(without, "blur.gaussian", graph::PassState::skipped));
     EXPECT_FALSE(without.renderer().outputs().inScattered.radiance.valid());
     // What stands in for a light path that cannot be needs no medium's light either.
-    scene = beamThroughFog();
+    scene = beamThroughMedium();
     scene.lights.clear();
     const Frame dark(scene, 32, 24, few);
-    EXPECT_TRUE(hasPass(dark, "media.lines", graph::PassState::leftOut));
+    EXPECT_TRUE(hasPass(dark, "media.lines", graph::PassState::skipped));
     EXPECT_TRUE(hasPass(dark, "compose.medium", graph::PassState::ran));
 }
 
 TEST(GodRayBlur, KeepsTheLightAndSpreadsItByItsSigma) {
-    const scene::Scene scene = beamThroughFog();
+    const scene::Scene scene = beamThroughMedium();
     const Settings few = {
         {"emit.photons", "2x2"}, {"media.lines.width", "1"}, {"blur", "gaussian"}};
     const auto render = [&](const char* sigma) {

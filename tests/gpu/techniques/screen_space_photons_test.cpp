@@ -224,7 +224,7 @@ TEST(ScreenSpacePhotons, AHitOfThePaperEpsilonLiesWithinEpsilonOfTheSurface) {
             if (fluxes.at(x, y, 3) != static_cast<float>(transport::kFateReceiver)) continue;
             ++hits;
             const double height = frame.toWorld(positions.rgb(x, y)).y;
-            // Along the view axis, which meets the floor at more than 45 degrees here.
+            // Along the view axis, which hits the floor at more than 45 degrees here.
             const bool isNearFloor = std::abs(height + 1.2) < 0.05 * 1.42;
             const glm::dvec3 world = frame.toWorld(positions.rgb(x, y));
             const bool isNearWall = std::abs(world.x) > 1.95 || std::abs(world.z) > 1.45;

@@ -95,8 +95,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadSpec{
             "TimeThatIsInfinite", "name = 'x'\n[base]\ntime = inf\n", {"study.toml:3:", "seconds"}},
         BadSpec{"ReferenceThatIsNotThere",
-                "name = 'x'\n[base]\nreference = 'truth.exr'\n",
-                {"study.toml:3:", "no file 'truth.exr'"}},
+                "name = 'x'\n[base]\nreference = 'reference.exr'\n",
+                {"study.toml:3:", "no file 'reference.exr'"}},
         BadSpec{"ListForAParameter",
                 "name = 'x'\n[base]\nepsilon = [0.1]\n",
                 {"study.toml:3:", "epsilon", "list"}},

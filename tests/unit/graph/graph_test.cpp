@@ -341,13 +341,13 @@ TEST(Graph, BatchesOfOneNodeAreOneRecord) {
     auto image = filter(graph, "s.a", {});
     for (int batch = 0; batch < 4; ++batch)
         image = draw(graph, "s.batch", image);
-    graph.leaveOut("s.rays", "the scene has no medium");
+    graph.skip("s.rays", "the scene has no medium");
     graph.request(image);
     const Compiled compiled = graph.compile();
     EXPECT_EQ(compiled.steps.size(), 5u);
     ASSERT_EQ(compiled.records.size(), 3u);
     EXPECT_EQ(compiled.records[1].repeats, 4u);
-    EXPECT_EQ(compiled.records[2].state, PassState::leftOut);
+    EXPECT_EQ(compiled.records[2].state, PassState::skipped);
     EXPECT_EQ(compiled.records[2].why, "the scene has no medium");
 }
 

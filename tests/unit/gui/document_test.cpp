@@ -59,7 +59,7 @@ TEST(State, IsTheSameAfterARestart) {
     kept.view.layer = 3;
     kept.view.isFalseColor = true;
     kept.view.exposureStops = -2.5f;
-    kept.view.beside = Beside::truth;
+    kept.view.beside = Beside::reference;
     kept.panels.leftWidth = 333.0f;
     kept.panels.recordFolder = "elsewhere";
     kept.window = {1000, 700, 10, 20};

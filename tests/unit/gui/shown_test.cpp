@@ -25,7 +25,7 @@ class ShownTest : public testing::Test {
         result.document = document;
     }
     [[nodiscard]] Asked asked() const { return {document, kOrder, view}; }
-    [[nodiscard]] Shown shown() const { return shownOf(asked(), result, truth, whole); }
+    [[nodiscard]] Shown shown() const { return shownOf(asked(), result, reference, whole); }
     [[nodiscard]] bool says(const std::string& part) const {
         return shown().sentence.find(part) != std::string::npos;
     }
@@ -33,13 +33,13 @@ class ShownTest : public testing::Test {
     Document document;
     ViewState view;
     FrameResult result;
-    TruthState truth;
+    ReferenceState reference;
     std::optional<Document> whole;
 };
 
 TEST_F(ShownTest, IsWhatWasAskedFor) {
     EXPECT_EQ(shown().kind, Shown::Kind::asked);
-    EXPECT_EQ(shown().wayOut, Shown::WayOut::none);
+    EXPECT_EQ(shown().remedy, Shown::Remedy::none);
     EXPECT_TRUE(isRendered(asked(), result));
     addOther();
     EXPECT_EQ(shown().kind, Shown::Kind::asked);
@@ -91,11 +91,11 @@ TEST_F(ShownTest, IsStaleWhereAVariantCannotBeRendered) {
     document.variant.disabled = {"x"};
     EXPECT_EQ(shown().kind, Shown::Kind::stale);
     EXPECT_TRUE(says(": There is no pass 'x'. Nor 'y'.")) << "in one line";
-    EXPECT_EQ(shown().wayOut, Shown::WayOut::forget) << "nothing to go back to";
+    EXPECT_EQ(shown().remedy, Shown::Remedy::forget) << "nothing to go back to";
     EXPECT_FALSE(isRendered(asked(), result));
     EXPECT_NE(whyItCannotRun(asked(), result), "");
     whole = Document();
-    EXPECT_EQ(shown().wayOut, Shown::WayOut::back);
+    EXPECT_EQ(shown().remedy, Shown::Remedy::back);
     // Also where a quick picture is all that there is.
     result.variants[0].isPreview = true;
     EXPECT_EQ(shown().kind, Shown::Kind::stale);
@@ -115,15 +115,15 @@ TEST_F(ShownTest, IsStaleWhereTheSceneCannotBeHad) {
     document.scene = "gone.toml";
     result.problem = "gone.toml is not there.";
     EXPECT_EQ(shown().kind, Shown::Kind::stale);
-    EXPECT_EQ(shown().wayOut, Shown::WayOut::defaultScene);
+    EXPECT_EQ(shown().remedy, Shown::Remedy::defaultScene);
     whole = Document();
-    EXPECT_EQ(shown().wayOut, Shown::WayOut::back);
+    EXPECT_EQ(shown().remedy, Shown::Remedy::back);
     // To a scene that has come to be broken there is no way back.
     whole->scene = "gone.toml";
-    EXPECT_EQ(shown().wayOut, Shown::WayOut::defaultScene);
+    EXPECT_EQ(shown().remedy, Shown::Remedy::defaultScene);
     document.scene = Document().scene;
     whole.reset();
-    EXPECT_EQ(shown().wayOut, Shown::WayOut::none);
+    EXPECT_EQ(shown().remedy, Shown::Remedy::none);
 }
 
 TEST_F(ShownTest, IsStaleWhereTheDeviceIsLostWhateverTheOrder) {
@@ -131,19 +131,19 @@ TEST_F(ShownTest, IsStaleWhereTheDeviceIsLostWhateverTheOrder) {
     result.problem = "Out of memory.";
     result.order = 0;
     EXPECT_EQ(shown().kind, Shown::Kind::stale);
-    EXPECT_EQ(shown().wayOut, Shown::WayOut::restart);
+    EXPECT_EQ(shown().remedy, Shown::Remedy::restart);
 }
 
 TEST_F(ShownTest, IsStaleWhereTheTextureOrItsLayerIsMissing) {
     view.resource = "layers.depth";
     ViewedTexture& viewed = *result.variants[0].viewed;
     viewed.missing = ViewedTexture::Missing::texture;
-    EXPECT_EQ(shown().wayOut, Shown::WayOut::picture);
+    EXPECT_EQ(shown().remedy, Shown::Remedy::picture);
     EXPECT_TRUE(says("'layers.depth'"));
     viewed.missing = ViewedTexture::Missing::layer;
     viewed.layer = 6;
     viewed.layers = 4;
-    EXPECT_EQ(shown().wayOut, Shown::WayOut::layer);
+    EXPECT_EQ(shown().remedy, Shown::Remedy::layer);
     EXPECT_TRUE(says("no layer 6"));
     EXPECT_TRUE(says("0 to 3"));
     EXPECT_TRUE(isRendered(asked(), result)) << "it runs all the same";
@@ -157,18 +157,18 @@ TEST_F(ShownTest, IsStaleWhereShadersAreBroken) {
 }
 
 TEST_F(ShownTest, SaysWhatIsMissingBesideThePicture) {
-    view.beside = Beside::truth;
+    view.beside = Beside::reference;
     EXPECT_EQ(shown().kind, Shown::Kind::asked);
-    EXPECT_TRUE(says("no truth of this view"));
-    truth.photons = 1000;
-    truth.aim = TruthAim{document.scene, document.edits, document.size, {}, 0};
-    EXPECT_FALSE(says("no truth of this view"));
-    truth.aim->size = {1, 1};
-    EXPECT_TRUE(says("no truth of this view")) << "of another size";
-    truth.aim->size = document.size;
+    EXPECT_TRUE(says("no reference of this view"));
+    reference.photons = 1000;
+    reference.aim = ReferenceAim{document.scene, document.edits, document.size, {}, 0};
+    EXPECT_FALSE(says("no reference of this view"));
+    reference.aim->size = {1, 1};
+    EXPECT_TRUE(says("no reference of this view")) << "of another size";
+    reference.aim->size = document.size;
     view.beside = Beside::error;
     EXPECT_TRUE(says("still being measured"));
-    truth.judgements[0].order = kOrder;
+    reference.judgements[0].order = kOrder;
     EXPECT_FALSE(says("still being measured"));
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // FLIP once more, as its papers put it and without any thought of speed: in double, with whole
 // two-dimensional kernels, matrices from the primaries of Rec.709, and the sRGB and CIELAB formulas
-// written out. The truth for the tests of the fast one, with which it shares no code.
+// written out. The reference for the tests of the fast one, with which it shares no code.
 #pragma once
 
 #include <algorithm>

@@ -97,7 +97,7 @@ TEST(HdrFlip, InEachPixelIsTheLargestOfItsExposures) {
 }
 
 TEST(HdrFlip, SeesAnErrorThatOneExposureCutsOff) {
-    // Both are far above the white of a picture that shows the surroundings.
+    // Both are far above the white of a picture that shows the environment.
     Image reference = greyImage(40, 40, 0.5f);
     Image image = reference;
     for (int y = 15; y < 25; ++y) {

@@ -93,7 +93,7 @@ TEST(ImageErrors, AreMeasuredWithWhatIsGivenAndSaySo) {
     EXPECT_EQ(formulas.at("flip_hdr").at("exposures").at("rule"), "given");
 }
 
-TEST(ImageErrors, HaveTheTruthsNoiseBesideThem) {
+TEST(ImageErrors, HaveTheReferencesNoiseBesideThem) {
     const Image image = greyImage(16, 16, 1.0f);
     const Image sigma = greyImage(16, 16, 0.25f);
     const ImagePair pair({.image = image, .reference = image, .standardError = &sigma});
@@ -106,8 +106,8 @@ TEST(ImageErrors, HaveTheTruthsNoiseBesideThem) {
 
 TEST(HeatMapScale, DependsOnTheReferenceAloneUnlessThatIsBlack) {
     const Image reference = randomImage(16, 16, 1);
-    const auto scaleFor = [&](const Image& image, const Image& truth) {
-        const ImagePair pair = pairOf(image, truth);
+    const auto scaleFor = [&](const Image& image, const Image& groundTruth) {
+        const ImagePair pair = pairOf(image, groundTruth);
         return heatMapScale(measureErrors(pair), absoluteErrorPlane(pair));
     };
     EXPECT_EQ(scaleFor(randomImage(16, 16, 2), reference),

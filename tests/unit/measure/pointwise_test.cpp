@@ -90,13 +90,13 @@ TEST(Pointwise, RelMseIsTheSameForAnySceneScale) {
 }
 
 // A perfect image measured against many references that are noisy with the stated error.
-TEST(TruthNoise, IsWhatNoisyReferencesGiveAPerfectImage) {
+TEST(ReferenceNoise, IsWhatNoisyReferencesGiveAPerfectImage) {
     constexpr int kTrials = 400;
-    const Image truth = randomImage(12, 10, 5, 1.0f, 2.0f);
+    const Image reference = randomImage(12, 10, 5, 1.0f, 2.0f);
     const Image sigma = randomImage(12, 10, 6, 0.05f, 0.1f);
-    const ImagePair stated({.image = truth, .reference = truth, .standardError = &sigma});
+    const ImagePair stated({.image = reference, .reference = reference, .standardError = &sigma});
     const double epsilon = 0.01;
-    const TruthNoise expected = truthNoise(stated, epsilon);
+    const ReferenceNoise expected = referenceNoise(stated, epsilon);
 
     std::mt19937 generator(11);
     std::normal_distribution<float> normal;
@@ -105,14 +105,14 @@ TEST(TruthNoise, IsWhatNoisyReferencesGiveAPerfectImage) {
     double relative = 0.0;
     double ratioSquares = 0.0;
     for (int trial = 0; trial < kTrials; ++trial) {
-        Image noisy = truth;
+        Image noisy = reference;
         for (std::size_t pixel = 0; pixel < 120; ++pixel) {
             const float deviation = normal(generator);  // one for all channels, as of photons
             for (std::size_t i = 3 * pixel; i < 3 * pixel + 3; ++i)
                 noisy.values[i] += sigma.values[i] * deviation;
         }
         // Measured the other way round, so that R in relMSE is the same for all.
-        const ImagePair pair = pairOf(noisy, truth);
+        const ImagePair pair = pairOf(noisy, reference);
         squares += std::pow(rootMeanSquareError(pair), 2.0) / kTrials;
         absolutes += meanAbsoluteError(pair) / kTrials;
         relative += relativeMeanSquareError(pair, epsilon) / kTrials;
@@ -126,7 +126,7 @@ TEST(TruthNoise, IsWhatNoisyReferencesGiveAPerfectImage) {
     EXPECT_NEAR(std::sqrt(ratioSquares) / expected.energyRatio, 1.0, 0.18);
 }
 
-TEST(TruthNoise, OfPixelsThatAreLeftOutDoesNotCount) {
+TEST(ReferenceNoise, OfPixelsThatAreLeftOutDoesNotCount) {
     const Image image = greyImage(2, 1, 1.0f);
     Image sigma(2, 1, 3);
     sigma.values = {0.5f, 0.5f, 0.5f, 100.0f, 100.0f, 100.0f};
@@ -134,7 +134,7 @@ TEST(TruthNoise, OfPixelsThatAreLeftOutDoesNotCount) {
     mask.values = {1.0f, 0.0f};
     const ImagePair pair(
         {.image = image, .reference = image, .mask = &mask, .standardError = &sigma});
-    const TruthNoise noise = truthNoise(pair, 1.0);
+    const ReferenceNoise noise = referenceNoise(pair, 1.0);
     EXPECT_DOUBLE_EQ(noise.rmse, 0.5);
     EXPECT_DOUBLE_EQ(noise.relMse, 0.125);
     EXPECT_DOUBLE_EQ(noise.energyRatio, 0.5);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where directions fall in a picture of the surroundings, and the pictures that need no file.
+// Where directions fall in a picture of the environment, and the pictures that need no file.
 #include "framework/scene/environment.h"
 
 #include <gtest/gtest.h>

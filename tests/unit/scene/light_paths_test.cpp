@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whether light can meet a scene's specular surfaces again.
+// Whether light can hit a scene's specular surfaces again.
 #include "framework/scene/light_paths.h"
 
 #include <gtest/gtest.h>
@@ -63,54 +63,54 @@ TEST(IsSheet, IsWhatDoesNotTurnBack) {
     EXPECT_FALSE(isSheet(withoutATriangle(makeSphere({}))));
 }
 
-TEST(MeetingsAgain, AreNoneWithoutASpecularSurfaceAndAtASinglePlane) {
-    EXPECT_FALSE(meetingsAgain({}).reflected);
+TEST(HitsAgain, AreNoneWithoutASpecularSurfaceAndAtASinglePlane) {
+    EXPECT_FALSE(hitsAgain({}).reflected);
     for (const MaterialKind kind : {MaterialKind::dielectric, MaterialKind::mirror}) {
         Scene scene;
         add(scene, makePlane({}), kind);
         scene.lights.push_back(sunAt(80.0));
-        EXPECT_FALSE(meetingsAgain(scene).transmitted);
-        EXPECT_FALSE(meetingsAgain(scene).reflected);
+        EXPECT_FALSE(hitsAgain(scene).transmitted);
+        EXPECT_FALSE(hitsAgain(scene).reflected);
     }
 }
 
-TEST(MeetingsAgain, AreThereInABodyEvenIfItsMeshIsOpen) {
+TEST(HitsAgain, AreThereInABodyEvenIfItsMeshIsOpen) {
     for (const Mesh& ball : {makeSphere({}), withoutATriangle(makeSphere({}))}) {
         Scene scene;
         add(scene, ball);
         scene.lights.push_back(sunAt(0.0));
-        EXPECT_TRUE(meetingsAgain(scene).transmitted);
+        EXPECT_TRUE(hitsAgain(scene).transmitted);
     }
 }
 
-TEST(MeetingsAgain, AreThereBetweenTwoSheets) {
+TEST(HitsAgain, AreThereBetweenTwoSheets) {
     Scene scene;
     add(scene, makePlane({}));
     add(scene, makePlane({}));
-    EXPECT_TRUE(meetingsAgain(scene).transmitted);
+    EXPECT_TRUE(hitsAgain(scene).transmitted);
 }
 
 // By hand: what enters goes on within 20 degrees of straight down, which waves of 20 degrees are
-// too flat to meet; what is reflected is turned by 40 degrees, and 70 + 20 is where they are not.
-TEST(MeetingsAgain, OfReflectedLightBeginWhereWavesAreAsSteepAsItsWay) {
+// too flat to be hit; what is reflected is turned by 40 degrees, and 70 + 20 is where they are not.
+TEST(HitsAgain, OfReflectedLightBeginWhereWavesAreAsSteepAsItsPath) {
     for (const double sun : {0.0, 29.0}) {
-        EXPECT_FALSE(meetingsAgain(waterUnderSun(20.0, sun)).transmitted);
-        EXPECT_FALSE(meetingsAgain(waterUnderSun(20.0, sun)).reflected);
+        EXPECT_FALSE(hitsAgain(waterUnderSun(20.0, sun)).transmitted);
+        EXPECT_FALSE(hitsAgain(waterUnderSun(20.0, sun)).reflected);
     }
-    EXPECT_FALSE(meetingsAgain(waterUnderSun(20.0, 31.0)).transmitted);
-    EXPECT_TRUE(meetingsAgain(waterUnderSun(20.0, 31.0)).reflected);
+    EXPECT_FALSE(hitsAgain(waterUnderSun(20.0, 31.0)).transmitted);
+    EXPECT_TRUE(hitsAgain(waterUnderSun(20.0, 31.0)).reflected);
 }
 
-TEST(MeetingsAgain, OfRefractedLightBeginWhereTheSunGrazesTheWaves) {
-    EXPECT_FALSE(meetingsAgain(waterUnderSun(20.0, 69.0)).transmitted);
-    EXPECT_TRUE(meetingsAgain(waterUnderSun(20.0, 71.0)).transmitted);
+TEST(HitsAgain, OfRefractedLightBeginWhereTheSunGrazesTheWaves) {
+    EXPECT_FALSE(hitsAgain(waterUnderSun(20.0, 69.0)).transmitted);
+    EXPECT_TRUE(hitsAgain(waterUnderSun(20.0, 71.0)).transmitted);
     // Steep waves bend light that comes from straight above by as much.
-    EXPECT_FALSE(meetingsAgain(waterUnderSun(44.0, 0.0)).transmitted);
-    EXPECT_TRUE(meetingsAgain(waterUnderSun(46.0, 0.0)).transmitted);
+    EXPECT_FALSE(hitsAgain(waterUnderSun(44.0, 0.0)).transmitted);
+    EXPECT_TRUE(hitsAgain(waterUnderSun(46.0, 0.0)).transmitted);
 }
 
-TEST(MeetingsAgain, AreThereForLightFromWithin) {
-    EXPECT_TRUE(meetingsAgain(waterUnderSun(5.0, 180.0)).transmitted);
+TEST(HitsAgain, AreThereForLightFromWithin) {
+    EXPECT_TRUE(hitsAgain(waterUnderSun(5.0, 180.0)).transmitted);
     // A lamp over the water's edge sees it at a slant, one far above does not.
     for (const auto& [height, expected] : {std::pair(0.1, true), std::pair(10.0, false)}) {
         Scene scene;
@@ -119,11 +119,11 @@ TEST(MeetingsAgain, AreThereForLightFromWithin) {
         lamp.kind = LightKind::point;
         lamp.position = {0.5, height, 0.0};
         scene.lights.push_back(lamp);
-        EXPECT_EQ(meetingsAgain(scene).transmitted, expected) << height;
+        EXPECT_EQ(hitsAgain(scene).transmitted, expected) << height;
     }
 }
 
-TEST(MeetingsAgain, DependOnHowTheWaterIsPlacedOnly) {
+TEST(HitsAgain, DependOnHowTheWaterIsPlacedOnly) {
     const glm::dmat4 turned =
         glm::rotate(glm::dmat4(1.0), glm::radians(90.0), glm::dvec3(0.0, 0.0, 1.0));
     for (const auto& [sun, expected] : {std::pair(29.0, false), std::pair(31.0, true)}) {
@@ -131,19 +131,19 @@ TEST(MeetingsAgain, DependOnHowTheWaterIsPlacedOnly) {
         add(scene, wavyWater(20.0), MaterialKind::dielectric, turned);
         scene.lights.push_back(sunAt(sun));
         scene.lights[0].direction = glm::dmat3(turned) * scene.lights[0].direction;
-        EXPECT_EQ(meetingsAgain(scene).reflected, expected) << sun;
+        EXPECT_EQ(hitsAgain(scene).reflected, expected) << sun;
     }
     // Twice as high, so as steep as 36 degrees.
     Scene stretched = waterUnderSun(20.0, 20.0);
-    EXPECT_FALSE(meetingsAgain(stretched).reflected);
+    EXPECT_FALSE(hitsAgain(stretched).reflected);
     stretched.objects[0].toWorld = glm::scale(glm::dmat4(1.0), glm::dvec3(1.0, 2.0, 1.0));
-    EXPECT_TRUE(meetingsAgain(stretched).reflected);
+    EXPECT_TRUE(hitsAgain(stretched).reflected);
 }
 
-TEST(MeetingsAgain, OfShippedWaterAreThoseOfReflectedLightFromALowSun) {
-    EXPECT_FALSE(meetingsAgain(loadScene("flat-water")).reflected);
-    EXPECT_FALSE(meetingsAgain(loadScene("pool-reflections")).transmitted);
-    EXPECT_TRUE(meetingsAgain(loadScene("pool-reflections")).reflected);
+TEST(HitsAgain, OfShippedWaterAreThoseOfReflectedLightFromALowSun) {
+    EXPECT_FALSE(hitsAgain(loadScene("flat-water")).reflected);
+    EXPECT_FALSE(hitsAgain(loadScene("pool-reflections")).transmitted);
+    EXPECT_TRUE(hitsAgain(loadScene("pool-reflections")).reflected);
 }
 
 // A sheet, a wall beyond it where a low sun is reflected to, and the sun.
@@ -159,7 +159,7 @@ Scene sheetAndWall(double sunDegrees, const glm::dvec3& wall) {
     return scene;
 }
 
-TEST(ReflectedLight, IsFresnelsShareWhereAReceiverLiesInItsWay) {
+TEST(ReflectedLight, IsFresnelsShareWhereAReceiverLiesInItsPath) {
     // At 60 degrees: sin t = sin 60 / 1.333.
     const double inside = std::sqrt(1.0 - 0.75 / (1.333 * 1.333));
     const double s = (0.5 - 1.333 * inside) / (0.5 + 1.333 * inside);
@@ -172,7 +172,7 @@ TEST(ReflectedLight, IsFresnelsShareWhereAReceiverLiesInItsWay) {
     EXPECT_EQ(seen->receiver, "wall");
 }
 
-TEST(ReflectedLight, IsNoneWithoutAReceiverInItsWayOrWhereItIsWeak) {
+TEST(ReflectedLight, IsNoneWithoutAReceiverInItsPathOrWhereItIsWeak) {
     EXPECT_FALSE(reflectedLight(sheetAndWall(60.0, {-2.0, 1.0, 0.0})));  // where it comes from
     EXPECT_FALSE(reflectedLight(sheetAndWall(60.0, {2.0, -2.0, 0.0})));  // below
     EXPECT_FALSE(reflectedLight(sheetAndWall(30.0, {1.0, 1.0, 0.0})));   // 2 %

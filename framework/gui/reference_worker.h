@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The ray-traced truth in the background: looked for in the cache, computed when asked for, and
+// The ray-traced reference in the background: looked for in the cache, computed when asked for, and
 // what each frame is worth beside it. On a thread of its own at low priority, which nothing waits
 // for. Without Embree it says so and does nothing.
 #pragma once
@@ -26,13 +26,13 @@ struct Outputs;
 namespace kaustik::gui {
 
 // What a reference depends on.
-struct TruthAim {
+struct ReferenceAim {
     std::string scene;
     scene::SceneEdits edits;
     params::Extent size;
     ModelledPaths paths;   // interactions 0: nothing is modelled
     int sceneReloads = 0;  // FrameOrder::sceneReloads: another one, another scene of that name
-    [[nodiscard]] bool operator==(const TruthAim& other) const;
+    [[nodiscard]] bool operator==(const ReferenceAim& other) const;
 };
 
 // A frame to be judged.
@@ -41,12 +41,12 @@ struct JudgedFrame {
     std::shared_ptr<const run::Outputs> outputs;
 };
 
-struct TruthState {
+struct ReferenceState {
     bool isLooking = false;  // in the cache
     std::string problem;
-    std::uint64_t version = 0;    // of the pictures below: no other ones have it
-    std::optional<TruthAim> aim;  // that all of the following is of
-    std::uint64_t photons = 0;    // 0: there is no reference
+    std::uint64_t version = 0;        // of the pictures below: no other ones have it
+    std::optional<ReferenceAim> aim;  // that all of the following is of
+    std::uint64_t photons = 0;        // 0: there is no reference
     double relativeError = 0.0;
     std::shared_ptr<const Image> irradiance;  // W/m², top row first
     struct Judgement {
@@ -58,16 +58,16 @@ struct TruthState {
     std::array<Judgement, 2> judgements;  // of A and B
 };
 
-class TruthWorker {
+class ReferenceWorker {
   public:
     // `onNews` is called on the worker's thread.
-    explicit TruthWorker(std::function<void()> onNews);
-    ~TruthWorker();  // what has been computed is kept
-    TruthWorker(const TruthWorker&) = delete;
-    TruthWorker& operator=(const TruthWorker&) = delete;
+    explicit ReferenceWorker(std::function<void()> onNews);
+    ~ReferenceWorker();  // what has been computed is kept
+    ReferenceWorker(const ReferenceWorker&) = delete;
+    ReferenceWorker& operator=(const ReferenceWorker&) = delete;
 
-    // What the truth should be of, from now on; ends a computation of something else.
-    void aim(const TruthAim& aim);
+    // What the reference should be of, from now on; ends a computation of something else.
+    void aim(const ReferenceAim& aim);
     // Goes on computing until there are so many photons.
     void compute(std::uint64_t photons);
     // Ends it within a moment; what there is by whole batches stays.
@@ -83,14 +83,14 @@ class TruthWorker {
     // The newest frames of A and B; those before are forgotten.
     void judge(const std::array<JudgedFrame, 2>& frames);
 
-    [[nodiscard]] std::shared_ptr<const TruthState> state() const;
+    [[nodiscard]] std::shared_ptr<const ReferenceState> state() const;
 
   private:
     struct Loaded;  // scene and references, on the thread
 
     void run();
     void post();
-    void look(Loaded& loaded, const TruthAim& aim);
+    void look(Loaded& loaded, const ReferenceAim& aim);
     void computeMore(Loaded& loaded, std::uint64_t photons);
     // From here on photons are traced to have so many of both references, of which there are
     // `photons` each in the end.
@@ -103,8 +103,8 @@ class TruthWorker {
     mutable std::mutex mutex_;
     std::condition_variable wake_;
     bool stop_ = false;
-    std::optional<TruthAim> wantedAim_;  // newest
-    std::optional<TruthAim> currentAim_;
+    std::optional<ReferenceAim> wantedAim_;  // newest
+    std::optional<ReferenceAim> currentAim_;
     std::uint64_t wantedPhotons_ = 0;  // 0: none
     std::optional<std::array<JudgedFrame, 2>> wantedFrames_;
     bool isAtWork_ = false;  // in computeMore()
@@ -118,8 +118,8 @@ class TruthWorker {
     };
     std::optional<Run> progress_;           // nothing before the first
     std::atomic<std::uint64_t> traced_{0};  // in the run at hand
-    std::shared_ptr<const TruthState> state_ = std::make_shared<const TruthState>();
-    TruthState working_;  // the thread's own
+    std::shared_ptr<const ReferenceState> state_ = std::make_shared<const ReferenceState>();
+    ReferenceState working_;  // the thread's own
     std::uint64_t versions_ = 0;
     std::thread thread_;
 };

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What the eye sees in and through specular surfaces, ray traced: for every pixel the exact way of
-// the transmitted ray, and the radiance that arrives at the eye by all ways. Caustics are left out
+// What the eye sees in and through specular surfaces, ray traced: for every pixel the exact path of
+// the transmitted ray, and the radiance that arrives at the eye by all paths. Caustics are left out
 // of the radiance: receivers have their direct and their fill light, everything specular blocks
-// direct light, and what leaves the scene sees what surrounds it (Appearance::surroundings).
+// direct light, and what leaves the scene sees the environment (Appearance::environment).
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace kaustik::reference {
 
-struct ViewTruthRequest {
+struct ViewReferenceRequest {
     int width = 800;
     int height = 600;
     int samplesPerSide = 4;     // of a pixel's square, jittered: its box filter
@@ -23,10 +23,10 @@ struct ViewTruthRequest {
 };
 
 // Rows from the top. Only pixels whose middle sees a specular surface are known; others are 0.
-struct ViewTruth {
-    // The way through the pixel's middle: refracted at every dielectric unless all is reflected.
+struct ViewReference {
+    // The path through the pixel's middle: refracted at every dielectric unless all is reflected.
     Image
-        exitPosition;  // where it leaves the last specular surface: view space, m; how many it met
+        exitPosition;  // where it leaves the last specular surface: view space, m; how many it hit
     Image exitDirection;     // unit, view space; 1 where it came out, 0 at the limit
     Image radiance;          // mean over the pixel, W/m²/sr
     Image radianceError;     // its standard error
@@ -34,6 +34,7 @@ struct ViewTruth {
     std::size_t pixels = 0;  // of these
 };
 
-[[nodiscard]] ViewTruth traceView(const EmbreeScene& scene, const ViewTruthRequest& request);
+[[nodiscard]] ViewReference traceView(const EmbreeScene& scene,
+                                      const ViewReferenceRequest& request);
 
 }  // namespace kaustik::reference

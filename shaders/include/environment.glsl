@@ -4,9 +4,9 @@
 #include "include/scene_images.glsl"
 #include "include/view.glsl"
 
-// Radiance that comes along a ray which meets nothing more, W/m²/sr. `directionVs`: unit, along the
+// Radiance that comes along a ray which hits nothing more, W/m²/sr. `directionVs`: unit, along the
 // ray, away from the eye.
-vec3 surroundingRadiance(vec3 directionVs) {
+vec3 environmentRadiance(vec3 directionVs) {
     if (view.environment.x < 0.0) return view.background.rgb;
     const float kTurn = 6.28318531;
     vec3 d = mat3(view.viewToWorld) * directionVs;

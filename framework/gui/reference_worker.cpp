@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "framework/gui/truth_worker.h"
+#include "framework/gui/reference_worker.h"
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -18,16 +18,16 @@
 
 namespace kaustik::gui {
 
-bool TruthAim::operator==(const TruthAim& other) const {
+bool ReferenceAim::operator==(const ReferenceAim& other) const {
     return scene == other.scene && edits == other.edits && size == other.size &&
            paths.transmissionOnly == other.paths.transmissionOnly &&
            paths.interactions == other.paths.interactions && sceneReloads == other.sceneReloads;
 }
 
-TruthWorker::TruthWorker(std::function<void()> onNews)
+ReferenceWorker::ReferenceWorker(std::function<void()> onNews)
     : onNews_(std::move(onNews)), thread_([this] { run(); }) {}
 
-TruthWorker::~TruthWorker() {
+ReferenceWorker::~ReferenceWorker() {
     {
         const std::lock_guard lock(mutex_);
         stop_ = true;
@@ -36,7 +36,7 @@ TruthWorker::~TruthWorker() {
     thread_.join();
 }
 
-void TruthWorker::aim(const TruthAim& aim) {
+void ReferenceWorker::aim(const ReferenceAim& aim) {
     {
         const std::lock_guard lock(mutex_);
         if (wantedAim_ == aim) return;
@@ -47,7 +47,7 @@ void TruthWorker::aim(const TruthAim& aim) {
     wake_.notify_all();
 }
 
-void TruthWorker::compute(std::uint64_t photons) {
+void ReferenceWorker::compute(std::uint64_t photons) {
     {
         const std::lock_guard lock(mutex_);
         wantedPhotons_ = photons;
@@ -56,12 +56,12 @@ void TruthWorker::compute(std::uint64_t photons) {
     wake_.notify_all();
 }
 
-void TruthWorker::stopComputing() {
+void ReferenceWorker::stopComputing() {
     const std::lock_guard lock(mutex_);
     wantedPhotons_ = 0;
 }
 
-TruthWorker::Progress TruthWorker::progress() const {
+ReferenceWorker::Progress ReferenceWorker::progress() const {
     const std::lock_guard lock(mutex_);
     Progress now;
     now.isComputing = wantedPhotons_ > 0;
@@ -82,7 +82,7 @@ TruthWorker::Progress TruthWorker::progress() const {
     return now;
 }
 
-void TruthWorker::judge(const std::array<JudgedFrame, 2>& frames) {
+void ReferenceWorker::judge(const std::array<JudgedFrame, 2>& frames) {
     {
         const std::lock_guard lock(mutex_);
         wantedFrames_ = frames;
@@ -90,29 +90,29 @@ void TruthWorker::judge(const std::array<JudgedFrame, 2>& frames) {
     wake_.notify_all();
 }
 
-std::shared_ptr<const TruthState> TruthWorker::state() const {
+std::shared_ptr<const ReferenceState> ReferenceWorker::state() const {
     const std::lock_guard lock(mutex_);
     return state_;
 }
 
-void TruthWorker::post() {
+void ReferenceWorker::post() {
     {
         const std::lock_guard lock(mutex_);
-        state_ = std::make_shared<const TruthState>(working_);
+        state_ = std::make_shared<const ReferenceState>(working_);
     }
     onNews_();
 }
 
-bool TruthWorker::isSuperseded() const {
+bool ReferenceWorker::isSuperseded() const {
     const std::lock_guard lock(mutex_);
     return stop_ || wantedAim_ != currentAim_ || wantedPhotons_ == 0;
 }
 
 #ifndef KAUSTIK_HAS_EMBREE
 
-struct TruthWorker::Loaded {};
-void TruthWorker::run() {
-    working_.problem = "This program was built without Embree and knows no truth.";
+struct ReferenceWorker::Loaded {};
+void ReferenceWorker::run() {
+    working_.problem = "This program was built without Embree and knows no reference.";
     post();
 }
 
@@ -123,7 +123,7 @@ namespace {
 using reference::Reference;
 using reference::ReferenceRequest;
 
-// Between two looks at what else there is to do, and two pictures of the truth.
+// Between two looks at what else there is to do, and two pictures of the reference.
 constexpr std::uint64_t kPhotonsAtOnce = 1u << 22;
 
 // While it lives something is at work.
@@ -149,7 +149,7 @@ std::filesystem::path cache() {
 
 }  // namespace
 
-struct TruthWorker::Loaded {
+struct ReferenceWorker::Loaded {
     explicit Loaded(scene::Scene s) : scene(std::move(s)) {}
     scene::Scene scene;
     std::optional<reference::EmbreeScene> embree;  // made when first computed with
@@ -159,7 +159,7 @@ struct TruthWorker::Loaded {
     std::optional<Reference> modelled;
 };
 
-void TruthWorker::run() {
+void ReferenceWorker::run() {
     static_cast<void>(setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 19));
     std::unique_ptr<Loaded> loaded;
     for (;;) {
@@ -204,7 +204,7 @@ void TruthWorker::run() {
     }
 }
 
-void TruthWorker::takeOver(const Loaded& loaded) {
+void ReferenceWorker::takeOver(const Loaded& loaded) {
     working_.version = ++versions_;
     working_.photons = loaded.whole ? loaded.whole->photons : 0;
     working_.relativeError = loaded.whole ? loaded.whole->relativeError : 0.0;
@@ -212,7 +212,7 @@ void TruthWorker::takeOver(const Loaded& loaded) {
         loaded.whole ? std::make_shared<const Image>(loaded.whole->irradiance) : nullptr;
 }
 
-void TruthWorker::look(Loaded& loaded, const TruthAim& aim) {
+void ReferenceWorker::look(Loaded& loaded, const ReferenceAim& aim) {
     loaded.request.width = aim.size.width;
     loaded.request.height = aim.size.height;
     if (aim.paths.interactions > 0) {
@@ -229,7 +229,8 @@ void TruthWorker::look(Loaded& loaded, const TruthAim& aim) {
     post();
 }
 
-void TruthWorker::beginRun(const Loaded& loaded, std::uint64_t photonsMore, std::uint64_t photons) {
+void ReferenceWorker::beginRun(const Loaded& loaded, std::uint64_t photonsMore,
+                               std::uint64_t photons) {
     const auto done = [&](const std::optional<Reference>& reference) {
         return reference ? std::min(reference->photons, photons) : std::uint64_t{0};
     };
@@ -240,7 +241,7 @@ void TruthWorker::beginRun(const Loaded& loaded, std::uint64_t photonsMore, std:
                  references, loaded.whole ? loaded.whole->relativeError : HUGE_VAL};
 }
 
-void TruthWorker::computeMore(Loaded& loaded, std::uint64_t photons) {
+void ReferenceWorker::computeMore(Loaded& loaded, std::uint64_t photons) {
     const AtWork atWork(mutex_, isAtWork_);
     if (!loaded.embree) loaded.embree.emplace(loaded.scene);
     photons = std::max(photons, 2 * loaded.request.photonsPerBatch);  // else its error is unknown
@@ -273,19 +274,19 @@ void TruthWorker::computeMore(Loaded& loaded, std::uint64_t photons) {
             throw;  // else: ended below two batches, of which there is no reference
     }
     const std::uint64_t after = photonsOf(loaded.whole);
-    // Where no light meets a specular surface there are no photons, however long it takes.
+    // Where no light hits a specular surface there are no photons, however long it takes.
     if (loaded.whole && after == 0)
-        working_.problem = "No light meets a specular surface: there is no caustic to compare.";
+        working_.problem = "No light hits a specular surface: there is no caustic to compare.";
     if (after >= photons || (loaded.whole && after == 0)) stopComputing();
     takeOver(loaded);
-    for (TruthState::Judgement& judgement : working_.judgements)
-        judgement.order = 0;  // by a worse truth: frames are to be judged again
+    for (ReferenceState::Judgement& judgement : working_.judgements)
+        judgement.order = 0;  // by a worse reference: frames are to be judged again
     post();
 }
 
-void TruthWorker::judgeFrames(Loaded& loaded, const std::array<JudgedFrame, 2>& frames) {
+void ReferenceWorker::judgeFrames(Loaded& loaded, const std::array<JudgedFrame, 2>& frames) {
     for (std::size_t i = 0; i < frames.size(); ++i) {
-        TruthState::Judgement judgement;
+        ReferenceState::Judgement judgement;
         if (frames[i].outputs) {
             const run::Outputs& outputs = *frames[i].outputs;
             const Image& image = outputs.images.front().image;

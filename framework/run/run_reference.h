@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The ray-traced truth of a run (`--reference`): where it comes from, and what a rendered frame is
-// found to be worth beside it. `none` needs no Embree; the rest is a ConfigError without it.
+// The ray-traced reference of a run (`--reference`): where it comes from, and what a rendered frame
+// is found to be worth beside it. `none` needs no Embree; the rest is a ConfigError without it.
 #pragma once
 
 #include <filesystem>
@@ -14,19 +14,19 @@
 
 namespace kaustik::run {
 
-class Truth {
+class RunReference {
   public:
     // `wanted`: none, auto (of at least so many photons) or the file of a reference. Reads or
     // computes what there is to compare with, for the renderer's scene and size, as of its last
     // build. Throws ConfigError for a reference of another scene or size, IoError for a damaged
     // one.
-    Truth(const std::string& wanted, std::uint64_t photons, const Renderer& renderer);
+    RunReference(const std::string& wanted, std::uint64_t photons, const Renderer& renderer);
     // The same for who watches in another way how it is computed.
-    Truth(const std::string& wanted, std::uint64_t photons, const Renderer& renderer,
-          const Watch& watch);
-    ~Truth();
-    Truth(const Truth&) = delete;
-    Truth& operator=(const Truth&) = delete;
+    RunReference(const std::string& wanted, std::uint64_t photons, const Renderer& renderer,
+                 const Watch& watch);
+    ~RunReference();
+    RunReference(const RunReference&) = delete;
+    RunReference& operator=(const RunReference&) = delete;
 
     // What the frame must be built for.
     [[nodiscard]] Purpose purpose() const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "framework/reference/view_truth.h"
+#include "framework/reference/view_reference.h"
 
 #include <tbb/parallel_for.h>
 
@@ -94,7 +94,7 @@ class Receivers {
 };
 
 struct ExitSink : NullSink {
-    void met(const SurfaceHit& hit, const PhotonState&) {
+    void hitSurface(const SurfaceHit& hit, const PhotonState&) {
         position = hit.position;
         ++count;
     }
@@ -123,7 +123,7 @@ struct RadianceSink : NullSink {
         for (int c = 0; inner != 0 && c < 3; ++c) {
             if (scene.scene().materials[inner - 1].absorptionPerMeter[c] > 0.0f) left[c] = 0.0;
         }
-        sum += left * scene.appearance().surroundings(state.direction);
+        sum += left * scene.appearance().environment(state.direction);
     }
     // Flux is what a branch keeps; radiance changes by the square of the index too.
     [[nodiscard]] glm::dvec3 weight(const PhotonState& state) const {
@@ -138,12 +138,12 @@ struct RadianceSink : NullSink {
 
 class Tracer {
   public:
-    Tracer(const EmbreeScene& scene, const ViewTruthRequest& request, ViewTruth& truth)
+    Tracer(const EmbreeScene& scene, const ViewReferenceRequest& request, ViewReference& reference)
         : scene_(scene),
           eye_(scene, request.width, request.height),
           receivers_(scene),
           request_(request),
-          truth_(truth),
+          reference_(reference),
           toView_(glm::transpose(glm::dmat3(right(), up(), backward()))) {}
 
     void traceRow(int row) const {
@@ -184,19 +184,19 @@ class Tracer {
         const glm::dvec3 position = toView_ * (sink.position - eye_.position());
         const glm::dvec3 direction = toView_ * sink.direction;
         for (int c = 0; c < 3; ++c) {
-            truth_.exitPosition.at(column, row, c) = static_cast<float>(position[c]);
-            truth_.exitDirection.at(column, row, c) = static_cast<float>(direction[c]);
+            reference_.exitPosition.at(column, row, c) = static_cast<float>(position[c]);
+            reference_.exitDirection.at(column, row, c) = static_cast<float>(direction[c]);
         }
-        truth_.exitPosition.at(column, row, 3) = static_cast<float>(sink.count);
-        truth_.exitDirection.at(column, row, 3) = sink.cameOut ? 1.0f : 0.0f;
-        truth_.mask.at(column, row, 0) = 1.0f;
+        reference_.exitPosition.at(column, row, 3) = static_cast<float>(sink.count);
+        reference_.exitDirection.at(column, row, 3) = sink.cameOut ? 1.0f : 0.0f;
+        reference_.mask.at(column, row, 0) = 1.0f;
         return true;
     }
 
     [[nodiscard]] glm::dvec3 sample(double column, double row, Random& random) const {
         const std::optional<PhotonState> state = start(column, row);
         if (!state) {
-            return scene_.appearance().surroundings(glm::normalize(eye_.ray(column, row)));
+            return scene_.appearance().environment(glm::normalize(eye_.ray(column, row)));
         }
         PathFilter all;
         all.splitInteractions = request_.splitInteractions;
@@ -225,8 +225,8 @@ class Tracer {
         for (int c = 0; c < 3; ++c) {
             // As if the samples were independent; jittered, they are a little better.
             const double variance = std::max(squares[c] / count - mean[c] * mean[c], 0.0);
-            truth_.radiance.at(column, row, c) = static_cast<float>(mean[c]);
-            truth_.radianceError.at(column, row, c) =
+            reference_.radiance.at(column, row, c) = static_cast<float>(mean[c]);
+            reference_.radianceError.at(column, row, c) =
                 static_cast<float>(std::sqrt(variance / std::max(count - 1.0, 1.0)));
         }
     }
@@ -234,27 +234,27 @@ class Tracer {
     const EmbreeScene& scene_;
     Eye eye_;
     Receivers receivers_;
-    ViewTruthRequest request_;
-    ViewTruth& truth_;
+    ViewReferenceRequest request_;
+    ViewReference& reference_;
     glm::dmat3 toView_;
 };
 
 }  // namespace
 
-ViewTruth traceView(const EmbreeScene& scene, const ViewTruthRequest& request) {
-    ViewTruth truth;
-    truth.exitPosition = Image(request.width, request.height, 4);
-    truth.exitDirection = Image(request.width, request.height, 4);
-    truth.radiance = Image(request.width, request.height, 3);
-    truth.radianceError = Image(request.width, request.height, 3);
-    truth.mask = Image(request.width, request.height, 1);
-    const Tracer tracer(scene, request, truth);
+ViewReference traceView(const EmbreeScene& scene, const ViewReferenceRequest& request) {
+    ViewReference reference;
+    reference.exitPosition = Image(request.width, request.height, 4);
+    reference.exitDirection = Image(request.width, request.height, 4);
+    reference.radiance = Image(request.width, request.height, 3);
+    reference.radianceError = Image(request.width, request.height, 3);
+    reference.mask = Image(request.width, request.height, 1);
+    const Tracer tracer(scene, request, reference);
     runWithThreads(request.threads, [&] {
         tbb::parallel_for(0, request.height, [&](int row) { tracer.traceRow(row); });
     });
-    truth.pixels = static_cast<std::size_t>(
-        std::count(truth.mask.values.begin(), truth.mask.values.end(), 1.0f));
-    return truth;
+    reference.pixels = static_cast<std::size_t>(
+        std::count(reference.mask.values.begin(), reference.mask.values.end(), 1.0f));
+    return reference;
 }
 
 }  // namespace kaustik::reference

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "framework/run/truth.h"
+#include "framework/run/run_reference.h"
 
 #include <fmt/format.h>
 
@@ -23,22 +23,27 @@ namespace fs = std::filesystem;
 
 #ifndef KAUSTIK_HAS_EMBREE
 
-struct Truth::Loaded {};
-Truth::Truth(const std::string& wanted, std::uint64_t photons, const Renderer& renderer)
-    : Truth(wanted, photons, renderer, {}) {}
-Truth::Truth(const std::string& wanted, std::uint64_t, const Renderer&, const Watch&) {
+struct RunReference::Loaded {};
+RunReference::RunReference(const std::string& wanted, std::uint64_t photons,
+                           const Renderer& renderer)
+    : RunReference(wanted, photons, renderer, {}) {}
+RunReference::RunReference(const std::string& wanted, std::uint64_t, const Renderer&,
+                           const Watch&) {
     if (wanted != "none") {
-        throw ConfigError("--reference: this program was built without Embree and knows no truth.");
+        throw ConfigError(
+            "--reference: this program was built without Embree and knows no reference.");
     }
 }
-Truth::~Truth() = default;
-Purpose Truth::purpose() const {
+RunReference::~RunReference() = default;
+Purpose RunReference::purpose() const {
     return Purpose::measurement;
 }
-std::vector<fs::path> Truth::judge(const Renderer&, const fs::path&, report::RunRecord&) const {
+std::vector<fs::path> RunReference::judge(const Renderer&, const fs::path&,
+                                          report::RunRecord&) const {
     return {};
 }
-std::vector<fs::path> Truth::judgeView(Renderer&, const fs::path&, report::RunRecord&) const {
+std::vector<fs::path> RunReference::judgeView(Renderer&, const fs::path&,
+                                              report::RunRecord&) const {
     return {};
 }
 
@@ -90,7 +95,7 @@ ReferenceRequest requestFor(const Renderer& renderer) {
 
 }  // namespace
 
-struct Truth::Loaded {
+struct RunReference::Loaded {
     explicit Loaded(const scene::Scene& of) : scene(of) {}
     std::string name;
     reference::EmbreeScene scene;
@@ -99,11 +104,12 @@ struct Truth::Loaded {
     ModelledPaths paths;
 };
 
-Truth::Truth(const std::string& wanted, std::uint64_t photons, const Renderer& renderer)
-    : Truth(wanted, photons, renderer, {}) {}
+RunReference::RunReference(const std::string& wanted, std::uint64_t photons,
+                           const Renderer& renderer)
+    : RunReference(wanted, photons, renderer, {}) {}
 
-Truth::Truth(const std::string& wanted, std::uint64_t photons, const Renderer& renderer,
-             const Watch& watch) {
+RunReference::RunReference(const std::string& wanted, std::uint64_t photons,
+                           const Renderer& renderer, const Watch& watch) {
     if (wanted == "none") return;
     std::optional<Reference> fromFile;
     if (wanted != "auto") fromFile = readFor(wanted, renderer);
@@ -128,14 +134,14 @@ Truth::Truth(const std::string& wanted, std::uint64_t photons, const Renderer& r
     loaded_->modelled = obtain(request);
 }
 
-Truth::~Truth() = default;
+RunReference::~RunReference() = default;
 
-Purpose Truth::purpose() const {
+Purpose RunReference::purpose() const {
     return loaded_ ? Purpose::audit : Purpose::measurement;
 }
 
-std::vector<fs::path> Truth::judge(const Renderer& renderer, const fs::path& folder,
-                                   report::RunRecord& record) const {
+std::vector<fs::path> RunReference::judge(const Renderer& renderer, const fs::path& folder,
+                                          report::RunRecord& record) const {
     if (!loaded_) return {};
     std::vector<fs::path> files;
     const auto write = [&](const std::string& name, const Image& image) {
@@ -184,18 +190,18 @@ std::vector<fs::path> Truth::judge(const Renderer& renderer, const fs::path& fol
     return files;
 }
 
-std::vector<fs::path> Truth::judgeView(Renderer& renderer, const fs::path& folder,
-                                       report::RunRecord& record) const {
+std::vector<fs::path> RunReference::judgeView(Renderer& renderer, const fs::path& folder,
+                                              report::RunRecord& record) const {
     if (!loaded_ || renderer.needs().specularInterfaces == 0) return {};
     renderer.build(Purpose::view);
     gl::PassTimer untimed(gl::TimerMode::finish);
     renderer.renderFrame(untimed);
-    reference::ViewTruthRequest request;
+    reference::ViewReferenceRequest request;
     request.width = renderer.settings().width;
     request.height = renderer.settings().height;
-    const reference::ViewTruth truth = traceView(loaded_->scene, request);
+    const reference::ViewReference reference = traceView(loaded_->scene, request);
     json& error = record.error["view"];
-    if (truth.pixels == 0) {
+    if (reference.pixels == 0) {
         error = nullptr;
         record.error["reasons"]["view"] = "no pixel of this view sees a specular surface";
         return {};
@@ -204,27 +210,28 @@ std::vector<fs::path> Truth::judgeView(Renderer& renderer, const fs::path& folde
     if (seen.exitPosition.valid()) {
         const Image position = readTexture(renderer.texture(seen.exitPosition), 0, 4);
         const Image direction = readTexture(renderer.texture(seen.exitDirection), 0, 4);
-        error = audit::toJson(audit::auditView(position, direction, truth, renderer.view()));
+        error = audit::toJson(audit::auditView(position, direction, reference, renderer.view()));
     } else {
         error["reasons"]["exit_direction_deg"] = "this node follows no rays";
     }
     if (renderer.needs().medium) {
         error["radiance"] = nullptr;
-        error["reasons"]["radiance"] = "the truth of the view knows no medium that fills the scene";
+        error["reasons"]["radiance"] =
+            "the reference of the view knows no medium that fills the scene";
         return {};
     }
     const Image radiance = readTexture(renderer.texture(seen.radiance), 0, 3);
     try {
         const measure::ImagePair pair({.image = radiance,
-                                       .reference = truth.radiance,
-                                       .mask = &truth.mask,
-                                       .standardError = &truth.radianceError,
+                                       .reference = reference.radiance,
+                                       .mask = &reference.mask,
+                                       .standardError = &reference.radianceError,
                                        .imageName = "the view's radiance"});
         error["radiance"] = measure::toJson(measureErrors(pair));
         const std::vector<fs::path> files = {folder / ("view_error" + displayImageExtension()),
                                              folder / ("view_reference" + floatImageExtension())};
         writeImage(files[0], errorPicture(pair));
-        writeImage(files[1], truth.radiance);
+        writeImage(files[1], reference.radiance);
         return files;
     } catch (const IoError& problem) {
         error["radiance"] = nullptr;
