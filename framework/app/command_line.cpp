@@ -138,6 +138,10 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry,
     runApp->add_option("--seed", run.seed, "Seed of everything random")
         ->check(beyondWholeNumbers)
         ->capture_default_str();
+    runApp
+        ->add_option("--time-step", run.timeStepSeconds,
+                     "Seconds by which the animation goes on from one timed frame to the next")
+        ->capture_default_str();
     runApp->add_flag("--precise", run.precise,
                      "Times each pass with the device finished around it (software rasterisers)");
     runApp

@@ -24,6 +24,7 @@ struct RunOptions {
     int frames = 8;
     int warmup = 1;
     long long seed = 1;
+    double timeStepSeconds = 0.0;  // from frame to frame
     bool precise = false;
     std::string reference = "none";
     long long referencePhotons = 1LL << 26;  // of auto, at least

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <functional>
 
 #include "framework/app/commands.h"
 #include "framework/core/error.h"
@@ -12,6 +14,7 @@
 #include "framework/run/progress.h"
 #include "framework/run/run_record.h"
 #include "framework/run/run_reference.h"
+#include "framework/scene/shapes/height_field.h"
 
 namespace kaustik::app {
 namespace {
@@ -24,15 +27,21 @@ void checkOptions(const RunOptions& options) {
     if (options.warmup < 0 || options.warmup > 1000000) {
         throw ConfigError(fmt::format("--warmup: {} is not from 0 to 1000000.", options.warmup));
     }
+    if (!(std::abs(options.timeStepSeconds) <= 1e6)) {
+        throw ConfigError(fmt::format("--time-step: {} is not from -1000000 to 1000000 seconds.",
+                                      options.timeStepSeconds));
+    }
     if (options.referencePhotons < 1) {
         throw ConfigError(
             fmt::format("--reference-photons: {} is not above 0.", options.referencePhotons));
     }
 }
 
-// The frames that are timed; warm-up frames run first and are not kept.
+// The frames that are timed; warm-up frames run first, at the first one's time, and are not kept.
+// `goTo` brings the scene to the time of a timed frame and builds the renderer for it.
 std::vector<gl::FrameTime> renderTimedFrames(Renderer& renderer, gl::PassTimer& timer,
-                                             const RunOptions& options) {
+                                             const RunOptions& options,
+                                             const std::function<void(int frame)>& goTo) {
     const int total = options.warmup + options.frames;
     std::vector<gl::FrameTime> times;
     run::Progress progress("frame", total);
@@ -42,6 +51,11 @@ std::vector<gl::FrameTime> renderTimedFrames(Renderer& renderer, gl::PassTimer& 
     };
     for (int frame = 0; frame < total; ++frame) {
         run::throwIfInterrupted();
+        const int timed = std::max(frame - options.warmup, 0);
+        if (options.timeStepSeconds != 0.0 && (frame == 0 || timed > 0)) {
+            take(true);
+            goTo(timed);
+        }
         renderer.renderFrame(timer);
         // A ring slot is read when its frame is done; here, unlike in a window, no frame may be
         // lost, so the ring is emptied before it is full.
@@ -61,7 +75,11 @@ void runCommand(const RunOptions& options, const Registry& registry) {
     using Clock = std::chrono::steady_clock;
     const Clock::time_point begin = Clock::now();
     checkOptions(options);
-    const scene::Scene scene = loadRequestedScene(options.scene.scene, options.scene.time);
+    scene::Scene scene = loadRequestedScene(options.scene.scene, options.scene.time);
+    // Pictures, ledger and reference are the last frame's.
+    const double firstTime = scene.timeSeconds;
+    const auto timeOf = [&](int frame) { return firstTime + frame * options.timeStepSeconds; };
+    if (options.timeStepSeconds != 0.0) scene::setTime(scene, timeOf(options.frames - 1));
     RenderSettings settings = makeSettings(options.scene, registry);
     settings.seed = static_cast<std::uint64_t>(options.seed);
     const fs::path folder =
@@ -81,13 +99,18 @@ void runCommand(const RunOptions& options, const Registry& registry) {
         renderer, options.precise ? gl::TimerMode::finish : gl::TimerMode::timestamps);
     record.warmup = options.warmup;
     record.seed = options.seed;
+    record.timeStepSeconds = options.timeStepSeconds;
     gl::PassTimer timer(record.timer);
     record.startupMilliseconds =
         std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
     const run::RunReference reference(options.reference,
                                       static_cast<std::uint64_t>(options.referencePhotons),
                                       renderer);  // before the frames: it may be refused
-    record.frames = renderTimedFrames(renderer, timer, options);
+    record.frames = renderTimedFrames(renderer, timer, options, [&](int frame) {
+        scene::setTime(scene, timeOf(frame));
+        renderer.update(RenderSettings(renderer.settings()));
+        renderer.build(Purpose::picture);
+    });
 
     const std::vector<fs::path> files =
         run::finishRun(renderer, reference, record, folder, options.saved, context->info());

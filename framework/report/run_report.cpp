@@ -236,6 +236,7 @@ json makeReport(const RunRecord& record, const Renderer& renderer, const gl::Dev
         {"parameters", settings.params.json()},
         {"disabled", settings.disabledPasses},
         {"time_s", renderer.scene().timeSeconds},
+        {"time_step_s", record.timeStepSeconds},
         {"seed", record.seed},
         {"size", {settings.width, settings.height}},
         {"frames", record.frames.size()},

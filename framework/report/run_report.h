@@ -21,6 +21,7 @@ struct RunRecord {
     std::vector<gl::FrameTime> frames;      // timed ones only
     int warmup = 0;
     long long seed = 1;
+    double timeStepSeconds = 0.0;  // between timed frames
     double startupMilliseconds = 0.0;
     double graphBuildMilliseconds = 0.0;
     EnergyLedger ledger;

@@ -45,6 +45,11 @@ std::vector<fs::path> finishRun(Renderer& renderer, const RunReference& referenc
         record.warnings.push_back(fmt::format(
             "--seed {} has no effect: nothing in this frame is drawn at random.", record.seed));
     }
+    if (record.timeStepSeconds != 0.0 && !renderer.needs().animated) {
+        record.warnings.push_back(
+            fmt::format("--time-step {:g} has no effect: nothing moves in this scene.",
+                        record.timeStepSeconds));
+    }
     for (const std::string& name : unusedSettings(renderer)) {
         record.warnings.push_back(
             fmt::format("{} was set, but no node of this run uses it.", name));

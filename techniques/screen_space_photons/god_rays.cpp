@@ -74,8 +74,6 @@ float radianceScaleOf(const FrameBuilder& frame) {
     return static_cast<float>(std::exp2(std::round(std::log2(1024.0 / (pixel * pixel)))));
 }
 
-}  // namespace
-
 InScattered drawGodRays(FrameBuilder& frame, const GodRayParams& params, Hits hits, EyeBuffer eye,
                         InScattered before) {
     const bool isFirst = !before.sums.valid();

@@ -47,7 +47,8 @@ TEST_F(Report, HasTheKeysOfTheSchema) {
                     "size", "frames", "warmup", "timer", "frame_ms", "startup_ms", "passes",
                     "photons", "energy", "memory", "warnings",
                     // Ours, besides.
-                    "disabled", "time_s", "bookkeeping_ms", "graph_build_ms", "layers", "limits"}));
+                    "disabled", "time_s", "time_step_s", "bookkeeping_ms", "graph_build_ms",
+                    "layers", "limits"}));
     EXPECT_EQ(keysOf(report.at("device")),
               (Keys{"renderer", "vendor", "gl", "gl_debug", "cpu", "threads"}));
     EXPECT_EQ(keysOf(report.at("scene")), (Keys{"name", "triangles", "needs"}));
@@ -162,6 +163,31 @@ TEST_F(Report, KeepsTimedFramesOnlyAndWarmsUpBefore) {
         if (name.starts_with("frame ")) frames.insert(name);
     }
     EXPECT_EQ(frames, (Keys{"frame 2", "frame 3", "frame 4"}));
+}
+
+// Irradiance at the last of frames 0.25 s apart is that of one frame then.
+TEST_F(Report, TimeStepMovesTheAnimationFromFrameToFrame) {
+    static_cast<void>(folder.file("wavy.toml", kWavyWater));
+    const auto runAt = [&](const std::string& out, const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{"run",   "wavy.toml",   "--size", "32x24",
+                                           "--set", "photons=8x8", "--out",  out};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const Outcome outcome = run(arguments);
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+        return contents(out + "/caustic.exr");
+    };
+    const std::string stepped =
+        runAt("out", {"--frames", "3", "--warmup", "2", "--time", "1", "--time-step", "0.25"});
+    EXPECT_EQ(report().at("time_s"), 1.5);
+    EXPECT_EQ(report().at("time_step_s"), 0.25);
+    EXPECT_TRUE(stepped == runAt("then", {"--frames", "1", "--time", "1.5"}));
+    EXPECT_FALSE(stepped == runAt("before", {"--frames", "1", "--time", "1"}));
+    const Outcome still = run({"run", "ring", "--size", "32x24", "--set", "photons=8x8", "--frames",
+                               "2", "--time-step", "0.25", "--out", "still"});
+    EXPECT_NE(still.out.find("--time-step 0.25 has no effect: nothing moves in this scene."),
+              std::string::npos)
+        << still.out;
+    EXPECT_EQ(run({"run", "ring", "--time-step", "nan", "--out", "no"}).exitCode, 2);
 }
 
 TEST_F(Set, TakesAnyUniqueShortFormAndReportsTheFullName) {

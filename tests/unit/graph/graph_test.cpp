@@ -123,6 +123,77 @@ TEST(Graph, AStaleHandleIsAnErrorThatNamesPassAndResource) {
     EXPECT_TRUE(contains(problems, "pass 's.draw' has written version 1"));
 }
 
+// A pass that makes a texture that lasts, and one that adds `input` to it.
+Texture<Color> remember(Graph& graph, Texture<Color> input) {
+    const auto before = graph.addPass<Texture<Color>, FakeContext>(
+        {"s.begin", ""},
+        [&](PassSetup& setup, Texture<Color>& texture) {
+            texture = setup.createLasting<Color>("s.history", 8, 8);
+        },
+        [](const auto&, FakeContext& context) { context.ran.push_back("s.begin"); });
+    graph.addPass<Texture<Color>, FakeContext>(
+        {"s.end", ""},
+        [&](PassSetup& setup, Texture<Color>& texture) {
+            setup.read(input);
+            texture = setup.write(before);
+        },
+        [](const auto&, FakeContext& context) { context.ran.push_back("s.end"); });
+    return before;
+}
+
+TEST(Graph, GivesWhatLastsMemoryOfItsOwn) {
+    //  a ──▶ b ──▶ history ──▶ c ──▶ (asked for)       all of one shape
+    Graph graph;
+    const auto a = filter(graph, "s.a", {});
+    const auto b = filter(graph, "s.b", a);
+    graph.request(filter(graph, "s.c", remember(graph, b)));
+    const std::string problems = problemsOf(graph);
+    // s.c reads the history as it was before s.end has written it.
+    EXPECT_TRUE(contains(problems, "pass 's.c' reads version 0 of 's.history', which is stale"));
+
+    Graph ordered;
+    const auto first = filter(ordered, "s.a", {});
+    const auto second = filter(ordered, "s.b", first);
+    const auto third = filter(ordered, "s.c", second);
+    remember(ordered, third);
+    ordered.request(ordered.find("s.history"));
+    const Compiled compiled = ordered.compile();
+    std::size_t lasting = 0;
+    for (const Slot& slot : compiled.slots)
+        lasting += slot.lasts ? 1 : 0;
+    EXPECT_EQ(lasting, 1u);
+    const std::size_t slot = compiled.slotOf(ordered.find("s.history"));
+    EXPECT_TRUE(compiled.slots[slot].lasts);
+    for (const Step& step : compiled.steps) {
+        for (const std::size_t birth : step.births)
+            EXPECT_NE(birth, slot) << step.name;
+    }
+}
+
+TEST(Graph, RunsWhatIsWrittenForTheNextFrame) {
+    //  begin ──▶ history v0 ──▶ mean ──▶ (asked for)
+    //                 └──▶ end ──▶ history v1           nobody in this frame reads v1
+    Graph graph;
+    const auto history = graph.addPass<Texture<Color>, FakeContext>(
+        {"s.begin", ""},
+        [&](PassSetup& setup, Texture<Color>& texture) {
+            texture = setup.createLasting<Color>("s.history", 8, 8);
+        },
+        [](const auto&, FakeContext& context) { context.ran.push_back("s.begin"); });
+    graph.request(filter(graph, "s.mean", history));
+    const auto input = filter(graph, "s.input", {});
+    filter(graph, "s.unused", input);
+    graph.addPass<Texture<Color>, FakeContext>(
+        {"s.end", ""},
+        [&](PassSetup& setup, Texture<Color>& texture) {
+            setup.read(input);
+            texture = setup.write(history);
+        },
+        [](const auto&, FakeContext& context) { context.ran.push_back("s.end"); });
+    EXPECT_EQ(run(graph.compile()),
+              (std::vector<std::string>{"s.begin", "s.mean", "s.input", "s.end"}));
+}
+
 TEST(Graph, ReportsAllProblemsTogether) {
     Graph graph;
     const auto a = filter(graph, "s.a", {});
