@@ -33,3 +33,7 @@ void fluxAdd(ivec2 texel, int face, uint part, vec3 amount) {
                                              : ledgerUnitsPerWatt / kIntensityQuantum);
     sumAdd(texel, int(part) + face, units);
 }
+
+void fluxAdd(ivec2 texel, uint part, vec3 amount) {
+    fluxAdd(texel, 0, part, amount);
+}

@@ -57,8 +57,8 @@ void main() {
     if (part.x >= part.y) discard;
 
     RaySegment path;
-    way.nearNearness = pathEnds.x;
-    way.farNearness = pathEnds.y;
+    path.nearNearness = pathEnds.x;
+    path.farNearness = pathEnds.y;
     path.nearT = pathEnds.z;
     path.farT = pathEnds.w;
     // The middle of a pixel's part; of more pieces where a pixel holds much of the path.

@@ -40,12 +40,12 @@ void main() {
         path.farPixel = path.farPixel.yx;
     }
     pathPixels = vec4(path.nearPixel, path.farPixel);
-    pathEnds = vec4(way.nearNearness, way.farNearness, path.nearT, path.farT);
+    pathEnds = vec4(path.nearNearness, path.farNearness, path.nearT, path.farT);
     pathDirection = photon.directionVs;
     pathExtinction = extinctionAround(photon.media);
     float pixel = view.frustum.w;
     pathPower = photon.fluxWatts * view.mediumScattering.rgb *
-               ((path.farT - path.nearT) * way.nearNearness * way.farNearness / (pixel * pixel));
+               ((path.farT - path.nearT) * path.nearNearness * path.farNearness / (pixel * pixel));
     // A line of less than a pixel has no direction on the screen.
     float slope = abs(along.x) > 1.0 ? along.y / along.x : 0.0;
     pathWidth = vec2(photon.footprintMeters, sqrt(1.0 + slope * slope));
@@ -57,7 +57,7 @@ void main() {
     const float rounding = 0.05;
     float forward = along.x < 0.0 ? -1.0 : 1.0;
     float beyond = (0.5 + rounding) * (isEnd ? forward : -forward);
-    float nearest = max(way.nearNearness, way.farNearness);
+    float nearest = max(path.nearNearness, path.farNearness);
     float wanted = wantedWidth(photon.footprintMeters, nearest);
     if (gl_VertexID == 0 && wanted > float(media_lines_maximum)) {
         atomicAdd(narrowed.count, 1u);
