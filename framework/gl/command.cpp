@@ -206,11 +206,6 @@ Command& Command::blend(Blend blend) {
     return *this;
 }
 
-Command& Command::pixels(int width, int height) {
-    pixels_ = {width, height};
-    return *this;
-}
-
 Command& Command::viewport(int x, int y, int width, int height) {
     viewport_ = {x, y, width, height};
     return *this;
@@ -276,11 +271,6 @@ void Command::bindTargets() {
         attachments.push_back({target.texture, target.layer, false});
     }
     if (depth_.texture != nullptr) attachments.push_back({depth_.texture, 0, true});
-    if (attachments.empty() && pixels_.x > 0) {
-        glBindFramebuffer(GL_FRAMEBUFFER, context_.bareFramebuffer(pixels_));
-        glViewport(0, 0, pixels_.x, pixels_.y);
-        return;
-    }
     if (attachments.empty()) {
         throw GraphError(
             fmt::format("Pass '{}' draws {} to nothing: target() or depth() is missing.",

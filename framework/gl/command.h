@@ -75,12 +75,10 @@ class Command {
     // Clears the last target (or depth) before drawing; GraphError where there is none yet.
     Command& clear(graph::ClearValue value = {0.0f, 0.0f, 0.0f, 0.0f});
     Command& blend(Blend blend);
-    // Instead of targets: fragments for so many pixels, which store what they make themselves.
-    Command& pixels(int width, int height);
     // Default: the whole of the first target.
     Command& viewport(int x, int y, int width, int height);
 
-    // The last calls. A draw without a target, or pixels, is a GraphError.
+    // The last calls. A draw without a target is a GraphError.
     void draw();  // fullscreen
     void drawArrays(GLenum mode, int count, int instances = 1);
     // Indexed triangles with the vertex array bound by the caller-supplied function.
@@ -139,7 +137,6 @@ class Command {
     DepthTest depthTest_ = DepthTest::none;
     Blend blend_ = Blend::none;
     glm::ivec4 viewport_{0, 0, -1, -1};
-    glm::ivec2 pixels_{0, 0};
     bool lastIsDepth_ = false;
     bool offers_ = false;
 };

@@ -85,22 +85,12 @@ GLuint PassContext::framebuffer(const std::vector<Attachment>& attachments) {
     return executor_.framebuffer(attachments);
 }
 
-GLuint PassContext::bareFramebuffer(glm::ivec2 size) {
-    const GLuint framebuffer = executor_.bareFramebuffer_.id();
-    glNamedFramebufferParameteri(framebuffer, GL_FRAMEBUFFER_DEFAULT_WIDTH, size.x);
-    glNamedFramebufferParameteri(framebuffer, GL_FRAMEBUFFER_DEFAULT_HEIGHT, size.y);
-    return framebuffer;
-}
-
 GLuint PassContext::emptyVertexArray() const {
     return executor_.emptyVertexArray_.id();
 }
 
 Executor::Executor(Context& context, ProgramCache& programs)
-    : context_(context),
-      programs_(programs),
-      emptyVertexArray_(makeVertexArray()),
-      bareFramebuffer_(makeFramebuffer()) {
+    : context_(context), programs_(programs), emptyVertexArray_(makeVertexArray()) {
     // Depth runs from 0 to 1 everywhere, so that reversed z keeps the precision of its floats.
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     glDisable(GL_DITHER);

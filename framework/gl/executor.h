@@ -53,8 +53,6 @@ class PassContext : public graph::ExecuteContext {
     void order(const std::vector<Access>& accesses) const;
     [[nodiscard]] ProgramCache& programs();
     [[nodiscard]] GLuint framebuffer(const std::vector<Attachment>& attachments);
-    // Of so many pixels, without a texture.
-    [[nodiscard]] GLuint bareFramebuffer(glm::ivec2 size);
     [[nodiscard]] GLuint emptyVertexArray() const;
 
   private:
@@ -109,7 +107,6 @@ class Executor {
     Barriers barriers_;
     std::map<std::vector<std::tuple<GLuint, int, bool>>, FramebufferObject> framebuffers_;
     VertexArrayObject emptyVertexArray_;
-    FramebufferObject bareFramebuffer_;
     bool poison_ = false;
     bool isFresh_ = true;  // no frame has been run since prepare()
 };

@@ -15,9 +15,9 @@
 // (hard case 34): they are summed in fixed point, which no order and no batch changes.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstddef>
 
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/screen_space_photons/nodes.h"
@@ -42,6 +42,9 @@ struct GodRayParams {
                 params::range(1, 256));
     }
 };
+
+// Of a line, for one thread.
+constexpr int kColumns = 128;
 
 // Which lines are narrower than they were to be: their light is less spread, and none is lost.
 void keepToWidth(FrameBuilder& frame, const GodRayParams& params,
@@ -105,17 +108,20 @@ InScattered drawGodRays(FrameBuilder& frame, const GodRayParams& params, Hits hi
                     run == 1 ? "media.narrowed" : fmt::format("media.narrowed_{}", run), 1));
             setup.bypass(data.narrowed, {0, 0, 0, 0});
         },
-        [params, isFirst, w, h, list = hits.incoming.list, scale = radianceScaleOf(frame)](
+        [params, isFirst, w, h, list = hits.incoming, scale = radianceScaleOf(frame)](
             const Data& data, gl::PassContext& context) {
             if (isFirst) context.texture(data.out.sums).clear({0, 0, 0, 0});
             context.buffer(data.narrowed).clear();
-            context
-                .shaders(
-                    {"screen_space_photons/god_rays.vert", "screen_space_photons/god_rays.frag"})
-                .params("media.lines", params)
-                .set("radianceScale", scale)
-                .pixels(w, h)
-                .drawIndirect(GL_TRIANGLE_STRIP, list, offsetof(transport::PhotonList, vertices));
+            // No thread loops for long, whatever the picture's size: Mesa's software rasteriser
+            // ends all loops of one after 65,535 turns together.
+            for (int column = 0; column < std::max(w, h); column += kColumns) {
+                dispatchOver(context.compute("screen_space_photons/god_rays.comp")
+                                 .params("media.lines", params)
+                                 .set("radianceScale", scale)
+                                 .set("firstColumn", column)
+                                 .set("columnCount", kColumns),
+                             list);
+            }
         });
     keepToWidth(frame, params, drawn.narrowed);
     InScattered out = drawn.out;
