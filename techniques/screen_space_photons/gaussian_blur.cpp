@@ -26,29 +26,21 @@ struct GaussianBlurParams {
 
 InScattered blurAlong(FrameBuilder& frame, const GaussianBlurParams& params, InScattered sharp,
                       const std::string& name, glm::ivec2 step) {
-    struct Data {
-        InScattered sharp;
-        InScattered out;
-    };
-    return frame
-        .pass<Data>(
-            "blur.gaussian", "few photons make stripes",
-            [&](graph::PassSetup& setup, Data& data) {
-                data.sharp.radiance = setup.read(sharp.radiance);
-                data.out.radiance =
-                    setup.create<RadianceTexel>(name, frame.width(), frame.height());
-                setup.bypass(data.out.radiance, sharp.radiance);
-            },
-            [sigma = params.sigma, step](const Data& data, gl::PassContext& context) {
-                context.fullscreen("screen_space_photons/gaussian_blur.frag")
-                    .texture("source", data.sharp.radiance)
-                    .set("sigma", sigma)
-                    .set("reach", static_cast<int>(std::ceil(3.0f * sigma)))
-                    .set("along", step)
-                    .target(data.out.radiance)
-                    .draw();
-            })
-        .out;
+    return frame.pass<InScattered>(
+        "blur.gaussian", "few photons make stripes",
+        [&](graph::PassSetup& setup, InScattered& out) {
+            setup.sample("source", sharp.radiance);
+            out.radiance = setup.create<RadianceTexel>(name, frame.width(), frame.height());
+            setup.bypass(out.radiance, sharp.radiance);
+        },
+        [sigma = params.sigma, step](const InScattered& out, gl::PassContext& context) {
+            context.fullscreen("screen_space_photons/gaussian_blur.frag")
+                .set("sigma", sigma)
+                .set("reach", static_cast<int>(std::ceil(3.0f * sigma)))
+                .set("along", step)
+                .target(out.radiance)
+                .draw();
+        });
 }
 
 InScattered blurGaussian(FrameBuilder& frame, const GaussianBlurParams& params, InScattered sharp) {

@@ -78,35 +78,25 @@ View refractInImageSpace(FrameBuilder& frame, const ImageSpaceViewParams& params
     } else {
         frame.skip("view.back_faces", "the scene has no dielectric");
     }
-    struct Data {
-        ViewPass look;
-        BackFaces faces;
-    };
     const View view =
         frame
-            .pass<Data>(
+            .pass<ViewPass>(
                 "view.image_space", "the eye looks at specular surfaces",
-                [&](graph::PassSetup& setup, Data& data) {
-                    data.faces = faces;
+                [&](graph::PassSetup& setup, ViewPass& look) {
                     if (faces.depth.valid()) {
-                        setup.read(faces.depth);
-                        setup.read(faces.surface);
+                        setup.sample("backDepth", faces.depth);
+                        setup.sample("backSurface", faces.surface);
                     }
-                    data.look =
-                        declareLook(frame, setup, params.look, eye, layers, receivers, shadows);
+                    look = declareLook(frame, setup, params.look, eye, layers, receivers, shadows);
                 },
-                [&inputs = frame.inputs(), params](const Data& data, gl::PassContext& context) {
+                [&inputs = frame.inputs(), params](const ViewPass& look, gl::PassContext& context) {
                     gl::Command command =
                         context.fullscreen("screen_space_photons/image_space.frag");
                     command.params("view.image_space", params);
-                    setLook(inputs, command, data.look, params.look);
-                    if (data.faces.depth.valid()) {
-                        command.texture("backDepth", data.faces.depth)
-                            .texture("backSurface", data.faces.surface);
-                    }
+                    setLook(inputs, command, look, params.look);
                     command.draw();
                 })
-            .look.seen;
+            .seen;
     keepToMirrors(frame, "view.image_space", view, params.look);
     return view;
 }

@@ -62,7 +62,7 @@ void expectHits(Lab& lab, const std::string& subject, const std::string& what,
 }
 
 const Tolerance kLedger{1e-5,
-                        "the ledger's quantum is 2^-50 of the light; photons hold 32-bit flux"};
+                        "the ledger's quantum is 2^-60 of the light; photons hold 32-bit flux"};
 
 // Rows that say that no photon hits anything, and that these accounts hold all of their flux.
 void expectNoHits(Lab& lab, const std::string& subject, const std::string& what,
