@@ -203,10 +203,10 @@ glm::dvec3 unfoldUnitVector(const glm::dvec2& folded) {
     return glm::normalize(n);
 }
 
-// Depths and, from the triangles' planes, their extents over the pixels.
+// Depths and, from the triangles' planes, their extents over the pixels; of the eye's layers alone.
 Layers readLayers(const Renderer& renderer) {
     const LayeredDepth& layers = renderer.outputs().layers;
-    if (!layers.depth.valid()) return {};
+    if (!layers.depth.valid() || !layers.views->isEyes()) return {};
     const gl::Texture& texture = renderer.texture(layers.depth);
     const std::vector<float> texels = texture.read();
     const int width = texture.desc().width;
@@ -310,7 +310,7 @@ EnergyLedger resolveLedger(const Renderer& renderer, const HitAudit& audit, doub
     // What others have booked, a reconstruction that also loses light off the screen, stays.
     for (const unsigned account :
          {kAccountLeftScene, kAccountOffScreen, kAccountBehindEye, kAccountBeyondLastLayer,
-          kAccountEdgeOn, kAccountMissedByTracer, kAccountUnresolved}) {
+          kAccountEdgeOn, kAccountMissedByTracer, kAccountUnresolved, kAccountOutsideMap}) {
         ledger.watts[account] += audit.missedWatts[account] - traced.watts[account];
         ledger.events[account] += audit.missedPhotons[account] - traced.events[account];
         // Both are sums of the same photons, one in fixed point: what is left is its rounding.

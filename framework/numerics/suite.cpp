@@ -32,6 +32,7 @@ bool matches(const std::string& pattern, const std::string& id) {
 }  // namespace
 
 bool Row::passes() const {
+    if (!std::isfinite(measured)) return false;
     switch (bound) {
         case Bound::near:
             return std::abs(measured - expected) <= tolerance;

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "framework/render/raster_views.h"
 
+#include <cmath>
 #include <utility>
+
+#include "framework/core/error.h"
 
 namespace kaustik::render {
 
@@ -25,6 +28,9 @@ RasterViews::RasterViews(Space space, std::vector<RasterView> views, const GpuSc
     : space_(space), views_(std::move(views)) {
     std::vector<transport::ViewData> block;
     for (const RasterView& view : views_) {
+        const glm::dvec2 pixel = view.halfExtent / glm::dvec2(view.width, view.height);
+        if (std::abs(pixel.x - pixel.y) > 1e-9 * pixel.y)
+            throw GraphError("Views have square pixels: inPixels() makes them so.");
         instances_.push_back(scene.makeInstances(view.worldToView));
         block.push_back(viewData(scene.scene(), view, eye));
     }

@@ -85,6 +85,15 @@ float depthOfNearness(float nearness) {
 #endif
 }
 
+// What a nearness may be off by, after a few roundings.
+float nearnessRounding(float nearness) {
+#ifdef ORTHOGRAPHIC_VIEW
+    return 4e-7 * view.farMeters.x;
+#else
+    return 4e-7 * nearness;
+#endif
+}
+
 // From the eye's view space, in which photons and hits are, to this view's, and back.
 vec3 pointFromEye(vec3 point) {
 #ifdef OTHER_VIEW

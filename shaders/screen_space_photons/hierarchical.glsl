@@ -28,9 +28,9 @@ ScreenRay screenRayOf(RaySegment segment, int n) {
     screenRay.nearness = segment.nearNearness;
     screenRay.nearnessPerStep = (segment.farNearness - segment.nearNearness) / count;
     float largest = max(segment.nearNearness, segment.farNearness);
-    screenRay.slack = 4e-7 * largest;
+    screenRay.slack = nearnessRounding(largest);
 #ifdef EPSILON_TEST
-    screenRay.slack = nearnessMargin(depthOfNearness(largest), trace_epsilon);
+    screenRay.slack += nearnessMargin(depthOfNearness(largest), trace_epsilon);
 #endif
     return screenRay;
 }

@@ -76,6 +76,6 @@ void main() {
         if (level == 1) reach += 0.5 * (abs(slope.x) + abs(slope.y));
         float middle = 0.5 * (bounds.x + bounds.y);
         imageStore(pyramid, ivec3(to, layer),
-                   vec4(max(middle, 1e-30), slope, reach * (1.0 + 1e-6) + 4e-7 * middle));
+                   vec4(max(middle, 1e-30), slope, reach * (1.0 + 1e-6) + nearnessRounding(middle)));
     }
 }

@@ -4,6 +4,16 @@
 #include "include/photon_thread.glsl"
 #include "screen_space_photons/sprite.glsl"
 
+// Metres that a pixel covers where a splat lies; the same in all faces of a cube, as in its own.
+float splatFootprint(vec3 center) {
+#ifdef MANY_VIEWS
+    vec3 there = abs(center);
+    return pixelFootprint(max(max(there.x, there.y), there.z));
+#else
+    return pixelFootprint(-center.z);
+#endif
+}
+
 // Where a photon has arrived; `wanted`: the radius that it asks for, m, and `largest` the one that
 // it may have.
 Sprite splatOf(ivec2 texel, out float wanted, out float largest) {
@@ -14,13 +24,7 @@ Sprite splatOf(ivec2 texel, out float wanted, out float largest) {
     wanted = reconstruct_sprites_radius > 0.0
                  ? reconstruct_sprites_radius
                  : reconstruct_sprites_footprints * texelFetch(photonPosition, texel, 0).w;
-#ifdef MANY_VIEWS
-    // The same in all faces: as in the one that it lies in.
-    vec3 there = abs(sprite.center);
-    float pixel = pixelFootprint(max(max(there.x, there.y), there.z));
-#else
-    float pixel = pixelFootprint(-sprite.center.z);
-#endif
+    float pixel = splatFootprint(sprite.center);
     largest = float(reconstruct_sprites_maximum) * pixel;
     sprite.radius = clamp(wanted, pixel, largest);
     return sprite;

@@ -66,12 +66,15 @@ float totalOf(ivec2 texel) {
         return 0.0;
     }
     Parts parts = Parts(0.0, 0.0, 0.0);
+    float farther = 0.0;  // than which no part of the splat is from its middle, px
 #ifdef MANY_VIEWS
     for (int face = 0; face < viewCount; ++face) {
         viewIndex = face;
         Sprite inFace = splatOf(texel, wanted, largest);
         if (!isNearView(inFace)) continue;
         addParts(inFace, parts);
+        vec2 reach = wholeReach(inFace);
+        farther = max(farther, max(reach.x, reach.y));
         sprite = inFace;
     }
     parts.beside = 0.0;  // of one face is in another
@@ -81,6 +84,8 @@ float totalOf(ivec2 texel) {
         return 0.0;
     }
     addParts(sprite, parts);
+    vec2 reach = wholeReach(sprite);
+    farther = max(reach.x, reach.y);
 #endif
     float total = parts.on + parts.occluded + parts.beside;
     if (total <= 0.0) {
@@ -92,10 +97,8 @@ float totalOf(ivec2 texel) {
     if (wanted > largest) {
         atomicAdd(shrunk.count, 1u);
         atomicMax(shrunk.widestBits,
-                  floatBitsToUint(wanted / pixelFootprint(-sprite.center.z)));
+                  floatBitsToUint(wanted / splatFootprint(sprite.center)));
     }
-    vec2 whole = wholeReach(sprite);
-    float farther = max(whole.x, whole.y);
     if (farther > float(mostReach)) {
         atomicAdd(cutOff.count, 1u);
         atomicMax(cutOff.widestBits, floatBitsToUint(farther));

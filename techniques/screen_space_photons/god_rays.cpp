@@ -43,8 +43,18 @@ struct GodRayParams {
     }
 };
 
-// Of a line, for one thread.
-constexpr int kColumns = 128;
+// Columns of a line for one thread: Mesa's software rasteriser silently ends all loops of a thread,
+// together with those that run in step with it, after 65,535 turns. Of `rows` each a column has,
+// and a line of k columns 64 / k pieces in each.
+int columnsOf(const GodRayParams& params) {
+    const double widest = std::max(static_cast<double>(params.maximum), 1.0);
+    const double rows = 1.4143 * widest + 4.0;
+    int columns = 1;
+    const auto turns = [&](double n) { return rows * (64.0 * (std::log(n) + 0.6) + 2.0 * n) + n; };
+    while (columns < 128 && turns(columns + 1) < 58000.0)
+        ++columns;
+    return columns;
+}
 
 // Which lines are narrower than they were to be: their light is less spread, and none is lost.
 void keepToWidth(FrameBuilder& frame, const GodRayParams& params,
@@ -112,14 +122,13 @@ InScattered drawGodRays(FrameBuilder& frame, const GodRayParams& params, Hits hi
             const Data& data, gl::PassContext& context) {
             if (isFirst) context.texture(data.out.sums).clear({0, 0, 0, 0});
             context.buffer(data.narrowed).clear();
-            // No thread loops for long, whatever the picture's size: Mesa's software rasteriser
-            // ends all loops of one after 65,535 turns together.
-            for (int column = 0; column < std::max(w, h); column += kColumns) {
+            const int columns = columnsOf(params);
+            for (int column = 0; column < std::max(w, h); column += columns) {
                 dispatchOver(context.compute("screen_space_photons/god_rays.comp")
                                  .params("media.lines", params)
                                  .set("radianceScale", scale)
                                  .set("firstColumn", column)
-                                 .set("columnCount", kColumns),
+                                 .set("columnCount", columns),
                              list);
             }
         });

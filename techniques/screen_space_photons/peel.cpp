@@ -73,6 +73,8 @@ graph::Buffer<transport::LayerStatistics> measureComplexity(FrameBuilder& frame,
                 if (geometry.heightFields.valid()) setup.read(geometry.heightFields);
                 const int w = data.views->width();
                 const int h = data.views->height();
+                if (request.reducesCounts)
+                    needsEyesView("Counting by a reduce", "the view", data.views);
                 data.counts = setup.create<CountTexel>(request.name + ".counts", w, h);
                 data.statistics =
                     setup.createBuffer<transport::LayerStatistics>(request.name + ".statistics", 1);

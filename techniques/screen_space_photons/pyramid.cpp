@@ -21,7 +21,7 @@ int squares(int pixels, int level) {
 
 }  // namespace
 
-LayeredDepth addPyramid(FrameBuilder& frame, const LayeredDepth& layers) {
+LayeredDepth addPyramid(FrameBuilder& frame, const LayeredDepth& layers, const std::string& name) {
     const int w = layers.views->width();
     const int h = layers.views->height();
     return frame.pass<LayeredDepth>(
@@ -31,7 +31,7 @@ LayeredDepth addPyramid(FrameBuilder& frame, const LayeredDepth& layers) {
             setup.image("layerDepths", layers.depth);
             data.pyramid = setup.image(
                 "pyramid",
-                setup.create<SquarePlane>("layers.pyramid", squares(w, 1) + squares(w, 2),
+                setup.create<SquarePlane>(name + ".pyramid", squares(w, 1) + squares(w, 2),
                                           std::max(squares(h, 1), squares(h, 2) + squares(h, 3)),
                                           layers.views->layers(layers.layers)));
         },

@@ -5,7 +5,8 @@
 
 namespace kaustik {
 
-// Adds the pass that makes `pyramid` of the other layers' textures.
-[[nodiscard]] LayeredDepth addPyramid(FrameBuilder& frame, const LayeredDepth& layers);
+// Adds the pass that makes `pyramid` of the other layers' textures, as NAME.pyramid.
+[[nodiscard]] LayeredDepth addPyramid(FrameBuilder& frame, const LayeredDepth& layers,
+                                      const std::string& name = "layers");
 
 }  // namespace kaustik

@@ -78,11 +78,11 @@ CausticMap splatInto(FrameBuilder& frame, const SpritesParams& params, const Hit
             setup.sample("receiverSurface", receivers.receiverSurface);
             if (isGlossy) setup.sample("receiverAlbedo", receivers.receiverAlbedo);
             data.cut = setup.storage("CutSplats", setup.createBuffer<transport::Narrowed>(
-                                                      "reconstruct.cut" + hits.incoming.suffix, 2));
+                                                      name + ".cut" + hits.incoming.suffix, 2));
             setup.bypass(data.cut, {0, 0, 0, 0});
             setup.bypass(setup.storage("SplatTotals",
                                        setup.createBuffer<float>(
-                                           "reconstruct.totals" + hits.incoming.suffix,
+                                           name + ".totals" + hits.incoming.suffix,
                                            static_cast<std::size_t>(hits.incoming.capacity()))),
                          {0, 0, 0, 0});
             data.map = CausticMap::deposit(setup, before, receivers.views, isGlossy, name);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// emit.vertices: one photon a vertex of the specular meshes and of wavy water (Shah, Pattanaik
-// 2005). It stands for a third of every triangle around the vertex, and carries what falls on that:
-// irradiance at the vertex times the area across the light, of triangles that face the light on the
-// side that it comes from. Both sides of a sheet count; a body is hit from within only by a light
-// that is inside of it. Which vertices the light sees first is decided by a depth image from the
-// light, by the planes of its texels (include/light_depth.glsl). A mesh too coarse for its shadows
-// loses or gains light by them: the sampling error of the reference's report. Out: photons that
-// arrive (flux in W) and the hits that they make; eye view space, m; cells number the vertices of
-// the specular objects.
+// emit.vertices: one photon a vertex of the specular meshes and of wavy water (Shah, Konttinen,
+// Pattanaik 2005). It stands for a third of every triangle around the vertex, and carries what
+// falls on that: irradiance at the vertex times the area across the light, of triangles that face
+// the light on the side that it comes from. Both sides of a sheet count; a body is hit from within
+// only by a light that is inside of it. Which vertices the light sees first is decided by a depth
+// image from the light, by the planes of its texels (include/light_depth.glsl). A mesh too coarse
+// for its shadows loses or gains light by them: the sampling error of the reference's report. Out:
+// photons that arrive (flux in W) and the hits that they make; eye view space, m; cells number the
+// vertices of the specular objects.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -334,7 +334,7 @@ void registerVertexEmission(Registry& registry) {
     registry.node<EmitStage>("vertices",
                              {.sentence = "One photon a vertex of the specular surfaces, with the "
                                           "light that falls on the area around it.",
-                              .source = "Shah, Pattanaik 2005 (SP05)",
+                              .source = "Shah, Konttinen, Pattanaik (SP05)",
                               .photons = &verticesOfALight},
                              &emitVertices);
 }

@@ -88,6 +88,7 @@ ViewPass declareLook(const FrameBuilder& frame, graph::PassSetup& setup,
         setup.sample("directVisibility", shadows.visibility);
     }
     if (look.surfaces == LookSurfaces::layers) {
+        needsEyesView("surfaces=layers of a view", "the layers", sceneLayers.views);
         pass.sceneLayers = sceneLayers.layers;
         setup.sample("sceneDepths", sceneLayers.depth);
         setup.sample("sceneSurfaces", sceneLayers.surface);

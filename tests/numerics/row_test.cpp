@@ -38,6 +38,9 @@ TEST(Row, OfWhatIsNoNumberNeverPasses) {
     const double noNumber = std::numeric_limits<double>::quiet_NaN();
     for (const Bound bound : {Bound::near, Bound::atLeast, Bound::atMost})
         EXPECT_FALSE(row(bound, 0.0, noNumber, 1e9).passes());
+    const double endless = std::numeric_limits<double>::infinity();
+    EXPECT_FALSE(row(Bound::atLeast, 0.0, endless).passes());
+    EXPECT_FALSE(row(Bound::atMost, 0.0, -endless).passes());
 }
 
 }  // namespace

@@ -150,6 +150,24 @@ TEST(GodRays, EveryWidthKeepsTheLight) {
     }
 }
 
+// Mesa's software rasteriser silently ends a thread's loops after 65,535 turns: wide lines are
+// walked in shorter parts.
+TEST(GodRays, LinesAreWholeHoweverWideTheyMayBe) {
+    const scene::Scene scene = beamThroughMedium();
+    const auto total = [&](const std::string& footprints) {
+        Settings settings = sharp("emit.photons", "8x8");
+        settings.emplace_back("media.lines.width", "0");
+        settings.emplace_back("media.lines.footprints", footprints);
+        settings.emplace_back("media.lines.maximum", "256");
+        const Frame frame(scene, 960, 720, settings);
+        return inScattered(frame).sum();
+    };
+    const double expected = total("0.5");
+    EXPECT_GT(expected, 0.0);
+    for (const char* footprints : {"2", "4", "6"})
+        EXPECT_NEAR(total(footprints) / expected, 1.0, 1e-3) << footprints;
+}
+
 TEST(GodRays, PhotonsLoseTheirFluxToTheMedium) {
     scene::Scene scene = beamThroughMedium();
     // All that the sun lights of the floor is on the screen.
