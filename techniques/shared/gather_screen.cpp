@@ -35,10 +35,10 @@ IrradianceMap gatherOnScreen(FrameBuilder& frame, const params::NoParams&, Caust
 }  // namespace
 
 void registerScreenGather(Registry& registry) {
-    registry.node<GatherStage>("screen",
-                               {"Flux that was stored by the eye's pixels, over what they see.",
-                                "Krüger et al. 2006, section 3.1"},
-                               &gatherOnScreen);
+    registry.node<GatherStage>(
+        "screen",
+        {"Flux that was stored by the eye's pixels, over what they see.", "K06, section 3.1"},
+        &gatherOnScreen);
 }
 
 }  // namespace kaustik
