@@ -75,6 +75,7 @@ Suite commonCases() {
     addTracingCases(suite);
     addLayerCases(suite);
     addInterfaceCases(suite);
+    addSurfaceSideCases(suite);
     addOpticsCases(suite);
     addReconstructionCases(suite);
     addMediaCases(suite);

@@ -4,7 +4,6 @@
 // shaders by include/view.glsl, C++ by asking here.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "framework/gl/command.h"

@@ -11,53 +11,18 @@
 
 #include "framework/pipeline/frame_builder.h"
 #include "framework/pipeline/stage_params.h"
+#include "techniques/shared/light_sight.h"
 #include "techniques/shared/nodes.h"
 
 namespace kaustik {
 namespace {
 
-struct LightGrid {
-    glm::mat4 projection;
-    glm::vec2 halfExtent;
-    const render::ViewInstances* instances;
-};
-
-scene::Bounds specularBounds(const scene::Scene& scene) {
-    scene::Bounds bounds;
-    for (const scene::Object& object : scene.objects) {
-        if (isReceiver(scene.materials[object.material].kind)) continue;
-        const scene::Bounds objects = objectBounds(scene, object);
-        bounds.include(objects.minimum);
-        bounds.include(objects.maximum);
-    }
-    return bounds;
-}
-
-// The same for every batch.
-using LightGrids = std::vector<LightGrid>;
-std::shared_ptr<LightGrids> makeGrids(FrameBuilder& frame) {
-    const scene::Bounds target = specularBounds(frame.scene());
-    auto grids = std::make_shared<LightGrids>();
-    if (target.empty) return grids;
-    for (const scene::Light& light : frame.scene().lights) {
-        const render::RasterView view =
-            render::makeLightView(light, target, sceneBounds(frame.scene()));
-        if (view.isClipped) {
-            frame.warn(fmt::format(
-                "Light '{}' sees the specular objects wider than 160 degrees; photons outside of "
-                "that are not emitted and are in no account.",
-                light.name));
-        }
-        const render::ViewInstances& instances =
-            frame.keep(frame.gpuScene().makeInstances(view.worldToView));
-        grids->push_back({view.projection(), glm::vec2(view.halfExtent), &instances});
-    }
-    return grids;
-}
-
 Hits emitGrid(FrameBuilder& frame, const params::NoParams&, Surfaces surfaces, Samples samples) {
     const params::Extent grid = frame.params<EmitParams>("emit").photons;
-    const auto grids = frame.once<LightGrids>("emit.grids", [&frame] { return makeGrids(frame); });
+    // The same for every batch.
+    const auto grids = frame.once<std::vector<LightSight>>("emit.grids", [&frame] {
+        return std::make_shared<std::vector<LightSight>>(sightsOfSpecular(frame));
+    });
     struct Data {
         Hits hits;
         graph::Texture<DepthBuffer> depth;
@@ -115,7 +80,7 @@ Hits emitGrid(FrameBuilder& frame, const params::NoParams&, Surfaces surfaces, S
                 const int end =
                     std::min(samples.firstLight + samples.lights, static_cast<int>(grids->size()));
                 for (int light = samples.firstLight; light < end; ++light) {
-                    const LightGrid& seen = (*grids)[static_cast<std::size_t>(light)];
+                    const LightSight& seen = (*grids)[static_cast<std::size_t>(light)];
                     // The rows of the batch are those that fall into the target.
                     const int bottom =
                         (light - samples.firstLight) * samples.rows - samples.firstRow;
@@ -124,9 +89,9 @@ Hits emitGrid(FrameBuilder& frame, const params::NoParams&, Surfaces surfaces, S
                     addTargets(command, light == samples.firstLight);
                     command.viewport(0, bottom, grid.width, grid.height)
                         .storage("LightInstances", seen.instances->instances)
-                        .set("projection", seen.projection)
+                        .set("projection", seen.view.projection())
                         .set("lightIndex", light)
-                        .set("halfExtent", seen.halfExtent)
+                        .set("halfExtent", glm::vec2(seen.view.halfExtent))
                         .set("gridSize", glm::vec2(grid.width, grid.height))
                         .set("gridBottom", static_cast<float>(bottom));
                     inputs.gpuScene.draw(command, context, data.geometry, inputs.instances,

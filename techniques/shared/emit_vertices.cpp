@@ -16,6 +16,7 @@
 
 #include "framework/pipeline/frame_builder.h"
 #include "framework/scene/light_paths.h"
+#include "techniques/shared/light_sight.h"
 #include "techniques/shared/nodes.h"
 
 namespace kaustik {
@@ -33,11 +34,6 @@ struct VertexEmissionParams {
 
 constexpr int kRowLength = 1024;
 
-// As shared/shadow.frag writes it: planar depth from the light, m, and its growth.
-struct LightDepth {
-    static constexpr Format format = Format::rgba32f;
-};
-
 // From which side of its triangles light hits an object, as shared/emit_vertices.comp has it.
 constexpr int kFromOutside = 1;
 constexpr int kFromWithin = 2;
@@ -50,12 +46,6 @@ struct EmittingObject {
     std::uint32_t firstFan = 0;     // of its vertices, in fanFirsts
     std::uint32_t firstCell = 0;
     std::vector<int> sides;  // by light
-};
-
-struct LightSight {
-    glm::mat4 projection{1.0f};
-    glm::mat4 eyeToLight{1.0f};
-    render::ViewInstances instances;
 };
 
 struct Emission {
@@ -170,69 +160,19 @@ void addObjects(const FrameBuilder& frame, Emission& emission) {
     emission.fanFirsts = gl::Buffer(firsts, "specular fan firsts");
 }
 
-void addLights(FrameBuilder& frame, Emission& emission) {
-    const scene::Scene& scene = frame.scene();
-    scene::Bounds target;
-    for (const EmittingObject& emitting : emission.objects) {
-        const scene::Bounds bounds = objectBounds(scene, scene.objects[emitting.object]);
-        target.include(bounds.minimum);
-        target.include(bounds.maximum);
-    }
-    if (target.empty) return;
-    for (const scene::Light& light : scene.lights) {
-        const render::RasterView view = render::makeLightView(light, target, sceneBounds(scene));
-        if (view.isClipped) {
-            frame.warn(fmt::format(
-                "Light '{}' sees the specular objects wider than 160 degrees; photons outside of "
-                "that are not emitted and are in no account.",
-                light.name));
-        }
-        emission.lights.push_back({view.projection(), render::between(frame.view(), view),
-                                   frame.gpuScene().makeInstances(view.worldToView)});
-    }
-}
-
-void renderDepths(FrameBuilder& frame, int size, const Geometry& geometry,
-                  const std::shared_ptr<Emission>& emission) {
-    struct Data {
-        graph::Texture<LightDepth> depths;
-        graph::Texture<DepthBuffer> buffer;
-        Geometry geometry;
-    };
-    const int lights = std::max(static_cast<int>(emission->lights.size()), 1);
-    const Data& made = frame.pass<Data>(
-        "emit.light_depths", "a light emits only where it is the first surface that it sees",
-        [&](graph::PassSetup& setup, Data& data) {
-            data.geometry = geometry;
-            if (geometry.heightFields.valid()) setup.read(geometry.heightFields);
-            data.depths = setup.create<LightDepth>("emit.light_depths", size, size, lights);
-            data.buffer = setup.create<DepthBuffer>("emit.light_depth_buffer", size, size);
-            setup.bypass(data.depths, {0, 0, 0, 0});
-            setup.bypass(data.buffer, {0, 0, 0, 0});
-        },
-        [&inputs = frame.inputs(), emission](const Data& data, gl::PassContext& context) {
-            for (std::size_t light = 0; light < emission->lights.size(); ++light) {
-                const LightSight& sight = emission->lights[light];
-                gl::Command command = context.shaders({"shared/eye.vert", "shared/shadow.frag"});
-                command.set("projection", sight.projection)
-                    .target(data.depths, static_cast<int>(light))
-                    .clear()
-                    .depth(data.buffer, gl::DepthTest::nearerReversed)
-                    .clear();
-                inputs.gpuScene.draw(command, context, data.geometry, sight.instances,
-                                     render::DrawSet::all);
-            }
-        });
-    emission->depths = made.depths;
-}
-
 // Of the first batch; the others share it.
 std::shared_ptr<Emission> makeEmission(FrameBuilder& frame, const VertexEmissionParams& params,
                                        const Geometry& geometry) {
     auto emission = std::make_shared<Emission>();
     addObjects(frame, *emission);
-    addLights(frame, *emission);
-    renderDepths(frame, params.size, geometry, emission);
+    emission->lights = sightsOfSpecular(frame);
+    emission->depths =
+        drawLightDepths(
+            frame,
+            {"emit.light_depths", "a light emits only where it is the first surface that it sees",
+             "emit.light_depths", "emit.light_depth_buffer"},
+            emission->lights, params.size, geometry)
+            .map;
     if (frame.inputs().params.isSetByUser("emit.photons"))
         frame.warn("emit.photons has no effect: emit=vertices takes one photon a vertex.");
     return emission;
@@ -308,8 +248,8 @@ Hits emitVertices(FrameBuilder& frame, const VertexEmissionParams& params, Surfa
                         command.storage("Instances", inputs.instances.instances)
                             .storage("Fans", emission->fans)
                             .storage("FanFirsts", emission->fanFirsts)
-                            .set("projection", sight.projection)
-                            .set("eyeToLight", sight.eyeToLight)
+                            .set("projection", sight.view.projection())
+                            .set("eyeToLight", render::between(inputs.view, sight.view))
                             .set("lightIndex", light)
                             .set("object", emitting.object)
                             .set("sides", emitting.sides[number])

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "framework/pipeline/frame_builder.h"
+#include "techniques/shared/light_sight.h"
 #include "techniques/shared/nodes.h"
 
 namespace kaustik {
@@ -17,107 +18,61 @@ struct ShadowMapParams {
     }
 };
 
-// x: planar depth from the light, m, 0 none; yz: its growth a texel, as a share of it.
-struct LightDepth {
-    static constexpr Format format = Format::rgba32f;
-};
-
-struct ShadowView {
-    glm::mat4 projection;
-    std::vector<glm::mat4> eyeToLight;                    // by face
-    std::vector<const render::ViewInstances*> instances;  // by face
-    int firstLayer = 0;
-};
-
 // One face for a light with a direction, six around a point light.
-std::vector<ShadowView> makeShadowViews(FrameBuilder& frame) {
-    std::vector<ShadowView> views;
+std::vector<LightSight> sightsOf(FrameBuilder& frame, const scene::Light& light) {
     const scene::Bounds bounds = sceneBounds(frame.scene());
-    int layer = 0;
-    for (const scene::Light& light : frame.scene().lights) {
-        ShadowView shadow;
-        shadow.firstLayer = layer;
-        const int faces = light.kind == scene::LightKind::directional ? 1 : 6;
-        for (int face = 0; face < faces; ++face) {
-            const render::RasterView view = faces == 1
-                                                ? render::makeLightView(light, bounds, bounds)
-                                                : render::makeCubeFaceView(light.position, face);
-            shadow.projection = view.projection();
-            shadow.eyeToLight.push_back(render::between(frame.view(), view));
-            shadow.instances.push_back(
-                &frame.keep(frame.gpuScene().makeInstances(view.worldToView)));
-        }
-        layer += faces;
-        views.push_back(std::move(shadow));
+    const int faces = light.kind == scene::LightKind::directional ? 1 : 6;
+    std::vector<LightSight> sights;
+    for (int face = 0; face < faces; ++face) {
+        const render::RasterView view = faces == 1 ? render::makeLightView(light, bounds, bounds)
+                                                   : render::makeCubeFaceView(light.position, face);
+        sights.push_back({view, &frame.keep(frame.gpuScene().makeInstances(view.worldToView))});
     }
-    return views;
-}
-
-struct ShadowMaps {
-    graph::Texture<LightDepth> map;
-    graph::Texture<DepthBuffer> depth;
-    Geometry geometry;
-};
-
-ShadowMaps renderShadowMaps(FrameBuilder& frame, const ShadowMapParams& params,
-                            const std::vector<ShadowView>& views, Geometry geometry) {
-    const int layers = views.back().firstLayer + static_cast<int>(views.back().eyeToLight.size());
-    return frame.pass<ShadowMaps>(
-        "shadow.map", fmt::format("{} light{}", views.size(), views.size() == 1 ? "" : "s"),
-        [&](graph::PassSetup& setup, ShadowMaps& data) {
-            data.geometry = geometry;
-            if (geometry.heightFields.valid()) setup.read(geometry.heightFields);
-            const int side = params.size;
-            data.map = setup.create<LightDepth>("shadow.maps", side, side, layers);
-            data.depth = setup.create<DepthBuffer>("shadow.depth_buffer", side, side);
-            setup.bypass(data.map, {0, 0, 0, 0});
-            setup.bypass(data.depth, {0, 0, 0, 0});
-        },
-        [&inputs = frame.inputs(), views](const ShadowMaps& data, gl::PassContext& context) {
-            for (const ShadowView& view : views) {
-                for (std::size_t face = 0; face < view.eyeToLight.size(); ++face) {
-                    gl::Command command =
-                        context.shaders({"shared/eye.vert", "shared/shadow.frag"});
-                    command.set("projection", view.projection)
-                        .target(data.map, view.firstLayer + static_cast<int>(face))
-                        .clear()
-                        .depth(data.depth, gl::DepthTest::nearerReversed)
-                        .clear();
-                    inputs.gpuScene.draw(command, context, data.geometry, *view.instances[face],
-                                         render::DrawSet::all);
-                }
-            }
-        });
+    return sights;
 }
 
 Shadows lookUpShadowMaps(FrameBuilder& frame, const ShadowMapParams& params, Geometry geometry,
                          EyeBuffer eye, LayeredDepth /*layers*/) {
-    const std::vector<ShadowView> views = makeShadowViews(frame);
-    if (views.empty()) {
+    std::vector<std::vector<LightSight>> byLight;
+    std::vector<LightSight> all;
+    for (const scene::Light& light : frame.scene().lights) {
+        byLight.push_back(sightsOf(frame, light));
+        all.insert(all.end(), byLight.back().begin(), byLight.back().end());
+    }
+    const int lights = static_cast<int>(byLight.size());
+    if (lights == 0) {
         frame.skip("shadow.map", "the scene has no light");
         return {};
     }
-    const ShadowMaps maps = renderShadowMaps(frame, params, views, geometry);
+    const LightDepths depths =
+        drawLightDepths(frame,
+                        {"shadow.map", fmt::format("{} light{}", lights, lights == 1 ? "" : "s"),
+                         "shadow.maps", "shadow.depth_buffer"},
+                        all, params.size, geometry);
     return frame.pass<Shadows>(
         "shadow.lookup", "receivers may lie in shadow",
         [&](graph::PassSetup& setup, Shadows& data) {
-            setup.sample("shadowMap", maps.map);
+            setup.sample("shadowMap", depths.map);
             setup.sample("receiver", eye.receiver);
             setup.sample("receiverSurface", eye.receiverSurface);
-            data.visibility = setup.create<VisibilityTexel>(
-                "shadow.visibility", frame.width(), frame.height(), static_cast<int>(views.size()));
+            data.visibility = setup.create<VisibilityTexel>("shadow.visibility", frame.width(),
+                                                            frame.height(), lights);
             setup.bypass(data.visibility, {1, 1, 1, 1});
         },
-        [views](const Shadows& data, gl::PassContext& context) {
-            for (std::size_t light = 0; light < views.size(); ++light) {
+        [&inputs = frame.inputs(), byLight](const Shadows& data, gl::PassContext& context) {
+            int firstLayer = 0;
+            int layer = 0;  // of the visibility
+            for (const std::vector<LightSight>& faces : byLight) {
                 gl::Command command = context.fullscreen("shared/shadow_lookup.frag");
-                command.set("firstLayer", views[light].firstLayer)
-                    .set("faceCount", static_cast<int>(views[light].eyeToLight.size()))
-                    .set("projection", views[light].projection);
-                for (std::size_t face = 0; face < views[light].eyeToLight.size(); ++face) {
-                    command.set(fmt::format("eyeToLight[{}]", face), views[light].eyeToLight[face]);
+                command.set("firstLayer", firstLayer)
+                    .set("faceCount", static_cast<int>(faces.size()))
+                    .set("projection", faces.front().view.projection());
+                for (std::size_t face = 0; face < faces.size(); ++face) {
+                    command.set(fmt::format("eyeToLight[{}]", face),
+                                render::between(inputs.view, faces[face].view));
                 }
-                command.target(data.visibility, static_cast<int>(light)).draw();
+                command.target(data.visibility, layer++).draw();
+                firstLayer += static_cast<int>(faces.size());
             }
         });
 }

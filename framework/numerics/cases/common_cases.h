@@ -11,7 +11,8 @@ void addRaySegmentCases(Suite& suite);      // A1 to A5, A7: include/ray_segment
 void addTracingCases(Suite& suite);         // A1 to A3, A6 to A11, B17: every tracer
 void addLayerCases(Suite& suite);           // B12 to B16: every node of layers
 void addInterfaceCases(Suite& suite);       // C19 to C25: include/fresnel.glsl
-void addOpticsCases(Suite& suite);          // C26 to C28a, A9: emission, interaction, tracers, view
+void addSurfaceSideCases(Suite& suite);     // C26, A9: emission, interaction, tracers
+void addOpticsCases(Suite& suite);          // C27 to C28a: interaction, tracers, view
 void addReconstructionCases(Suite& suite);  // D31, D32, D34, D34a: reconstruction, emission
 void addMediaCases(Suite& suite);           // D34, D36: nodes of media
 void addMirrorCases(Suite& suite);          // D37: every node of view
