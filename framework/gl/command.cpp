@@ -74,6 +74,8 @@ Command::Command(PassContext& context, std::vector<std::string> files) : context
         }
     }
     offers_ = false;
+    for (const std::string& name : context.defines())
+        define(name);
 }
 
 const Texture& Command::textureToDrawTo(const graph::ResourceRef& handle) {

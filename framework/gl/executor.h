@@ -45,6 +45,7 @@ class PassContext : public graph::ExecuteContext {
     // For Command.
     [[nodiscard]] const std::string& passName() const { return step_.name; }
     [[nodiscard]] const std::vector<graph::Binding>& bindings() const { return step_.bindings; }
+    [[nodiscard]] const std::vector<std::string>& defines() const { return step_.defines; }
     [[nodiscard]] const Globals& globals() const;
     [[nodiscard]] Access access(const graph::ResourceRef& handle, Use use) const;
     [[nodiscard]] const Texture& textureOf(const Access& access) const;

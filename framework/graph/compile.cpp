@@ -218,6 +218,7 @@ void Graph::assignSlots(const Plan& plan, Compiled& compiled) const {
             compiledStep.reads = pass.reads;
             compiledStep.outputs = pass.outputs;
             compiledStep.bindings = pass.bindings;
+            compiledStep.defines = pass.defines;
         }
 
         std::size_t alive = 0;

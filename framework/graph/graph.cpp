@@ -84,6 +84,11 @@ void PassSetup::bind(const std::string& name, const ResourceRef& handle, BindAs 
     pass.bindings.push_back({name, handle, as});
 }
 
+void PassSetup::define(const std::string& name) {
+    std::vector<std::string>& defines = graph_.passes_[pass_].defines;
+    if (std::find(defines.begin(), defines.end(), name) == defines.end()) defines.push_back(name);
+}
+
 void PassSetup::sideEffect() {
     graph_.passes_[pass_].hasSideEffect = true;
 }

@@ -119,6 +119,9 @@ class PassSetup {
         bind(name, handle, BindAs::storage);
         return handle;
     }
+    // What every command of the pass has shaders compiled with (`#define NAME`): a variant that
+    // follows from what the pass was given.
+    void define(const std::string& name);
     // When this pass is disabled, readers of `output` get `input` instead, or `value` everywhere.
     // A pass that leaves an output without either is required.
     template <class Handle>
@@ -159,6 +162,7 @@ struct Step {
     std::vector<ResourceRef> reads;
     std::vector<ResourceRef> outputs;
     std::vector<Binding> bindings;
+    std::vector<std::string> defines;
     struct Clear {
         std::size_t slot;
         ClearValue value;
@@ -271,6 +275,7 @@ class Graph {
         std::vector<ResourceRef> reads;
         std::vector<ResourceRef> outputs;  // created (version 0) or written (version + 1)
         std::vector<Binding> bindings;
+        std::vector<std::string> defines;
         std::vector<Bypass> bypasses;
         bool hasSideEffect = false;
         bool isSkipped = false;

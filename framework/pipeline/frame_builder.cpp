@@ -18,14 +18,26 @@ const Registry::Node& FrameBuilder::chosenNode(const std::string& stage) {
     return inputs_.registry.findNode(stage, inputs_.params.choice(stage));
 }
 
+const NodeDescription& FrameBuilder::chosen(const std::string& stage) const {
+    return inputs_.registry.findNode(stage, inputs_.params.choice(stage)).description;
+}
+
 Sees FrameBuilder::tracerSees() const {
-    return inputs_.registry.findNode(TraceStage::name, inputs_.params.choice(TraceStage::name))
-        .description.sees;
+    return chosen(TraceStage::name).sees;
+}
+
+bool FrameBuilder::usesBeams() const {
+    const bool areUsed = chosen(ReconstructStage::name).beams ||
+                         (needs().scatteringMedium && chosen(MediaStage::name).beams);
+    return areUsed && chosen(EmitStage::name).beams;
+}
+
+bool FrameBuilder::joinsCells() const {
+    return chosen(ReconstructStage::name).joinsCells;
 }
 
 params::Extent FrameBuilder::photonsOfALight() const {
-    const auto& own = inputs_.registry.findNode(EmitStage::name, inputs_.params.choice("emit"))
-                          .description.photons;
+    const auto& own = chosen(EmitStage::name).photons;
     return own ? own(*this) : params<EmitParams>("emit").photons;
 }
 
@@ -65,18 +77,23 @@ void needsEyesView(const std::string& node, const std::string& what, const Views
                                   render::describe(views->space())));
 }
 
+void needsBeams(FrameBuilder& frame, const std::string& node, const Photons& photons) {
+    if (photons.hasBeams()) return;
+    throw ConfigError(fmt::format(
+        "{} needs the beams of photons, which emit.{} does not make; take emit=grid, or "
+        "reconstruct=sprites.",
+        node, frame.chosenNode(EmitStage::name).name));
+}
+
 void FrameBuilder::request(const Photons& photons) {
-    for (const graph::ResourceRef& handle : std::initializer_list<graph::ResourceRef>{
-             photons.position, photons.direction, photons.flux, photons.origin, photons.list}) {
+    for (const graph::ResourceRef& handle : photons.textures())
         graph_.request(handle);
-    }
+    graph_.request(photons.list);
 }
 
 void FrameBuilder::request(const Hits& hits) {
-    for (const graph::ResourceRef& handle :
-         std::initializer_list<graph::ResourceRef>{hits.position, hits.surface, hits.flux}) {
+    for (const graph::ResourceRef& handle : hits.textures())
         graph_.request(handle);
-    }
     request(hits.incoming);
 }
 

@@ -48,6 +48,10 @@ void fillList(gl::PassContext& context, const Photons& photons);
 // the eye's view.
 void needsEyesView(const std::string& node, const std::string& what, const Views& views);
 
+class FrameBuilder;
+// For a node that uses beams: ConfigError where the emitter does not make any.
+void needsBeams(FrameBuilder& frame, const std::string& node, const Photons& photons);
+
 class FrameBuilder {
   public:
     // `recordsTraces`: keeps what each tracing was given and what it found (for the photon audit).
@@ -128,6 +132,10 @@ class FrameBuilder {
     }
     // What the chosen tracer can find.
     [[nodiscard]] Sees tracerSees() const;
+    // Whether photons have beams: the emitter makes them, and somebody uses them.
+    [[nodiscard]] bool usesBeams() const;
+    // Whether a batch is to know the cells beside it too.
+    [[nodiscard]] bool joinsCells() const;
     // How many photons each light emits, as rows of so many: what Samples are taken from.
     [[nodiscard]] params::Extent photonsOfALight() const;
     // Keeps `object` (a buffer of a node's own, say) alive as long as the frame.
@@ -161,6 +169,8 @@ class FrameBuilder {
     [[nodiscard]] int runsOf(const std::string& stage) const;
 
   private:
+    // As chosenNode, of a stage that is not run thereby.
+    [[nodiscard]] const NodeDescription& chosen(const std::string& stage) const;
     Hits recorded(const TraceStage::Build& build, const Photons& photons, const Surfaces& surfaces);
 
     graph::Graph& graph_;

@@ -29,6 +29,11 @@ struct NodeDescription {
     std::string sentence;
     std::string source;           // paper, section, equation; "" for our own
     Sees sees = Sees::eyeLayers;  // of a tracer
+    // Of an emitter: its photons have beams where anybody uses them. Of a reconstruction or a
+    // medium: it uses them.
+    bool beams = false;
+    // Of a reconstruction: it joins what neighbouring cells bring, across batches too.
+    bool joinsCells = false;
     // Of an emitter: rows and columns of one light's photons, where emit.photons does not say it.
     std::function<params::Extent(const FrameBuilder&)> photons = {};
 };

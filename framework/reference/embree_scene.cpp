@@ -237,6 +237,30 @@ void EmbreeScene::refine(const glm::dvec3& origin, const glm::dvec3& direction, 
     hit.triangle = {found.geomID, found.primID};
 }
 
+glm::dmat3 EmbreeScene::normalTurning(const TriangleId& triangle,
+                                      const glm::dvec3& position) const {
+    const ObjectMesh& mesh = *objects_[triangle.object];
+    const glm::uvec3 corners = (*mesh.triangles)[triangle.triangle];
+    const transport::VertexData& a = mesh.vertices[corners.x];
+    const transport::VertexData& b = mesh.vertices[corners.y];
+    const transport::VertexData& c = mesh.vertices[corners.z];
+    const glm::dvec3 ab = glm::dvec3(b.position) - glm::dvec3(a.position);
+    const glm::dvec3 ac = glm::dvec3(c.position) - glm::dvec3(a.position);
+    const glm::dvec3 area = glm::cross(ab, ac);
+    const double area2 = glm::dot(area, area);
+    if (!(area2 > 0.0)) return glm::dmat3(0.0);
+    const glm::dmat3 turning =
+        glm::outerProduct(glm::dvec3(b.normal) - glm::dvec3(a.normal), glm::cross(ac, area)) /
+            area2 +
+        glm::outerProduct(glm::dvec3(c.normal) - glm::dvec3(a.normal), glm::cross(area, ab)) /
+            area2;
+    const glm::dvec3 normal = glm::dvec3(a.normal) + turning * (position - glm::dvec3(a.position));
+    const double size = glm::length(normal);
+    if (!(size > 1e-12)) return glm::dmat3(0.0);
+    const glm::dvec3 unit = normal / size;
+    return (turning - glm::outerProduct(unit, unit * turning)) / size;
+}
+
 bool EmbreeScene::intersect(const Ray& ray, SurfaceHit& hit) const {
     FilterContext context = makeContext(ray.start, ray.media, ray.sides);
     context.leftSide = ray.leftSide;

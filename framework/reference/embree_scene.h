@@ -92,6 +92,11 @@ class EmbreeScene {
     [[nodiscard]] bool isVisible(const glm::dvec3& from, const TriangleId& start,
                                  const glm::dvec3& to, double ignoredEnd) const;
 
+    // How the interpolated unit normal turns with the position on a triangle, at a point of it,
+    // 1/m: maps directions along it, and what is at right angles to it to nothing.
+    [[nodiscard]] glm::dmat3 normalTurning(const TriangleId& triangle,
+                                           const glm::dvec3& position) const;
+
     [[nodiscard]] const scene::Scene& scene() const { return scene_; }
     [[nodiscard]] const Appearance& appearance() const { return appearance_; }
     [[nodiscard]] const glm::dvec3& center() const { return center_; }

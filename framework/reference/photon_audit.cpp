@@ -39,6 +39,7 @@ std::vector<FirstHit> exactFirstHits(const EmbreeScene& scene, std::span<const A
         hit.position = p + photon.direction * (found.distance / length);
         hit.shadingNormal = back * found.shadingNormal;
         hit.geometricNormal = back * found.geometricNormal;
+        hit.turning = back * scene.normalTurning(found.triangle, found.position) * rotation;
         hit.material = found.material + 1;
         hit.triangle = found.triangle;
     };

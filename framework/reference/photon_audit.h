@@ -26,6 +26,7 @@ struct FirstHit {
     glm::dvec3 position{0.0};       // in the space of the photons
     glm::dvec3 shadingNormal{0.0};  // unit, outward, in the space of the photons
     glm::dvec3 geometricNormal{0.0};
+    glm::dmat3 turning{0.0};     // of the shading normal with the position, 1/m
     std::uint32_t material = 0;  // index + 1; 0: none
     TriangleId triangle;
     [[nodiscard]] bool exists() const { return material != 0; }

@@ -5,7 +5,15 @@
 
 namespace kaustik {
 
-Photons Photons::create(graph::PassSetup& setup, int width, int height, const std::string& suffix) {
+namespace {
+
+// The shaders of a pass that handles beams are another variant.
+const char* const kBeamVariant = "PHOTON_BEAMS";
+
+}  // namespace
+
+Photons Photons::create(graph::PassSetup& setup, int width, int height, const std::string& suffix,
+                        bool hasBeams) {
     Photons photons;
     photons.width = width;
     photons.height = height;
@@ -15,6 +23,10 @@ Photons Photons::create(graph::PassSetup& setup, int width, int height, const st
     photons.direction = setup.create<PhotonDirection>("photons.direction" + suffix, width, height);
     photons.flux = setup.create<PhotonFlux>("photons.flux" + suffix, width, height);
     photons.origin = setup.create<OriginTexel>("photons.origin" + suffix, width, height);
+    if (hasBeams) {
+        photons.beamPlace = setup.create<BeamPlace>("photons.beam_place" + suffix, width, height);
+        photons.beamTurn = setup.create<BeamTurn>("photons.beam_turn" + suffix, width, height);
+    }
     photons.list = setup.createBuffer<transport::PhotonList>("photons.list" + suffix, 1);
     return photons;
 }
@@ -25,15 +37,38 @@ void Photons::sample(graph::PassSetup& setup) const {
     setup.sample("photonFlux", flux);
     setup.sample("photonOrigin", origin);
     setup.storage("Photons", list);
+    if (!hasBeams()) return;
+    setup.sample("photonBeamPlace", beamPlace);
+    setup.sample("photonBeamTurn", beamTurn);
+    setup.define(kBeamVariant);
 }
 
-void Photons::store(graph::PassSetup& setup, const std::string& prefix,
-                    const std::string& block) const {
-    setup.image(prefix + "Position", position);
-    setup.image(prefix + "Direction", direction);
-    setup.image(prefix + "Flux", flux);
-    setup.image(prefix + "Origin", origin);
-    setup.storage(block, list);
+void Photons::store(graph::PassSetup& setup) const {
+    setup.image("nextPosition", position);
+    setup.image("nextDirection", direction);
+    setup.image("nextFlux", flux);
+    setup.image("nextOrigin", origin);
+    setup.storage("NextPhotons", list);
+    if (!hasBeams()) return;
+    setup.image("nextBeamPlace", beamPlace);
+    setup.image("nextBeamTurn", beamTurn);
+    setup.define(kBeamVariant);
+}
+
+void Photons::rewrite(graph::PassSetup& setup) {
+    position = setup.write(position);
+    direction = setup.write(direction);
+    flux = setup.write(flux);
+    origin = setup.write(origin);
+    if (!hasBeams()) return;
+    beamPlace = setup.write(beamPlace);
+    beamTurn = setup.write(beamTurn);
+}
+
+std::vector<graph::ResourceRef> Photons::textures() const {
+    std::vector<graph::ResourceRef> all{position, direction, flux, origin};
+    if (hasBeams()) all.insert(all.end(), {beamPlace, beamTurn});
+    return all;
 }
 
 void Photons::account(graph::PassSetup& setup) {
@@ -44,11 +79,15 @@ Hits Hits::create(graph::PassSetup& setup, const Photons& incoming) {
     Hits hits;
     hits.incoming = incoming;
     const std::string& suffix = incoming.suffix;
-    hits.position =
-        setup.create<HitPosition>("hits.position" + suffix, incoming.width, incoming.height);
-    hits.surface =
-        setup.create<HitSurface>("hits.surface" + suffix, incoming.width, incoming.height);
-    hits.flux = setup.create<HitFlux>("hits.flux" + suffix, incoming.width, incoming.height);
+    const int w = incoming.width;
+    const int h = incoming.height;
+    hits.position = setup.create<HitPosition>("hits.position" + suffix, w, h);
+    hits.surface = setup.create<HitSurface>("hits.surface" + suffix, w, h);
+    hits.flux = setup.create<HitFlux>("hits.flux" + suffix, w, h);
+    if (incoming.hasBeams()) {
+        hits.shape = setup.create<HitShape>("hits.shape" + suffix, w, h);
+        setup.define(kBeamVariant);
+    }
     return hits;
 }
 
@@ -56,12 +95,31 @@ void Hits::sample(graph::PassSetup& setup) const {
     setup.sample("hitPosition", position);
     setup.sample("hitSurface", surface);
     setup.sample("hitFlux", flux);
+    if (!shape.valid()) return;
+    setup.sample("hitShape", shape);
+    setup.define(kBeamVariant);
 }
 
 void Hits::store(graph::PassSetup& setup) const {
     setup.image("hitPosition", position);
     setup.image("hitSurface", surface);
     setup.image("hitFlux", flux);
+    if (shape.valid()) setup.image("hitShape", shape);
+}
+
+void Hits::rewrite(graph::PassSetup& setup) {
+    position = setup.write(position);
+    surface = setup.write(surface);
+    flux = setup.write(flux);
+    if (!shape.valid()) return;
+    shape = setup.write(shape);
+    setup.define(kBeamVariant);
+}
+
+std::vector<graph::ResourceRef> Hits::textures() const {
+    std::vector<graph::ResourceRef> all{position, surface, flux};
+    if (shape.valid()) all.push_back(shape);
+    return all;
 }
 
 CausticMap CausticMap::deposit(graph::PassSetup& setup, const CausticMap& before,

@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "framework/graph/graph.h"
 #include "framework/transport/types.h"
@@ -59,10 +60,23 @@ struct PhotonFlux {  // rgb: W; w: media
 struct OriginTexel {  // transport::PhotonOrigin
     static constexpr Format format = Format::rgba32ui;
 };
+// How a photon's ray differs from that of the next cell of its light's grid, in
+// include/beam.glsl's basis across its direction. xy: a cell along u; zw: along v.
+struct BeamPlace {  // m a cell
+    static constexpr Format format = Format::rgba32f;
+};
+struct BeamTurn {  // of the direction, rad a cell
+    static constexpr Format format = Format::rgba32f;
+};
 struct HitPosition {  // xyz: view space, m; w: distance travelled, m
     static constexpr Format format = Format::rgba32f;
 };
 struct HitSurface {  // xyz: outward normal; w: material + 1
+    static constexpr Format format = Format::rgba32f;
+};
+// How the normal of a specular surface turns: x, y along the vectors of include/beam.glsl's basis
+// across it, z between them, 1/m.
+struct HitShape {
     static constexpr Format format = Format::rgba32f;
 };
 struct HitFlux {  // rgb: W that arrive; w: fate
@@ -141,6 +155,23 @@ struct Surfaces {
     LayeredDepth layers;
 };
 
+// The cells of lights' grids that photons of a list stand for, row by row: by them neighbours are
+// found. PhotonOrigin::cell counts from the grid's first row.
+struct CellGrid {
+    int width = 0;  // cells; 0: nobody has neighbours
+    int firstRow = 0;
+    int rows = 0;
+    int firstLight = 0;
+    int lights = 0;
+    int splits = 0;  // a cell may have 2^splits photons in the list, told apart by so many first
+                     // interactions of their paths
+    [[nodiscard]] std::size_t places() const {
+        return (static_cast<std::size_t>(width) * static_cast<std::size_t>(rows) *
+                static_cast<std::size_t>(lights))
+               << static_cast<unsigned>(splits);
+    }
+};
+
 // A list of photons, as texels of the transfer map (K06, section 2; PhotonList says how many), with
 // the account of what they have lost so far. Names in shaders: include/photons.glsl.
 struct Photons {
@@ -148,9 +179,13 @@ struct Photons {
     graph::Texture<PhotonDirection> direction;
     graph::Texture<PhotonFlux> flux;
     graph::Texture<OriginTexel> origin;
+    // Invalid where nobody uses beams (FrameBuilder::usesBeams).
+    graph::Texture<BeamPlace> beamPlace;
+    graph::Texture<BeamTurn> beamTurn;
     graph::Buffer<transport::PhotonList> list;
     Ledger ledger;
     ModelledPaths paths;
+    CellGrid cells;
     // Of the textures: room for so many photons. Only the device knows how many there are.
     int width = 0;
     int height = 0;
@@ -159,16 +194,21 @@ struct Photons {
     std::string batch;   // the suffix of its batch of emission
     std::string suffix;  // tells the names of its resources from those of other lists
     [[nodiscard]] int capacity() const { return width * height; }
+    [[nodiscard]] bool hasBeams() const { return beamPlace.valid(); }
 
     // New textures and a new list, to be filled by the pass.
-    static Photons create(graph::PassSetup& setup, int width, int height,
-                          const std::string& suffix);
+    static Photons create(graph::PassSetup& setup, int width, int height, const std::string& suffix,
+                          bool hasBeams);
     // For a pass that reads photons: "photonPosition", "photonDirection", "photonFlux",
-    // "photonOrigin" and the block "Photons".
+    // "photonOrigin" and the block "Photons"; with beams, for which the shaders of the pass are
+    // compiled as PHOTON_BEAMS, "photonBeamPlace" and "photonBeamTurn".
     void sample(graph::PassSetup& setup) const;
-    // For a pass that makes them: images under the same names with `prefix` instead of "photon",
-    // and the block `block`.
-    void store(graph::PassSetup& setup, const std::string& prefix, const std::string& block) const;
+    // For a pass that makes them: images under the same names with "next" instead of "photon", and
+    // the block "NextPhotons".
+    void store(graph::PassSetup& setup) const;
+    // For a pass that goes on filling textures that one before has created.
+    void rewrite(graph::PassSetup& setup);
+    [[nodiscard]] std::vector<graph::ResourceRef> textures() const;
     // What all passes do that lose flux; block "LedgerEntries".
     void account(graph::PassSetup& setup);
 };
@@ -178,12 +218,18 @@ struct Hits {
     graph::Texture<HitPosition> position;
     graph::Texture<HitSurface> surface;
     graph::Texture<HitFlux> flux;
-    Photons incoming;  // the photons that made them
+    graph::Texture<HitShape> shape;  // where the photons have beams
+    Photons incoming;                // the photons that made them
 
     static Hits create(graph::PassSetup& setup, const Photons& incoming);
-    // "hitPosition", "hitSurface", "hitFlux": to read, or as images of the pass that makes them.
+    // "hitPosition", "hitSurface", "hitFlux", "hitShape": to read, or as images of the pass that
+    // makes them.
     void sample(graph::PassSetup& setup) const;
     void store(graph::PassSetup& setup) const;
+    // For a pass that goes on filling what one before has created.
+    void rewrite(graph::PassSetup& setup);
+    // In the order of a fragment shader's outputs.
+    [[nodiscard]] std::vector<graph::ResourceRef> textures() const;
 };
 
 // Flux that has arrived, W a texel, in the space of views: sums that depend neither on the order

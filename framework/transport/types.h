@@ -137,7 +137,7 @@ struct Photon {
     uint media;  // the dielectrics around it, and the side that it has just left: media_stack.h
 };
 
-// Where a photon arrived: three RGBA32F textures, by the photon's own texel.
+// Where a photon arrived: three RGBA32F textures, and a fourth where photons have beams, by the photon's own texel.
 struct Hit {
     vec3 positionVs;
     float distanceMeters;  // travelled since the last interaction
@@ -146,6 +146,7 @@ struct Hit {
     uint material;         // index + 1; 0: no surface
     vec3 fluxWatts;        // that arrives
     uint fate;
+    vec3 shape;  // how the normal turns, 1/m (include/beam.glsl); where photons have beams
 };
 
 // How the eye's path through specular surfaces has ended; above 0 it has come out.

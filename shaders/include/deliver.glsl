@@ -8,7 +8,7 @@
 
 // What the list says of a photon that was not on its way, or hit nothing.
 Hit nothingHit() {
-    return Hit(vec3(0.0), 0.0, vec3(0.0), 0u, vec3(0.0), kFateEnded);
+    return Hit(vec3(0.0), 0.0, vec3(0.0), 0u, vec3(0.0), kFateEnded, vec3(0.0));
 }
 
 // The normal of a receiver: the shading normal, unless that takes the eye or the arriving light for

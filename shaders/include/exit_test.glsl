@@ -105,8 +105,9 @@ LayerHit testEntry(RaySegment segment, TracedRay ray, int i, int n) {
 // Where a ray crossed a smooth surface between two pixels, and by which normals it is bent.
 struct Crossing {
     float t;         // m
-    vec3 shading;    // unit, outward
+    vec3 shading;  // unit, outward
     vec3 geometric;
+    mat3 turning;  // of the shading normal with the position, 1/m
 };
 
 // The steps know it to a pixel: it is moved, by no more, to where the surface that the pixels
@@ -114,7 +115,7 @@ struct Crossing {
 // is, unless the ray does not cross it that way.
 Crossing smoothCrossing(vec3 origin, vec3 direction, float t, vec4 surface, LayerSurface layer) {
     SmoothSurface around = smoothSurfaceAt(origin + t * direction, surface, layer);
-    Crossing crossing = Crossing(t, around.normal, layer.normal);
+    Crossing crossing = Crossing(t, around.normal, layer.normal, around.turning);
     float closing = dot(direction, around.normal);
     bool leaves = dot(direction, layer.normal) > 0.0;
     if (closing == 0.0 || (closing > 0.0) != leaves) return crossing;

@@ -265,10 +265,3 @@ SmoothSurface smoothSurfaceAt(vec3 pointVs, vec4 surface, LayerSurface layerHit)
     result.height = 0.5 * (meanHeight - dot(result.normal, meanPosition));
     return result;
 }
-
-// The surface's normal where the ray hits it; the normal of one pixel alone would send all photons
-// that hit it the same way. `surface` and `layerHit` are those of the hit's own pixel and layer. A
-// receiver sends the light nowhere: its pixel's normal will do.
-vec3 normalAtHit(vec3 hitVs, vec4 surface, LayerSurface layerHit, bool arrives) {
-    return arrives ? surface.xyz : smoothSurfaceAt(hitVs, surface, layerHit).normal;
-}

@@ -2,6 +2,9 @@
 // What becomes of a photon where it has hit a specular surface (K06, section 2.3).
 #include "include/ledger.glsl"
 #include "include/specular.glsl"
+#ifdef PHOTON_BEAMS
+#include "include/beam.glsl"
+#endif
 
 // The branches: fate kFateNone where there is none. Their flux is the photon's, less what a mirror
 // absorbs and what enters a dielectric inside of more others than a stack holds, which both go to
@@ -54,3 +57,17 @@ Branches branchesOf(Photon photon, Hit hit) {
     }
     return branches;
 }
+
+#ifdef PHOTON_BEAMS
+// The beam of a branch that goes on in `direction`.
+Beam beamOfBranch(Beam beam, Photon before, Hit hit, vec3 direction, bool isReflected) {
+    float eta = 0.0;
+    if (!isReflected) {
+        bool enters = dot(before.directionVs, hit.normalVs) < 0.0;
+        vec2 indices = indicesAt(hit.material, before.media, enters);
+        eta = indices.x / indices.y;
+    }
+    return beamBeyond(beam, before.directionVs, hit.distanceMeters, hit.normalVs, hit.shape,
+                      direction, eta);
+}
+#endif

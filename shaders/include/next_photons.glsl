@@ -2,6 +2,7 @@
 // For shaders that send photons on from where they have hit a specular surface: one thread a photon
 // of the list before, and its place in the next one (techniques/shared/next_photons.h).
 #include "include/hits.glsl"
+#include "include/interaction.glsl"
 #include "include/photon_thread.glsl"
 #include "include/store_photons.glsl"
 
@@ -26,4 +27,13 @@ uint nextSlot(bool goesOn) {
 // Of a photon that is sent on by the thread's.
 PhotonOrigin originOfNext(PhotonOrigin before, uint index, bool isReflected) {
     return PhotonOrigin(before.cell, before.light, (before.path << 1) | uint(isReflected), index);
+}
+
+// Writes a branch of the thread's photon at its place in the next list.
+void sendOn(uint slot, ivec2 texel, Photon before, Hit hit, Photon branch, PhotonOrigin origin) {
+    storeNext(slot, branch, origin);
+#ifdef PHOTON_BEAMS
+    bool isReflected = (origin.path & 1u) == 1u;
+    storeNextBeam(slot, beamOfBranch(beamAt(texel), before, hit, branch.directionVs, isReflected));
+#endif
 }

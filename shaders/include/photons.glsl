@@ -2,6 +2,9 @@
 // A list of photons to read, as Photons::sample binds it.
 #include "include/transfer_map.glsl"
 #include "framework/transport/photon_list.h"
+#ifdef PHOTON_BEAMS
+#include "include/beam.glsl"
+#endif
 
 uniform sampler2D photonPosition;
 uniform sampler2D photonDirection;
@@ -15,6 +18,15 @@ Photon photonAt(ivec2 texel) {
     return unpackPhoton(texelFetch(photonPosition, texel, 0), texelFetch(photonDirection, texel, 0),
                         texelFetch(photonFlux, texel, 0));
 }
+
+#ifdef PHOTON_BEAMS
+uniform sampler2D photonBeamPlace;
+uniform sampler2D photonBeamTurn;
+
+Beam beamAt(ivec2 texel) {
+    return unpackBeam(texelFetch(photonBeamPlace, texel, 0), texelFetch(photonBeamTurn, texel, 0));
+}
+#endif
 
 PhotonOrigin originAt(ivec2 texel) {
     return unpackOrigin(texelFetch(photonOrigin, texel, 0));

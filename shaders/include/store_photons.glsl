@@ -2,6 +2,9 @@
 // The next list of photons, to write, as Photons::store binds it under "next".
 #include "include/transfer_map.glsl"
 #include "framework/transport/photon_list.h"
+#ifdef PHOTON_BEAMS
+#include "include/beam.glsl"
+#endif
 
 layout(rgba32f) writeonly uniform image2D nextPosition;
 layout(rgba32f) writeonly uniform image2D nextDirection;
@@ -18,3 +21,14 @@ void storeNext(uint slot, Photon photon, PhotonOrigin origin) {
     imageStore(nextFlux, texel, photonFluxTexel(photon));
     imageStore(nextOrigin, texel, originTexel(origin));
 }
+
+#ifdef PHOTON_BEAMS
+layout(rgba32f) writeonly uniform image2D nextBeamPlace;
+layout(rgba32f) writeonly uniform image2D nextBeamTurn;
+
+void storeNextBeam(uint slot, Beam beam) {
+    ivec2 texel = ivec2(photonTexel(nextPhotons, slot));
+    imageStore(nextBeamPlace, texel, beamPlaceTexel(beam));
+    imageStore(nextBeamTurn, texel, beamTurnTexel(beam));
+}
+#endif

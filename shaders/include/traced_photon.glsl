@@ -4,6 +4,17 @@
 #include "include/deliver.glsl"
 #include "include/exit_test.glsl"
 
+#ifdef PHOTON_BEAMS
+mat3 turningToEye(mat3 turning) {
+#ifdef OTHER_VIEW
+    mat3 toEye = transpose(mat3(view.fromEye));
+    return toEye * turning * transpose(toEye);
+#else
+    return turning;
+#endif
+}
+#endif
+
 // The photon in the space of the view whose layers are asked.
 Photon photonInView(Photon photon) {
     photon.positionVs = pointFromEye(photon.positionVs);
@@ -30,13 +41,21 @@ Hit deliver(Photon photon, FirstHit first) {
     LayerSurface layer = layerAt(first.pixel, first.hit.layer);
     uint material = uint(surface.w);
     bool arrives = isReceiver(materialKind(material - 1u));
-    Crossing crossing = Crossing(first.hit.t, surface.xyz, layer.normal);
+    Crossing crossing = Crossing(first.hit.t, surface.xyz, layer.normal, mat3(0.0));
     if (first.isExit) {
         crossing = smoothCrossing(seen.positionVs, seen.directionVs, crossing.t, surface, layer);
-    } else {
+    } else if (!arrives) {
+        // The normal of one pixel alone would send all photons that hit it the same way. A receiver
+        // sends the light nowhere: its pixel's normal will do.
         vec3 there = seen.positionVs + crossing.t * seen.directionVs;
-        crossing.shading = normalAtHit(there, surface, layer, arrives);
+        SmoothSurface around = smoothSurfaceAt(there, surface, layer);
+        crossing.shading = around.normal;
+        crossing.turning = around.turning;
     }
-    return deliverTo(photon, crossing.t, directionToEye(crossing.shading), directionToEye(crossing.geometric),
-                     material);
+    hit = deliverTo(photon, crossing.t, directionToEye(crossing.shading),
+                    directionToEye(crossing.geometric), material);
+#ifdef PHOTON_BEAMS
+    if (!arrives) hit.shape = shapeOf(hit.normalVs, turningToEye(crossing.turning));
+#endif
+    return hit;
 }

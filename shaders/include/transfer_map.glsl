@@ -13,7 +13,8 @@ PhotonOrigin unpackOrigin(uvec4 origin) {
 }
 
 Hit unpackHit(vec4 position, vec4 surface, vec4 flux) {
-    return Hit(position.xyz, position.w, surface.xyz, uint(surface.w), flux.rgb, uint(flux.w));
+    return Hit(position.xyz, position.w, surface.xyz, uint(surface.w), flux.rgb, uint(flux.w),
+               vec3(0.0));
 }
 
 bool isFinite(vec3 v) {

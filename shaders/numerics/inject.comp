@@ -23,6 +23,9 @@ void main() {
     Injected one = injected[index];
     storeNext(index, unpackPhoton(one.photonPosition, one.photonDirection, one.photonFlux),
               PhotonOrigin(index, 0u, kEmittedPath, 0u));
+#ifdef PHOTON_BEAMS
+    storeNextBeam(index, Beam(mat2(one.photonPosition.w), mat2(0.0)));
+#endif
     storeHit(ivec2(photonTexel(nextPhotons, index)),
              unpackHit(one.hitPosition, one.hitSurface, one.hitFlux));
 }

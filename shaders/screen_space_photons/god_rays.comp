@@ -28,9 +28,23 @@ vec4 pathEnds;       // 1/z and t of both ends
 vec3 pathDirection;
 vec3 pathExtinction;  // 1/m
 vec3 pathPower;       // Φ(0) σs (t1 - t0) / (z0 z1 a²), W/m³ (σs of each channel)
-float pathFootprint;  // m
+mat2 pathWidth;       // across the line, along u and v: m, and what a metre adds
 float pathStretch;    // of the width along the shorter axis over that across the line
 bool isSteep;
+
+RaySegment pathSegment() {
+    RaySegment path;
+    path.nearNearness = pathEnds.x;
+    path.farNearness = pathEnds.y;
+    path.nearT = pathEnds.z;
+    path.farT = pathEnds.w;
+    return path;
+}
+
+// How wide the photon's beam is across the line after so many metres, m.
+float footprintAfter(float t) {
+    return length(pathWidth[0] + t * pathWidth[1]);
+}
 
 // The part of a parabola on [-1, 1], of area 1, that lies below x.
 float parabolaBelow(float x) {
@@ -82,7 +96,17 @@ bool setPath(ivec2 texel) {
                 ((path.farT - path.nearT) * path.nearNearness * path.farNearness / (pixel * pixel));
     // A line of less than a pixel has no direction on the screen.
     float slope = abs(along.x) > 1.0 ? along.y / along.x : 0.0;
-    pathFootprint = photon.footprintMeters;
+    pathWidth = mat2(photon.footprintMeters, 0.0, 0.0, 0.0);
+#ifdef PHOTON_BEAMS
+    // The line and the eye lie in one plane, and so what is across the line is the same all along.
+    vec3 across = cross(photon.directionVs, photon.positionVs);
+    float size = length(across);
+    if (size > 1e-6 * length(photon.positionVs)) {
+        Beam beam = beamAt(texel);
+        vec2 inBasis = (across / size) * basisAcross(photon.directionVs);
+        pathWidth = mat2(inBasis * beam.place, inBasis * beam.turn);
+    }
+#endif
     pathStretch = sqrt(1.0 + slope * slope);
     return true;
 }
@@ -94,11 +118,7 @@ vec3 scatteredTo(ivec2 pixel, vec2 part) {
     if (hidden > 0.0) part = partBefore(part, hidden);
     if (part.x >= part.y) return vec3(0.0);
     float row = float(isSteep ? pixel.x : pixel.y);
-    RaySegment path;
-    path.nearNearness = pathEnds.x;
-    path.farNearness = pathEnds.y;
-    path.nearT = pathEnds.z;
-    path.farT = pathEnds.w;
+    RaySegment path = pathSegment();
     // The middle of a pixel's part; of more pieces where a pixel holds much of the path.
     int pieces = clamp(int(ceil(64.0 * (part.y - part.x))), 1, 64);
     float piece = (part.y - part.x) / float(pieces);
@@ -107,12 +127,13 @@ vec3 scatteredTo(ivec2 pixel, vec2 part) {
         float i = part.x + piece * (float(k) + 0.5);
         vec2 at = mix(pathPixels.xy, pathPixels.zw, i);
         float depth = depthAtIndex(path, i, 1.0);
-        float reach = halfWidth(pathFootprint, 1.0 / depth) * pathStretch;
+        float t = parameterAtIndex(path, i, 1.0);
+        float reach = halfWidth(footprintAfter(t), 1.0 / depth) * pathStretch;
         float across = parabolaBelow((row + 1.0 - at.y) / reach) - parabolaBelow((row - at.y) / reach);
         if (across <= 0.0) continue;
         vec3 ray = viewRay(isSteep ? at.yx : at);
         float slant = length(ray);
-        vec3 opticalDepth = pathExtinction * parameterAtIndex(path, i, 1.0) +
+        vec3 opticalDepth = pathExtinction * t +
                             view.mediumExtinction.rgb * (slant * depth);
         float cosine = -dot(pathDirection, ray) / slant;
         sum += across * slant * phaseFunction(cosine) * exp(-opticalDepth);
@@ -123,8 +144,9 @@ vec3 scatteredTo(ivec2 pixel, vec2 part) {
 void main() {
     uint index = photonOfThread();
     if (index >= photons.count || !setPath(ivec2(photonTexel(photons, index)))) return;
-    float nearest = max(pathEnds.x, pathEnds.y);
-    float wanted = wantedWidth(pathFootprint, nearest);
+    // Of the line's two ends; between them it is no wider than the wider footprint at the nearer.
+    float wanted = max(wantedWidth(footprintAfter(pathEnds.z), pathEnds.x),
+                       wantedWidth(footprintAfter(pathEnds.w), pathEnds.y));
     if (firstColumn == 0 && wanted > float(media_lines_maximum)) {
         atomicAdd(narrowed.count, 1u);
         atomicMax(narrowed.widestBits, floatBitsToUint(wanted));
@@ -136,10 +158,13 @@ void main() {
     for (int column = first; column <= last; ++column) {
         vec2 part = partInColumn(float(column));
         if (part.x >= part.y) continue;
-        // The rows that this part may reach; its widest place is at one of its ends.
+        // The rows that this part may reach.
         vec2 rows = mix(pathPixels.yy, pathPixels.ww, part);
         vec2 nearness = mix(pathEnds.xx, pathEnds.yy, part);
-        float reach = halfWidth(pathFootprint, max(nearness.x, nearness.y)) * pathStretch;
+        RaySegment path = pathSegment();
+        float widest = max(footprintAfter(parameterAtIndex(path, part.x, 1.0)),
+                           footprintAfter(parameterAtIndex(path, part.y, 1.0)));
+        float reach = halfWidth(widest, max(nearness.x, nearness.y)) * pathStretch;
         int low = max(int(floor(min(rows.x, rows.y) - reach)), 0);
         int high = min(int(floor(max(rows.x, rows.y) + reach)), size.y - 1);
         for (int row = low; row <= high; ++row) {

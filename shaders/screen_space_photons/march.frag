@@ -6,6 +6,9 @@
 layout(location = 0) out vec4 hitPosition;
 layout(location = 1) out vec4 hitSurface;
 layout(location = 2) out vec4 hitFlux;
+#ifdef PHOTON_BEAMS
+layout(location = 3) out vec4 hitShape;
+#endif
 
 void main() {
     if (!isPhotonHere()) discard;
@@ -16,4 +19,7 @@ void main() {
     hitPosition = hitPositionTexel(hit);
     hitSurface = hitSurfaceTexel(hit);
     hitFlux = hitFluxTexel(hit);
+#ifdef PHOTON_BEAMS
+    hitShape = vec4(hit.shape, 0.0);
+#endif
 }

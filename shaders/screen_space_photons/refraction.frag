@@ -74,7 +74,7 @@ bool advance(inout EyePath path, float reach) {
     path.at.origin += found.hit.t * path.at.direction;
     vec3 shading =
         found.isExit ? normalAtExit(path.at.origin, found.pixel, found.hit.layer)
-                     : normalAtHit(path.at.origin, surface, layer, false);
+                     : smoothSurfaceAt(path.at.origin, surface, layer).normal;
     vec3 normal =
         bendingNormal(path.at.direction, shading, layer.normal, layer.material, path.at.media);
     bend(path, normal, layer.material, found.hit.layer);

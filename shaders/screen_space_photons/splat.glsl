@@ -14,6 +14,9 @@ float splatFootprint(vec3 center) {
 #endif
 }
 
+#ifdef BEAM_SPLATS
+#include "screen_space_photons/beam_splat.glsl"
+#else
 // Where a photon has arrived; `wanted`: the radius that it asks for, m, and `largest` the one that
 // it may have.
 Sprite splatOf(ivec2 texel, out float wanted, out float largest) {
@@ -29,3 +32,4 @@ Sprite splatOf(ivec2 texel, out float wanted, out float largest) {
     sprite.radius = clamp(wanted, pixel, largest);
     return sprite;
 }
+#endif

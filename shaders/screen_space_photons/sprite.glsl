@@ -33,6 +33,11 @@ struct Sprite {
     vec3 normal;
     vec3 direction;  // of the photon
     float radius;    // m
+#ifdef BEAM_SPLATS
+    mat2x3 tangents;  // of the receiver's plane
+    mat2 metric;      // in them: what maps the splat to the unit disc, squared, 1/m²
+    vec2 pixels;      // half the sides of the rectangle around it, px
+#endif
 };
 
 // A beam that grazes is taken as if it came at this sine at least, which bounds its splat.
@@ -58,6 +63,10 @@ float splatKernel(float share) {
 }
 
 float splatDistance(Sprite sprite, vec3 offset) {
+#ifdef BEAM_SPLATS
+    vec2 along = offset * sprite.tangents;
+    return sprite.radius * sqrt(max(dot(along, sprite.metric * along), 0.0));
+#endif
     if (reconstruct_sprites_shape == reconstruct_sprites_shape_disc) return length(offset);
     if (reconstruct_sprites_shape == reconstruct_sprites_shape_screen) {
         // At right angles to the view's axis, at the centre's depth, whatever the receiver does.
@@ -105,7 +114,11 @@ SpritePixel spriteAt(Sprite sprite, ivec2 pixel) {
     // splat itself ends before.
     vec3 offset = viewPoint(vec2(pixel) + 0.5, depth) - sprite.center;
     float own = splatDistance(sprite, offset) / sprite.radius;
+#ifdef BEAM_SPLATS
+    float share = own;  // no splat is narrower than a pixel
+#else
     float share = min(own, length(vec2(pixel) + 0.5 - pixelOf(sprite.center)));
+#endif
     if (share >= 1.0) return result;
     bool isReached = own < 1.0;
     result.weight = splatKernel(share);
@@ -136,6 +149,9 @@ SpritePixel spriteAt(Sprite sprite, ivec2 pixel) {
 
 // Half the sides of the pixel rectangle around the centre's pixel that the splat can cover, px.
 vec2 wholeReach(Sprite sprite) {
+#ifdef BEAM_SPLATS
+    return sprite.pixels;
+#endif
     if (reconstruct_sprites_shape == reconstruct_sprites_shape_screen) {
         return vec2(ceil(sprite.radius / pixelFootprint(-sprite.center.z)) + 1.0);
     }

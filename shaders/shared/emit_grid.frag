@@ -6,6 +6,9 @@
 #include "include/surface.glsl"
 #include "include/specular.glsl"
 #include "include/lights.glsl"
+#ifdef PHOTON_BEAMS
+#include "include/beam.glsl"
+#endif
 
 layout(location = 0) out vec4 photonPosition;
 layout(location = 1) out vec4 photonDirection;
@@ -14,11 +17,19 @@ layout(location = 3) out uvec4 photonOrigin;
 layout(location = 4) out vec4 hitPosition;
 layout(location = 5) out vec4 hitSurface;
 layout(location = 6) out vec4 hitFlux;
+#ifdef PHOTON_BEAMS
+layout(location = 7) out vec4 hitShape;
+#endif
 
 uniform int lightIndex;
 uniform vec2 halfExtent;    // m, or tangents of the half-angles
 uniform vec2 gridSize;      // texels
 uniform float gridBottom;   // first row of this light's part of the transfer map
+uniform vec2 ownRows;       // of the transfer map, from and before
+
+// Rows beside the batch's own are there to be joined with, and carry of their flux a share below
+// what any sum resolves; a power of two, so that all ratios are the same.
+const float kNextToNothing = exp2(-64.0);
 
 void main() {
     LightData light = lights[lightIndex];
@@ -52,6 +63,7 @@ void main() {
                                 material + 1u, media);
     float fate = float(isPhoton ? kFateSpecular : kFateNone);
     vec4 on = vec4(isPhoton ? 1.0 : 0.0);
+    if (gl_FragCoord.y < ownRows.x || gl_FragCoord.y > ownRows.y) flux *= kNextToNothing;
     photonPosition = vec4(positionVs, footprint) * on;
     photonDirection = vec4(direction * on.xyz, fate);
     photonFlux = vec4(flux, float(media)) * on;
@@ -60,4 +72,11 @@ void main() {
     hitPosition = vec4(positionVs, 0.0) * on;
     hitSurface = vec4(normal, float(material + 1u)) * on;
     hitFlux = vec4(flux * on.xyz, fate);
+#ifdef PHOTON_BEAMS
+    // Of what was interpolated over the triangle, as the normals are.
+    float size = max(length(normalVs), 1e-12);
+    mat2x3 places = mat2x3(dFdx(positionVs), dFdy(positionVs));
+    mat2x3 turns = mat2x3(dFdx(normalVs), dFdy(normalVs)) / size;
+    hitShape = vec4(shapeFrom(normal, places, turns), 0.0) * on;
+#endif
 }

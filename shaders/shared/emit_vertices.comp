@@ -73,6 +73,40 @@ LitArea litAround(uint vertex, vec3 direction, out bool isWithin) {
     return isWithin ? within : outside;
 }
 
+#ifdef PHOTON_BEAMS
+vec3 unitNormalVs(uint vertex) {
+    vec3 normal = mat3(instances[object].normalToView) * meshVertices[vertex].normal;
+    return normal / max(length(normal), 1e-12);
+}
+
+// How the normals around a vertex turn, by least squares over the corners of its triangles.
+vec3 shapeAround(uint vertex, vec3 normal) {
+    mat3 toView = mat3(instances[object].modelToView);
+    mat2x3 tangents = basisAcross(normal);
+    vec3 middle = meshVertices[firstVertex + vertex].position;
+    vec3 own = unitNormalVs(firstVertex + vertex);
+    mat2 moved = mat2(0.0);
+    mat2 turned = mat2(0.0);
+    uint end = fanFirsts[firstFan + vertex + 1u];
+    for (uint i = fanFirsts[firstFan + vertex]; i < end; ++i) {
+        for (int k = 0; k < 2; ++k) {
+            uint corner = firstVertex + fans[i][k];
+            vec2 offset = (toView * (meshVertices[corner].position - middle)) * tangents;
+            vec2 turn = (unitNormalVs(corner) - own) * tangents;
+            moved += outerProduct(offset, offset);
+            turned += outerProduct(turn, offset);
+        }
+    }
+    // Scaled to about 1, so that nothing underflows.
+    float size = moved[0][0] + moved[1][1];
+    if (!(size > 0.0)) return vec3(0.0);
+    moved /= size;
+    if (!(determinant(moved) > 1e-6)) return vec3(0.0);
+    mat2 form = (turned / size) * inverse(moved);
+    return vec3(form[0][0], form[1][1], 0.5 * (form[0][1] + form[1][0]));
+}
+#endif
+
 // Whether the light sees the point before anything else: by most of the four texels around it, each
 // by its nearness, so that no shadow's edge is off by more than half a texel on the average.
 bool isSeen(vec3 positionVs, vec3 normalVs) {
@@ -122,10 +156,12 @@ void main() {
     bool isDielectric = materialKind(material) == kMaterialDielectric;
     uint media = isDielectric && isWithin ? enterMedium(0u, material + 1u) : 0u;
     float footprint = sqrt(lit.across);
+    float spread = 0.0;  // rad
     vec3 flux = light.power.rgb * lit.across;
     if (uint(light.positionVs.w) != kLightDirectional) {
         float distance = length(positionVs - light.positionVs.xyz);
-        flux = lightIntensity(light, positionVs, footprint / distance) *
+        spread = footprint / distance;
+        flux = lightIntensity(light, positionVs, spread) *
                (lit.across / (distance * distance)) *
                mediumTransmittance(innerMedium(media), distance);
     }
@@ -137,6 +173,12 @@ void main() {
     uint slot = uint(firstOfLight + inBatch);
     storeNext(slot, Photon(positionVs, footprint, direction, kFateSpecular, flux, media),
               PhotonOrigin(cell, uint(lightIndex), kEmittedPath, 0u));
+    vec3 shape = vec3(0.0);
+#ifdef PHOTON_BEAMS
+    // A vertex has no cell: its beam is as wide as the area around it, either way.
+    storeNextBeam(slot, Beam(mat2(footprint), mat2(spread)));
+    shape = shapeAround(vertex, normal);
+#endif
     storeHit(ivec2(photonTexel(nextPhotons, slot)),
-             Hit(positionVs, 0.0, normal, material + 1u, flux, kFateSpecular));
+             Hit(positionVs, 0.0, normal, material + 1u, flux, kFateSpecular, shape));
 }

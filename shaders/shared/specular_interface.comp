@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // What photons do where they have hit a specular surface: one thread a photon.
-#include "include/interaction.glsl"
 #include "include/next_photons.glsl"
 
 void main() {
@@ -13,13 +12,14 @@ void main() {
     Hit hit = hitAt(texel);
     PhotonOrigin origin = originAt(texel);
     if (origin.path == kEmittedPath) ledgerAdd(kAccountEmitted, hit.fluxWatts);
-    Branches branches = branchesOf(photonAt(texel), hit);
+    Photon photon = photonAt(texel);
+    Branches branches = branchesOf(photon, hit);
     bool goesThrough = branches.transmitted.fate == kFateInFlight;
     if (goesThrough && branches.reflected.fate == kFateInFlight)
         ledgerAdd(kAccountUntracedBranch, branches.reflected.fluxWatts);
     if (goesThrough) {
-        storeNext(slot, branches.transmitted, originOfNext(origin, index, false));
+        sendOn(slot, texel, photon, hit, branches.transmitted, originOfNext(origin, index, false));
     } else {
-        storeNext(slot, branches.reflected, originOfNext(origin, index, true));
+        sendOn(slot, texel, photon, hit, branches.reflected, originOfNext(origin, index, true));
     }
 }

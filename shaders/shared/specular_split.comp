@@ -2,7 +2,6 @@
 // Both Fresnel branches of photons that have hit a specular surface: one thread a photon. The first
 // half of the next list are the transmitted branches, or the only ones, the second half the
 // reflected ones. Without room for both, one is drawn by its share, and carries all of the flux.
-#include "include/interaction.glsl"
 #include "include/next_photons.glsl"
 
 uniform int splits;  // the list has a second half
@@ -35,7 +34,8 @@ void main() {
     Hit hit = hitAt(texel);
     PhotonOrigin origin = originAt(texel);
     if (origin.path == kEmittedPath) ledgerAdd(kAccountEmitted, hit.fluxWatts);
-    Branches branches = branchesOf(photonAt(texel), hit);
+    Photon before = photonAt(texel);
+    Branches branches = branchesOf(before, hit);
     Photon photon = branches.transmitted;
     bool areBoth = photon.fate == kFateInFlight && branches.reflected.fate == kFateInFlight;
     bool isReflected = photon.fate != kFateInFlight;
@@ -49,10 +49,13 @@ void main() {
         branches.transmitted.fluxWatts = whole;
         photon = branches.transmitted;
     }
-    storeNext(slot, isReflected ? branches.reflected : photon,
-              originOfNext(origin, index, isReflected));
+    sendOn(slot, texel, before, hit, isReflected ? branches.reflected : photon,
+           originOfNext(origin, index, isReflected));
     if (splits == 0) return;
-    Photon nobody = Photon(vec3(0.0), 0.0, vec3(0.0), kFateNone, vec3(0.0), 0u);
-    storeNext(nextPhotons.count / 2u + slot, areBoth ? branches.reflected : nobody,
-              originOfNext(origin, index, true));
+    // Without a second branch the place is of nobody; its numbers are the only branch's, so that
+    // they are numbers.
+    Photon second = areBoth ? branches.reflected
+                            : Photon(vec3(0.0), 0.0, vec3(0.0), kFateNone, vec3(0.0), 0u);
+    sendOn(nextPhotons.count / 2u + slot, texel, before, hit, second,
+           originOfNext(origin, index, true));
 }

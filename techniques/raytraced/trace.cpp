@@ -21,6 +21,8 @@ struct Found {
     Hits hits;
     graph::Texture<FoundNormal> shading;
     graph::Texture<FoundNormal> geometric;
+    // Columns of the matrix by which the shading normal turns, 1/m; where photons have beams.
+    graph::Texture<HitShape> turning;  // three times as many rows
 };
 
 // A float holds words of the transfer map exactly.
@@ -59,6 +61,16 @@ void findHits(const FrameInputs& inputs, const reference::EmbreeScene& scene, co
     }
     context.texture(found.shading).writeRows(shading);
     context.texture(found.geometric).writeRows(geometric);
+    if (!photons.hasBeams()) return;
+    std::vector<glm::vec4> turning(3 * position.size(), glm::vec4(0.0f));
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t row = i / width;
+        for (int column = 0; exact[i].exists() && column < 3; ++column) {
+            const std::size_t at = (3 * row + static_cast<std::size_t>(column)) * width + i % width;
+            turning[at] = glm::vec4(glm::dvec4(exact[i].turning[column], 0.0));
+        }
+    }
+    context.texture(found.turning).writeRows(turning);
 }
 
 Hits traceRaytraced(FrameBuilder& frame, const params::NoParams&, Photons photons,
@@ -80,13 +92,17 @@ Hits traceRaytraced(FrameBuilder& frame, const params::NoParams&, Photons photon
                 };
                 data.shading = create("hits.shading");
                 data.geometric = create("hits.geometric");
+                if (!photons.hasBeams()) return;
+                data.turning = setup.create<HitShape>("hits.turning" + photons.suffix,
+                                                      photons.width, 3 * photons.height);
             },
             [&inputs = frame.inputs(), scene](const Found& data, gl::PassContext& context) {
                 findHits(inputs, *scene, data, context);
-                dispatchOver(context.compute("raytraced/deliver.comp")
-                                 .texture("foundShading", data.shading)
-                                 .texture("foundGeometric", data.geometric),
-                             data.hits.incoming);
+                gl::Command command = context.compute("raytraced/deliver.comp");
+                command.texture("foundShading", data.shading)
+                    .texture("foundGeometric", data.geometric);
+                if (data.turning.valid()) command.texture("foundTurning", data.turning);
+                dispatchOver(command, data.hits.incoming);
             })
         .hits;
 }

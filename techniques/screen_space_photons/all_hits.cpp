@@ -58,12 +58,12 @@ Hits traceAllHits(FrameBuilder& frame, const AllHitsParams& params, Photons phot
             readLayers(setup, surfaces.layers);
             photons.sample(setup);
             Photons every = Photons::create(setup, photons.width, photons.height * params.slots,
-                                            photons.suffix + "_all");
+                                            photons.suffix + "_all", photons.hasBeams());
             every.paths = photons.paths;
             every.rowsThatGoOn = photons.rowsThatGoOn;
             every.batch = photons.batch;
             every.ledger = photons.ledger;
-            every.store(setup, "next", "NextPhotons");
+            every.store(setup);
             every.account(setup);
             hits = Hits::create(setup, every);
             hits.store(setup);

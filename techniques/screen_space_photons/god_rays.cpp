@@ -155,11 +155,13 @@ InScattered drawGodRays(FrameBuilder& frame, const GodRayParams& params, Hits hi
 }  // namespace
 
 void registerGodRays(Registry& registry) {
-    registry.node<MediaStage>("lines",
-                              {"Draws each photon's path through the medium as a line of the light "
-                               "that is scattered towards the eye.",
-                               "K06, section 3.2"},
-                              &drawGodRays);
+    registry.node<MediaStage>(
+        "lines",
+        {.sentence = "Draws each photon's path through the medium as a line of the light that is "
+                     "scattered towards the eye, as wide as its beam.",
+         .source = "K06, section 3.2",
+         .beams = true},
+        &drawGodRays);
 }
 
 }  // namespace kaustik

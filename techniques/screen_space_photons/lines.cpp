@@ -178,9 +178,7 @@ Reduced reduceRows(FrameBuilder& frame, const LinesParams& params, const Layered
             if (batch == 0) {
                 data.hits = Hits::create(setup, hits.incoming);
             } else {
-                data.hits.position = setup.write(hits.position);
-                data.hits.surface = setup.write(hits.surface);
-                data.hits.flux = setup.write(hits.flux);
+                data.hits.rewrite(setup);
             }
             data.hits.store(setup);
             data.hits.incoming.account(setup);

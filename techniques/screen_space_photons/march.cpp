@@ -48,7 +48,8 @@ Hits march(FrameBuilder& frame, const std::string& node, const std::string& shad
                                            : context.shaders({"framework/photon_rows.vert", file});
             setHitTesting(command, testing, layers).params(name, params);
             if (isThread) return dispatchOver(command, hits.incoming);
-            command.target(hits.position).target(hits.surface).target(hits.flux);
+            for (const graph::ResourceRef& texture : hits.textures())
+                command.target(texture);
             drawOver(command);
         });
 }

@@ -11,6 +11,7 @@ void registerScreenSpacePhotons(Registry& registry) {
     registerAllHits(registry);
     registerShadowRays(registry);
     registerSprites(registry);
+    registerTriangles(registry);
     registerGodRays(registry);
     registerGaussianBlur(registry);
     registerRefraction(registry);

@@ -17,6 +17,7 @@ void registerMarch(Registry& registry);  // four nodes: hierarchically or not, f
 void registerAllHits(Registry& registry);
 void registerShadowRays(Registry& registry);
 void registerSprites(Registry& registry);
+void registerTriangles(Registry& registry);
 void registerGodRays(Registry& registry);
 void registerGaussianBlur(Registry& registry);
 void registerRefraction(Registry& registry);

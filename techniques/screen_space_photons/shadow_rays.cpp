@@ -20,7 +20,7 @@ Photons aimAtLight(FrameBuilder& frame, const EyeBuffer& eye, int light) {
             setup.sample("receiver", eye.receiver);
             setup.sample("receiverSurface", eye.receiverSurface);
             const std::string suffix = fmt::format("_shadow_{}", light);
-            rays = Photons::create(setup, frame.width(), frame.height(), suffix);
+            rays = Photons::create(setup, frame.width(), frame.height(), suffix, false);
             rays.ledger = setup.createBuffer<transport::LedgerEntry>("ledger" + suffix,
                                                                      transport::kAccountCount);
         },

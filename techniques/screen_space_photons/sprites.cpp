@@ -6,6 +6,8 @@
 // (eye view space, W) and what the eye, or any other views, see; out: flux a pixel, W, and where a
 // receiver is glossy radiant intensity towards the eye, W/sr: each splat by the BRDF at each pixel,
 // with the pixel's normal and reflectance.
+// reconstruct.beams: the same with the ellipse that a photon's beam covers where it arrives, so
+// that splats are as wide as light spreads and as narrow as it converges.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,17 +29,16 @@ constexpr std::size_t kShrunk = 1;
 // thread after 65,535 turns together.
 constexpr int kMostReachOnCubes = 72;
 
-void keepToLimit(FrameBuilder& frame, const CutSplats& cut, std::size_t which,
-                 const std::string& parameter, int pixels, const std::string& sentence) {
+void keepToLimit(FrameBuilder& frame, const std::string& node, const CutSplats& cut,
+                 std::size_t which, const std::string& parameter, int pixels,
+                 const std::string& sentence) {
     frame.keepsTo(
-        {"reconstruct.sprites",
-         {cut},
-         [=](const gl::Executor& executor) -> std::optional<ReachedLimit> {
+        {node, {cut}, [=](const gl::Executor& executor) -> std::optional<ReachedLimit> {
              const transport::Narrowed found =
                  executor.buffer(cut).read<transport::Narrowed>()[which];
              if (found.count == 0) return {};
              return ReachedLimit{
-                 parameter,
+                 node + "." + parameter,
                  "px",
                  static_cast<double>(pixels),
                  static_cast<double>(std::bit_cast<float>(found.widestBits)),
@@ -48,14 +49,56 @@ void keepToLimit(FrameBuilder& frame, const CutSplats& cut, std::size_t which,
 
 CausticMap splatSprites(FrameBuilder& frame, const SpritesParams& params, Hits hits,
                         Surfaces surfaces, CausticMap before) {
-    return splatInto(frame, params, hits, surfaces.eye, before, "caustic.flux");
+    return splatInto(frame, {.params = params}, hits, surfaces.eye, before, "caustic.flux");
+}
+
+enum class BeamShape : int { ellipse, round };
+
+struct BeamsParams {
+    BeamShape shape = BeamShape::ellipse;
+    SpriteKernel kernel = SpriteKernel::gaussian;
+    float footprints = 1.8f;
+    int maximumPixels = 100;
+    int reachPixels = 120;
+    template <class R>
+    void reflect(R& r) {
+        r.choice(shape, "shape",
+                 "ellipse: what the beam covers of the receiver's plane; round: a disc of the same "
+                 "area, the comparison",
+                 {"ellipse", "round"});
+        r.choice(kernel, "kernel",
+                 "gaussian: cut off at 3 sigma; linear: K06's; epanechnikov: a parabola",
+                 {"gaussian", "linear", "epanechnikov"});
+        r.field(footprints, "footprints", "Radius of a splat in widths of its photon's beam", "",
+                params::range(0.1f, 100.0f));
+        r.field(maximumPixels, "maximum", "Largest radius on the screen; splats shrink to it", "px",
+                params::range(1, 100));
+        r.field(
+            reachPixels, "reach",
+            "Farthest from its middle that a splat goes on the screen; it is cut off there, and "
+            "keeps its flux",
+            "px", params::range(1, 127));
+    }
+};
+
+CausticMap splatBeams(FrameBuilder& frame, const BeamsParams& params, Hits hits, Surfaces surfaces,
+                      CausticMap before) {
+    Splatting splatting{.node = "reconstruct.beams", .areBeams = true};
+    splatting.areRound = params.shape == BeamShape::round;
+    splatting.params.kernel = params.kernel;
+    splatting.params.footprints = params.footprints;
+    splatting.params.maximumPixels = params.maximumPixels;
+    splatting.params.reachPixels = params.reachPixels;
+    needsBeams(frame, splatting.node, hits.incoming);
+    return splatInto(frame, splatting, hits, surfaces.eye, before, "caustic.flux");
 }
 
 }  // namespace
 
-CausticMap splatInto(FrameBuilder& frame, const SpritesParams& params, const Hits& hits,
+CausticMap splatInto(FrameBuilder& frame, const Splatting& splatting, const Hits& hits,
                      const ReceiverView& receivers, const CausticMap& before,
                      const std::string& name) {
+    const SpritesParams& params = splatting.params;
     // What goes to the eye only the eye's pixels know.
     const bool isGlossy = receivers.views->isEyes() && frame.needs().glossyReceivers;
     const int reach = receivers.views->count() == 1
@@ -67,7 +110,7 @@ CausticMap splatInto(FrameBuilder& frame, const SpritesParams& params, const Hit
         CausticMap map;
     };
     const Data& splatted = frame.pass<Data>(
-        "reconstruct.sprites",
+        splatting.node,
         isGlossy ? "photons deposit flux at the receivers, and, since some are glossy, how it "
                    "goes to the eye"
                  : "photons deposit flux at the receivers",
@@ -89,22 +132,24 @@ CausticMap splatInto(FrameBuilder& frame, const SpritesParams& params, const Hit
             data.map.ledger = setup.storage("LedgerEntries", setup.write(hits.incoming.ledger));
             setup.bypass(data.map.ledger, hits.incoming.ledger);
         },
-        [params, reach, isGlossy, isFirst, views = receivers.views, list = hits.incoming](
+        [splatting, reach, isGlossy, isFirst, views = receivers.views, list = hits.incoming](
             const Data& data, gl::PassContext& context) {
             context.buffer(data.cut).clear();
             if (isFirst) context.texture(data.map.flux).clear({0, 0, 0, 0});
             for (const char* shader : {"sprite_totals", "sprites"}) {
                 gl::Command command =
                     context.compute(fmt::format("screen_space_photons/{}.comp", shader));
-                views->bindTo(command).params("reconstruct.sprites", params);
+                views->bindTo(command).params("reconstruct.sprites", splatting.params);
                 command.set("mostReach", reach);
+                if (splatting.areBeams)
+                    command.define("BEAM_SPLATS").set("isRound", splatting.areRound ? 1 : 0);
                 if (isGlossy && shader == std::string("sprites"))
                     command.define("GLOSSY_RECEIVERS");
                 dispatchOver(command, list);
             }
         });
-    keepToLimit(frame, splatted.cut, kCutOff, "reconstruct.sprites.reach", reach, "cut off");
-    keepToLimit(frame, splatted.cut, kShrunk, "reconstruct.sprites.maximum", params.maximumPixels,
+    keepToLimit(frame, splatting.node, splatted.cut, kCutOff, "reach", reach, "cut off");
+    keepToLimit(frame, splatting.node, splatted.cut, kShrunk, "maximum", params.maximumPixels,
                 "smaller than they were to be");
     return splatted.map;
 }
@@ -115,6 +160,13 @@ void registerSprites(Registry& registry) {
                                      "plane, ray-cast per pixel; the flux is kept exactly.",
                                      "K06, section 3.1, Eq. 1"},
                                     &splatSprites);
+    registry.node<ReconstructStage>(
+        "beams",
+        {.sentence = "Splats each photon as the ellipse that its beam covers of the receiver after "
+                     "all of its interactions, integrated over the pixels.",
+         .source = "ray differentials: Igehy 1999; elliptical weighted averages: Heckbert 1989",
+         .beams = true},
+        &splatBeams);
 }
 
 }  // namespace kaustik

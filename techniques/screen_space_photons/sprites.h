@@ -2,6 +2,8 @@
 // Ray-cast sprites (K06, section 3.1) for whoever stores light in some views: see sprites.cpp.
 #pragma once
 
+#include <string>
+
 #include "framework/pipeline/frame_builder.h"
 
 namespace kaustik {
@@ -48,9 +50,17 @@ struct SpritesParams {
     }
 };
 
+// The node whose splats they are, and where they take their shape from.
+struct Splatting {
+    std::string node = "reconstruct.sprites";
+    SpritesParams params;
+    bool areBeams = false;  // as wide as photons' beams are where they arrive (reconstruct.beams)
+    bool areRound = false;  // of the same area, then
+};
+
 // Splats what these hits bring to receivers, W, on what any views see; adds to `before`, or to a
 // new map called `name`.
-[[nodiscard]] CausticMap splatInto(FrameBuilder& frame, const SpritesParams& params,
+[[nodiscard]] CausticMap splatInto(FrameBuilder& frame, const Splatting& splatting,
                                    const Hits& hits, const ReceiverView& receivers,
                                    const CausticMap& before, const std::string& name);
 

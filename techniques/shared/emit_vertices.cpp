@@ -211,14 +211,14 @@ Hits emitVertices(FrameBuilder& frame, const VertexEmissionParams& params, Surfa
                 data.geometry = surfaces.geometry;
                 if (data.geometry.heightFields.valid()) setup.read(data.geometry.heightFields);
                 setup.sample("lightDepths", emission->depths);
-                Photons photons =
-                    Photons::create(setup, width, samples.rows * samples.lights, samples.suffix);
+                Photons photons = Photons::create(setup, width, samples.rows * samples.lights,
+                                                  samples.suffix, frame.usesBeams());
                 photons.batch = samples.suffix;
                 photons.ledger = samples.ledger.valid()
                                      ? setup.write(samples.ledger)
                                      : setup.createBuffer<transport::LedgerEntry>(
                                            "ledger", transport::kAccountCount);
-                photons.store(setup, "next", "NextPhotons");
+                photons.store(setup);
                 data.hits = Hits::create(setup, photons);
                 data.hits.store(setup);
             },
@@ -228,10 +228,10 @@ Hits emitVertices(FrameBuilder& frame, const VertexEmissionParams& params, Surfa
                 if (!samples.ledger.valid()) context.buffer(photons.ledger).clear();
                 fillList(context, photons);
                 // Vertices that the light does not see are nobody.
-                for (const graph::ResourceRef& handle : std::initializer_list<graph::ResourceRef>{
-                         photons.position, photons.direction, photons.flux, photons.origin,
-                         data.hits.position, data.hits.surface, data.hits.flux}) {
-                    context.texture(handle).clear({0, 0, 0, 0});
+                for (const std::vector<graph::ResourceRef>& textures :
+                     {photons.textures(), data.hits.textures()}) {
+                    for (const graph::ResourceRef& texture : textures)
+                        context.texture(texture).clear({0, 0, 0, 0});
                 }
                 const int end = std::min(samples.firstLight + samples.lights,
                                          static_cast<int>(emission->lights.size()));
@@ -275,6 +275,7 @@ void registerVertexEmission(Registry& registry) {
                              {.sentence = "One photon a vertex of the specular surfaces, with the "
                                           "light that falls on the area around it.",
                               .source = "Shah, Konttinen, Pattanaik (SP05)",
+                              .beams = true,
                               .photons = &verticesOfALight},
                              &emitVertices);
 }

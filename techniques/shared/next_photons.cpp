@@ -15,9 +15,12 @@ NextPhotons makeRoom(FrameBuilder& frame, const Hits& hits, int branches) {
             ModelledPaths paths = before.paths;
             ++paths.interactions;
             data.photons = Photons::create(setup, before.width, before.rowsThatGoOn * branches,
-                                           fmt::format("{}_{}", before.batch, paths.interactions));
+                                           fmt::format("{}_{}", before.batch, paths.interactions),
+                                           before.hasBeams());
             data.photons.batch = before.batch;
             data.photons.paths = paths;
+            data.photons.cells = before.cells;
+            if (branches > 1) ++data.photons.cells.splits;
             setup.storage("NextPhotons", data.photons.list);
             const auto groups =
                 (static_cast<std::size_t>(before.capacity()) + transport::kPhotonGroup - 1) /
@@ -40,11 +43,8 @@ Photons sendOn(graph::PassSetup& setup, const Hits& hits, const NextPhotons& nex
     hits.incoming.sample(setup);
     setup.storage("NextFirsts", next.firsts);
     Photons photons = next.photons;
-    photons.position = setup.image("nextPosition", setup.write(photons.position));
-    photons.direction = setup.image("nextDirection", setup.write(photons.direction));
-    photons.flux = setup.image("nextFlux", setup.write(photons.flux));
-    photons.origin = setup.image("nextOrigin", setup.write(photons.origin));
-    setup.storage("NextPhotons", photons.list);
+    photons.rewrite(setup);
+    photons.store(setup);
     photons.ledger = hits.incoming.ledger;
     photons.account(setup);
     return photons;

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// Beams: how a photon's ray changes with its place in its light's grid, to first order (ray
+// differentials, Igehy 1999), through flight, refraction and reflection at curved surfaces.
+
+// Two unit vectors at right angles to a unit vector and to each other (Duff et al. 2017, "Building
+// an Orthonormal Basis, Revisited"): the same for the same bits of it.
+mat2x3 basisAcross(vec3 unit) {
+    float side = unit.z < 0.0 ? -1.0 : 1.0;
+    float a = -1.0 / (side + unit.z);
+    float b = unit.x * unit.y * a;
+    return mat2x3(vec3(1.0 + side * unit.x * unit.x * a, side * b, -side * unit.x),
+                  vec3(b, side + unit.y * unit.y * a, -unit.y));
+}
+
+// What the next cell along u (first column) and along v (second) has otherwise, in the basis across
+// the photon's direction.
+struct Beam {
+    mat2 place;  // m a cell, where the two rays are side by side
+    mat2 turn;   // of the direction, rad a cell
+};
+
+Beam unpackBeam(vec4 place, vec4 turn) {
+    return Beam(mat2(place.xy, place.zw), mat2(turn.xy, turn.zw));
+}
+vec4 beamPlaceTexel(Beam beam) { return vec4(beam.place[0], beam.place[1]); }
+vec4 beamTurnTexel(Beam beam) { return vec4(beam.turn[0], beam.turn[1]); }
+
+// How a surface's unit normal turns, 1/m: the second fundamental form in basisAcross(normal), for
+// whichever side the normal points to. x, y: along the two vectors; z: between them.
+vec3 shapeOf(vec3 normal, mat3 turning) {
+    mat2x3 tangents = basisAcross(normal);
+    mat2 form = transpose(tangents) * (turning * tangents);
+    return vec3(form[0][0], form[1][1], 0.5 * (form[0][1] + form[1][0]));
+}
+
+// The same from how position (m) and unit normal change along two directions on the surface.
+vec3 shapeFrom(vec3 normal, mat2x3 positions, mat2x3 normals) {
+    mat2x3 tangents = basisAcross(normal);
+    mat2 moved = transpose(tangents) * positions;
+    mat2 turned = transpose(tangents) * normals;
+    float area = determinant(moved);
+    if (!(abs(area) > 1e-30)) return vec3(0.0);
+    mat2 form = turned * inverse(moved);
+    return vec3(form[0][0], form[1][1], 0.5 * (form[0][1] + form[1][0]));
+}
+
+// A beam that grazes a surface is taken as if it came at this sine at least.
+const float kLeastBeamSlant = 1e-3;
+float boundedSlant(float slant, float least) {
+    return (slant < 0.0 ? -1.0 : 1.0) * max(abs(slant), least);
+}
+
+// Where the next cells' rays hit the plane with this unit normal that the photon's ray hits after
+// `distance` m: from the photon's hit, m a cell.
+mat2x3 beamOnPlane(Beam beam, vec3 direction, float distance, vec3 normal, float leastSlant) {
+    mat2x3 offsets = basisAcross(direction) * (beam.place + distance * beam.turn);
+    vec2 ahead = (normal * offsets) / boundedSlant(dot(direction, normal), leastSlant);
+    return offsets - outerProduct(direction, ahead);
+}
+
+// The beam of a photon that leaves the surface that it has hit. `before`, `after`: its directions,
+// unit; `normal`: unit, either side; `shape`: its turning; `eta`: index before over index beyond, or
+// 0 where it is reflected. Bounded where light leaves at the critical angle.
+Beam beamBeyond(Beam beam, vec3 before, float distance, vec3 normal, vec3 shape, vec3 after,
+                float eta) {
+    mat2x3 places = beamOnPlane(beam, before, distance, normal, kLeastBeamSlant);
+    mat2x3 turns = basisAcross(before) * beam.turn;
+    mat2x3 tangents = basisAcross(normal);
+    mat2x3 normals = tangents * (mat2(shape.x, shape.z, shape.z, shape.y) *
+                                 (transpose(tangents) * places));
+    float slant = dot(before, normal);
+    vec2 slants = normal * turns + before * normals;  // of before · normal
+    mat2x3 turned;
+    if (eta == 0.0) {
+        turned = turns - 2.0 * (outerProduct(normal, slants) + slant * normals);
+    } else {
+        float beyond = boundedSlant(dot(after, normal), kLeastBeamSlant);
+        float kept = eta * slant - beyond;
+        vec2 kepts = (eta - eta * eta * slant / beyond) * slants;
+        turned = eta * turns - kept * normals - outerProduct(normal, kepts);
+    }
+    mat2x3 across = basisAcross(after);
+    return Beam(transpose(across) * places, transpose(across) * turned);
+}

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// The cells of lights' grids that photons stand for (CellGrid), and which photon of a list stands
+// for each.
+#include "framework/transport/types.h"
+
+uniform ivec2 cellGrid;    // columns and rows
+uniform int cellFirstRow;
+uniform ivec2 cellLights;  // the first, and how many
+uniform int cellSplits;
+
+const uint kNoCell = 0xffffffffu;
+
+// Of a photon's cell and those beside it by so many; kNoCell where the grid has none. Photons that
+// have taken another branch where both were followed are neighbours of their own.
+uint cellPlace(PhotonOrigin origin, ivec2 beside) {
+    if (cellGrid.x == 0) return kNoCell;
+    ivec2 at = ivec2(origin.cell % uint(cellGrid.x), origin.cell / uint(cellGrid.x));
+    at += beside - ivec2(0, cellFirstRow);
+    int light = int(origin.light) - cellLights.x;
+    bool isIn = all(greaterThanEqual(at, ivec2(0))) && all(lessThan(at, cellGrid)) && light >= 0 &&
+                light < cellLights.y;
+    if (!isIn) return kNoCell;
+    int interactions = findMSB(origin.path);
+    uint branch = bitfieldExtract(origin.path, max(interactions - cellSplits, 0), cellSplits);
+    uint grid = branch * uint(cellLights.y) + uint(light);
+    return (grid * uint(cellGrid.y) + uint(at.y)) * uint(cellGrid.x) + uint(at.x);
+}

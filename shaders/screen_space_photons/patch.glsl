@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: MIT
+// What a patch of a receiver, four corners that light arrives between, covers of each pixel: two
+// triangles with half of the flux each, evenly spread over each as it lies in space, or by the
+// densities at their corners. Whatever their shape, size and slant, the shares of all pixels add up
+// to one.
+#include "include/coverage.glsl"
+#include "include/ledger.glsl"
+#include "include/surface_data.glsl"
+#include "screen_space_photons/arrival.glsl"
+#include "screen_space_photons/patch_list.glsl"
+
+layout(std430) buffer PatchCounts {
+    PatchCount patches;
+    PatchCount widePatches;
+};
+layout(std430) readonly buffer CellPhotons {
+    uint cellPhotons[];
+};
+layout(std430) buffer NarrowedPatches {
+    Narrowed narrowed;
+};
+uniform sampler2D receiver;         // view depth, and area that the pixel sees
+uniform sampler2D receiverSurface;
+
+#ifdef OTHER_VIEW
+const uint kAccountHidden = kAccountHiddenInMap;
+const uint kAccountBeside = kAccountOutsideMap;
+const uint kAccountBehind = kAccountOutsideMap;
+#else
+const uint kAccountHidden = kAccountOccludedSplat;
+const uint kAccountBeside = kAccountOffScreen;
+const uint kAccountBehind = kAccountBehindEye;
+#endif
+
+struct Patch {
+    vec3 corners[4];  // around it
+    float densities[4];
+    vec3 normal;
+    vec3 direction;
+    vec3 flux;
+    float tolerance;  // of the depths that pixels see, m, beside their own footprint
+};
+
+// Of light whose beam is `beside` around `middle`: a share of it from `low` to `high`, [-1/2, 1/2]².
+Patch patchOfBeam(Arrival at, vec2 low, vec2 high) {
+    vec3 extent = 0.5 * (abs(at.beside[0]) + abs(at.beside[1]));
+    float depth = -at.position.z;
+    // In front of the view, and of bounded size on the screen.
+    float scale = 1.0;
+#ifndef ORTHOGRAPHIC_VIEW
+    float room = 0.5 * (depth - view.frustum.z);
+    if (extent.z > room) scale = max(room, 0.0) / extent.z;
+#endif
+    float widest = 2.0 * max(extent.x, extent.y) / pixelFootprint(depth);
+    float largest = float(reconstruct_triangles_maximum);
+    if (widest * scale > largest) {
+        scale = largest / widest;
+        atomicAdd(narrowed.count, 1u);
+        atomicMax(narrowed.widestBits, floatBitsToUint(min(widest, 1e30)));
+    }
+    mat2x3 beside = at.beside * scale;
+    Patch made;
+    made.corners[0] = at.position + beside * low;
+    made.corners[1] = at.position + beside * vec2(high.x, low.y);
+    made.corners[2] = at.position + beside * high;
+    made.corners[3] = at.position + beside * vec2(low.x, high.y);
+    made.densities = float[4](1.0, 1.0, 1.0, 1.0);
+    made.normal = at.normal;
+    made.direction = at.direction;
+    made.flux = at.flux * ((high.x - low.x) * (high.y - low.y));
+    made.tolerance = 0.25 * scale * length(extent);
+    return made;
+}
+
+// How densely light arrives, up to a factor: the inverse of what a cell covers.
+float densityAt(Arrival at) {
+    float area = length(cross(at.beside[0], at.beside[1]));
+    return (at.flux.r + at.flux.g + at.flux.b) / max(area, 1e-30);
+}
+
+// Between four photons, from the one at the lower left.
+Patch patchBetween(Arrival a, Arrival b, Arrival c, Arrival d) {
+    Patch made;
+    made.corners = vec3[4](a.position, b.position, c.position, d.position);
+    made.densities = float[4](densityAt(a), densityAt(b), densityAt(c), densityAt(d));
+    made.normal = normalize(a.normal + b.normal + c.normal + d.normal);
+    made.direction = normalize(a.direction + b.direction + c.direction + d.direction);
+    made.flux = 0.25 * (a.flux + b.flux + c.flux + d.flux);
+    // A surface that turns between the corners leaves the triangles.
+    float turn = max(max(length(a.normal - c.normal), length(b.normal - d.normal)), 0.02);
+    float wide = max(length(a.position - c.position), length(b.position - d.position));
+    made.tolerance = 0.25 * turn * wide;
+    return made;
+}
+
+#ifdef PATCH_CELLS
+uint neighbourOf(PhotonOrigin origin, ivec2 beside) {
+    return cellPhotons[cellPlace(origin, beside)] - 1u;
+}
+#endif
+
+Patch patchOf(uint item) {
+    uint index = item / kPatchParts;
+    uint part = item % kPatchParts;
+    ivec2 texel = ivec2(photonTexel(photons, index));
+    Arrival own = arrivalOf(texel);
+    if (part == kPatchJoined) {
+        PhotonOrigin origin = originAt(texel);
+        Arrival right = arrivalOf(ivec2(photonTexel(photons, neighbourOf(origin, ivec2(1, 0)))));
+        Arrival between = arrivalOf(ivec2(photonTexel(photons, neighbourOf(origin, ivec2(1, 1)))));
+        Arrival above = arrivalOf(ivec2(photonTexel(photons, neighbourOf(origin, ivec2(0, 1)))));
+        return patchBetween(own, right, between, above);
+    }
+    if (part == kPatchBeam) return patchOfBeam(own, vec2(-0.5), vec2(0.5));
+    vec2 side = vec2(part & 1u, part >> 1u);
+    return patchOfBeam(own, 0.5 * side - 0.5, 0.5 * side);
+}
+
+// One of a patch's two triangles on the screen.
+struct PatchTriangle {
+    Triangle onScreen;
+    vec3 plane;      // unit normal, of the view
+    float height;    // of the plane from the view's point, along the normal, m
+    float perArea;   // share of the patch's flux over the triangle's area, 1/m²
+    vec3 densities;  // at its corners, about 1
+};
+
+PatchTriangle patchTriangle(Patch whole, vec3 a, vec3 b, vec3 c, vec3 densities, vec2 base) {
+    PatchTriangle made;
+    made.onScreen = triangleOf(pixelOf(a) - base, pixelOf(b) - base, pixelOf(c) - base);
+    vec3 area = cross(b - a, c - a);
+    float size = length(area);
+    // A triangle that is nearly a line has no plane of its own.
+    vec3 edges = abs(b - a) + abs(c - a);
+    bool isFlat = size > 1e-3 * dot(edges, edges);
+    made.plane = isFlat ? area / size : whole.normal;
+    // One that hardly faces as the surface does is a fold of the light's.
+    if (abs(dot(made.plane, whole.normal)) < 0.5) made.plane = whole.normal;
+    vec3 middle = (a + b + c) / 3.0;
+    made.height = dot(made.plane, middle);
+    float covered = abs(made.onScreen.area) *
+                    pixelArea(viewRay(pixelOf(middle)), -middle.z, made.plane);
+    made.perArea = 0.5 / max(isFlat ? max(0.5 * size, 0.25 * covered) : covered, 1e-30);
+    // Where the densities differ too much, they are those of a fold and say nothing of its middle.
+    float mean = (densities.x + densities.y + densities.z) / 3.0;
+    float least = min(densities.x, min(densities.y, densities.z));
+    float most = max(densities.x, max(densities.y, densities.z));
+    bool isSmooth = reconstruct_triangles_shading == reconstruct_triangles_shading_smooth;
+    made.densities = isSmooth && mean > 0.0 && most <= 4.0 * least ? densities / mean : vec3(1.0);
+    return made;
+}
+
+struct PatchOnScreen {
+    PatchTriangle first;
+    PatchTriangle second;
+    ivec2 base;  // pixel that the triangles' corners count from
+    ivec2 low;   // the rectangle of pixels that may be covered, within the view
+    ivec2 high;
+    bool isWhole;  // none of it is beside the view
+    float tolerance;
+    vec3 normal;
+};
+
+PatchOnScreen onScreen(Patch whole) {
+    vec2 a = pixelOf(whole.corners[0]);
+    vec2 b = pixelOf(whole.corners[1]);
+    vec2 c = pixelOf(whole.corners[2]);
+    vec2 d = pixelOf(whole.corners[3]);
+    vec2 least = min(min(a, b), min(c, d)) - 2.0 * kLeastHeight;
+    vec2 most = max(max(a, b), max(c, d)) + 2.0 * kLeastHeight;
+    PatchOnScreen made;
+    made.base = ivec2(floor(least));
+    ivec2 end = ivec2(floor(most));
+    made.low = max(made.base, ivec2(0));
+    made.high = min(end, ivec2(view.sizePixels.xy) - 1);
+    made.isWhole = made.low == made.base && made.high == end;
+    vec2 base = vec2(made.base);
+    float q[4] = whole.densities;
+    made.first = patchTriangle(whole, whole.corners[0], whole.corners[1], whole.corners[2],
+                               vec3(q[0], q[1], q[2]), base);
+    made.second = patchTriangle(whole, whole.corners[0], whole.corners[2], whole.corners[3],
+                                vec3(q[0], q[2], q[3]), base);
+    made.tolerance = whole.tolerance;
+    made.normal = whole.normal;
+    return made;
+}
+
+// The least and the largest column that a row's pixels can be covered in; empty where x > y.
+ivec2 columnsOf(PatchOnScreen onto, int row) {
+    vec2 heights = vec2(row - onto.base.y) + vec2(0.0, 1.0);
+    vec2 span = vec2(1e9, -1e9);
+    addToSpan(span, onto.first.onScreen, heights);
+    addToSpan(span, onto.second.onScreen, heights);
+    if (span.x > span.y) return ivec2(1, 0);
+    ivec2 columns = ivec2(floor(span)) + onto.base.x;
+    return ivec2(max(columns.x, onto.low.x), min(columns.y, onto.high.x));
+}
+
+const int kPatchOn = 0;        // the pixel sees the surface
+const int kPatchOccluded = 1;  // something nearer is in front of it
+const int kPatchBeside = 2;    // the surface has ended before
+
+struct PatchPixel {
+    float share;
+    int where;
+};
+
+// What the pixel sees where the patch's surface, with this plane, would be: kPatch…; `area`, m², of
+// the surface or, where it is not seen, of the plane.
+int seenAt(ivec2 pixel, vec3 plane, float height, vec3 normal, float tolerance, out float area) {
+    vec3 ray = viewRay(vec2(pixel) + 0.5);
+    float facing = dot(plane, ray);
+    facing = (facing < 0.0 ? -1.0 : 1.0) * max(abs(facing), 1e-4);
+#ifdef ORTHOGRAPHIC_VIEW
+    float depth = (height - dot(plane, viewPoint(vec2(pixel) + 0.5, 0.0))) / facing;
+#else
+    float depth = height / facing;
+#endif
+    depth = max(depth, view.frustum.z);
+    area = pixelArea(ray, depth, plane);
+    vec2 seen = texelFetch(receiver, pixel, 0).xy;
+    float seenDepth = abs(seen.x);  // a mirror's is negative
+    if (seenDepth == 0.0) return kPatchBeside;
+    float off = tolerance + depthMargin(ray, depth, plane);
+    if (seenDepth < depth - off) return kPatchOccluded;
+    vec3 seenNormal = texelFetch(receiverSurface, pixel, 0).xyz;
+    if (seen.x < 0.0 || seenDepth > depth + off || dot(seenNormal, normal) <= 0.0)
+        return kPatchBeside;
+    area = seen.y;
+    return kPatchOn;
+}
+
+float partOf(PatchTriangle triangle, vec2 corner) {
+    float covered = coverageOf(triangle.onScreen, corner);
+    if (covered <= 0.0) return 0.0;
+    // The density at the pixel's middle, or where the triangle is nearest to it.
+    Triangle at = triangle.onScreen;
+    vec2 p = corner + 0.5;
+    vec3 weights = vec3((at.c.x - at.b.x) * (p.y - at.b.y) - (at.c.y - at.b.y) * (p.x - at.b.x),
+                        (at.a.x - at.c.x) * (p.y - at.c.y) - (at.a.y - at.c.y) * (p.x - at.c.x),
+                        (at.b.x - at.a.x) * (p.y - at.a.y) - (at.b.y - at.a.y) * (p.x - at.a.x));
+    weights = max(weights / (2.0 * at.area), 0.0);
+    float density = dot(weights, triangle.densities) / (weights.x + weights.y + weights.z);
+    return covered * triangle.perArea * density;
+}
+
+PatchPixel patchAt(PatchOnScreen onto, ivec2 pixel) {
+    vec2 corner = vec2(pixel - onto.base);
+    float first = partOf(onto.first, corner);
+    float second = partOf(onto.second, corner);
+    float covered = first + second;
+    if (covered <= 0.0) return PatchPixel(0.0, kPatchBeside);
+    bool isFirst = first >= second;
+    float area;
+    int where = seenAt(pixel, isFirst ? onto.first.plane : onto.second.plane,
+                       isFirst ? onto.first.height : onto.second.height, onto.normal,
+                       onto.tolerance, area);
+    return PatchPixel(covered * area, where);
+}
+
+struct PatchParts {
+    float on;
+    float occluded;
+    float beside;  // but within the view
+};
+
+void addPart(inout PatchParts parts, PatchPixel pixel) {
+    if (pixel.where == kPatchOn) parts.on += pixel.share;
+    if (pixel.where == kPatchOccluded) parts.occluded += pixel.share;
+    if (pixel.where == kPatchBeside) parts.beside += pixel.share;
+}
+
+// Whether the view looks at the side of the surface on which light arrives.
+bool seesLitSide(Patch whole) {
+    bool seesFront = dot(whole.normal, viewDirection(whole.corners[0])) < 0.0;
+    return seesFront == (dot(whole.normal, whole.direction) < 0.0);
+}
+
+bool isBeforeView(Patch whole) {
+    for (int i = 0; i < 4; ++i) {
+        if (!(-whole.corners[i].z > view.frustum.z)) return false;
+    }
+    return true;
+}

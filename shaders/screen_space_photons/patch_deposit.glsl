@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// What becomes of a patch's flux once it is known what the pixels show of it.
+#include "include/flux_sum.glsl"
+#ifdef GLOSSY_RECEIVERS
+#include "include/receiver_brdf.glsl"
+#endif
+
+void deposit(Patch whole, ivec2 pixel, float share) {
+    vec3 flux = whole.flux * share;
+    fluxAdd(pixel, viewIndex, kFluxPart, flux);
+#ifdef GLOSSY_RECEIVERS
+    vec4 surface = texelFetch(receiverSurface, pixel, 0);
+    fluxAdd(pixel, viewIndex, kIntensityPart,
+            flux * receiverReflection(pixel, surface, directionToEye(-whole.direction)));
+#endif
+}
+
+// What shares are divided by; 0 where no pixel shows any of it. Books what is hidden or beside the
+// view.
+float account(Patch whole, PatchOnScreen onto, PatchParts parts) {
+    float within = parts.on + parts.occluded;
+    // All pixels' shares add up to 1 but for their rounding and the bend of perspective within one;
+    // what is missing lies beside the view.
+    float outside = onto.isWhole ? 0.0 : max(1.0 - within - parts.beside, 0.0);
+    float total = within + outside;
+    if (total <= 0.0) return 0.0;
+    if (parts.occluded > 0.0) ledgerAdd(kAccountHidden, whole.flux * (parts.occluded / total));
+    if (outside > 0.0) ledgerAdd(kAccountBeside, whole.flux * (outside / total));
+    return total;
+}
+
+// No pixel under the patch shows its surface: the nearest that do get its flux, or else it is edge-on
+// or smaller than a pixel, or hidden by its own object.
+void depositNear(Patch whole, PatchOnScreen onto) {
+    vec3 middle = 0.25 * (whole.corners[0] + whole.corners[1] + whole.corners[2] + whole.corners[3]);
+    if (-middle.z <= view.frustum.z) {
+        ledgerAdd(kAccountBehind, whole.flux);
+        return;
+    }
+    vec2 at = pixelOf(middle);
+    ivec2 size = ivec2(view.sizePixels.xy);
+    if (any(lessThan(at, vec2(0.0))) || any(greaterThanEqual(at, vec2(size)))) {
+        ledgerAdd(kAccountBeside, whole.flux);
+        return;
+    }
+    float nearness[9];
+    float sum = 0.0;
+    for (int i = 0; i < 9; ++i) {
+        ivec2 pixel = ivec2(floor(at)) + ivec2(i % 3, i / 3) - 1;
+        nearness[i] = 0.0;
+        if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, size))) continue;
+        float area;
+        int where = seenAt(pixel, whole.normal, dot(whole.normal, middle), whole.normal,
+                           onto.tolerance, area);
+        if (where != kPatchOn) continue;
+        nearness[i] = max(1.5 - length(vec2(pixel) + 0.5 - at), 1e-3);
+        sum += nearness[i];
+    }
+    for (int i = 0; i < 9; ++i) {
+        ivec2 pixel = ivec2(floor(at)) + ivec2(i % 3, i / 3) - 1;
+        if (nearness[i] > 0.0) deposit(whole, pixel, nearness[i] / sum);
+    }
+    if (sum > 0.0) return;
+    bool seesFront = dot(whole.normal, viewDirection(middle)) < 0.0;
+    ledgerAdd(seesFront ? kAccountEdgeOn : kAccountHidden, whole.flux);
+}

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// reconstruct.triangles: what there is to cover. A photon stands for a quarter of each of the four
+// quadrilaterals around it; those that are not joined it covers by its own beam. One thread a photon.
+#include "include/cells.glsl"
+#include "include/hits.glsl"
+#include "include/ledger_unit.glsl"
+#include "include/photon_thread.glsl"
+#include "screen_space_photons/patch_list.glsl"
+
+layout(std430) readonly buffer CellPhotons {
+    uint cellPhotons[];
+};
+layout(std430) readonly buffer CellJoins {
+    uint cellJoins[];
+};
+layout(std430) buffer PatchCounts {
+    PatchCount patches;
+    PatchCount widePatches;
+};
+layout(std430) writeonly buffer Patches {
+    uint patchList[];
+};
+
+bool isJoined(PhotonOrigin origin, ivec2 corner) {
+    uint place = cellPlace(origin, corner);
+    uint found = place == kNoCell ? 0u : cellPhotons[place];
+    return found > 0u && cellJoins[found - 1u] == 1u;
+}
+
+void main() {
+    uint index = photonOfThread();
+    if (index >= photons.count) return;
+    ivec2 texel = ivec2(photonTexel(photons, index));
+    vec4 flux = texelFetch(hitFlux, texel, 0);
+    if (uint(flux.w) != kFateReceiver) return;
+    PhotonOrigin origin = originAt(texel);
+    // By the lower left corner of each.
+    bool joined[4];
+    uint beams = 0u;
+    for (int i = 0; i < 4; ++i) {
+        joined[i] = isJoined(origin, ivec2((i & 1) - 1, (i >> 1) - 1));
+        beams += joined[i] ? 0u : 1u;
+    }
+    // Photons that another batch brings as well are only corners.
+    if ((flux.r + flux.g + flux.b) * ledgerUnitsPerWatt < 1e-6) beams = 0u;
+    bool isCorner = joined[3];
+    uint parts = (beams == 4u ? 1u : beams) + (isCorner ? 1u : 0u);
+    if (parts == 0u) return;
+    uint at = atomicAdd(patches.count, parts);
+    if (isCorner) patchList[at++] = index * kPatchParts + kPatchJoined;
+    if (beams == 4u) {
+        patchList[at] = index * kPatchParts + kPatchBeam;
+    } else if (beams > 0u) {
+        for (uint i = 0u; i < 4u; ++i) {
+            if (!joined[i]) patchList[at++] = index * kPatchParts + kPatchQuarter + i;
+        }
+    }
+}

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// reconstruct.triangles: a wide patch's flux onto the pixels that it covers. A workgroup a patch.
+#define PATCH_CELLS
+#include "include/cells.glsl"
+#include "screen_space_photons/patch.glsl"
+#include "screen_space_photons/patch_deposit.glsl"
+
+layout(std430) readonly buffer WidePatches {
+    uint widePatchList[];
+};
+shared PatchParts partsOfThreads[64];
+
+void main() {
+    uint index = workgroupNumber();
+    bool isHere = index < widePatches.count;
+    Patch whole;
+    PatchOnScreen onto;
+    PatchParts parts = PatchParts(0.0, 0.0, 0.0);
+    ivec2 local = ivec2(gl_LocalInvocationIndex & 7u, gl_LocalInvocationIndex >> 3u);
+    if (isHere) {
+        whole = patchOf(widePatchList[index]);
+        onto = onScreen(whole);
+        for (int row = onto.low.y + local.y; row <= onto.high.y; row += 8) {
+            ivec2 columns = columnsOf(onto, row);
+            for (int column = columns.x + local.x; column <= columns.y; column += 8)
+                addPart(parts, patchAt(onto, ivec2(column, row)));
+        }
+    }
+    partsOfThreads[gl_LocalInvocationIndex] = parts;
+    barrier();
+    // Always in the same order.
+    if (gl_LocalInvocationIndex == 0u) {
+        for (int i = 1; i < 64; ++i) {
+            parts.on += partsOfThreads[i].on;
+            parts.occluded += partsOfThreads[i].occluded;
+            parts.beside += partsOfThreads[i].beside;
+        }
+        float total = 0.0;
+        if (isHere) {
+            total = account(whole, onto, parts);
+            if (total <= 0.0) depositNear(whole, onto);
+        }
+        partsOfThreads[0].on = parts.on > 0.0 ? total : 0.0;
+    }
+    barrier();
+    float total = partsOfThreads[0].on;
+    if (!isHere || total <= 0.0) return;
+    for (int row = onto.low.y + local.y; row <= onto.high.y; row += 8) {
+        ivec2 columns = columnsOf(onto, row);
+        for (int column = columns.x + local.x; column <= columns.y; column += 8) {
+            PatchPixel pixel = patchAt(onto, ivec2(column, row));
+            if (pixel.where == kPatchOn && pixel.share > 0.0)
+                deposit(whole, ivec2(column, row), pixel.share / total);
+        }
+    }
+}

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+// reconstruct.triangles: between photons of neighbouring cells lies the light between them. Four
+// that took the same path to the same surface are joined, and what two triangles between them cover
+// of each pixel is computed exactly, whatever their size; where a cell is folded over, light passes
+// as often as it is. What cannot be joined, at a silhouette, an edge or a change of path, is
+// covered by the photon's own beam. No blending and no order: sums are in fixed point. (Caustic
+// triangles: U08, section 4.2, there on the faces of a cube and by the device's rasteriser.) In:
+// hits with beams, eye view space, m and W, and what the eye, or another single view, sees; out:
+// flux a pixel, W, and where a receiver is glossy radiant intensity towards the eye, W/sr.
+#include <fmt/format.h>
+
+#include <bit>
+
+#include "framework/core/error.h"
+#include "framework/pipeline/frame_builder.h"
+#include "techniques/screen_space_photons/nodes.h"
+
+namespace kaustik {
+namespace {
+
+enum class TriangleShading : int { smooth, flat };
+
+struct TrianglesParams {
+    float tolerance = 0.5f;
+    int maximum = 512;
+    TriangleShading shading = TriangleShading::smooth;
+    template <class R>
+    void reflect(R& r) {
+        r.field(
+            tolerance, "tolerance",
+            "Neighbours are joined where they arrive no farther from where their beams say than "
+            "this share of their distance",
+            "", params::range(0.0f, 10.0f));
+        r.field(maximum, "maximum",
+                "Longest side on the screen; wider cells are not joined, and beams shrink to it",
+                "px", params::range(1, 1024));
+        r.choice(shading, "shading",
+                 "smooth: between the densities that the beams give at the corners; flat: the same "
+                 "all over a triangle",
+                 {"smooth", "flat"});
+    }
+};
+
+// As shaders/screen_space_photons/patch_list.glsl has it.
+struct PatchCount {
+    std::uint32_t count, groupsX, groupsY, groupsZ;
+};
+
+void setCells(gl::Command& command, const CellGrid& cells) {
+    command.set("cellGrid", glm::ivec2(cells.width, cells.rows))
+        .set("cellFirstRow", cells.firstRow)
+        .set("cellLights", glm::ivec2(cells.firstLight, cells.lights))
+        .set("cellSplits", cells.splits);
+}
+
+CausticMap coverTriangles(FrameBuilder& frame, const TrianglesParams& params, Hits hits,
+                          Surfaces surfaces, CausticMap before) {
+    const ReceiverView& receivers = surfaces.eye;
+    needsBeams(frame, "reconstruct.triangles", hits.incoming);
+    const bool isGlossy = receivers.views->isEyes() && frame.needs().glossyReceivers;
+    const bool isFirst = !before.flux.valid();
+    struct Data {
+        CausticMap map;
+        graph::Buffer<std::uint32_t> photonOfCell;
+        graph::Buffer<std::uint32_t> joins;
+        graph::Buffer<std::uint32_t> patches;
+        graph::Buffer<std::uint32_t> widePatches;
+        graph::Buffer<PatchCount> counts;
+        graph::Buffer<transport::Narrowed> narrowed;
+    };
+    const Data& covered = frame.pass<Data>(
+        "reconstruct.triangles",
+        isGlossy ? "what neighbours bring is spread between them, and, since some receivers are "
+                   "glossy, how it goes to the eye"
+                 : "what neighbours bring is spread between them",
+        [&](graph::PassSetup& setup, Data& data) {
+            hits.sample(setup);
+            hits.incoming.sample(setup);
+            setup.sample("receiver", receivers.receiver);
+            setup.sample("receiverSurface", receivers.receiverSurface);
+            if (isGlossy) setup.sample("receiverAlbedo", receivers.receiverAlbedo);
+            const auto capacity = static_cast<std::size_t>(hits.incoming.capacity());
+            const auto create = [&]<class T>(graph::Buffer<T>& buffer, const char* block,
+                                             const char* name, std::size_t count) {
+                buffer = setup.storage(
+                    block, setup.createBuffer<T>(
+                               "triangles." + std::string(name) + hits.incoming.suffix, count));
+                setup.bypass(buffer, {0, 0, 0, 0});
+            };
+            create(data.photonOfCell, "CellPhotons", "photon_of_cell",
+                   std::max<std::size_t>(hits.incoming.cells.places(), 1));
+            create(data.joins, "CellJoins", "joins", capacity);
+            create(data.patches, "Patches", "patches", 4 * capacity);
+            create(data.widePatches, "WidePatches", "wide_patches", 4 * capacity);
+            create(data.counts, "PatchCounts", "counts", 2);
+            create(data.narrowed, "NarrowedPatches", "narrowed", 1);
+            data.map =
+                CausticMap::deposit(setup, before, receivers.views, isGlossy, "caustic.flux");
+            data.map.ledger = setup.storage("LedgerEntries", setup.write(hits.incoming.ledger));
+            setup.bypass(data.map.ledger, hits.incoming.ledger);
+        },
+        [params, isGlossy, isFirst, views = receivers.views, list = hits.incoming](
+            const Data& data, gl::PassContext& context) {
+            if (isFirst) context.texture(data.map.flux).clear({0, 0, 0, 0});
+            context.buffer(data.photonOfCell).clear();
+            context.buffer(data.counts).clear();
+            context.buffer(data.narrowed).clear();
+            const auto shader = [&](const char* name) {
+                gl::Command command =
+                    context.compute(fmt::format("screen_space_photons/{}.comp", name));
+                views->bindTo(command).params("reconstruct.triangles", params);
+                setCells(command, list.cells);
+                return command;
+            };
+            const auto countGroups = [&](int isWide) {
+                context.compute("screen_space_photons/patch_groups.comp")
+                    .set("isWide", isWide)
+                    .dispatch(1);
+            };
+            for (const char* name : {"triangles_cells", "triangles_join", "triangles_list"}) {
+                gl::Command command = shader(name);
+                dispatchOver(command, list);
+            }
+            for (int isWide = 0; isWide < 2; ++isWide) {
+                countGroups(isWide);
+                gl::Command command = shader(isWide == 1 ? "triangles_wide" : "triangles");
+                if (isGlossy) command.define("GLOSSY_RECEIVERS");
+                command.dispatchIndirect(data.counts,
+                                         static_cast<std::size_t>(isWide) * sizeof(PatchCount) +
+                                             offsetof(PatchCount, groupsX));
+            }
+        });
+    frame.keepsTo(
+        {"reconstruct.triangles",
+         {covered.narrowed},
+         [maximum = params.maximum, narrowed = covered.narrowed](
+             const gl::Executor& executor) -> std::optional<ReachedLimit> {
+             const transport::Narrowed found =
+                 executor.buffer(narrowed).read<transport::Narrowed>().front();
+             if (found.count == 0) return {};
+             return ReachedLimit{
+                 "reconstruct.triangles.maximum",
+                 "px",
+                 static_cast<double>(maximum),
+                 static_cast<double>(std::bit_cast<float>(found.widestBits)),
+                 fmt::format("{} beams are narrower than they were to be; no flux is lost "
+                             "to it",
+                             found.count),
+                 0.0};
+         }});
+    return covered.map;
+}
+
+}  // namespace
+
+void registerTriangles(Registry& registry) {
+    NodeDescription description{
+        "Joins neighbouring photons of one path and spreads their flux over what the triangles "
+        "between them cover of each pixel; what cannot be joined is covered by its own beam.",
+        "U08, section 4.2, on the screen"};
+    description.beams = true;
+    description.joinsCells = true;
+    registry.node<ReconstructStage>("triangles", std::move(description), &coverTriangles);
+}
+
+}  // namespace kaustik
