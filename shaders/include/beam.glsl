@@ -51,11 +51,16 @@ float boundedSlant(float slant, float least) {
 }
 
 // Where the next cells' rays hit the plane with this unit normal that the photon's ray hits after
-// `distance` m: from the photon's hit, m a cell.
-mat2x3 beamOnPlane(Beam beam, vec3 direction, float distance, vec3 normal, float leastSlant) {
+// `distance` m: from the photon's hit, m a cell. `farther`: by how much more than that they fly.
+mat2x3 beamOnPlane(Beam beam, vec3 direction, float distance, vec3 normal, float leastSlant,
+                   out vec2 farther) {
     mat2x3 offsets = basisAcross(direction) * (beam.place + distance * beam.turn);
-    vec2 ahead = (normal * offsets) / boundedSlant(dot(direction, normal), leastSlant);
-    return offsets - outerProduct(direction, ahead);
+    farther = -(normal * offsets) / boundedSlant(dot(direction, normal), leastSlant);
+    return offsets + outerProduct(direction, farther);
+}
+mat2x3 beamOnPlane(Beam beam, vec3 direction, float distance, vec3 normal, float leastSlant) {
+    vec2 farther;
+    return beamOnPlane(beam, direction, distance, normal, leastSlant, farther);
 }
 
 // The beam of a photon that leaves the surface that it has hit. `before`, `after`: its directions,

@@ -5,13 +5,15 @@
 #include "include/view.glsl"
 
 // A beam that grazes is taken as if it came at this sine at least, which bounds what it covers.
-const float kLeastArrivalSlant = 0.1;
+const float kLeastArrivalSlant = 0.01;
 
 struct Arrival {
     vec3 position;  // of the view, m
     vec3 normal;    // unit, outward
     vec3 direction;
     mat2x3 beside;  // to where the next cells' light arrives, along u and v, m
+    vec2 farther;   // than this light flies, m
+    float distance;
     vec3 flux;      // W
     uint material;  // index + 1
     uint path;
@@ -24,9 +26,36 @@ mat2x3 fromEye(mat2x3 offsets) {
 Arrival arrivalOf(ivec2 texel) {
     Hit hit = hitAt(texel);
     Photon photon = photonAt(texel);
+    vec2 farther;
     mat2x3 beside = beamOnPlane(beamAt(texel), photon.directionVs, hit.distanceMeters, hit.normalVs,
-                                kLeastArrivalSlant);
+                                kLeastArrivalSlant, farther);
     return Arrival(pointFromEye(hit.positionVs), directionFromEye(hit.normalVs),
-                   directionFromEye(photon.directionVs), fromEye(beside), hit.fluxWatts,
-                   hit.material, originAt(texel).path);
+                   directionFromEye(photon.directionVs), fromEye(beside), farther,
+                   hit.distanceMeters, hit.fluxWatts, hit.material, originAt(texel).path);
+}
+
+// How far a beam goes on towards a corner of its cell, as shares of the way along u and v, before it
+// would arrive where it has come from: light that enters water beside a wall lights none of the wall
+// above it.
+vec2 reachTowards(Arrival at, vec2 corner) {
+    vec2 less = max(-at.farther * corner, 0.0);
+    float all = less.x + less.y;
+    if (all <= at.distance) return vec2(1.0);
+    bool isFirst = less.x > less.y;
+    float more = max(less.x, less.y);
+    float left = at.distance - min(less.x, less.y);
+    if (left <= 0.0) return vec2(at.distance / all);
+    return isFirst ? vec2(left / more, 1.0) : vec2(1.0, left / more);
+}
+
+// The share that is left of a quarter of a cell, by its corner: right, up: bits.
+float quarterShare(Arrival at, uint quarter) {
+    vec2 corner = vec2(quarter & 1u, quarter >> 1u) - 0.5;
+    vec2 along = vec2(corner.x, 0.0);
+    vec2 up = vec2(0.0, corner.y);
+    vec2 a = along * reachTowards(at, along);
+    vec2 b = corner * reachTowards(at, corner);
+    vec2 c = up * reachTowards(at, up);
+    float twice = (a.x * b.y - a.y * b.x) + (b.x * c.y - b.y * c.x);
+    return 2.0 * abs(twice);
 }

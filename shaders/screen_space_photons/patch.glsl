@@ -41,7 +41,7 @@ struct Patch {
     float tolerance;  // of the depths that pixels see, m, beside their own footprint
 };
 
-// Of light whose beam is `beside` around `middle`: a share of it from `low` to `high`, [-1/2, 1/2]².
+// What a beam covers from `low` to `high` of its cell, [-1/2, 1/2]².
 Patch patchOfBeam(Arrival at, vec2 low, vec2 high) {
     vec3 extent = 0.5 * (abs(at.beside[0]) + abs(at.beside[1]));
     float depth = -at.position.z;
@@ -59,15 +59,14 @@ Patch patchOfBeam(Arrival at, vec2 low, vec2 high) {
         atomicMax(narrowed.widestBits, floatBitsToUint(min(widest, 1e30)));
     }
     mat2x3 beside = at.beside * scale;
+    vec2 ends[4] = vec2[4](low, vec2(high.x, low.y), high, vec2(low.x, high.y));
     Patch made;
-    made.corners[0] = at.position + beside * low;
-    made.corners[1] = at.position + beside * vec2(high.x, low.y);
-    made.corners[2] = at.position + beside * high;
-    made.corners[3] = at.position + beside * vec2(low.x, high.y);
+    for (int i = 0; i < 4; ++i)
+        made.corners[i] = at.position + beside * (ends[i] * reachTowards(at, ends[i]));
     made.densities = float[4](1.0, 1.0, 1.0, 1.0);
     made.normal = at.normal;
     made.direction = at.direction;
-    made.flux = at.flux * ((high.x - low.x) * (high.y - low.y));
+    made.flux = at.flux;
     made.tolerance = 0.25 * scale * length(extent);
     return made;
 }
@@ -85,7 +84,7 @@ Patch patchBetween(Arrival a, Arrival b, Arrival c, Arrival d) {
     made.densities = float[4](densityAt(a), densityAt(b), densityAt(c), densityAt(d));
     made.normal = normalize(a.normal + b.normal + c.normal + d.normal);
     made.direction = normalize(a.direction + b.direction + c.direction + d.direction);
-    made.flux = 0.25 * (a.flux + b.flux + c.flux + d.flux);
+    made.flux = a.flux + b.flux + c.flux + d.flux;
     // A surface that turns between the corners leaves the triangles.
     float turn = max(max(length(a.normal - c.normal), length(b.normal - d.normal)), 0.02);
     float wide = max(length(a.position - c.position), length(b.position - d.position));
@@ -94,24 +93,35 @@ Patch patchBetween(Arrival a, Arrival b, Arrival c, Arrival d) {
 }
 
 #ifdef PATCH_CELLS
+layout(std430) readonly buffer PhotonShares {
+    float photonShares[];  // of a photon's flux that a whole quarter of its cell takes
+};
+
 uint neighbourOf(PhotonOrigin origin, ivec2 beside) {
     return cellPhotons[cellPlace(origin, beside)] - 1u;
 }
 #endif
 
+// With the flux of a quarter of its cell.
+Arrival cornerOf(uint index) {
+    Arrival corner = arrivalOf(ivec2(photonTexel(photons, index)));
+    corner.flux *= photonShares[index];
+    return corner;
+}
+
 Patch patchOf(uint item) {
     uint index = item / kPatchParts;
     uint part = item % kPatchParts;
     ivec2 texel = ivec2(photonTexel(photons, index));
-    Arrival own = arrivalOf(texel);
     if (part == kPatchJoined) {
         PhotonOrigin origin = originAt(texel);
-        Arrival right = arrivalOf(ivec2(photonTexel(photons, neighbourOf(origin, ivec2(1, 0)))));
-        Arrival between = arrivalOf(ivec2(photonTexel(photons, neighbourOf(origin, ivec2(1, 1)))));
-        Arrival above = arrivalOf(ivec2(photonTexel(photons, neighbourOf(origin, ivec2(0, 1)))));
-        return patchBetween(own, right, between, above);
+        return patchBetween(cornerOf(index), cornerOf(neighbourOf(origin, ivec2(1, 0))),
+                            cornerOf(neighbourOf(origin, ivec2(1, 1))),
+                            cornerOf(neighbourOf(origin, ivec2(0, 1))));
     }
+    Arrival own = arrivalOf(texel);
     if (part == kPatchBeam) return patchOfBeam(own, vec2(-0.5), vec2(0.5));
+    own.flux *= photonShares[index] * quarterShare(own, part);
     vec2 side = vec2(part & 1u, part >> 1u);
     return patchOfBeam(own, 0.5 * side - 0.5, 0.5 * side);
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // reconstruct.triangles: what there is to cover. A photon stands for a quarter of each of the four
-// quadrilaterals around it; those that are not joined it covers by its own beam. One thread a photon.
+// quadrilaterals around it; those that are not joined it covers by its own beam, as far as light
+// comes that way. One thread a photon.
 #include "include/cells.glsl"
-#include "include/hits.glsl"
 #include "include/ledger_unit.glsl"
-#include "include/photon_thread.glsl"
+#include "screen_space_photons/arrival.glsl"
 #include "screen_space_photons/patch_list.glsl"
 
 layout(std430) readonly buffer CellPhotons {
@@ -16,6 +16,9 @@ layout(std430) readonly buffer CellJoins {
 layout(std430) buffer PatchCounts {
     PatchCount patches;
     PatchCount widePatches;
+};
+layout(std430) writeonly buffer PhotonShares {
+    float photonShares[];
 };
 layout(std430) writeonly buffer Patches {
     uint patchList[];
@@ -41,6 +44,15 @@ void main() {
         joined[i] = isJoined(origin, ivec2((i & 1) - 1, (i >> 1) - 1));
         beams += joined[i] ? 0u : 1u;
     }
+    // What the parts of its cell that light can come through take is all of its flux.
+    float whole = 4.0;
+    if (beams > 0u && beams < 4u) {
+        Arrival own = arrivalOf(texel);
+        for (uint i = 0u; i < 4u; ++i) {
+            if (!joined[i]) whole += quarterShare(own, i) - 1.0;
+        }
+    }
+    photonShares[index] = 1.0 / whole;
     // Photons that another batch brings as well are only corners.
     if ((flux.r + flux.g + flux.b) * ledgerUnitsPerWatt < 1e-6) beams = 0u;
     bool isCorner = joined[3];

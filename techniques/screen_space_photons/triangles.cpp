@@ -63,6 +63,7 @@ CausticMap coverTriangles(FrameBuilder& frame, const TrianglesParams& params, Hi
         CausticMap map;
         graph::Buffer<std::uint32_t> photonOfCell;
         graph::Buffer<std::uint32_t> joins;
+        graph::Buffer<float> shares;
         graph::Buffer<std::uint32_t> patches;
         graph::Buffer<std::uint32_t> widePatches;
         graph::Buffer<PatchCount> counts;
@@ -90,6 +91,7 @@ CausticMap coverTriangles(FrameBuilder& frame, const TrianglesParams& params, Hi
             create(data.photonOfCell, "CellPhotons", "photon_of_cell",
                    std::max<std::size_t>(hits.incoming.cells.places(), 1));
             create(data.joins, "CellJoins", "joins", capacity);
+            create(data.shares, "PhotonShares", "shares", capacity);
             create(data.patches, "Patches", "patches", 4 * capacity);
             create(data.widePatches, "WidePatches", "wide_patches", 4 * capacity);
             create(data.counts, "PatchCounts", "counts", 2);
