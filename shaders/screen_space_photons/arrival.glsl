@@ -40,7 +40,7 @@ Arrival arrivalOf(ivec2 texel) {
 vec2 reachTowards(Arrival at, vec2 corner) {
     vec2 less = max(-at.farther * corner, 0.0);
     float all = less.x + less.y;
-    if (all <= at.distance) return vec2(1.0);
+    if (all <= at.distance || at.distance <= 0.0) return vec2(1.0);
     bool isFirst = less.x > less.y;
     float more = max(less.x, less.y);
     float left = at.distance - min(less.x, less.y);
