@@ -2,8 +2,8 @@
 // Share of one light that reaches each receiver past the surfaces of its shadow map. A texel of the
 // map stands for the plane of its triangle, so that a surface seen edge-on from the light neither
 // shadows itself nor lets light pass beside it. Comparisons are filtered, never depths
-// (percentage-closer filtering, Reeves et al. 1987), by a square as wide as three texels, or as the
-// pixel is on the map where that is more.
+// (percentage-closer filtering, Reeves et al. 1987), by a square as wide as three texels, or over the
+// pixel where that is more than twice as wide on the map.
 #include "include/light_depth.glsl"
 #include "include/view.glsl"
 
@@ -73,27 +73,37 @@ float visibleShare(MapPoint point, vec3 normalVs) {
     return lit / (lit + dark);
 }
 
-// What is seen `offset` pixels beside the middle of this one, on the plane of its receiver; bounded
-// where that is seen edge-on.
-vec3 besideMiddle(vec2 offset, float depth, vec3 normalVs) {
-    vec3 ray = viewRay(gl_FragCoord.xy + offset);
-    vec3 middle = viewRay(gl_FragCoord.xy);
-    float reach = kSteepestSlope * pixelFootprint(depth);
-    float there = depth * dot(normalVs, middle) / dot(normalVs, ray);
-    // Not a number where the plane is seen exactly edge-on: then it is as deep as the middle.
-    bool isKnown = abs(there - depth) < 1e30;
-    return ray * (isKnown ? clamp(there, depth - reach, depth + reach) : depth);
+// Whether the receiver is a plane as far as the pixels beside this one. At edges and where it is
+// curved, points on its tangent plane would lie off it, in light or in shadow of their own.
+bool isPlane(ivec2 pixel, vec3 positionVs, vec3 normalVs) {
+    float most = 0.05 * pixelFootprint(-positionVs.z);
+    for (int i = 0; i < 4; ++i) {
+        ivec2 step = (i & 1) == 0 ? ivec2(i - 1, 0) : ivec2(0, i - 2);
+        ivec2 other = clamp(pixel + step, ivec2(0), ivec2(view.sizePixels.xy) - 1);
+        vec3 beside = viewRay(vec2(other) + 0.5) * texelFetch(receiver, other, 0).x;
+        if (abs(dot(normalVs, beside - positionVs)) > most) return false;
+    }
+    return true;
 }
 
-// How many looks along a side of the pixel cover it on the map.
-int looksAcross(MapPoint middle, float depth, vec3 normalVs) {
+// What is seen of the receiver's plane `offset` pixels beside this one's middle; the eye sees the
+// pixels around of it too, so that it is not edge-on.
+vec3 besideMiddle(vec2 offset, vec3 positionVs, vec3 normalVs) {
+    vec3 ray = viewRay(gl_FragCoord.xy + offset);
+    return ray * (dot(normalVs, positionVs) / dot(normalVs, ray));
+}
+
+// How many looks along a side of the pixel cover it on the map. One does up to twice its width: of
+// the shadow at the pixel's middle it says more than their mean.
+int looksAcross(MapPoint middle, vec3 positionVs, vec3 normalVs) {
     float texels = 0.0;
     for (int axis = 0; axis < 2; ++axis) {
-        MapPoint edge = mapPoint(besideMiddle(0.5 * vec2(1 - axis, axis), depth, normalVs));
+        MapPoint edge = mapPoint(besideMiddle(0.5 * vec2(1 - axis, axis), positionVs, normalVs));
         // On another face: as on this one, for all that the number of looks depends on.
         if (edge.face == middle.face) texels = max(texels, 2.0 * distance(edge.at, middle.at));
     }
-    return int(clamp(ceil(texels / kFilterWidth), 1.0, float(kMostLooks)));
+    if (texels < 2.0 * kFilterWidth) return 1;
+    return min(int(ceil(texels / kFilterWidth)), kMostLooks);
 }
 
 void main() {
@@ -101,14 +111,15 @@ void main() {
     visibility = vec4(0.0);
     float depth = texelFetch(receiver, pixel, 0).x;
     if (depth <= 0.0) return;
+    vec3 positionVs = viewRay(gl_FragCoord.xy) * depth;
     vec3 normal = texelFetch(receiverSurface, pixel, 0).xyz;
-    MapPoint middle = mapPoint(viewRay(gl_FragCoord.xy) * depth);
-    int looks = looksAcross(middle, depth, normal);
+    MapPoint middle = mapPoint(positionVs);
+    int looks = isPlane(pixel, positionVs, normal) ? looksAcross(middle, positionVs, normal) : 1;
     float sum = 0.0;
     for (int i = 0; i < looks * looks; ++i) {
         vec2 offset = (vec2(i % looks, i / looks) + 0.5) / float(looks) - 0.5;
         sum += visibleShare(
-            looks == 1 ? middle : mapPoint(besideMiddle(offset, depth, normal)), normal);
+            looks == 1 ? middle : mapPoint(besideMiddle(offset, positionVs, normal)), normal);
     }
     visibility = vec4(sum / float(looks * looks));
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // shadow.map: the scene drawn from each light, six faces around a point light; shadow.lookup: each
-// receiver's distance against the map's, comparisons averaged over three texels or the pixel,
-// whichever is wider. Depths in m; out: visibility.
+// receiver's distance against the map's, comparisons averaged over three texels, or over the pixel
+// where that is more than twice as wide. Depths in m; out: visibility.
 #include <fmt/format.h>
 
 #include "framework/pipeline/frame_builder.h"
