@@ -63,4 +63,16 @@ struct TraceParams {
     }
 };
 
+struct ViewParams {
+    int samples = 1;
+    template <class R>
+    void reflect(R& r) {
+        r.field(samples, "samples",
+                "Rays of the eye a pixel, evenly spread over it, whose mean is shown where one of "
+                "them sees a specular surface; 1: through its middle. For each beside the middle "
+                "the scene's first surfaces are drawn once more",
+                "", params::range(1, 64));
+    }
+};
+
 }  // namespace kaustik

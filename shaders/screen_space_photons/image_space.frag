@@ -139,15 +139,14 @@ void lookThroughInterfaces(ivec2 pixel, vec3 viewing, float depth, vec4 surface)
 }
 #endif
 
-void main() {
-    ivec2 pixel = ivec2(gl_FragCoord.xy);
-    radiance = texelFetch(receiverRadiance, pixel, 0);
+void look(ivec2 pixel) {
+    radiance = radianceStraight(pixel);
     exitPosition = vec4(0.0);
     exitDirection = vec4(0.0);
-    float depth = texelFetch(interfaceDepth, pixel, 0).x;
+    float depth = firstDepth(pixel);
     if (depth <= 0.0) return;
-    vec3 viewing = viewRay(gl_FragCoord.xy);
-    vec4 surface = texelFetch(interfaceSurface, pixel, 0);
+    vec3 viewing = viewRay(positionOfSample());
+    vec4 surface = firstSurface(pixel);
     if (materialKind(uint(surface.w) - 1u) == kMaterialMirror) {
         MirrorView mirrored = lookIntoMirror(pixel, viewing);
         radiance = vec4(mirrored.radiance, 1.0);
@@ -158,4 +157,9 @@ void main() {
 #ifdef DIELECTRICS
     lookThroughInterfaces(pixel, viewing, depth, surface);
 #endif
+}
+
+void main() {
+    look(ivec2(gl_FragCoord.xy));
+    weigh(radiance);
 }

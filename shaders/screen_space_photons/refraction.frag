@@ -22,6 +22,23 @@ uint openMedium(uint media) {
     return medium != 0u && isOpen(medium - 1u) ? medium : 0u;
 }
 
+// The dielectric that the eye's ray meets first: of the pixel's middle the first layer.
+LayerSurface firstDielectric(ivec2 pixel) {
+#ifdef BESIDE_MIDDLE
+    vec4 data = texelFetch(sight, pixel, 0);
+    return LayerSurface(data.x, 0.0, unpackUnitVector(data.yz), uint(data.w));
+#else
+    return layerAt(pixel, 0);
+#endif
+}
+vec3 shadingOfFirst(ivec2 pixel) {
+#ifdef BESIDE_MIDDLE
+    return firstSurface(pixel).xyz;
+#else
+    return texelFetch(layerSurfaces, ivec3(pixel, 0), 0).xyz;
+#endif
+}
+
 struct EyePath {
     MirrorPath at;  // its last piece; its share: also what interfaces leave, without 1/n²
     int interfaces;  // of dielectrics that it has hit
@@ -113,13 +130,12 @@ SceneHit follow(inout EyePath path) {
 }
 #endif
 
-void main() {
-    ivec2 pixel = ivec2(gl_FragCoord.xy);
-    radiance = texelFetch(receiverRadiance, pixel, 0);
+void look(ivec2 pixel) {
+    radiance = radianceStraight(pixel);
     exitPosition = vec4(0.0);
     exitDirection = vec4(0.0);
-    if (texelFetch(interfaceDepth, pixel, 0).x <= 0.0) return;
-    vec3 viewing = viewRay(gl_FragCoord.xy);
+    if (firstDepth(pixel) <= 0.0) return;
+    vec3 viewing = viewRay(positionOfSample());
 #ifndef DIELECTRICS
     MirrorView mirrored = lookIntoMirror(pixel, viewing);
     radiance = vec4(mirrored.radiance, 1.0);
@@ -127,17 +143,15 @@ void main() {
     exitDirection = mirrored.exitDirection;
 #else
     vec3 direction = normalize(viewing);
-    vec4 mirror = texelFetch(interfaceSurface, pixel, 0);
+    vec4 mirror = firstSurface(pixel);
     EyePath path = EyePath(MirrorPath(vec3(0.0), direction, vec3(1.0), 0u, 0), 0, 0, 0, -1,
                            kPathCameOut);
     uint mediaAtEye = 0u;
     vec3 reflected = vec3(0.0);
     if (materialKind(uint(mirror.w) - 1u) == kMaterialMirror) {
-        reflectAt(path.at, viewing * texelFetch(interfaceDepth, pixel, 0).x, mirror.xyz,
-                  uint(mirror.w));
+        reflectAt(path.at, viewing * firstDepth(pixel), mirror.xyz, uint(mirror.w));
     } else {
-        // The first layer is what the eye sees first.
-        LayerSurface surface = layerAt(pixel, 0);
+        LayerSurface surface = firstDielectric(pixel);
         if (surface.depth <= 0.0) return;
         vec3 entry = viewing * surface.depth;
         // An eye that looks at a dielectric from within is inside of it.
@@ -147,7 +161,7 @@ void main() {
         path.at.media = mediaAtEye;
         path.at.share = mediumTransmittance(innerMedium(mediaAtEye), length(entry));
         vec3 reached = path.at.share;
-        vec3 shading = texelFetch(layerSurfaces, ivec3(pixel, 0), 0).xyz;
+        vec3 shading = shadingOfFirst(pixel);
         vec3 normal =
             bendingNormal(direction, shading, surface.normal, surface.material, mediaAtEye);
         Interface first = bend(path, normal, surface.material, 0);
@@ -171,4 +185,9 @@ void main() {
                                                  openMedium(media), seen, pixel);
     radiance.a = 1.0;
 #endif
+}
+
+void main() {
+    look(ivec2(gl_FragCoord.xy));
+    weigh(radiance);
 }

@@ -25,17 +25,16 @@ ivec2 pixelBehind(vec3 entry, vec3 direction, float distanceBehind, ivec2 pixel)
     return depth > 0.0 && surface > 0.0 && depth > surface ? found : pixel;
 }
 
-void main() {
-    ivec2 pixel = ivec2(gl_FragCoord.xy);
-    radiance = texelFetch(receiverRadiance, pixel, 0);
+void look(ivec2 pixel) {
+    radiance = radianceStraight(pixel);
     exitPosition = vec4(0.0);
     exitDirection = vec4(0.0);
-    float depth = texelFetch(interfaceDepth, pixel, 0).x;
+    float depth = firstDepth(pixel);
     if (depth <= 0.0) return;
-    vec4 surface = texelFetch(interfaceSurface, pixel, 0);
+    vec4 surface = firstSurface(pixel);
     uint material = uint(surface.w) - 1u;
     MaterialData data = materials[material];
-    vec3 ray = viewRay(gl_FragCoord.xy);
+    vec3 ray = viewRay(positionOfSample());
     vec3 direction = normalize(ray);
     if (uint(data.albedo.w) == kMaterialMirror) {
         MirrorView mirrored = lookIntoMirror(pixel, ray);
@@ -71,4 +70,9 @@ void main() {
         vec4(goesThrough && !view_interface_refract ? direction : onward, kPathCameOut);
     radiance =
         vec4(through + interaction.reflectance * environmentRadiance(interaction.reflected), 1.0);
+}
+
+void main() {
+    look(ivec2(gl_FragCoord.xy));
+    weigh(radiance);
 }

@@ -69,8 +69,7 @@ BackFaces drawBackFaces(FrameBuilder& frame, Geometry geometry) {
 View refractInImageSpace(FrameBuilder& frame, const ImageSpaceViewParams& params, Geometry geometry,
                          EyeBuffer eye, LayeredDepth layers, Radiance receivers, Shadows shadows) {
     if (!eye.interface.valid()) {
-        frame.skip("view.image_space", "the scene has no specular surface");
-        return {receivers.radiance, {}, {}};
+        return seeReceiversAlone(frame, "view.image_space", receivers);
     }
     BackFaces faces;
     if (frame.needs().refractors > 0) {
@@ -81,20 +80,19 @@ View refractInImageSpace(FrameBuilder& frame, const ImageSpaceViewParams& params
     const View view =
         frame
             .pass<ViewPass>(
-                "view.image_space", "the eye looks at specular surfaces",
+                "view.image_space", whyLook(frame),
                 [&](graph::PassSetup& setup, ViewPass& look) {
                     if (faces.depth.valid()) {
                         setup.sample("backDepth", faces.depth);
                         setup.sample("backSurface", faces.surface);
                     }
-                    look = declareLook(frame, setup, params.look, eye, layers, receivers, shadows);
+                    look = declareLook(frame, setup, params.look, geometry, eye, layers, receivers,
+                                       shadows);
                 },
                 [&inputs = frame.inputs(), params](const ViewPass& look, gl::PassContext& context) {
-                    gl::Command command =
-                        context.fullscreen("screen_space_photons/image_space.frag");
-                    command.params("view.image_space", params);
-                    setLook(inputs, command, look, params.look);
-                    command.draw();
+                    drawLook(
+                        inputs, context, look, params.look, "screen_space_photons/image_space.frag",
+                        [&](gl::Command& command) { command.params("view.image_space", params); });
                 })
             .seen;
     keepToMirrors(frame, "view.image_space", view, params.look);

@@ -125,8 +125,7 @@ void keepToLimits(FrameBuilder& frame, const RefractionViewParams& params,
 View traceRefraction(FrameBuilder& frame, const RefractionViewParams& wanted, Geometry geometry,
                      EyeBuffer eye, LayeredDepth sceneLayers, Radiance receivers, Shadows shadows) {
     if (!eye.interface.valid()) {
-        frame.skip("view.refraction", "the scene has no specular surface");
-        return {receivers.radiance, {}, {}};
+        return seeReceiversAlone(frame, "view.refraction", receivers);
     }
     const DielectricsBox box = boxOfDielectrics(frame);
     const RefractionViewParams params = forScene(frame.scene(), box.nested, wanted);
@@ -143,38 +142,36 @@ View traceRefraction(FrameBuilder& frame, const RefractionViewParams& wanted, Ge
         for (const char* pass : {"view.layers.complexity", "view.layers.peel"})
             frame.skip(pass, "the scene has no dielectric");
     }
-    const std::string why =
-        wanted.search == RefractionSearch::automatic && params.search == RefractionSearch::all
-            ? "the eye looks at specular surfaces; of dielectrics in one another it asks all layers"
-            : "the eye looks at specular surfaces";
+    std::string why = whyLook(frame);
+    if (wanted.search == RefractionSearch::automatic && params.search == RefractionSearch::all)
+        why += "; of dielectrics in one another it asks all layers";
     struct Data {
         ViewPass look;
         LayeredDepth dielectrics;
     };
-    const View view = frame
-                          .pass<Data>(
-                              "view.refraction", why,
-                              [&](graph::PassSetup& setup, Data& data) {
-                                  data.dielectrics = dielectrics;
-                                  if (dielectrics.depth.valid()) readLayers(setup, dielectrics);
-                                  data.look = declareLook(frame, setup, params.look, eye,
-                                                          sceneLayers, receivers, shadows);
-                              },
-                              [&inputs = frame.inputs(), params, box, testing = hitTesting(frame)](
-                                  const Data& data, gl::PassContext& context) {
-                                  gl::Command command =
-                                      context.fullscreen("screen_space_photons/refraction.frag");
-                                  command.params("view.refraction", params);
-                                  setLook(inputs, command, data.look, params.look);
-                                  if (data.dielectrics.depth.valid()) {
-                                      if (box.holdsScene) command.define("SCENE_INSIDE");
-                                      setHitTesting(command, testing, data.dielectrics);
-                                      command.set("dielectricsCenterVs", box.centerVs)
-                                          .set("dielectricsHalfExtent", box.halfExtentMeters);
-                                  }
-                                  command.draw();
-                              })
-                          .look.seen;
+    const View view =
+        frame
+            .pass<Data>(
+                "view.refraction", why,
+                [&](graph::PassSetup& setup, Data& data) {
+                    data.dielectrics = dielectrics;
+                    if (dielectrics.depth.valid()) readLayers(setup, dielectrics);
+                    data.look = declareLook(frame, setup, params.look, geometry, eye, sceneLayers,
+                                            receivers, shadows);
+                },
+                [&inputs = frame.inputs(), params, box, testing = hitTesting(frame)](
+                    const Data& data, gl::PassContext& context) {
+                    drawLook(inputs, context, data.look, params.look,
+                             "screen_space_photons/refraction.frag", [&](gl::Command& command) {
+                                 command.params("view.refraction", params);
+                                 if (!data.dielectrics.depth.valid()) return;
+                                 if (box.holdsScene) command.define("SCENE_INSIDE");
+                                 setHitTesting(command, testing, data.dielectrics);
+                                 command.set("dielectricsCenterVs", box.centerVs)
+                                     .set("dielectricsHalfExtent", box.halfExtentMeters);
+                             });
+                })
+            .look.seen;
     keepToMirrors(frame, "view.refraction", view, params.look);
     if (dielectrics.depth.valid()) keepToLimits(frame, params, dielectrics, view);
     return view;

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
 
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/shared/nodes.h"
@@ -18,25 +20,54 @@ struct PictureParams {
     void reflect(R& r) {
         r.field(
             exposure, "exposure",
-            "Brightness of the display image; 0: from the irradiance at the middle of the scene",
+            "Brightness of the display image; 0: from the scene's lights and medium, the same for "
+            "every technique, camera and size",
             "1/(W/m²/sr)", params::range(0.0f, 1e6f));
     }
 };
 
-// What makes a half-reflecting receiver in the middle of the scene a middle grey.
+// Irradiance of one light on what faces it, W/m², in the middle of the scene; of a point light that
+// hangs in it, near which there is much more than elsewhere, the geometric mean over the scene's
+// box.
+double typicalIrradiance(const scene::Light& light, const scene::Bounds& bounds) {
+    const auto power = static_cast<double>(std::max({light.power.r, light.power.g, light.power.b}));
+    if (light.kind == scene::LightKind::directional) return power;
+    const glm::dvec3 extent = bounds.maximum - bounds.minimum;
+    // Nearer than a part of the box there is hardly anything of it.
+    const double least = std::max(1e-3 * glm::dot(extent, extent), 1e-6);
+    const bool isWithin = light.kind == scene::LightKind::point &&
+                          glm::all(glm::lessThan(bounds.minimum, light.position)) &&
+                          glm::all(glm::lessThan(light.position, bounds.maximum));
+    const int cells = isWithin ? 6 : 1;
+    double logarithms = 0.0;
+    for (int i = 0; i < cells * cells * cells; ++i) {
+        const glm::dvec3 cell(i % cells, i / cells % cells, i / (cells * cells));
+        const glm::dvec3 offset =
+            bounds.minimum + extent * (cell + 0.5) / static_cast<double>(cells) - light.position;
+        logarithms += std::log(std::max(glm::dot(offset, offset), least));
+    }
+    return power / std::exp(logarithms / (cells * cells * cells));
+}
+
+// What makes a half-reflecting receiver of the scene a light grey, seen through half of the medium:
+// of the scene alone, so that pictures of it can be compared, whatever made them and from wherever
+// they are taken.
 float automaticExposure(const scene::Scene& scene) {
     const scene::Bounds bounds = sceneBounds(scene);
-    const glm::dvec3 middle = 0.5 * (bounds.minimum + bounds.maximum);
     double irradiance = static_cast<double>(scene.ambientIrradiance.g);
-    for (const scene::Light& light : scene.lights) {
-        const glm::dvec3 offset = middle - light.position;
-        const double spread = light.kind == scene::LightKind::directional
-                                  ? 1.0
-                                  : std::max(glm::dot(offset, offset), 1e-6);
-        irradiance +=
-            static_cast<double>(std::max({light.power.r, light.power.g, light.power.b})) / spread;
+    for (const scene::Light& light : scene.lights)
+        irradiance += typicalIrradiance(light, bounds);
+    if (scene.medium) {
+        const glm::dvec3 extinction(scene.medium->scatteringPerMeter +
+                                    scene.medium->absorptionPerMeter);
+        const glm::dvec3 extent = bounds.maximum - bounds.minimum;
+        const double path = 0.5 * (extent.x + extent.y + extent.z) / 3.0;
+        // A medium that lets less through is seen itself.
+        const double depth = path * (extinction.x + extinction.y + extinction.z) / 3.0;
+        irradiance *= std::exp(-std::min(depth, 1.0));
     }
-    return irradiance > 0.0 ? static_cast<float>(0.45 * 3.14159265 / (0.5 * irradiance)) : 1.0f;
+    const double exposure = 0.45 * glm::pi<double>() / (0.5 * irradiance);
+    return std::isfinite(exposure) ? static_cast<float>(exposure) : 1.0f;
 }
 
 struct DirectLight {
@@ -142,7 +173,7 @@ Picture composePicture(FrameBuilder& frame, const PictureParams& params, Geometr
     const float exposure =
         params.exposure > 0.0f ? params.exposure : automaticExposure(frame.scene());
     return frame.pass<Picture>(
-        "compose.display", "the display image is an output",
+        "compose.display", fmt::format("the display image is an output; exposure {:.3g}", exposure),
         [&](graph::PassSetup& setup, Picture& data) {
             data.radiance = setup.sample("radiance", whole.radiance);
             data.view = seen;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // shadow.map: the scene drawn from each light, six faces around a point light; shadow.lookup: each
-// receiver's distance against the map's, the mean of 3x3 comparisons. Depths in m; out: visibility.
+// receiver's distance against the map's, comparisons averaged over three texels, or over the pixel
+// where that is more than twice as wide. Depths in m; out: visibility.
 #include <fmt/format.h>
 
 #include "framework/pipeline/frame_builder.h"
@@ -11,10 +12,13 @@ namespace kaustik {
 namespace {
 
 struct ShadowMapParams {
-    int size = 1024;
+    int size = 2048;
     template <class R>
     void reflect(R& r) {
-        r.field(size, "size", "Side of a light's shadow map", "texels", params::range(16, 8192));
+        r.field(size, "size",
+                "Side of a light's shadow map; half of it where a light has a place, and with it "
+                "six faces",
+                "texels", params::range(16, 8192));
     }
 };
 
@@ -40,6 +44,10 @@ Shadows lookUpShadowMaps(FrameBuilder& frame, const ShadowMapParams& params, Geo
         all.insert(all.end(), byLight.back().begin(), byLight.back().end());
     }
     const int lights = static_cast<int>(byLight.size());
+    // All maps lie in one array. Faces of 90 degrees see the scene larger than one map of all of
+    // it.
+    const bool hasCube = all.size() > byLight.size();
+    const int side = hasCube ? params.size / 2 : params.size;
     if (lights == 0) {
         frame.skip("shadow.map", "the scene has no light");
         return {};
@@ -48,7 +56,7 @@ Shadows lookUpShadowMaps(FrameBuilder& frame, const ShadowMapParams& params, Geo
         drawLightDepths(frame,
                         {"shadow.map", fmt::format("{} light{}", lights, lights == 1 ? "" : "s"),
                          "shadow.maps", "shadow.depth_buffer"},
-                        all, params.size, geometry);
+                        all, side, geometry);
     return frame.pass<Shadows>(
         "shadow.lookup", "receivers may lie in shadow",
         [&](graph::PassSetup& setup, Shadows& data) {

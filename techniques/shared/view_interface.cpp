@@ -21,25 +21,23 @@ struct InterfaceViewParams {
     }
 };
 
-View viewThroughInterface(FrameBuilder& frame, const InterfaceViewParams& params,
-                          Geometry /*geometry*/, EyeBuffer eye, LayeredDepth layers,
-                          Radiance receivers, Shadows shadows) {
+View viewThroughInterface(FrameBuilder& frame, const InterfaceViewParams& params, Geometry geometry,
+                          EyeBuffer eye, LayeredDepth layers, Radiance receivers, Shadows shadows) {
     if (!eye.interface.valid()) {
-        frame.skip("view.interface", "the scene has no specular surface");
-        return {receivers.radiance, {}, {}};
+        return seeReceiversAlone(frame, "view.interface", receivers);
     }
     const View view =
         frame
             .pass<ViewPass>(
-                "view.interface", "the eye looks at specular surfaces",
+                "view.interface", whyLook(frame),
                 [&](graph::PassSetup& setup, ViewPass& data) {
-                    data = declareLook(frame, setup, params.look, eye, layers, receivers, shadows);
+                    data = declareLook(frame, setup, params.look, geometry, eye, layers, receivers,
+                                       shadows);
                 },
                 [&inputs = frame.inputs(), params](const ViewPass& data, gl::PassContext& context) {
-                    gl::Command command = context.fullscreen("shared/view_interface.frag");
-                    command.params("view.interface", params);
-                    setLook(inputs, command, data, params.look);
-                    command.draw();
+                    drawLook(
+                        inputs, context, data, params.look, "shared/view_interface.frag",
+                        [&](gl::Command& command) { command.params("view.interface", params); });
                 })
             .seen;
     keepToMirrors(frame, "view.interface", view, params.look);

@@ -4,7 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <vector>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "framework/pipeline/stage_params.h"
 
 namespace kaustik {
 namespace {
@@ -37,7 +41,73 @@ int deepestNesting(std::vector<scene::Bounds> boxes) {
     return boxes.empty() ? 0 : *std::max_element(depths.begin(), depths.end());
 }
 
+// Sets what include/scene_look.glsl is told besides what the pass has bound.
+void setLook(const FrameInputs& inputs, gl::Command& command, const ViewPass& pass,
+             const SceneLookParams& look) {
+    command.set("looksIntoScene", look.scene ? 1 : 0)
+        .set("reflectsScene", look.scene && look.reflection ? 1 : 0)
+        .set("lookMirrors", look.mirrors);
+    if (inputs.needs.refractors > 0) command.define("DIELECTRICS");
+    const bool looksInLayers = look.surfaces == LookSurfaces::layers;
+    if (pass.isGlossy || looksInLayers) command.set("lightCount", inputs.needs.lights);
+    if (pass.isGlossy) command.define("GLOSSY_RECEIVERS");
+    if (looksInLayers) {
+        command.define("LOOK_IN_LAYERS").set("sceneLayers", pass.sceneLayers);
+    } else {
+        command.set("lookStride", look.stride);
+    }
+}
+
+// The first surface of every pixel, as rays see it that go by `offset`, px, beside the middles.
+void drawSights(const FrameInputs& inputs, gl::PassContext& context, const ViewSamples& samples,
+                const glm::vec2& offset) {
+    gl::Command command = context.shaders({"shared/eye.vert", "shared/view_sight.frag"});
+    // What lies there comes to lie on the middle; clip.w is -z.
+    glm::mat4 projection = inputs.view.projection();
+    projection[2][0] += 2.0f * offset.x / static_cast<float>(inputs.view.width);
+    projection[2][1] += 2.0f * offset.y / static_cast<float>(inputs.view.height);
+    command.set("projection", projection);
+    command.target(samples.sight).clear();
+    command.target(samples.surface).clear();
+    command.depth(samples.depthBuffer, gl::DepthTest::nearerReversed).clear();
+    // In the order of the eye buffer, so that of surfaces that coincide the same one is seen.
+    for (const render::DrawSet set :
+         {render::DrawSet::nonDielectrics, render::DrawSet::dielectrics}) {
+        inputs.gpuScene.draw(command, context, samples.geometry, inputs.instances, set);
+    }
+}
+
 }  // namespace
+
+std::vector<glm::vec2> samplesOfPixel(int count) {
+    // As near to the golden ratio's part as a number without a common divisor comes.
+    const int modulus = count + 1;
+    const double wanted = modulus / std::numbers::phi;
+    int step = 1;
+    for (int other = 2; other < modulus; ++other) {
+        if (std::gcd(other, modulus) == 1 && std::abs(other - wanted) < std::abs(step - wanted))
+            step = other;
+    }
+    std::vector<glm::vec2> offsets;
+    for (int i = 1; i <= count; ++i) {
+        const glm::vec2 cell(i, i * step % modulus);
+        offsets.push_back((cell - 0.5f * static_cast<float>(modulus)) / static_cast<float>(count));
+    }
+    return offsets;
+}
+
+View seeReceiversAlone(FrameBuilder& frame, const std::string& pass, const Radiance& receivers) {
+    frame.skip(pass, "the scene has no specular surface");
+    if (frame.params<ViewParams>("view").samples > 1)
+        frame.warn("view.samples has no effect: the scene has no specular surface.");
+    return {receivers.radiance, {}, {}};
+}
+
+std::string whyLook(const FrameBuilder& frame) {
+    const int samples = frame.params<ViewParams>("view").samples;
+    const std::string why = "the eye looks at specular surfaces";
+    return samples > 1 ? fmt::format("{}, by {} rays a pixel", why, samples) : why;
+}
 
 DielectricsBox boxOfDielectrics(const FrameBuilder& frame) {
     const scene::Scene& scene = frame.scene();
@@ -74,7 +144,7 @@ DielectricsBox boxOfDielectrics(const FrameBuilder& frame) {
 }
 
 ViewPass declareLook(const FrameBuilder& frame, graph::PassSetup& setup,
-                     const SceneLookParams& look, const EyeBuffer& eye,
+                     const SceneLookParams& look, const Geometry& geometry, const EyeBuffer& eye,
                      const LayeredDepth& sceneLayers, const Radiance& receivers,
                      const Shadows& shadows) {
     setup.sample("interfaceDepth", eye.interface);
@@ -101,25 +171,49 @@ ViewPass declareLook(const FrameBuilder& frame, graph::PassSetup& setup,
     setup.bypass(pass.seen.radiance, receivers.radiance);
     setup.bypass(pass.seen.exitPosition, {0, 0, 0, 0});
     setup.bypass(pass.seen.exitDirection, {0, 0, 0, 0});
+    ViewSamples& samples = pass.samples;
+    samples.count = frame.params<ViewParams>("view").samples;
+    if (samples.count == 1) return pass;
+    samples.geometry = geometry;
+    if (geometry.heightFields.valid()) setup.read(geometry.heightFields);
+    samples.sight = setup.create<SightTexel>("view.sight", w, h);
+    samples.surface = setup.create<SurfaceTexel>("view.sight_surface", w, h);
+    samples.depthBuffer = setup.create<DepthBuffer>("view.sight_depth_buffer", w, h);
+    for (const graph::ResourceRef& drawn : std::initializer_list<graph::ResourceRef>{
+             samples.sight, samples.surface, samples.depthBuffer}) {
+        setup.bypass(drawn, {0, 0, 0, 0});
+    }
     return pass;
 }
 
-void setLook(const FrameInputs& inputs, gl::Command& command, const ViewPass& pass,
-             const SceneLookParams& look) {
-    command.set("looksIntoScene", look.scene ? 1 : 0)
-        .set("reflectsScene", look.scene && look.reflection ? 1 : 0)
-        .set("lookMirrors", look.mirrors)
-        .target(pass.seen.radiance)
+void drawLook(const FrameInputs& inputs, gl::PassContext& context, const ViewPass& pass,
+              const SceneLookParams& look, const std::string& shader,
+              const std::function<void(gl::Command&)>& tell) {
+    const ViewSamples& samples = pass.samples;
+    const float share = 1.0f / static_cast<float>(samples.count);
+    const auto commandFor = [&](float shareOfRay) {
+        gl::Command command = context.fullscreen(shader);
+        setLook(inputs, command, pass, look);
+        tell(command);
+        command.target(pass.seen.radiance);
+        if (samples.count > 1) command.define("MORE_SAMPLES").set("sampleShare", shareOfRay);
+        return command;
+    };
+    std::vector<glm::vec2> beside = samplesOfPixel(samples.count);
+    const bool isMiddleOne = std::erase(beside, glm::vec2(0.0f)) > 0;
+    commandFor(isMiddleOne ? share : 0.0f)
         .target(pass.seen.exitPosition)
-        .target(pass.seen.exitDirection);
-    if (inputs.needs.refractors > 0) command.define("DIELECTRICS");
-    const bool looksInLayers = look.surfaces == LookSurfaces::layers;
-    if (pass.isGlossy || looksInLayers) command.set("lightCount", inputs.needs.lights);
-    if (pass.isGlossy) command.define("GLOSSY_RECEIVERS");
-    if (looksInLayers) {
-        command.define("LOOK_IN_LAYERS").set("sceneLayers", pass.sceneLayers);
-    } else {
-        command.set("lookStride", look.stride);
+        .target(pass.seen.exitDirection)
+        .draw();
+    for (const glm::vec2& offset : beside) {
+        drawSights(inputs, context, samples, offset);
+        commandFor(share)
+            .define("BESIDE_MIDDLE")
+            .set("sampleOffset", offset)
+            .texture("sight", samples.sight)
+            .texture("sightSurface", samples.surface)
+            .blend(gl::Blend::add)
+            .draw();
     }
 }
 

@@ -2,6 +2,11 @@
 // What the nodes that look through specular surfaces share.
 #pragma once
 
+#include <functional>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
 #include "framework/pipeline/frame_builder.h"
 
 namespace kaustik {
@@ -38,6 +43,12 @@ struct SceneLookParams {
     }
 };
 
+// What a ray beside a pixel's middle sees first. x: view depth in m, of a receiver negative, 0
+// none; yz: the triangle's outward unit normal, octahedral; w: material + 1.
+struct SightTexel {
+    static constexpr Format format = Format::rgba32f;
+};
+
 // The box around all dielectrics, along the world's axes, with a margin of two pixels.
 struct DielectricsBox {
     glm::vec3 centerVs{0.0f};  // m
@@ -49,24 +60,48 @@ struct DielectricsBox {
 };
 [[nodiscard]] DielectricsBox boxOfDielectrics(const FrameBuilder& frame);
 
+// Where the rays of view.samples go through a pixel, px from its middle, within half a pixel:
+// `count` points of a rank-1 lattice, one in each of as many columns and rows, symmetric about the
+// middle, which is one of them where the count is odd; of 4 the rotated grid.
+[[nodiscard]] std::vector<glm::vec2> samplesOfPixel(int count);
+
+// The first surfaces that rays beside the pixels' middles see, drawn anew for each sample.
+struct ViewSamples {
+    int count = 1;  // of one, the middle, nothing is drawn
+    graph::Texture<SightTexel> sight;
+    graph::Texture<SurfaceTexel> surface;
+    graph::Texture<DepthBuffer> depthBuffer;
+    Geometry geometry;
+};
+
 // What such a pass gives, and what its shaders are told of what it was given.
 struct ViewPass {
     View seen;
+    ViewSamples samples;
     int sceneLayers = 0;    // where they are looked at
     bool isGlossy = false;  // some receiver is
 };
 
-// Declares what such a pass reads, by the names of include/scene_look.glsl, and the outputs of its
-// View. A pass that is disabled shows the
-// receivers and no exits.
-[[nodiscard]] ViewPass declareLook(const FrameBuilder& frame, graph::PassSetup& setup,
-                                   const SceneLookParams& look, const EyeBuffer& eye,
-                                   const LayeredDepth& sceneLayers, const Radiance& receivers,
-                                   const Shadows& shadows);
+// A scene without specular surfaces: the pass `pass` is skipped, and the receivers are what is
+// seen.
+[[nodiscard]] View seeReceiversAlone(FrameBuilder& frame, const std::string& pass,
+                                     const Radiance& receivers);
+// Why such a pass runs, for pass().
+[[nodiscard]] std::string whyLook(const FrameBuilder& frame);
 
-// Sets what include/scene_look.glsl is told besides, and the outputs as targets.
-void setLook(const FrameInputs& inputs, gl::Command& command, const ViewPass& pass,
-             const SceneLookParams& look);
+// Declares what such a pass reads, by the names of include/scene_look.glsl, and the outputs of its
+// View. A pass that is disabled shows the receivers and no exits.
+[[nodiscard]] ViewPass declareLook(const FrameBuilder& frame, graph::PassSetup& setup,
+                                   const SceneLookParams& look, const Geometry& geometry,
+                                   const EyeBuffer& eye, const LayeredDepth& sceneLayers,
+                                   const Radiance& receivers, const Shadows& shadows);
+
+// Draws all that such a pass gives: `shader` once for each sample of a pixel, told what
+// include/scene_look.glsl is, and by `tell` what it asks for besides. Exits are those of the
+// middle, whose ray is followed for them where it is not one of the samples.
+void drawLook(const FrameInputs& inputs, gl::PassContext& context, const ViewPass& pass,
+              const SceneLookParams& look, const std::string& shader,
+              const std::function<void(gl::Command&)>& tell);
 
 // How many pixels' paths have ended so (transport::kPath…). Waits for the device.
 [[nodiscard]] std::size_t countExits(const gl::Texture& exitDirection, float ending);

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// The first surface that rays beside the pixels' middles see (SightTexel): of a receiver, where
+// nothing specular lies before it, the depth is negative.
+#include "include/octahedral.glsl"
+#include "include/scene_fragment.glsl"
+#include "include/surface.glsl"
+
+layout(location = 0) out vec4 sight;
+layout(location = 1) out vec4 sightSurface;
+
+void main() {
+    float depth = -positionVs.z;
+    vec3 geometric = geometricNormal(positionVs, towardsViewer(positionVs));
+    sight = vec4(isReceiver(materialKind(material)) ? -depth : depth, packUnitVector(geometric),
+                 float(material + 1u));
+    sightSurface = vec4(shadingNormal(normalVs, geometric), float(material + 1u));
+}
