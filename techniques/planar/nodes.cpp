@@ -17,7 +17,7 @@ void registerPlanar(Registry& registry) {
                         "K06, section 1.1, Fig. 2",
                         {{"layers", "peel"},
                          {"trace", "plane"},
-                         {"reconstruct", "sprites"},
+                         {"reconstruct", "triangles"},
                          {"view", "refraction"}},
                         {}});
 }

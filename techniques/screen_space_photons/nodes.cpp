@@ -21,7 +21,7 @@ void registerScreenSpacePhotons(Registry& registry) {
                         "Krüger, Bürger, Westermann 2006",
                         {{"layers", "peel"},
                          {"trace", "hierarchical"},
-                         {"reconstruct", "sprites"},
+                         {"reconstruct", "triangles"},
                          {"view", "refraction"}},
                         {}});
 }
