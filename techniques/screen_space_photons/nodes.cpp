@@ -6,6 +6,7 @@ namespace kaustik {
 void registerScreenSpacePhotons(Registry& registry) {
     registerPeel(registry);
     registerPeelObjects(registry);
+    registerLists(registry);
     registerLines(registry);
     registerMarch(registry);
     registerAllHits(registry);
@@ -18,7 +19,7 @@ void registerScreenSpacePhotons(Registry& registry) {
     registry.technique({"screen_space_photons",
                         "Photon rays traced on the screen through a layered depth image.",
                         "Krüger, Bürger, Westermann 2006",
-                        {{"layers", "peel"},
+                        {{"layers", "lists"},
                          {"trace", "hierarchical"},
                          {"reconstruct", "sprites"},
                          {"view", "refraction"}},
