@@ -28,7 +28,8 @@ struct ListsParams {
 [[nodiscard]] LayeredDepth listFragments(FrameBuilder& frame, Geometry geometry,
                                          const LayersRequest& request, const ListsParams& params);
 
-// One of the two, as the scene's own layers are made: lists where the setting `layers` says so.
+// For some of the scene's surfaces: by lists where `layers` is set to them and more than a few
+// layers are asked for, else peeled.
 [[nodiscard]] LayeredDepth makeLayers(FrameBuilder& frame, Geometry geometry,
                                       const LayersRequest& request);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // view.refraction: screen-space refraction tracing (K06, section 4). The passes "view.layers.…"
-// make layers of the transmitting objects alone, as `layers` makes those of the scene;
+// make layers of the transmitting objects alone (lists.h);
 // "view.refraction" follows the eye's transmitted ray of every pixel through them, and from mirror
 // to mirror, and looks up what it sees: the refracted scene (Fig. 10; include/scene_look.glsl),
 // else the environment. The reflection at the first interface is looked up the same way; later
