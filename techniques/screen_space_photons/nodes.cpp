@@ -19,7 +19,7 @@ void registerScreenSpacePhotons(Registry& registry) {
     registry.technique({"screen_space_photons",
                         "Photon rays traced on the screen through a layered depth image.",
                         "Krüger, Bürger, Westermann 2006",
-                        {{"layers", "lists"},
+                        {{"layers", "peel"},
                          {"trace", "hierarchical"},
                          {"reconstruct", "sprites"},
                          {"view", "refraction"}},

@@ -63,7 +63,7 @@ TEST(BareScenes, NothingThatFollowsPhotonsRunsWithoutLightSpecularSurfaceOrRecei
         const Frame frame(sceneWith(parts), 64, 48);
         EXPECT_EQ(sum(frame.causticIrradiance()), 0.0);
         EXPECT_TRUE(hasPass(frame, "trace.hierarchical", graph::PassState::skipped));
-        EXPECT_TRUE(hasPass(frame, "layers.lists", graph::PassState::culled));
+        EXPECT_TRUE(hasPass(frame, "layers.peel", graph::PassState::culled));
         EXPECT_TRUE(hasPass(frame, "compose.display", graph::PassState::ran));
     }
 }
