@@ -11,7 +11,7 @@ struct LayersParams {
     template <class R>
     void reflect(R& r) {
         r.field(count, "count",
-                "Most depth layers that are peeled; deeper fragments are counted and skipped", "",
+                "Most depth layers that are kept; deeper fragments are counted and skipped", "",
                 params::range(1, 64));
     }
 };

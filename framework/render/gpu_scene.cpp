@@ -138,8 +138,12 @@ void GpuScene::uploadMeshes() {
     std::stable_sort(order.begin(), order.end(),
                      [&](GLuint a, GLuint b) { return orderOf(a) < orderOf(b); });
     std::vector<DrawCommand> commands;
+    firstTriangles_.resize(order.size());
+    GLuint triangles = 0;
     for (const GLuint object : order) {
         const std::size_t mesh = scene_.objects[object].mesh;
+        firstTriangles_[object] = triangles;
+        triangles += static_cast<GLuint>(scene_.meshes[mesh].triangles.size());
         commands.push_back({static_cast<GLuint>(3 * scene_.meshes[mesh].triangles.size()), 1,
                             static_cast<GLuint>(ranges[mesh].firstIndex),
                             static_cast<GLint>(ranges[mesh].firstVertex), object});
@@ -246,7 +250,7 @@ ViewInstances GpuScene::makeInstances(const glm::dmat4& worldToView) const {
         data.modelToView = glm::mat4(modelToView);
         data.normalToView =
             glm::mat4(glm::dmat4(glm::transpose(glm::inverse(glm::dmat3(modelToView)))));
-        data.material = glm::uvec4(object.material, 0, 0, 0);
+        data.material = glm::uvec4(object.material, firstTriangles_[instances.size()], 0, 0);
         instances.push_back(data);
     }
     instances.push_back({});

@@ -81,7 +81,8 @@ class GpuScene {
     std::vector<HeightFieldRange> heightFields_;
     std::size_t heightFieldVertexCount_ = 0;
     std::size_t commandCount_ = 0;
-    std::vector<GLuint> order_;  // objects by command
+    std::vector<GLuint> order_;           // objects by command
+    std::vector<GLuint> firstTriangles_;  // by object: how many are drawn before it
     Group staticGroup_;
     Group heightFieldGroup_;
 };

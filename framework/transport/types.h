@@ -40,7 +40,9 @@ const uint kMostViews = 6u;  // of a block: the faces of a cube
 struct InstanceData {
     mat4 modelToView;
     mat4 normalToView;  // inverse transpose, upper 3x3
-    uvec4 material;     // x: index into the materials
+    // x: index into the materials; y: the number of its first triangle, of all in the order in
+    // which the scene is drawn.
+    uvec4 material;
 };
 
 const uint kMaterialLambertian = 0u;

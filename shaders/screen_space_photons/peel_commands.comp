@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The scene's indirect draws once a layer; those of layers beyond the measured depth complexity, of
 // the scene or of their own object, draw nothing, so that the processor need not wait for the
-// measurement.
+// measurement. AFTER_LISTS: where lists hold all fragments none is drawn.
 #include "framework/transport/types.h"
+#ifdef AFTER_LISTS
+#include "screen_space_photons/lists_fit.glsl"
+#endif
 
 layout(local_size_x = 64) in;
 
@@ -23,13 +26,14 @@ layout(std430) writeonly buffer LayerCommands {
 layout(std430) readonly buffer Complexities {
     uint complexities[];
 };
-#else
+uniform int layerCount;
+#elif !defined(AFTER_LISTS)
 layout(std430) readonly buffer Statistics {
     LayerStatistics statistics;
 };
+uniform int layerCount;
 #endif
 uniform int commandCount;
-uniform int layerCount;
 
 void main() {
     int index = int(gl_GlobalInvocationID.x);
@@ -41,5 +45,8 @@ void main() {
     uint complexity = statistics.complexity;
 #endif
     if (uint(index / commandCount) >= complexity) command.instanceCount = 0u;
+#ifdef AFTER_LISTS
+    if (listsFit()) command.instanceCount = 0u;
+#endif
     layerCommands[index] = command;
 }

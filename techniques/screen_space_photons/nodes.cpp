@@ -6,6 +6,7 @@ namespace kaustik {
 void registerScreenSpacePhotons(Registry& registry) {
     registerPeel(registry);
     registerPeelObjects(registry);
+    registerLists(registry);
     registerLines(registry);
     registerMarch(registry);
     registerAllHits(registry);

@@ -12,6 +12,7 @@ void registerScreenSpacePhotons(Registry& registry);
 
 void registerPeel(Registry& registry);
 void registerPeelObjects(Registry& registry);
+void registerLists(Registry& registry);
 void registerLines(Registry& registry);
 void registerMarch(Registry& registry);  // four nodes: hierarchically or not, fragments or threads
 void registerAllHits(Registry& registry);

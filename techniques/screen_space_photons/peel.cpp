@@ -111,74 +111,74 @@ graph::Buffer<transport::LayerStatistics> measureComplexity(FrameBuilder& frame,
         .statistics;
 }
 
+Peeling Peeling::create(FrameBuilder& frame, graph::PassSetup& setup, Geometry geometry,
+                        const LayersRequest& request) {
+    Peeling peeling;
+    peeling.geometry = geometry;
+    if (geometry.heightFields.valid()) setup.read(geometry.heightFields);
+    peeling.layers.layers = request.layers;
+    peeling.layers.views = request.views ? request.views : frame.eyeViews();
+    const render::RasterViews& views = *peeling.layers.views;
+    const int w = views.width();
+    const int h = views.height();
+    const int layers = views.layers(request.layers);
+    peeling.layers.depth = setup.create<LayerTexel>(request.name + ".depth", w, h, layers);
+    peeling.layers.surface = setup.create<SurfaceTexel>(request.name + ".surface", w, h, layers);
+    peeling.depth = setup.create<DepthBuffer>(request.name + ".depth_buffer", w, h);
+    const std::size_t commandCount = std::max<std::size_t>(frame.gpuScene().commandCount(), 1);
+    peeling.commands = setup.createBuffer<DrawCommandWords>(
+        request.name + ".commands", commandCount * static_cast<std::size_t>(request.layers));
+    return peeling;
+}
+
+void peelView(const FrameInputs& inputs, const Peeling& peeling, gl::PassContext& context,
+              const LayersRequest& request, int face) {
+    const render::RasterViews& views = *peeling.layers.views;
+    for (int layer = 0; layer < request.layers; ++layer) {
+        const int index = face * request.layers + layer;
+        // The layer before is read from the array that this one is written to.
+        glTextureBarrier();
+        gl::Command command =
+            context.shaders({"shared/eye.vert", "screen_space_photons/peel.frag"});
+        views.bindTo(command)
+            .set("projection", views.view(face).projection())
+            .set("layer", layer)
+            .set("before", index - 1)
+            .texture("layerDepths", peeling.layers.depth);
+        command.target(peeling.layers.depth, index).clear();
+        command.target(peeling.layers.surface, index).clear();
+        command.depth(peeling.depth, gl::DepthTest::nearer).clear({1, 0, 0, 0});
+        inputs.gpuScene.draw(command, context, peeling.geometry, views.instances(face), request.set,
+                             &context.buffer(peeling.commands, gl::Use::drawCommands),
+                             static_cast<std::size_t>(layer) * inputs.gpuScene.commandCount());
+    }
+}
+
 LayeredDepth peel(FrameBuilder& frame, Geometry geometry, const LayersRequest& request) {
-    const int layers = request.layers;
     const graph::Buffer<transport::LayerStatistics> statistics =
         measureComplexity(frame, geometry, request);
-    struct Data {
-        LayeredDepth layers;
-        graph::Texture<DepthBuffer> depth;
-        graph::Buffer<DrawCommandWords> commands;
-        Geometry geometry;
-    };
-    const std::size_t commandCount = frame.gpuScene().commandCount();
-    const LayeredDepth peeled =
-        frame
-            .pass<Data>(
-                "layers.peel",
-                fmt::format("{} hidden surfaces; at most {} layer{}", request.reader, layers,
-                            layers == 1 ? "" : "s"),
-                [&](graph::PassSetup& setup, Data& data) {
-                    data.geometry = geometry;
-                    if (geometry.heightFields.valid()) setup.read(geometry.heightFields);
-                    data.layers.views = request.views ? request.views : frame.eyeViews();
-                    const render::RasterViews& views = *data.layers.views;
-                    const int w = views.width();
-                    const int h = views.height();
-                    data.layers.depth = setup.create<LayerTexel>(request.name + ".depth", w, h,
-                                                                 views.layers(layers));
-                    data.layers.surface = setup.create<SurfaceTexel>(request.name + ".surface", w,
-                                                                     h, views.layers(layers));
-                    data.layers.statistics = setup.read(statistics);
-                    data.layers.layers = layers;
-                    data.depth = setup.create<DepthBuffer>(request.name + ".depth_buffer", w, h);
-                    data.commands = setup.createBuffer<DrawCommandWords>(
-                        request.name + ".commands",
-                        std::max<std::size_t>(commandCount, 1) * static_cast<std::size_t>(layers));
-                },
-                [&inputs = frame.inputs(), request, layers, commandCount](
-                    const Data& data, gl::PassContext& context) {
-                    context.compute("screen_space_photons/peel_commands.comp")
-                        .storage("SceneCommands", inputs.gpuScene.commands())
-                        .storage("LayerCommands", data.commands)
-                        .storage("Statistics", data.layers.statistics)
-                        .set("commandCount", static_cast<int>(commandCount))
-                        .set("layerCount", layers)
-                        .dispatchOver(static_cast<int>(commandCount) * layers, 64);
-                    const render::RasterViews& views = *data.layers.views;
-                    for (int i = 0; i < views.layers(layers); ++i) {
-                        const int face = i / layers;
-                        const int layer = i % layers;
-                        // The layer before is read from the array that this one is written to.
-                        glTextureBarrier();
-                        gl::Command command =
-                            context.shaders({"shared/eye.vert", "screen_space_photons/peel.frag"});
-                        views.bindTo(command)
-                            .set("projection", views.view(face).projection())
-                            .set("layer", layer)
-                            .set("before", i - 1)
-                            .texture("layerDepths", data.layers.depth);
-                        command.target(data.layers.depth, i).clear();
-                        command.target(data.layers.surface, i).clear();
-                        command.depth(data.depth, gl::DepthTest::nearer).clear({1, 0, 0, 0});
-                        inputs.gpuScene.draw(command, context, data.geometry, views.instances(face),
-                                             request.set,
-                                             &context.buffer(data.commands, gl::Use::drawCommands),
-                                             static_cast<std::size_t>(layer) * commandCount);
-                    }
-                })
-            .layers;
-    return peeled;
+    return frame
+        .pass<Peeling>(
+            "layers.peel",
+            fmt::format("{} hidden surfaces; at most {} layer{}", request.reader, request.layers,
+                        request.layers == 1 ? "" : "s"),
+            [&](graph::PassSetup& setup, Peeling& data) {
+                data = Peeling::create(frame, setup, geometry, request);
+                data.layers.statistics = setup.read(statistics);
+            },
+            [&inputs = frame.inputs(), request](const Peeling& data, gl::PassContext& context) {
+                const auto commandCount = static_cast<int>(inputs.gpuScene.commandCount());
+                context.compute("screen_space_photons/peel_commands.comp")
+                    .storage("SceneCommands", inputs.gpuScene.commands())
+                    .storage("LayerCommands", data.commands)
+                    .storage("Statistics", data.layers.statistics)
+                    .set("commandCount", commandCount)
+                    .set("layerCount", request.layers)
+                    .dispatchOver(commandCount * request.layers, 64);
+                for (int face = 0; face < data.layers.views->count(); ++face)
+                    peelView(inputs, data, context, request, face);
+            })
+        .layers;
 }
 
 namespace {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// What both ways to peel layers keep while they do.
+// What the ways to peel layers keep while they do, and the drawing that they share.
 #pragma once
 
 #include "framework/gl/objects.h"
+#include "framework/pipeline/frame_builder.h"
+#include "techniques/screen_space_photons/peel.h"
 
 namespace kaustik {
 
@@ -13,5 +15,21 @@ struct CountTexel {  // fragments in the pixel
 struct DrawCommandWords {
     GLuint words[5];
 };
+
+// What a pass that peels makes.
+struct Peeling {
+    LayeredDepth layers;  // without statistics
+    graph::Texture<DepthBuffer> depth;
+    graph::Buffer<DrawCommandWords> commands;  // of all objects, once a layer
+    Geometry geometry;
+
+    // Declares it, and what is drawn.
+    static Peeling create(FrameBuilder& frame, graph::PassSetup& setup, Geometry geometry,
+                          const LayersRequest& request);
+};
+// Draws the layers of one view, each beyond the one before it, those that `commands` do not leave
+// out; the others are cleared.
+void peelView(const FrameInputs& inputs, const Peeling& peeling, gl::PassContext& context,
+              const LayersRequest& request, int face);
 
 }  // namespace kaustik

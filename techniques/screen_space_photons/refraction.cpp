@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // view.refraction: screen-space refraction tracing (K06, section 4). The passes "view.layers.…"
-// peel the transmitting objects alone; "view.refraction" follows the eye's transmitted ray of every
-// pixel through them, and from mirror to mirror, and looks up what it sees: the refracted scene
-// (Fig. 10; include/scene_look.glsl), else the environment. The reflection at the first interface
-// is looked up the same way; later partial reflections are not followed. In: eye buffer, layers,
-// radiance of the receivers; out: radiance, W/m²/sr, and where each ray left for good, view space,
-// m.
+// make layers of the transmitting objects alone (lists.h);
+// "view.refraction" follows the eye's transmitted ray of every pixel through them, and from mirror
+// to mirror, and looks up what it sees: the refracted scene (Fig. 10; include/scene_look.glsl),
+// else the environment. The reflection at the first interface is looked up the same way; later
+// partial reflections are not followed. In: eye buffer, layers, radiance of the receivers; out:
+// radiance, W/m²/sr, and where each ray left for good, view space, m.
 //
 // The paper does not say what happens at total internal reflection (here the ray goes on, between
 // the same two layers), nor when a ray leaves through the layer that it has entered by (here it is
@@ -17,8 +17,8 @@
 #include "framework/pipeline/frame_builder.h"
 #include "framework/scene/dielectrics.h"
 #include "techniques/screen_space_photons/hit_testing.h"
+#include "techniques/screen_space_photons/lists.h"
 #include "techniques/screen_space_photons/nodes.h"
-#include "techniques/screen_space_photons/peel.h"
 #include "techniques/shared/view_passes.h"
 
 namespace kaustik {
@@ -59,7 +59,7 @@ struct RefractionViewParams {
                 "Most total internal reflections of an eye ray; what needs more is lost", "",
                 params::range(0, 64));
         r.field(layers, "layers",
-                "Most layers of transmitting objects that are peeled; the monotonic search needs "
+                "Most layers of transmitting objects that are kept; the monotonic search needs "
                 "no more than its interfaces",
                 "", params::range(1, 64));
         look.reflect(r);
@@ -133,14 +133,13 @@ View traceRefraction(FrameBuilder& frame, const RefractionViewParams& wanted, Ge
     if (frame.needs().refractors > 0) {
         const FrameBuilder::Within within(frame, "view");
         // The n-th interface is looked for in the n-th layer, and no deeper.
-        dielectrics = peel(frame, geometry,
-                           {.name = "view.layers",
-                            .set = render::DrawSet::dielectrics,
-                            .layers = usefulLayers(params),
-                            .reader = "the eye's rays need"});
+        dielectrics = makeLayers(frame, geometry,
+                                 {.name = "view.layers",
+                                  .set = render::DrawSet::dielectrics,
+                                  .layers = usefulLayers(params),
+                                  .reader = "the eye's rays need"});
     } else {
-        for (const char* pass : {"view.layers.complexity", "view.layers.peel"})
-            frame.skip(pass, "the scene has no dielectric");
+        frame.skip("view.layers", "the scene has no dielectric");
     }
     std::string why = whyLook(frame);
     if (wanted.search == RefractionSearch::automatic && params.search == RefractionSearch::all)

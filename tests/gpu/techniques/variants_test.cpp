@@ -50,7 +50,7 @@ TEST(DepthComplexity, IsTheSameByReduceAndByAtomics) {
     const scene::Scene scene = scene::loadScene("glass-sphere");
     // Sizes that do not halve evenly, and fewer layers than there are.
     for (const auto& [width, height] : {std::pair(160, 120), std::pair(131, 77), std::pair(1, 1)}) {
-        const Settings few = {{"layers.count", "2"}, {"emit.photons", "8x8"}};
+        const Settings few = {{"layers", "peel"}, {"layers.count", "2"}, {"emit.photons", "8x8"}};
         Settings reduced = few;
         reduced.emplace_back("layers.peel.counting", "reduce");
         const auto a = Frame(scene, width, height, few).renderer().layerStatistics();

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// The nearest fragments of each pixel's list, sorted, become its layers, unless lists do not hold
+// all fragments of the view. At equal depth the triangle drawn first stays alone, as in peeling
+// (hard case 12). One thread a pixel.
+#include "screen_space_photons/lists_fit.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(r32ui) readonly uniform uimage2D heads;
+layout(rgba32f) writeonly uniform image2DArray layerDepths;
+layout(rgba32f) writeonly uniform image2DArray layerSurfaces;
+layout(std430) readonly buffer FragmentDepths {
+    uvec4 fragmentDepths[];
+};
+layout(std430) readonly buffer FragmentSurfaces {
+    uvec4 fragmentSurfaces[];
+};
+layout(std430) readonly buffer FragmentTriangles {
+    uint fragmentTriangles[];
+};
+
+#ifdef FEW_LAYERS
+const int kMostLayers = 8;
+#else
+const int kMostLayers = 64;
+#endif
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, imageSize(heads))) || !listsFit()) return;
+    float depths[kMostLayers];
+    uint places[kMostLayers];
+    int count = 0;
+    uint next = imageLoad(heads, pixel).x;
+    while (next != 0u) {
+        uint place = next - 1u;
+        uvec4 words = fragmentDepths[place];
+        float depth = uintBitsToFloat(words.x);
+        next = words.w;
+        // Whatever it is nearer than moves on by a layer, the last one out.
+        bool isTwice = false;
+        for (int i = 0; i < count && !isTwice; ++i) {
+            float depthThere = depths[i];
+            uint there = places[i];
+            isTwice = depth == depthThere;
+            bool isBefore = isTwice ? fragmentTriangles[place] < fragmentTriangles[there]
+                                    : depth < depthThere;
+            if (!isBefore) continue;
+            depths[i] = depth;
+            places[i] = place;
+            depth = depthThere;
+            place = there;
+        }
+        if (isTwice || count == layerCount) continue;
+        depths[count] = depth;
+        places[count] = place;
+        ++count;
+    }
+    for (int i = 0; i < count; ++i) {
+        uvec3 words = fragmentDepths[places[i]].xyz;
+        uvec4 surface = fragmentSurfaces[places[i]];
+        float material = float(surface.w + 1u);
+        ivec3 texel = ivec3(pixel, face * layerCount + i);
+        imageStore(layerDepths, texel, vec4(uintBitsToFloat(words), material));
+        imageStore(layerSurfaces, texel, vec4(uintBitsToFloat(surface.xyz), material));
+    }
+}

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: MIT
+// layers.lists: a layered depth image from one drawing of the surfaces. Every fragment joins the
+// linked list of its pixel (Yang, Hensley, Grün, Thibieroz 2010, "Real-Time Concurrent Linked List
+// Construction on the GPU"), whose nearest `layers.count` a thread a pixel then sorts. Of fragments
+// at equal depth the one drawn first stays, as in peeling: each knows its triangle's number, so
+// that the order in which threads ran leaves no trace. A view whose fragments do not fit is peeled
+// (K06, section 2.2): slower, and the same picture. Out: bit for bit what layers.peel gives.
+#include "techniques/screen_space_photons/lists.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "framework/pipeline/frame_builder.h"
+#include "framework/pipeline/stage_params.h"
+#include "techniques/screen_space_photons/nodes.h"
+#include "techniques/screen_space_photons/peel_resources.h"
+#include "techniques/screen_space_photons/pyramid.h"
+
+namespace kaustik {
+namespace {
+
+// Words of a fragment as lists_fragment.frag stores them.
+struct FragmentDepth {  // view depth, octahedral normal of the triangle, next of the list
+    GLuint words[4];
+};
+struct FragmentSurface {  // shading normal, material
+    GLuint words[4];
+};
+struct FragmentTriangle {  // its number in the order of drawing
+    GLuint number;
+};
+constexpr std::size_t kFragmentBytes =
+    sizeof(FragmentDepth) + sizeof(FragmentSurface) + sizeof(FragmentTriangle);
+struct ListHead {  // the pixel's first fragment + 1, 0 none
+    static constexpr Format format = Format::r32ui;
+};
+struct FragmentCount {  // of a view
+    GLuint count;
+};
+
+// What every device of OpenGL 4.5 has in a storage block.
+constexpr std::size_t kMostFragments = (std::size_t{1} << 27) / sizeof(FragmentDepth);
+// A few pixels may all be full.
+constexpr std::size_t kLeastFragments = 65536;
+
+// Mesa's software rasteriser ends all loops of a thread after 65,535 turns together; a fragment
+// takes one turn a layer and two of its own.
+constexpr std::uint32_t kMostTurns = 65000;
+
+// So few are peeled in less time than lists take (the dielectrics of `pool`, one layer: 0.6 of it;
+// of `cornell-bunny`, four: the same).
+constexpr int kFewLayers = 3;
+
+struct Room {
+    std::size_t fragments;
+    bool isByMemory;  // else by layers.lists.room
+};
+
+Room roomFor(const render::RasterViews& views, const ListsParams& params) {
+    const std::size_t affordable = std::min(
+        (static_cast<std::size_t>(params.memoryMebibytes) << 20) / kFragmentBytes, kMostFragments);
+    const std::size_t pixels =
+        static_cast<std::size_t>(views.width()) * static_cast<std::size_t>(views.height());
+    const std::size_t wanted =
+        std::max(pixels * static_cast<std::size_t>(params.room), kLeastFragments);
+    return {std::min(affordable, wanted), affordable < wanted};
+}
+
+struct Lists {
+    Peeling peeling;
+    graph::Texture<CountTexel> counts;
+    graph::Texture<ListHead> heads;
+    graph::Buffer<FragmentCount> fragmentCounts;  // by view
+};
+
+void keepToLimits(FrameBuilder& frame, const Lists& lists, const LayersRequest& request,
+                  const ListsParams& params, const Room& room) {
+    const LayeredDepth& layers = lists.peeling.layers;
+    frame.keepsTo(
+        {"layers.lists",
+         {lists.fragmentCounts},
+         [=, counts = lists.fragmentCounts,
+          pixels = static_cast<double>(layers.views->width()) *
+                   static_cast<double>(layers.views->height())](
+             const gl::Executor& executor) -> std::optional<ReachedLimit> {
+             std::size_t most = 0;
+             for (const FragmentCount& view : executor.buffer(counts).read<FragmentCount>())
+                 most = std::max(most, static_cast<std::size_t>(view.count));
+             if (most <= room.fragments) return {};
+             const std::string sentence = fmt::format(
+                 "{} of the {} fragments of a view of {} do not fit: it is peeled instead, which "
+                 "takes longer; no layer is lost to it",
+                 most - room.fragments, most, request.name);
+             const auto needed = static_cast<double>(most);
+             if (room.isByMemory) {
+                 return ReachedLimit{"layers.lists.memory",
+                                     "MiB",
+                                     static_cast<double>(params.memoryMebibytes),
+                                     std::ceil(needed * kFragmentBytes / 1048576.0),
+                                     sentence,
+                                     0.0};
+             }
+             return ReachedLimit{"layers.lists.room",
+                                 "fragments a pixel",
+                                 static_cast<double>(params.room),
+                                 std::ceil(needed / pixels),
+                                 sentence,
+                                 0.0};
+         }});
+    frame.keepsTo(
+        {"layers.lists",
+         {layers.statistics},
+         [=, statistics =
+                 layers.statistics](const gl::Executor& executor) -> std::optional<ReachedLimit> {
+             const std::uint32_t longest =
+                 executor.buffer(statistics).read<transport::LayerStatistics>().front().complexity;
+             const std::uint32_t most = kMostTurns / static_cast<std::uint32_t>(request.layers + 2);
+             if (longest <= most) return {};
+             return ReachedLimit{"layers.lists.longest",
+                                 "fragments",
+                                 static_cast<double>(most),
+                                 static_cast<double>(longest),
+                                 fmt::format("a pixel of {} has more: its view is peeled instead, "
+                                             "which takes longer; no layer is lost to it",
+                                             request.name),
+                                 0.0};
+         }});
+}
+
+// Both commands ask alike whether the lists hold all of the view.
+void tellWhatFits(gl::Command& command, const Lists& lists, const Room& room, int face) {
+    command.storage("Statistics", lists.peeling.layers.statistics)
+        .set("face", face)
+        .set("room", static_cast<unsigned>(room.fragments))
+        .set("mostTurns", kMostTurns)
+        .set("layerCount", lists.peeling.layers.layers);
+}
+
+void listView(const FrameInputs& inputs, const Lists& data, gl::PassContext& context,
+              const LayersRequest& request, const Room& room, int face) {
+    const Peeling& peeling = data.peeling;
+    const render::RasterViews& views = *peeling.layers.views;
+    context.texture(data.heads).clear({0, 0, 0, 0});
+    gl::Command list =
+        context.shaders({"screen_space_photons/lists.vert", "screen_space_photons/lists.frag"});
+    views.bindTo(list)
+        .set("projection", views.view(face).projection())
+        .set("face", face)
+        .set("room", static_cast<unsigned>(room.fragments))
+        .target(data.counts)
+        .clear()
+        .blend(gl::Blend::add);
+    inputs.gpuScene.draw(list, context, peeling.geometry, views.instances(face), request.set);
+    context.compute("screen_space_photons/peel_statistics.comp")
+        .texture("counts", data.counts)
+        .storage("Statistics", peeling.layers.statistics)
+        .set("layerCount", request.layers)
+        .dispatchOver(views.width(), 8, views.height(), 8);
+
+    const auto commandCount = static_cast<int>(inputs.gpuScene.commandCount());
+    gl::Command commands = context.compute("screen_space_photons/peel_commands.comp");
+    tellWhatFits(commands, data, room, face);
+    commands.define("AFTER_LISTS")
+        .storage("SceneCommands", inputs.gpuScene.commands())
+        .storage("LayerCommands", peeling.commands)
+        .set("commandCount", commandCount)
+        .dispatchOver(commandCount * request.layers, 64);
+    peelView(inputs, peeling, context, request, face);
+
+    gl::Command sort = context.compute("screen_space_photons/lists.comp");
+    tellWhatFits(sort, data, room, face);
+    if (request.layers <= 8) sort.define("FEW_LAYERS");
+    sort.image("layerDepths", peeling.layers.depth)
+        .image("layerSurfaces", peeling.layers.surface)
+        .dispatchOver(views.width(), 8, views.height(), 8);
+}
+
+LayeredDepth listLayers(FrameBuilder& frame, const ListsParams& params, Geometry geometry) {
+    const int layers = frame.params<LayersParams>("layers").count;
+    return addPyramid(frame,
+                      listFragments(frame, geometry, {.name = "layers", .layers = layers}, params));
+}
+
+}  // namespace
+
+LayeredDepth listFragments(FrameBuilder& frame, Geometry geometry, const LayersRequest& request,
+                           const ListsParams& params) {
+    const Room room = roomFor(request.views ? *request.views : *frame.eyeViews(), params);
+    const Lists& lists = frame.pass<Lists>(
+        "layers.lists",
+        fmt::format("{} hidden surfaces; at most {} layer{} of {} fragments", request.reader,
+                    request.layers, request.layers == 1 ? "" : "s", room.fragments),
+        [&](graph::PassSetup& setup, Lists& data) {
+            data.peeling = Peeling::create(frame, setup, geometry, request);
+            const render::RasterViews& views = *data.peeling.layers.views;
+            const std::string& name = request.name;
+            data.peeling.layers.statistics =
+                setup.createBuffer<transport::LayerStatistics>(name + ".statistics", 1);
+            data.counts = setup.create<CountTexel>(name + ".counts", views.width(), views.height());
+            data.heads = setup.image(
+                "heads", setup.create<ListHead>(name + ".heads", views.width(), views.height()));
+            data.fragmentCounts = setup.storage(
+                "FragmentCounts",
+                setup.createBuffer<FragmentCount>(name + ".fragment_counts",
+                                                  static_cast<std::size_t>(views.count())));
+            setup.storage("FragmentDepths", setup.createBuffer<FragmentDepth>(
+                                                name + ".fragment_depths", room.fragments));
+            setup.storage("FragmentSurfaces", setup.createBuffer<FragmentSurface>(
+                                                  name + ".fragment_surfaces", room.fragments));
+            setup.storage("FragmentTriangles", setup.createBuffer<FragmentTriangle>(
+                                                   name + ".fragment_triangles", room.fragments));
+        },
+        [&inputs = frame.inputs(), request, room](const Lists& data, gl::PassContext& context) {
+            context.buffer(data.fragmentCounts).clear();
+            context.buffer(data.peeling.layers.statistics).clear();
+            for (int face = 0; face < data.peeling.layers.views->count(); ++face)
+                listView(inputs, data, context, request, room, face);
+        });
+    keepToLimits(frame, lists, request, params, room);
+    return lists.peeling.layers;
+}
+
+LayeredDepth makeLayers(FrameBuilder& frame, Geometry geometry, const LayersRequest& request) {
+    const bool lists = frame.inputs().params.choice(LayersStage::name) == "lists";
+    if (!lists || request.layers <= kFewLayers) return peel(frame, geometry, request);
+    return listFragments(frame, geometry, request, frame.params<ListsParams>("layers.lists"));
+}
+
+void registerLists(Registry& registry) {
+    registry.node<LayersStage>("lists",
+                               {"A layered depth image from lists of every pixel's fragments, in "
+                                "one drawing; what does not fit into their memory is peeled.",
+                                "Yang et al. 2010"},
+                               &listLayers);
+}
+
+}  // namespace kaustik
