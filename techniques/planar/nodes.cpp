@@ -15,7 +15,7 @@ void registerPlanar(Registry& registry) {
                         "Photons hit flat receivers analytically and nothing else; else as "
                         "screen_space_photons.",
                         "K06, section 1.1, Fig. 2",
-                        {{"layers", "peel"},
+                        {{"layers", "auto"},
                          {"trace", "plane"},
                          {"reconstruct", "triangles"},
                          {"view", "refraction"}},

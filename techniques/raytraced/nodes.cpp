@@ -9,7 +9,7 @@ void registerRaytraced(Registry& registry) {
                         "Every ray is traced exactly on the processor; else as "
                         "screen_space_photons.",
                         "",
-                        {{"trace", "raytraced"}},
+                        {{"layers", "auto"}, {"trace", "raytraced"}, {"reconstruct", "triangles"}},
                         {}});
 }
 

@@ -222,13 +222,60 @@ LayeredDepth listFragments(FrameBuilder& frame, Geometry geometry, const LayersR
     return lists.peeling.layers;
 }
 
+namespace {
+
+// Triangles of the surfaces that a request draws.
+std::size_t trianglesOf(const scene::Scene& scene, render::DrawSet set) {
+    std::size_t triangles = 0;
+    for (const scene::Object& object : scene.objects) {
+        const bool isDielectric =
+            scene.materials[object.material].kind == scene::MaterialKind::dielectric;
+        if (set == render::DrawSet::dielectrics && !isDielectric) continue;
+        triangles += scene.meshes[object.mesh].triangles.size();
+    }
+    return triangles;
+}
+
+// Peeling draws every triangle again for each layer, lists sort every pixel: on the devices
+// measured (results/README.md, "Layers in one pass") they are even where there are as many of the
+// one as of the other.
+bool areListsFaster(FrameBuilder& frame, const LayersRequest& request) {
+    const render::RasterViews& views = request.views ? *request.views : *frame.eyeViews();
+    const auto pixels =
+        static_cast<std::size_t>(views.width()) * static_cast<std::size_t>(views.height());
+    return request.layers > kFewLayers &&
+           trianglesOf(frame.scene(), request.set) * static_cast<std::size_t>(request.layers) >=
+               pixels;
+}
+
+LayeredDepth chooseLayers(FrameBuilder& frame, const params::NoParams&, Geometry geometry) {
+    const LayersRequest request{.name = "layers",
+                                .layers = frame.params<LayersParams>("layers").count};
+    const bool lists = areListsFaster(frame, request);
+    frame.skip(lists ? "layers.peel" : "layers.lists",
+               fmt::format("{} triangles for each of {} layers are {} than {} pixels",
+                           trianglesOf(frame.scene(), request.set), request.layers,
+                           lists ? "more" : "fewer", frame.width() * frame.height()));
+    return addPyramid(frame, makeLayers(frame, geometry, request));
+}
+
+}  // namespace
+
 LayeredDepth makeLayers(FrameBuilder& frame, Geometry geometry, const LayersRequest& request) {
-    const bool lists = frame.inputs().params.choice(LayersStage::name) == "lists";
-    if (!lists || request.layers <= kFewLayers) return peel(frame, geometry, request);
+    const std::string node = frame.inputs().params.choice(LayersStage::name);
+    const bool lists = node == "lists" ? request.layers > kFewLayers
+                                       : node == "auto" && areListsFaster(frame, request);
+    if (!lists) return peel(frame, geometry, request);
     return listFragments(frame, geometry, request, frame.params<ListsParams>("layers.lists"));
 }
 
 void registerLists(Registry& registry) {
+    registry.node<LayersStage>(
+        "auto",
+        {"Lists of fragments where geometry is much to draw again for each layer, else peeling: "
+         "the same layers, whichever is faster.",
+         ""},
+        &chooseLayers);
     registry.node<LayersStage>("lists",
                                {"A layered depth image from lists of every pixel's fragments, in "
                                 "one drawing; what does not fit into their memory is peeled.",

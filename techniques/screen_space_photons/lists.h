@@ -28,8 +28,8 @@ struct ListsParams {
 [[nodiscard]] LayeredDepth listFragments(FrameBuilder& frame, Geometry geometry,
                                          const LayersRequest& request, const ListsParams& params);
 
-// For some of the scene's surfaces: by lists where `layers` is set to them and more than a few
-// layers are asked for, else peeled.
+// For some of the scene's surfaces: by lists where `layers` is set to them, or to auto and they are
+// faster, and more than a few layers are asked for; else peeled.
 [[nodiscard]] LayeredDepth makeLayers(FrameBuilder& frame, Geometry geometry,
                                       const LayersRequest& request);
 

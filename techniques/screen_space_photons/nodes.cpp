@@ -20,7 +20,7 @@ void registerScreenSpacePhotons(Registry& registry) {
     registry.technique({"screen_space_photons",
                         "Photon rays traced on the screen through a layered depth image.",
                         "Krüger, Bürger, Westermann 2006",
-                        {{"layers", "peel"},
+                        {{"layers", "auto"},
                          {"trace", "hierarchical"},
                          {"reconstruct", "triangles"},
                          {"view", "refraction"}},

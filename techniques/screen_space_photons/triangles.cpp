@@ -30,7 +30,7 @@ struct TrianglesParams {
             tolerance, "tolerance",
             "Neighbours are joined where they arrive no farther from where their beams say than "
             "this share of their distance",
-            "", params::range(0.0f, 10.0f));
+            "", params::range(0.01f, 10.0f));
         r.field(maximum, "maximum",
                 "Longest side on the screen; wider cells are not joined, and beams shrink to it",
                 "px", params::range(1, 1024));

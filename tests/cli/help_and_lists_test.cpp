@@ -112,7 +112,7 @@ TEST_F(List, WithATechniqueHasOneNodeForEachStage) {
         EXPECT_TRUE(stages.insert(node.at("stage")).second) << node << " is a second answer";
         EXPECT_TRUE(contains(namesIn(all), node.at("name"))) << node;
     }
-    EXPECT_TRUE(contains(namesIn(chosen), "reconstruct.sprites"));
+    EXPECT_TRUE(contains(namesIn(chosen), "reconstruct.triangles"));
 }
 
 TEST_F(List, WithATechniqueHasTheParametersOfItsNodesOnly) {
@@ -155,11 +155,11 @@ TEST_F(Explain, LeavesOutOfAMirrorsViewWhatOnlyDielectricsNeed) {
 }
 
 TEST_F(Explain, ShowsADisabledPassAsBypassed) {
-    const Outcome outcome = run({"explain", "ring", "--size", "64x48", "--disable", "sprites"});
+    const Outcome outcome = run({"explain", "ring", "--size", "64x48", "--disable", "triangles"});
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_TRUE(std::regex_search(
         outcome.out,
-        std::regex("reconstruct\\.sprites +bypassed +disabled; .*'caustic.flux' is 0")))
+        std::regex("reconstruct\\.triangles +bypassed +disabled; .*'caustic.flux' is 0")))
         << outcome.out;
 }
 
@@ -171,7 +171,7 @@ TEST_F(Explain, DrawsEveryPassAndResourceAsGraphviz) {
     EXPECT_TRUE(dot.starts_with("digraph")) << dot;
     EXPECT_TRUE(dot.ends_with("}\n")) << dot;
     expectAllIn(
-        dot, {"trace.hierarchical", "reconstruct.sprites", "photons.flux", "caustic.irradiance"});
+        dot, {"trace.hierarchical", "reconstruct.triangles", "photons.flux", "caustic.irradiance"});
     // Each arrow joins two nodes that are declared with a label.
     const std::regex arrow(R"( (\w+) -> (\w+);)");
     std::size_t arrows = 0;

@@ -96,9 +96,11 @@ TEST_F(Limits, NameTheStepsOfEveryTracer) {
 }
 
 TEST_F(Limits, CountSplatsThatAreCutOff) {
-    EXPECT_FALSE(isReached("reconstruct.sprites.reach", "wavy.toml", {"sprites.maximum=8"}));
-    const json limit = limitOf("reconstruct.sprites.reach", "wavy.toml",
-                               {"sprites.maximum=100", "sprites.radius=1", "sprites.reach=20"});
+    EXPECT_FALSE(isReached("reconstruct.sprites.reach", "wavy.toml",
+                           {"reconstruct=sprites", "sprites.maximum=8"}));
+    const json limit = limitOf(
+        "reconstruct.sprites.reach", "wavy.toml",
+        {"reconstruct=sprites", "sprites.maximum=100", "sprites.radius=1", "sprites.reach=20"});
     EXPECT_EQ(limit.at("unit"), "px");
     EXPECT_EQ(limit.at("value"), 20);
     EXPECT_GT(limit.at("needed"), 20.0);
@@ -185,12 +187,23 @@ position = [0, 0.6, 0]
 }
 
 TEST_F(Limits, CountSplatsThatAreSmallerThanTheyWereToBe) {
-    EXPECT_FALSE(isReached("reconstruct.sprites.maximum", "wavy.toml", {"sprites.maximum=100"}));
+    EXPECT_FALSE(isReached("reconstruct.sprites.maximum", "wavy.toml",
+                           {"reconstruct=sprites", "sprites.maximum=100"}));
     const json limit = limitOf("reconstruct.sprites.maximum", "wavy.toml",
-                               {"sprites.maximum=1", "sprites.radius=0.2"});
+                               {"reconstruct=sprites", "sprites.maximum=1", "sprites.radius=0.2"});
     EXPECT_EQ(limit.at("unit"), "px");
     EXPECT_EQ(limit.at("value"), 1);
     EXPECT_GT(limit.at("needed"), 2.0);
+    EXPECT_EQ(limit.at("lost_w"), 0.0);
+}
+
+TEST_F(Limits, CountBeamsThatAreNarrowerThanTheyWereToBe) {
+    EXPECT_FALSE(isReached("reconstruct.triangles.maximum", "wavy.toml", {}));
+    const json limit =
+        limitOf("reconstruct.triangles.maximum", "wavy.toml", {"triangles.maximum=1"});
+    EXPECT_EQ(limit.at("unit"), "px");
+    EXPECT_EQ(limit.at("value"), 1);
+    EXPECT_GT(limit.at("needed"), 1.0);
     EXPECT_EQ(limit.at("lost_w"), 0.0);
 }
 

@@ -216,11 +216,11 @@ TEST_F(Set, TheLastOfTwoValuesCounts) {
     EXPECT_EQ(report().at("parameters").at("layers.count"), 5);
 }
 
-TEST_F(Disable, OfTheSpritesLeavesNoCaustic) {
-    static_cast<void>(renderWater({"--disable", "reconstruct.sprites"}));
+TEST_F(Disable, OfTheReconstructionLeavesNoCaustic) {
+    static_cast<void>(renderWater({"--disable", "reconstruct.triangles"}));
     const json report = this->report();
-    EXPECT_EQ(report.at("disabled"), json({"reconstruct.sprites"}));
-    const json& pass = passNamed(report, "reconstruct.sprites");
+    EXPECT_EQ(report.at("disabled"), json({"reconstruct.triangles"}));
+    const json& pass = passNamed(report, "reconstruct.triangles");
     EXPECT_EQ(pass.at("ran"), false);
     EXPECT_NE(pass.at("why").get<std::string>().find("disabled"), std::string::npos) << pass;
     EXPECT_TRUE(isBlack(readImage(folder / "out/caustic.exr")));
@@ -244,8 +244,8 @@ TEST_F(Disable, OfTheShadowsLightsWhatTheyDarkened) {
 }
 
 TEST_F(Disable, TakesAUniqueShortFormAndReportsTheFullName) {
-    static_cast<void>(renderWater({"--disable", "sprites", "--disable", "map"}));
-    EXPECT_EQ(report().at("disabled"), json({"reconstruct.sprites", "shadow.map"}));
+    static_cast<void>(renderWater({"--disable", "triangles", "--disable", "map"}));
+    EXPECT_EQ(report().at("disabled"), json({"reconstruct.triangles", "shadow.map"}));
     EXPECT_TRUE(isBlack(readImage(folder / "out/caustic.exr")));
 }
 

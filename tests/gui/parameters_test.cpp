@@ -63,10 +63,10 @@ TEST_F(ParametersPanel, ASliderThatIsDraggedChangesThePicture) {
 // A straight slider's would be 50, of which a frame takes a minute.
 TEST_F(ParametersPanel, TheMiddleOfAWideRangeIsAUsualValue) {
     start();
-    bench->click("parameter.reconstruct.sprites.footprints");
-    const double footprints =
-        std::stod(set().at("reconstruct.sprites.footprints").get<std::string>());
-    EXPECT_NEAR(footprints, std::sqrt(0.1 * 100.0), 0.5) << "a few of the slider's pixels";
+    bench->click("parameter.reconstruct.triangles.tolerance");
+    const double tolerance =
+        std::stod(set().at("reconstruct.triangles.tolerance").get<std::string>());
+    EXPECT_NEAR(tolerance, std::sqrt(0.01 * 10.0), 0.05) << "a few of the slider's pixels";
     bench->click("parameter.layers.count");
     EXPECT_NEAR(std::stod(set().at("layers.count").get<std::string>()), 8.0, 1.0);
     bench->click("parameter.trace.hierarchical.steps");
@@ -79,7 +79,7 @@ TEST_F(ParametersPanel, TheMiddleOfAWideRangeIsAUsualValue) {
 // As another process renders it with the same value.
 TEST_F(ParametersPanel, AChangedParameterMeansWhatItMeansOnTheCommandLine) {
     start();
-    choose("parameter.reconstruct.sprites.kernel", "epanechnikov");
+    choose("parameter.reconstruct.triangles.shading", "flat");
     bench->typeInto("parameter.emit.photons", "16", Entry::click, "Return", {0.2, 0.5});
     bench->typeInto("parameter.emit.photons", "24", Entry::click, "Return", {0.8, 0.5});
     untilSettled();
@@ -87,7 +87,7 @@ TEST_F(ParametersPanel, AChangedParameterMeansWhatItMeansOnTheCommandLine) {
     open("Record");
     bench->click("record.report");
     untilRecorded();
-    renderSmall({"--set", "emit.photons=16x24", "--set", "reconstruct.sprites.kernel=epanechnikov",
+    renderSmall({"--set", "emit.photons=16x24", "--set", "reconstruct.triangles.shading=flat",
                  "--out", "expected"});
     std::filesystem::path written;
     for (const auto& entry : std::filesystem::directory_iterator(folder / "out"))

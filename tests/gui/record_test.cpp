@@ -193,7 +193,7 @@ TEST_F(RecordPanel, ASavedExperimentGivesTheSameImagesToTheBit) {
     bench->drag("light.sun", -40, 5);
     bench->drag("picture", 70, 30, kLeftButton, {0.2, 0.9});
     bench->click("passes.on.compose.direct");
-    bench->typeInto("parameter.reconstruct.sprites.footprints", "3.3", Entry::controlClick);
+    bench->typeInto("parameter.reconstruct.triangles.tolerance", "0.3", Entry::controlClick);
     open("Technique");
     choose("stage.trace", "march");
     open("Scene");
@@ -219,7 +219,7 @@ TEST_F(RecordPanel, TwoVariantsAreTwoRunsOfAnExperiment) {
     json small = smallDocument();
     small["other"] = small["variant"];
     small["other"]["set"]["emit.photons"] = "16x16";
-    small["other"]["set"]["reconstruct.sprites.kernel"] = "linear";
+    small["other"]["set"]["reconstruct.triangles.shading"] = "flat";
     small["other"]["disable"] = {"compose.direct"};
     start(keptWith(small));
     open("Record");
@@ -227,7 +227,7 @@ TEST_F(RecordPanel, TwoVariantsAreTwoRunsOfAnExperiment) {
     const std::vector<fs::path> runs = runExperiment();
     ASSERT_EQ(runs.size(), 2u);
     renderSmall({"--out", "a"});
-    renderSmall({"--set", "emit.photons=16x16", "--set", "reconstruct.sprites.kernel=linear",
+    renderSmall({"--set", "emit.photons=16x16", "--set", "reconstruct.triangles.shading=flat",
                  "--disable", "compose.direct", "--out", "b"});
     const std::string file = "caustic" + floatImageExtension();
     const bool isFirstA = readImage(runs[0] / file).values == readImage(folder / "a" / file).values;

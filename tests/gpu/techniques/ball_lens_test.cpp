@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a glass ball in parallel light makes of it on a plane below, against the closed form: where a
-// ray at the height b from the axis arrives, and with which share of its light, follows from two
+// What a glass ball in parallel light makes of it on a plane below, against the closed form: where
+// a ray at the height b from the axis arrives, and with which share of its light, follows from two
 // refractions in a circle. Around the axis light is focused without bound, near the rim it spreads.
 #include <algorithm>
 #include <cmath>
@@ -122,10 +122,9 @@ double relativeError(const Frame& frame, const std::vector<double>& rings) {
 double errorOf(const std::string& photons, const std::string& reconstruct) {
     static const std::vector<double> rings = irradianceByDistance();
     static const scene::Scene scene = ballFromAbove();
-    const Frame frame(scene, kSide, kSide,
-                      {{"emit.photons", photons},
-                       {"specular", "interface"},
-                       {"reconstruct", reconstruct}});
+    const Frame frame(
+        scene, kSide, kSide,
+        {{"emit.photons", photons}, {"specular", "interface"}, {"reconstruct", reconstruct}});
     const double error = relativeError(frame, rings);
     ::testing::Test::RecordProperty(reconstruct + "_" + photons,
                                     static_cast<int>(std::lround(1e6 * error)));

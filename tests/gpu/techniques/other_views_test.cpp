@@ -63,7 +63,8 @@ Registry storingIn(const MakeViews& makeViews, const std::string& gather) {
                     seeReceivers(frame, surfaces.geometry, makeViews(frame), "elsewhere", "a test")
                         .receivers);
             });
-            return splatInto(frame, {.params = params}, hits, *seen, before, "caustic.flux_elsewhere");
+            return splatInto(frame, {.params = params}, hits, *seen, before,
+                             "caustic.flux_elsewhere");
         }));
     registry.node<GatherStage>(
         "elsewhere", {"By projection.", "a test"},

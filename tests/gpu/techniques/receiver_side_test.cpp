@@ -110,14 +110,21 @@ size = [0.5, 0.5]
 position = [0, 0, -1]
 rotation_degrees = [90, 0, 0]
 )");
+    std::vector<Settings> reconstructions{{{"reconstruct", "triangles"}},
+                                          {{"reconstruct", "beams"}}};
     for (const char* shape : {"beam", "disc", "screen"}) {
-        const Frame frame(scene, 160, 120,
-                          {{"emit.photons", "16x16"}, {"reconstruct.sprites.shape", shape}});
+        reconstructions.push_back(
+            {{"reconstruct", "sprites"}, {"reconstruct.sprites.shape", shape}});
+    }
+    for (Settings settings : reconstructions) {
+        const std::string which = settings.front().second + " " + settings.back().second;
+        settings.emplace_back("emit.photons", "16x16");
+        const Frame frame(scene, 160, 120, settings);
         const EnergyLedger ledger = frame.renderer().ledger();
         // 1000 W/m² on a quarter of a square metre, in 32-bit products.
-        EXPECT_NEAR(ledger.watts[kAccountArrived], 250.0, 1e-3) << shape;
-        EXPECT_EQ(ledger.watts[kAccountEdgeOn], 0.0) << shape;
-        EXPECT_EQ(ledger.watts[kAccountOccludedSplat], ledger.watts[kAccountArrived]) << shape;
+        EXPECT_NEAR(ledger.watts[kAccountArrived], 250.0, 1e-3) << which;
+        EXPECT_EQ(ledger.watts[kAccountEdgeOn], 0.0) << which;
+        EXPECT_EQ(ledger.watts[kAccountOccludedSplat], ledger.watts[kAccountArrived]) << which;
     }
 }
 

@@ -281,7 +281,9 @@ position = [0, -0.5, 0]
 TEST(ScreenAlignedSprites, KeepTheFlux) {
     const scene::Scene scene = scene::loadScene("glass-sphere");
     const Frame frame(scene, 200, 150,
-                      {{"reconstruct.sprites.shape", "screen"}, {"emit.photons", "64x64"}});
+                      {{"reconstruct", "sprites"},
+                       {"reconstruct.sprites.shape", "screen"},
+                       {"emit.photons", "64x64"}});
     EXPECT_LT(std::abs(frame.renderer().ledger().balance()), 1e-6);
 }
 
