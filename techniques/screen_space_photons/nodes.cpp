@@ -4,15 +4,16 @@
 namespace kaustik {
 
 void registerScreenSpacePhotons(Registry& registry) {
+    // The first of a stage is what a technique has that does not choose.
+    registerLists(registry);
     registerPeel(registry);
     registerPeelObjects(registry);
-    registerLists(registry);
     registerLines(registry);
     registerMarch(registry);
     registerAllHits(registry);
     registerShadowRays(registry);
-    registerSprites(registry);
     registerTriangles(registry);
+    registerSprites(registry);
     registerGodRays(registry);
     registerGaussianBlur(registry);
     registerRefraction(registry);
