@@ -133,12 +133,6 @@ class LightGrid {
     glm::dmat4 toWorld_{1.0};
 };
 
-bool isWithoutExactTracer() {
-    const Registry registry = registerAll();
-    return std::none_of(registry.techniques().begin(), registry.techniques().end(),
-                        [](const Technique& t) { return t.name == "raytraced"; });
-}
-
 // The relative errors of photons after so many interactions.
 struct Errors {
     std::vector<double> place;    // of how far neighbours are beside a photon

@@ -63,7 +63,8 @@ Registry storingIn(const MakeViews& makeViews, const std::string& gather) {
                     seeReceivers(frame, surfaces.geometry, makeViews(frame), "elsewhere", "a test")
                         .receivers);
             });
-            return splatInto(frame, {.params = params}, hits, *seen, before, "caustic.flux_elsewhere");
+            return splatInto(frame, {.params = params}, hits, *seen, before,
+                             "caustic.flux_elsewhere");
         }));
     registry.node<GatherStage>(
         "elsewhere", {"By projection.", "a test"},
@@ -146,12 +147,6 @@ void expectTracersAgree(const std::string& sceneName, const MakeViews& makeViews
     EXPECT_GT(found.photons, 1000);
     EXPECT_GE(found.share(), leastShare) << found.same << " of " << found.photons;
     EXPECT_LT(std::abs(traced.renderer().ledger().balance()), 1e-6);
-}
-
-bool isWithoutExactTracer() {
-    const Registry registry = registerAll();
-    return std::none_of(registry.techniques().begin(), registry.techniques().end(),
-                        [](const Technique& t) { return t.name == "raytraced"; });
 }
 
 Views sun512(FrameBuilder& frame) {
