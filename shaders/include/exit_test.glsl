@@ -115,7 +115,7 @@ struct Crossing {
 // is, unless the ray does not cross it that way.
 Crossing smoothCrossing(vec3 origin, vec3 direction, float t, vec4 surface, LayerSurface layer) {
     SmoothSurface around = smoothSurfaceAt(origin + t * direction, surface, layer);
-    Crossing crossing = Crossing(t, around.normal, layer.normal, around.turning);
+    Crossing crossing = Crossing(t, around.normal, layer.normal, around.curving);
     float closing = dot(direction, around.normal);
     bool leaves = dot(direction, layer.normal) > 0.0;
     if (closing == 0.0 || (closing > 0.0) != leaves) return crossing;

@@ -206,8 +206,9 @@ const float kLeastSpread = 0.17;
 // would be caught inside; front and back meet there and both count.
 struct SmoothSurface {
     vec3 normal;   // at the point, unit
-    mat3 turning;  // of the normal with the position, 1/m
+    mat3 turning;  // of the normal with the position, 1/m; less where the samples say little of it
     float height;  // of the point above the surface, m
+    mat3 curving;  // the turning without that loss: what beams go by
 };
 
 SmoothSurface smoothSurfaceAt(vec3 pointVs, vec4 surface, LayerSurface layerHit) {
@@ -227,6 +228,14 @@ SmoothSurface smoothSurfaceAt(vec3 pointVs, vec4 surface, LayerSurface layerHit)
     float meanHeight = 0.0;
     mat3 spread = mat3(0.0);
     mat3 turned = mat3(0.0);
+#ifdef PHOTON_BEAMS
+    // A slope is told best from samples that all count alike.
+    float evenWeights = 0.0;
+    vec3 evenPosition = vec3(0.0);
+    vec3 evenNormal = vec3(0.0);
+    mat3 evenSpread = mat3(0.0);
+    mat3 evenTurned = mat3(0.0);
+#endif
     for (int i = 0; i < 4; ++i) {
         ivec2 step = ivec2(i & 1, i >> 1);
         ivec2 texel = clamp(first + step, ivec2(0), ivec2(view.sizePixels.xy) - 1);
@@ -240,16 +249,24 @@ SmoothSurface smoothSurfaceAt(vec3 pointVs, vec4 surface, LayerSurface layerHit)
             if (other.w != surface.w || dot(other.xyz, surface.xyz) < 0.5) continue;
             vec3 offset = viewPoint(vec2(texel) + 0.5, depth) - pointVs;
             // All pixels count a little, so that there are enough to tell a slope from.
-            float weight = (axis.x * axis.y + 1e-3) / (1.0 + dot(offset, offset) / (near * near));
+            float nearness = 1.0 / (1.0 + dot(offset, offset) / (near * near));
+            float weight = (axis.x * axis.y + 1e-3) * nearness;
             weights += weight;
             meanPosition += weight * offset;
             meanNormal += weight * other.xyz;
             meanHeight -= weight * dot(other.xyz, offset);
             spread += weight * outerProduct(offset, offset);
             turned += weight * outerProduct(other.xyz, offset);
+#ifdef PHOTON_BEAMS
+            evenWeights += nearness;
+            evenPosition += nearness * offset;
+            evenNormal += nearness * other.xyz;
+            evenSpread += nearness * outerProduct(offset, offset);
+            evenTurned += nearness * outerProduct(other.xyz, offset);
+#endif
         }
     }
-    SmoothSurface result = SmoothSurface(surface.xyz, mat3(0.0), 0.0);
+    SmoothSurface result = SmoothSurface(surface.xyz, mat3(0.0), 0.0, mat3(0.0));
     if (weights <= 0.0) return result;
     meanPosition /= weights;
     meanNormal /= weights;
@@ -263,5 +280,15 @@ SmoothSurface smoothSurfaceAt(vec3 pointVs, vec4 surface, LayerSurface layerHit)
     result.normal = normal / size;
     // A chord hits the surface at equal angles at both ends.
     result.height = 0.5 * (meanHeight - dot(result.normal, meanPosition));
+#ifdef PHOTON_BEAMS
+    evenPosition /= evenWeights;
+    evenSpread = evenSpread / evenWeights - outerProduct(evenPosition, evenPosition);
+    evenTurned = evenTurned / evenWeights - outerProduct(evenNormal / evenWeights, evenPosition);
+    // What keeps the inverse finite is taken back where the samples tell (iterated Tikhonov
+    // regularisation): a tenth is lost without, a ten-thousandth so.
+    mat3 solve = inverse(evenSpread + mat3(least * least));
+    for (int i = 0; i < 4; ++i)
+        result.curving += (evenTurned - result.curving * evenSpread) * solve;
+#endif
     return result;
 }

@@ -50,7 +50,7 @@ Hit deliver(Photon photon, FirstHit first) {
         vec3 there = seen.positionVs + crossing.t * seen.directionVs;
         SmoothSurface around = smoothSurfaceAt(there, surface, layer);
         crossing.shading = around.normal;
-        crossing.turning = around.turning;
+        crossing.turning = around.curving;
     }
     hit = deliverTo(photon, crossing.t, directionToEye(crossing.shading),
                     directionToEye(crossing.geometric), material);

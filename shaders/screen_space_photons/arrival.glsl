@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Where a photon arrives, and by its beam where its neighbours would.
 #include "include/hits.glsl"
+#include "include/ledger_unit.glsl"
 #include "include/photon_thread.glsl"
 #include "include/view.glsl"
 
@@ -15,6 +16,7 @@ struct Arrival {
     vec2 farther;   // than this light flies, m
     float distance;
     vec3 flux;      // W
+    float density;  // the flux by what a cell covers, W/m²
     uint material;  // index + 1
     uint path;
 };
@@ -23,15 +25,28 @@ mat2x3 fromEye(mat2x3 offsets) {
     return mat2x3(directionFromEye(offsets[0]), directionFromEye(offsets[1]));
 }
 
+// Whether another batch of emission brings a photon as well, and here it is only to be joined with
+// (shared/emit_grid.frag).
+bool isOfOtherBatch(vec3 flux) {
+    return (flux.r + flux.g + flux.b) * ledgerUnitsPerWatt < 1e-6;
+}
+
+// Of all channels, in whichever batch it is.
+float wholeFlux(vec3 flux) {
+    return (flux.r + flux.g + flux.b) * (isOfOtherBatch(flux) ? exp2(64.0) : 1.0);
+}
+
 Arrival arrivalOf(ivec2 texel) {
     Hit hit = hitAt(texel);
     Photon photon = photonAt(texel);
     vec2 farther;
     mat2x3 beside = beamOnPlane(beamAt(texel), photon.directionVs, hit.distanceMeters, hit.normalVs,
                                 kLeastArrivalSlant, farther);
+    float area = length(cross(beside[0], beside[1]));
     return Arrival(pointFromEye(hit.positionVs), directionFromEye(hit.normalVs),
                    directionFromEye(photon.directionVs), fromEye(beside), farther,
-                   hit.distanceMeters, hit.fluxWatts, hit.material, originAt(texel).path);
+                   hit.distanceMeters, hit.fluxWatts, wholeFlux(hit.fluxWatts) / max(area, 1e-30),
+                   hit.material, originAt(texel).path);
 }
 
 // How far a beam goes on towards a corner of its cell, as shares of the way along u and v, before it

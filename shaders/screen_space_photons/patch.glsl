@@ -71,17 +71,11 @@ Patch patchOfBeam(Arrival at, vec2 low, vec2 high) {
     return made;
 }
 
-// How densely light arrives, up to a factor: the inverse of what a cell covers.
-float densityAt(Arrival at) {
-    float area = length(cross(at.beside[0], at.beside[1]));
-    return (at.flux.r + at.flux.g + at.flux.b) / max(area, 1e-30);
-}
-
 // Between four photons, from the one at the lower left.
 Patch patchBetween(Arrival a, Arrival b, Arrival c, Arrival d) {
     Patch made;
     made.corners = vec3[4](a.position, b.position, c.position, d.position);
-    made.densities = float[4](densityAt(a), densityAt(b), densityAt(c), densityAt(d));
+    made.densities = float[4](a.density, b.density, c.density, d.density);
     made.normal = normalize(a.normal + b.normal + c.normal + d.normal);
     made.direction = normalize(a.direction + b.direction + c.direction + d.direction);
     made.flux = a.flux + b.flux + c.flux + d.flux;

@@ -3,7 +3,6 @@
 // quadrilaterals around it; those that are not joined it covers by its own beam, as far as light
 // comes that way. One thread a photon.
 #include "include/cells.glsl"
-#include "include/ledger_unit.glsl"
 #include "screen_space_photons/arrival.glsl"
 #include "screen_space_photons/patch_list.glsl"
 
@@ -53,8 +52,7 @@ void main() {
         }
     }
     photonShares[index] = 1.0 / whole;
-    // Photons that another batch brings as well are only corners.
-    if ((flux.r + flux.g + flux.b) * ledgerUnitsPerWatt < 1e-6) beams = 0u;
+    if (isOfOtherBatch(flux.rgb)) beams = 0u;
     bool isCorner = joined[3];
     uint parts = (beams == 4u ? 1u : beams) + (isCorner ? 1u : 0u);
     if (parts == 0u) return;

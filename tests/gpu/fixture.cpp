@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tests/gpu/fixture.h"
 
+#include <algorithm>
+
 namespace kaustik::test {
 namespace {
 
@@ -20,6 +22,12 @@ numerics::FrameRequest request(int width, int height, const Settings& settings,
 gl::Context& context() {
     static const std::unique_ptr<gl::Context> instance = gl::Context::createHeadless(true);
     return *instance;
+}
+
+bool isWithoutExactTracer() {
+    const std::vector<Technique>& techniques = registry().techniques();
+    return std::none_of(techniques.begin(), techniques.end(),
+                        [](const Technique& t) { return t.name == "raytraced"; });
 }
 
 Frame::Frame(const scene::Scene& scene, int width, int height, const Settings& settings,

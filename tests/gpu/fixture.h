@@ -21,6 +21,9 @@ namespace kaustik::test {
 // The context of this process, current on its only thread.
 [[nodiscard]] gl::Context& context();
 
+// Whether trace.raytraced is missing, for want of Embree.
+[[nodiscard]] bool isWithoutExactTracer();
+
 using numerics::sceneFromText;
 using numerics::Settings;
 using numerics::Texels;

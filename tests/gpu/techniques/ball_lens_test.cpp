@@ -132,8 +132,8 @@ double errorOf(const std::string& photons, const std::string& reconstruct) {
 }
 
 TEST(BallLens, TrianglesComeToTheClosedFormAsPhotonsBecomeMore) {
-    EXPECT_LT(errorOf("256x256", "triangles"), 1.1e-3);
-    EXPECT_LT(errorOf("512x512", "triangles"), 2e-4);
+    EXPECT_LT(errorOf("256x256", "triangles"), 5e-5);
+    EXPECT_LT(errorOf("512x512", "triangles"), 4e-5);
 }
 
 TEST(BallLens, BeamsAreNearerToTheClosedFormThanSplatsOfOneSize) {

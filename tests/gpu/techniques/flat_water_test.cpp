@@ -54,6 +54,23 @@ TEST(FlatWater, FloorIrradianceIsTheClosedFormInEveryPixelAwayFromTheEdges) {
     EXPECT_LT(worst, 1e-2);
 }
 
+TEST(FlatWater, FloorIrradianceOfTrianglesIsTheClosedFormMoreClosely) {
+    const scene::Scene scene = scene::loadScene("flat-water");
+    // Of cells smaller than a pixel, each is spread over those that it touches by what they see of
+    // the floor, which is not the same all over a pixel.
+    for (const auto& [photons, bound] : {std::pair{"32x32", 1e-4}, {"256x256", 1e-3}}) {
+        const Frame frame(scene, 320, 240,
+                          {{"emit.photons", photons}, {"reconstruct", "triangles"}});
+        const std::vector<double> deviations = floorDeviations(frame);
+        ASSERT_GT(deviations.size(), 10000u);
+        double worst = 0.0;
+        for (const double deviation : deviations)
+            worst = std::max(worst, std::abs(deviation));
+        RecordProperty(std::string("worst_ppm_") + photons, static_cast<int>(1e6 * worst));
+        EXPECT_LT(worst, bound) << photons;
+    }
+}
+
 TEST(FlatWater, BlocksDirectLightSoThatNothingCountsTwice) {
     const scene::Scene scene = scene::loadScene("flat-water");
     const Frame frame(scene, 400, 300, {{"emit.photons", "64x64"}}, {"direct.irradiance"});

@@ -149,12 +149,6 @@ void expectTracersAgree(const std::string& sceneName, const MakeViews& makeViews
     EXPECT_LT(std::abs(traced.renderer().ledger().balance()), 1e-6);
 }
 
-bool isWithoutExactTracer() {
-    const Registry registry = registerAll();
-    return std::none_of(registry.techniques().begin(), registry.techniques().end(),
-                        [](const Technique& t) { return t.name == "raytraced"; });
-}
-
 Views sun512(FrameBuilder& frame) {
     return sunViews(frame, 512);
 }
