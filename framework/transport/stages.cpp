@@ -24,8 +24,8 @@ Photons Photons::create(graph::PassSetup& setup, int width, int height, const st
     photons.flux = setup.create<PhotonFlux>("photons.flux" + suffix, width, height);
     photons.origin = setup.create<OriginTexel>("photons.origin" + suffix, width, height);
     if (hasBeams) {
-        photons.beamPlace = setup.create<BeamPlace>("photons.beam_place" + suffix, width, height);
-        photons.beamTurn = setup.create<BeamTurn>("photons.beam_turn" + suffix, width, height);
+        photons.beamPlace = setup.create<BeamPlace>("photons.place" + suffix, width, height);
+        photons.beamTurn = setup.create<BeamTurn>("photons.turn" + suffix, width, height);
     }
     photons.list = setup.createBuffer<transport::PhotonList>("photons.list" + suffix, 1);
     return photons;

@@ -28,12 +28,12 @@ mat2x3 fromEye(mat2x3 offsets) {
 // Whether another batch of emission brings a photon as well, and here it is only to be joined with
 // (shared/emit_grid.frag).
 bool isOfOtherBatch(vec3 flux) {
-    return (flux.r + flux.g + flux.b) * ledgerUnitsPerWatt < 1e-6;
+    return (flux.r + flux.g + flux.b) * ledgerUnitsPerWatt < 0.25;
 }
 
 // Of all channels, in whichever batch it is.
 float wholeFlux(vec3 flux) {
-    return (flux.r + flux.g + flux.b) * (isOfOtherBatch(flux) ? exp2(64.0) : 1.0);
+    return (flux.r + flux.g + flux.b) * (isOfOtherBatch(flux) ? exp2(80.0) : 1.0);
 }
 
 Arrival arrivalOf(ivec2 texel) {

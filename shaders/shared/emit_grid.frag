@@ -29,7 +29,7 @@ uniform vec2 ownRows;       // of the transfer map, from and before
 
 // Rows beside the batch's own are there to be joined with, and carry of their flux a share below
 // what any sum resolves; a power of two, so that all ratios are the same.
-const float kNextToNothing = exp2(-64.0);
+const float kNextToNothing = exp2(-80.0);
 
 void main() {
     LightData light = lights[lightIndex];

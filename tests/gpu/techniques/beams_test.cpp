@@ -50,9 +50,9 @@ std::vector<std::string> texturesOf(int interactions) {
     std::vector<std::string> names;
     for (int i = 0; i <= interactions; ++i) {
         const std::string suffix = i == 0 ? "" : fmt::format("_{}", i);
-        for (const char* name : {"photons.position", "photons.direction", "photons.origin",
-                                 "photons.list", "photons.beam_place", "photons.beam_turn",
-                                 "hits.position", "hits.surface", "hits.flux"})
+        for (const char* name :
+             {"photons.position", "photons.direction", "photons.origin", "photons.list",
+              "photons.place", "photons.turn", "hits.position", "hits.surface", "hits.flux"})
             names.push_back(name + suffix);
     }
     return names;
@@ -64,8 +64,8 @@ std::vector<Followed> followedIn(const Frame& frame, int interactions) {
     const auto texels = [&](const char* name) { return frame.read(name + suffix).values; };
     const std::vector<float> direction = texels("photons.direction");
     const std::vector<float> origin = texels("photons.origin");
-    const std::vector<float> place = texels("photons.beam_place");
-    const std::vector<float> turn = texels("photons.beam_turn");
+    const std::vector<float> place = texels("photons.place");
+    const std::vector<float> turn = texels("photons.turn");
     const std::vector<float> hit = texels("hits.position");
     const std::vector<float> surface = texels("hits.surface");
     const std::vector<float> flux = texels("hits.flux");
