@@ -54,7 +54,8 @@ def main() -> int:
     parser.add_argument("results", type=Path)
     parser.add_argument("--base", default="sprites", help="whose error is to be reached")
     parser.add_argument("--photons", default="256x256", help="at how many photons of its")
-    parser.add_argument("--against", default="reconstruct", help="the setting that is compared")
+    parser.add_argument("--against", default="reconstruct,reconstruct.beams.shape",
+                        help="the settings that are compared, between commas")
     arguments = parser.parse_args()
     table = arguments.results / "runs.csv"
     if not table.is_file():
@@ -68,7 +69,9 @@ def main() -> int:
     for row in rows:
         if row.get("status") != "done":
             continue
-        scene, which = row["scene"], row[arguments.against]
+        scene = row["scene"]
+        choices = [row.get(key) for key in arguments.against.split(",")]
+        which = ", ".join(choice for choice in choices if choice)
         run = Run(arguments.results / row["folder"])
         curves[scene][which].append(run)
         if which == arguments.base and row["emit.photons"] == arguments.photons:

@@ -25,12 +25,17 @@ Beam unpackBeam(vec4 place, vec4 turn) {
 vec4 beamPlaceTexel(Beam beam) { return vec4(beam.place[0], beam.place[1]); }
 vec4 beamTurnTexel(Beam beam) { return vec4(beam.turn[0], beam.turn[1]); }
 
+// As three numbers; none where a normal or a position was no number.
+vec3 shapeOfForm(mat2 form) {
+    vec3 shape = vec3(form[0][0], form[1][1], 0.5 * (form[0][1] + form[1][0]));
+    return any(isnan(shape)) || any(isinf(shape)) ? vec3(0.0) : shape;
+}
+
 // How a surface's unit normal turns, 1/m: the second fundamental form in basisAcross(normal), for
 // whichever side the normal points to. x, y: along the two vectors; z: between them.
 vec3 shapeOf(vec3 normal, mat3 turning) {
     mat2x3 tangents = basisAcross(normal);
-    mat2 form = transpose(tangents) * (turning * tangents);
-    return vec3(form[0][0], form[1][1], 0.5 * (form[0][1] + form[1][0]));
+    return shapeOfForm(transpose(tangents) * (turning * tangents));
 }
 
 // The same from how position (m) and unit normal change along two directions on the surface.
@@ -40,8 +45,7 @@ vec3 shapeFrom(vec3 normal, mat2x3 positions, mat2x3 normals) {
     mat2 turned = transpose(tangents) * normals;
     float area = determinant(moved);
     if (!(abs(area) > 1e-30)) return vec3(0.0);
-    mat2 form = turned * inverse(moved);
-    return vec3(form[0][0], form[1][1], 0.5 * (form[0][1] + form[1][0]));
+    return shapeOfForm(turned * inverse(moved));
 }
 
 // A beam that grazes a surface is taken as if it came at this sine at least.

@@ -10,21 +10,27 @@ layout(r32ui) uniform uimage2DArray fluxSums;
 const uint kFluxPart = 0u;
 const uint kIntensityPart = 1u;  // W/sr towards the eye
 
-// Adds to the map `map` of a texture that holds several. Rounded to the nearest unit, so that a
-// great many small deposits are right on the whole. What is not a number, or negative, adds nothing:
-// whoever deposits has checked.
+// Adds to the word and the one above it. Rounded to the nearest unit, so that a great many small
+// deposits are right on the whole. What is not a number, or negative, adds nothing: whoever deposits
+// has checked.
+void sumAddTo(ivec3 word, float units) {
+    // A float has 24 bits, so that both words are exact.
+    float whole = floor(units + 0.5);
+    if (!(whole > 0.0)) return;
+    float high = floor(whole * (1.0 / 4294967296.0));
+    uint low = uint(whole - high * 4294967296.0);
+    uint before = imageAtomicAdd(fluxSums, word, low);
+    uint above = uint(high) + (before > 0xffffffffu - low ? 1u : 0u);
+    if (above > 0u) imageAtomicAdd(fluxSums, word + ivec3(0, 0, 1), above);
+}
+
+// Adds to the map `map` of a texture that holds several. No loop: its turns would count among those of a splat, of which Mesa's software rasteriser has a
+// thread make no more than 65,535.
 void sumAdd(ivec2 texel, int map, vec3 units) {
-    for (int channel = 0; channel < 3; ++channel) {
-        // A float has 24 bits, so that both words are exact.
-        float whole = floor(units[channel] + 0.5);
-        if (!(whole > 0.0)) continue;
-        float high = floor(whole * (1.0 / 4294967296.0));
-        uint low = uint(whole - high * 4294967296.0);
-        ivec3 word = ivec3(texel, int(kFluxWords) * map + 2 * channel);
-        uint before = imageAtomicAdd(fluxSums, word, low);
-        uint above = uint(high) + (before > 0xffffffffu - low ? 1u : 0u);
-        if (above > 0u) imageAtomicAdd(fluxSums, word + ivec3(0, 0, 1), above);
-    }
+    ivec3 word = ivec3(texel, int(kFluxWords) * map);
+    sumAddTo(word, units.r);
+    sumAddTo(word + ivec3(0, 0, 2), units.g);
+    sumAddTo(word + ivec3(0, 0, 4), units.b);
 }
 
 // `face`: of a cube, of which each has a map.

@@ -58,5 +58,8 @@ void main() {
     if (slot > 0) photon.fate = kFateEnded;  // once on its way
     uint next = uint(slot) * photons.count + index;
     storeNext(next, photon, originAt(texel));
+#ifdef PHOTON_BEAMS
+    storeNextBeam(next, beamAt(texel));
+#endif
     storeHit(ivec2(photonTexel(nextPhotons, next)), hit);
 }

@@ -102,8 +102,7 @@ vec3 shapeAround(uint vertex, vec3 normal) {
     if (!(size > 0.0)) return vec3(0.0);
     moved /= size;
     if (!(determinant(moved) > 1e-6)) return vec3(0.0);
-    mat2 form = (turned / size) * inverse(moved);
-    return vec3(form[0][0], form[1][1], 0.5 * (form[0][1] + form[1][0]));
+    return shapeOfForm((turned / size) * inverse(moved));
 }
 #endif
 

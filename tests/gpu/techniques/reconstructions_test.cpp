@@ -25,9 +25,7 @@ TEST_P(Reconstructions, KeepAllFlux) {
                           {{"emit.photons", "48x48"}, {"reconstruct", GetParam()}});
         const EnergyLedger ledger = frame.renderer().ledger();
         EXPECT_GT(ledger.watts[transport::kAccountEmitted], 0.0);
-        // A pixel at the edge of a narrow splat may count for one shader and not for the other.
-        const bool isBeams = GetParam() == std::string("beams");
-        EXPECT_LE(std::abs(ledger.balance()), isBeams ? 3e-5 : 1e-6);
+        EXPECT_LE(std::abs(ledger.balance()), 1e-6);
         EXPECT_GT(frame.causticIrradiance().sum(), 0.0);
     }
 }
