@@ -64,7 +64,8 @@ Hits inject(FrameBuilder& frame, const Batch& batch) {
     return frame.pass<Hits>(
         "bench.inject", "the case makes its photons up",
         [&](graph::PassSetup& setup, Hits& hits) {
-            Photons photons = Photons::create(setup, batch.width, batch.height, "", frame.usesBeams());
+            Photons photons =
+                Photons::create(setup, batch.width, batch.height, "", frame.usesBeams());
             photons.ledger =
                 setup.createBuffer<transport::LedgerEntry>("ledger", transport::kAccountCount);
             photons.store(setup);

@@ -139,7 +139,8 @@ struct Photon {
     uint media;  // the dielectrics around it, and the side that it has just left: media_stack.h
 };
 
-// Where a photon arrived: three RGBA32F textures, and a fourth where photons have beams, by the photon's own texel.
+// Where a photon arrived: three RGBA32F textures, and a fourth where photons have beams, by the
+// photon's own texel.
 struct Hit {
     vec3 positionVs;
     float distanceMeters;  // travelled since the last interaction

@@ -9,6 +9,7 @@
 // flux a pixel, W, and where a receiver is glossy radiant intensity towards the eye, W/sr.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 
 #include "framework/core/error.h"
@@ -57,6 +58,10 @@ CausticMap coverTriangles(FrameBuilder& frame, const TrianglesParams& params, Hi
                           Surfaces surfaces, CausticMap before) {
     const ReceiverView& receivers = surfaces.eye;
     needsBeams(frame, "reconstruct.triangles", hits.incoming);
+    if (receivers.views->count() > 1)
+        throw ConfigError(
+            "reconstruct.triangles works in one view, but the receivers are those of a cube's "
+            "faces; take reconstruct=beams.");
     const bool isGlossy = receivers.views->isEyes() && frame.needs().glossyReceivers;
     const bool isFirst = !before.flux.valid();
     struct Data {
