@@ -100,7 +100,7 @@ void grazingEdgeAndOccluder(Lab& lab) {
     for (int i = 0; i < 60; ++i) {
         onTheEdge.push_back(landing(at(63.5, 4.0 + 2.0 * i, 5.0), {0, 0, 1}, {0, 0, -1}, pixel));
         behindTheEdge.push_back(
-            landing(at(64.5, 4.0 + 2.0 * i, 10.0), {0, 0, 1}, {0, 0, -1}, 4.0 * pixel));
+            landing(at(64.5, 4.0 + 2.0 * i, 10.0), {0, 0, 1}, {0, 0, -1}, 3.2 * pixel));
     }
     for (const Lab::Choice& node : lab.each<ReconstructStage>()) {
         lab.expect(node.subject, "flux on a floor seen at 2 degrees, W", 100.0,
