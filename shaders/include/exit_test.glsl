@@ -104,7 +104,7 @@ LayerHit testEntry(RaySegment segment, TracedRay ray, int i, int n) {
 
 // Where a ray crossed a smooth surface between two pixels, and by which normals it is bent.
 struct Crossing {
-    float t;         // m
+    float t;       // m
     vec3 shading;  // unit, outward
     vec3 geometric;
     mat3 turning;  // of the shading normal with the position, 1/m

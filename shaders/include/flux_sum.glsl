@@ -24,8 +24,8 @@ void sumAddTo(ivec3 word, float units) {
     if (above > 0u) imageAtomicAdd(fluxSums, word + ivec3(0, 0, 1), above);
 }
 
-// Adds to the map `map` of a texture that holds several. No loop: its turns would count among those of a splat, of which Mesa's software rasteriser has a
-// thread make no more than 65,535.
+// Adds to the map `map` of a texture that holds several. No loop: its turns would count among those
+// of a splat, of which Mesa's software rasteriser has a thread make no more than 65,535.
 void sumAdd(ivec2 texel, int map, vec3 units) {
     ivec3 word = ivec3(texel, int(kFluxWords) * map);
     sumAddTo(word, units.r);

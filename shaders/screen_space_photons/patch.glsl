@@ -8,6 +8,7 @@
 #include "include/surface_data.glsl"
 #include "screen_space_photons/arrival.glsl"
 #include "screen_space_photons/patch_list.glsl"
+#include "screen_space_photons/seen_receiver.glsl"
 
 layout(std430) buffer PatchCounts {
     PatchCount patches;
@@ -19,18 +20,6 @@ layout(std430) readonly buffer CellPhotons {
 layout(std430) buffer NarrowedPatches {
     Narrowed narrowed;
 };
-uniform sampler2D receiver;         // view depth, and area that the pixel sees
-uniform sampler2D receiverSurface;
-
-#ifdef OTHER_VIEW
-const uint kAccountHidden = kAccountHiddenInMap;
-const uint kAccountBeside = kAccountOutsideMap;
-const uint kAccountBehind = kAccountOutsideMap;
-#else
-const uint kAccountHidden = kAccountOccludedSplat;
-const uint kAccountBeside = kAccountOffScreen;
-const uint kAccountBehind = kAccountBehindEye;
-#endif
 
 struct Patch {
     vec3 corners[4];  // around it
@@ -86,7 +75,6 @@ Patch patchBetween(Arrival a, Arrival b, Arrival c, Arrival d) {
     return made;
 }
 
-#ifdef PATCH_CELLS
 layout(std430) readonly buffer PhotonShares {
     float photonShares[];  // of a photon's flux that a whole quarter of its cell takes
 };
@@ -94,7 +82,6 @@ layout(std430) readonly buffer PhotonShares {
 uint neighbourOf(PhotonOrigin origin, ivec2 beside) {
     return cellPhotons[cellPlace(origin, beside)] - 1u;
 }
-#endif
 
 // With the flux of a quarter of its cell.
 Arrival cornerOf(uint index) {
@@ -124,7 +111,7 @@ Patch patchOf(uint item) {
 struct PatchTriangle {
     Triangle onScreen;
     vec3 plane;      // unit normal, of the view
-    float height;    // of the plane from the view's point, along the normal, m
+    vec3 middle;
     float perArea;   // share of the patch's flux over the triangle's area, 1/m²
     vec3 densities;  // at its corners, about 1
 };
@@ -141,7 +128,7 @@ PatchTriangle patchTriangle(Patch whole, vec3 a, vec3 b, vec3 c, vec3 densities,
     // One that hardly faces as the surface does is a fold of the light's.
     if (abs(dot(made.plane, whole.normal)) < 0.5) made.plane = whole.normal;
     vec3 middle = (a + b + c) / 3.0;
-    made.height = dot(made.plane, middle);
+    made.middle = middle;
     float covered = abs(made.onScreen.area) *
                     pixelArea(viewRay(pixelOf(middle)), -middle.z, made.plane);
     made.perArea = 0.5 / max(isFlat ? max(0.5 * size, 0.25 * covered) : covered, 1e-30);
@@ -200,38 +187,20 @@ ivec2 columnsOf(PatchOnScreen onto, int row) {
     return ivec2(max(columns.x, onto.low.x), min(columns.y, onto.high.x));
 }
 
-const int kPatchOn = 0;        // the pixel sees the surface
-const int kPatchOccluded = 1;  // something nearer is in front of it
-const int kPatchBeside = 2;    // the surface has ended before
-
 struct PatchPixel {
     float share;
     int where;
 };
 
-// What the pixel sees where the patch's surface, with this plane, would be: kPatch…; `area`, m², of
-// the surface or, where it is not seen, of the plane.
-int seenAt(ivec2 pixel, vec3 plane, float height, vec3 normal, float tolerance, out float area) {
+// What the pixel sees where a plane of the patch's surface would be: kSeen…; `area`, m², of the
+// surface or, where it is not seen, of the plane.
+int seenOnPlane(ivec2 pixel, vec3 plane, vec3 point, vec3 normal, float tolerance,
+                out float area) {
     vec3 ray = viewRay(vec2(pixel) + 0.5);
-    float facing = dot(plane, ray);
-    facing = (facing < 0.0 ? -1.0 : 1.0) * max(abs(facing), 1e-4);
-#ifdef ORTHOGRAPHIC_VIEW
-    float depth = (height - dot(plane, viewPoint(vec2(pixel) + 0.5, 0.0))) / facing;
-#else
-    float depth = height / facing;
-#endif
-    depth = max(depth, view.frustum.z);
+    float facing = boundedSlant(dot(plane, ray), 1e-4);
+    float depth = max(depthOnPlane(pixel, plane, point, facing), view.frustum.z);
     area = pixelArea(ray, depth, plane);
-    vec2 seen = texelFetch(receiver, pixel, 0).xy;
-    float seenDepth = abs(seen.x);  // a mirror's is negative
-    if (seenDepth == 0.0) return kPatchBeside;
-    float off = tolerance + depthMargin(ray, depth, plane);
-    if (seenDepth < depth - off) return kPatchOccluded;
-    vec3 seenNormal = texelFetch(receiverSurface, pixel, 0).xyz;
-    if (seen.x < 0.0 || seenDepth > depth + off || dot(seenNormal, normal) <= 0.0)
-        return kPatchBeside;
-    area = seen.y;
-    return kPatchOn;
+    return seenAt(pixel, depth, normal, tolerance + depthMargin(ray, depth, plane), area);
 }
 
 float partOf(PatchTriangle triangle, vec2 corner) {
@@ -253,12 +222,12 @@ PatchPixel patchAt(PatchOnScreen onto, ivec2 pixel) {
     float first = partOf(onto.first, corner);
     float second = partOf(onto.second, corner);
     float covered = first + second;
-    if (covered <= 0.0) return PatchPixel(0.0, kPatchBeside);
+    if (covered <= 0.0) return PatchPixel(0.0, kSeenBeside);
     bool isFirst = first >= second;
     float area;
-    int where = seenAt(pixel, isFirst ? onto.first.plane : onto.second.plane,
-                       isFirst ? onto.first.height : onto.second.height, onto.normal,
-                       onto.tolerance, area);
+    int where = seenOnPlane(pixel, isFirst ? onto.first.plane : onto.second.plane,
+                            isFirst ? onto.first.middle : onto.second.middle, onto.normal,
+                            onto.tolerance, area);
     return PatchPixel(covered * area, where);
 }
 
@@ -269,15 +238,9 @@ struct PatchParts {
 };
 
 void addPart(inout PatchParts parts, PatchPixel pixel) {
-    if (pixel.where == kPatchOn) parts.on += pixel.share;
-    if (pixel.where == kPatchOccluded) parts.occluded += pixel.share;
-    if (pixel.where == kPatchBeside) parts.beside += pixel.share;
-}
-
-// Whether the view looks at the side of the surface on which light arrives.
-bool seesLitSide(Patch whole) {
-    bool seesFront = dot(whole.normal, viewDirection(whole.corners[0])) < 0.0;
-    return seesFront == (dot(whole.normal, whole.direction) < 0.0);
+    if (pixel.where == kSeenOn) parts.on += pixel.share;
+    if (pixel.where == kSeenOccluded) parts.occluded += pixel.share;
+    if (pixel.where == kSeenBeside) parts.beside += pixel.share;
 }
 
 bool isBeforeView(Patch whole) {

@@ -50,9 +50,9 @@ void depositNear(Patch whole, PatchOnScreen onto) {
         nearness[i] = 0.0;
         if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, size))) continue;
         float area;
-        int where = seenAt(pixel, whole.normal, dot(whole.normal, middle), whole.normal,
-                           onto.tolerance, area);
-        if (where != kPatchOn) continue;
+        int where =
+            seenOnPlane(pixel, whole.normal, middle, whole.normal, onto.tolerance, area);
+        if (where != kSeenOn) continue;
         nearness[i] = max(1.5 - length(vec2(pixel) + 0.5 - at), 1e-3);
         sum += nearness[i];
     }

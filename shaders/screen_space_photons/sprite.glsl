@@ -2,31 +2,7 @@
 // A photon's splat in the receiver's tangent plane, seen through each pixel (K06, section 3.1,
 // Eq. 1 with D = N·C). The weight falls with the distance: from the centre, as in the paper, or
 // from the photon's path, so that light that grazes a wall leaves no gaps between its splats.
-#include "include/view.glsl"
-
-// View depth and area of the surface that each pixel sees.
-#ifdef MANY_VIEWS
-uniform sampler2DArray receiver;
-uniform sampler2DArray receiverSurface;
-#else
-uniform sampler2D receiver;
-uniform sampler2D receiverSurface;
-#endif
-
-vec2 receiverAt(ivec2 pixel) {
-#ifdef MANY_VIEWS
-    return texelFetch(receiver, ivec3(pixel, viewIndex), 0).xy;
-#else
-    return texelFetch(receiver, pixel, 0).xy;
-#endif
-}
-vec4 receiverSurfaceAt(ivec2 pixel) {
-#ifdef MANY_VIEWS
-    return texelFetch(receiverSurface, ivec3(pixel, viewIndex), 0);
-#else
-    return texelFetch(receiverSurface, pixel, 0);
-#endif
-}
+#include "screen_space_photons/seen_receiver.glsl"
 
 struct Sprite {
     vec3 center;
@@ -85,11 +61,6 @@ float splatExtent(Sprite sprite) {
     return sprite.radius / max(abs(dot(sprite.direction, sprite.normal)), kLeastSlant);
 }
 
-const int kSpriteOn = 0;        // the pixel sees the plane
-const int kSpriteOccluded = 1;  // something nearer is in front of it
-const int kSpriteBeside = 2;    // the surface has ended before; or the disc does not reach
-const int kSpriteOffScreen = 3;
-
 struct SpritePixel {
     float weight;
     float area;  // m², of the surface or, where it is not seen, of the plane
@@ -97,16 +68,11 @@ struct SpritePixel {
 };
 
 SpritePixel spriteAt(Sprite sprite, ivec2 pixel) {
-    SpritePixel result = SpritePixel(0.0, 0.0, kSpriteBeside);
+    SpritePixel result = SpritePixel(0.0, 0.0, kSeenBeside);
     vec3 ray = viewRay(vec2(pixel) + 0.5);
     float facing = dot(sprite.normal, ray);
     if (abs(facing) < 1e-5) return result;
-#ifdef ORTHOGRAPHIC_VIEW
-    vec3 from = viewPoint(vec2(pixel) + 0.5, 0.0);
-    float depth = dot(sprite.normal, sprite.center - from) / facing;
-#else
-    float depth = dot(sprite.normal, sprite.center) / facing;
-#endif
+    float depth = depthOnPlane(pixel, sprite.normal, sprite.center, facing);
     if (!(depth > view.frustum.z)) return result;
     // On a slanted surface a splat is thinner than a pixel and may fall between the middles of all:
     // it reaches a pixel's width far on the screen whatever it covers on the surface, so that some
@@ -124,26 +90,15 @@ SpritePixel spriteAt(Sprite sprite, ivec2 pixel) {
     result.weight = splatKernel(share);
     result.area = pixelArea(ray, depth, sprite.normal);
     if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, ivec2(view.sizePixels.xy)))) {
-        if (isReached) result.where = kSpriteOffScreen;
+        if (isReached) result.where = kSeenOffScreen;
         return result;
     }
-    vec2 seen = receiverAt(pixel);
     // Only visible receivers are lit. How far a curved surface may leave its tangent plane follows
     // from the disc, and never falls below what a pixel resolves.
     float tolerance = 0.5 * sprite.radius + pixelFootprint(depth);
-    bool isMirror = seen.x < 0.0;
-    float seenDepth = abs(seen.x);
-    if (seenDepth > 0.0 && seenDepth < depth - tolerance) {
-        if (isReached) result.where = kSpriteOccluded;
-        return result;
-    }
-    vec3 seenNormal = receiverSurfaceAt(pixel).xyz;
-    bool isOther =
-        isMirror || seenDepth > depth + tolerance || dot(seenNormal, sprite.normal) <= 0.0;
-    if (seenDepth > 0.0 && !isOther) {
-        result.area = seen.y;
-        result.where = kSpriteOn;
-    }
+    int where = seenAt(pixel, depth, sprite.normal, tolerance, result.area);
+    // What lies in front of the part that only a pixel's width reaches hides none of it.
+    if (where != kSeenOccluded || isReached) result.where = where;
     return result;
 }
 

@@ -14,24 +14,9 @@ layout(std430) buffer CutSplats {
     Narrowed shrunk;
 };
 
-#ifdef OTHER_VIEW
-const uint kAccountHidden = kAccountHiddenInMap;
-const uint kAccountBeside = kAccountOutsideMap;
-const uint kAccountBehind = kAccountOutsideMap;
-#else
-const uint kAccountHidden = kAccountOccludedSplat;
-const uint kAccountBeside = kAccountOffScreen;
-const uint kAccountBehind = kAccountBehindEye;
-#endif
-
 // Whether the view looks at a surface's front.
 bool seesFront(Sprite sprite) {
     return dot(sprite.normal, viewDirection(sprite.center)) < 0.0;
-}
-
-// Whether the view looks at the side of the surface on which light arrives.
-bool seesLitSide(Sprite sprite) {
-    return seesFront(sprite) == (dot(sprite.normal, sprite.direction) < 0.0);
 }
 
 // Weights, m².
@@ -48,9 +33,9 @@ void addParts(Sprite sprite, inout Parts parts) {
         for (int x = -reach.x; x <= reach.x; ++x) {
             SpritePixel part = spriteAt(sprite, middle + ivec2(x, y));
             float amount = part.weight * part.area;
-            if (part.where == kSpriteOn) parts.on += amount;
-            if (part.where == kSpriteOccluded) parts.occluded += amount;
-            if (part.where == kSpriteOffScreen) parts.beside += amount;
+            if (part.where == kSeenOn) parts.on += amount;
+            if (part.where == kSeenOccluded) parts.occluded += amount;
+            if (part.where == kSeenOffScreen) parts.beside += amount;
         }
     }
 }
@@ -61,7 +46,8 @@ float totalOf(ivec2 texel) {
     float wanted;
     float largest;
     Sprite sprite = splatOf(texel, wanted, largest);
-    if (isOpen(uint(texelFetch(hitSurface, texel, 0).w) - 1u) && !seesLitSide(sprite)) {
+    if (isOpen(uint(texelFetch(hitSurface, texel, 0).w) - 1u) && 
+        !seesLitSide(sprite.center, sprite.normal, sprite.direction)) {
         ledgerAdd(kAccountHidden, flux.rgb);
         return 0.0;
     }

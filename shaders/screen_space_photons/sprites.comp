@@ -30,7 +30,7 @@ void depositInView(Sprite sprite, vec3 flux, float total) {
     for (int y = first.y; y <= last.y; ++y) {
         for (int x = first.x; x <= last.x; ++x) {
             SpritePixel part = spriteAt(sprite, ivec2(x, y));
-            if (part.where == kSpriteOn && part.weight > 0.0)
+            if (part.where == kSeenOn && part.weight > 0.0)
                 deposit(sprite, ivec2(x, y), flux * (part.weight * part.area / total));
         }
     }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // reconstruct.triangles: a patch's flux onto the pixels that it covers. One thread a patch; those
 // that cover many pixels go to a list of their own.
-#define PATCH_CELLS
 #include "include/cells.glsl"
 #include "screen_space_photons/patch.glsl"
 #include "screen_space_photons/patch_deposit.glsl"
@@ -19,7 +18,8 @@ const int kMostOfThread = 400;
 void cover(uint item) {
     Patch whole = patchOf(item);
     uint material = uint(texelFetch(hitSurface, ivec2(photonTexel(photons, item / kPatchParts)), 0).w);
-    if (isOpen(material - 1u) && !seesLitSide(whole)) {
+    if (isOpen(material - 1u) && 
+        !seesLitSide(whole.corners[0], whole.normal, whole.direction)) {
         ledgerAdd(kAccountHidden, whole.flux);
         return;
     }
@@ -46,7 +46,7 @@ void cover(uint item) {
         ivec2 columns = columnsOf(onto, row);
         for (int column = columns.x; column <= columns.y; ++column) {
             PatchPixel pixel = patchAt(onto, ivec2(column, row));
-            if (pixel.where == kPatchOn && pixel.share > 0.0)
+            if (pixel.where == kSeenOn && pixel.share > 0.0)
                 deposit(whole, ivec2(column, row), pixel.share / total);
         }
     }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // reconstruct.triangles: a wide patch's flux onto the pixels that it covers. A workgroup a patch.
-#define PATCH_CELLS
 #include "include/cells.glsl"
 #include "screen_space_photons/patch.glsl"
 #include "screen_space_photons/patch_deposit.glsl"
@@ -49,7 +48,7 @@ void main() {
         ivec2 columns = columnsOf(onto, row);
         for (int column = columns.x + local.x; column <= columns.y; column += 8) {
             PatchPixel pixel = patchAt(onto, ivec2(column, row));
-            if (pixel.where == kPatchOn && pixel.share > 0.0)
+            if (pixel.where == kSeenOn && pixel.share > 0.0)
                 deposit(whole, ivec2(column, row), pixel.share / total);
         }
     }

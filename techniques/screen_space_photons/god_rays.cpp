@@ -16,11 +16,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/screen_space_photons/nodes.h"
+#include "techniques/shared/narrowed.h"
 
 namespace kaustik {
 namespace {
@@ -54,28 +54,6 @@ int columnsOf(const GodRayParams& params) {
     while (columns < 128 && turns(columns + 1) < 58000.0)
         ++columns;
     return columns;
-}
-
-// Which lines are narrower than they were to be: their light is less spread, and none is lost.
-void keepToWidth(FrameBuilder& frame, const GodRayParams& params,
-                 const graph::Buffer<transport::Narrowed>& narrowed) {
-    frame.keepsTo({"media.lines",
-                   {narrowed},
-                   [maximum = params.maximum,
-                    narrowed](const gl::Executor& executor) -> std::optional<ReachedLimit> {
-                       const transport::Narrowed found =
-                           executor.buffer(narrowed).read<transport::Narrowed>().front();
-                       if (found.count == 0) return {};
-                       return ReachedLimit{
-                           "media.lines.maximum",
-                           "px",
-                           static_cast<double>(maximum),
-                           static_cast<double>(std::bit_cast<float>(found.widestBits)),
-                           fmt::format("{} lines are narrower than they were to be; no flux is "
-                                       "lost to it",
-                                       found.count),
-                           0.0};
-                   }});
 }
 
 // The unit of the sums of radiance in units of the ledger's, a power of two: where all light passes
@@ -132,7 +110,8 @@ InScattered drawGodRays(FrameBuilder& frame, const GodRayParams& params, Hits hi
                              list);
             }
         });
-    keepToWidth(frame, params, drawn.narrowed);
+    keepToWidth(frame, "media.lines", drawn.narrowed, 0, "maximum", params.maximum,
+                "lines are narrower than they were to be");
     InScattered out = drawn.out;
     out.radiance = frame.pass<graph::Texture<RadianceTexel>>(
         "media.sum", "what photons scatter becomes radiance",

@@ -11,11 +11,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/screen_space_photons/nodes.h"
 #include "techniques/screen_space_photons/sprites.h"
+#include "techniques/shared/narrowed.h"
 
 namespace kaustik {
 namespace {
@@ -28,24 +28,6 @@ constexpr std::size_t kShrunk = 1;
 // Of a cube a splat may touch three faces, and Mesa's software rasteriser ends all loops of a
 // thread after 65,535 turns together.
 constexpr int kMostReachOnCubes = 72;
-
-void keepToLimit(FrameBuilder& frame, const std::string& node, const CutSplats& cut,
-                 std::size_t which, const std::string& parameter, int pixels,
-                 const std::string& sentence) {
-    frame.keepsTo(
-        {node, {cut}, [=](const gl::Executor& executor) -> std::optional<ReachedLimit> {
-             const transport::Narrowed found =
-                 executor.buffer(cut).read<transport::Narrowed>()[which];
-             if (found.count == 0) return {};
-             return ReachedLimit{
-                 node + "." + parameter,
-                 "px",
-                 static_cast<double>(pixels),
-                 static_cast<double>(std::bit_cast<float>(found.widestBits)),
-                 fmt::format("{} splats are {}; no flux is lost to it", found.count, sentence),
-                 0.0};
-         }});
-}
 
 CausticMap splatSprites(FrameBuilder& frame, const SpritesParams& params, Hits hits,
                         Surfaces surfaces, CausticMap before) {
@@ -148,9 +130,9 @@ CausticMap splatInto(FrameBuilder& frame, const Splatting& splatting, const Hits
                 dispatchOver(command, list);
             }
         });
-    keepToLimit(frame, splatting.node, splatted.cut, kCutOff, "reach", reach, "cut off");
-    keepToLimit(frame, splatting.node, splatted.cut, kShrunk, "maximum", params.maximumPixels,
-                "smaller than they were to be");
+    keepToWidth(frame, splatting.node, splatted.cut, kCutOff, "reach", reach, "splats are cut off");
+    keepToWidth(frame, splatting.node, splatted.cut, kShrunk, "maximum", params.maximumPixels,
+                "splats are smaller than they were to be");
     return splatted.map;
 }
 

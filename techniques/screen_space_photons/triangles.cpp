@@ -10,11 +10,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 
 #include "framework/core/error.h"
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/screen_space_photons/nodes.h"
+#include "techniques/shared/narrowed.h"
 
 namespace kaustik {
 namespace {
@@ -137,37 +137,23 @@ CausticMap coverTriangles(FrameBuilder& frame, const TrianglesParams& params, Hi
                                              offsetof(PatchCount, groupsX));
             }
         });
-    frame.keepsTo(
-        {"reconstruct.triangles",
-         {covered.narrowed},
-         [maximum = params.maximum, narrowed = covered.narrowed](
-             const gl::Executor& executor) -> std::optional<ReachedLimit> {
-             const transport::Narrowed found =
-                 executor.buffer(narrowed).read<transport::Narrowed>().front();
-             if (found.count == 0) return {};
-             return ReachedLimit{
-                 "reconstruct.triangles.maximum",
-                 "px",
-                 static_cast<double>(maximum),
-                 static_cast<double>(std::bit_cast<float>(found.widestBits)),
-                 fmt::format("{} beams are narrower than they were to be; no flux is lost "
-                             "to it",
-                             found.count),
-                 0.0};
-         }});
+    keepToWidth(frame, "reconstruct.triangles", covered.narrowed, 0, "maximum", params.maximum,
+                "beams are narrower than they were to be");
     return covered.map;
 }
 
 }  // namespace
 
 void registerTriangles(Registry& registry) {
-    NodeDescription description{
-        "Joins neighbouring photons of one path and spreads their flux over what the triangles "
-        "between them cover of each pixel; what cannot be joined is covered by its own beam.",
-        "U08, section 4.2, on the screen"};
-    description.beams = true;
-    description.joinsCells = true;
-    registry.node<ReconstructStage>("triangles", std::move(description), &coverTriangles);
+    registry.node<ReconstructStage>(
+        "triangles",
+        {.sentence = "Joins neighbouring photons of one path and spreads their flux over what the "
+                     "triangles between them cover of each pixel; what cannot be joined is covered "
+                     "by its own beam.",
+         .source = "U08, section 4.2, on the screen",
+         .beams = true,
+         .joinsCells = true},
+        &coverTriangles);
 }
 
 }  // namespace kaustik
