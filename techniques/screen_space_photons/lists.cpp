@@ -21,7 +21,7 @@
 namespace kaustik {
 namespace {
 
-// Words of a fragment as lists_fragment.frag stores them.
+// Words of a fragment as lists.frag stores them.
 struct FragmentDepth {  // view depth, octahedral normal of the triangle, next of the list
     GLuint words[4];
 };
