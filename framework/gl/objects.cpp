@@ -50,6 +50,8 @@ FormatInfo formatInfo(graph::Format format) {
             return {GL_RGBA8, GL_RGBA, GL_FLOAT, 4, false};
         case Format::r32ui:
             return {GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 1, true};
+        case Format::rg32ui:
+            return {GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT, 2, true};
         case Format::rgba32ui:
             return {GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT, 4, true};
         case Format::depth32f:

@@ -11,6 +11,7 @@ std::size_t bytesPerTexel(Format format) {
         case Format::depth32f:
             return 4;
         case Format::rg32f:
+        case Format::rg32ui:
         case Format::rgba16f:
             return 8;
         case Format::rgba32f:
@@ -34,6 +35,8 @@ const char* formatName(Format format) {
             return "RGBA8";
         case Format::r32ui:
             return "R32UI";
+        case Format::rg32ui:
+            return "RG32UI";
         case Format::rgba32ui:
             return "RGBA32UI";
         case Format::depth32f:

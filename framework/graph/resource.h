@@ -11,7 +11,7 @@
 
 namespace kaustik::graph {
 
-enum class Format { r32f, rg32f, rgba32f, rgba16f, rgba8, r32ui, rgba32ui, depth32f };
+enum class Format { r32f, rg32f, rgba32f, rgba16f, rgba8, r32ui, rg32ui, rgba32ui, depth32f };
 
 [[nodiscard]] std::size_t bytesPerTexel(Format format);
 [[nodiscard]] const char* formatName(Format format);

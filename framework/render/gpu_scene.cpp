@@ -138,11 +138,14 @@ void GpuScene::uploadMeshes() {
     std::stable_sort(order.begin(), order.end(),
                      [&](GLuint a, GLuint b) { return orderOf(a) < orderOf(b); });
     std::vector<DrawCommand> commands;
-    firstTriangles_.resize(order.size());
+    firsts_.resize(order.size());
     GLuint triangles = 0;
     for (const GLuint object : order) {
         const std::size_t mesh = scene_.objects[object].mesh;
-        firstTriangles_[object] = triangles;
+        const bool isHeightField = scene_.meshes[mesh].heightField.has_value();
+        firsts_[object] = {
+            triangles, static_cast<GLuint>(ranges[mesh].firstIndex),
+            2 * static_cast<GLuint>(ranges[mesh].firstVertex) + (isHeightField ? 1u : 0u)};
         triangles += static_cast<GLuint>(scene_.meshes[mesh].triangles.size());
         commands.push_back({static_cast<GLuint>(3 * scene_.meshes[mesh].triangles.size()), 1,
                             static_cast<GLuint>(ranges[mesh].firstIndex),
@@ -161,6 +164,8 @@ void GpuScene::uploadMeshes() {
         heightFieldGroup_.kindBegin[kind] = firstOfOrder(3 + kind);
     }
 
+    if (vertices.empty()) vertices.push_back({});  // blocks are never empty
+    if (indices.empty()) indices.push_back(0);
     vertices_ = gl::Buffer(vertices, "scene vertices");
     indices_ = gl::Buffer(indices, "scene indices");
     commands_ = gl::Buffer(commands, "scene commands");
@@ -250,7 +255,7 @@ ViewInstances GpuScene::makeInstances(const glm::dmat4& worldToView) const {
         data.modelToView = glm::mat4(modelToView);
         data.normalToView =
             glm::mat4(glm::dmat4(glm::transpose(glm::inverse(glm::dmat3(modelToView)))));
-        data.material = glm::uvec4(object.material, firstTriangles_[instances.size()], 0, 0);
+        data.material = glm::uvec4(object.material, firsts_[instances.size()]);
         instances.push_back(data);
     }
     instances.push_back({});
@@ -308,6 +313,15 @@ void GpuScene::drawOne(gl::Command& command, const gl::PassContext& context,
     command.drawIndexedIndirect(
         isHeightField ? heightFieldVertexArray_.id() : staticVertexArray_.id(), list,
         firstCommand + index, 1);
+}
+
+void GpuScene::bindTriangles(gl::Command& command, const Geometry& geometry) const {
+    command.storage("SceneVertices", vertices_).storage("SceneIndices", indices_);
+    if (geometry.heightFields.valid()) {
+        command.storage("HeightFieldVertices", geometry.heightFields);
+    } else {
+        command.storage("HeightFieldVertices", vertices_);
+    }
 }
 
 std::size_t GpuScene::bytes() const {

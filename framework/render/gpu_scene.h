@@ -42,6 +42,10 @@ class GpuScene {
                  std::size_t firstCommand = 0) const;
     [[nodiscard]] std::size_t objectOf(std::size_t command) const { return order_[command]; }
 
+    // For shaders that include include/scene_triangle.glsl: the triangles of all objects. The pass
+    // reads `geometry`.
+    void bindTriangles(gl::Command& command, const Geometry& geometry) const;
+
     [[nodiscard]] const gl::Buffer& materials() const { return materials_; }
     [[nodiscard]] const gl::Texture& images() const { return images_; }
     [[nodiscard]] const gl::Buffer& commands() const { return commands_; }
@@ -81,8 +85,10 @@ class GpuScene {
     std::vector<HeightFieldRange> heightFields_;
     std::size_t heightFieldVertexCount_ = 0;
     std::size_t commandCount_ = 0;
-    std::vector<GLuint> order_;           // objects by command
-    std::vector<GLuint> firstTriangles_;  // by object: how many are drawn before it
+    std::vector<GLuint> order_;  // objects by command
+    // By object: how many triangles are drawn before it, its first index, and its first vertex as
+    // InstanceData::material has it.
+    std::vector<glm::uvec3> firsts_;
     Group staticGroup_;
     Group heightFieldGroup_;
 };

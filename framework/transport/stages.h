@@ -68,6 +68,11 @@ struct BeamPlace {  // m a cell
 struct BeamTurn {  // of the direction, rad a cell
     static constexpr Format format = Format::rgba32f;
 };
+// What of its cell, and of cells beside it that are no photon's, a photon stands for
+// (include/cell_extent.glsl); 0: its cell.
+struct CellExtentTexel {
+    static constexpr Format format = Format::rg32ui;
+};
 struct HitPosition {  // xyz: view space, m; w: distance travelled, m
     static constexpr Format format = Format::rgba32f;
 };
@@ -163,8 +168,8 @@ struct CellGrid {
     int rows = 0;
     int firstLight = 0;
     int lights = 0;
-    int splits = 0;  // a cell may have 2^splits photons in the list, told apart by so many first
-                     // interactions of their paths
+    int splits = 0;    // a cell may have 2^splits photons in the list, told apart by so many first
+                       // interactions of their paths
     [[nodiscard]] std::size_t places() const {
         return (static_cast<std::size_t>(width) * static_cast<std::size_t>(rows) *
                 static_cast<std::size_t>(lights))
@@ -186,6 +191,7 @@ struct Photons {
     Ledger ledger;
     ModelledPaths paths;
     CellGrid cells;
+    graph::Texture<CellExtentTexel> extents;  // by cell; invalid where each stands for itself
     // Of the textures: room for so many photons. Only the device knows how many there are.
     int width = 0;
     int height = 0;

@@ -41,7 +41,8 @@ struct InstanceData {
     mat4 modelToView;
     mat4 normalToView;  // inverse transpose, upper 3x3
     // x: index into the materials; y: the number of its first triangle, of all in the order in
-    // which the scene is drawn.
+    // which the scene is drawn; z: its first index; w: 2 * its first vertex, + 1 where that is one
+    // of the height fields' (include/scene_triangle.glsl).
     uvec4 material;
 };
 

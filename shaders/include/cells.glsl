@@ -10,12 +10,17 @@ uniform int cellSplits;
 
 const uint kNoCell = 0xffffffffu;
 
+// Column and row of a photon's cell, of those that the list holds of its light.
+ivec2 cellOf(PhotonOrigin origin) {
+    return ivec2(origin.cell % uint(cellGrid.x), origin.cell / uint(cellGrid.x)) -
+           ivec2(0, cellFirstRow);
+}
+
 // Of a photon's cell and those beside it by so many; kNoCell where the grid has none. Photons that
 // have taken another branch where both were followed are neighbours of their own.
 uint cellPlace(PhotonOrigin origin, ivec2 beside) {
     if (cellGrid.x == 0) return kNoCell;
-    ivec2 at = ivec2(origin.cell % uint(cellGrid.x), origin.cell / uint(cellGrid.x));
-    at += beside - ivec2(0, cellFirstRow);
+    ivec2 at = cellOf(origin) + beside;
     int light = int(origin.light) - cellLights.x;
     bool isIn = all(greaterThanEqual(at, ivec2(0))) && all(lessThan(at, cellGrid)) && light >= 0 &&
                 light < cellLights.y;

@@ -56,13 +56,3 @@ vec3 geometricNormal(vec3 positionVs, vec3 towardsViewer) {
     bool facesViewer = dot(n, towardsViewer) > 0.0;
     return facesViewer == gl_FrontFacing ? n : -n;
 }
-
-// The interpolated normal, unit, and never on the other side of the surface than the geometric one:
-// the side of a surface is the triangle's (hard case 26).
-vec3 shadingNormal(vec3 interpolated, vec3 geometric) {
-    float size = length(interpolated);
-    if (!(size > 1e-12)) return geometric;
-    vec3 n = interpolated / size;
-    float side = dot(n, geometric);
-    return side > 0.0 ? n : normalize(n + (1e-3 - side) * geometric);
-}

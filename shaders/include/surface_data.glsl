@@ -41,3 +41,13 @@ vec3 mediumAbsorption(uint medium) {
 vec3 mediumTransmittance(uint medium, float distanceMeters) {
     return transmittanceOver(mediumAbsorption(medium), distanceMeters);
 }
+
+// The interpolated normal, unit, and never on the other side of the surface than the geometric one:
+// the side of a surface is the triangle's (hard case 26).
+vec3 shadingNormal(vec3 interpolated, vec3 geometric) {
+    float size = length(interpolated);
+    if (!(size > 1e-12)) return geometric;
+    vec3 n = interpolated / size;
+    float side = dot(n, geometric);
+    return side > 0.0 ? n : normalize(n + (1e-3 - side) * geometric);
+}

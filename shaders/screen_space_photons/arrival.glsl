@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Where a photon arrives, and by its beam where its neighbours would.
+#include "include/cell_extent.glsl"
+#include "include/cells.glsl"
 #include "include/hits.glsl"
 #include "include/ledger_unit.glsl"
 #include "include/photon_thread.glsl"
@@ -7,6 +9,10 @@
 
 // A beam that grazes is taken as if it came at this sine at least, which bounds what it covers.
 const float kLeastArrivalSlant = 0.01;
+
+#ifdef CELL_EXTENTS
+uniform usampler2D cellExtents;
+#endif
 
 struct Arrival {
     vec3 position;  // of the view, m
@@ -16,10 +22,38 @@ struct Arrival {
     vec2 farther;   // than this light flies, m
     float distance;
     vec3 flux;      // W
-    float density;  // the flux by what a cell covers, W/m²
+    float density;  // the flux by what it stands for covers, W/m²
     uint material;  // index + 1
     uint path;
+    uvec2 extent;   // include/cell_extent.glsl
 };
+
+// What the photon stands for besides its cell; 0: its cell.
+uvec2 extentOf(PhotonOrigin origin) {
+#ifdef CELL_EXTENTS
+    int row = (int(origin.light) - cellLights.x) * cellGrid.y;
+    return texelFetch(cellExtents, cellOf(origin) + ivec2(0, row), 0).xy;
+#else
+    return uvec2(0u);
+#endif
+}
+
+// A part of it, by the corner of the cell: right, up: bits.
+CellQuarter quarterOf(uvec2 extent, uint quarter) {
+#ifdef CELL_EXTENTS
+    return unpackedQuarter(extent, quarter);
+#else
+    return kWholeQuarter;
+#endif
+}
+
+float areaOf(uvec2 extent) {
+#ifdef CELL_EXTENTS
+    return areaOfExtent(extent);
+#else
+    return 1.0;
+#endif
+}
 
 mat2x3 fromEye(mat2x3 offsets) {
     return mat2x3(directionFromEye(offsets[0]), directionFromEye(offsets[1]));
@@ -42,11 +76,13 @@ Arrival arrivalOf(ivec2 texel) {
     vec2 farther;
     mat2x3 beside = beamOnPlane(beamAt(texel), photon.directionVs, hit.distanceMeters, hit.normalVs,
                                 kLeastArrivalSlant, farther);
-    float area = length(cross(beside[0], beside[1]));
+    PhotonOrigin origin = originAt(texel);
+    uvec2 extent = extentOf(origin);
+    float area = length(cross(beside[0], beside[1])) * areaOf(extent);
     return Arrival(pointFromEye(hit.positionVs), directionFromEye(hit.normalVs),
                    directionFromEye(photon.directionVs), fromEye(beside), farther,
                    hit.distanceMeters, hit.fluxWatts, wholeFlux(hit.fluxWatts) / max(area, 1e-30),
-                   hit.material, originAt(texel).path);
+                   hit.material, origin.path, extent);
 }
 
 // How far a beam goes on towards a corner of its cell, as shares of the way along u and v, before it
@@ -63,14 +99,29 @@ vec2 reachTowards(Arrival at, vec2 corner) {
     return isFirst ? vec2(left / more, 1.0) : vec2(1.0, left / more);
 }
 
-// The share that is left of a quarter of a cell, by its corner: right, up: bits.
+// Where the corners of a quarter of what a photon stands for lie, in cells: on the axis u, between,
+// and on the axis v, none farther than its light goes.
+struct QuarterCorners {
+    vec2 along;
+    vec2 across;
+    vec2 up;
+};
+QuarterCorners cornersOf(Arrival at, uint quarter) {
+    CellQuarter extent = quarterOf(at.extent, quarter);
+    vec2 side = sideOfQuarter(quarter);
+    QuarterCorners corners = QuarterCorners(vec2(side.x * extent.along, 0.0), side * extent.across,
+                                            vec2(0.0, side.y * extent.up));
+    corners.along *= reachTowards(at, corners.along);
+    corners.across *= reachTowards(at, corners.across);
+    corners.up *= reachTowards(at, corners.up);
+    return corners;
+}
+
+// Its area, as a share of a quarter of a cell.
 float quarterShare(Arrival at, uint quarter) {
-    vec2 corner = vec2(quarter & 1u, quarter >> 1u) - 0.5;
-    vec2 along = vec2(corner.x, 0.0);
-    vec2 up = vec2(0.0, corner.y);
-    vec2 a = along * reachTowards(at, along);
-    vec2 b = corner * reachTowards(at, corner);
-    vec2 c = up * reachTowards(at, up);
-    float twice = (a.x * b.y - a.y * b.x) + (b.x * c.y - b.y * c.x);
-    return 2.0 * abs(twice);
+    QuarterCorners corners = cornersOf(at, quarter);
+    vec2 a = corners.along;
+    vec2 b = corners.across;
+    vec2 c = corners.up;
+    return 2.0 * abs((a.x * b.y - a.y * b.x) + (b.x * c.y - b.y * c.x));
 }

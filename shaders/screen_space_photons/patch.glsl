@@ -30,9 +30,10 @@ struct Patch {
     float tolerance;  // of the depths that pixels see, m, beside their own footprint
 };
 
-// What a beam covers from `low` to `high` of its cell, [-1/2, 1/2]².
-Patch patchOfBeam(Arrival at, vec2 low, vec2 high) {
-    vec3 extent = 0.5 * (abs(at.beside[0]) + abs(at.beside[1]));
+// What a beam covers between four places, in cells from its own and none farther than `farthest`
+// along either axis.
+Patch patchOfBeam(Arrival at, vec2 ends[4], float farthest) {
+    vec3 extent = farthest * (abs(at.beside[0]) + abs(at.beside[1]));
     float depth = -at.position.z;
     // In front of the view, and of bounded size on the screen.
     float scale = 1.0;
@@ -48,10 +49,8 @@ Patch patchOfBeam(Arrival at, vec2 low, vec2 high) {
         atomicMax(narrowed.widestBits, floatBitsToUint(min(widest, 1e30)));
     }
     mat2x3 beside = at.beside * scale;
-    vec2 ends[4] = vec2[4](low, vec2(high.x, low.y), high, vec2(low.x, high.y));
     Patch made;
-    for (int i = 0; i < 4; ++i)
-        made.corners[i] = at.position + beside * (ends[i] * reachTowards(at, ends[i]));
+    for (int i = 0; i < 4; ++i) made.corners[i] = at.position + beside * ends[i];
     made.densities = float[4](1.0, 1.0, 1.0, 1.0);
     made.normal = at.normal;
     made.direction = at.direction;
@@ -101,10 +100,16 @@ Patch patchOf(uint item) {
                             cornerOf(neighbourOf(origin, ivec2(0, 1))));
     }
     Arrival own = arrivalOf(texel);
-    if (part == kPatchBeam) return patchOfBeam(own, vec2(-0.5), vec2(0.5));
+    if (part == kPatchBeam) {
+        vec2 ends[4] = vec2[4](vec2(-0.5), vec2(0.5, -0.5), vec2(0.5), vec2(-0.5, 0.5));
+        for (int i = 0; i < 4; ++i) ends[i] *= reachTowards(own, ends[i]);
+        return patchOfBeam(own, ends, 0.5);
+    }
     own.flux *= photonShares[index] * quarterShare(own, part);
-    vec2 side = vec2(part & 1u, part >> 1u);
-    return patchOfBeam(own, 0.5 * side - 0.5, 0.5 * side);
+    QuarterCorners corners = cornersOf(own, part);
+    vec2 ends[4] = vec2[4](vec2(0.0), corners.along, corners.across, corners.up);
+    // Photons at a border reach beyond their cells.
+    return patchOfBeam(own, ends, own.extent == uvec2(0u) ? 0.5 : 1.0);
 }
 
 // One of a patch's two triangles on the screen.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // reconstruct.triangles: a patch's flux onto the pixels that it covers. One thread a patch; those
 // that cover many pixels go to a list of their own.
-#include "include/cells.glsl"
 #include "screen_space_photons/patch.glsl"
 #include "screen_space_photons/patch_deposit.glsl"
 

@@ -2,7 +2,6 @@
 // reconstruct.triangles: whether a photon and its neighbours to the right, above and between are
 // joined: light of one path that arrives on one surface, each where the others' beams say, so that
 // what lies between them arrives in between. One thread a photon.
-#include "include/cells.glsl"
 #include "screen_space_photons/arrival.glsl"
 
 layout(std430) readonly buffer CellPhotons {

@@ -2,7 +2,6 @@
 // reconstruct.triangles: what there is to cover. A photon stands for a quarter of each of the four
 // quadrilaterals around it; those that are not joined it covers by its own beam, as far as light
 // comes that way. One thread a photon.
-#include "include/cells.glsl"
 #include "screen_space_photons/arrival.glsl"
 #include "screen_space_photons/patch_list.glsl"
 
@@ -43,22 +42,24 @@ void main() {
         joined[i] = isJoined(origin, ivec2((i & 1) - 1, (i >> 1) - 1));
         beams += joined[i] ? 0u : 1u;
     }
-    // What the parts of its cell that light can come through take is all of its flux.
+    // A cell of its own is covered at once.
+    bool isAlone = beams == 4u && extentOf(origin) == uvec2(0u);
+    // What the parts that light can come through take is all of its flux.
     float whole = 4.0;
-    if (beams > 0u && beams < 4u) {
+    if (beams > 0u && !isAlone) {
         Arrival own = arrivalOf(texel);
         for (uint i = 0u; i < 4u; ++i) {
             if (!joined[i]) whole += quarterShare(own, i) - 1.0;
         }
     }
-    photonShares[index] = 1.0 / whole;
+    photonShares[index] = whole > 0.0 ? 1.0 / whole : 0.0;
     if (isOfOtherBatch(flux.rgb)) beams = 0u;
     bool isCorner = joined[3];
-    uint parts = (beams == 4u ? 1u : beams) + (isCorner ? 1u : 0u);
+    uint parts = (isAlone && beams > 0u ? 1u : beams) + (isCorner ? 1u : 0u);
     if (parts == 0u) return;
     uint at = atomicAdd(patches.count, parts);
     if (isCorner) patchList[at++] = index * kPatchParts + kPatchJoined;
-    if (beams == 4u) {
+    if (beams > 0u && isAlone) {
         patchList[at] = index * kPatchParts + kPatchBeam;
     } else if (beams > 0u) {
         for (uint i = 0u; i < 4u; ++i) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // reconstruct.triangles: a wide patch's flux onto the pixels that it covers. A workgroup a patch.
-#include "include/cells.glsl"
 #include "screen_space_photons/patch.glsl"
 #include "screen_space_photons/patch_deposit.glsl"
 

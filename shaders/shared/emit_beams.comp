@@ -1,36 +1,51 @@
 // SPDX-License-Identifier: MIT
 // The beams of photons of one light's grid, where they have hit their first surface: parallel light
-// is as wide as a texel, light from a point spreads. One thread a photon.
-#include "include/lights.glsl"
-#include "include/photon_thread.glsl"
+// is as wide as a cell, light from a point spreads; and how that surface turns there. One thread a
+// cell.
+#include "include/beam.glsl"
+#include "include/light_grid.glsl"
+#include "include/photons.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(rgba32f) writeonly uniform image2D nextBeamPlace;
 layout(rgba32f) writeonly uniform image2D nextBeamTurn;
-uniform int lightIndex;
-uniform vec2 texelSize;   // m, or tangents
+layout(rgba32f) writeonly uniform image2D hitShape;
+uniform sampler2D hitSurface;
+uniform ivec2 cellsHere;  // columns and rows of this light in the list
+uniform int firstRow;     // of the grid, in the list
+uniform int firstOfLight;  // row of the list where this light's begin
 uniform mat3 lightToEye;  // columns: to the grid's right, up, and against the light
 
-Beam emittedBeam(Photon photon, LightData light) {
+Beam emittedBeam(Photon photon, LightData light, bool isParallel) {
+    vec2 size = sizeOfCell();
     mat2x3 across = basisAcross(photon.directionVs);
-    mat2x3 step = mat2x3(lightToEye[0] * texelSize.x, lightToEye[1] * texelSize.y);
-    if (uint(light.positionVs.w) == kLightDirectional) {
-        return Beam(transpose(across) * step, mat2(0.0));
-    }
-    // A texel of the plane at 1 m, seen from the light: the direction is the place, normalised.
+    mat2x3 step = mat2x3(lightToEye[0] * size.x, lightToEye[1] * size.y);
+    if (isParallel) return Beam(transpose(across) * step, mat2(0.0));
+    // A cell of the plane at 1 m, seen from the light: the direction is the place, normalised.
     float cosine = max(-dot(photon.directionVs, lightToEye[2]), 0.0);
     mat2 turn = transpose(across) * (step * cosine);
     return Beam(turn * length(photon.positionVs - light.positionVs.xyz), turn);
 }
 
 void main() {
-    uint index = photonOfThread();
-    if (index >= photons.count) return;
-    ivec2 texel = ivec2(photonTexel(photons, index));
-    PhotonOrigin origin = originAt(texel);
+    ivec2 here = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(here, cellsHere))) return;
+    ivec2 cell = here + ivec2(0, firstRow);
+    ivec2 texel = ivec2(here.x, firstOfLight + here.y);
     Photon photon = photonAt(texel);
-    bool isHere = photon.fate == kFateSpecular;
-    if (isHere && origin.light != uint(lightIndex)) return;
-    Beam beam = isHere ? emittedBeam(photon, lights[lightIndex]) : Beam(mat2(0.0), mat2(0.0));
+    LightData light = lights[lightIndex];
+    bool isParallel = uint(light.positionVs.w) == kLightDirectional;
+    Beam beam = Beam(mat2(0.0), mat2(0.0));
+    vec3 shape = vec3(0.0);
+    if (photon.fate == kFateSpecular) {
+        beam = emittedBeam(photon, light, isParallel);
+        PointOnTriangle point = pointOnTriangle(seenAt(cell, ivec2(0)), placeOfCell(cell), isParallel);
+        // Of what is interpolated over the triangle, as the normals are.
+        float size = max(length(point.normal), 1e-12);
+        shape = shapeFrom(texelFetch(hitSurface, texel, 0).xyz, point.places, point.turns / size);
+    }
     imageStore(nextBeamPlace, texel, beamPlaceTexel(beam));
     imageStore(nextBeamTurn, texel, beamTurnTexel(beam));
+    imageStore(hitShape, texel, vec4(shape, 0.0));
 }

@@ -82,6 +82,10 @@ CausticMap coverTriangles(FrameBuilder& frame, const TrianglesParams& params, Hi
         [&](graph::PassSetup& setup, Data& data) {
             hits.sample(setup);
             hits.incoming.sample(setup);
+            if (hits.incoming.extents.valid()) {
+                setup.sample("cellExtents", hits.incoming.extents);
+                setup.define("CELL_EXTENTS");
+            }
             setup.sample("receiver", receivers.receiver);
             setup.sample("receiverSurface", receivers.receiverSurface);
             if (isGlossy) setup.sample("receiverAlbedo", receivers.receiverAlbedo);

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
 // emit.grid: photons on a regular grid of each light's view (K06, section 1.1; the
-// render-to-vertex- buffer caustics of the time), where they first hit a specular surface. The
+// render-to-vertex-buffer caustics of the time), where they first hit a specular surface. The
 // grid is the tightest rectangle around the specular objects; one grid a light, stacked in the
-// transfer map. Out: photons that arrive (flux in W) and the hits that they make; eye view space,
-// m.
+// transfer map. Drawn is only which triangle the light sees, by parts of a cell, so that the border
+// of the light is known better than to a cell; the photon is where its ray hits that triangle. Out:
+// photons that arrive (flux in W) and the hits that they make; eye view space, m.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <memory>
+#include <utility>
 
 #include "framework/pipeline/frame_builder.h"
 #include "framework/pipeline/stage_params.h"
@@ -17,24 +19,102 @@
 namespace kaustik {
 namespace {
 
-void addBeams(gl::PassContext& context, const Photons& photons, int light, const LightSight& seen,
-              params::Extent grid, const render::RasterView& eye) {
-    const glm::vec2 texels(grid.width, grid.height);
-    dispatchOver(context.compute("shared/emit_beams.comp")
-                     .texture("photonPosition", photons.position)
-                     .texture("photonDirection", photons.direction)
-                     .texture("photonFlux", photons.flux)
-                     .texture("photonOrigin", photons.origin)
-                     .storage("Photons", photons.list)
-                     .image("nextBeamPlace", photons.beamPlace)
-                     .image("nextBeamTurn", photons.beamTurn)
-                     .set("lightIndex", light)
-                     .set("texelSize", 2.0f * glm::vec2(seen.view.halfExtent) / texels)
-                     .set("lightToEye", glm::mat3(render::between(seen.view, eye))),
-                 photons);
+struct GridEmissionParams {
+    int subcells = 7;
+    template <class R>
+    void reflect(R& r) {
+        r.field(
+            subcells, "subcells",
+            "Parts along each side of a cell by which the border of what a light sees is told; an "
+            "odd number, and fewer where a light's view would exceed 8192 of them; 1: a cell is "
+            "lit all or not at all",
+            "", params::range(1, 7));
+    }
+};
+
+// Most parts along a side of a light's view.
+constexpr int kMostParts = 8192;
+
+int subcellsOf(const GridEmissionParams& params, params::Extent grid) {
+    const int most = std::min(params.subcells, kMostParts / std::max(grid.width, grid.height));
+    return std::max(most - (most + 1) % 2, 1);
 }
 
-Hits emitGrid(FrameBuilder& frame, const params::NoParams&, Surfaces surfaces, Samples samples) {
+// What a light sees first through each sub-cell. x: object's index + 1, 0 none; y: the triangle.
+struct SightOfLight {
+    static constexpr Format format = Format::rg32ui;
+};
+
+// Cells of a batch: rows of the grids, with those beside it that its own are to be joined with.
+struct GridRows {
+    params::Extent grid;
+    int first = 0;
+    int count = 0;
+    int subcells = 1;
+    // The light's view begins and ends a row beside: a cell's extent depends on the cells around.
+    [[nodiscard]] int firstSeen() const { return first - 1; }
+    [[nodiscard]] int seen() const { return count + 2; }
+};
+
+struct GridEmission {
+    Hits hits;
+    graph::Texture<SightOfLight> sight;
+    graph::Texture<DepthBuffer> depth;
+    Geometry geometry;
+};
+
+void drawSight(const FrameInputs& inputs, gl::PassContext& context, const GridEmission& data,
+               const LightSight& seen, const GridRows& rows) {
+    gl::Command command = context.shaders({"shared/emit_sight.vert", "shared/emit_sight.frag"});
+    command.target(data.sight).clear();
+    command.depth(data.depth, gl::DepthTest::nearerReversed).clear();
+    command
+        .viewport(0, -rows.firstSeen() * rows.subcells, rows.grid.width * rows.subcells,
+                  rows.grid.height * rows.subcells)
+        .set("projection", seen.view.projection());
+    inputs.gpuScene.draw(command, context, data.geometry, *seen.instances, render::DrawSet::all);
+}
+
+// Of the cells of a light: shaders that include include/light_grid.glsl.
+void dispatchOverCells(const FrameInputs& inputs, gl::Command command, const GridEmission& data,
+                       const LightSight& seen, const GridRows& rows, int light, int firstOfLight) {
+    command.texture("sight", data.sight)
+        .storage("Instances", inputs.instances.instances)
+        .storage("LightInstances", seen.instances->instances)
+        .set("subcells", rows.subcells)
+        .set("sightFirstRow", rows.firstSeen())
+        .set("gridSize", glm::ivec2(rows.grid.width, rows.grid.height))
+        .set("halfExtent", glm::vec2(seen.view.halfExtent))
+        .set("lightIndex", light)
+        .set("cellsHere", glm::ivec2(rows.grid.width, rows.count))
+        .set("firstRow", rows.first)
+        .set("firstOfLight", firstOfLight);
+    inputs.gpuScene.bindTriangles(command, data.geometry);
+    command.dispatchOver(rows.grid.width, 8, rows.count, 8);
+}
+
+void emitFrom(const FrameInputs& inputs, gl::PassContext& context, const GridEmission& data,
+              const LightSight& seen, const GridRows& rows, const Samples& samples, int light) {
+    const Photons& photons = data.hits.incoming;
+    const int firstOfLight = (light - samples.firstLight) * rows.count;
+    drawSight(inputs, context, data, seen, rows);
+    gl::Command emission = context.compute("shared/emit_grid.comp");
+    emission.set("ownRows", glm::ivec2(samples.firstRow, samples.firstRow + samples.rows));
+    if (photons.extents.valid())
+        emission.define("CELL_EXTENTS").image("nextExtents", photons.extents);
+    dispatchOverCells(inputs, std::move(emission), data, seen, rows, light, firstOfLight);
+    if (!photons.hasBeams()) return;
+    gl::Command beams = context.compute("shared/emit_beams.comp");
+    beams.texture("photonPosition", photons.position)
+        .texture("photonDirection", photons.direction)
+        .texture("photonFlux", photons.flux)
+        .texture("hitSurface", data.hits.surface)
+        .set("lightToEye", glm::mat3(render::between(seen.view, inputs.view)));
+    dispatchOverCells(inputs, std::move(beams), data, seen, rows, light, firstOfLight);
+}
+
+Hits emitGrid(FrameBuilder& frame, const GridEmissionParams& params, Surfaces surfaces,
+              Samples samples) {
     const params::Extent grid = frame.params<EmitParams>("emit").photons;
     // The same for every batch.
     const auto grids = frame.once<std::vector<LightSight>>("emit.grids", [&frame] {
@@ -42,86 +122,58 @@ Hits emitGrid(FrameBuilder& frame, const params::NoParams&, Surfaces surfaces, S
     });
     // Cells beside a batch are known to it where they are to be joined with.
     const int beside = frame.joinsCells() ? 1 : 0;
-    const int first = std::max(samples.firstRow - beside, 0);
-    const int rows = std::min(samples.firstRow + samples.rows + beside, grid.height) - first;
-    struct Data {
-        Hits hits;
-        graph::Texture<DepthBuffer> depth;
-        Geometry geometry;
-    };
+    GridRows rows{grid, std::max(samples.firstRow - beside, 0), 0, subcellsOf(params, grid)};
+    rows.count = std::min(samples.firstRow + samples.rows + beside, grid.height) - rows.first;
     const std::string why =
         grids->empty() ? "keeps the transfer map empty: no light, or nothing specular"
                        : fmt::format("{} photons a light, {} light{}", grid.width * grid.height,
                                      grids->size(), grids->size() == 1 ? "" : "s");
     return frame
-        .pass<Data>(
+        .pass<GridEmission>(
             "emit.grid", why,
-            [&](graph::PassSetup& setup, Data& data) {
+            [&](graph::PassSetup& setup, GridEmission& data) {
                 data.geometry = surfaces.geometry;
                 if (data.geometry.heightFields.valid()) setup.read(data.geometry.heightFields);
-                Photons photons = Photons::create(setup, grid.width, rows * samples.lights,
-                                                  samples.suffix, frame.usesBeams());
+                const int height = rows.count * samples.lights;
+                Photons photons =
+                    Photons::create(setup, grid.width, height, samples.suffix, frame.usesBeams());
                 photons.batch = samples.suffix;
-                photons.cells = {grid.width, first, rows, samples.firstLight, samples.lights, 0};
+                photons.cells = {grid.width,         rows.first,     rows.count,
+                                 samples.firstLight, samples.lights, 0};
+                if (rows.subcells > 1) {
+                    photons.extents = setup.create<CellExtentTexel>(
+                        "photons.extents" + samples.suffix, grid.width, height);
+                }
                 photons.ledger = samples.ledger.valid()
                                      ? setup.write(samples.ledger)
                                      : setup.createBuffer<transport::LedgerEntry>(
                                            "ledger", transport::kAccountCount);
+                photons.store(setup);
                 data.hits = Hits::create(setup, photons);
+                data.hits.store(setup);
+                data.sight = setup.create<SightOfLight>("emit.sight" + samples.suffix,
+                                                        grid.width * rows.subcells,
+                                                        rows.seen() * rows.subcells);
                 data.depth = setup.create<DepthBuffer>("emit.depth_buffer" + samples.suffix,
-                                                       grid.width, rows * samples.lights);
+                                                       grid.width * rows.subcells,
+                                                       rows.seen() * rows.subcells);
             },
-            [&inputs = frame.inputs(), grids, grid, samples, first, rows](
-                const Data& data, gl::PassContext& context) {
+            [&inputs = frame.inputs(), grids, samples, rows](const GridEmission& data,
+                                                             gl::PassContext& context) {
                 const Photons& photons = data.hits.incoming;
                 if (!samples.ledger.valid()) context.buffer(photons.ledger).clear();
                 fillList(context, photons);
-                const auto addTargets = [&](gl::Command& command, bool clear) {
-                    const auto add = [&](const graph::ResourceRef& handle) {
-                        command.target(handle);
-                        if (clear) command.clear();
-                    };
-                    add(photons.position);
-                    add(photons.direction);
-                    add(photons.flux);
-                    add(photons.origin);
-                    for (const graph::ResourceRef& texture : data.hits.textures())
-                        add(texture);
-                    command.depth(data.depth, gl::DepthTest::nearerReversed);
-                    if (clear) command.clear();
-                };
-                if (grids->empty()) {
-                    for (const std::vector<graph::ResourceRef>& textures :
-                         {photons.textures(), data.hits.textures()}) {
-                        for (const graph::ResourceRef& texture : textures)
-                            context.texture(texture).clear({0, 0, 0, 0});
-                    }
-                }
                 const int end =
                     std::min(samples.firstLight + samples.lights, static_cast<int>(grids->size()));
                 for (int light = samples.firstLight; light < end; ++light) {
-                    const LightSight& seen = (*grids)[static_cast<std::size_t>(light)];
-                    // The rows of the batch are those that fall into the target.
-                    const int bottom = (light - samples.firstLight) * rows - first;
-                    const auto ownRows = glm::vec2(bottom + samples.firstRow,
-                                                   bottom + samples.firstRow + samples.rows);
-                    gl::Command command =
-                        context.shaders({"shared/emit_grid.vert", "shared/emit_grid.frag"});
-                    addTargets(command, light == samples.firstLight);
-                    command.viewport(0, bottom, grid.width, grid.height)
-                        .storage("LightInstances", seen.instances->instances)
-                        .set("projection", seen.view.projection())
-                        .set("lightIndex", light)
-                        .set("halfExtent", glm::vec2(seen.view.halfExtent))
-                        .set("gridSize", glm::vec2(grid.width, grid.height))
-                        .set("gridBottom", static_cast<float>(bottom))
-                        .set("ownRows", ownRows);
-                    inputs.gpuScene.draw(command, context, data.geometry, inputs.instances,
-                                         render::DrawSet::all);
+                    emitFrom(inputs, context, data, (*grids)[static_cast<std::size_t>(light)], rows,
+                             samples, light);
                 }
-                for (int light = samples.firstLight; photons.hasBeams() && light < end; ++light) {
-                    addBeams(context, photons, light, (*grids)[static_cast<std::size_t>(light)],
-                             grid, inputs.view);
+                if (!grids->empty()) return;
+                for (const std::vector<graph::ResourceRef>& textures :
+                     {photons.textures(), data.hits.textures()}) {
+                    for (const graph::ResourceRef& texture : textures)
+                        context.texture(texture).clear({0, 0, 0, 0});
                 }
             })
         .hits;
@@ -131,8 +183,8 @@ Hits emitGrid(FrameBuilder& frame, const params::NoParams&, Surfaces surfaces, S
 
 void registerGridEmission(Registry& registry) {
     registry.node<EmitStage>("grid",
-                             {.sentence = "Rasterises the specular surfaces from each light, one "
-                                          "photon a texel.",
+                             {.sentence = "Rasterises the scene from each light, one photon a "
+                                          "cell where a specular surface is first.",
                               .source = "K06, section 1.1",
                               .beams = true},
                              &emitGrid);

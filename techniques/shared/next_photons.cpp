@@ -20,6 +20,7 @@ NextPhotons makeRoom(FrameBuilder& frame, const Hits& hits, int branches) {
             data.photons.batch = before.batch;
             data.photons.paths = paths;
             data.photons.cells = before.cells;
+            data.photons.extents = before.extents;
             if (branches > 1) ++data.photons.cells.splits;
             setup.storage("NextPhotons", data.photons.list);
             const auto groups =

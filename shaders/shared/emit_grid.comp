@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+// One photon a cell of the light's grid, where the first surface that the light sees through the
+// cell's middle is specular: its flux is what the light sends through what it stands for
+// (include/cell_extent.glsl), by its area (directional) or its solid angle (cos³; hard case 34a). An
+// opaque surface nearer to the light leaves the cell empty. One thread a cell.
+#include "include/cell_extent.glsl"
+#include "include/light_grid.glsl"
+#include "include/specular.glsl"
+#include "include/store_photons.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+// Without the shape of the surface, which the beams' shader adds.
+layout(rgba32f) writeonly uniform image2D hitPosition;
+layout(rgba32f) writeonly uniform image2D hitSurface;
+layout(rgba32f) writeonly uniform image2D hitFlux;
+#ifdef CELL_EXTENTS
+layout(rg32ui) writeonly uniform uimage2D nextExtents;
+#endif
+
+uniform ivec2 cellsHere;     // columns and rows of this light in the list
+uniform int firstRow;        // of the grid, in the list
+uniform int firstOfLight;    // row of the list where this light's begin
+uniform ivec2 ownRows;       // of the grid, from and before
+
+// Rows beside the batch's own are there to be joined with, and carry of their flux a share below
+// what any sum resolves; a power of two, so that all ratios are the same.
+const float kNextToNothing = exp2(-80.0);
+
+// Sub-cells in a row from `start` on in which the light sees the object, no more than `most`.
+int countFrom(ivec2 cell, ivec2 start, ivec2 step, uint object, int most) {
+    int count = 0;
+    while (count < most && seenAt(cell, start + count * step).x == object) ++count;
+    return count;
+}
+
+// How far from a sub-cell the light sees the object, in cells. Rows beside, by pairs, tell where a
+// slanted border runs better than a sub-cell's width.
+float reachFrom(ivec2 cell, ivec2 start, ivec2 step, uint object) {
+    int sum = max(countFrom(cell, start, step, object, subcells), 1);
+    int rows = 1;
+    ivec2 beside = ivec2(-step.y, step.x);
+    int most = 2 * subcells;
+    for (int i = 1; i <= subcells / 2; ++i) {
+        int left = countFrom(cell, start + i * beside, step, object, most);
+        int right = countFrom(cell, start - i * beside, step, object, most);
+        if (min(left, right) == 0 || max(left, right) == most) break;
+        sum += left + right;
+        rows += 2;
+    }
+    return min(float(sum) / float(rows) - 0.5, float(subcells)) / float(subcells);
+}
+
+// The quarter's part towards its far corner (along, up), as far as the light sees the object.
+vec2 reachAcross(ivec2 cell, ivec2 side, vec2 corner, uint object) {
+    int steps = 2 * subcells;
+    float share = 0.5 / float(steps);
+    for (int i = 1; i <= steps; ++i) {
+        float at = (float(i) - 0.5) / float(steps);
+        ivec2 beside = side * ivec2(floor(at * corner * float(subcells) + 0.5));
+        if (seenAt(cell, beside).x != object) break;
+        share = float(i) / float(steps);
+    }
+    return share * corner;
+}
+
+CellQuarter quarterAround(ivec2 cell, ivec2 side, uint object) {
+    bool isBeside = seenAt(cell, side * ivec2(subcells, 0)).x == object;
+    bool isAbove = seenAt(cell, side * ivec2(0, subcells)).x == object;
+    bool isAcross = seenAt(cell, side * subcells).x == object;
+    if (isBeside && isAbove && isAcross) return kWholeQuarter;
+    ivec2 middle = side * (subcells / 2);
+    CellQuarter quarter = kWholeQuarter;
+    if (!isBeside) quarter.along = reachFrom(cell, ivec2(0), side * ivec2(1, 0), object);
+    if (!isAbove) quarter.up = reachFrom(cell, ivec2(0), side * ivec2(0, 1), object);
+    // Of three cells that meet where the fourth is dark, each goes up to where the one across sees the
+    // border on the diagonal.
+    if (isBeside && isAbove) {
+        quarter.across = vec2(reachFrom(cell, ivec2(0), side, object));
+    } else if (isBeside && isAcross) {
+        float there =
+            reachFrom(cell, side * ivec2(subcells, 0), side * ivec2(-1, 1), object);
+        quarter.across = vec2(1.0 - there, there);
+    } else if (isAbove && isAcross) {
+        float there =
+            reachFrom(cell, side * ivec2(0, subcells), side * ivec2(1, -1), object);
+        quarter.across = vec2(there, 1.0 - there);
+    } else if (isBeside) {
+        quarter.across.y = reachFrom(cell, ivec2(middle.x, 0), side * ivec2(0, 1), object);
+    } else if (isAbove) {
+        quarter.across.x = reachFrom(cell, ivec2(0, middle.y), side * ivec2(1, 0), object);
+    } else {
+        vec2 corner = vec2(quarter.along, quarter.up);
+        quarter.across =
+            reachAcross(cell, side, isAcross ? min(corner, vec2(0.5)) : corner, object);
+    }
+    return quarter;
+}
+
+uvec2 extentOf(ivec2 cell, uint object) {
+    CellQuarter quarters[4];
+    bool isWhole = true;
+    for (uint i = 0u; i < 4u; ++i) {
+        quarters[i] = quarterAround(cell, ivec2(sideOfQuarter(i)), object);
+        isWhole = isWhole && quarters[i] == kWholeQuarter;
+    }
+    return isWhole ? uvec2(0u) : packedExtent(quarters);
+}
+
+void storeExtent(ivec2 texel, uvec2 extent) {
+#ifdef CELL_EXTENTS
+    imageStore(nextExtents, texel, uvec4(extent, 0u, 0u));
+#endif
+}
+
+void storeNobody(uint slot, PhotonOrigin origin) {
+    ivec2 texel = ivec2(photonTexel(nextPhotons, slot));
+    storeNext(slot, Photon(vec3(0.0), 0.0, vec3(0.0), kFateNone, vec3(0.0), 0u), origin);
+    imageStore(hitPosition, texel, vec4(0.0));
+    imageStore(hitSurface, texel, vec4(0.0));
+    imageStore(hitFlux, texel, vec4(0.0));
+    storeExtent(texel, uvec2(0u));
+}
+
+void main() {
+    ivec2 here = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(here, cellsHere))) return;
+    ivec2 cell = here + ivec2(0, firstRow);
+    uint slot = uint((firstOfLight + here.y) * cellsHere.x + here.x);
+    PhotonOrigin origin = PhotonOrigin(uint(cell.y) * uint(gridSize.x) + uint(cell.x),
+                                       uint(lightIndex), kEmittedPath, 0u);
+    uvec2 seen = seenAt(cell, ivec2(0));
+    uint material = seen.x == 0u ? 0u : instances[seen.x - 1u].material.x;
+    if (seen.x == 0u || isReceiver(materialKind(material))) {
+        storeNobody(slot, origin);
+        return;
+    }
+    LightData light = lights[lightIndex];
+    bool isParallel = uint(light.positionVs.w) == kLightDirectional;
+    vec2 place = placeOfCell(cell);
+    PointOnTriangle point = pointOnTriangle(seen, place, isParallel);
+    vec3 direction = lightDirection(light, point.position);
+    vec3 geometric = point.geometric == vec3(0.0) ? -direction : point.geometric;
+    // A light whose rays first hit a dielectric from within is inside of it.
+    bool isInside =
+        materialKind(material) == kMaterialDielectric && dot(direction, geometric) > 0.0;
+    uint media = isInside ? enterMedium(0u, material + 1u) : 0u;
+    vec2 size = sizeOfCell();
+    vec3 flux;
+    float footprint;
+    if (isParallel) {
+        flux = light.power.rgb * (size.x * size.y);
+        footprint = sqrt(size.x * size.y);
+    } else {
+        float cosine = inversesqrt(1.0 + dot(place, place));
+        float solidAngle = size.x * size.y * cosine * cosine * cosine;
+        float distance = length(point.position - light.positionVs.xyz);
+        flux = lightIntensity(light, point.position, max(size.x, size.y)) * solidAngle *
+               mediumTransmittance(innerMedium(media), distance);
+        footprint = sqrt(solidAngle) * distance;
+    }
+    if (!(flux.r + flux.g + flux.b > 0.0)) {
+        storeNobody(slot, origin);
+        return;
+    }
+    uvec2 extent = uvec2(0u);
+#ifdef CELL_EXTENTS
+    extent = extentOf(cell, seen.x);
+#endif
+    flux *= areaOfExtent(extent);
+    if (cell.y < ownRows.x || cell.y >= ownRows.y) flux *= kNextToNothing;
+    vec3 normal = bendingNormal(direction, shadingNormal(point.normal, geometric), geometric,
+                                material + 1u, media);
+    ivec2 texel = ivec2(photonTexel(nextPhotons, slot));
+    storeNext(slot, Photon(point.position, footprint, direction, kFateSpecular, flux, media), origin);
+    imageStore(hitPosition, texel, vec4(point.position, 0.0));
+    imageStore(hitSurface, texel, vec4(normal, float(material + 1u)));
+    imageStore(hitFlux, texel, vec4(flux, float(kFateSpecular)));
+    storeExtent(texel, extent);
+}
