@@ -106,9 +106,7 @@ struct QuarterCorners {
     vec2 across;
     vec2 up;
 };
-QuarterCorners cornersOf(Arrival at, uint quarter) {
-    CellQuarter extent = quarterOf(at.extent, quarter);
-    vec2 side = sideOfQuarter(quarter);
+QuarterCorners cornersOf(Arrival at, CellQuarter extent, vec2 side) {
     QuarterCorners corners = QuarterCorners(vec2(side.x * extent.along, 0.0), side * extent.across,
                                             vec2(0.0, side.y * extent.up));
     corners.along *= reachTowards(at, corners.along);
@@ -118,10 +116,29 @@ QuarterCorners cornersOf(Arrival at, uint quarter) {
 }
 
 // Its area, as a share of a quarter of a cell.
-float quarterShare(Arrival at, uint quarter) {
-    QuarterCorners corners = cornersOf(at, quarter);
+float areaOf(QuarterCorners corners) {
     vec2 a = corners.along;
     vec2 b = corners.across;
     vec2 c = corners.up;
     return 2.0 * abs((a.x * b.y - a.y * b.x) + (b.x * c.y - b.y * c.x));
+}
+
+// Of one by the corner of the cell: right, up: bits.
+QuarterCorners cornersOf(Arrival at, uint quarter) {
+    return cornersOf(at, quarterOf(at.extent, quarter), sideOfQuarter(quarter));
+}
+
+vec3 besideBy(Arrival at, vec2 step) { return at.beside * step; }
+
+// Whether two neighbours, `step` cells from one to the other, arrive on one surface where their
+// beams, on the average, say of one another.
+bool belongTogether(Arrival a, Arrival b, vec2 step) {
+    if (a.path != b.path || a.material != b.material) return false;
+    if (dot(a.normal, b.normal) < 0.5) return false;
+    vec3 besideA = besideBy(a, step);
+    vec3 besideB = besideBy(b, step);
+    vec3 between = b.position - a.position;
+    vec3 off = between - 0.5 * (besideA + besideB);
+    float most = max(length(between), max(length(besideA), length(besideB)));
+    return length(off) <= reconstruct_triangles_tolerance * most;
 }

@@ -6,16 +6,13 @@
 #include "include/coverage.glsl"
 #include "include/ledger.glsl"
 #include "include/surface_data.glsl"
-#include "screen_space_photons/arrival.glsl"
+#include "screen_space_photons/crease.glsl"
 #include "screen_space_photons/patch_list.glsl"
 #include "screen_space_photons/seen_receiver.glsl"
 
 layout(std430) buffer PatchCounts {
     PatchCount patches;
     PatchCount widePatches;
-};
-layout(std430) readonly buffer CellPhotons {
-    uint cellPhotons[];
 };
 layout(std430) buffer NarrowedPatches {
     Narrowed narrowed;
@@ -89,6 +86,44 @@ Arrival cornerOf(uint index) {
     return corner;
 }
 
+// What a photon's flux has of a quarter of its cell.
+float fluxShare(Arrival at, uint index, uint quarter) {
+    return photonShares[index] * areaOf(cornersOf(at, quarter));
+}
+
+Patch patchOfQuarter(Arrival own, QuarterCorners corners, float farthest) {
+    vec2 ends[4] = vec2[4](vec2(0.0), corners.along, corners.across, corners.up);
+    return patchOfBeam(own, ends, farthest);
+}
+
+// What the quarters between four photons have is shared out anew, by what each covers now.
+Patch patchAtCrease(PhotonOrigin origin, uint quarter) {
+    uint found[4];
+    photonsAround(origin, quarter ^ 3u, found);
+    ArrivalsAround around;
+    for (uint i = 0u; i < 4u; ++i)
+        around.corners[i] = arrivalOf(ivec2(photonTexel(photons, found[i] - 1u)));
+    vec3 flux = vec3(0.0);
+    float weights = 0.0;
+    float ownWeight = 0.0;
+    QuarterCorners ownCorners;
+    for (uint i = 0u; i < 4u; ++i) {
+        Arrival corner = around.corners[i];
+        // Seen from the corner, the others lie the other way.
+        flux += corner.flux * fluxShare(corner, found[i] - 1u, i ^ 3u);
+        QuarterCorners corners =
+            cornersOf(corner, quarterAtCrease(around, i), sideOfQuarter(i ^ 3u));
+        float weight = wholeFlux(corner.flux) * areaOf(corners);
+        weights += weight;
+        if (i != (quarter ^ 3u)) continue;
+        ownWeight = weight;
+        ownCorners = corners;
+    }
+    Arrival own = around.corners[quarter ^ 3u];
+    own.flux = weights > 0.0 ? flux * (ownWeight / weights) : vec3(0.0);
+    return patchOfQuarter(own, ownCorners, 1.0);
+}
+
 Patch patchOf(uint item) {
     uint index = item / kPatchParts;
     uint part = item % kPatchParts;
@@ -99,17 +134,16 @@ Patch patchOf(uint item) {
                             cornerOf(neighbourOf(origin, ivec2(1, 1))),
                             cornerOf(neighbourOf(origin, ivec2(0, 1))));
     }
+    if (part >= kPatchCrease) return patchAtCrease(originAt(texel), part - kPatchCrease);
     Arrival own = arrivalOf(texel);
     if (part == kPatchBeam) {
         vec2 ends[4] = vec2[4](vec2(-0.5), vec2(0.5, -0.5), vec2(0.5), vec2(-0.5, 0.5));
         for (int i = 0; i < 4; ++i) ends[i] *= reachTowards(own, ends[i]);
         return patchOfBeam(own, ends, 0.5);
     }
-    own.flux *= photonShares[index] * quarterShare(own, part);
-    QuarterCorners corners = cornersOf(own, part);
-    vec2 ends[4] = vec2[4](vec2(0.0), corners.along, corners.across, corners.up);
+    own.flux *= fluxShare(own, index, part);
     // Photons at a border reach beyond their cells.
-    return patchOfBeam(own, ends, own.extent == uvec2(0u) ? 0.5 : 1.0);
+    return patchOfQuarter(own, cornersOf(own, part), own.extent == uvec2(0u) ? 0.5 : 1.0);
 }
 
 // One of a patch's two triangles on the screen.

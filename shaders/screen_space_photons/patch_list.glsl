@@ -12,4 +12,5 @@ struct PatchCount {
 const uint kPatchQuarter = 0u;  // 0 to 3: of its beam, by the cell beside it: right, up: bits
 const uint kPatchBeam = 4u;     // all of its beam
 const uint kPatchJoined = 5u;   // what it is the lower left corner of
-const uint kPatchParts = 8u;
+const uint kPatchCrease = 8u;   // 8 to 11: the same of where light comes down on several surfaces
+const uint kPatchParts = 16u;

@@ -11,14 +11,8 @@ layout(std430) writeonly buffer CellJoins {
     uint cellJoins[];  // by the photon at the lower left: 1 joined
 };
 
-// Whether two neighbours along an axis arrive where their beams, on the average, say of one another.
-bool belongTogether(Arrival a, Arrival b, int axis) {
-    if (a.path != b.path || a.material != b.material) return false;
-    if (dot(a.normal, b.normal) < 0.5) return false;
-    vec3 between = b.position - a.position;
-    vec3 off = between - 0.5 * (a.beside[axis] + b.beside[axis]);
-    float most = max(length(between), max(length(a.beside[axis]), length(b.beside[axis])));
-    return length(off) <= reconstruct_triangles_tolerance * most;
+bool belongAlong(Arrival a, Arrival b, int axis) {
+    return belongTogether(a, b, vec2(axis == 0, axis == 1));
 }
 
 bool isInFront(vec3 position) {
@@ -49,8 +43,8 @@ bool isJoined(uint index) {
     vec2 pd = pixelOf(d.position);
     vec2 size = max(max(pa, pb), max(pc, pd)) - min(min(pa, pb), min(pc, pd));
     if (!(max(size.x, size.y) <= float(reconstruct_triangles_maximum))) return false;
-    return belongTogether(a, b, 0) && belongTogether(d, c, 0) && belongTogether(a, d, 1) &&
-           belongTogether(b, c, 1);
+    return belongAlong(a, b, 0) && belongAlong(d, c, 0) && belongAlong(a, d, 1) &&
+           belongAlong(b, c, 1);
 }
 
 void main() {

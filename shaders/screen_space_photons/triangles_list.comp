@@ -2,12 +2,9 @@
 // reconstruct.triangles: what there is to cover. A photon stands for a quarter of each of the four
 // quadrilaterals around it; those that are not joined it covers by its own beam, as far as light
 // comes that way. One thread a photon.
-#include "screen_space_photons/arrival.glsl"
+#include "screen_space_photons/crease.glsl"
 #include "screen_space_photons/patch_list.glsl"
 
-layout(std430) readonly buffer CellPhotons {
-    uint cellPhotons[];
-};
 layout(std430) readonly buffer CellJoins {
     uint cellJoins[];
 };
@@ -28,6 +25,20 @@ bool isJoined(PhotonOrigin origin, ivec2 corner) {
     return found > 0u && cellJoins[found - 1u] == 1u;
 }
 
+// Whether the light of four neighbours comes down on more than one surface.
+bool isAtCrease(PhotonOrigin origin, uint quarter) {
+    uint found[4];
+    if (!photonsAround(origin, quarter ^ 3u, found)) return false;
+    Arrival first = arrivalOf(ivec2(photonTexel(photons, found[0] - 1u)));
+    bool isOne = true;
+    for (uint i = 1u; i < 4u; ++i) {
+        Arrival corner = arrivalOf(ivec2(photonTexel(photons, found[i] - 1u)));
+        if (corner.path != first.path) return false;
+        isOne = isOne && corner.material == first.material && dot(corner.normal, first.normal) >= 0.5;
+    }
+    return !isOne;
+}
+
 void main() {
     uint index = photonOfThread();
     if (index >= photons.count) return;
@@ -35,35 +46,38 @@ void main() {
     vec4 flux = texelFetch(hitFlux, texel, 0);
     if (uint(flux.w) != kFateReceiver) return;
     PhotonOrigin origin = originAt(texel);
-    // By the lower left corner of each.
-    bool joined[4];
-    uint beams = 0u;
-    for (int i = 0; i < 4; ++i) {
-        joined[i] = isJoined(origin, ivec2((i & 1) - 1, (i >> 1) - 1));
-        beams += joined[i] ? 0u : 1u;
+    bool isOther = isOfOtherBatch(flux.rgb);
+    Arrival own;
+    // By the corner: those that are joined, and what is listed of the rest. What four photons share
+    // out is listed in every batch that has one of them.
+    uint joined = 0u;
+    uint parts[4];
+    uint count = 0u;
+    float whole = 0.0;
+    bool isPlain = true;
+    bool isRead = false;
+    for (uint i = 0u; i < 4u; ++i) {
+        if (isJoined(origin, ivec2((i & 1u), (i >> 1u)) - 1)) {
+            joined |= 1u << i;
+            whole += 1.0;
+            continue;
+        }
+        if (!isRead) own = arrivalOf(texel);
+        isRead = true;
+        bool isCrease = isAtCrease(origin, i);
+        isPlain = isPlain && !isCrease && own.extent == uvec2(0u);
+        whole += areaOf(cornersOf(own, i));
+        if (isCrease || !isOther) parts[count++] = (isCrease ? kPatchCrease : kPatchQuarter) + i;
     }
-    // A cell of its own is covered at once.
-    bool isAlone = beams == 4u && extentOf(origin) == uvec2(0u);
     // What the parts that light can come through take is all of its flux.
-    float whole = 4.0;
-    if (beams > 0u && !isAlone) {
-        Arrival own = arrivalOf(texel);
-        for (uint i = 0u; i < 4u; ++i) {
-            if (!joined[i]) whole += quarterShare(own, i) - 1.0;
-        }
-    }
     photonShares[index] = whole > 0.0 ? 1.0 / whole : 0.0;
-    if (isOfOtherBatch(flux.rgb)) beams = 0u;
-    bool isCorner = joined[3];
-    uint parts = (isAlone && beams > 0u ? 1u : beams) + (isCorner ? 1u : 0u);
-    if (parts == 0u) return;
-    uint at = atomicAdd(patches.count, parts);
-    if (isCorner) patchList[at++] = index * kPatchParts + kPatchJoined;
-    if (beams > 0u && isAlone) {
-        patchList[at] = index * kPatchParts + kPatchBeam;
-    } else if (beams > 0u) {
-        for (uint i = 0u; i < 4u; ++i) {
-            if (!joined[i]) patchList[at++] = index * kPatchParts + kPatchQuarter + i;
-        }
+    // A cell of its own is covered at once.
+    if (joined == 0u && isPlain && count == 4u) {
+        parts[0] = kPatchBeam;
+        count = 1u;
     }
+    if ((joined & 8u) != 0u) parts[count++ & 3u] = kPatchJoined;
+    if (count == 0u) return;
+    uint at = atomicAdd(patches.count, count);
+    for (uint i = 0u; i < count; ++i) patchList[at + i] = index * kPatchParts + parts[i];
 }

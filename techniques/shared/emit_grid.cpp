@@ -20,7 +20,7 @@ namespace kaustik {
 namespace {
 
 struct GridEmissionParams {
-    int subcells = 7;
+    int subcells = 5;
     template <class R>
     void reflect(R& r) {
         r.field(

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// Four neighbours whose light arrives on more than one surface: up to where, between them, each
+// stands for what arrives. Where two surfaces meet in a crease, light comes down on whichever it
+// reaches first, and the planes that the photons lie on say where that changes; elsewhere, at the
+// silhouette of what is in front, half-way is the best that is known.
+#include "screen_space_photons/arrival.glsl"
+
+layout(std430) readonly buffer CellPhotons {
+    uint cellPhotons[];
+};
+
+// By the corner: right, up: bits.
+struct ArrivalsAround {
+    Arrival corners[4];
+};
+
+// The photons at the corners of the quadrilateral with this photon at its corner `own`, index + 1 in
+// the list; false where one is missing.
+bool photonsAround(PhotonOrigin origin, uint own, out uint found[4]) {
+    ivec2 first = -ivec2(own & 1u, own >> 1u);
+    bool isWhole = true;
+    for (uint i = 0u; i < 4u; ++i) {
+        uint place = cellPlace(origin, first + ivec2(i & 1u, i >> 1u));
+        found[i] = place == kNoCell ? 0u : cellPhotons[place];
+        isWhole = isWhole && found[i] > 0u;
+    }
+    return isWhole;
+}
+
+vec2 stepBetween(uint from, uint to) {
+    return vec2(to & 1u, to >> 1u) - vec2(from & 1u, from >> 1u);
+}
+
+bool areTogether(ArrivalsAround around, uint a, uint b) {
+    return belongTogether(around.corners[a], around.corners[b], stepBetween(a, b));
+}
+
+// The share of the way from one corner to another that is the first one's.
+float borderBetween(ArrivalsAround around, uint from, uint to) {
+    Arrival a = around.corners[from];
+    Arrival b = around.corners[to];
+    vec2 step = stepBetween(from, to);
+    // How far beyond the other's place each one's plane is.
+    float atEnd = dot(a.position + besideBy(a, step) - b.position, b.direction);
+    float atBegin = dot(b.position - besideBy(b, step) - a.position, a.direction);
+    if (!(atBegin > 0.0) || !(atEnd > 0.0)) return 0.5;
+    return clamp(atBegin / (atBegin + atEnd), 1.0 / 32.0, 31.0 / 32.0);
+}
+
+// What the photon at a corner stands for of the quadrilateral.
+CellQuarter quarterAtCrease(ArrivalsAround around, uint own) {
+    uint beside = own ^ 1u;
+    uint above = own ^ 2u;
+    uint across = own ^ 3u;
+    bool isBeside = areTogether(around, own, beside);
+    bool isAbove = areTogether(around, own, above);
+    bool isAcross = (isBeside && areTogether(around, beside, across)) ||
+                    (isAbove && areTogether(around, above, across));
+    CellQuarter quarter = kWholeQuarter;
+    if (!isBeside) quarter.along = borderBetween(around, own, beside);
+    if (!isAbove) quarter.up = borderBetween(around, own, above);
+    if (isBeside && isAbove) {
+        if (!isAcross) quarter.across = vec2(borderBetween(around, own, across));
+    } else if (isBeside && isAcross) {
+        float there = borderBetween(around, beside, above);
+        quarter.across = vec2(1.0 - there, there);
+    } else if (isAbove && isAcross) {
+        float there = borderBetween(around, above, beside);
+        quarter.across = vec2(there, 1.0 - there);
+    } else if (isBeside) {
+        quarter.across.y = 0.5 * (quarter.up + borderBetween(around, beside, across));
+    } else if (isAbove) {
+        quarter.across.x = 0.5 * (quarter.along + borderBetween(around, above, across));
+    } else {
+        quarter.across = vec2(borderBetween(around, own, across));
+    }
+    return quarter;
+}
