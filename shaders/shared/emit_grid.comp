@@ -40,7 +40,7 @@ float reachFrom(ivec2 cell, ivec2 start, ivec2 step, uint object) {
     int sum = max(countFrom(cell, start, step, object, subcells), 1);
     int rows = 1;
     ivec2 beside = ivec2(-step.y, step.x);
-    int most = 2 * subcells;
+    int most = subcells + subcells / 2;
     for (int i = 1; i <= subcells / 2; ++i) {
         int left = countFrom(cell, start + i * beside, step, object, most);
         int right = countFrom(cell, start - i * beside, step, object, most);

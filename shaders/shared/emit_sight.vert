@@ -4,8 +4,19 @@
 
 flat out uint object;
 uniform mat4 projection;
+uniform vec2 sightSize;  // px, of the light's whole view
+
+// What devices place vertices by, px.
+const float kSnap = 1.0 / 256.0;
 
 void main() {
     object = vertexObject;
-    gl_Position = projection * (instances[vertexObject].modelToView * vec4(vertexPosition, 1.0));
+    vec4 clip = projection * (instances[vertexObject].modelToView * vec4(vertexPosition, 1.0));
+    // Snapped here, as the device would: in whichever rows of the view a batch draws, its vertices
+    // are the same, and so is the triangle that a cell's middle falls on.
+    if (clip.w > 0.0) {
+        vec2 scale = 0.5 * sightSize / kSnap;
+        clip.xy = round(clip.xy / clip.w * scale) / scale * clip.w;
+    }
+    gl_Position = clip;
 }

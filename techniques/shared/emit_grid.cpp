@@ -51,9 +51,9 @@ struct GridRows {
     int first = 0;
     int count = 0;
     int subcells = 1;
-    // The light's view begins and ends a row beside: a cell's extent depends on the cells around.
-    [[nodiscard]] int firstSeen() const { return first - 1; }
-    [[nodiscard]] int seen() const { return count + 2; }
+    // A cell's extent depends on what the light sees no farther than two cells away.
+    [[nodiscard]] int firstSeen() const { return first - 2; }
+    [[nodiscard]] int seen() const { return count + 4; }
 };
 
 struct GridEmission {
@@ -68,10 +68,11 @@ void drawSight(const FrameInputs& inputs, gl::PassContext& context, const GridEm
     gl::Command command = context.shaders({"shared/emit_sight.vert", "shared/emit_sight.frag"});
     command.target(data.sight).clear();
     command.depth(data.depth, gl::DepthTest::nearerReversed).clear();
-    command
-        .viewport(0, -rows.firstSeen() * rows.subcells, rows.grid.width * rows.subcells,
-                  rows.grid.height * rows.subcells)
-        .set("projection", seen.view.projection());
+    const int width = rows.grid.width * rows.subcells;
+    const int height = rows.grid.height * rows.subcells;
+    command.viewport(0, -rows.firstSeen() * rows.subcells, width, height)
+        .set("projection", seen.view.projection())
+        .set("sightSize", glm::vec2(width, height));
     inputs.gpuScene.draw(command, context, data.geometry, *seen.instances, render::DrawSet::all);
 }
 
