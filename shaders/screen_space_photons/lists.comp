@@ -24,7 +24,60 @@ const int kMostLayers = 8;
 #else
 const int kMostLayers = 64;
 #endif
+const float kNoDepth = 3.0e38;
 
+void store(ivec2 pixel, int layer, uint place) {
+    uvec3 words = fragmentDepths[place].xyz;
+    uvec4 surface = fragmentSurfaces[place];
+    float material = float(surface.w + 1u);
+    ivec3 texel = ivec3(pixel, face * layerCount + layer);
+    imageStore(layerDepths, texel, vec4(uintBitsToFloat(words), material));
+    imageStore(layerSurfaces, texel, vec4(uintBitsToFloat(surface.xyz), material));
+}
+
+#ifdef FEW_LAYERS
+// All indices are constant, so that nothing leaves the registers.
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, imageSize(heads))) || !listsFit()) return;
+    float depths[kMostLayers];
+    uint places[kMostLayers];
+    uint triangles[kMostLayers];
+    for (int i = 0; i < kMostLayers; ++i) depths[i] = kNoDepth;
+    uint next = imageLoad(heads, pixel).x;
+    while (next != 0u) {
+        uint place = next - 1u;
+        float depth = uintBitsToFloat(fragmentDepths[place].x);
+        next = fragmentDepths[place].w;
+        uint triangle = fragmentTriangles[place];
+        // Whatever it is nearer than moves on by a layer, the last one out.
+        for (int i = 0; i < kMostLayers; ++i) {
+            float depthThere = depths[i];
+            bool isTwice = depth == depthThere;
+            if (depth < depthThere || (isTwice && triangle < triangles[i])) {
+                uint there = places[i];
+                uint triangleThere = triangles[i];
+                depths[i] = depth;
+                places[i] = place;
+                triangles[i] = triangle;
+                depth = depthThere;
+                place = there;
+                triangle = triangleThere;
+            }
+            // Of two at one depth the other goes no farther.
+            if (isTwice) depth = kNoDepth;
+        }
+    }
+    for (int layer = 0; layer < layerCount && depths[0] < kNoDepth; ++layer) {
+        store(pixel, layer, places[0]);
+        for (int i = 1; i < kMostLayers; ++i) {
+            depths[i - 1] = depths[i];
+            places[i - 1] = places[i];
+        }
+        depths[kMostLayers - 1] = kNoDepth;
+    }
+}
+#else
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, imageSize(heads))) || !listsFit()) return;
@@ -34,9 +87,8 @@ void main() {
     uint next = imageLoad(heads, pixel).x;
     while (next != 0u) {
         uint place = next - 1u;
-        uvec4 words = fragmentDepths[place];
-        float depth = uintBitsToFloat(words.x);
-        next = words.w;
+        float depth = uintBitsToFloat(fragmentDepths[place].x);
+        next = fragmentDepths[place].w;
         // Whatever it is nearer than moves on by a layer, the last one out.
         bool isTwice = false;
         for (int i = 0; i < count && !isTwice; ++i) {
@@ -56,12 +108,6 @@ void main() {
         places[count] = place;
         ++count;
     }
-    for (int i = 0; i < count; ++i) {
-        uvec3 words = fragmentDepths[places[i]].xyz;
-        uvec4 surface = fragmentSurfaces[places[i]];
-        float material = float(surface.w + 1u);
-        ivec3 texel = ivec3(pixel, face * layerCount + i);
-        imageStore(layerDepths, texel, vec4(uintBitsToFloat(words), material));
-        imageStore(layerSurfaces, texel, vec4(uintBitsToFloat(surface.xyz), material));
-    }
+    for (int i = 0; i < count; ++i) store(pixel, i, places[i]);
 }
+#endif

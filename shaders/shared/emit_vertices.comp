@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One photon a vertex of a specular mesh, for one light: a thread a vertex. What the light does not
-// see first is nobody.
+// see first is nobody. ONLY_BEAMS: their beams instead, since OpenGL grants a shader no more than
+// eight images.
 #include "include/light_depth.glsl"
 #include "include/lights.glsl"
 #include "include/specular.glsl"
@@ -170,14 +171,17 @@ void main() {
     shading = length2 > 1e-24 ? shading * inversesqrt(length2) : geometric;
     vec3 normal = bendingNormal(direction, shading, geometric, material + 1u, media);
     uint slot = uint(firstOfLight + inBatch);
+#ifdef ONLY_BEAMS
+    // A vertex has no cell: its beam is as wide as the area around it, either way.
+    storeNextBeam(slot, Beam(mat2(footprint), mat2(spread)));
+#else
     storeNext(slot, Photon(positionVs, footprint, direction, kFateSpecular, flux, media),
               PhotonOrigin(cell, uint(lightIndex), kEmittedPath, 0u));
     vec3 shape = vec3(0.0);
 #ifdef PHOTON_BEAMS
-    // A vertex has no cell: its beam is as wide as the area around it, either way.
-    storeNextBeam(slot, Beam(mat2(footprint), mat2(spread)));
     shape = shapeAround(vertex, normal);
 #endif
     storeHit(ivec2(photonTexel(nextPhotons, slot)),
              Hit(positionVs, 0.0, normal, material + 1u, flux, kFateSpecular, shape));
+#endif
 }

@@ -190,6 +190,43 @@ params::Extent verticesOfALight(const FrameBuilder& frame) {
     return {width, (photons + width - 1) / width};
 }
 
+struct VertexEmission {
+    Hits hits;
+    Geometry geometry;
+};
+
+// `part`: which outputs are written, as shared/emit_vertices.comp has it.
+void emitObject(const FrameInputs& inputs, gl::PassContext& context, const VertexEmission& data,
+                const Emission& emission, const Samples& samples, int light,
+                const EmittingObject& emitting, const std::string& part) {
+    const auto number = static_cast<std::size_t>(light);
+    const LightSight& sight = emission.lights[number];
+    const int width = data.hits.incoming.width;
+    gl::Command command = context.compute("shared/emit_vertices.comp");
+    if (!part.empty()) command.define(part);
+    if (emitting.isHeightField) {
+        command.storage("MeshVertices", data.geometry.heightFields);
+    } else {
+        command.storage("MeshVertices", emission.vertices);
+    }
+    command.storage("Instances", inputs.instances.instances)
+        .storage("Fans", emission.fans)
+        .storage("FanFirsts", emission.fanFirsts)
+        .set("projection", sight.view.projection())
+        .set("eyeToLight", render::between(inputs.view, sight.view))
+        .set("lightIndex", light)
+        .set("object", emitting.object)
+        .set("sides", emitting.sides[number])
+        .set("vertexCount", emitting.vertices)
+        .set("firstVertex", emitting.firstVertex)
+        .set("firstFan", emitting.firstFan)
+        .set("firstCell", emitting.firstCell)
+        .set("batchCells", samples.rows * width)
+        .set("firstOfBatch", samples.firstRow * width)
+        .set("firstOfLight", (light - samples.firstLight) * samples.rows * width)
+        .dispatchOver(static_cast<int>(emitting.vertices), 64);
+}
+
 Hits emitVertices(FrameBuilder& frame, const VertexEmissionParams& params, Surfaces surfaces,
                   Samples samples) {
     const int width = verticesOfALight(frame).width;
@@ -198,16 +235,12 @@ Hits emitVertices(FrameBuilder& frame, const VertexEmissionParams& params, Surfa
     std::size_t vertices = 0;
     for (const EmittingObject& emitting : emission->objects)
         vertices += emitting.vertices;
-    struct Data {
-        Hits hits;
-        Geometry geometry;
-    };
     return frame
-        .pass<Data>(
+        .pass<VertexEmission>(
             "emit.vertices",
             fmt::format("{} vertices, {} light{}", vertices, emission->lights.size(),
                         emission->lights.size() == 1 ? "" : "s"),
-            [&](graph::PassSetup& setup, Data& data) {
+            [&](graph::PassSetup& setup, VertexEmission& data) {
                 data.geometry = surfaces.geometry;
                 if (data.geometry.heightFields.valid()) setup.read(data.geometry.heightFields);
                 setup.sample("lightDepths", emission->depths);
@@ -222,7 +255,7 @@ Hits emitVertices(FrameBuilder& frame, const VertexEmissionParams& params, Surfa
                 data.hits = Hits::create(setup, photons);
                 data.hits.store(setup);
             },
-            [&inputs = frame.inputs(), emission, samples](const Data& data,
+            [&inputs = frame.inputs(), emission, samples](const VertexEmission& data,
                                                           gl::PassContext& context) {
                 const Photons& photons = data.hits.incoming;
                 if (!samples.ledger.valid()) context.buffer(photons.ledger).clear();
@@ -236,32 +269,11 @@ Hits emitVertices(FrameBuilder& frame, const VertexEmissionParams& params, Surfa
                 const int end = std::min(samples.firstLight + samples.lights,
                                          static_cast<int>(emission->lights.size()));
                 for (int light = samples.firstLight; light < end; ++light) {
-                    const auto number = static_cast<std::size_t>(light);
-                    const LightSight& sight = emission->lights[number];
                     for (const EmittingObject& emitting : emission->objects) {
-                        gl::Command command = context.compute("shared/emit_vertices.comp");
-                        if (emitting.isHeightField) {
-                            command.storage("MeshVertices", data.geometry.heightFields);
-                        } else {
-                            command.storage("MeshVertices", emission->vertices);
-                        }
-                        command.storage("Instances", inputs.instances.instances)
-                            .storage("Fans", emission->fans)
-                            .storage("FanFirsts", emission->fanFirsts)
-                            .set("projection", sight.view.projection())
-                            .set("eyeToLight", render::between(inputs.view, sight.view))
-                            .set("lightIndex", light)
-                            .set("object", emitting.object)
-                            .set("sides", emitting.sides[number])
-                            .set("vertexCount", emitting.vertices)
-                            .set("firstVertex", emitting.firstVertex)
-                            .set("firstFan", emitting.firstFan)
-                            .set("firstCell", emitting.firstCell)
-                            .set("batchCells", samples.rows * photons.width)
-                            .set("firstOfBatch", samples.firstRow * photons.width)
-                            .set("firstOfLight",
-                                 (light - samples.firstLight) * samples.rows * photons.width)
-                            .dispatchOver(static_cast<int>(emitting.vertices), 64);
+                        emitObject(inputs, context, data, *emission, samples, light, emitting, "");
+                        if (!photons.hasBeams()) continue;
+                        emitObject(inputs, context, data, *emission, samples, light, emitting,
+                                   "ONLY_BEAMS");
                     }
                 }
             })
