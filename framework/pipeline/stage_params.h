@@ -26,8 +26,8 @@ struct EmitParams {
         r.field(
             batch, "batch",
             "Most photons that are emitted at once, which bounds the memory of lists, 112 bytes "
-            "a photon and list, or twice that with both branches; more follow in batches of "
-            "whole rows",
+            "a photon and list, 160 with beams, or twice that with both branches; more follow "
+            "in batches of whole rows",
             "", params::range(1, 268435456));
     }
 };

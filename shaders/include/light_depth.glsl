@@ -16,8 +16,9 @@ bool reachesLight(vec4 nearest, vec2 beside, vec2 texelMeters, float depth, vec3
     float extent = abs(growth.x) + abs(growth.y);
     float plane = nearest.x + clamp(dot(growth, beside), -2.0 * extent, 2.0 * extent);
     // A surface that turns by more than 60 degrees is another one.
-    vec3 blocker = normalize(vec3(growth / texelMeters, 1.0));
-    bool isSame = abs(dot(blocker, normalLs)) > 0.5;
+    vec3 blocker = vec3(growth / texelMeters, 1.0);
+    float facing = dot(blocker, normalLs);
+    bool isSame = facing * facing > 0.25 * dot(blocker, blocker);
     float margin = (isSame ? kCurvature * extent : 0.0) + 1e-4 * depth;
     return nearest.x <= 0.0 || depth <= plane + margin;
 }

@@ -26,14 +26,14 @@ struct GridEmissionParams {
         r.field(
             subcells, "subcells",
             "Parts along each side of a cell by which the border of what a light sees is told; an "
-            "odd number, and fewer where a light's view would exceed 8192 of them; 1: a cell is "
+            "odd number, and fewer where a light's view would exceed 4096 of them; 1: a cell is "
             "lit all or not at all",
             "", params::range(1, 7));
     }
 };
 
 // Most parts along a side of a light's view.
-constexpr int kMostParts = 8192;
+constexpr int kMostParts = 4096;
 
 int subcellsOf(const GridEmissionParams& params, params::Extent grid) {
     const int most = std::min(params.subcells, kMostParts / std::max(grid.width, grid.height));
@@ -118,12 +118,20 @@ Hits emitGrid(FrameBuilder& frame, const GridEmissionParams& params, Surfaces su
               Samples samples) {
     const params::Extent grid = frame.params<EmitParams>("emit").photons;
     // The same for every batch.
-    const auto grids = frame.once<std::vector<LightSight>>("emit.grids", [&frame] {
+    const int subcells = subcellsOf(params, grid);
+    const auto grids = frame.once<std::vector<LightSight>>("emit.grids", [&] {
+        if (subcells != params.subcells &&
+            frame.inputs().params.isSetByUser("emit.grid.subcells")) {
+            frame.warn(
+                fmt::format("emit.grid.subcells = {} is taken as {}: an odd number, and no "
+                            "more than {} parts along a side of a light's view.",
+                            params.subcells, subcells, kMostParts));
+        }
         return std::make_shared<std::vector<LightSight>>(sightsOfSpecular(frame));
     });
     // Cells beside a batch are known to it where they are to be joined with.
     const int beside = frame.joinsCells() ? 1 : 0;
-    GridRows rows{grid, std::max(samples.firstRow - beside, 0), 0, subcellsOf(params, grid)};
+    GridRows rows{grid, std::max(samples.firstRow - beside, 0), 0, subcells};
     rows.count = std::min(samples.firstRow + samples.rows + beside, grid.height) - rows.first;
     const std::string why =
         grids->empty() ? "keeps the transfer map empty: no light, or nothing specular"

@@ -168,6 +168,8 @@ ViewPass declareLook(const FrameBuilder& frame, graph::PassSetup& setup,
     pass.seen.radiance = setup.create<RadianceTexel>("view.radiance", w, h);
     pass.seen.exitPosition = setup.create<ExitPosition>("view.exit_position", w, h);
     pass.seen.exitDirection = setup.create<ExitDirection>("view.exit_direction", w, h);
+    pass.marks = setup.create<DepthBuffer>("view.marks", w, h);
+    setup.bypass(pass.marks, {0, 0, 0, 0});
     setup.bypass(pass.seen.radiance, receivers.radiance);
     setup.bypass(pass.seen.exitPosition, {0, 0, 0, 0});
     setup.bypass(pass.seen.exitDirection, {0, 0, 0, 0});
@@ -191,29 +193,39 @@ void drawLook(const FrameInputs& inputs, gl::PassContext& context, const ViewPas
               const std::function<void(gl::Command&)>& tell) {
     const ViewSamples& samples = pass.samples;
     const float share = 1.0f / static_cast<float>(samples.count);
-    const auto commandFor = [&](float shareOfRay) {
-        gl::Command command = context.fullscreen(shader);
-        setLook(inputs, command, pass, look);
-        tell(command);
-        command.target(pass.seen.radiance);
-        if (samples.count > 1) command.define("MORE_SAMPLES").set("sampleShare", shareOfRay);
-        return command;
+    // First pixels that need no look, then the others, by the marks that the first have left.
+    const auto drawSample = [&](float shareOfRay, const glm::vec2& offset) {
+        const bool isBeside = offset != glm::vec2(0.0f);
+        for (const bool looks : {false, true}) {
+            gl::Command command = context.fullscreen(looks ? shader : "shared/view_straight.frag");
+            if (looks) {
+                setLook(inputs, command, pass, look);
+                tell(command);
+            }
+            if (samples.count > 1) command.define("MORE_SAMPLES").set("sampleShare", shareOfRay);
+            command.target(pass.seen.radiance);
+            if (isBeside) {
+                command.define("BESIDE_MIDDLE")
+                    .set("sampleOffset", offset)
+                    .texture("sight", samples.sight)
+                    .texture("sightSurface", samples.surface)
+                    .blend(gl::Blend::add);
+            } else {
+                command.target(pass.seen.exitPosition).target(pass.seen.exitDirection);
+            }
+            // 1 is left where no look is needed.
+            command.depth(pass.marks,
+                          looks ? gl::DepthTest::atReversed : gl::DepthTest::nearerReversed);
+            if (!looks) command.clear();
+            command.draw();
+        }
     };
     std::vector<glm::vec2> beside = samplesOfPixel(samples.count);
     const bool isMiddleOne = std::erase(beside, glm::vec2(0.0f)) > 0;
-    commandFor(isMiddleOne ? share : 0.0f)
-        .target(pass.seen.exitPosition)
-        .target(pass.seen.exitDirection)
-        .draw();
+    drawSample(isMiddleOne ? share : 0.0f, glm::vec2(0.0f));
     for (const glm::vec2& offset : beside) {
         drawSights(inputs, context, samples, offset);
-        commandFor(share)
-            .define("BESIDE_MIDDLE")
-            .set("sampleOffset", offset)
-            .texture("sight", samples.sight)
-            .texture("sightSurface", samples.surface)
-            .blend(gl::Blend::add)
-            .draw();
+        drawSample(share, offset);
     }
 }
 

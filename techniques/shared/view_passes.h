@@ -78,8 +78,9 @@ struct ViewSamples {
 struct ViewPass {
     View seen;
     ViewSamples samples;
-    int sceneLayers = 0;    // where they are looked at
-    bool isGlossy = false;  // some receiver is
+    graph::Texture<DepthBuffer> marks;  // 0 where the ray meets a specular surface first
+    int sceneLayers = 0;                // where they are looked at
+    bool isGlossy = false;              // some receiver is
 };
 
 // A scene without specular surfaces: the pass `pass` is skipped, and the receivers are what is
@@ -96,7 +97,8 @@ struct ViewPass {
                                    const EyeBuffer& eye, const LayeredDepth& sceneLayers,
                                    const Radiance& receivers, const Shadows& shadows);
 
-// Draws all that such a pass gives: `shader` once for each sample of a pixel, told what
+// Draws all that such a pass gives: `shader` once for each sample of a pixel that meets a specular
+// surface first (shared/view_straight.frag draws the others), told what
 // include/scene_look.glsl is, and by `tell` what it asks for besides. Exits are those of the
 // middle, whose ray is followed for them where it is not one of the samples.
 void drawLook(const FrameInputs& inputs, gl::PassContext& context, const ViewPass& pass,
