@@ -60,7 +60,7 @@ mat2x3 fromEye(mat2x3 offsets) {
 }
 
 // Whether another batch of emission brings a photon as well, and here it is only to be joined with
-// (shared/emit_grid.frag).
+// (shared/emit_grid.comp).
 bool isOfOtherBatch(vec3 flux) {
     return (flux.r + flux.g + flux.b) * ledgerUnitsPerWatt < 0.25;
 }

@@ -120,7 +120,8 @@ Patch patchAtCrease(PhotonOrigin origin, uint quarter) {
         ownCorners = corners;
     }
     Arrival own = around.corners[quarter ^ 3u];
-    own.flux = weights > 0.0 ? flux * (ownWeight / weights) : vec3(0.0);
+    own.flux = weights > 0.0 ? flux * (ownWeight / weights)
+                             : own.flux * fluxShare(own, found[quarter ^ 3u] - 1u, quarter);
     return patchOfQuarter(own, ownCorners, 1.0);
 }
 
