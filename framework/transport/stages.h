@@ -168,8 +168,8 @@ struct CellGrid {
     int rows = 0;
     int firstLight = 0;
     int lights = 0;
-    int splits = 0;    // a cell may have 2^splits photons in the list, told apart by so many first
-                       // interactions of their paths
+    int splits = 0;  // a cell may have 2^splits photons in the list, told apart by so many first
+                     // interactions of their paths
     [[nodiscard]] std::size_t places() const {
         return (static_cast<std::size_t>(width) * static_cast<std::size_t>(rows) *
                 static_cast<std::size_t>(lights))

@@ -29,7 +29,9 @@ uvec2 seenAt(ivec2 cell, ivec2 beside) {
 vec2 sizeOfCell() { return 2.0 * halfExtent / vec2(gridSize); }
 
 // Where the light's ray through the middle of a cell is, m, or the tangents of its angles.
-vec2 placeOfCell(ivec2 cell) { return (2.0 * (vec2(cell) + 0.5) / vec2(gridSize) - 1.0) * halfExtent; }
+vec2 placeOfCell(ivec2 cell) {
+    return (2.0 * (vec2(cell) + 0.5) / vec2(gridSize) - 1.0) * halfExtent;
+}
 
 // A point of a triangle, in the eye's view.
 struct PointOnTriangle {

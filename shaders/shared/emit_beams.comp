@@ -40,7 +40,8 @@ void main() {
     vec3 shape = vec3(0.0);
     if (photon.fate == kFateSpecular) {
         beam = emittedBeam(photon, light, isParallel);
-        PointOnTriangle point = pointOnTriangle(seenAt(cell, ivec2(0)), placeOfCell(cell), isParallel);
+        PointOnTriangle point =
+            pointOnTriangle(seenAt(cell, ivec2(0)), placeOfCell(cell), isParallel);
         // Of what is interpolated over the triangle, as the normals are.
         float size = max(length(point.normal), 1e-12);
         shape = shapeFrom(texelFetch(hitSurface, texel, 0).xyz, point.places, point.turns / size);

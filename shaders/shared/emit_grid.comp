@@ -172,7 +172,8 @@ void main() {
     vec3 normal = bendingNormal(direction, shadingNormal(point.normal, geometric), geometric,
                                 material + 1u, media);
     ivec2 texel = ivec2(photonTexel(nextPhotons, slot));
-    storeNext(slot, Photon(point.position, footprint, direction, kFateSpecular, flux, media), origin);
+    storeNext(slot, Photon(point.position, footprint, direction, kFateSpecular, flux, media),
+              origin);
     imageStore(hitPosition, texel, vec4(point.position, 0.0));
     imageStore(hitSurface, texel, vec4(normal, float(material + 1u)));
     imageStore(hitFlux, texel, vec4(flux, float(kFateSpecular)));
