@@ -38,23 +38,6 @@ uvec2 extentOf(PhotonOrigin origin) {
 #endif
 }
 
-// A part of it, by the corner of the cell: right, up: bits.
-CellQuarter quarterOf(uvec2 extent, uint quarter) {
-#ifdef CELL_EXTENTS
-    return unpackedQuarter(extent, quarter);
-#else
-    return kWholeQuarter;
-#endif
-}
-
-float areaOf(uvec2 extent) {
-#ifdef CELL_EXTENTS
-    return areaOfExtent(extent);
-#else
-    return 1.0;
-#endif
-}
-
 mat2x3 fromEye(mat2x3 offsets) {
     return mat2x3(directionFromEye(offsets[0]), directionFromEye(offsets[1]));
 }
@@ -78,7 +61,7 @@ Arrival arrivalOf(ivec2 texel) {
                                 kLeastArrivalSlant, farther);
     PhotonOrigin origin = originAt(texel);
     uvec2 extent = extentOf(origin);
-    float area = length(cross(beside[0], beside[1])) * areaOf(extent);
+    float area = length(cross(beside[0], beside[1])) * areaOfExtent(extent);
     return Arrival(pointFromEye(hit.positionVs), directionFromEye(hit.normalVs),
                    directionFromEye(photon.directionVs), fromEye(beside), farther,
                    hit.distanceMeters, hit.fluxWatts, wholeFlux(hit.fluxWatts) / max(area, 1e-30),
@@ -125,18 +108,16 @@ float areaOf(QuarterCorners corners) {
 
 // Of one by the corner of the cell: right, up: bits.
 QuarterCorners cornersOf(Arrival at, uint quarter) {
-    return cornersOf(at, quarterOf(at.extent, quarter), sideOfQuarter(quarter));
+    return cornersOf(at, unpackedQuarter(at.extent, quarter), sideOfQuarter(quarter));
 }
-
-vec3 besideBy(Arrival at, vec2 step) { return at.beside * step; }
 
 // Whether two neighbours, `step` cells from one to the other, arrive on one surface where their
 // beams, on the average, say of one another.
 bool belongTogether(Arrival a, Arrival b, vec2 step) {
     if (a.path != b.path || a.material != b.material) return false;
     if (dot(a.normal, b.normal) < 0.5) return false;
-    vec3 besideA = besideBy(a, step);
-    vec3 besideB = besideBy(b, step);
+    vec3 besideA = a.beside * step;
+    vec3 besideB = b.beside * step;
     vec3 between = b.position - a.position;
     vec3 off = between - 0.5 * (besideA + besideB);
     float most = max(length(between), max(length(besideA), length(besideB)));

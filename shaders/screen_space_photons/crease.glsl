@@ -3,37 +3,7 @@
 // stands for what arrives. Where two surfaces meet in a crease, light comes down on whichever it
 // reaches first, and the planes that the photons lie on say where that changes; elsewhere, at the
 // silhouette of what is in front, half-way is the best that is known.
-#include "screen_space_photons/arrival.glsl"
-
-layout(std430) readonly buffer CellPhotons {
-    uint cellPhotons[];
-};
-
-// By the corner: right, up: bits.
-struct ArrivalsAround {
-    Arrival corners[4];
-};
-
-// The photons at the corners of the quadrilateral with this photon at its corner `own`, index + 1 in
-// the list; false where one is missing.
-bool photonsAround(PhotonOrigin origin, uint own, out uint found[4]) {
-    ivec2 first = -ivec2(own & 1u, own >> 1u);
-    bool isWhole = true;
-    for (uint i = 0u; i < 4u; ++i) {
-        uint place = cellPlace(origin, first + ivec2(i & 1u, i >> 1u));
-        found[i] = place == kNoCell ? 0u : cellPhotons[place];
-        isWhole = isWhole && found[i] > 0u;
-    }
-    return isWhole;
-}
-
-vec2 stepBetween(uint from, uint to) {
-    return vec2(to & 1u, to >> 1u) - vec2(from & 1u, from >> 1u);
-}
-
-bool areTogether(ArrivalsAround around, uint a, uint b) {
-    return belongTogether(around.corners[a], around.corners[b], stepBetween(a, b));
-}
+#include "screen_space_photons/neighbours.glsl"
 
 // The share of the way from one corner to another that is the first one's.
 float borderBetween(ArrivalsAround around, uint from, uint to) {
@@ -41,8 +11,8 @@ float borderBetween(ArrivalsAround around, uint from, uint to) {
     Arrival b = around.corners[to];
     vec2 step = stepBetween(from, to);
     // How far beyond the other's place each one's plane is.
-    float atEnd = dot(a.position + besideBy(a, step) - b.position, b.direction);
-    float atBegin = dot(b.position - besideBy(b, step) - a.position, a.direction);
+    float atEnd = dot(a.position + a.beside * step - b.position, b.direction);
+    float atBegin = dot(b.position - b.beside * step - a.position, a.direction);
     if (!(atBegin > 0.0) || !(atEnd > 0.0)) return 0.5;
     return clamp(atBegin / (atBegin + atEnd), 1.0 / 32.0, 31.0 / 32.0);
 }

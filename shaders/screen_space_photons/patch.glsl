@@ -100,9 +100,7 @@ Patch patchOfQuarter(Arrival own, QuarterCorners corners, float farthest) {
 Patch patchAtCrease(PhotonOrigin origin, uint quarter) {
     uint found[4];
     photonsAround(origin, quarter ^ 3u, found);
-    ArrivalsAround around;
-    for (uint i = 0u; i < 4u; ++i)
-        around.corners[i] = arrivalOf(ivec2(photonTexel(photons, found[i] - 1u)));
+    ArrivalsAround around = arrivalsOf(found);
     vec3 flux = vec3(0.0);
     float weights = 0.0;
     float ownWeight = 0.0;

@@ -29,10 +29,11 @@ bool isJoined(PhotonOrigin origin, ivec2 corner) {
 bool isAtCrease(PhotonOrigin origin, uint quarter) {
     uint found[4];
     if (!photonsAround(origin, quarter ^ 3u, found)) return false;
-    Arrival first = arrivalOf(ivec2(photonTexel(photons, found[0] - 1u)));
+    ArrivalsAround around = arrivalsOf(found);
+    Arrival first = around.corners[0];
     bool isOne = true;
     for (uint i = 1u; i < 4u; ++i) {
-        Arrival corner = arrivalOf(ivec2(photonTexel(photons, found[i] - 1u)));
+        Arrival corner = around.corners[i];
         if (corner.path != first.path) return false;
         isOne = isOne && corner.material == first.material && dot(corner.normal, first.normal) >= 0.5;
     }
@@ -76,7 +77,7 @@ void main() {
         parts[0] = kPatchBeam;
         count = 1u;
     }
-    if ((joined & 8u) != 0u) parts[count++ & 3u] = kPatchJoined;
+    if ((joined & 8u) != 0u) parts[count++] = kPatchJoined;
     if (count == 0u) return;
     uint at = atomicAdd(patches.count, count);
     for (uint i = 0u; i < count; ++i) patchList[at + i] = index * kPatchParts + parts[i];

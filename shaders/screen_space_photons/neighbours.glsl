@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// Photons of four neighbouring cells, and where they arrive.
+#include "screen_space_photons/arrival.glsl"
+
+layout(std430) readonly buffer CellPhotons {
+    uint cellPhotons[];
+};
+
+// By the corner: right, up: bits.
+struct ArrivalsAround {
+    Arrival corners[4];
+};
+
+// The photons at the corners of the quadrilateral with this photon at its corner `own`, index + 1 in
+// the list; false where one is missing.
+bool photonsAround(PhotonOrigin origin, uint own, out uint found[4]) {
+    ivec2 first = -ivec2(own & 1u, own >> 1u);
+    bool isWhole = true;
+    for (uint i = 0u; i < 4u; ++i) {
+        uint place = cellPlace(origin, first + ivec2(i & 1u, i >> 1u));
+        found[i] = place == kNoCell ? 0u : cellPhotons[place];
+        isWhole = isWhole && found[i] > 0u;
+    }
+    return isWhole;
+}
+
+ArrivalsAround arrivalsOf(uint found[4]) {
+    ArrivalsAround around;
+    for (uint i = 0u; i < 4u; ++i)
+        around.corners[i] = arrivalOf(ivec2(photonTexel(photons, found[i] - 1u)));
+    return around;
+}
+
+vec2 stepBetween(uint from, uint to) {
+    return vec2(to & 1u, to >> 1u) - vec2(from & 1u, from >> 1u);
+}
+
+bool areTogether(ArrivalsAround around, uint a, uint b) {
+    return belongTogether(around.corners[a], around.corners[b], stepBetween(a, b));
+}
