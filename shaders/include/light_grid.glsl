@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Cells of a light's grid and what the light sees first through each (shared/emit_sight.frag), by
-// sub-cells, an odd number a cell's side.
+// sub-cells, an odd number a cell's side. A compute thread a cell.
 #include "include/lights.glsl"
 #include "include/scene_triangle.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(std430) readonly buffer Instances {
     InstanceData instances[];  // in the eye's view
@@ -16,6 +18,17 @@ uniform int sightFirstRow;  // of the grid, of which `sight` begins to hold cell
 uniform ivec2 gridSize;     // cells
 uniform vec2 halfExtent;    // of the grid, m, or tangents of the half-angles
 uniform int lightIndex;
+uniform ivec2 cellsHere;   // columns and rows of this light in the list
+uniform int firstRow;      // of the grid, in the list
+uniform int firstOfLight;  // row of the list where this light's begin
+
+// The cell of this thread, and its texel in the list; false: there is none for it.
+bool cellOfThread(out ivec2 cell, out ivec2 texel) {
+    ivec2 here = ivec2(gl_GlobalInvocationID.xy);
+    cell = here + ivec2(0, firstRow);
+    texel = here + ivec2(0, firstOfLight);
+    return all(lessThan(here, cellsHere));
+}
 
 // What the light sees through the middle of the sub-cell that lies so many beside the middle of the
 // cell. x: object's index + 1, 0 where nothing is or the grid has ended; y: the triangle.

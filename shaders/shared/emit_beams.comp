@@ -6,15 +6,10 @@
 #include "include/light_grid.glsl"
 #include "include/photons.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
-
 layout(rgba32f) writeonly uniform image2D nextBeamPlace;
 layout(rgba32f) writeonly uniform image2D nextBeamTurn;
 layout(rgba32f) writeonly uniform image2D hitShape;
 uniform sampler2D hitSurface;
-uniform ivec2 cellsHere;  // columns and rows of this light in the list
-uniform int firstRow;     // of the grid, in the list
-uniform int firstOfLight;  // row of the list where this light's begin
 uniform mat3 lightToEye;  // columns: to the grid's right, up, and against the light
 
 Beam emittedBeam(Photon photon, LightData light, bool isParallel) {
@@ -29,10 +24,9 @@ Beam emittedBeam(Photon photon, LightData light, bool isParallel) {
 }
 
 void main() {
-    ivec2 here = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(here, cellsHere))) return;
-    ivec2 cell = here + ivec2(0, firstRow);
-    ivec2 texel = ivec2(here.x, firstOfLight + here.y);
+    ivec2 cell;
+    ivec2 texel;
+    if (!cellOfThread(cell, texel)) return;
     Photon photon = photonAt(texel);
     LightData light = lights[lightIndex];
     bool isParallel = uint(light.positionVs.w) == kLightDirectional;

@@ -7,21 +7,15 @@
 #include "include/light_grid.glsl"
 #include "include/specular.glsl"
 #include "include/store_photons.glsl"
+// OpenGL grants a shader no more than eight images.
+#define HITS_WITHOUT_SHAPE
+#include "include/store_hits.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
-
-// Without the shape of the surface, which the beams' shader adds.
-layout(rgba32f) writeonly uniform image2D hitPosition;
-layout(rgba32f) writeonly uniform image2D hitSurface;
-layout(rgba32f) writeonly uniform image2D hitFlux;
 #ifdef CELL_EXTENTS
 layout(rg32ui) writeonly uniform uimage2D nextExtents;
 #endif
 
-uniform ivec2 cellsHere;     // columns and rows of this light in the list
-uniform int firstRow;        // of the grid, in the list
-uniform int firstOfLight;    // row of the list where this light's begin
-uniform ivec2 ownRows;       // of the grid, from and before
+uniform ivec2 ownRows;  // of the grid, from and before
 
 // Rows beside the batch's own are there to be joined with, and carry of their flux a share below
 // what any sum resolves; a power of two, so that all ratios are the same.
@@ -107,34 +101,33 @@ uvec2 extentOf(ivec2 cell, uint object) {
     return isWhole ? uvec2(0u) : packedExtent(quarters);
 }
 
-void storeExtent(ivec2 texel, uvec2 extent) {
+// The photon that starts at a cell, where it has hit its first surface.
+struct Emitted {
+    Photon photon;
+    vec3 normal;
+    uint material;  // index + 1
+    uvec2 extent;
+};
+
+void store(ivec2 cell, ivec2 texel, Emitted emitted) {
+    PhotonOrigin origin = PhotonOrigin(uint(cell.y) * uint(gridSize.x) + uint(cell.x),
+                                       uint(lightIndex), kEmittedPath, 0u);
+    Photon photon = emitted.photon;
+    storeNext(uint(texel.y * cellsHere.x + texel.x), photon, origin);
+    storeHit(texel, Hit(photon.positionVs, 0.0, emitted.normal, emitted.material, photon.fluxWatts,
+                        photon.fate, vec3(0.0)));
 #ifdef CELL_EXTENTS
-    imageStore(nextExtents, texel, uvec4(extent, 0u, 0u));
+    imageStore(nextExtents, texel, uvec4(emitted.extent, 0u, 0u));
 #endif
 }
 
-void storeNobody(uint slot, PhotonOrigin origin) {
-    ivec2 texel = ivec2(photonTexel(nextPhotons, slot));
-    storeNext(slot, Photon(vec3(0.0), 0.0, vec3(0.0), kFateNone, vec3(0.0), 0u), origin);
-    imageStore(hitPosition, texel, vec4(0.0));
-    imageStore(hitSurface, texel, vec4(0.0));
-    imageStore(hitFlux, texel, vec4(0.0));
-    storeExtent(texel, uvec2(0u));
-}
+const Emitted kNobody =
+    Emitted(Photon(vec3(0.0), 0.0, vec3(0.0), kFateNone, vec3(0.0), 0u), vec3(0.0), 0u, uvec2(0u));
 
-void main() {
-    ivec2 here = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(here, cellsHere))) return;
-    ivec2 cell = here + ivec2(0, firstRow);
-    uint slot = uint((firstOfLight + here.y) * cellsHere.x + here.x);
-    PhotonOrigin origin = PhotonOrigin(uint(cell.y) * uint(gridSize.x) + uint(cell.x),
-                                       uint(lightIndex), kEmittedPath, 0u);
+Emitted emittedFrom(ivec2 cell) {
     uvec2 seen = seenAt(cell, ivec2(0));
     uint material = seen.x == 0u ? 0u : instances[seen.x - 1u].material.x;
-    if (seen.x == 0u || isReceiver(materialKind(material))) {
-        storeNobody(slot, origin);
-        return;
-    }
+    if (seen.x == 0u || isReceiver(materialKind(material))) return kNobody;
     LightData light = lights[lightIndex];
     bool isParallel = uint(light.positionVs.w) == kLightDirectional;
     vec2 place = placeOfCell(cell);
@@ -159,10 +152,7 @@ void main() {
                mediumTransmittance(innerMedium(media), distance);
         footprint = sqrt(solidAngle) * distance;
     }
-    if (!(flux.r + flux.g + flux.b > 0.0)) {
-        storeNobody(slot, origin);
-        return;
-    }
+    if (!(flux.r + flux.g + flux.b > 0.0)) return kNobody;
     uvec2 extent = uvec2(0u);
 #ifdef CELL_EXTENTS
     extent = extentOf(cell, seen.x);
@@ -171,11 +161,12 @@ void main() {
     if (cell.y < ownRows.x || cell.y >= ownRows.y) flux *= kNextToNothing;
     vec3 normal = bendingNormal(direction, shadingNormal(point.normal, geometric), geometric,
                                 material + 1u, media);
-    ivec2 texel = ivec2(photonTexel(nextPhotons, slot));
-    storeNext(slot, Photon(point.position, footprint, direction, kFateSpecular, flux, media),
-              origin);
-    imageStore(hitPosition, texel, vec4(point.position, 0.0));
-    imageStore(hitSurface, texel, vec4(normal, float(material + 1u)));
-    imageStore(hitFlux, texel, vec4(flux, float(kFateSpecular)));
-    storeExtent(texel, extent);
+    Photon photon = Photon(point.position, footprint, direction, kFateSpecular, flux, media);
+    return Emitted(photon, normal, material + 1u, extent);
+}
+
+void main() {
+    ivec2 cell;
+    ivec2 texel;
+    if (cellOfThread(cell, texel)) store(cell, texel, emittedFrom(cell));
 }
