@@ -19,11 +19,9 @@ layout(std430) readonly buffer FragmentTriangles {
     uint fragmentTriangles[];
 };
 
-#ifdef FEW_LAYERS
-const int kMostLayers = 8;
-#else
-const int kMostLayers = 64;
-#endif
+// So many layers are sorted at once, in registers, all indices being constant: a list is walked once
+// for each eight.
+const int kAtOnce = 8;
 const float kNoDepth = 3.0e38;
 
 void store(ivec2 pixel, int layer, uint place) {
@@ -35,79 +33,49 @@ void store(ivec2 pixel, int layer, uint place) {
     imageStore(layerSurfaces, texel, vec4(uintBitsToFloat(surface.xyz), material));
 }
 
-#ifdef FEW_LAYERS
-// All indices are constant, so that nothing leaves the registers.
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, imageSize(heads))) || !listsFit()) return;
-    float depths[kMostLayers];
-    uint places[kMostLayers];
-    uint triangles[kMostLayers];
-    for (int i = 0; i < kMostLayers; ++i) depths[i] = kNoDepth;
-    uint next = imageLoad(heads, pixel).x;
-    while (next != 0u) {
-        uint place = next - 1u;
-        float depth = uintBitsToFloat(fragmentDepths[place].x);
-        next = fragmentDepths[place].w;
-        uint triangle = fragmentTriangles[place];
-        // Whatever it is nearer than moves on by a layer, the last one out.
-        for (int i = 0; i < kMostLayers; ++i) {
-            float depthThere = depths[i];
-            bool isTwice = depth == depthThere;
-            if (depth < depthThere || (isTwice && triangle < triangles[i])) {
-                uint there = places[i];
-                uint triangleThere = triangles[i];
-                depths[i] = depth;
-                places[i] = place;
-                triangles[i] = triangle;
-                depth = depthThere;
-                place = there;
-                triangle = triangleThere;
+    float reached = -kNoDepth;  // the depth of the last layer that is stored
+    int layer = 0;
+    while (layer < layerCount && reached < kNoDepth) {
+        float depths[kAtOnce];
+        uint places[kAtOnce];
+        uint triangles[kAtOnce];
+        for (int i = 0; i < kAtOnce; ++i) depths[i] = kNoDepth;
+        uint next = imageLoad(heads, pixel).x;
+        while (next != 0u) {
+            uint place = next - 1u;
+            float depth = uintBitsToFloat(fragmentDepths[place].x);
+            next = fragmentDepths[place].w;
+            uint triangle = fragmentTriangles[place];
+            if (depth <= reached) depth = kNoDepth;
+            // Whatever it is nearer than moves on by a layer, the last one out.
+            for (int i = 0; i < kAtOnce; ++i) {
+                float depthThere = depths[i];
+                bool isTwice = depth == depthThere;
+                if (depth < depthThere || (isTwice && triangle < triangles[i])) {
+                    uint there = places[i];
+                    uint triangleThere = triangles[i];
+                    depths[i] = depth;
+                    places[i] = place;
+                    triangles[i] = triangle;
+                    depth = depthThere;
+                    place = there;
+                    triangle = triangleThere;
+                }
+                // Of two at one depth the other goes no farther.
+                if (isTwice) depth = kNoDepth;
             }
-            // Of two at one depth the other goes no farther.
-            if (isTwice) depth = kNoDepth;
         }
-    }
-    for (int layer = 0; layer < layerCount && depths[0] < kNoDepth; ++layer) {
-        store(pixel, layer, places[0]);
-        for (int i = 1; i < kMostLayers; ++i) {
-            depths[i - 1] = depths[i];
-            places[i - 1] = places[i];
+        reached = depths[kAtOnce - 1];
+        for (int left = kAtOnce; left > 0 && layer < layerCount && depths[0] < kNoDepth; --left) {
+            store(pixel, layer++, places[0]);
+            for (int i = 1; i < kAtOnce; ++i) {
+                depths[i - 1] = depths[i];
+                places[i - 1] = places[i];
+            }
+            depths[kAtOnce - 1] = kNoDepth;
         }
-        depths[kMostLayers - 1] = kNoDepth;
     }
 }
-#else
-void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(pixel, imageSize(heads))) || !listsFit()) return;
-    float depths[kMostLayers];
-    uint places[kMostLayers];
-    int count = 0;
-    uint next = imageLoad(heads, pixel).x;
-    while (next != 0u) {
-        uint place = next - 1u;
-        float depth = uintBitsToFloat(fragmentDepths[place].x);
-        next = fragmentDepths[place].w;
-        // Whatever it is nearer than moves on by a layer, the last one out.
-        bool isTwice = false;
-        for (int i = 0; i < count && !isTwice; ++i) {
-            float depthThere = depths[i];
-            uint there = places[i];
-            isTwice = depth == depthThere;
-            bool isBefore = isTwice ? fragmentTriangles[place] < fragmentTriangles[there]
-                                    : depth < depthThere;
-            if (!isBefore) continue;
-            depths[i] = depth;
-            places[i] = place;
-            depth = depthThere;
-            place = there;
-        }
-        if (isTwice || count == layerCount) continue;
-        depths[count] = depth;
-        places[count] = place;
-        ++count;
-    }
-    for (int i = 0; i < count; ++i) store(pixel, i, places[i]);
-}
-#endif

@@ -171,7 +171,6 @@ void listView(const FrameInputs& inputs, const Lists& data, gl::PassContext& con
 
     gl::Command sort = context.compute("screen_space_photons/lists.comp");
     tellWhatFits(sort, data, room, face);
-    if (request.layers <= 8) sort.define("FEW_LAYERS");
     sort.image("layerDepths", peeling.layers.depth)
         .image("layerSurfaces", peeling.layers.surface)
         .dispatchOver(views.width(), 8, views.height(), 8);
