@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "techniques/register_all.h"
 
+#include "techniques/caustic_map/nodes.h"
 #include "techniques/planar/nodes.h"
 #ifdef KAUSTIK_HAS_EMBREE
 #include "techniques/raytraced/nodes.h"
@@ -18,6 +19,7 @@ Registry registerAll() {
     registerRaytraced(registry);
 #endif
     registerPlanar(registry);
+    registerCausticMap(registry);
     registerNoMedia(registry);
     return registry;
 }

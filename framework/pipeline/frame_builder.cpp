@@ -155,11 +155,12 @@ FrameOutputs buildFrame(FrameBuilder& frame) {
     const std::string whyNot = whyNoCaustic(frame);
     const Surfaces surfaces{geometry, eye, layers};
     Caustic caustic;
+    CausticMap filtered;
     IrradianceMap irradiance;
     if (whyNot.empty()) {
         caustic = frame.run<DriverStage>(surfaces);
-        caustic.map = frame.run<FilterStage>(caustic.map);
-        irradiance = frame.run<GatherStage>(caustic.map, surfaces);
+        filtered = frame.run<FilterStage>(caustic.map);
+        irradiance = frame.run<GatherStage>(filtered, surfaces);
     } else {
         irradiance = skipCaustic(frame, whyNot);
     }
@@ -173,7 +174,8 @@ FrameOutputs buildFrame(FrameBuilder& frame) {
             irradiance.ledger,
             caustic.inScattered,
             shadows,
-            caustic.map};
+            caustic.map,
+            filtered};
 }
 
 }  // namespace kaustik

@@ -76,22 +76,28 @@ Ledger closeBatch(FrameBuilder& frame, const Hits& hits, const Ledger& ledger) {
         });
 }
 
+Ledger sumMaps(FrameBuilder& frame, const std::vector<FluxMap>& maps, Ledger ledger) {
+    for (const FluxMap& map : maps) {
+        ledger = frame.pass<Ledger>(
+            "ledger.close", "the report accounts for every watt",
+            [&](graph::PassSetup& setup, Ledger& data) {
+                setup.sample("fluxSums", map.flux);
+                data = setup.storage("LedgerEntries", setup.write(ledger));
+            },
+            [map](const Ledger&, gl::PassContext& context) {
+                const graph::TextureDesc& desc = context.texture(map.flux).desc();
+                context.compute("framework/ledger_close.comp")
+                    .set("mapCount", map.on.views->count())
+                    .set("wordsPerMap", map.wordsPerView())
+                    .dispatchOver(desc.width, 8, desc.height, 8);
+            });
+    }
+    return ledger;
+}
+
 Ledger closeLedger(FrameBuilder& frame, const FrameOutputs& outputs) {
-    const CausticMap& map = outputs.map;
-    if (!map.flux.valid()) return outputs.ledger;  // no photon was ever on its way
-    return frame.pass<Ledger>(
-        "ledger.close", "the report accounts for every watt",
-        [&](graph::PassSetup& setup, Ledger& data) {
-            setup.sample("fluxSums", map.flux);
-            data = setup.storage("LedgerEntries", setup.write(outputs.ledger));
-        },
-        [map](const Ledger&, gl::PassContext& context) {
-            const graph::TextureDesc& desc = context.texture(map.flux).desc();
-            context.compute("framework/ledger_close.comp")
-                .set("mapCount", map.views->count())
-                .set("wordsPerMap", map.wordsPerView())
-                .dispatchOver(desc.width, 8, desc.height, 8);
-        });
+    // Without a map no photon was ever on its way.
+    return sumMaps(frame, outputs.map.maps, outputs.ledger);
 }
 
 EnergyLedger readLedger(const gl::Buffer& buffer, float quantumWatts) {

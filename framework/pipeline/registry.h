@@ -48,7 +48,8 @@ struct FrameOutputs {
     Ledger ledger;  // with everything but what was deposited
     InScattered inScattered;
     Shadows shadows;
-    CausticMap map;  // what was deposited; invalid where a technique stores no flux
+    CausticMap map;            // what was deposited; without maps where a technique stores no flux
+    CausticMap filtered = {};  // and what became of it
 };
 
 using BuildFrame = std::function<FrameOutputs(FrameBuilder&)>;

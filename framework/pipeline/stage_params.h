@@ -63,6 +63,35 @@ struct TraceParams {
     }
 };
 
+// Where light is stored.
+enum class StoreSpace : int { screen, light };
+// What a light's map covers.
+enum class MapCover : int { seen, scene };
+
+struct ReconstructParams {
+    StoreSpace space = StoreSpace::screen;
+    int mapSize = 1024;
+    MapCover covers = MapCover::seen;
+    int memoryMebibytes = 4096;
+    template <class R>
+    void reflect(R& r) {
+        r.choice(space, "space",
+                 "screen: by the eye's pixels; light: in a caustic map of each light, as it sees "
+                 "the receivers",
+                 {"screen", "light"});
+        r.field(mapSize, "map_size",
+                "Side of a light's caustic map; half of it where a light needs six, around it",
+                "texels", params::range(16, 8192));
+        r.choice(covers, "map_covers",
+                 "seen: the receivers within what the eye looks at; scene: all of them",
+                 {"seen", "scene"});
+        r.field(memoryMebibytes, "map_memory",
+                "Most memory of all caustic maps together and of what the lights see there; larger "
+                "ones are halved until they fit, and the report says so",
+                "MiB", params::range(1, 1048576));
+    }
+};
+
 struct ViewParams {
     int samples = 1;
     template <class R>

@@ -90,6 +90,9 @@ struct HitFlux {  // rgb: W that arrive; w: fate
 struct FluxWord {  // array: words of sums in fixed point (transport::kFluxWords)
     static constexpr Format format = Format::r32ui;
 };
+struct PhotonCountTexel {  // array: photons
+    static constexpr Format format = Format::r32ui;
+};
 struct IrradianceTexel {  // rgb: W/m²
     static constexpr Format format = Format::rgba32f;
 };
@@ -150,6 +153,7 @@ struct LayeredDepth {
 struct ModelledPaths {
     bool transmissionOnly = false;  // at dielectrics the refracted branch, unless all is reflected
     int interactions = 0;           // most specular interactions of a photon
+    bool end = false;               // whoever sent the photons on cannot do so again
 };
 
 // What a technique's nodes are given of the scene. A pass that nobody reads does not run: whoever
@@ -238,22 +242,45 @@ struct Hits {
     [[nodiscard]] std::vector<graph::ResourceRef> textures() const;
 };
 
-// Flux that has arrived, W a texel, in the space of views: sums that depend neither on the order
+// What a map of flux holds of each view.
+struct FluxSets {
+    // Maps of all the flux, where it is stored in several ways: a splat's sizes, levels of
+    // resolution. The first is what the ledger counts.
+    int flux = 1;
+    bool counts = false;        // and how many photons each of them has by texel
+    bool hasIntensity = false;  // and what goes to the eye, W/sr; the eye's view alone
+    // And the flux of all channels times 1 + the direction in which it arrives, eye view space: its
+    // mean is what a glossy receiver needs where the eye's is not known yet.
+    bool hasDirection = false;
+    // Of the intensity or the direction.
+    [[nodiscard]] int last() const { return flux; }
+    [[nodiscard]] int perView() const { return flux + (hasIntensity || hasDirection ? 1 : 0); }
+};
+
+// Flux that has arrived, W a texel, on what some views see: sums that depend neither on the order
 // nor on the batches of what was added. Names in shaders: include/flux_sum.glsl.
-struct CausticMap {
+struct FluxMap {
     graph::Texture<FluxWord> flux;
-    bool hasIntensity = false;  // and what of it goes to the eye, W/sr, in as many layers more
-    Views views;
-    Ledger ledger;
+    graph::Texture<PhotonCountTexel> counts;  // array, a layer a set of flux; where `sets` has them
+    FluxSets sets;
+    ReceiverView on;
+    int light = -1;  // whose photons alone it holds; -1: all lights'
     // Layers of `flux` that each view has.
     [[nodiscard]] int wordsPerView() const {
-        return static_cast<int>(transport::kFluxWords) * (hasIntensity ? 2 : 1);
+        return static_cast<int>(transport::kFluxWords) * sets.perView();
     }
 
-    // For a pass that adds to what `before` holds, as the image "fluxSums"; where that is invalid,
-    // to a new map, which the pass has to clear first. Only the eye's view has intensity.
-    static CausticMap deposit(graph::PassSetup& setup, const CausticMap& before, const Views& views,
-                              bool hasIntensity, const std::string& name);
+    // For a pass that adds to what `before` holds, as the images "fluxSums" and, where there are
+    // counts, "photonCounts"; where `before` is invalid, to a new map, which the pass has to clear
+    // first.
+    static FluxMap deposit(graph::PassSetup& setup, const FluxMap& before, const ReceiverView& on,
+                           const FluxSets& sets, const std::string& name);
+};
+
+// All the light of a frame that has arrived: one map on the screen, or one of each light.
+struct CausticMap {
+    std::vector<FluxMap> maps;
+    Ledger ledger;
 };
 
 // In screen space, at the eye buffer's receivers.
@@ -305,7 +332,8 @@ struct Picture {
 // Which surfaces a tracer can find. What it cannot see it cannot be expected to hit: the photon
 // audit, the hard cases and nodes that trace rays of their own ask for this. flatReceivers: those
 // of scene/flat_faces.h by photons outside of closed dielectrics, wherever the eye looks.
-enum class Sees { eyeLayers, everything, flatReceivers };
+// lightFront: the first receiver that the photon's light sees in any direction.
+enum class Sees { eyeLayers, everything, flatReceivers, lightFront };
 
 // Which of the lights' photons (FrameBuilder::photonsOfALight) are emitted at once: rows
 // [firstRow, firstRow + rows) of each light's.
@@ -358,7 +386,7 @@ struct EmitStage : Stage<Hits(Surfaces, Samples)> {
     static constexpr const char* question = "Where does light first hit a specular surface?";
 };
 // Gives the photons that go on, and no others, in the order of those that were there.
-struct SpecularStage : Stage<Photons(Hits)> {
+struct SpecularStage : Stage<Photons(Hits, Surfaces)> {
     static constexpr const char* name = "specular";
     static constexpr const char* question = "Where do photons go from a specular surface?";
 };

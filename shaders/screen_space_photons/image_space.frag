@@ -1,9 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the eye sees through two interfaces, in image space (W05, as K06 and WN09 describe it): the
-// point where a refracted ray leaves lies at a distance between that to the back faces along the
-// eye's ray, d_V, and that along the inverse normal, d_N. The weight of d_V is the ratio of the
-// angles of refraction and incidence: right for an index of 1, where the ray goes straight on, and
-// for one without limit, where it follows the normal.
+// What the eye sees through two interfaces, in image space (W05): include/two_interfaces.glsl.
 #include "include/scene_look.glsl"
 
 layout(location = 0) out vec4 radiance;
@@ -11,63 +7,7 @@ layout(location = 1) out vec4 exitPosition;
 layout(location = 2) out vec4 exitDirection;
 
 #ifdef DIELECTRICS
-uniform sampler2D backDepth;
-uniform sampler2D backSurface;
-
-ivec2 texelAt(vec3 positionVs) {
-    return ivec2(floor(pixelOf(vec3(positionVs.xy, min(positionVs.z, -view.frustum.z)))));
-}
-
-// Depth of the back faces, 0 where there are none.
-float backAt(ivec2 texel) {
-    if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, ivec2(view.sizePixels.xy))))
-        return 0.0;
-    return texelFetch(backDepth, texel, 0).x;
-}
-
-// Along the inverse normal to the back faces, m: a point on that way is inside as long as the back
-// faces lie beyond it. The paper's is precomputed for every vertex; this needs no preparation.
-float distanceAlongNormal(vec3 entry, vec3 normal, float longest) {
-    float inside = 0.0;
-    float step = longest / float(view_image_space_steps);
-    for (int i = 1; i <= view_image_space_steps; ++i) {
-        vec3 p = entry - normal * (step * float(i));
-        float back = backAt(texelAt(p));
-        if (back <= 0.0 || -p.z > back) break;
-        inside = step * float(i);
-    }
-    if (inside >= longest) return longest;
-    // Between the last point inside and the first one outside.
-    float outside = inside + step;
-    for (int i = 0; i < 4; ++i) {
-        float middle = 0.5 * (inside + outside);
-        vec3 p = entry - normal * middle;
-        float back = backAt(texelAt(p));
-        if (back <= 0.0 || -p.z > back) {
-            outside = middle;
-        } else {
-            inside = middle;
-        }
-    }
-    return 0.5 * (inside + outside);
-}
-
-// The normal of the back faces around a point: bilinear between the pixels that have one.
-vec3 backNormalAround(vec3 positionVs, ivec2 fallback) {
-    vec2 corner = pixelOf(vec3(positionVs.xy, min(positionVs.z, -view.frustum.z))) - 0.5;
-    ivec2 first = ivec2(floor(corner));
-    vec2 f = corner - vec2(first);
-    vec3 sum = vec3(0.0);
-    for (int i = 0; i < 4; ++i) {
-        ivec2 step = ivec2(i & 1, i >> 1);
-        ivec2 texel = first + step;
-        if (backAt(texel) <= 0.0) continue;
-        vec2 axis = mix(1.0 - f, f, vec2(step));
-        sum += axis.x * axis.y * texelFetch(backSurface, texel, 0).xyz;
-    }
-    float size = length(sum);
-    return size > 1e-3 ? sum / size : texelFetch(backSurface, fallback, 0).xyz;
-}
+#include "include/two_interfaces.glsl"
 
 // What is seen at an interface: all outputs.
 void lookThroughInterfaces(ivec2 pixel, vec3 viewing, float depth, vec4 surface) {
@@ -90,29 +30,14 @@ void lookThroughInterfaces(ivec2 pixel, vec3 viewing, float depth, vec4 surface)
     float ending = kPathCameOut;
     float back = texelFetch(backDepth, pixel, 0).x;
     if (enters && back > depth) {
-        float alongRay = (back - depth) * length(viewing);
-        float cosI = clamp(-dot(direction, surface.xyz), 0.0, 1.0);
-        float cosT = clamp(-dot(onward, surface.xyz), 0.0, 1.0);
-        float angleI = acos(cosI);
-        float weight = angleI > 1e-3 ? acos(cosT) / angleI : 1.0 / index;
-        float inside = alongRay;
-        if (view_image_space_steps > 0) {
-            // No object is thicker than twice what the eye sees of it, or the search ends there.
-            float alongNormal = distanceAlongNormal(entry, surface.xyz, 2.0 * alongRay);
-            inside = weight * alongRay + (1.0 - weight) * alongNormal;
-        }
-        vec3 exit = entry + inside * onward;
-        // Beside the silhouette: the last pixel on the way there that has back faces.
-        ivec2 there = texelAt(exit);
-        const int kTries = 8;
-        for (int i = 1; i <= kTries && backAt(there) <= 0.0; ++i)
-            there = texelAt(mix(exit, entry, float(i) / float(kTries)));
-        vec3 normal = backNormalAround(exit, there);
-        throughput *= mediumTransmittance(material, inside);
-        origin = exit;
+        float through = (back - depth) * length(viewing);
+        WayInside way = wayInside(entry, direction, onward, surface.xyz, through, index,
+                                  view_image_space_steps);
+        throughput *= mediumTransmittance(material, way.length);
+        origin = way.exit;
         interfaces = 2.0;
-        Interface second = interactAt(onward, normal, index, 1.0);
-        if (second.reflectance < 1.0 && dot(onward, normal) > 0.0) {
+        Interface second = interactAt(onward, way.normal, index, 1.0);
+        if (second.reflectance < 1.0 && dot(onward, way.normal) > 0.0) {
             onward = second.refracted;
             throughput *= 1.0 - second.reflectance;
         } else {

@@ -1,18 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What becomes of a patch's flux once it is known what the pixels show of it.
-#include "include/flux_sum.glsl"
-#ifdef GLOSSY_RECEIVERS
-#include "include/receiver_brdf.glsl"
-#endif
+#include "include/deposit.glsl"
 
 void deposit(Patch whole, ivec2 pixel, float share) {
-    vec3 flux = whole.flux * share;
-    fluxAdd(pixel, viewIndex, kFluxPart, flux);
-#ifdef GLOSSY_RECEIVERS
-    vec4 surface = texelFetch(receiverSurface, pixel, 0);
-    fluxAdd(pixel, viewIndex, kIntensityPart,
-            flux * receiverReflection(pixel, surface, directionToEye(-whole.direction)));
-#endif
+    depositFlux(pixel, whole.flux * share, directionToEye(whole.direction));
 }
 
 // What shares are divided by; 0 where no pixel shows any of it. Books what is hidden or beside the

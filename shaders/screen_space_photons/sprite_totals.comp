@@ -2,6 +2,7 @@
 // What each splat's weights sum to over the pixels' areas. The part that is hidden from the view, or
 // beside it, goes to the ledger; the part that hangs off the surface's edge is redistributed on it.
 // One thread a photon.
+#include "include/arriving.glsl"
 #include "include/ledger.glsl"
 #include "include/surface_data.glsl"
 #include "screen_space_photons/splat.glsl"
@@ -42,7 +43,7 @@ void addParts(Sprite sprite, inout Parts parts) {
 
 float totalOf(ivec2 texel) {
     vec4 flux = texelFetch(hitFlux, texel, 0);
-    if (uint(flux.w) != kFateReceiver) return 0.0;
+    if (!arrivesHere(texel)) return 0.0;
     float wanted;
     float largest;
     Sprite sprite = splatOf(texel, wanted, largest);

@@ -2,24 +2,13 @@
 // Each pixel's share of a splat, so that exactly the photon's flux is deposited at every
 // orientation, size and distance (sampled at pixel centres a kernel of few pixels does not sum to
 // 1). One thread a photon.
-#include "include/flux_sum.glsl"
 #include "include/surface_data.glsl"
 #include "screen_space_photons/splat.glsl"
-#ifdef GLOSSY_RECEIVERS
-#include "include/receiver_brdf.glsl"
-#endif
+#include "include/deposit.glsl"
 
 layout(std430) readonly buffer SplatTotals {
     float splatTotals[];
 };
-
-void deposit(Sprite sprite, ivec2 pixel, vec3 flux) {
-    fluxAdd(pixel, viewIndex, kFluxPart, flux);
-#ifdef GLOSSY_RECEIVERS
-    vec4 surface = texelFetch(receiverSurface, pixel, 0);
-    fluxAdd(pixel, viewIndex, kIntensityPart, flux * receiverReflection(pixel, surface, -sprite.direction));
-#endif
-}
 
 void depositInView(Sprite sprite, vec3 flux, float total) {
     if (!isNearView(sprite)) return;
@@ -31,7 +20,8 @@ void depositInView(Sprite sprite, vec3 flux, float total) {
         for (int x = first.x; x <= last.x; ++x) {
             SpritePixel part = spriteAt(sprite, ivec2(x, y));
             if (part.where == kSeenOn && part.weight > 0.0)
-                deposit(sprite, ivec2(x, y), flux * (part.weight * part.area / total));
+                depositFlux(ivec2(x, y), flux * (part.weight * part.area / total),
+                            directionToEye(sprite.direction));
         }
     }
 }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // reconstruct.triangles: which photon of the list arrives from each cell. One thread a photon.
+#include "include/arriving.glsl"
 #include "include/cells.glsl"
-#include "include/hits.glsl"
-#include "include/photon_thread.glsl"
 
 layout(std430) writeonly buffer CellPhotons {
     uint cellPhotons[];  // index + 1; 0 where none arrives
@@ -12,7 +11,7 @@ void main() {
     uint index = photonOfThread();
     if (index >= photons.count) return;
     ivec2 texel = ivec2(photonTexel(photons, index));
-    if (uint(texelFetch(hitFlux, texel, 0).w) != kFateReceiver) return;
+    if (!arrivesHere(texel)) return;
     uint place = cellPlace(originAt(texel), ivec2(0));
     if (place != kNoCell) cellPhotons[place] = index + 1u;
 }

@@ -2,6 +2,7 @@
 // reconstruct.triangles: what there is to cover. A photon stands for a quarter of each of the four
 // quadrilaterals around it; those that are not joined it covers by its own beam, as far as light
 // comes that way. One thread a photon.
+#include "include/arriving.glsl"
 #include "screen_space_photons/crease.glsl"
 #include "screen_space_photons/patch_list.glsl"
 
@@ -45,7 +46,7 @@ void main() {
     if (index >= photons.count) return;
     ivec2 texel = ivec2(photonTexel(photons, index));
     vec4 flux = texelFetch(hitFlux, texel, 0);
-    if (uint(flux.w) != kFateReceiver) return;
+    if (!arrivesHere(texel)) return;
     PhotonOrigin origin = originAt(texel);
     bool isOther = isOfOtherBatch(flux.rgb);
     Arrival own;

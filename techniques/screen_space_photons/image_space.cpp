@@ -11,6 +11,7 @@
 // What is totally reflected at the second interface is told apart and goes on unbent.
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/screen_space_photons/nodes.h"
+#include "techniques/shared/back_faces.h"
 #include "techniques/shared/view_passes.h"
 
 namespace kaustik {
@@ -29,43 +30,6 @@ struct ImageSpaceViewParams {
     }
 };
 
-struct BackFaces {
-    graph::Texture<ViewDepth> depth;
-    graph::Texture<SurfaceTexel> surface;
-};
-
-BackFaces drawBackFaces(FrameBuilder& frame, Geometry geometry) {
-    struct Data {
-        BackFaces faces;
-        graph::Texture<DepthBuffer> depthBuffer;
-        Geometry geometry;
-    };
-    return frame
-        .pass<Data>(
-            "view.back_faces", "the eye's rays leave transmitting objects through their backs",
-            [&](graph::PassSetup& setup, Data& data) {
-                data.geometry = geometry;
-                if (geometry.heightFields.valid()) setup.read(geometry.heightFields);
-                const int w = frame.width();
-                const int h = frame.height();
-                data.faces.depth = setup.create<ViewDepth>("view.back_depth", w, h);
-                data.faces.surface = setup.create<SurfaceTexel>("view.back_surface", w, h);
-                data.depthBuffer = setup.create<DepthBuffer>("view.back_depth_buffer", w, h);
-            },
-            [&inputs = frame.inputs()](const Data& data, gl::PassContext& context) {
-                gl::Command command =
-                    context.shaders({"shared/eye.vert", "screen_space_photons/back_faces.frag"});
-                command.set("projection", inputs.view.projection());
-                command.target(data.faces.depth).clear();
-                command.target(data.faces.surface).clear();
-                // Reversed z: the smaller value is the farther one.
-                command.depth(data.depthBuffer, gl::DepthTest::nearer).clear({1, 0, 0, 0});
-                inputs.gpuScene.draw(command, context, data.geometry, inputs.instances,
-                                     render::DrawSet::dielectrics);
-            })
-        .faces;
-}
-
 View refractInImageSpace(FrameBuilder& frame, const ImageSpaceViewParams& params, Geometry geometry,
                          EyeBuffer eye, LayeredDepth layers, Radiance receivers, Shadows shadows) {
     if (!eye.interface.valid()) {
@@ -73,7 +37,10 @@ View refractInImageSpace(FrameBuilder& frame, const ImageSpaceViewParams& params
     }
     BackFaces faces;
     if (frame.needs().refractors > 0) {
-        faces = drawBackFaces(frame, geometry);
+        faces = drawBackFaces(
+            frame, geometry, frame.eyeViews(),
+            {"view.back_faces", "the eye's rays leave transmitting objects through their backs",
+             "view."});
     } else {
         frame.skip("view.back_faces", "the scene has no dielectric");
     }
@@ -82,10 +49,7 @@ View refractInImageSpace(FrameBuilder& frame, const ImageSpaceViewParams& params
             .pass<ViewPass>(
                 "view.image_space", whyLook(frame),
                 [&](graph::PassSetup& setup, ViewPass& look) {
-                    if (faces.depth.valid()) {
-                        setup.sample("backDepth", faces.depth);
-                        setup.sample("backSurface", faces.surface);
-                    }
+                    if (faces.depth.valid()) faces.sample(setup);
                     look = declareLook(frame, setup, params.look, geometry, eye, layers, receivers,
                                        shadows);
                 },

@@ -29,9 +29,18 @@ constexpr std::size_t kShrunk = 1;
 // thread after 65,535 turns together.
 constexpr int kMostReachOnCubes = 72;
 
+CausticMap splat(FrameBuilder& frame, const Splatting& splatting, const Hits& hits,
+                 const Surfaces& surfaces, const CausticMap& before) {
+    return storeEverywhere(frame, surfaces, hits, before,
+                           [&](const Store& store, const Hits& own, const FluxMap& former) {
+                               return splatInto(frame, splatting, own, store, former,
+                                                "caustic.flux" + store.suffix);
+                           });
+}
+
 CausticMap splatSprites(FrameBuilder& frame, const SpritesParams& params, Hits hits,
                         Surfaces surfaces, CausticMap before) {
-    return splatInto(frame, {.params = params}, hits, surfaces.eye, before, "caustic.flux");
+    return splat(frame, {.params = params}, hits, surfaces, before);
 }
 
 enum class BeamShape : int { ellipse, round };
@@ -72,24 +81,24 @@ CausticMap splatBeams(FrameBuilder& frame, const BeamsParams& params, Hits hits,
     splatting.params.maximumPixels = params.maximumPixels;
     splatting.params.reachPixels = params.reachPixels;
     needsBeams(frame, splatting.node, hits.incoming);
-    return splatInto(frame, splatting, hits, surfaces.eye, before, "caustic.flux");
+    return splat(frame, splatting, hits, surfaces, before);
 }
 
 }  // namespace
 
-CausticMap splatInto(FrameBuilder& frame, const Splatting& splatting, const Hits& hits,
-                     const ReceiverView& receivers, const CausticMap& before,
-                     const std::string& name) {
+Stored splatInto(FrameBuilder& frame, const Splatting& splatting, const Hits& hits,
+                 const Store& store, const FluxMap& before, const std::string& name) {
     const SpritesParams& params = splatting.params;
-    // What goes to the eye only the eye's pixels know.
-    const bool isGlossy = receivers.views->isEyes() && frame.needs().glossyReceivers;
+    const ReceiverView& receivers = store.receivers;
+    const FluxSets sets = setsIn(frame, store);
+    const bool isGlossy = sets.hasIntensity;
     const int reach = receivers.views->count() == 1
                           ? params.reachPixels
                           : std::min(params.reachPixels, kMostReachOnCubes);
     const bool isFirst = !before.flux.valid();
     struct Data {
         CutSplats cut;
-        CausticMap map;
+        Stored stored;
     };
     const Data& splatted = frame.pass<Data>(
         splatting.node,
@@ -110,30 +119,31 @@ CausticMap splatInto(FrameBuilder& frame, const Splatting& splatting, const Hits
                                            name + ".totals" + hits.incoming.suffix,
                                            static_cast<std::size_t>(hits.incoming.capacity()))),
                          {0, 0, 0, 0});
-            data.map = CausticMap::deposit(setup, before, receivers.views, isGlossy, name);
-            data.map.ledger = setup.storage("LedgerEntries", setup.write(hits.incoming.ledger));
-            setup.bypass(data.map.ledger, hits.incoming.ledger);
+            data.stored.map = FluxMap::deposit(setup, before, receivers, sets, name);
+            data.stored.ledger = setup.storage("LedgerEntries", setup.write(hits.incoming.ledger));
+            setup.bypass(data.stored.ledger, hits.incoming.ledger);
         },
-        [splatting, reach, isGlossy, isFirst, views = receivers.views, list = hits.incoming](
+        [splatting, reach, sets, isFirst, store, list = hits.incoming](
             const Data& data, gl::PassContext& context) {
             context.buffer(data.cut).clear();
-            if (isFirst) context.texture(data.map.flux).clear({0, 0, 0, 0});
+            if (isFirst) context.texture(data.stored.map.flux).clear({0, 0, 0, 0});
             for (const char* shader : {"sprite_totals", "sprites"}) {
                 gl::Command command =
                     context.compute(fmt::format("screen_space_photons/{}.comp", shader));
-                views->bindTo(command).params("reconstruct.sprites", splatting.params);
+                store.receivers.views->bindTo(command).params("reconstruct.sprites",
+                                                              splatting.params);
+                takeLight(command, store);
                 command.set("mostReach", reach);
                 if (splatting.areBeams)
                     command.define("BEAM_SPLATS").set("isRound", splatting.areRound ? 1 : 0);
-                if (isGlossy && shader == std::string("sprites"))
-                    command.define("GLOSSY_RECEIVERS");
+                if (shader == std::string("sprites")) setDeposit(command, sets);
                 dispatchOver(command, list);
             }
         });
     keepToWidth(frame, splatting.node, splatted.cut, kCutOff, "reach", reach, "splats are cut off");
     keepToWidth(frame, splatting.node, splatted.cut, kShrunk, "maximum", params.maximumPixels,
                 "splats are smaller than they were to be");
-    return splatted.map;
+    return splatted.stored;
 }
 
 void registerSprites(Registry& registry) {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "framework/pipeline/frame_builder.h"
+#include "techniques/shared/stores.h"
 
 namespace kaustik {
 
@@ -60,8 +61,7 @@ struct Splatting {
 
 // Splats what these hits bring to receivers, W, on what any views see; adds to `before`, or to a
 // new map called `name`.
-[[nodiscard]] CausticMap splatInto(FrameBuilder& frame, const Splatting& splatting,
-                                   const Hits& hits, const ReceiverView& receivers,
-                                   const CausticMap& before, const std::string& name);
+[[nodiscard]] Stored splatInto(FrameBuilder& frame, const Splatting& splatting, const Hits& hits,
+                               const Store& store, const FluxMap& before, const std::string& name);
 
 }  // namespace kaustik

@@ -15,6 +15,7 @@
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/screen_space_photons/nodes.h"
 #include "techniques/shared/narrowed.h"
+#include "techniques/shared/stores.h"
 
 namespace kaustik {
 namespace {
@@ -54,18 +55,18 @@ void setCells(gl::Command& command, const CellGrid& cells) {
         .set("cellSplits", cells.splits);
 }
 
-CausticMap coverTriangles(FrameBuilder& frame, const TrianglesParams& params, Hits hits,
-                          Surfaces surfaces, CausticMap before) {
-    const ReceiverView& receivers = surfaces.eye;
-    needsBeams(frame, "reconstruct.triangles", hits.incoming);
+Stored coverIn(FrameBuilder& frame, const TrianglesParams& params, const Hits& hits,
+               const Store& store, const FluxMap& before) {
+    const ReceiverView& receivers = store.receivers;
     if (receivers.views->count() > 1)
         throw ConfigError(
             "reconstruct.triangles works in one view, but the receivers are those of a cube's "
             "faces; take reconstruct=beams.");
-    const bool isGlossy = receivers.views->isEyes() && frame.needs().glossyReceivers;
+    const FluxSets sets = setsIn(frame, store);
+    const bool isGlossy = sets.hasIntensity;
     const bool isFirst = !before.flux.valid();
     struct Data {
-        CausticMap map;
+        Stored stored;
         graph::Buffer<std::uint32_t> photonOfCell;
         graph::Buffer<std::uint32_t> joins;
         graph::Buffer<float> shares;
@@ -94,7 +95,8 @@ CausticMap coverTriangles(FrameBuilder& frame, const TrianglesParams& params, Hi
                                              const char* name, std::size_t count) {
                 buffer = setup.storage(
                     block, setup.createBuffer<T>(
-                               "triangles." + std::string(name) + hits.incoming.suffix, count));
+                               "triangles." + std::string(name) + store.suffix + hits.incoming.suffix,
+                               count));
                 setup.bypass(buffer, {0, 0, 0, 0});
             };
             create(data.photonOfCell, "CellPhotons", "photon_of_cell",
@@ -105,21 +107,22 @@ CausticMap coverTriangles(FrameBuilder& frame, const TrianglesParams& params, Hi
             create(data.widePatches, "WidePatches", "wide_patches", 4 * capacity);
             create(data.counts, "PatchCounts", "counts", 2);
             create(data.narrowed, "NarrowedPatches", "narrowed", 1);
-            data.map =
-                CausticMap::deposit(setup, before, receivers.views, isGlossy, "caustic.flux");
-            data.map.ledger = setup.storage("LedgerEntries", setup.write(hits.incoming.ledger));
-            setup.bypass(data.map.ledger, hits.incoming.ledger);
+            data.stored.map =
+                FluxMap::deposit(setup, before, receivers, sets, "caustic.flux" + store.suffix);
+            data.stored.ledger = setup.storage("LedgerEntries", setup.write(hits.incoming.ledger));
+            setup.bypass(data.stored.ledger, hits.incoming.ledger);
         },
-        [params, isGlossy, isFirst, views = receivers.views, list = hits.incoming](
+        [params, sets, isFirst, store, list = hits.incoming](
             const Data& data, gl::PassContext& context) {
-            if (isFirst) context.texture(data.map.flux).clear({0, 0, 0, 0});
+            if (isFirst) context.texture(data.stored.map.flux).clear({0, 0, 0, 0});
             context.buffer(data.photonOfCell).clear();
             context.buffer(data.counts).clear();
             context.buffer(data.narrowed).clear();
             const auto shader = [&](const char* name) {
                 gl::Command command =
                     context.compute(fmt::format("screen_space_photons/{}.comp", name));
-                views->bindTo(command).params("reconstruct.triangles", params);
+                store.receivers.views->bindTo(command).params("reconstruct.triangles", params);
+                takeLight(command, store);
                 setCells(command, list.cells);
                 return command;
             };
@@ -135,7 +138,7 @@ CausticMap coverTriangles(FrameBuilder& frame, const TrianglesParams& params, Hi
             for (int isWide = 0; isWide < 2; ++isWide) {
                 countGroups(isWide);
                 gl::Command command = shader(isWide == 1 ? "triangles_wide" : "triangles");
-                if (isGlossy) command.define("GLOSSY_RECEIVERS");
+                setDeposit(command, sets);
                 command.dispatchIndirect(data.counts,
                                          static_cast<std::size_t>(isWide) * sizeof(PatchCount) +
                                              offsetof(PatchCount, groupsX));
@@ -143,7 +146,16 @@ CausticMap coverTriangles(FrameBuilder& frame, const TrianglesParams& params, Hi
         });
     keepToWidth(frame, "reconstruct.triangles", covered.narrowed, 0, "maximum", params.maximum,
                 "beams are narrower than they were to be");
-    return covered.map;
+    return covered.stored;
+}
+
+CausticMap coverTriangles(FrameBuilder& frame, const TrianglesParams& params, Hits hits,
+                          Surfaces surfaces, CausticMap before) {
+    needsBeams(frame, "reconstruct.triangles", hits.incoming);
+    return storeEverywhere(frame, surfaces, hits, before,
+                           [&](const Store& store, const Hits& own, const FluxMap& former) {
+                               return coverIn(frame, params, own, store, former);
+                           });
 }
 
 }  // namespace

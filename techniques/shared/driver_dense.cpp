@@ -19,6 +19,7 @@ namespace {
 // A path through still water hits it once. Where one can come back, the limit decides, and the
 // ledger says what it cost.
 int interactionCount(const FrameBuilder& frame, const ModelledPaths& paths) {
+    if (paths.end) return 1;
     const scene::HitsAgain& again = frame.needs().hitsAgain;
     const bool canRepeat = paths.transmissionOnly ? again.transmitted : again.reflected;
     return canRepeat ? frame.params<SpecularParams>("specular").bounces : 1;
@@ -52,7 +53,7 @@ Caustic followAllPhotons(FrameBuilder& frame, const params::NoParams&, Surfaces 
         Hits hits = frame.run<EmitStage>(surfaces, samples);
         int interactions = 1;
         for (int i = 0; i < interactions; ++i) {
-            const Photons photons = frame.run<SpecularStage>(hits);
+            const Photons photons = frame.run<SpecularStage>(hits, surfaces);
             interactions = interactionCount(frame, photons.paths);
             hits = frame.run<TraceStage>(photons, surfaces);
             caustic.map = frame.run<ReconstructStage>(hits, surfaces, caustic.map);

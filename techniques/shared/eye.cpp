@@ -11,7 +11,8 @@
 namespace kaustik {
 
 SeenReceivers seeReceivers(FrameBuilder& frame, Geometry geometry, const Views& views,
-                           const std::string& name, const std::string& why) {
+                           const std::string& name, const std::string& why,
+                           render::DrawSet drawn) {
     return frame.pass<SeenReceivers>(
         name + ".receivers", why,
         [&](graph::PassSetup& setup, SeenReceivers& data) {
@@ -29,7 +30,7 @@ SeenReceivers seeReceivers(FrameBuilder& frame, Geometry geometry, const Views& 
                 setup.create<AlbedoTexel>(name + ".receiver_albedo", w, h, layers);
             data.depth = setup.create<DepthBuffer>(name + ".depth_buffer", w, h);
         },
-        [&inputs = frame.inputs()](const SeenReceivers& data, gl::PassContext& context) {
+        [&inputs = frame.inputs(), drawn](const SeenReceivers& data, gl::PassContext& context) {
             const ReceiverView& seen = data.receivers;
             for (int face = 0; face < seen.views->count(); ++face) {
                 gl::Command command =
@@ -41,7 +42,7 @@ SeenReceivers seeReceivers(FrameBuilder& frame, Geometry geometry, const Views& 
                 command.target(seen.receiverAlbedo, face).clear();
                 command.depth(data.depth, gl::DepthTest::nearerReversed).clear();
                 inputs.gpuScene.draw(command, context, data.geometry, seen.views->instances(face),
-                                     render::DrawSet::nonDielectrics);
+                                     drawn);
             }
         });
 }

@@ -9,17 +9,18 @@ namespace {
 
 IrradianceMap gatherOnScreen(FrameBuilder& frame, const params::NoParams&, CausticMap map,
                              Surfaces surfaces) {
-    needsEyesView("gather.screen", "the map of flux", map.views);
+    const FluxMap& stored = map.maps.front();
+    needsEyesView("gather.screen", "the map of flux", stored.on.views);
     return frame.pass<IrradianceMap>(
         "gather.screen", "what was deposited is spread over what each pixel sees",
         [&](graph::PassSetup& setup, IrradianceMap& data) {
-            setup.sample("fluxSums", map.flux);
+            setup.sample("fluxSums", stored.flux);
             setup.sample("receiver", surfaces.eye.receiver);
             data.ledger = map.ledger;
             data.irradiance =
                 setup.create<IrradianceTexel>("caustic.irradiance", frame.width(), frame.height());
             setup.bypass(data.irradiance, {0, 0, 0, 0});
-            if (!map.hasIntensity) return;
+            if (!stored.sets.hasIntensity) return;
             data.radiance =
                 setup.create<RadianceTexel>("caustic.radiance", frame.width(), frame.height());
             setup.bypass(data.radiance, {0, 0, 0, 0});

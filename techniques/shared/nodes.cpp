@@ -27,6 +27,7 @@ void registerSharedNodes(Registry& registry) {
     registry.sharedParams<EmitStage, EmitParams>();
     registry.sharedParams<SpecularStage, SpecularParams>();
     registry.sharedParams<TraceStage, TraceParams>();
+    registry.sharedParams<ReconstructStage, ReconstructParams>();
     registry.sharedParams<ViewStage, ViewParams>();
 
     registerHeightField(registry);

@@ -13,7 +13,9 @@ struct SeenReceivers {
 };
 
 // Adds the pass that draws them, as NAME.receiver, NAME.receiver_surface and NAME.receiver_albedo.
+// `drawn`: with mirrors, or without what they hide.
 [[nodiscard]] SeenReceivers seeReceivers(FrameBuilder& frame, Geometry geometry, const Views& views,
-                                         const std::string& name, const std::string& why);
+                                         const std::string& name, const std::string& why,
+                                         render::DrawSet drawn = render::DrawSet::nonDielectrics);
 
 }  // namespace kaustik

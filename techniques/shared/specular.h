@@ -6,7 +6,8 @@
 
 namespace kaustik {
 
-Photons interactAtInterface(FrameBuilder& frame, const params::NoParams&, Hits hits);
+Photons interactAtInterface(FrameBuilder& frame, const params::NoParams&, Hits hits,
+                            Surfaces surfaces);
 
 struct SplitParams {
     int levels = 1;
@@ -18,6 +19,7 @@ struct SplitParams {
                 "", params::range(0, 6));
     }
 };
-Photons splitAtInterface(FrameBuilder& frame, const SplitParams& params, Hits hits);
+Photons splitAtInterface(FrameBuilder& frame, const SplitParams& params, Hits hits,
+                         Surfaces surfaces);
 
 }  // namespace kaustik

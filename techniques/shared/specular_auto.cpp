@@ -29,19 +29,21 @@ std::string whyBoth(const scene::SceneNeeds& needs) {
     return "";
 }
 
-Photons interactAsNeeded(FrameBuilder& frame, const params::NoParams&, Hits hits) {
+Photons interactAsNeeded(FrameBuilder& frame, const params::NoParams&, Hits hits,
+                         Surfaces surfaces) {
     const std::string why = whyBoth(frame.needs());
     const bool isFirst = frame.runsOf(SpecularStage::name) == 1;
     if (!why.empty()) {
         if (isFirst) frame.skip("specular.interface", why + ": both branches are followed");
-        return splitAtInterface(frame, frame.params<SplitParams>("specular.split"), hits);
+        return splitAtInterface(frame, frame.params<SplitParams>("specular.split"), hits,
+                                surfaces);
     }
     if (isFirst) {
         frame.skip("specular.split",
                    "no sheet reflects more than 4% of its light towards a receiver, and all "
                    "bodies are convex; specular=split follows what is reflected all the same");
     }
-    return interactAtInterface(frame, {}, hits);
+    return interactAtInterface(frame, {}, hits, surfaces);
 }
 
 }  // namespace

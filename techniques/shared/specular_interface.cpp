@@ -9,7 +9,8 @@
 
 namespace kaustik {
 
-Photons interactAtInterface(FrameBuilder& frame, const params::NoParams&, Hits hits) {
+Photons interactAtInterface(FrameBuilder& frame, const params::NoParams&, Hits hits,
+                            Surfaces /*surfaces*/) {
     const NextPhotons next = makeRoom(frame, hits, 1);
     return frame.pass<Photons>(
         "specular.interface", "photons hit specular surfaces",

@@ -36,7 +36,8 @@ void keepToLevels(FrameBuilder& frame, const SplitParams& params, const Hits& be
 
 }  // namespace
 
-Photons splitAtInterface(FrameBuilder& frame, const SplitParams& params, Hits hits) {
+Photons splitAtInterface(FrameBuilder& frame, const SplitParams& params, Hits hits,
+                         Surfaces /*surfaces*/) {
     const int run = hits.incoming.paths.interactions + 1;
     const bool splits = run <= params.levels;
     // Of the first batch alone: what is counted must be kept to the end of the frame.

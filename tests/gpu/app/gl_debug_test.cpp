@@ -18,11 +18,13 @@ CausticMap enableNothing(FrameBuilder& frame, const params::NoParams&, Hits hits
     return frame.pass<CausticMap>(
         "reconstruct.wrong", "a test",
         [&](graph::PassSetup& setup, CausticMap& data) {
-            data = CausticMap::deposit(setup, before, surfaces.eye.views, false, "caustic.flux");
+            data.maps = {FluxMap::deposit(
+                setup, before.maps.empty() ? FluxMap{} : before.maps.front(), surfaces.eye, {},
+                "caustic.flux")};
             data.ledger = hits.incoming.ledger;
         },
         [](const CausticMap& data, gl::PassContext& context) {
-            context.texture(data.flux).clear({0, 0, 0, 0});
+            context.texture(data.maps.front().flux).clear({0, 0, 0, 0});
             glEnable(0xdead);
         });
 }

@@ -26,7 +26,7 @@ IrradianceMap meanOfFrames(FrameBuilder& frame, const params::NoParams&, Caustic
         .pass<Data>(
             "gather.mean", "a test",
             [&](graph::PassSetup& setup, Data& data) {
-                setup.sample("fluxSums", map.flux);
+                setup.sample("fluxSums", map.maps.front().flux);
                 setup.sample("receiver", surfaces.eye.receiver);
                 data.sum =
                     setup.image("sumAndCount", setup.createLasting<IrradianceTexel>(

@@ -63,26 +63,28 @@ Registry storingIn(const MakeViews& makeViews, const std::string& gather) {
                     seeReceivers(frame, surfaces.geometry, makeViews(frame), "elsewhere", "a test")
                         .receivers);
             });
-            return splatInto(frame, {.params = params}, hits, *seen, before,
-                             "caustic.flux_elsewhere");
+            const Stored stored =
+                splatInto(frame, {.params = params}, hits, {*seen, -1, ""},
+                          before.maps.empty() ? FluxMap{} : before.maps.front(),
+                          "caustic.flux_elsewhere");
+            return CausticMap{{stored.map}, stored.ledger};
         }));
     registry.node<GatherStage>(
         "elsewhere", {"By projection.", "a test"},
         std::function([](FrameBuilder& frame, const params::NoParams&, CausticMap map,
                          Surfaces surfaces) {
-            const auto seen = frame.once<ReceiverView>(
-                "receivers elsewhere", [] { return std::make_shared<ReceiverView>(); });
+            const FluxMap& stored = map.maps.front();
             return frame.pass<IrradianceMap>(
                 "gather.elsewhere", "a test",
                 [&](graph::PassSetup& setup, IrradianceMap& data) {
-                    setup.sample("fluxSums", map.flux);
-                    setup.sample("mapReceiver", seen->receiver);
+                    setup.sample("fluxSums", stored.flux);
+                    setup.sample("mapReceiver", stored.on.receiver);
                     setup.sample("receiver", surfaces.eye.receiver);
                     data.irradiance = setup.create<IrradianceTexel>("caustic.irradiance",
                                                                     frame.width(), frame.height());
                     data.ledger = map.ledger;
                 },
-                [views = map.views](const IrradianceMap& data, gl::PassContext& context) {
+                [views = stored.on.views](const IrradianceMap& data, gl::PassContext& context) {
                     gl::Command command =
                         context.fullscreen("tests/gpu/shaders/gather_from_views.frag");
                     command.uniforms("MapViews", views->block()).set("mapCount", views->count());

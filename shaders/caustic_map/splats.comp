@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+// Photons as Gaussian splats of a map's texels (WD06, WD08): one size for all, four sizes at once,
+// or as wide as each photon's beam; in one level of the map's resolution. Weights are summed over
+// the texels first, so that exactly the photon's flux is deposited. One thread a photon.
+//   FOUR_RADII    a set of the map a size, and counts of photons beside them
+//   BEAM_WIDTHS   as wide as the photon's beam is where it arrives
+//   LEVELS        the map holds coarser ones of itself; `level` is this draw's
+#include "include/arriving.glsl"
+#include "include/ledger.glsl"
+#include "include/surface_data.glsl"
+#include "caustic_map/levels.glsl"
+#include "screen_space_photons/seen_receiver.glsl"
+#include "include/deposit.glsl"
+
+uniform int mapsPerView;
+uniform int countsPerView;
+uniform float diameter;   // texels
+uniform int keepsEdges;   // 1: only texels that see the photon's own surface
+uniform int atTexels;     // 1: centred on the texel that the photon falls into
+uniform int level;
+#ifdef BEAM_WIDTHS
+uniform float widths;     // of a beam that a splat's diameter is
+uniform float least;      // texels
+uniform float most;
+layout(std430) buffer CutSplats {
+    Narrowed narrowed;
+};
+#endif
+#ifdef COUNTS
+layout(r32ui) uniform uimage2DArray photonCounts;
+#endif
+
+#ifdef FOUR_RADII
+const vec4 kDiameters = vec4(3.0, 7.0, 11.0, 15.0);  // WD08, section 4.1
+#define WEIGHT vec4
+#else
+#define WEIGHT float
+#endif
+
+struct Splat {
+    vec2 center;  // of the level's texels
+    vec3 position;
+    vec3 normal;
+    float radius;  // texels
+};
+
+float gaussian(float offset, float radius) {
+    float share = offset / radius;
+    return exp(-4.5 * share * share);
+}
+
+// A point of OpenGL is a square, of which the Gaussian ends at three standard deviations.
+WEIGHT weightAt(Splat splat, ivec2 texel) {
+    vec2 offset = abs(vec2(texel) + 0.5 - splat.center);
+    float farther = max(offset.x, offset.y);
+#ifdef FOUR_RADII
+    vec4 weights;
+    for (int i = 0; i < 4; ++i) {
+        float radius = 0.5 * kDiameters[i];
+        weights[i] = farther <= radius ? gaussian(offset.x, radius) * gaussian(offset.y, radius) : 0.0;
+    }
+    return weights;
+#else
+    // However small, it lies on the texel that it falls into.
+    if (farther > splat.radius && farther > 0.5) return 0.0;
+    return max(gaussian(offset.x, splat.radius) * gaussian(offset.y, splat.radius), 1e-30);
+#endif
+}
+
+// How a texel of the map's own resolution sees the photon's surface.
+int lookAt(Splat splat, ivec2 texel) {
+    float facing = dot(splat.normal, viewRay(vec2(texel) + 0.5));
+    if (abs(facing) < 1e-5) return kSeenBeside;
+    float depth = depthOnPlane(texel, splat.normal, splat.position, facing);
+    if (!(depth > view.frustum.z)) return kSeenBeside;
+    float tolerance = (0.5 * splat.radius + 1.0) * pixelFootprint(depth);
+    float area;
+    return seenAt(texel, depth, splat.normal, tolerance, area);
+}
+
+bool takes(Splat splat, ivec2 texel) {
+    if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, sizeOfLevel(level)))) return false;
+    if (keepsEdges == 0 || level > 0) return true;
+    return lookAt(splat, texel) == kSeenOn;
+}
+
+void add(ivec2 texel, int set, vec3 flux) {
+    sumAdd(placeOfLevel(level) + texel, viewIndex * mapsPerView + set + setOfLevel(level),
+           flux * ledgerUnitsPerWatt);
+}
+
+void count(ivec2 texel, int set) {
+#ifdef COUNTS
+    imageAtomicAdd(photonCounts,
+                   ivec3(placeOfLevel(level) + texel,
+                         viewIndex * countsPerView + set + setOfLevel(level)), 1u);
+#endif
+}
+
+void deposit(Splat splat, ivec2 texel, WEIGHT share, vec3 flux, vec3 direction) {
+#ifdef FOUR_RADII
+    for (int i = 0; i < 4; ++i) {
+        if (share[i] <= 0.0) continue;
+        add(texel, i, flux * share[i]);
+        count(texel, i);
+    }
+    float widest = share[3];
+#else
+    add(texel, 0, flux * share);
+    count(texel, 0);
+    float widest = share;
+#endif
+    if (level == 0)
+        depositGlossy(texel, viewIndex * mapsPerView + mapsPerView - 1, flux * widest, direction);
+}
+
+// Gives the account of what was not deposited, kAccountDeposited where all was.
+uint splatInView(Splat splat, vec3 flux, vec3 direction) {
+    float reach = max(splat.radius, 0.5);
+#ifdef FOUR_RADII
+    reach = 7.5;
+#endif
+    ivec2 first = ivec2(ceil(splat.center - reach - 0.5));
+    ivec2 last = ivec2(floor(splat.center + reach - 0.5));
+    WEIGHT total = WEIGHT(0.0);
+    for (int y = first.y; y <= last.y; ++y) {
+        for (int x = first.x; x <= last.x; ++x) {
+            if (takes(splat, ivec2(x, y))) total += weightAt(splat, ivec2(x, y));
+        }
+    }
+#ifdef FOUR_RADII
+    if (total.w <= 0.0) return lookAt(splat, ivec2(floor(splat.center))) == kSeenOccluded ? kAccountHidden : kAccountEdgeOn;
+    // A small splat that finds no texel is as wide as the next.
+    for (int i = 2; i >= 0; --i) {
+        if (total[i] <= 0.0) total[i] = -1.0;
+    }
+#else
+    if (total <= 0.0) return lookAt(splat, ivec2(floor(splat.center))) == kSeenOccluded ? kAccountHidden : kAccountEdgeOn;
+#endif
+    for (int y = first.y; y <= last.y; ++y) {
+        for (int x = first.x; x <= last.x; ++x) {
+            ivec2 texel = ivec2(x, y);
+            if (!takes(splat, texel)) continue;
+            WEIGHT weight = weightAt(splat, texel);
+#ifdef FOUR_RADII
+            vec4 share = weight / total;
+            for (int i = 2; i >= 0; --i) {
+                if (total[i] < 0.0) share[i] = share[i + 1];
+            }
+            deposit(splat, texel, share, flux, direction);
+#else
+            if (weight > 0.0) deposit(splat, texel, weight / total, flux, direction);
+#endif
+        }
+    }
+    return kAccountDeposited;
+}
+
+float radiusOf(ivec2 texel, vec3 position) {
+#ifdef BEAM_WIDTHS
+    Beam beam = beamAt(texel);
+    float width = sqrt(abs(determinant(beam.place +
+                                       texelFetch(hitPosition, texel, 0).w * beam.turn)));
+    float wanted = widths * width / pixelFootprint(-position.z);
+    if (wanted > most) {
+        atomicAdd(narrowed.count, 1u);
+        atomicMax(narrowed.widestBits, floatBitsToUint(wanted));
+    }
+    return 0.5 * clamp(wanted, least, most);
+#else
+    return 0.5 * diameter;
+#endif
+}
+
+void main() {
+    uint index = photonOfThread();
+    if (index >= photons.count) return;
+    ivec2 texel = ivec2(photonTexel(photons, index));
+    if (!arrivesHere(texel)) return;
+    vec3 flux = texelFetch(hitFlux, texel, 0).rgb;
+    vec3 positionVs = texelFetch(hitPosition, texel, 0).xyz;
+    vec4 surface = texelFetch(hitSurface, texel, 0);
+    vec3 direction = texelFetch(photonDirection, texel, 0).xyz;
+    uint account = kAccountBeside;
+    for (int face = 0; face < viewCount; ++face) {
+#ifdef MANY_VIEWS
+        viewIndex = face;
+#endif
+        Splat splat;
+        splat.position = pointFromEye(positionVs);
+        if (-splat.position.z <= view.frustum.z) continue;
+        vec2 at = pixelOf(splat.position);
+        if (any(lessThan(at, vec2(0.0))) || any(greaterThanEqual(at, view.sizePixels.xy))) continue;
+        splat.normal = directionFromEye(surface.xyz);
+        splat.radius = radiusOf(texel, splat.position);
+        splat.center = at / float(1 << level);
+        if (atTexels == 1) splat.center = floor(splat.center) + 0.5;
+        bool isLit = !isOpen(uint(surface.w) - 1u) ||
+                     seesLitSide(splat.position, splat.normal, directionFromEye(direction));
+        account = isLit ? splatInView(splat, flux, direction) : kAccountHidden;
+        break;
+    }
+    if (account != kAccountDeposited && level == 0) ledgerAdd(account, flux);
+}

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// Where a ray that has entered a body leaves it, in image space (W05, as K06, WD08 and WN09 describe
+// it): at a distance between that to the back faces along the view's ray, d_V, and that along the
+// inverse normal, d_N. The weight of d_V is the ratio of the angles of refraction and incidence:
+// right for an index of 1, where the ray goes straight on, and for one without limit, where it
+// follows the normal. For any view from which rays come: the eye's, or a light's for its photons.
+#include "include/view.glsl"
+
+uniform sampler2D backDepth;    // of the farthest back faces, 0 none
+uniform sampler2D backSurface;  // their outward normals; w: material + 1
+
+ivec2 texelAt(vec3 positionVs) {
+    return ivec2(floor(pixelOf(vec3(positionVs.xy, min(positionVs.z, -view.frustum.z)))));
+}
+
+// Depth of the back faces, 0 where there are none.
+float backAt(ivec2 texel) {
+    if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, ivec2(view.sizePixels.xy))))
+        return 0.0;
+    return texelFetch(backDepth, texel, 0).x;
+}
+
+// Along the inverse normal to the back faces, m: a point on that way is inside as long as the back
+// faces lie beyond it. The paper's is precomputed for every vertex; this needs no preparation.
+float distanceAlongNormal(vec3 entry, vec3 normal, float longest, int steps) {
+    float inside = 0.0;
+    float step = longest / float(steps);
+    for (int i = 1; i <= steps; ++i) {
+        vec3 p = entry - normal * (step * float(i));
+        float back = backAt(texelAt(p));
+        if (back <= 0.0 || -p.z > back) break;
+        inside = step * float(i);
+    }
+    if (inside >= longest) return longest;
+    // Between the last point inside and the first one outside.
+    float outside = inside + step;
+    for (int i = 0; i < 4; ++i) {
+        float middle = 0.5 * (inside + outside);
+        vec3 p = entry - normal * middle;
+        float back = backAt(texelAt(p));
+        if (back <= 0.0 || -p.z > back) {
+            outside = middle;
+        } else {
+            inside = middle;
+        }
+    }
+    return 0.5 * (inside + outside);
+}
+
+// The normal of the back faces around a point: bilinear between the pixels that have one.
+vec3 backNormalAround(vec3 positionVs, ivec2 fallback) {
+    vec2 corner = pixelOf(vec3(positionVs.xy, min(positionVs.z, -view.frustum.z))) - 0.5;
+    ivec2 first = ivec2(floor(corner));
+    vec2 f = corner - vec2(first);
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < 4; ++i) {
+        ivec2 step = ivec2(i & 1, i >> 1);
+        ivec2 texel = first + step;
+        if (backAt(texel) <= 0.0) continue;
+        vec2 axis = mix(1.0 - f, f, vec2(step));
+        sum += axis.x * axis.y * texelFetch(backSurface, texel, 0).xyz;
+    }
+    float size = length(sum);
+    return size > 1e-3 ? sum / size : texelFetch(backSurface, fallback, 0).xyz;
+}
+
+struct WayInside {
+    float length;  // m
+    vec3 exit;
+    vec3 normal;   // of the back faces there, outward, unit
+    ivec2 texel;   // of the back buffers that it is from
+};
+
+// `entry`: where the ray has met the front; `along`: unit, in which it came; `onward`: unit, in
+// which it goes on; `normal`: outward, unit; `through`: from the front to the back faces along the
+// view's ray, m, more than 0; `index`: of the body, by that around; `steps`: 0 for d_V alone.
+WayInside wayInside(vec3 entry, vec3 along, vec3 onward, vec3 normal, float through, float index,
+                    int steps) {
+    float cosI = clamp(-dot(along, normal), 0.0, 1.0);
+    float cosT = clamp(-dot(onward, normal), 0.0, 1.0);
+    float angleI = acos(cosI);
+    float weight = angleI > 1e-3 ? acos(cosT) / angleI : 1.0 / index;
+    float inside = through;
+    if (steps > 0) {
+        // No object is thicker than twice what is seen of it, or the search ends there.
+        float alongNormal = distanceAlongNormal(entry, normal, 2.0 * through, steps);
+        inside = weight * through + (1.0 - weight) * alongNormal;
+    }
+    vec3 exit = entry + inside * onward;
+    // Beside the silhouette: the last pixel on the way there that has back faces.
+    ivec2 there = texelAt(exit);
+    const int kTries = 8;
+    for (int i = 1; i <= kTries && backAt(there) <= 0.0; ++i)
+        there = texelAt(mix(exit, entry, float(i) / float(kTries)));
+    return WayInside(inside, exit, backNormalAround(exit, there), there);
+}

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// specular.two_interfaces: image-space refraction at two interfaces (W05) of photons, as light
+// sends them: "specular.back_faces" draws the farthest back faces of the transmitting objects from
+// each light, "specular.two_interfaces" estimates from them where a photon that has entered a body
+// leaves it. One interaction at mirrors and sheets. Total reflection inside, more than two
+// interfaces and light that has been bent before are not followed: they are in the ledger's
+// internal_reflection_limit and bounce_limit. Eye view space, m and W.
+//
+// Beams: by ray differentials through both interfaces, or as WD08's lens does (section 4.2), round,
+// of the mean curvatures of both surfaces. Eqs. 1 to 7 say the same in distances that may vanish;
+// here a beam is its width w and its growth w', which a lens of power P turns into w' - P w, so that
+// D = D0 |1 + d_bg (1/d_front - P)| stays finite with the receiver at the focus and the light at
+// the focal length.
+#include <fmt/format.h>
+
+#include "framework/pipeline/frame_builder.h"
+#include "techniques/caustic_map/nodes.h"
+#include "techniques/shared/back_faces.h"
+#include "techniques/shared/light_sight.h"
+#include "techniques/shared/next_photons.h"
+
+namespace kaustik {
+namespace {
+
+enum class BeamModel : int { beam, thin, thick };
+enum class FollowedBranch : int { refracted, reflected };
+
+struct TwoInterfacesParams {
+    int steps = 8;
+    int size = 1024;
+    BeamModel lens = BeamModel::beam;
+    FollowedBranch branch = FollowedBranch::refracted;
+    template <class R>
+    void reflect(R& r) {
+        r.field(steps, "steps",
+                "Looks at the back faces along the inverse normal, for the distance to them; 0: "
+                "only the distance along the light's ray is used",
+                "", params::range(0, 64));
+        r.field(size, "size", "Side of each light's view of the back faces", "texels",
+                params::range(16, 8192));
+        r.choice(lens, "lens",
+                 "What makes of a photon's beam what it is beyond, where splats follow beams. beam: "
+                 "ray differentials; thin, thick: a lens of the surfaces' mean curvatures, "
+                 "half-way through, or both surfaces and the way between them",
+                 {"beam", "thin", "thick"});
+        r.choice(branch, "branch",
+                 "Which photons of a dielectric's first interface go on; the others are in the "
+                 "ledger's untraced_branch",
+                 {"refracted", "reflected"});
+    }
+};
+
+Photons interactTwice(FrameBuilder& frame, const TwoInterfacesParams& params, Hits hits,
+                      Surfaces surfaces) {
+    const std::vector<LightSight> sights = *frame.once<std::vector<LightSight>>(
+        "specular.sights",
+        [&] { return std::make_shared<std::vector<LightSight>>(sightsOfSpecular(frame)); });
+    const NextPhotons next = makeRoom(frame, hits, 1);
+    Photons photons = next.photons;
+    photons.ledger = hits.incoming.ledger;
+    const bool hasBeams = hits.incoming.hasBeams();
+    for (std::size_t light = 0; light < sights.size(); ++light) {
+        const std::string suffix = light == 0 ? "" : fmt::format("_{}", light + 1);
+        const auto faces = frame.once<BackFaces>("specular.back_faces" + suffix, [&] {
+            const Views views =
+                frame.makeViews(render::Space::light,
+                                {render::inPixels(sights[light].view, params.size, params.size)});
+            return std::make_shared<BackFaces>(drawBackFaces(
+                frame, surfaces.geometry, views,
+                {"specular.back_faces",
+                 "photons leave transmitting objects through their backs",
+                 "light" + suffix + ".", hasBeams}));
+        });
+        photons = frame.pass<Photons>(
+            "specular.two_interfaces",
+            "photons go through what the light sees the front and the back of",
+            [&](graph::PassSetup& setup, Photons& data) {
+                faces->sample(setup);
+                NextPhotons chained = next;
+                chained.photons = photons;
+                Hits accounted = hits;
+                accounted.incoming.ledger = photons.ledger;
+                data = sendOn(setup, accounted, chained);
+                data.paths.interactions = hits.incoming.paths.interactions + 2;
+                data.paths.transmissionOnly = true;
+                data.paths.end = true;
+            },
+            [params, light, list = hits.incoming, views = faces->views](
+                const Photons&, gl::PassContext& context) {
+                gl::Command command = context.compute("caustic_map/two_interfaces.comp");
+                views->bindTo(command)
+                    .params("specular.two_interfaces", params)
+                    .set("lightIndex", static_cast<int>(light));
+                dispatchOver(command, list);
+            });
+    }
+    return photons;
+}
+
+}  // namespace
+
+void registerTwoInterfaces(Registry& registry) {
+    registry.node<SpecularStage>(
+        "two_interfaces",
+        {"Refracts photons into a body and out of its back faces as the light sees them; reflects "
+         "them at mirrors.",
+         "Wyman 2005 (W05), as WD08 describes it"},
+        &interactTwice);
+}
+
+}  // namespace kaustik

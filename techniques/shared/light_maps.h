@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// What each light sees of the receivers: where its caustic map lies, and what is searched in its
+// depths.
+#pragma once
+
+#include <vector>
+
+#include "framework/pipeline/frame_builder.h"
+
+namespace kaustik {
+
+// By light: one view of the receivers that its map covers (reconstruct.map_covers), orthographic
+// for a sun, or, where a light with a place would need more than one, six faces around it.
+// Specular objects hide nothing there. Made once a frame, by the first who asks.
+[[nodiscard]] const std::vector<ReceiverView>& lightReceivers(FrameBuilder& frame,
+                                                              const Geometry& geometry);
+
+}  // namespace kaustik

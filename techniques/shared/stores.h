@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// Where reconstructions store light (reconstruct.space): one code for the screen, a light's map and
+// the faces of a cube.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "framework/pipeline/frame_builder.h"
+
+namespace kaustik {
+
+struct Store {
+    ReceiverView receivers;
+    int light = -1;      // whose photons alone it takes; -1: all
+    std::string suffix;  // of its resources
+    [[nodiscard]] bool isEyes() const { return receivers.views->isEyes(); }
+};
+
+// The eye's receivers, or those that each light sees.
+[[nodiscard]] std::vector<Store> storesOf(FrameBuilder& frame, const Surfaces& surfaces);
+
+// What a store holds after a pass, and the account of what it has not taken.
+struct Stored {
+    FluxMap map;
+    Ledger ledger;
+};
+// Adds what these hits bring to every store in turn. `deposit`: adds it to one, whose map before is
+// invalid where this is the first to come, and keeps the account of `hits.incoming`.
+using Deposit = std::function<Stored(const Store&, const Hits&, const FluxMap& before)>;
+[[nodiscard]] CausticMap storeEverywhere(FrameBuilder& frame, const Surfaces& surfaces, Hits hits,
+                                         const CausticMap& before, const Deposit& deposit);
+
+// What a map of one set of flux holds there besides: more where a receiver of the scene is glossy.
+[[nodiscard]] FluxSets setsIn(const FrameBuilder& frame, const Store& store);
+
+// For shaders that include include/arriving.glsl and include/deposit.glsl; the pass has declared
+// that it deposits.
+void takeLight(gl::Command& command, const Store& store);
+void setDeposit(gl::Command& command, const FluxSets& sets);
+
+}  // namespace kaustik
