@@ -19,6 +19,7 @@ struct TracedPhoton {
     reference::AuditPhoton photon;
     glm::dvec3 fluxWatts{0.0};
     std::optional<glm::dvec3> found;
+    std::uint32_t light = 0;
 };
 
 bool isFinite(const glm::dvec3& v) {
@@ -42,6 +43,7 @@ std::vector<TracedPhoton> readTrace(const Renderer& renderer, const TraceRecord&
         one.photon.reachMeters =
             2.0 * renderer.view().footprintPerMeter() * std::abs(one.photon.position.z);
         one.fluxWatts = photon.fluxWatts;
+        one.light = photon.origin.light;
         if (hits[i].isHit() || hits[i].fate == kNoWord) one.found = hits[i].position;
         const bool isNumber = isFinite(one.photon.position) && isFinite(one.photon.direction) &&
                               isFinite(one.fluxWatts) && one.photon.media != kNoWord;
@@ -54,8 +56,13 @@ std::vector<TracedPhoton> readTrace(const Renderer& renderer, const TraceRecord&
     return traced;
 }
 
+// What a light sees of an exact hit: what tracers in its depths can find.
+enum class LightSees { shown, hidden, beside };
+
 // The account of a photon that got no hit. The screen excuses only those that look there.
-unsigned accountOf(Sight sight, Sees sees) {
+unsigned accountOf(Sight sight, Sees sees, std::optional<LightSees> light) {
+    if (light == LightSees::hidden) return kAccountHiddenInMap;
+    if (light == LightSees::beside) return kAccountOutsideMap;
     if (sees != Sees::eyeLayers && sight != Sight::none) return kAccountMissedByTracer;
     switch (sight) {
         case Sight::none:
@@ -74,7 +81,12 @@ unsigned accountOf(Sight sight, Sees sees) {
     return kAccountUnresolved;
 }
 
-const char* nameOf(Sight sight, Sees sees = Sees::eyeLayers) {
+constexpr const char* kLightCauses[] = {"hidden_in_map", "outside_map"};
+
+const char* nameOf(Sight sight, Sees sees = Sees::eyeLayers,
+                   std::optional<LightSees> light = std::nullopt) {
+    if (light == LightSees::hidden) return kLightCauses[0];
+    if (light == LightSees::beside) return kLightCauses[1];
     if (sees != Sees::eyeLayers && sight != Sight::none) return nameOf(Sight::shown);
     switch (sight) {
         case Sight::none:
@@ -93,12 +105,58 @@ const char* nameOf(Sight sight, Sees sees = Sees::eyeLayers) {
     return "";
 }
 
-const char* falseHitName(const PhotonFate& fate, Sees sees) {
+const char* falseHitName(const PhotonFate& fate, Sees sees, std::optional<LightSees> light) {
     if (fate.verdict == Verdict::notANumber) return "not_a_number";
     if (fate.verdict == Verdict::displaced) return "displaced";
     if (fate.verdict == Verdict::tooNear) return "too_near";
-    return nameOf(fate.sight, sees);  // no surface at all, or why the exact hit was passed
+    return nameOf(fate.sight, sees, light);  // no surface at all, or why the exact hit was passed
 }
+
+// By the photon's light, and its map where there is one.
+class LightReach {
+  public:
+    LightReach(const Renderer& renderer, const reference::EmbreeScene& scene)
+        : renderer_(renderer), scene_(scene), toWorld_(glm::inverse(renderer.view().worldToView)) {}
+
+    // `exact` exists.
+    [[nodiscard]] LightSees sees(std::uint32_t light, const reference::FirstHit& exact) const {
+        const glm::dvec3 world(toWorld_ * glm::dvec4(exact.position, 1.0));
+        if (!isInMap(light, world)) return LightSees::beside;
+        const scene::Light& source = renderer_.scene().lights[light];
+        const glm::dvec3 local = world - scene_.center();
+        const bool isSun = source.kind == scene::LightKind::directional;
+        const glm::dvec3 size = scene_.bounds().maximum - scene_.bounds().minimum;
+        const glm::dvec3 to = isSun ? local - 2.0 * glm::length(size) * source.direction
+                                    : source.position - scene_.center();
+        // Rounding apart, what turns away from the light is hidden by its own object, if it has an
+        // inside; the ray then starts within it.
+        const glm::dvec3 normal = glm::dmat3(toWorld_) * exact.geometricNormal;
+        const double lift = 1e-6 * glm::length(size);
+        const double side = glm::dot(normal, to - local) < 0.0 ? -1.0 : 1.0;
+        const bool isSeen =
+            scene_.isVisible(local + side * lift * normal, exact.triangle, to, 0.0);
+        return isSeen ? LightSees::shown : LightSees::hidden;
+    }
+
+  private:
+    // Whether the light's map, if it has one, covers a point.
+    [[nodiscard]] bool isInMap(std::uint32_t light, const glm::dvec3& world) const {
+        for (const FluxMap& map : renderer_.outputs().map.maps) {
+            if (map.light != static_cast<int>(light) || map.on.views->count() > 1) continue;
+            const render::RasterView& view = map.on.views->view(0);
+            const glm::dvec3 there(view.worldToView * glm::dvec4(world, 1.0));
+            const double scale = view.isOrthographic ? 1.0 : -there.z;
+            if (!(scale > 0.0)) return false;
+            const glm::dvec2 ndc = glm::dvec2(there) / (scale * view.halfExtent);
+            if (std::abs(ndc.x) > 1.0 || std::abs(ndc.y) > 1.0) return false;
+        }
+        return true;
+    }
+
+    const Renderer& renderer_;
+    const reference::EmbreeScene& scene_;
+    glm::dmat4 toWorld_;
+};
 
 // What tracers of flat receivers can find.
 class FlatReach {
@@ -123,12 +181,19 @@ class FlatReach {
 
 class Counter {
   public:
-    Counter(HitAudit& audit, const render::RasterView& view, const scene::Scene& scene)
-        : audit_(audit), view_(view), scene_(scene) {
+    Counter(HitAudit& audit, const Renderer& renderer, const reference::EmbreeScene& exact)
+        : audit_(audit),
+          view_(renderer.view()),
+          scene_(renderer.scene()),
+          lights_(renderer, exact) {
         for (const Sight sight : {Sight::offScreen, Sight::behindEye, Sight::beyondLayers,
                                   Sight::edgeOn, Sight::shown}) {
             audit_.missed[nameOf(sight)] = 0;
             audit_.falseHits[nameOf(sight)] = 0;
+        }
+        for (const char* cause : kLightCauses) {
+            audit_.missed[cause] = 0;
+            audit_.falseHits[cause] = 0;
         }
         for (const char* cause : {"no_surface", "displaced", "too_near", "not_a_number"})
             audit_.falseHits[cause] = 0;
@@ -142,22 +207,24 @@ class Counter {
         if (fate.isVisible()) ++audit_.visible;
         if (isRight) ++audit_.right;
         if (isRight && fate.isVisible()) ++audit_.rightVisible;
-        const bool reachable = isReachable(traced, exact, fate, sees);
+        std::optional<LightSees> light;
+        if (sees == Sees::lightFront && exact.exists()) light = lights_.sees(traced.light, exact);
+        const bool reachable = isReachable(traced, exact, fate, sees, light);
         if (reachable) ++audit_.reachable;
         if (isRight && reachable) ++audit_.rightReachable;
         if (fate.distanceMeters) meters_.push_back(*fate.distanceMeters);
         if (fate.distancePixels) pixels_.push_back(*fate.distancePixels);
         if (fate.distanceMeters && !fate.distancePixels) ++audit_.unplaced;
         if (!traced.found) {
-            const unsigned account = accountOf(fate.sight, sees);
+            const unsigned account = accountOf(fate.sight, sees, light);
             audit_.missedWatts[account] += transport::wattsOf(traced.fluxWatts);
             ++audit_.missedPhotons[account];
         }
         if (isRight) return;
         if (fate.verdict == Verdict::missed) {
-            ++audit_.missed[nameOf(fate.sight, sees)];
+            ++audit_.missed[nameOf(fate.sight, sees, light)];
         } else {
-            ++audit_.falseHits[falseHitName(fate, sees)];
+            ++audit_.falseHits[falseHitName(fate, sees, light)];
         }
         const bool isPlaced = traced.found && fate.verdict != Verdict::notANumber;
         if (!isPlaced && !exact.exists()) return;
@@ -172,8 +239,10 @@ class Counter {
 
   private:
     bool isReachable(const TracedPhoton& traced, const reference::FirstHit& exact,
-                     const PhotonFate& fate, Sees sees) {
+                     const PhotonFate& fate, Sees sees, std::optional<LightSees> light) {
         switch (sees) {
+            case Sees::lightFront:
+                return light == LightSees::shown;
             case Sees::eyeLayers:
                 return fate.isVisible();
             case Sees::everything:
@@ -188,6 +257,7 @@ class Counter {
     HitAudit& audit_;
     const render::RasterView& view_;
     const scene::Scene& scene_;
+    LightReach lights_;
     std::optional<FlatReach> flat_;  // once it is asked for
     std::vector<double> meters_;
     std::vector<double> pixels_;
@@ -273,7 +343,7 @@ HitAudit auditHits(const Renderer& renderer, const reference::EmbreeScene& scene
     const render::RasterView& view = renderer.view();
     const Layers layers = readLayers(renderer);
     const glm::dmat4 viewToWorld = glm::inverse(view.worldToView);
-    Counter counter(audit, view, renderer.scene());
+    Counter counter(audit, renderer, scene);
     for (const TraceRecord& trace : renderer.traces()) {
         const std::vector<TracedPhoton> traced = readTrace(renderer, trace, audit.notANumber);
         std::vector<reference::AuditPhoton> photons;
@@ -310,7 +380,7 @@ EnergyLedger resolveLedger(const Renderer& renderer, const HitAudit& audit, doub
     // What others have booked, a reconstruction that also loses light off the screen, stays.
     for (const unsigned account :
          {kAccountLeftScene, kAccountOffScreen, kAccountBehindEye, kAccountBeyondLastLayer,
-          kAccountEdgeOn, kAccountMissedByTracer, kAccountUnresolved, kAccountOutsideMap}) {
+          kAccountEdgeOn, kAccountMissedByTracer, kAccountUnresolved, kAccountOutsideMap, kAccountHiddenInMap}) {
         ledger.watts[account] += audit.missedWatts[account] - traced.watts[account];
         ledger.events[account] += audit.missedPhotons[account] - traced.events[account];
         // Both are sums of the same photons, one in fixed point: what is left is its rounding.

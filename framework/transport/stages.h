@@ -93,6 +93,9 @@ struct FluxWord {  // array: words of sums in fixed point (transport::kFluxWords
 struct PhotonCountTexel {  // array: photons
     static constexpr Format format = Format::r32ui;
 };
+struct FilteredTexel {  // array: as sets of a map of flux, rgb: W, or W/sr
+    static constexpr Format format = Format::rgba32f;
+};
 struct IrradianceTexel {  // rgb: W/m²
     static constexpr Format format = Format::rgba32f;
 };
@@ -262,10 +265,14 @@ struct FluxSets {
 struct FluxMap {
     graph::Texture<FluxWord> flux;
     graph::Texture<PhotonCountTexel> counts;  // array, a layer a set of flux; where `sets` has them
+    // What a filter has made of it, in floats: a layer of flux a view, and one of what the last
+    // set holds; invalid before.
+    graph::Texture<FilteredTexel> filtered;
     FluxSets sets;
     ReceiverView on;
     int light = -1;  // whose photons alone it holds; -1: all lights'
-    // Layers of `flux` that each view has.
+    // Layers of `filtered` and of `flux` that each view has.
+    [[nodiscard]] int filteredPerView() const { return 1 + sets.perView() - sets.flux; }
     [[nodiscard]] int wordsPerView() const {
         return static_cast<int>(transport::kFluxWords) * sets.perView();
     }

@@ -51,7 +51,7 @@ void main() {
             flux[i] = sumAt(texel, view * setsBefore + i);
             counts[i] = texelFetch(photonCounts, ivec3(texel, 4 * view + i), 0).x;
         }
-        storeSum(texel, view * setsAfter, blended(flux, counts));
+        storeFiltered(texel, view, 0, blended(flux, counts));
     }
-    keepOthers(texel, 4);
+    keepLast(texel);
 }

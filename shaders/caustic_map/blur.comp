@@ -24,8 +24,8 @@ float sumOfWeights(int from, int size) {
     return sum;
 }
 
-vec3 valueAt(ivec2 texel, int set) {
-    return axis == 0 ? sumAt(texel, set) : imageLoad(blurred, ivec3(texel, set)).rgb;
+vec3 valueAt(ivec2 texel, int layer) {
+    return axis == 0 ? sumAt(texel, layer) : imageLoad(blurred, ivec3(texel, layer)).rgb;
 }
 
 void main() {
@@ -34,17 +34,17 @@ void main() {
     int size = textureSize(fluxSums, 0)[axis];
     int reach = diameter / 2;
     ivec2 step = axis == 0 ? ivec2(1, 0) : ivec2(0, 1);
-    for (int set = 0; set < views * setsBefore; ++set) {
+    for (int layer = 0; layer < views * setsBefore; ++layer) {
         vec3 sum = vec3(0.0);
         for (int i = -reach; i <= reach; ++i) {
             int from = texel[axis] + i;
             if (from < 0 || from >= size) continue;
-            sum += valueAt(texel + i * step, set) * (gaussian(i) / sumOfWeights(from, size));
+            sum += valueAt(texel + i * step, layer) * (gaussian(i) / sumOfWeights(from, size));
         }
         if (axis == 0) {
-            imageStore(blurred, ivec3(texel, set), vec4(sum, 0.0));
+            imageStore(blurred, ivec3(texel, layer), vec4(sum, 0.0));
         } else {
-            storeSum(texel, set, sum);
+            storeFiltered(texel, layer / setsBefore, layer % setsBefore, sum);
         }
     }
 }

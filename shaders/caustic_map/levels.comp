@@ -37,7 +37,7 @@ void main() {
         for (int level = levels - 1; level >= 0; --level) {
             if (countAt(texel >> level, level, view) >= uint(filter_levels_photons)) chosen = level;
         }
-        storeSum(texel, view * setsAfter, sampleLevel(texel, chosen, view));
+        storeFiltered(texel, view, 0, sampleLevel(texel, chosen, view));
     }
-    keepOthers(texel, 2);
+    keepLast(texel);
 }

@@ -4,7 +4,6 @@
 // its own side, by their planes: nothing leaks over an edge, and nothing is lost at one. The flux of
 // a texel over its area on the receiver is the irradiance. A pixel that spans several texels is the
 // mean of several places of it.
-#include "include/flux_sum_read.glsl"
 #include "include/view.glsl"
 #ifdef GLOSSY_RECEIVERS
 #include "include/receiver_brdf.glsl"
@@ -20,6 +19,7 @@ uniform sampler2DArray mapSurface;
 uniform sampler2D mapReceiver;
 uniform sampler2D mapSurface;
 #endif
+uniform sampler2DArray filteredFlux;
 uniform sampler2D receiver;
 uniform sampler2D receiverSurface;
 uniform int mapCount;
@@ -139,10 +139,10 @@ Gathered gatherAt(vec3 positionVs, vec3 normalVs) {
         float weight = max(axis.x * axis.y, 1e-6);
         weights += weight;
         int set = place.face * setsPerView;
-        float overArea = weight / (seen.y * ledgerUnitsPerWatt);
-        result.irradiance += sumAt(texel, set) * overArea;
+        float overArea = weight / seen.y;
+        result.irradiance += texelFetch(filteredFlux, ivec3(texel, set), 0).rgb * overArea;
 #ifdef GLOSSY_RECEIVERS
-        result.direction += sumAt(texel, set + 1) * overArea;
+        result.direction += texelFetch(filteredFlux, ivec3(texel, set + 1), 0).rgb * overArea;
 #endif
     }
     if (weights <= 0.0) return result;

@@ -4,12 +4,13 @@
 // report's blend_energy_ratio says. What a map holds besides, for glossy receivers, is kept.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <functional>
+#include <utility>
 
 #include "framework/core/error.h"
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/caustic_map/levels.h"
+#include "techniques/caustic_map/map_filters.h"
 #include "techniques/caustic_map/nodes.h"
 
 namespace kaustik {
@@ -59,38 +60,43 @@ struct LevelFilterParams {
     }
 };
 
+// Of filter.blur, along x alone.
+using Blurred = graph::Texture<FilteredTexel>;
+
 struct Filtered {
     FluxMap map;
-    FluxMap before;
-    graph::Texture<IrradianceTexel> blurred;  // of filter.blur, along x alone
+    Blurred blurred;
 };
 
+using MoreSetup = std::function<void(graph::PassSetup&, Filtered&)>;
 using FilterCommands = std::function<void(const Filtered&, gl::PassContext&)>;
+
+std::string suffixOf(const FluxMap& map) {
+    return map.light > 0 ? fmt::format(".light_{}", map.light + 1) : "";
+}
+
+template <class Texel>
+graph::Texture<Texel> createLike(graph::PassSetup& setup, const std::string& name,
+                                 const FluxMap& map, int layersPerView) {
+    const Views& views = map.on.views;
+    return setup.create<Texel>(name + suffixOf(map), views->width(), views->height(),
+                               views->count() * layersPerView);
+}
 
 // Adds a pass for each map of the frame.
 CausticMap filterMaps(FrameBuilder& frame, const std::string& node, const std::string& why,
-                      const CausticMap& map, const std::function<void(graph::PassSetup&, Filtered&)>& more,
-                      const FilterCommands& commands) {
-    CausticMap result = map;
-    for (FluxMap& one : result.maps) {
-        const FluxMap before = one;
+                      CausticMap map, const MoreSetup& more, const FilterCommands& commands) {
+    for (FluxMap& one : map.maps) {
         one = frame
                   .pass<Filtered>(
                       node, why,
                       [&](graph::PassSetup& setup, Filtered& data) {
-                          data.before = before;
-                          data.map = before;
-                          data.map.sets.flux = 1;
-                          data.map.sets.counts = false;
-                          data.map.counts = {};
-                          const Views& views = before.on.views;
-                          const std::string suffix =
-                              before.light > 0 ? fmt::format(".light_{}", before.light + 1) : "";
-                          data.map.flux = setup.create<FluxWord>(
-                              "caustic.filtered" + suffix, views->width(), views->height(),
-                              views->layers(data.map.wordsPerView()));
-                          setup.image("filteredSums", data.map.flux);
-                          if (before.sets.flux == 1) setup.bypass(data.map.flux, before.flux);
+                          data.map = one;
+                          setup.sample("fluxSums", one.flux);
+                          data.map.filtered = setup.image(
+                              "filteredFlux",
+                              createLike<FilteredTexel>(setup, "caustic.filtered", one,
+                                                        one.filteredPerView()));
                           more(setup, data);
                       },
                       [commands](const Filtered& data, gl::PassContext& context) {
@@ -98,17 +104,20 @@ CausticMap filterMaps(FrameBuilder& frame, const std::string& node, const std::s
                       })
                   .map;
     }
-    return result;
+    return map;
 }
 
-void setMaps(gl::Command& command, const Filtered& data) {
-    command.set("setsBefore", data.before.sets.perView())
-        .set("views", data.before.on.views->count());
+gl::Command filterCommand(gl::PassContext& context, const char* shader, const FluxMap& map) {
+    gl::Command command = context.compute(std::string("caustic_map/") + shader);
+    command.set("setsBefore", map.sets.perView())
+        .set("setsAfter", map.filteredPerView())
+        .set("lastIsIntensity", map.sets.hasIntensity ? 1 : 0)
+        .set("views", map.on.views->count());
+    return command;
 }
 
-void dispatchOverMap(gl::Command& command, const Filtered& data) {
-    const Views& views = data.before.on.views;
-    command.dispatchOver(views->width(), 8, views->height(), 8);
+void dispatchOverMap(gl::Command& command, const FluxMap& map) {
+    command.dispatchOver(map.on.views->width(), 8, map.on.views->height(), 8);
 }
 
 // A filter of maps that are not there.
@@ -125,25 +134,17 @@ CausticMap blurMap(FrameBuilder& frame, const BlurParams& params, CausticMap map
                           "several, for filter.blend and filter.levels.");
     const int diameter = params.diameter - (params.diameter % 2 == 0 ? 1 : 0);
     return filterMaps(
-        frame, "filter.blur", "points become what splats would be", map,
+        frame, "filter.blur", "points become what splats would be", std::move(map),
         [](graph::PassSetup& setup, Filtered& data) {
-            const Views& views = data.before.on.views;
-            setup.sample("fluxSums", data.before.flux);
             data.blurred = setup.image(
-                "blurred", setup.create<IrradianceTexel>(
-                               data.before.light > 0
-                                   ? fmt::format("caustic.blurred.light_{}", data.before.light + 1)
-                                   : "caustic.blurred",
-                               views->width(), views->height(),
-                               std::max(1, views->layers(data.before.sets.perView()))));
-            setup.bypass(data.blurred, {0, 0, 0, 0});
+                "blurred", createLike<FilteredTexel>(setup, "caustic.blurred", data.map,
+                                                     data.map.sets.perView()));
         },
         [diameter](const Filtered& data, gl::PassContext& context) {
             for (int axis = 0; axis < 2; ++axis) {
-                gl::Command command = context.compute("caustic_map/blur.comp");
-                setMaps(command, data);
+                gl::Command command = filterCommand(context, "blur.comp", data.map);
                 command.set("diameter", diameter).set("axis", axis);
-                dispatchOverMap(command, data);
+                dispatchOverMap(command, data.map);
             }
         });
 }
@@ -152,63 +153,73 @@ CausticMap blendSizes(FrameBuilder& frame, const BlendParams& params, CausticMap
     needsSets("filter.blend", map, 4, "reconstruct.four_radii");
     return filterMaps(
         frame, "filter.blend", "each texel takes the splats that its photons are dense enough for",
-        map,
+        std::move(map),
         [](graph::PassSetup& setup, Filtered& data) {
-            setup.sample("fluxSums", data.before.flux);
-            setup.sample("photonCounts", data.before.counts);
+            setup.sample("photonCounts", data.map.counts);
         },
         [params](const Filtered& data, gl::PassContext& context) {
-            gl::Command command = context.compute("caustic_map/blend.comp");
-            setMaps(command, data);
-            command.set("setsAfter", data.map.sets.perView()).params("filter.blend", params);
-            dispatchOverMap(command, data);
+            gl::Command command = filterCommand(context, "blend.comp", data.map);
+            command.params("filter.blend", params);
+            dispatchOverMap(command, data.map);
+        });
+}
+
+// Fills the coarser levels from the finest.
+FluxMap makeMipChain(FrameBuilder& frame, const FluxMap& map) {
+    return frame.pass<FluxMap>(
+        "filter.mip", "levels are sums of finer ones",
+        [&](graph::PassSetup& setup, FluxMap& data) {
+            data = FluxMap::deposit(setup, map, map.on, map.sets, "");
+        },
+        [](const FluxMap& data, gl::PassContext& context) {
+            const Views& views = data.on.views;
+            const int levels = levelsOf(views->width(), views->height());
+            for (int level = 1; level < levels; ++level) {
+                gl::Command command = context.compute("caustic_map/mip.comp");
+                setLevelLayout(command, data);
+                command.set("level", level)
+                    .set("views", views->count())
+                    .set("setsBefore", data.sets.perView())
+                    .dispatchOver((views->width() >> level) + 1, 8, (views->height() >> level) + 1,
+                                  8);
+            }
         });
 }
 
 CausticMap pickLevels(FrameBuilder& frame, const LevelFilterParams& params, CausticMap map) {
     needsSets("filter.levels", map, 2, "reconstruct.levels");
-    const bool isMip = params.source == LevelSource::mip;
-    if (isMip) {
-        for (FluxMap& one : map.maps) {
-            one = frame.pass<FluxMap>(
-                "filter.mip", "levels are sums of finer ones",
-                [&](graph::PassSetup& setup, FluxMap& data) {
-                    data = FluxMap::deposit(setup, one, one.on, one.sets, "");
-                },
-                [](const FluxMap& data, gl::PassContext& context) {
-                    const Views& views = data.on.views;
-                    const int levels = levelsOf(views->width(), views->height());
-                    for (int level = 1; level < levels; ++level) {
-                        gl::Command command = context.compute("caustic_map/mip.comp");
-                        setLevelLayout(command, data);
-                        command.set("level", level)
-                            .set("views", views->count())
-                            .set("setsBefore", data.sets.perView())
-                            .dispatchOver((views->width() >> level) + 1, 8,
-                                          (views->height() >> level) + 1, 8);
-                    }
-                });
-        }
+    if (params.source == LevelSource::mip) {
+        for (FluxMap& one : map.maps)
+            one = makeMipChain(frame, one);
     }
     return filterMaps(
-        frame, "filter.levels", "each texel takes the finest level with enough photons", map,
+        frame, "filter.levels", "each texel takes the finest level with enough photons",
+        std::move(map),
         [](graph::PassSetup& setup, Filtered& data) {
-            setup.sample("fluxSums", data.before.flux);
-            setup.sample("photonCounts", data.before.counts);
+            setup.sample("photonCounts", data.map.counts);
         },
         [params](const Filtered& data, gl::PassContext& context) {
-            const Views& views = data.before.on.views;
-            gl::Command command = context.compute("caustic_map/levels.comp");
-            setMaps(command, data);
-            setLevelLayout(command, data.before);
-            command.set("setsAfter", data.map.sets.perView())
-                .set("levels", levelsOf(views->width(), views->height()))
+            const Views& views = data.map.on.views;
+            gl::Command command = filterCommand(context, "levels.comp", data.map);
+            setLevelLayout(command, data.map);
+            command.set("levels", levelsOf(views->width(), views->height()))
                 .params("filter.levels", params);
-            dispatchOverMap(command, data);
+            dispatchOverMap(command, data.map);
         });
 }
 
 }  // namespace
+
+CausticMap inFloats(FrameBuilder& frame, CausticMap map) {
+    if (map.maps.front().filtered.valid()) return map;
+    return filterMaps(
+        frame, "gather.unpack", "a texel of the map is looked up more than once", std::move(map),
+        [](graph::PassSetup&, Filtered&) {},
+        [](const Filtered& data, gl::PassContext& context) {
+            gl::Command command = filterCommand(context, "unpack.comp", data.map);
+            dispatchOverMap(command, data.map);
+        });
+}
 
 void registerMapFilters(Registry& registry) {
     registry.node<FilterStage>(

@@ -2,8 +2,11 @@
 // gather.project: the caustic map of each light projected onto the eye's receivers like a shadow
 // map (WD06), light by light. Where a receiver is glossy, all of a texel's light counts as coming
 // from its mean direction. In: flux a texel, W; out: irradiance, W/m², and radiance, W/m²/sr.
+#include <utility>
+
 #include "framework/core/error.h"
 #include "framework/pipeline/frame_builder.h"
+#include "techniques/caustic_map/map_filters.h"
 #include "techniques/caustic_map/nodes.h"
 
 namespace kaustik {
@@ -24,9 +27,10 @@ IrradianceMap projectMaps(FrameBuilder& frame, const ProjectParams& params, Caus
     if (map.maps.front().on.views->isEyes())
         throw ConfigError("gather.project looks light up in the lights' maps, but it is stored on "
                           "the screen; take reconstruct.space=light, or gather=screen.");
-    if (map.maps.front().sets.flux > 1)
+    if (map.maps.front().sets.flux > 1 && !map.maps.front().filtered.valid())
         throw ConfigError("gather.project takes one map, but the light is stored in several sizes "
                           "or levels; take filter=blend or filter=levels.");
+    map = inFloats(frame, std::move(map));
     IrradianceMap result;
     result.ledger = map.ledger;
     for (std::size_t i = 0; i < map.maps.size(); ++i) {
@@ -34,7 +38,7 @@ IrradianceMap projectMaps(FrameBuilder& frame, const ProjectParams& params, Caus
         result = frame.pass<IrradianceMap>(
             "gather.project", "each light's map is looked up where the eye's receivers lie",
             [&](graph::PassSetup& setup, IrradianceMap& data) {
-                setup.sample("fluxSums", stored.flux);
+                setup.sample("filteredFlux", stored.filtered);
                 setup.sample("mapReceiver", stored.on.receiver);
                 setup.sample("mapSurface", stored.on.receiverSurface);
                 setup.sample("receiver", surfaces.eye.receiver);
@@ -66,7 +70,7 @@ IrradianceMap projectMaps(FrameBuilder& frame, const ProjectParams& params, Caus
                 command.uniforms("MapViews", views->block())
                     .params("gather.project", params)
                     .set("mapCount", views->count())
-                    .set("setsPerView", stored.sets.perView());
+                    .set("setsPerView", stored.filteredPerView());
                 if (views->count() > 1) command.define("MAP_IS_CUBE");
                 if (views->view(0).isOrthographic) command.define("MAP_IS_PARALLEL");
                 command.target(data.irradiance);

@@ -40,7 +40,7 @@ CausticMap splat(FrameBuilder& frame, const Splatting& splatting, const Hits& hi
 
 CausticMap splatSprites(FrameBuilder& frame, const SpritesParams& params, Hits hits,
                         Surfaces surfaces, CausticMap before) {
-    return splat(frame, {.params = params}, hits, surfaces, before);
+    return splat(frame, {.node = "reconstruct.sprites", .params = params}, hits, surfaces, before);
 }
 
 enum class BeamShape : int { ellipse, round };

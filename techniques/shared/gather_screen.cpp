@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // gather.screen: a map of flux that was stored by the eye's own pixels becomes irradiance over the
 // area of the receiver that each sees. In: flux, W (W/sr towards the eye); out: W/m² (W/m²/sr).
+#include "framework/core/error.h"
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/shared/nodes.h"
 
@@ -11,10 +12,18 @@ IrradianceMap gatherOnScreen(FrameBuilder& frame, const params::NoParams&, Caust
                              Surfaces surfaces) {
     const FluxMap& stored = map.maps.front();
     needsEyesView("gather.screen", "the map of flux", stored.on.views);
+    if (stored.sets.flux > 1 && !stored.filtered.valid())
+        throw ConfigError("gather.screen takes one map, but the light is stored in several sizes or "
+                          "levels; take filter=blend or filter=levels.");
     return frame.pass<IrradianceMap>(
         "gather.screen", "what was deposited is spread over what each pixel sees",
         [&](graph::PassSetup& setup, IrradianceMap& data) {
-            setup.sample("fluxSums", stored.flux);
+            if (stored.filtered.valid()) {
+                setup.sample("filteredFlux", stored.filtered);
+                setup.define("IS_FILTERED");
+            } else {
+                setup.sample("fluxSums", stored.flux);
+            }
             setup.sample("receiver", surfaces.eye.receiver);
             data.ledger = map.ledger;
             data.irradiance =
