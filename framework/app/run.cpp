@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
+#include <optional>
 
 #include "framework/app/commands.h"
 #include "framework/core/error.h"
@@ -38,10 +39,12 @@ void checkOptions(const RunOptions& options) {
 }
 
 // The frames that are timed; warm-up frames run first, at the first one's time, and are not kept.
-// `goTo` brings the scene to the time of a timed frame and builds the renderer for it.
+// `goTo` brings the scene to the time of a timed frame and builds the renderer for it; `rendered`
+// is told when that frame is.
 std::vector<gl::FrameTime> renderTimedFrames(Renderer& renderer, gl::PassTimer& timer,
                                              const RunOptions& options,
-                                             const std::function<void(int frame)>& goTo) {
+                                             const std::function<void(int frame)>& goTo,
+                                             const std::function<void(int frame)>& rendered) {
     const int total = options.warmup + options.frames;
     std::vector<gl::FrameTime> times;
     run::Progress progress("frame", total);
@@ -60,6 +63,7 @@ std::vector<gl::FrameTime> renderTimedFrames(Renderer& renderer, gl::PassTimer& 
         // A ring slot is read when its frame is done; here, unlike in a window, no frame may be
         // lost, so the ring is emptied before it is full.
         take(timer.mode() == gl::TimerMode::finish || frame % 2 == 1);
+        if (frame >= options.warmup) rendered(timed);
         progress.update(frame + 1);
     }
     take(true);
@@ -103,14 +107,25 @@ void runCommand(const RunOptions& options, const Registry& registry) {
     gl::PassTimer timer(record.timer);
     record.startupMilliseconds =
         std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-    const run::RunReference reference(options.reference,
-                                      static_cast<std::uint64_t>(options.referencePhotons),
-                                      renderer);  // before the frames: it may be refused
-    record.frames = renderTimedFrames(renderer, timer, options, [&](int frame) {
+    run::RunReference reference(options.reference,
+                                static_cast<std::uint64_t>(options.referencePhotons),
+                                renderer);  // before the frames: it may be refused
+    const bool isInMotion = options.timeStepSeconds != 0.0 && renderer.needs().animated;
+    if (isInMotion) {
+        reference.watchFlicker(
+            options.frames > 1 ? std::optional(timeOf(options.frames - 2)) : std::nullopt,
+            renderer);
+    }
+    const auto goTo = [&](int frame) {
         scene::setTime(scene, timeOf(frame));
         renderer.update(RenderSettings(renderer.settings()));
         renderer.build(Purpose::picture);
-    });
+    };
+    // The picture's own frame repeats the last time, which a filter over time would count twice.
+    const auto rendered = [&](int frame) {
+        if (isInMotion && frame >= options.frames - 2) reference.keepMoment(renderer);
+    };
+    record.frames = renderTimedFrames(renderer, timer, options, goTo, rendered);
 
     const std::vector<fs::path> files =
         run::finishRun(renderer, reference, record, folder, options.saved, context->info());

@@ -125,9 +125,10 @@ std::string whyNoCaustic(const FrameBuilder& frame) {
 
 // Irradiance of zero and an empty ledger, in place of all that follows photons.
 IrradianceMap skipCaustic(FrameBuilder& frame, const std::string& why) {
-    for (const char* stage : {DriverStage::name, EmitStage::name, SpecularStage::name,
-                              TraceStage::name, MediaStage::name, BlurStage::name,
-                              ReconstructStage::name, FilterStage::name, GatherStage::name}) {
+    for (const char* stage :
+         {DriverStage::name, EmitStage::name, SpecularStage::name, TraceStage::name,
+          MediaStage::name, BlurStage::name, ReconstructStage::name, FilterStage::name,
+          GatherStage::name, TemporalStage::name}) {
         const std::string node = frame.chosenNode(stage).name;
         frame.skip(std::string(stage) + "." + node, why);
     }
@@ -161,6 +162,7 @@ FrameOutputs buildFrame(FrameBuilder& frame) {
         caustic = frame.run<DriverStage>(surfaces);
         filtered = frame.run<FilterStage>(caustic.map);
         irradiance = frame.run<GatherStage>(filtered, surfaces);
+        irradiance = frame.run<TemporalStage>(irradiance, eye);
     } else {
         irradiance = skipCaustic(frame, whyNot);
     }

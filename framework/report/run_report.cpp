@@ -140,6 +140,18 @@ std::string shadowLine(const json& shadow) {
         percent("lit_taken_for_shadow"), percent("shadow_taken_for_lit"));
 }
 
+// How much the caustic changes from frame to frame; "" where that was not judged.
+std::string flickerLine(const json& flicker) {
+    if (flicker.is_null()) return "";
+    const auto number = [&](const char* key) { return flicker.at(key).get<double>(); };
+    const json& times = flicker.at("of_times_s");
+    return fmt::format(
+        "{:<24}RMS change {:.4g} W/m² from {:g} s to {:g} s, the truth's {:.4g} (± {:.2g}), "
+        "difference {:.3g}\n",
+        "flicker", number("rms_w_m2"), times[0].get<double>(), times[1].get<double>(),
+        number("truth_rms_w_m2"), number("truth_stderr_w_m2"), number("difference_w_m2"));
+}
+
 // A line for hits, and one for every output that has an error.
 std::string referenceTable(const RunRecord& record) {
     std::string table;
@@ -188,6 +200,7 @@ std::string referenceTable(const RunRecord& record) {
             errorLines("  of modelled paths", "    in-scattered",
                        record.error.at("modelled_paths"));
         }
+        if (record.error.contains("flicker")) table += flickerLine(record.error.at("flicker"));
         if (record.error.contains("view")) table += viewLine(record.error.at("view"));
         if (record.error.contains("shadow")) table += shadowLine(record.error.at("shadow"));
     }

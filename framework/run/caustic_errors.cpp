@@ -3,10 +3,13 @@
 
 #include "framework/run/caustic_errors.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "framework/core/error.h"
+#include "framework/measure/flicker.h"
 #include "framework/measure/heat_map.h"
 #include "framework/measure/image_errors.h"
 #include "framework/run/output.h"
@@ -15,6 +18,12 @@ namespace kaustik::run {
 
 using nlohmann::json;
 using reference::Reference;
+
+namespace {
+
+constexpr const char* kNoReceiver = "no pixel of this view sees a receiver";
+
+}  // namespace
 
 Outputs readOutputs(const Renderer& renderer) {
     const FrameOutputs& frame = renderer.outputs();
@@ -54,6 +63,36 @@ measure::ImagePair pairOf(const Outputs& outputs, const Output& output,
                                .imageName = output.name});
 }
 
+json flickerBetween(const Outputs& outputs, const Moment& earlier, const Moment& later,
+                    const Reference& earlierReference, const Reference& laterReference,
+                    std::string& reason) {
+    if (!outputs.seesReceivers) {
+        reason = kNoReceiver;
+        return nullptr;
+    }
+    const auto pairAt = [&](const Moment& moment, const Reference& reference) {
+        return measure::ImagePair(
+            {.image = moment.irradiance,
+             .reference = reference.irradiance,
+             .mask = &outputs.receiver,
+             .standardError = &reference.irradianceError,
+             .imageName = fmt::format("caustic_irradiance at {:g} s", moment.seconds)});
+    };
+    try {
+        const measure::Flicker flicker = measure::measureFlicker(pairAt(earlier, earlierReference),
+                                                                 pairAt(later, laterReference));
+        return {{"rms_w_m2", flicker.rms},
+                {"truth_rms_w_m2", flicker.truthRms},
+                {"difference_w_m2", flicker.difference()},
+                {"truth_stderr_w_m2", flicker.truthStandardError},
+                {"counted_pixels", flicker.countedPixels},
+                {"of_times_s", {earlier.seconds, later.seconds}}};
+    } catch (const IoError& error) {
+        reason = error.what();
+        return nullptr;
+    }
+}
+
 json errorsAgainst(const Outputs& outputs, const Reference& reference) {
     json result = {{"reference_estimator",
                     reference.request.estimator == reference::Estimator::light ? "light" : "sppm"},
@@ -69,7 +108,7 @@ json errorsAgainst(const Outputs& outputs, const Reference& reference) {
         if ((reference.*output.groundTruth).values.empty()) continue;
         if (output.isOfReceivers && !outputs.seesReceivers) {
             result[output.name] = nullptr;
-            result["reasons"][output.name] = "no pixel of this view sees a receiver";
+            result["reasons"][output.name] = kNoReceiver;
             continue;
         }
         try {

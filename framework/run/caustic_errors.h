@@ -4,6 +4,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <string>
 #include <vector>
 
 #include "framework/image/image.h"
@@ -42,6 +43,20 @@ struct Outputs {
 // holds values that are no numbers has no errors, but a reason.
 [[nodiscard]] nlohmann::json errorsAgainst(const Outputs& outputs,
                                            const reference::Reference& reference);
+
+// The caustic irradiance of a frame, and when that was.
+struct Moment {
+    double seconds = 0.0;
+    Image irradiance;
+};
+
+// How much the caustic changes between two moments of which the references are; `outputs` say which
+// pixels count. Null where a value is no number or no pixel counts, with a sentence in `reason`.
+[[nodiscard]] nlohmann::json flickerBetween(const Outputs& outputs, const Moment& earlier,
+                                            const Moment& later,
+                                            const reference::Reference& earlierReference,
+                                            const reference::Reference& laterReference,
+                                            std::string& reason);
 
 // Where the image is wrong, as heat colours.
 [[nodiscard]] Image errorPicture(const measure::ImagePair& pair);

@@ -16,6 +16,7 @@
 #include "framework/audit/view_audit.h"
 #include "framework/measure/image_errors.h"
 #include "framework/run/reference_work.h"
+#include "framework/scene/shapes/height_field.h"
 #endif
 
 namespace kaustik::run {
@@ -38,6 +39,8 @@ RunReference::~RunReference() = default;
 Purpose RunReference::purpose() const {
     return Purpose::measurement;
 }
+void RunReference::watchFlicker(std::optional<double>, const Renderer&) {}
+void RunReference::keepMoment(const Renderer&) {}
 std::vector<fs::path> RunReference::judge(const Renderer&, const fs::path&,
                                           report::RunRecord&) const {
     return {};
@@ -96,12 +99,27 @@ ReferenceRequest requestFor(const Renderer& renderer) {
 }  // namespace
 
 struct RunReference::Loaded {
+    // What the flicker is told by.
+    struct Flicker {
+        std::string whyNot;  // "" where it can be told
+        Reference earlier;   // `whole` is the later one
+        std::vector<Moment> moments;
+    };
     explicit Loaded(const scene::Scene& of) : scene(of) {}
     std::string name;
     reference::EmbreeScene scene;
     Reference whole;
     std::optional<Reference> modelled;  // only the paths that the technique claims to model
     ModelledPaths paths;
+    reference::RunOptions options;
+    Watch watch;
+    std::optional<Flicker> flicker;
+
+    [[nodiscard]] Reference obtain(const reference::EmbreeScene& of,
+                                   const ReferenceRequest& request) const {
+        return watch.goesOn ? obtainReference(of, request, options, watch)
+                            : obtainReference(of, request, options);
+    }
 };
 
 RunReference::RunReference(const std::string& wanted, std::uint64_t photons,
@@ -115,29 +133,54 @@ RunReference::RunReference(const std::string& wanted, std::uint64_t photons,
     if (wanted != "auto") fromFile = readFor(wanted, renderer);
     loaded_ = std::make_unique<Loaded>(renderer.scene());
     loaded_->name = wanted;
+    loaded_->options.stop.photons = photons;
+    loaded_->watch = watch;
     if (fromFile) {
         loaded_->whole = std::move(*fromFile);
         return;
     }
-    reference::RunOptions options;
-    options.stop.photons = photons;
-    const auto obtain = [&](const ReferenceRequest& request) {
-        return watch.goesOn ? obtainReference(loaded_->scene, request, options, watch)
-                            : obtainReference(loaded_->scene, request, options);
-    };
     ReferenceRequest request = requestFor(renderer);
-    loaded_->whole = obtain(request);
+    loaded_->whole = loaded_->obtain(loaded_->scene, request);
     loaded_->paths = renderer.outputs().hits.incoming.paths;
     if (loaded_->paths.interactions == 0) return;  // nothing is modelled: there is no caustic
     request.filter.transmissionOnly = loaded_->paths.transmissionOnly;
     request.filter.maximumInteractions = loaded_->paths.interactions;
-    loaded_->modelled = obtain(request);
+    loaded_->modelled = loaded_->obtain(loaded_->scene, request);
 }
 
 RunReference::~RunReference() = default;
 
 Purpose RunReference::purpose() const {
     return loaded_ ? Purpose::audit : Purpose::measurement;
+}
+
+void RunReference::watchFlicker(std::optional<double> earlierSeconds, const Renderer& renderer) {
+    if (!loaded_) return;
+    Loaded::Flicker& flicker = loaded_->flicker.emplace();
+    if (!earlierSeconds) {
+        flicker.whyNot = "all frames are of one time; --frames 2 or more have two";
+        return;
+    }
+    if (loaded_->name != "auto") {
+        flicker.whyNot =
+            "a reference from a file is of one time; --reference auto makes those of both";
+        return;
+    }
+    scene::Scene scene = renderer.scene();
+    scene::setTime(scene, *earlierSeconds);
+    ReferenceRequest request = requestFor(renderer);
+    // With one seed for both, photons that fall alike would give both the same noise, and nobody
+    // knows how much of it.
+    ++request.seed;
+    flicker.earlier = loaded_->obtain(reference::EmbreeScene(scene), request);
+}
+
+void RunReference::keepMoment(const Renderer& renderer) {
+    if (!loaded_ || !loaded_->flicker || !loaded_->flicker->whyNot.empty()) return;
+    std::vector<Moment>& moments = loaded_->flicker->moments;
+    if (moments.size() == 2) moments.erase(moments.begin());
+    moments.push_back({renderer.scene().timeSeconds,
+                       readTexture(renderer.texture(renderer.outputs().caustic.irradiance), 0, 3)});
 }
 
 std::vector<fs::path> RunReference::judge(const Renderer& renderer, const fs::path& folder,
@@ -169,6 +212,15 @@ std::vector<fs::path> RunReference::judge(const Renderer& renderer, const fs::pa
     } else {
         write("error" + displayImageExtension(),
               errorPicture(pairOf(outputs, outputs.images.front(), loaded_->whole)));
+    }
+    if (loaded_->flicker) {
+        const Loaded::Flicker& flicker = *loaded_->flicker;
+        std::string whyNot = flicker.whyNot;
+        record.error["flicker"] =
+            whyNot.empty() ? flickerBetween(outputs, flicker.moments.at(0), flicker.moments.at(1),
+                                            flicker.earlier, loaded_->whole, whyNot)
+                           : json(nullptr);
+        if (!whyNot.empty()) record.error["reasons"]["flicker"] = whyNot;
     }
     if (loaded_->modelled) {
         json modelled = errorsAgainst(outputs, *loaded_->modelled);

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,14 @@ class RunReference {
 
     // What the frame must be built for.
     [[nodiscard]] Purpose purpose() const;
+
+    // Has judge() also tell how much the caustic flickers between the last two frames of different
+    // times: obtains the truth at the earlier one's, of the renderer's scene as it is else. `auto`
+    // only; a file is of one time, and the report then says why there is no number.
+    // `earlierSeconds` is none where there is no such frame.
+    void watchFlicker(std::optional<double> earlierSeconds, const Renderer& renderer);
+    // Keeps the caustic of the frame that was rendered last, for that. Waits for the device.
+    void keepMoment(const Renderer& renderer);
 
     // Judges the frame that was rendered for purpose(): fills the record's hits and error, and the
     // causes in its ledger. Writes pictures into `folder` and gives their names.

@@ -415,6 +415,11 @@ struct GatherStage : Stage<IrradianceMap(CausticMap, Surfaces)> {
     static constexpr const char* name = "gather";
     static constexpr const char* question = "What of the map do the eye's receivers get?";
 };
+// Once a frame, on what the eye's receivers get; what it remembers of earlier frames is its own.
+struct TemporalStage : Stage<IrradianceMap(IrradianceMap, EyeBuffer)> {
+    static constexpr const char* name = "temporal";
+    static constexpr const char* question = "How is irradiance smoothed over time?";
+};
 // Adds what photons scatter on their way to these hits to what those of earlier paths did.
 struct MediaStage : Stage<InScattered(Hits, EyeBuffer, InScattered)> {
     static constexpr const char* name = "media";

@@ -20,6 +20,7 @@ void registerSharedNodes(Registry& registry) {
     registry.stage<BlurStage>();
     registry.stage<FilterStage>();
     registry.stage<GatherStage>();
+    registry.stage<TemporalStage>();
     registry.stage<ViewStage>();
     registry.stage<ComposeStage>();
 
@@ -41,6 +42,8 @@ void registerSharedNodes(Registry& registry) {
     registerSpecularSplit(registry);
     registerNoFilter(registry);
     registerScreenGather(registry);
+    registerNoTemporal(registry);
+    registerTemporalReprojection(registry);
     registerNoBlur(registry);
     registerInterfaceView(registry);
     registerPicture(registry);

@@ -22,6 +22,8 @@ void registerSpecularSplit(Registry& registry);
 void registerShadowMap(Registry& registry);
 void registerNoFilter(Registry& registry);
 void registerScreenGather(Registry& registry);
+void registerNoTemporal(Registry& registry);
+void registerTemporalReprojection(Registry& registry);
 void registerNoBlur(Registry& registry);
 void registerInterfaceView(Registry& registry);
 void registerPicture(Registry& registry);
