@@ -165,6 +165,7 @@ graph::Compiled Renderer::compile(Purpose purpose, const std::vector<std::string
         graph_->request(closedLedger_);
     }
     traces_ = frame.traces();
+    if (purpose == Purpose::measurement || purpose == Purpose::audit) requestForMaps();
     if (purpose == Purpose::audit) requestForAudit();
     if (purpose == Purpose::view) requestExits();
     for (const std::string& name : resources) {
@@ -212,6 +213,17 @@ graph::Compiled Renderer::keepLimits(const graph::Compiled& compiled,
             graph_->request(handle);
     }
     return graph_->compile();
+}
+
+// What says where light went that was stored off the screen.
+void Renderer::requestForMaps() {
+    bool isOffScreen = false;
+    for (const FluxMap& map : outputs_.filtered.maps) {
+        if (map.on.views->isEyes()) continue;
+        isOffScreen = true;
+        if (map.filtered.valid()) graph_->request(map.filtered);
+    }
+    if (isOffScreen) graph_->request(outputs_.eye.receiver);
 }
 
 void Renderer::requestForAudit() {

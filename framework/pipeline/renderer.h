@@ -98,6 +98,7 @@ class Renderer {
     [[nodiscard]] FrameBuilder declareFrame(bool recordsTraces = false, bool skipsCaustic = false);
 
     void bindToAll();
+    void requestForMaps();
     void requestForAudit();
     void requestExits();
     [[nodiscard]] graph::Compiled keepLimits(const graph::Compiled& compiled,

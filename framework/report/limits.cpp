@@ -37,7 +37,8 @@ std::vector<ReachedLimit> reachedLimits(const RunRecord& record, const Renderer&
         ledger.watts[kAccountBounceLimit] + ledger.watts[kAccountInternalReflectionLimit];
     const std::uint64_t photons =
         ledger.events[kAccountBounceLimit] + ledger.events[kAccountInternalReflectionLimit];
-    if (photons > 0) {
+    // Nodes that cannot go on, whatever the limit, have said so in the ledger alone.
+    if (photons > 0 && !renderer.outputs().hits.incoming.paths.end) {
         limits.push_back({"specular.bounces", "bounces", static_cast<double>(bounces), 0.0,
                           fmt::format("{} photons were still on their way, {:.3g}% of the flux",
                                       photons, shareOfEmitted(ledger, atLimit)),

@@ -277,6 +277,7 @@ json makeReport(const RunRecord& record, const Renderer& renderer, const gl::Dev
           {"peak_bytes", record.peakBytes}}},
         {"limits", toJson(reachedLimits(record, renderer))},
         {"warnings", record.warnings}};
+    if (!record.map.is_null()) report["map"] = record.map;
     if (!record.hits.is_null()) report["hits"] = record.hits;
     if (!record.error.is_null()) report["error"] = record.error;
     return report;

@@ -8,6 +8,7 @@
 #include "framework/core/error.h"
 #include "framework/core/files.h"
 #include "framework/core/json_text.h"
+#include "framework/report/map_account.h"
 #include "framework/run/output.h"
 #include "framework/run/progress.h"
 
@@ -38,6 +39,7 @@ std::vector<fs::path> finishRun(Renderer& renderer, const RunReference& referenc
     record.layers = renderer.layerStatistics();
     record.layersAllowed = renderer.outputs().layers.layers;
     record.nodeLimits = renderer.reachedLimits();
+    record.map = report::mapAccount(renderer);
     record.warnings = renderer.scene().warnings;
     record.warnings.insert(record.warnings.end(), renderer.warnings().begin(),
                            renderer.warnings().end());

@@ -115,7 +115,7 @@ void goThrough(uint slot, ivec2 texel, Photon before, Hit hit, Photon inside, Ph
     WayInside way = WayInside(0.0, entry, -normal, there);
     if (backAt(there) > 0.0 && through > 0.0) {
         way = wayInside(entry, along, onward, normal, through, indices.y / indices.x,
-                        specular_two_interfaces_steps);
+                        specular_two_interfaces_steps, specular_two_interfaces_distance);
     } else {
         // At the very rim the back faces are another texel's: no thickness, and it goes straight on.
         onward = along;

@@ -20,23 +20,28 @@ float backAt(ivec2 texel) {
     return texelFetch(backDepth, texel, 0).x;
 }
 
-// Along the inverse normal to the back faces, m: a point on that way is inside as long as the back
-// faces lie beyond it. The paper's is precomputed for every vertex; this needs no preparation.
-float distanceAlongNormal(vec3 entry, vec3 normal, float longest, int steps) {
+// From a point of the front along `direction`, unit, to the back faces, m: a point on that way is
+// inside as long as these lie beyond it. In steps that grow, from a quarter of what the view's ray
+// has before it (`through`), then by bisection; `steps` that never come out are as far as they go.
+// The paper's along the normal is precomputed for every vertex; this needs no preparation.
+float distanceInside(vec3 entry, vec3 direction, float through, int steps) {
     float inside = 0.0;
-    float step = longest / float(steps);
-    for (int i = 1; i <= steps; ++i) {
-        vec3 p = entry - normal * (step * float(i));
+    float step = max(0.25 * through, pixelFootprint(max(-entry.z, view.frustum.z)));
+    bool isOut = false;
+    for (int i = 0; i < steps; ++i) {
+        vec3 p = entry + direction * (inside + step);
         float back = backAt(texelAt(p));
-        if (back <= 0.0 || -p.z > back) break;
-        inside = step * float(i);
+        isOut = back <= 0.0 || -p.z > back;
+        if (isOut) break;
+        inside += step;
+        step *= 1.6;
     }
-    if (inside >= longest) return longest;
+    if (!isOut) return inside;
     // Between the last point inside and the first one outside.
     float outside = inside + step;
-    for (int i = 0; i < 4; ++i) {
+    for (int i = 0; i < 8; ++i) {
         float middle = 0.5 * (inside + outside);
-        vec3 p = entry - normal * middle;
+        vec3 p = entry + direction * middle;
         float back = backAt(texelAt(p));
         if (back <= 0.0 || -p.z > back) {
             outside = middle;
@@ -71,20 +76,24 @@ struct WayInside {
     ivec2 texel;   // of the back buffers that it is from
 };
 
+// How far it is from the front to the back faces along the refracted ray.
+const int kEstimates = 0;  // W05: between d_V and d_N
+const int kSearch = 1;     // along the ray itself, as if the back faces were all there is
+
 // `entry`: where the ray has met the front; `along`: unit, in which it came; `onward`: unit, in
 // which it goes on; `normal`: outward, unit; `through`: from the front to the back faces along the
 // view's ray, m, more than 0; `index`: of the body, by that around; `steps`: 0 for d_V alone.
 WayInside wayInside(vec3 entry, vec3 along, vec3 onward, vec3 normal, float through, float index,
-                    int steps) {
-    float cosI = clamp(-dot(along, normal), 0.0, 1.0);
-    float cosT = clamp(-dot(onward, normal), 0.0, 1.0);
-    float angleI = acos(cosI);
-    float weight = angleI > 1e-3 ? acos(cosT) / angleI : 1.0 / index;
+                    int steps, int distances) {
     float inside = through;
-    if (steps > 0) {
-        // No object is thicker than twice what is seen of it, or the search ends there.
-        float alongNormal = distanceAlongNormal(entry, normal, 2.0 * through, steps);
-        inside = weight * through + (1.0 - weight) * alongNormal;
+    if (distances == kSearch) {
+        inside = distanceInside(entry, onward, through, steps);
+    } else if (steps > 0) {
+        float cosI = clamp(-dot(along, normal), 0.0, 1.0);
+        float cosT = clamp(-dot(onward, normal), 0.0, 1.0);
+        float angleI = acos(cosI);
+        float weight = angleI > 1e-3 ? acos(cosT) / angleI : 1.0 / index;
+        inside = weight * through + (1.0 - weight) * distanceInside(entry, -normal, through, steps);
     }
     vec3 exit = entry + inside * onward;
     // Beside the silhouette: the last pixel on the way there that has back faces.

@@ -32,7 +32,7 @@ void lookThroughInterfaces(ivec2 pixel, vec3 viewing, float depth, vec4 surface)
     if (enters && back > depth) {
         float through = (back - depth) * length(viewing);
         WayInside way = wayInside(entry, direction, onward, surface.xyz, through, index,
-                                  view_image_space_steps);
+                                  view_image_space_steps, view_image_space_distance);
         throughput *= mediumTransmittance(material, way.length);
         origin = way.exit;
         interfaces = 2.0;

@@ -26,16 +26,14 @@ enum class BeamModel : int { beam, thin, thick };
 enum class FollowedBranch : int { refracted, reflected };
 
 struct TwoInterfacesParams {
-    int steps = 8;
+    int steps = 12;
+    DistanceInside distance = DistanceInside::estimates;
     int size = 1024;
     BeamModel lens = BeamModel::beam;
     FollowedBranch branch = FollowedBranch::refracted;
     template <class R>
     void reflect(R& r) {
-        r.field(steps, "steps",
-                "Looks at the back faces along the inverse normal, for the distance to them; 0: "
-                "only the distance along the light's ray is used",
-                "", params::range(0, 64));
+        reflectDistance(r, distance, steps);
         r.field(size, "size", "Side of each light's view of the back faces", "texels",
                 params::range(16, 8192));
         r.choice(lens, "lens",

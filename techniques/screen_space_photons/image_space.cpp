@@ -18,14 +18,12 @@ namespace kaustik {
 namespace {
 
 struct ImageSpaceViewParams {
-    int steps = 8;
+    int steps = 12;
+    DistanceInside distance = DistanceInside::estimates;
     SceneLookParams look;
     template <class R>
     void reflect(R& r) {
-        r.field(steps, "steps",
-                "Looks at the back faces along the inverse normal, for the distance to them; 0: "
-                "only the distance along the eye's ray is used",
-                "", params::range(0, 64));
+        reflectDistance(r, distance, steps);
         look.reflect(r);
     }
 };

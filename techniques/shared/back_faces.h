@@ -18,6 +18,21 @@ struct BackFaces {
     void sample(graph::PassSetup& setup) const;
 };
 
+// How far a refracted ray goes inside, as include/two_interfaces.glsl has it.
+enum class DistanceInside : int { estimates, search };
+template <class R>
+void reflectDistance(R& r, DistanceInside& distance, int& steps) {
+    r.choice(distance, "distance",
+             "How far a refracted ray goes inside. estimates: between what the unrefracted ray and "
+             "the inverse normal have before them (W05); search: to where it meets the back faces "
+             "itself",
+             {"estimates", "search"});
+    r.field(steps, "steps",
+            "Looks at the back faces for that, each 1.6 times as far as the one before; 0: what "
+            "the unrefracted ray has before it",
+            "", params::range(0, 64));
+}
+
 // What the pass is called, and the names of its textures begin with.
 struct BackFacesPass {
     std::string name;

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// What became of light that was stored off the screen: `map` of report.json.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "framework/pipeline/renderer.h"
+
+namespace kaustik::report {
+
+// Of the frame that `renderer` has rendered to be measured; null where all light was stored on the
+// screen.
+[[nodiscard]] nlohmann::json mapAccount(const Renderer& renderer);
+
+}  // namespace kaustik::report
