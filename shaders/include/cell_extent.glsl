@@ -22,8 +22,11 @@ float areaOf(CellQuarter quarter) {
 }
 
 // An extent's twelve numbers, in 32nds of a cell: the reach along the axes, right, up, left, down, and
-// the corners between, a quarter after the other. 0: all of them are a half.
-uint inParts(float reach) { return uint(clamp(reach * 32.0 + 0.5, 1.0, 31.0)); }
+// the corners between, a quarter after the other. 0: all of them are a half. A reach is 0 where there
+// is nothing to stand for, beyond the border of a mesh.
+uint inParts(float reach) {
+    return reach > 0.0 ? uint(clamp(reach * 32.0 + 0.5, 1.0, 31.0)) : 0u;
+}
 
 uvec2 packedExtent(CellQuarter quarters[4]) {
     uvec2 extent = uvec2(0u);
