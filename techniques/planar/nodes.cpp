@@ -20,6 +20,17 @@ void registerPlanar(Registry& registry) {
                          {"reconstruct", "triangles"},
                          {"view", "refraction"}},
                         {}});
+    registry.technique({"differential_area",
+                        "One photon a vertex of the water's mesh hits flat receivers analytically; "
+                        "its irradiance is its flux over the area that the mesh's cells, bent by "
+                        "the water, cover there.",
+                        "differential areas of light beams: Watt 1990, on the mesh of the water",
+                        {{"emit", "vertices"},
+                         {"layers", "auto"},
+                         {"trace", "plane"},
+                         {"reconstruct", "triangles"},
+                         {"view", "refraction"}},
+                        {}});
 }
 
 }  // namespace kaustik
