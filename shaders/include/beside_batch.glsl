@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Photons that a batch of emission brings from the rows beside its own (NodeDescription::joinsCells).
+// Photons that a batch of emission brings from rows beside its own (NodeDescription::joinsCells).
 
 // They are there to be joined with, and carry of their flux a share below what any sum resolves; a
 // power of two, so that all ratios are the same.

@@ -21,10 +21,10 @@ void registerPlanar(Registry& registry) {
                          {"view", "refraction"}},
                         {}});
     registry.technique({"differential_area",
-                        "One photon a vertex of the water's mesh hits flat receivers analytically; "
-                        "its irradiance is its flux over the area that the mesh's cells, bent by "
-                        "the water, cover there.",
-                        "differential areas of light beams: Watt 1990, on the mesh of the water",
+                        "Light beams between vertices of the water's mesh hit flat receivers "
+                        "analytically: a vertex's irradiance is its flux over the area that the "
+                        "cells around it cover there.",
+                        "beams through a mesh of water: Watt 1990 (W90)",
                         {{"emit", "vertices"},
                          {"layers", "auto"},
                          {"trace", "plane"},
