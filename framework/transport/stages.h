@@ -167,8 +167,8 @@ struct Surfaces {
     LayeredDepth layers;
 };
 
-// The cells of lights' grids that photons of a list stand for, row by row: by them neighbours are
-// found. PhotonOrigin::cell counts from the grid's first row.
+// The cells of lights' grids, or the vertices of a mesh's grid, that photons of a list stand for,
+// row by row: by them neighbours are found. PhotonOrigin::cell counts from the grid's first row.
 struct CellGrid {
     int width = 0;  // cells; 0: nobody has neighbours
     int firstRow = 0;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What a photon stands for where its light's grid is lit in part: of its own cell and of cells
 // beside it whose middles are dark, as far as the border of what the light sees is from the
-// photon's place, told by sub-cells. Four quarters, each a quadrilateral from the photon's place.
+// photon's place, told by sub-cells. At the border of a mesh's grid of vertices: of nothing beyond.
+// Four quarters, each a quadrilateral from the photon's place.
 
 // Numbers in cells, away from the photon.
 struct CellQuarter {
@@ -21,9 +22,12 @@ float areaOf(CellQuarter quarter) {
     return 2.0 * (quarter.along * quarter.across.y + quarter.across.x * quarter.up);
 }
 
-// An extent's twelve numbers, in 32nds of a cell: the reach along the axes, right, up, left, down, and
-// the corners between, a quarter after the other. 0: all of them are a half.
-uint inParts(float reach) { return uint(clamp(reach * 32.0 + 0.5, 1.0, 31.0)); }
+// An extent's twelve numbers, in 32nds of a cell: the reach along the axes, right, up, left, down,
+// and the corners between, a quarter after the other. 0: all of them are a half. A reach is 0 where
+// there is nothing to stand for, beyond the border of a mesh.
+uint inParts(float reach) {
+    return reach > 0.0 ? uint(clamp(reach * 32.0 + 0.5, 1.0, 31.0)) : 0u;
+}
 
 uvec2 packedExtent(CellQuarter quarters[4]) {
     uvec2 extent = uvec2(0u);

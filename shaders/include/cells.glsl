@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The cells of lights' grids that photons stand for (CellGrid), and which photon of a list stands
-// for each.
+// The cells of lights' grids, or vertices, that photons stand for (CellGrid), and which photon of a
+// list stands for each.
 #include "framework/transport/types.h"
 
 uniform ivec2 cellGrid;    // columns and rows

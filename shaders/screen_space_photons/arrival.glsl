@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Where a photon arrives, and by its beam where its neighbours would.
+#include "include/beside_batch.glsl"
 #include "include/cell_extent.glsl"
 #include "include/cells.glsl"
 #include "include/hits.glsl"
@@ -42,15 +43,14 @@ mat2x3 fromEye(mat2x3 offsets) {
     return mat2x3(directionFromEye(offsets[0]), directionFromEye(offsets[1]));
 }
 
-// Whether another batch of emission brings a photon as well, and here it is only to be joined with
-// (shared/emit_grid.comp).
+// Whether another batch of emission brings a photon as well, and here it is only to be joined with.
 bool isOfOtherBatch(vec3 flux) {
     return (flux.r + flux.g + flux.b) * ledgerUnitsPerWatt < 0.25;
 }
 
 // Of all channels, in whichever batch it is.
 float wholeFlux(vec3 flux) {
-    return (flux.r + flux.g + flux.b) * (isOfOtherBatch(flux) ? exp2(80.0) : 1.0);
+    return (flux.r + flux.g + flux.b) * (isOfOtherBatch(flux) ? 1.0 / kNextToNothing : 1.0);
 }
 
 Arrival arrivalOf(ivec2 texel) {

@@ -68,8 +68,10 @@ void main() {
         isRead = true;
         bool isCrease = isAtCrease(origin, i);
         isPlain = isPlain && !isCrease && own.extent == uvec2(0u);
-        whole += areaOf(cornersOf(own, i));
-        if (isCrease || !isOther) parts[count++] = (isCrease ? kPatchCrease : kPatchQuarter) + i;
+        float area = areaOf(cornersOf(own, i));
+        whole += area;
+        bool isListed = isCrease || (!isOther && area > 0.0);
+        if (isListed) parts[count++] = (isCrease ? kPatchCrease : kPatchQuarter) + i;
     }
     // What the parts that light can come through take is all of its flux.
     photonShares[index] = whole > 0.0 ? 1.0 / whole : 0.0;

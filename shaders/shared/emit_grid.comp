@@ -3,6 +3,7 @@
 // cell's middle is specular: its flux is what the light sends through what it stands for
 // (include/cell_extent.glsl), by its area (directional) or its solid angle (cos³; hard case 34a). An
 // opaque surface nearer to the light leaves the cell empty. One thread a cell.
+#include "include/beside_batch.glsl"
 #include "include/cell_extent.glsl"
 #include "include/light_grid.glsl"
 #include "include/specular.glsl"
@@ -16,10 +17,6 @@ layout(rg32ui) writeonly uniform uimage2D nextExtents;
 #endif
 
 uniform ivec2 ownRows;  // of the grid, from and before
-
-// Rows beside the batch's own are there to be joined with, and carry of their flux a share below
-// what any sum resolves; a power of two, so that all ratios are the same.
-const float kNextToNothing = exp2(-80.0);
 
 // Sub-cells in a row from `start` on in which the light sees the object, no more than `most`.
 int countFrom(ivec2 cell, ivec2 start, ivec2 step, uint object, int most) {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 // One photon a vertex of a specular mesh, for one light: a thread a vertex. What the light does not
-// see first is nobody. ONLY_BEAMS: their beams instead, since OpenGL grants a shader no more than
-// eight images.
+// see first is nobody. ONLY_BEAMS: their beams and extents instead, since OpenGL grants a shader no
+// more than eight images. VERTEX_GRID: the mesh is a grid, whose vertices stand for quarters of its
+// cells.
+#include "include/beside_batch.glsl"
+#include "include/cell_extent.glsl"
 #include "include/light_depth.glsl"
 #include "include/lights.glsl"
 #include "include/specular.glsl"
@@ -34,19 +37,29 @@ uniform uint firstFan;
 uniform uint firstCell;
 uniform int batchCells;    // of one light in this batch
 uniform int firstOfBatch;  // the cell that the batch begins with
+uniform ivec2 ownCells;    // from and before: others are there to be joined with
 uniform int firstOfLight;  // where its photons begin in the list
+#ifdef VERTEX_GRID
+uniform ivec2 gridSize;  // vertices along both sides
+const float kShareOfTriangle = 0.25;
+#else
+const float kShareOfTriangle = 1.0 / 3.0;
+#endif
+#if defined(VERTEX_GRID) && defined(ONLY_BEAMS)
+layout(rg32ui) writeonly uniform uimage2D nextExtents;
+#endif
 
 const int kFromOutside = 1;
 const int kFromWithin = 2;
 
 // What of the triangles around a vertex the light hits from one side.
 struct LitArea {
-    float across;  // a third of their areas across the light's direction, m²
+    float across;  // the vertex's share of their areas across the light's direction, m²
     vec3 outward;  // mean normal, weighted by area; any length
 };
 
 void addTriangle(inout LitArea lit, float across, vec3 area) {
-    lit.across += across / 6.0;
+    lit.across += 0.5 * kShareOfTriangle * across;
     lit.outward += area;
 }
 
@@ -107,6 +120,54 @@ vec3 shapeAround(uint vertex, vec3 normal) {
 }
 #endif
 
+#ifdef ONLY_BEAMS
+#ifdef VERTEX_GRID
+ivec2 placeInGrid(uint vertex) {
+    return ivec2(int(vertex) % gridSize.x, int(vertex) / gridSize.x);
+}
+
+// From a vertex to the next along one side of the mesh, m: the mean of the steps to either side, or
+// the only one at a border.
+vec3 stepAlong(uint vertex, ivec2 side) {
+    ivec2 at = placeInGrid(vertex);
+    ivec2 low = max(at - side, ivec2(0));
+    ivec2 high = min(at + side, gridSize - 1);
+    uint a = firstVertex + uint(low.y * gridSize.x + low.x);
+    uint b = firstVertex + uint(high.y * gridSize.x + high.x);
+    ivec2 steps = high - low;
+    return mat3(instances[object].modelToView) *
+           (meshVertices[b].position - meshVertices[a].position) / float(steps.x + steps.y);
+}
+
+// How the next vertices' rays differ. `spread`: by how much the light turns, rad/m.
+Beam beamOf(uint vertex, vec3 direction, float spread) {
+    mat2x3 steps = mat2x3(stepAlong(vertex, ivec2(1, 0)), stepAlong(vertex, ivec2(0, 1)));
+    mat2 place = transpose(basisAcross(direction)) * steps;
+    return Beam(place, spread * place);
+}
+
+// A vertex at the border of the mesh stands for nothing beyond it.
+uvec2 extentOf(uint vertex) {
+    ivec2 at = placeInGrid(vertex);
+    CellQuarter quarters[4];
+    bool isWhole = true;
+    for (uint i = 0u; i < 4u; ++i) {
+        ivec2 across = at + ivec2(sideOfQuarter(i));
+        bvec2 isInside = equal(across, clamp(across, ivec2(0), gridSize - 1));
+        vec2 reach = mix(vec2(0.0), vec2(0.5), isInside);
+        quarters[i] = CellQuarter(reach.x, reach.y, reach);
+        isWhole = isWhole && all(isInside);
+    }
+    return isWhole ? uvec2(0u) : packedExtent(quarters);
+}
+#else
+// A vertex has no cell: its beam is as wide as the area around it, either way.
+Beam beamOf(float footprint, float spread) {
+    return Beam(mat2(footprint), mat2(spread * footprint));
+}
+#endif
+#endif
+
 // Whether the light sees the point before anything else: by most of the four texels around it, each
 // by its nearness, so that no shadow's edge is off by more than half a texel on the average.
 bool isSeen(vec3 positionVs, vec3 normalVs) {
@@ -156,24 +217,29 @@ void main() {
     bool isDielectric = materialKind(material) == kMaterialDielectric;
     uint media = isDielectric && isWithin ? enterMedium(0u, material + 1u) : 0u;
     float footprint = sqrt(lit.across);
-    float spread = 0.0;  // rad
+    float spread = 0.0;  // of the light, rad/m
     vec3 flux = light.power.rgb * lit.across;
     if (uint(light.positionVs.w) != kLightDirectional) {
         float distance = length(positionVs - light.positionVs.xyz);
-        spread = footprint / distance;
-        flux = lightIntensity(light, positionVs, spread) *
+        spread = 1.0 / distance;
+        flux = lightIntensity(light, positionVs, footprint / distance) *
                (lit.across / (distance * distance)) *
                mediumTransmittance(innerMedium(media), distance);
     }
     if (!isFinite(flux) || !(flux.r + flux.g + flux.b > 0.0)) return;
+    if (int(cell) < ownCells.x || int(cell) >= ownCells.y) flux *= kNextToNothing;
     vec3 shading = mat3(instance.normalToView) * data.normal;
     float length2 = dot(shading, shading);
     shading = length2 > 1e-24 ? shading * inversesqrt(length2) : geometric;
     vec3 normal = bendingNormal(direction, shading, geometric, material + 1u, media);
     uint slot = uint(firstOfLight + inBatch);
 #ifdef ONLY_BEAMS
-    // A vertex has no cell: its beam is as wide as the area around it, either way.
-    storeNextBeam(slot, Beam(mat2(footprint), mat2(spread)));
+#ifdef VERTEX_GRID
+    storeNextBeam(slot, beamOf(vertex, direction, spread));
+    imageStore(nextExtents, ivec2(photonTexel(nextPhotons, slot)), uvec4(extentOf(vertex), 0u, 0u));
+#else
+    storeNextBeam(slot, beamOf(footprint, spread));
+#endif
 #else
     storeNext(slot, Photon(positionVs, footprint, direction, kFateSpecular, flux, media),
               PhotonOrigin(cell, uint(lightIndex), kEmittedPath, 0u));

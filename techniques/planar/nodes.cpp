@@ -20,6 +20,17 @@ void registerPlanar(Registry& registry) {
                          {"reconstruct", "triangles"},
                          {"view", "refraction"}},
                         {}});
+    registry.technique({"differential_area",
+                        "Light beams between vertices of the water's mesh hit flat receivers "
+                        "analytically: a vertex's irradiance is its flux over the area that the "
+                        "cells around it cover there.",
+                        "beams through a mesh of water: Watt 1990 (W90)",
+                        {{"emit", "vertices"},
+                         {"layers", "auto"},
+                         {"trace", "plane"},
+                         {"reconstruct", "triangles"},
+                         {"view", "refraction"}},
+                        {}});
 }
 
 }  // namespace kaustik

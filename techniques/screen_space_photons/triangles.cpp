@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
 
 #include "framework/core/error.h"
 #include "framework/pipeline/frame_builder.h"
@@ -75,11 +76,12 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& params, const Hits& h
         graph::Buffer<PatchCount> counts;
         graph::Buffer<transport::Narrowed> narrowed;
     };
+    const std::string why = hits.incoming.cells.width > 0
+                                ? "what neighbours bring is spread between them"
+                                : "no photon has neighbours: each is covered by its own beam";
     const Data& covered = frame.pass<Data>(
         "reconstruct.triangles",
-        isGlossy ? "what neighbours bring is spread between them, and, since some receivers are "
-                   "glossy, how it goes to the eye"
-                 : "what neighbours bring is spread between them",
+        isGlossy ? why + ", and, since some receivers are glossy, how it goes to the eye" : why,
         [&](graph::PassSetup& setup, Data& data) {
             hits.sample(setup);
             hits.incoming.sample(setup);

@@ -2,22 +2,30 @@
 // emit.vertices: one photon a vertex of the specular meshes and of wavy water (Shah, Konttinen,
 // Pattanaik 2005). It stands for a third of every triangle around the vertex, and carries what
 // falls on that: irradiance at the vertex times the area across the light, of triangles that face
-// the light on the side that it comes from. Both sides of a sheet count; a body is hit from within
-// only by a light that is inside of it. Which vertices the light sees first is decided by a depth
-// image from the light, by the planes of its texels (include/light_depth.glsl). A mesh too coarse
-// for its shadows loses or gains light by them: the sampling error of the reference's report. Out:
-// photons that arrive (flux in W) and the hits that they make; eye view space, m; cells number the
-// vertices of the specular objects.
+// the light on the side that it comes from. Where the only specular object is a sheet with a grid
+// of vertices, wavy water say, it stands for a quarter of each cell around it instead, the same at
+// every corner, and the list is that grid: cells, beams and extents go along the mesh, so that
+// reconstructions can join what neighbouring vertices bring. Both sides of a sheet count; a body is
+// hit from within only by a light that is inside of it. Which vertices the light sees first is
+// decided by a depth image from the light, by the planes of its texels (include/light_depth.glsl).
+// A mesh too coarse for its shadows loses or gains light by them: the sampling error of the
+// reference's report. Out: photons that arrive (flux in W) and the hits that they make; eye view
+// space, m; cells number the vertices of the specular objects.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
+#include "framework/core/names.h"
 #include "framework/pipeline/frame_builder.h"
 #include "framework/scene/light_paths.h"
 #include "techniques/shared/light_sight.h"
 #include "techniques/shared/nodes.h"
+#include "techniques/shared/vertex_grid.h"
 
 namespace kaustik {
 namespace {
@@ -50,17 +58,13 @@ struct EmittingObject {
 
 struct Emission {
     std::vector<EmittingObject> objects;
+    std::optional<VertexGrid> grid;  // of the only object
     std::vector<LightSight> lights;
     gl::Buffer vertices;   // VertexData, of what is no height field
     gl::Buffer fans;       // uvec2: the other two corners of each triangle around a vertex
     gl::Buffer fanFirsts;  // uint, by vertex of every mesh and one more each: where its fan begins
     graph::Texture<LightDepth> depths;
 };
-
-bool isSpecular(const scene::Scene& scene, const scene::Object& object) {
-    return !isReceiver(scene.materials[object.material].kind) &&
-           !scene.meshes[object.mesh].triangles.empty();
-}
 
 // Whether a point is inside of a mesh: its triangles then fill the sphere around the point. By the
 // solid angle of each (van Oosterom, Strackee 1983).
@@ -110,6 +114,34 @@ void addFans(const scene::Mesh& mesh, std::vector<glm::uvec2>& fans,
     }
 }
 
+// Of a grid: each cell around a vertex as two triangles that both begin at the vertex. Together
+// they have the area of the mesh's own, whichever way that splits the cell.
+void addFans(const VertexGrid& grid, std::vector<glm::uvec2>& fans,
+             std::vector<std::uint32_t>& firsts) {
+    const int columns = grid.vertices.width;
+    const int rows = grid.vertices.height;
+    const auto vertexAt = [&](const glm::ivec2& at) {
+        return static_cast<std::uint32_t>(at.y * columns + at.x);
+    };
+    for (int j = 0; j < rows; ++j) {
+        for (int i = 0; i < columns; ++i) {
+            firsts.push_back(static_cast<std::uint32_t>(fans.size()));
+            // Of a cell: the corner along the row, the one across and the one in the next row.
+            for (const glm::ivec2& side : {glm::ivec2(1, 1), {-1, 1}, {-1, -1}, {1, -1}}) {
+                const glm::ivec2 across = glm::ivec2(i, j) + side;
+                if (across.x < 0 || across.x >= columns || across.y < 0 || across.y >= rows)
+                    continue;
+                glm::uvec3 others(vertexAt({across.x, j}), vertexAt(across),
+                                  vertexAt({i, across.y}));
+                if ((side.x * side.y < 0) != grid.isTurned) std::swap(others.x, others.z);
+                fans.emplace_back(others.x, others.y);
+                fans.emplace_back(others.y, others.z);
+            }
+        }
+    }
+    firsts.push_back(static_cast<std::uint32_t>(fans.size()));
+}
+
 void addObjects(const FrameBuilder& frame, Emission& emission) {
     const scene::Scene& scene = frame.scene();
     struct MeshRange {
@@ -132,7 +164,11 @@ void addObjects(const FrameBuilder& frame, Emission& emission) {
         if (!range.isThere) {
             range.isThere = true;
             range.firstFan = static_cast<std::uint32_t>(firsts.size());
-            addFans(mesh, fans, firsts);
+            if (emission.grid) {
+                addFans(*emission.grid, fans, firsts);
+            } else {
+                addFans(mesh, fans, firsts);
+            }
             if (!mesh.heightField) {
                 range.firstVertex = static_cast<std::uint32_t>(vertices.size());
                 for (std::size_t v = 0; v < mesh.positions.size(); ++v)
@@ -160,11 +196,25 @@ void addObjects(const FrameBuilder& frame, Emission& emission) {
     emission.fanFirsts = gl::Buffer(firsts, "specular fan firsts");
 }
 
+void warnOfNoGrid(FrameBuilder& frame) {
+    std::vector<std::string> names;
+    for (const scene::Object& object : frame.scene().objects) {
+        if (isSpecular(frame.scene(), object)) names.push_back("'" + object.name + "'");
+    }
+    frame.warn(fmt::format(
+        "reconstruct={} joins nothing: emit=vertices has neighbours where the only specular object "
+        "is a sheet with a grid of vertices; here {} {} specular.",
+        frame.inputs().params.choice(ReconstructStage::name), joinNames(names),
+        names.size() == 1 ? "is" : "are"));
+}
+
 // Of the first batch; the others share it.
 std::shared_ptr<Emission> makeEmission(FrameBuilder& frame, const VertexEmissionParams& params,
                                        const Geometry& geometry) {
     auto emission = std::make_shared<Emission>();
+    emission->grid = specularGrid(frame.scene());
     addObjects(frame, *emission);
+    if (!emission->grid && !emission->objects.empty() && frame.joinsCells()) warnOfNoGrid(frame);
     emission->lights = sightsOfSpecular(frame);
     emission->depths =
         drawLightDepths(
@@ -180,6 +230,7 @@ std::shared_ptr<Emission> makeEmission(FrameBuilder& frame, const VertexEmission
 
 // Rows and columns of one light's photons.
 params::Extent verticesOfALight(const FrameBuilder& frame) {
+    if (const std::optional<VertexGrid> grid = specularGrid(frame.scene())) return grid->vertices;
     std::size_t count = 0;
     for (const scene::Object& object : frame.scene().objects) {
         if (isSpecular(frame.scene(), object))
@@ -190,6 +241,14 @@ params::Extent verticesOfALight(const FrameBuilder& frame) {
     return {width, (photons + width - 1) / width};
 }
 
+// Photons of a batch: rows of each light's, with those beside its own that they are to be joined
+// with.
+struct VertexRows {
+    int width = 0;
+    int first = 0;
+    int count = 0;
+};
+
 struct VertexEmission {
     Hits hits;
     Geometry geometry;
@@ -197,13 +256,19 @@ struct VertexEmission {
 
 // `part`: which outputs are written, as shared/emit_vertices.comp has it.
 void emitObject(const FrameInputs& inputs, gl::PassContext& context, const VertexEmission& data,
-                const Emission& emission, const Samples& samples, int light,
+                const Emission& emission, const VertexRows& rows, const Samples& samples, int light,
                 const EmittingObject& emitting, const std::string& part) {
     const auto number = static_cast<std::size_t>(light);
     const LightSight& sight = emission.lights[number];
-    const int width = data.hits.incoming.width;
+    const Photons& photons = data.hits.incoming;
     gl::Command command = context.compute("shared/emit_vertices.comp");
     if (!part.empty()) command.define(part);
+    if (emission.grid) {
+        command.define("VERTEX_GRID")
+            .set("gridSize",
+                 glm::ivec2(emission.grid->vertices.width, emission.grid->vertices.height));
+        if (!part.empty()) command.image("nextExtents", photons.extents);
+    }
     if (emitting.isHeightField) {
         command.storage("MeshVertices", data.geometry.heightFields);
     } else {
@@ -221,32 +286,48 @@ void emitObject(const FrameInputs& inputs, gl::PassContext& context, const Verte
         .set("firstVertex", emitting.firstVertex)
         .set("firstFan", emitting.firstFan)
         .set("firstCell", emitting.firstCell)
-        .set("batchCells", samples.rows * width)
-        .set("firstOfBatch", samples.firstRow * width)
-        .set("firstOfLight", (light - samples.firstLight) * samples.rows * width)
+        .set("batchCells", rows.count * rows.width)
+        .set("firstOfBatch", rows.first * rows.width)
+        .set("ownCells", rows.width * glm::ivec2(samples.firstRow, samples.firstRow + samples.rows))
+        .set("firstOfLight", (light - samples.firstLight) * rows.count * rows.width)
         .dispatchOver(static_cast<int>(emitting.vertices), 64);
 }
 
 Hits emitVertices(FrameBuilder& frame, const VertexEmissionParams& params, Surfaces surfaces,
                   Samples samples) {
-    const int width = verticesOfALight(frame).width;
+    const params::Extent all = verticesOfALight(frame);
     const auto emission = frame.once<Emission>(
         "emit.vertices", [&] { return makeEmission(frame, params, surfaces.geometry); });
+    const bool isGrid = emission->grid.has_value();
+    // Rows beside a batch are known to it where they are to be joined with.
+    const int beside = isGrid && frame.joinsCells() ? 1 : 0;
+    VertexRows rows{all.width, std::max(samples.firstRow - beside, 0), 0};
+    rows.count = std::min(samples.firstRow + samples.rows + beside, all.height) - rows.first;
     std::size_t vertices = 0;
     for (const EmittingObject& emitting : emission->objects)
         vertices += emitting.vertices;
     return frame
         .pass<VertexEmission>(
             "emit.vertices",
-            fmt::format("{} vertices, {} light{}", vertices, emission->lights.size(),
-                        emission->lights.size() == 1 ? "" : "s"),
+            fmt::format("{} vertices{}, {} light{}", vertices,
+                        isGrid ? fmt::format(" in a grid of {}x{}", all.width, all.height) : "",
+                        emission->lights.size(), emission->lights.size() == 1 ? "" : "s"),
             [&](graph::PassSetup& setup, VertexEmission& data) {
                 data.geometry = surfaces.geometry;
                 if (data.geometry.heightFields.valid()) setup.read(data.geometry.heightFields);
                 setup.sample("lightDepths", emission->depths);
-                Photons photons = Photons::create(setup, width, samples.rows * samples.lights,
-                                                  samples.suffix, frame.usesBeams());
+                const int height = rows.count * samples.lights;
+                Photons photons =
+                    Photons::create(setup, rows.width, height, samples.suffix, frame.usesBeams());
                 photons.batch = samples.suffix;
+                if (isGrid) {
+                    photons.cells = {rows.width,         rows.first,     rows.count,
+                                     samples.firstLight, samples.lights, 0};
+                }
+                if (isGrid && photons.hasBeams()) {
+                    photons.extents = setup.create<CellExtentTexel>(
+                        "photons.extents" + samples.suffix, rows.width, height);
+                }
                 photons.ledger = samples.ledger.valid()
                                      ? setup.write(samples.ledger)
                                      : setup.createBuffer<transport::LedgerEntry>(
@@ -255,11 +336,12 @@ Hits emitVertices(FrameBuilder& frame, const VertexEmissionParams& params, Surfa
                 data.hits = Hits::create(setup, photons);
                 data.hits.store(setup);
             },
-            [&inputs = frame.inputs(), emission, samples](const VertexEmission& data,
-                                                          gl::PassContext& context) {
+            [&inputs = frame.inputs(), emission, rows, samples](const VertexEmission& data,
+                                                                gl::PassContext& context) {
                 const Photons& photons = data.hits.incoming;
                 if (!samples.ledger.valid()) context.buffer(photons.ledger).clear();
                 fillList(context, photons);
+                if (photons.extents.valid()) context.texture(photons.extents).clear({0, 0, 0, 0});
                 // Vertices that the light does not see are nobody.
                 for (const std::vector<graph::ResourceRef>& textures :
                      {photons.textures(), data.hits.textures()}) {
@@ -270,9 +352,10 @@ Hits emitVertices(FrameBuilder& frame, const VertexEmissionParams& params, Surfa
                                          static_cast<int>(emission->lights.size()));
                 for (int light = samples.firstLight; light < end; ++light) {
                     for (const EmittingObject& emitting : emission->objects) {
-                        emitObject(inputs, context, data, *emission, samples, light, emitting, "");
+                        emitObject(inputs, context, data, *emission, rows, samples, light, emitting,
+                                   "");
                         if (!photons.hasBeams()) continue;
-                        emitObject(inputs, context, data, *emission, samples, light, emitting,
+                        emitObject(inputs, context, data, *emission, rows, samples, light, emitting,
                                    "ONLY_BEAMS");
                     }
                 }
