@@ -57,12 +57,13 @@ std::vector<TracedPhoton> readTrace(const Renderer& renderer, const TraceRecord&
 }
 
 // What a light sees of an exact hit: what tracers in its depths can find.
-enum class LightSees { shown, hidden, beside };
+enum class LightSees { shown, hidden, beside, specular };
 
 // The account of a photon that got no hit. The screen excuses only those that look there.
 unsigned accountOf(Sight sight, Sees sees, std::optional<LightSees> light) {
     if (light == LightSees::hidden) return kAccountHiddenInMap;
     if (light == LightSees::beside) return kAccountOutsideMap;
+    if (light == LightSees::specular) return kAccountBounceLimit;
     if (sees != Sees::eyeLayers && sight != Sight::none) return kAccountMissedByTracer;
     switch (sight) {
         case Sight::none:
@@ -81,12 +82,13 @@ unsigned accountOf(Sight sight, Sees sees, std::optional<LightSees> light) {
     return kAccountUnresolved;
 }
 
-constexpr const char* kLightCauses[] = {"hidden_in_map", "outside_map"};
+constexpr const char* kLightCauses[] = {"hidden_in_map", "outside_map", "specular"};
 
 const char* nameOf(Sight sight, Sees sees = Sees::eyeLayers,
                    std::optional<LightSees> light = std::nullopt) {
     if (light == LightSees::hidden) return kLightCauses[0];
     if (light == LightSees::beside) return kLightCauses[1];
+    if (light == LightSees::specular) return kLightCauses[2];
     if (sees != Sees::eyeLayers && sight != Sight::none) return nameOf(Sight::shown);
     switch (sight) {
         case Sight::none:
@@ -120,6 +122,9 @@ class LightReach {
 
     // `exact` exists.
     [[nodiscard]] LightSees sees(std::uint32_t light, const reference::FirstHit& exact) const {
+        // Another specular surface, of which its view of receivers holds none.
+        if (!isReceiver(renderer_.scene().materials[exact.material - 1].kind))
+            return LightSees::specular;
         const glm::dvec3 world(toWorld_ * glm::dvec4(exact.position, 1.0));
         if (!isInMap(light, world)) return LightSees::beside;
         const scene::Light& source = renderer_.scene().lights[light];
@@ -133,8 +138,7 @@ class LightReach {
         const glm::dvec3 normal = glm::dmat3(toWorld_) * exact.geometricNormal;
         const double lift = 1e-6 * glm::length(size);
         const double side = glm::dot(normal, to - local) < 0.0 ? -1.0 : 1.0;
-        const bool isSeen =
-            scene_.isVisible(local + side * lift * normal, exact.triangle, to, 0.0);
+        const bool isSeen = scene_.isVisible(local + side * lift * normal, exact.triangle, to, 0.0);
         return isSeen ? LightSees::shown : LightSees::hidden;
     }
 
@@ -380,7 +384,8 @@ EnergyLedger resolveLedger(const Renderer& renderer, const HitAudit& audit, doub
     // What others have booked, a reconstruction that also loses light off the screen, stays.
     for (const unsigned account :
          {kAccountLeftScene, kAccountOffScreen, kAccountBehindEye, kAccountBeyondLastLayer,
-          kAccountEdgeOn, kAccountMissedByTracer, kAccountUnresolved, kAccountOutsideMap, kAccountHiddenInMap}) {
+          kAccountEdgeOn, kAccountMissedByTracer, kAccountUnresolved, kAccountOutsideMap,
+          kAccountHiddenInMap, kAccountBounceLimit}) {
         ledger.watts[account] += audit.missedWatts[account] - traced.watts[account];
         ledger.events[account] += audit.missedPhotons[account] - traced.events[account];
         // Both are sums of the same photons, one in fixed point: what is left is its rounding.

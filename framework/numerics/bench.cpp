@@ -192,8 +192,8 @@ Traced interactPhotons(Lab& lab, const Lab::Choice& specular, const scene::Scene
     const Frame frame = renderBench(lab, specular, scene, {}, {}, [&](FrameBuilder& builder) {
         const Geometry geometry = builder.run<GeometryStage>();
         const EyeBuffer eye = builder.run<EyeStage>(geometry);
-        after = keepPhotons(builder, builder.run<SpecularStage>(
-                                               inject(builder, batch), Surfaces{geometry, eye, {}}));
+        after = keepPhotons(builder, builder.run<SpecularStage>(inject(builder, batch),
+                                                                Surfaces{geometry, eye, {}}));
         const Nothing nothing = addNothing(builder, after.ledger);
         return FrameOutputs{
             nothing.picture, nothing.caustic, eye, {}, {}, nothing.caustic.ledger, {}, {}, {}};
@@ -264,8 +264,7 @@ Bent emitAndInteract(Lab& lab, const Lab::Choice& emitter, const scene::Scene& s
             Surfaces{geometry, eye, {}},
             Samples{0, builder.needs().lights, 0, builder.photonsOfALight().height, "", {}});
         before = keepPhotons(builder, hits.incoming);
-        after = keepPhotons(builder, builder.run<SpecularStage>(
-                                               hits, Surfaces{geometry, eye, {}}));
+        after = keepPhotons(builder, builder.run<SpecularStage>(hits, Surfaces{geometry, eye, {}}));
         const Nothing nothing = addNothing(builder, after.ledger);
         return FrameOutputs{
             nothing.picture, nothing.caustic, eye, {}, {}, nothing.caustic.ledger, {}, {}, {}};

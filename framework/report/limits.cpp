@@ -38,7 +38,7 @@ std::vector<ReachedLimit> reachedLimits(const RunRecord& record, const Renderer&
     const std::uint64_t photons =
         ledger.events[kAccountBounceLimit] + ledger.events[kAccountInternalReflectionLimit];
     // Nodes that cannot go on, whatever the limit, have said so in the ledger alone.
-    if (photons > 0 && !renderer.outputs().hits.incoming.paths.end) {
+    if (photons > 0 && !record.photonsEnd) {
         limits.push_back({"specular.bounces", "bounces", static_cast<double>(bounces), 0.0,
                           fmt::format("{} photons were still on their way, {:.3g}% of the flux",
                                       photons, shareOfEmitted(ledger, atLimit)),

@@ -31,9 +31,10 @@ struct RunRecord {
     std::size_t textureBytes = 0;
     std::size_t bufferBytes = 0;
     std::size_t peakBytes = 0;
-    nlohmann::json map;    // mapAccount
-    nlohmann::json hits;   // null where no reference was asked for, as is the next
-    nlohmann::json error;  //
+    bool photonsEnd = false;  // ModelledPaths::end
+    nlohmann::json map;       // mapAccount
+    nlohmann::json hits;      // null where no reference was asked for, as is the next
+    nlohmann::json error;     //
     std::vector<std::string> warnings;
 };
 

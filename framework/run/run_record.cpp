@@ -40,6 +40,7 @@ std::vector<fs::path> finishRun(Renderer& renderer, const RunReference& referenc
     record.layersAllowed = renderer.outputs().layers.layers;
     record.nodeLimits = renderer.reachedLimits();
     record.map = report::mapAccount(renderer);
+    record.photonsEnd = renderer.outputs().hits.incoming.paths.end;
     record.warnings = renderer.scene().warnings;
     record.warnings.insert(record.warnings.end(), renderer.warnings().begin(),
                            renderer.warnings().end());

@@ -85,16 +85,16 @@ Found iterate(vec3 origin, vec3 direction, float start, RaySegment segment) {
     return Found(isHit, t, plane.texel);
 }
 
-// The first step of the ray within which it goes from in front of what is seen to behind it, and
-// the account of a miss.
-Found search(vec3 origin, vec3 direction, RaySegment segment, out uint cause) {
+// The first step of the ray, up to `last`, within which it goes from in front of what is seen to
+// behind it; whether it has ended behind.
+Found search(vec3 origin, vec3 direction, RaySegment segment, float last, out bool endsBehind) {
     int steps = trace_background_steps;
-    cause = segment.cause;
     float before = segment.nearT;
     bool wasInFront = true;
-    bool isHidden = false;
+    endsBehind = false;
     for (int i = 1; i <= steps; ++i) {
         float t = parameterAtIndex(segment, float(i), float(steps));
+        if (t >= last) break;
         vec3 there = origin + t * direction;
         SeenPlane plane = planeAt(clampedTexel(there));
         bool isInFront = !plane.exists || inFront(plane, there) > 0.0;
@@ -120,11 +120,10 @@ Found search(vec3 origin, vec3 direction, RaySegment segment, out uint cause) {
                 return Found(true, isWithin ? on : high, crossed.texel);
             }
         }
-        isHidden = !isInFront;
+        endsBehind = !isInFront;
         wasInFront = isInFront;
         before = t;
     }
-    if (isHidden) cause = kAccountHiddenInMap;
     return Found(false, 0.0, ivec2(0));
 }
 
@@ -136,14 +135,16 @@ Found findInView(vec3 origin, vec3 direction, out uint cause) {
     SeenPlane straight = planeAt(clampedTexel(origin));
     float start = straight.exists ? distance(straight.middle, origin) : segment.farT;
     Found found = iterate(origin, direction, start, segment);
-    if (found.isHit) return found;
-    uint causeOfSearch;
-    found = search(origin, direction, segment, causeOfSearch);
-    if (trace_background_steps > 0) {
-        cause = causeOfSearch;
-    } else if (cause == kAccountUnresolved) {
-        cause = kAccountMissedByTracer;  // the iteration has ended nowhere
+    if (trace_background_steps == 0) {
+        // An iteration that has ended nowhere.
+        if (cause == kAccountUnresolved) cause = kAccountMissedByTracer;
+        return found;
     }
+    // Iteration may have jumped over what lies before.
+    bool endsBehind;
+    Found nearer = search(origin, direction, segment, found.isHit ? found.t : 3.0e38, endsBehind);
+    if (nearer.isHit) return nearer;
+    if (!found.isHit && endsBehind) cause = kAccountHiddenInMap;
     return found;
 }
 

@@ -2,10 +2,10 @@
 // trace.background: photons meet what their light sees of the receivers, by iteration in the
 // light's depths (SP05; WD08, section 3). Each look gives the plane of a texel, and the next
 // estimate is where the ray meets it; SP05's goes as far as the texel's surface is away. Only what
-// lies on the surface in the end, by the residual, is a hit. Where iteration ends elsewhere, the ray
-// is searched in even steps for the first change from in front of what the light sees to behind it.
-// In: photons, eye view space, m; out: hits, W that arrive after absorption. Misses: outside_map
-// and hidden_in_map, or unresolved.
+// lies on the surface in the end, by the residual, is a hit. Iteration may jump over what lies
+// before, or end nowhere: the ray is searched in even steps for the first change from in front of
+// what the light sees to behind it. In: photons, eye view space, m; out: hits, W that arrive after
+// absorption. Misses: outside_map and hidden_in_map, or unresolved.
 #include <fmt/format.h>
 
 #include "framework/pipeline/frame_builder.h"
@@ -30,10 +30,11 @@ struct BackgroundParams {
                  "plane: to where the ray meets the plane of what is seen; distance: as far as "
                  "that is away (SP05)",
                  {"plane", "distance"});
-        r.field(steps, "steps",
-                "Even steps of the search along the ray where iteration has found nothing; 0: "
-                "none, and the photon is missed",
-                "", params::range(0, 1024));
+        r.field(
+            steps, "steps",
+            "Even steps along the ray in which anything before what iteration has found, or where "
+            "it has found nothing, is searched; 0: none, as published",
+            "", params::range(0, 1024));
         r.field(refinements, "refinements", "Bisections of the step that the search has found", "",
                 params::range(0, 32));
     }
@@ -68,8 +69,8 @@ std::vector<std::string> turnedAway(const scene::Scene& scene, const scene::Ligh
 }
 
 void sayWhatIsHidden(FrameBuilder& frame) {
-    const auto said = frame.once<bool>("trace.background.said",
-                                       [] { return std::make_shared<bool>(false); });
+    const auto said =
+        frame.once<bool>("trace.background.said", [] { return std::make_shared<bool>(false); });
     if (*said) return;
     *said = true;
     for (const scene::Light& light : frame.scene().lights) {

@@ -93,10 +93,10 @@ CausticMap filterMaps(FrameBuilder& frame, const std::string& node, const std::s
                       [&](graph::PassSetup& setup, Filtered& data) {
                           data.map = one;
                           setup.sample("fluxSums", one.flux);
-                          data.map.filtered = setup.image(
-                              "filteredFlux",
-                              createLike<FilteredTexel>(setup, "caustic.filtered", one,
-                                                        one.filteredPerView()));
+                          data.map.filtered =
+                              setup.image("filteredFlux",
+                                          createLike<FilteredTexel>(setup, "caustic.filtered", one,
+                                                                    one.filteredPerView()));
                           more(setup, data);
                       },
                       [commands](const Filtered& data, gl::PassContext& context) {
@@ -124,21 +124,22 @@ void dispatchOverMap(gl::Command& command, const FluxMap& map) {
 void needsSets(const std::string& node, const CausticMap& map, int sets, const char* instead) {
     const FluxSets& own = map.maps.front().sets;
     if (own.flux == sets && own.counts) return;
-    throw ConfigError(fmt::format("{} takes the maps of {}; take that, or filter=none.", node,
-                                  instead));
+    throw ConfigError(
+        fmt::format("{} takes the maps of {}; take that, or filter=none.", node, instead));
 }
 
 CausticMap blurMap(FrameBuilder& frame, const BlurParams& params, CausticMap map) {
     if (map.maps.front().sets.flux > 1)
-        throw ConfigError("filter.blur takes one map; reconstruct.four_radii and levels make "
-                          "several, for filter.blend and filter.levels.");
+        throw ConfigError(
+            "filter.blur takes one map; reconstruct.four_radii and levels make "
+            "several, for filter.blend and filter.levels.");
     const int diameter = params.diameter - (params.diameter % 2 == 0 ? 1 : 0);
     return filterMaps(
         frame, "filter.blur", "points become what splats would be", std::move(map),
         [](graph::PassSetup& setup, Filtered& data) {
-            data.blurred = setup.image(
-                "blurred", createLike<FilteredTexel>(setup, "caustic.blurred", data.map,
-                                                     data.map.sets.perView()));
+            data.blurred =
+                setup.image("blurred", createLike<FilteredTexel>(setup, "caustic.blurred", data.map,
+                                                                 data.map.sets.perView()));
         },
         [diameter](const Filtered& data, gl::PassContext& context) {
             for (int axis = 0; axis < 2; ++axis) {

@@ -25,11 +25,13 @@ struct ProjectParams {
 IrradianceMap projectMaps(FrameBuilder& frame, const ProjectParams& params, CausticMap map,
                           Surfaces surfaces) {
     if (map.maps.front().on.views->isEyes())
-        throw ConfigError("gather.project looks light up in the lights' maps, but it is stored on "
-                          "the screen; take reconstruct.space=light, or gather=screen.");
+        throw ConfigError(
+            "gather.project looks light up in the lights' maps, but it is stored on "
+            "the screen; take reconstruct.space=light, or gather=screen.");
     if (map.maps.front().sets.flux > 1 && !map.maps.front().filtered.valid())
-        throw ConfigError("gather.project takes one map, but the light is stored in several sizes "
-                          "or levels; take filter=blend or filter=levels.");
+        throw ConfigError(
+            "gather.project takes one map, but the light is stored in several sizes "
+            "or levels; take filter=blend or filter=levels.");
     map = inFloats(frame, std::move(map));
     IrradianceMap result;
     result.ledger = map.ledger;

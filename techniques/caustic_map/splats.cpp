@@ -51,8 +51,9 @@ struct LevelsParams {
     int diameter = 3;
     template <class R>
     void reflect(R& r) {
-        r.field(diameter, "diameter", "Of a splat in every level, in that level's texels; 1: points",
-                "texels", params::range(1, 15));
+        r.field(diameter, "diameter",
+                "Of a splat in every level, in that level's texels; 1: points", "texels",
+                params::range(1, 15));
     }
 };
 

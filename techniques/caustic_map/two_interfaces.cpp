@@ -8,9 +8,9 @@
 //
 // Beams: by ray differentials through both interfaces, or as WD08's lens does (section 4.2), round,
 // of the mean curvatures of both surfaces. Eqs. 1 to 7 say the same in distances that may vanish;
-// here a beam is its width w and its growth w', which a lens of power P turns into w' - P w, so that
-// D = D0 |1 + d_bg (1/d_front - P)| stays finite with the receiver at the focus and the light at
-// the focal length.
+// here a beam is its width w and its growth w', which a lens of power P turns into w' - P w, so
+// that D = D0 |1 + d_bg (1/d_front - P)| stays finite with the receiver at the focus and the light
+// at the focal length.
 #include <fmt/format.h>
 
 #include "framework/pipeline/frame_builder.h"
@@ -36,11 +36,12 @@ struct TwoInterfacesParams {
         reflectDistance(r, distance, steps);
         r.field(size, "size", "Side of each light's view of the back faces", "texels",
                 params::range(16, 8192));
-        r.choice(lens, "lens",
-                 "What makes of a photon's beam what it is beyond, where splats follow beams. beam: "
-                 "ray differentials; thin, thick: a lens of the surfaces' mean curvatures, "
-                 "half-way through, or both surfaces and the way between them",
-                 {"beam", "thin", "thick"});
+        r.choice(
+            lens, "lens",
+            "What makes of a photon's beam what it is beyond, where splats follow beams. beam: "
+            "ray differentials; thin, thick: a lens of the surfaces' mean curvatures, "
+            "half-way through, or both surfaces and the way between them",
+            {"beam", "thin", "thick"});
         r.choice(branch, "branch",
                  "Which photons of a dielectric's first interface go on; the others are in the "
                  "ledger's untraced_branch",
@@ -65,8 +66,7 @@ Photons interactTwice(FrameBuilder& frame, const TwoInterfacesParams& params, Hi
                                 {render::inPixels(sights[light].view, params.size, params.size)});
             return std::make_shared<BackFaces>(drawBackFaces(
                 frame, surfaces.geometry, views,
-                {"specular.back_faces",
-                 "photons leave transmitting objects through their backs",
+                {"specular.back_faces", "photons leave transmitting objects through their backs",
                  "light" + suffix + ".", hasBeams}));
         });
         photons = frame.pass<Photons>(
@@ -83,8 +83,8 @@ Photons interactTwice(FrameBuilder& frame, const TwoInterfacesParams& params, Hi
                 data.paths.transmissionOnly = true;
                 data.paths.end = true;
             },
-            [params, light, list = hits.incoming, views = faces->views](
-                const Photons&, gl::PassContext& context) {
+            [params, light, list = hits.incoming, views = faces->views](const Photons&,
+                                                                        gl::PassContext& context) {
                 gl::Command command = context.compute("caustic_map/two_interfaces.comp");
                 views->bindTo(command)
                     .params("specular.two_interfaces", params)

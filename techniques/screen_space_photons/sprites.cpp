@@ -40,7 +40,7 @@ CausticMap splat(FrameBuilder& frame, const Splatting& splatting, const Hits& hi
 
 CausticMap splatSprites(FrameBuilder& frame, const SpritesParams& params, Hits hits,
                         Surfaces surfaces, CausticMap before) {
-    return splat(frame, {.node = "reconstruct.sprites", .params = params}, hits, surfaces, before);
+    return splat(frame, {"reconstruct.sprites", params, false, false}, hits, surfaces, before);
 }
 
 enum class BeamShape : int { ellipse, round };
@@ -74,7 +74,7 @@ struct BeamsParams {
 
 CausticMap splatBeams(FrameBuilder& frame, const BeamsParams& params, Hits hits, Surfaces surfaces,
                       CausticMap before) {
-    Splatting splatting{.node = "reconstruct.beams", .areBeams = true};
+    Splatting splatting{"reconstruct.beams", {}, true, false};
     splatting.areRound = params.shape == BeamShape::round;
     splatting.params.kernel = params.kernel;
     splatting.params.footprints = params.footprints;
@@ -123,8 +123,8 @@ Stored splatInto(FrameBuilder& frame, const Splatting& splatting, const Hits& hi
             data.stored.ledger = setup.storage("LedgerEntries", setup.write(hits.incoming.ledger));
             setup.bypass(data.stored.ledger, hits.incoming.ledger);
         },
-        [splatting, reach, sets, isFirst, store, list = hits.incoming](
-            const Data& data, gl::PassContext& context) {
+        [splatting, reach, sets, isFirst, store, list = hits.incoming](const Data& data,
+                                                                       gl::PassContext& context) {
             context.buffer(data.cut).clear();
             if (isFirst) context.texture(data.stored.map.flux).clear({0, 0, 0, 0});
             for (const char* shader : {"sprite_totals", "sprites"}) {

@@ -96,9 +96,9 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& params, const Hits& h
             const auto create = [&]<class T>(graph::Buffer<T>& buffer, const char* block,
                                              const char* name, std::size_t count) {
                 buffer = setup.storage(
-                    block, setup.createBuffer<T>(
-                               "triangles." + std::string(name) + store.suffix + hits.incoming.suffix,
-                               count));
+                    block, setup.createBuffer<T>("triangles." + std::string(name) + store.suffix +
+                                                     hits.incoming.suffix,
+                                                 count));
                 setup.bypass(buffer, {0, 0, 0, 0});
             };
             create(data.photonOfCell, "CellPhotons", "photon_of_cell",
@@ -114,8 +114,8 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& params, const Hits& h
             data.stored.ledger = setup.storage("LedgerEntries", setup.write(hits.incoming.ledger));
             setup.bypass(data.stored.ledger, hits.incoming.ledger);
         },
-        [params, sets, isFirst, store, list = hits.incoming](
-            const Data& data, gl::PassContext& context) {
+        [params, sets, isFirst, store, list = hits.incoming](const Data& data,
+                                                             gl::PassContext& context) {
             if (isFirst) context.texture(data.stored.map.flux).clear({0, 0, 0, 0});
             context.buffer(data.photonOfCell).clear();
             context.buffer(data.counts).clear();

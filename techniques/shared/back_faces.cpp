@@ -26,8 +26,7 @@ BackFaces drawBackFaces(FrameBuilder& frame, const Geometry& geometry, const Vie
                 const int h = views->height();
                 data.faces.views = views;
                 data.faces.depth = setup.create<ViewDepth>(pass.prefix + "back_depth", w, h);
-                data.faces.surface =
-                    setup.create<SurfaceTexel>(pass.prefix + "back_surface", w, h);
+                data.faces.surface = setup.create<SurfaceTexel>(pass.prefix + "back_surface", w, h);
                 if (pass.hasShape)
                     data.faces.shape = setup.create<HitShape>(pass.prefix + "back_shape", w, h);
                 data.depthBuffer =

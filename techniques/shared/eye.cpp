@@ -11,8 +11,7 @@
 namespace kaustik {
 
 SeenReceivers seeReceivers(FrameBuilder& frame, Geometry geometry, const Views& views,
-                           const std::string& name, const std::string& why,
-                           render::DrawSet drawn) {
+                           const std::string& name, const std::string& why, render::DrawSet drawn) {
     return frame.pass<SeenReceivers>(
         name + ".receivers", why,
         [&](graph::PassSetup& setup, SeenReceivers& data) {

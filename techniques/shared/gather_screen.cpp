@@ -13,8 +13,9 @@ IrradianceMap gatherOnScreen(FrameBuilder& frame, const params::NoParams&, Caust
     const FluxMap& stored = map.maps.front();
     needsEyesView("gather.screen", "the map of flux", stored.on.views);
     if (stored.sets.flux > 1 && !stored.filtered.valid())
-        throw ConfigError("gather.screen takes one map, but the light is stored in several sizes or "
-                          "levels; take filter=blend or filter=levels.");
+        throw ConfigError(
+            "gather.screen takes one map, but the light is stored in several sizes or "
+            "levels; take filter=blend or filter=levels.");
     return frame.pass<IrradianceMap>(
         "gather.screen", "what was deposited is spread over what each pixel sees",
         [&](graph::PassSetup& setup, IrradianceMap& data) {

@@ -114,7 +114,8 @@ scene::Bounds coveredBounds(const FrameBuilder& frame, MapCover covers) {
     scene::Bounds seen = SeenPart(frame.view(), all).bounds();
     if (seen.empty) return all;
     // Splats of what lies just beside the picture reach into it.
-    const glm::dvec3 margin = 0.02 * (seen.maximum - seen.minimum) + 1e-6 * glm::length(all.maximum - all.minimum);
+    const glm::dvec3 margin =
+        0.02 * (seen.maximum - seen.minimum) + 1e-6 * glm::length(all.maximum - all.minimum);
     seen.minimum = glm::max(seen.minimum - margin, all.minimum);
     seen.maximum = glm::min(seen.maximum + margin, all.maximum);
     return seen;
@@ -138,9 +139,10 @@ int sideOfMaps(FrameBuilder& frame, const ReconstructParams& params, int views) 
     while (side > 16 && kBytesPerTexel * side * side * views > most)
         side /= 2;
     if (side < params.mapSize) {
-        frame.warn(fmt::format("Caustic maps of {} texels a side do not fit into "
-                               "reconstruct.map_memory = {} MiB; they have {}.",
-                               params.mapSize, params.memoryMebibytes, side));
+        frame.warn(
+            fmt::format("Caustic maps of {} texels a side do not fit into "
+                        "reconstruct.map_memory = {} MiB; they have {}.",
+                        params.mapSize, params.memoryMebibytes, side));
     }
     return side;
 }
@@ -166,10 +168,10 @@ std::vector<ReceiverView> drawReceivers(FrameBuilder& frame, const Geometry& geo
                 : frame.makeViews(render::Space::light, {render::inPixels(views[i], side, side)});
         const std::string name = i == 0 ? "light" : fmt::format("light.{}", i + 1);
         receivers.push_back(
-            seeReceivers(frame, geometry, made, name,
-                         fmt::format("light '{}' stores caustics where it sees receivers",
-                                     lights[i].name),
-                         render::DrawSet::receivers)
+            seeReceivers(
+                frame, geometry, made, name,
+                fmt::format("light '{}' stores caustics where it sees receivers", lights[i].name),
+                render::DrawSet::receivers)
                 .receivers);
     }
     return receivers;

@@ -35,8 +35,7 @@ Photons interactAsNeeded(FrameBuilder& frame, const params::NoParams&, Hits hits
     const bool isFirst = frame.runsOf(SpecularStage::name) == 1;
     if (!why.empty()) {
         if (isFirst) frame.skip("specular.interface", why + ": both branches are followed");
-        return splitAtInterface(frame, frame.params<SplitParams>("specular.split"), hits,
-                                surfaces);
+        return splitAtInterface(frame, frame.params<SplitParams>("specular.split"), hits, surfaces);
     }
     if (isFirst) {
         frame.skip("specular.split",

@@ -18,9 +18,9 @@ CausticMap enableNothing(FrameBuilder& frame, const params::NoParams&, Hits hits
     return frame.pass<CausticMap>(
         "reconstruct.wrong", "a test",
         [&](graph::PassSetup& setup, CausticMap& data) {
-            data.maps = {FluxMap::deposit(
-                setup, before.maps.empty() ? FluxMap{} : before.maps.front(), surfaces.eye, {},
-                "caustic.flux")};
+            data.maps = {FluxMap::deposit(setup,
+                                          before.maps.empty() ? FluxMap{} : before.maps.front(),
+                                          surfaces.eye, {}, "caustic.flux")};
             data.ledger = hits.incoming.ledger;
         },
         [](const CausticMap& data, gl::PassContext& context) {

@@ -63,10 +63,9 @@ Registry storingIn(const MakeViews& makeViews, const std::string& gather) {
                     seeReceivers(frame, surfaces.geometry, makeViews(frame), "elsewhere", "a test")
                         .receivers);
             });
-            const Stored stored =
-                splatInto(frame, {.params = params}, hits, {*seen, -1, ""},
-                          before.maps.empty() ? FluxMap{} : before.maps.front(),
-                          "caustic.flux_elsewhere");
+            const Stored stored = splatInto(frame, {.params = params}, hits, {*seen, -1, ""},
+                                            before.maps.empty() ? FluxMap{} : before.maps.front(),
+                                            "caustic.flux_elsewhere");
             return CausticMap{{stored.map}, stored.ledger};
         }));
     registry.node<GatherStage>(
