@@ -7,9 +7,6 @@
 
 layout(r32ui) uniform uimage2DArray fluxSums;
 
-const uint kFluxPart = 0u;
-const uint kIntensityPart = 1u;  // W/sr towards the eye
-
 // Adds to the word and the one above it. Rounded to the nearest unit, so that a great many small
 // deposits are right on the whole. What is not a number, or negative, adds nothing: whoever deposits
 // has checked.
@@ -31,15 +28,4 @@ void sumAdd(ivec2 texel, int map, vec3 units) {
     sumAddTo(word, units.r);
     sumAddTo(word + ivec3(0, 0, 2), units.g);
     sumAddTo(word + ivec3(0, 0, 4), units.b);
-}
-
-// `face`: of a cube, of which each has a map.
-void fluxAdd(ivec2 texel, int face, uint part, vec3 amount) {
-    vec3 units = amount * (part == kFluxPart ? ledgerUnitsPerWatt
-                                             : ledgerUnitsPerWatt / kIntensityQuantum);
-    sumAdd(texel, int(part) + face, units);
-}
-
-void fluxAdd(ivec2 texel, uint part, vec3 amount) {
-    fluxAdd(texel, 0, part, amount);
 }

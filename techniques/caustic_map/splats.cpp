@@ -99,8 +99,7 @@ void drawSplats(const TexelSplats& splats, const Store& store, const Splatted& d
     const int levels = splats.hasLevels ? levelsOf(views.width(), views.height()) : 1;
     for (int level = 0; level < levels; ++level) {
         gl::Command command = context.compute("caustic_map/splats.comp");
-        views.bindTo(command);
-        takeLight(command, store);
+        bindStore(command, store);
         setLevelLayout(command, map);
         command.set("mapsPerView", map.sets.perView())
             .set("keepsEdges", splats.edges == SplatEdges::kept ? 1 : 0)
@@ -124,36 +123,22 @@ void drawSplats(const TexelSplats& splats, const Store& store, const Splatted& d
 
 Stored splatInto(FrameBuilder& frame, const TexelSplats& splats, const Hits& hits,
                  const Store& store, const FluxMap& before) {
-    const bool isFirst = !before.flux.valid();
     FluxSets sets = setsIn(frame, store);
     sets.flux = splats.flux;
     sets.counts = splats.counts;
     const Splatted& splatted = frame.pass<Splatted>(
         splats.node, splats.why,
         [&](graph::PassSetup& setup, Splatted& data) {
-            hits.sample(setup);
-            hits.incoming.sample(setup);
-            setup.sample("receiver", store.receivers.receiver);
-            setup.sample("receiverSurface", store.receivers.receiverSurface);
-            if (sets.hasIntensity) setup.sample("receiverAlbedo", store.receivers.receiverAlbedo);
+            data.stored = depositIn(setup, store, hits, before, sets);
             if (splats.lens) {
                 data.narrowed = setup.storage(
                     "CutSplats", setup.createBuffer<transport::Narrowed>(
                                      "lens.narrowed" + store.suffix + hits.incoming.suffix, 1));
                 setup.bypass(data.narrowed, {0, 0, 0, 0});
             }
-            data.stored.map = FluxMap::deposit(setup, before, store.receivers, sets,
-                                               "caustic.flux" + store.suffix);
-            data.stored.ledger = setup.storage("LedgerEntries", setup.write(hits.incoming.ledger));
-            setup.bypass(data.stored.ledger, hits.incoming.ledger);
         },
-        [splats, isFirst, store, list = hits.incoming](const Splatted& data,
-                                                       gl::PassContext& context) {
-            if (isFirst) {
-                context.texture(data.stored.map.flux).clear({0, 0, 0, 0});
-                if (data.stored.map.sets.counts)
-                    context.texture(data.stored.map.counts).clear({0, 0, 0, 0});
-            }
+        [splats, store, list = hits.incoming](const Splatted& data, gl::PassContext& context) {
+            clearIfFirst(context, data.stored);
             if (splats.lens) context.buffer(data.narrowed).clear();
             drawSplats(splats, store, data, list, context);
         });

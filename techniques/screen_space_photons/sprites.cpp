@@ -33,8 +33,7 @@ CausticMap splat(FrameBuilder& frame, const Splatting& splatting, const Hits& hi
                  const Surfaces& surfaces, const CausticMap& before) {
     return storeEverywhere(frame, surfaces, hits, before,
                            [&](const Store& store, const Hits& own, const FluxMap& former) {
-                               return splatInto(frame, splatting, own, store, former,
-                                                "caustic.flux" + store.suffix);
+                               return splatInto(frame, splatting, own, store, former);
                            });
 }
 
@@ -87,7 +86,7 @@ CausticMap splatBeams(FrameBuilder& frame, const BeamsParams& params, Hits hits,
 }  // namespace
 
 Stored splatInto(FrameBuilder& frame, const Splatting& splatting, const Hits& hits,
-                 const Store& store, const FluxMap& before, const std::string& name) {
+                 const Store& store, const FluxMap& before) {
     const SpritesParams& params = splatting.params;
     const ReceiverView& receivers = store.receivers;
     const FluxSets sets = setsIn(frame, store);
@@ -95,7 +94,6 @@ Stored splatInto(FrameBuilder& frame, const Splatting& splatting, const Hits& hi
     const int reach = receivers.views->count() == 1
                           ? params.reachPixels
                           : std::min(params.reachPixels, kMostReachOnCubes);
-    const bool isFirst = !before.flux.valid();
     struct Data {
         CutSplats cut;
         Stored stored;
@@ -106,33 +104,25 @@ Stored splatInto(FrameBuilder& frame, const Splatting& splatting, const Hits& hi
                    "goes to the eye"
                  : "photons deposit flux at the receivers",
         [&](graph::PassSetup& setup, Data& data) {
-            hits.sample(setup);
-            hits.incoming.sample(setup);
-            setup.sample("receiver", receivers.receiver);
-            setup.sample("receiverSurface", receivers.receiverSurface);
-            if (isGlossy) setup.sample("receiverAlbedo", receivers.receiverAlbedo);
-            data.cut = setup.storage("CutSplats", setup.createBuffer<transport::Narrowed>(
-                                                      name + ".cut" + hits.incoming.suffix, 2));
+            data.stored = depositIn(setup, store, hits, before, sets);
+            data.cut = setup.storage("CutSplats",
+                                     setup.createBuffer<transport::Narrowed>(
+                                         "splats.cut" + store.suffix + hits.incoming.suffix, 2));
             setup.bypass(data.cut, {0, 0, 0, 0});
             setup.bypass(setup.storage("SplatTotals",
                                        setup.createBuffer<float>(
-                                           name + ".totals" + hits.incoming.suffix,
+                                           "splats.totals" + store.suffix + hits.incoming.suffix,
                                            static_cast<std::size_t>(hits.incoming.capacity()))),
                          {0, 0, 0, 0});
-            data.stored.map = FluxMap::deposit(setup, before, receivers, sets, name);
-            data.stored.ledger = setup.storage("LedgerEntries", setup.write(hits.incoming.ledger));
-            setup.bypass(data.stored.ledger, hits.incoming.ledger);
         },
-        [splatting, reach, sets, isFirst, store, list = hits.incoming](const Data& data,
-                                                                       gl::PassContext& context) {
+        [splatting, reach, sets, store, list = hits.incoming](const Data& data,
+                                                              gl::PassContext& context) {
             context.buffer(data.cut).clear();
-            if (isFirst) context.texture(data.stored.map.flux).clear({0, 0, 0, 0});
+            clearIfFirst(context, data.stored);
             for (const char* shader : {"sprite_totals", "sprites"}) {
                 gl::Command command =
                     context.compute(fmt::format("screen_space_photons/{}.comp", shader));
-                store.receivers.views->bindTo(command).params("reconstruct.sprites",
-                                                              splatting.params);
-                takeLight(command, store);
+                bindStore(command, store).params("reconstruct.sprites", splatting.params);
                 command.set("mostReach", reach);
                 if (splatting.areBeams)
                     command.define("BEAM_SPLATS").set("isRound", splatting.areRound ? 1 : 0);

@@ -59,9 +59,9 @@ struct Splatting {
     bool areRound = false;  // of the same area, then
 };
 
-// Splats what these hits bring to receivers, W, on what any views see; adds to `before`, or to a
-// new map called `name`.
+// Splats what these hits bring to receivers, W, on what a store's views see; adds to `before`, or
+// to a new map.
 [[nodiscard]] Stored splatInto(FrameBuilder& frame, const Splatting& splatting, const Hits& hits,
-                               const Store& store, const FluxMap& before, const std::string& name);
+                               const Store& store, const FluxMap& before);
 
 }  // namespace kaustik

@@ -65,7 +65,6 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& params, const Hits& h
             "faces; take reconstruct=beams.");
     const FluxSets sets = setsIn(frame, store);
     const bool isGlossy = sets.hasIntensity;
-    const bool isFirst = !before.flux.valid();
     struct Data {
         Stored stored;
         graph::Buffer<std::uint32_t> photonOfCell;
@@ -83,15 +82,11 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& params, const Hits& h
         "reconstruct.triangles",
         isGlossy ? why + ", and, since some receivers are glossy, how it goes to the eye" : why,
         [&](graph::PassSetup& setup, Data& data) {
-            hits.sample(setup);
-            hits.incoming.sample(setup);
+            data.stored = depositIn(setup, store, hits, before, sets);
             if (hits.incoming.extents.valid()) {
                 setup.sample("cellExtents", hits.incoming.extents);
                 setup.define("CELL_EXTENTS");
             }
-            setup.sample("receiver", receivers.receiver);
-            setup.sample("receiverSurface", receivers.receiverSurface);
-            if (isGlossy) setup.sample("receiverAlbedo", receivers.receiverAlbedo);
             const auto capacity = static_cast<std::size_t>(hits.incoming.capacity());
             const auto create = [&]<class T>(graph::Buffer<T>& buffer, const char* block,
                                              const char* name, std::size_t count) {
@@ -109,22 +104,16 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& params, const Hits& h
             create(data.widePatches, "WidePatches", "wide_patches", 4 * capacity);
             create(data.counts, "PatchCounts", "counts", 2);
             create(data.narrowed, "NarrowedPatches", "narrowed", 1);
-            data.stored.map =
-                FluxMap::deposit(setup, before, receivers, sets, "caustic.flux" + store.suffix);
-            data.stored.ledger = setup.storage("LedgerEntries", setup.write(hits.incoming.ledger));
-            setup.bypass(data.stored.ledger, hits.incoming.ledger);
         },
-        [params, sets, isFirst, store, list = hits.incoming](const Data& data,
-                                                             gl::PassContext& context) {
-            if (isFirst) context.texture(data.stored.map.flux).clear({0, 0, 0, 0});
+        [params, sets, store, list = hits.incoming](const Data& data, gl::PassContext& context) {
+            clearIfFirst(context, data.stored);
             context.buffer(data.photonOfCell).clear();
             context.buffer(data.counts).clear();
             context.buffer(data.narrowed).clear();
             const auto shader = [&](const char* name) {
                 gl::Command command =
                     context.compute(fmt::format("screen_space_photons/{}.comp", name));
-                store.receivers.views->bindTo(command).params("reconstruct.triangles", params);
-                takeLight(command, store);
+                bindStore(command, store).params("reconstruct.triangles", params);
                 setCells(command, list.cells);
                 return command;
             };

@@ -48,9 +48,32 @@ void setDeposit(gl::Command& command, const FluxSets& sets) {
     if (sets.hasDirection) command.define("MEAN_DIRECTION");
 }
 
-void takeLight(gl::Command& command, const Store& store) {
-    if (store.light < 0) return;
-    command.define("ONE_LIGHT").set("lightOfMap", store.light);
+Stored depositIn(graph::PassSetup& setup, const Store& store, const Hits& hits,
+                 const FluxMap& before, const FluxSets& sets) {
+    hits.sample(setup);
+    hits.incoming.sample(setup);
+    setup.sample("receiver", store.receivers.receiver);
+    setup.sample("receiverSurface", store.receivers.receiverSurface);
+    if (sets.hasIntensity) setup.sample("receiverAlbedo", store.receivers.receiverAlbedo);
+    Stored stored;
+    stored.isFirst = !before.flux.valid();
+    stored.map =
+        FluxMap::deposit(setup, before, store.receivers, sets, "caustic.flux" + store.suffix);
+    stored.ledger = setup.storage("LedgerEntries", setup.write(hits.incoming.ledger));
+    setup.bypass(stored.ledger, hits.incoming.ledger);
+    return stored;
+}
+
+void clearIfFirst(gl::PassContext& context, const Stored& stored) {
+    if (!stored.isFirst) return;
+    context.texture(stored.map.flux).clear({0, 0, 0, 0});
+    if (stored.map.sets.counts) context.texture(stored.map.counts).clear({0, 0, 0, 0});
+}
+
+gl::Command& bindStore(gl::Command& command, const Store& store) {
+    store.receivers.views->bindTo(command);
+    if (store.light >= 0) command.define("ONE_LIGHT").set("lightOfMap", store.light);
+    return command;
 }
 
 }  // namespace kaustik

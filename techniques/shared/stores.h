@@ -25,9 +25,10 @@ struct Store {
 struct Stored {
     FluxMap map;
     Ledger ledger;
+    bool isFirst = false;  // the map is new
 };
 // Adds what these hits bring to every store in turn. `deposit`: adds it to one, whose map before is
-// invalid where this is the first to come, and keeps the account of `hits.incoming`.
+// invalid where this is the first to come.
 using Deposit = std::function<Stored(const Store&, const Hits&, const FluxMap& before)>;
 [[nodiscard]] CausticMap storeEverywhere(FrameBuilder& frame, const Surfaces& surfaces, Hits hits,
                                          const CausticMap& before, const Deposit& deposit);
@@ -35,9 +36,15 @@ using Deposit = std::function<Stored(const Store&, const Hits&, const FluxMap& b
 // What a map of one set of flux holds there besides: more where a receiver of the scene is glossy.
 [[nodiscard]] FluxSets setsIn(const FrameBuilder& frame, const Store& store);
 
-// For shaders that include include/arriving.glsl and include/deposit.glsl; the pass has declared
-// that it deposits.
-void takeLight(gl::Command& command, const Store& store);
+// For a pass that deposits: declares "fluxSums" and "LedgerEntries", what it reads of the hits and
+// of their photons, and "receiver" and "receiverSurface" of the store.
+[[nodiscard]] Stored depositIn(graph::PassSetup& setup, const Store& store, const Hits& hits,
+                               const FluxMap& before, const FluxSets& sets);
+// The first thing that such a pass does: a new map is empty.
+void clearIfFirst(gl::PassContext& context, const Stored& stored);
+// Makes the shaders of its command see the store's views and take its light
+// (include/arriving.glsl); of those that include include/deposit.glsl the second.
+gl::Command& bindStore(gl::Command& command, const Store& store);
 void setDeposit(gl::Command& command, const FluxSets& sets);
 
 }  // namespace kaustik

@@ -63,9 +63,9 @@ Registry storingIn(const MakeViews& makeViews, const std::string& gather) {
                     seeReceivers(frame, surfaces.geometry, makeViews(frame), "elsewhere", "a test")
                         .receivers);
             });
-            const Stored stored = splatInto(frame, {.params = params}, hits, {*seen, -1, ""},
-                                            before.maps.empty() ? FluxMap{} : before.maps.front(),
-                                            "caustic.flux_elsewhere");
+            const Stored stored =
+                splatInto(frame, {.params = params}, hits, {*seen, -1, "_elsewhere"},
+                          before.maps.empty() ? FluxMap{} : before.maps.front());
             return CausticMap{{stored.map}, stored.ledger};
         }));
     registry.node<GatherStage>(
