@@ -138,6 +138,8 @@ def reach(rows: list[dict]) -> None:
         energy = report["energy"]
         emitted = energy["emitted_w"]
         if not emitted:
+            print(line([f"`{row['scene']}`", row["specular.two_interfaces.distance"],
+                        "nothing is specular"] + [""] * (len(causes) + 3)))
             continue
         judged = report["error"]
         models = judged.get("modelled_paths", {}).get("caustic_irradiance")

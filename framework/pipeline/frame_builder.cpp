@@ -156,12 +156,11 @@ FrameOutputs buildFrame(FrameBuilder& frame) {
     const std::string whyNot = whyNoCaustic(frame);
     const Surfaces surfaces{geometry, eye, layers};
     Caustic caustic;
-    CausticMap filtered;
     IrradianceMap irradiance;
     if (whyNot.empty()) {
         caustic = frame.run<DriverStage>(surfaces);
-        filtered = frame.run<FilterStage>(caustic.map);
-        irradiance = frame.run<GatherStage>(filtered, surfaces);
+        caustic.map = frame.run<FilterStage>(caustic.map);
+        irradiance = frame.run<GatherStage>(caustic.map, surfaces);
         irradiance = frame.run<TemporalStage>(irradiance, eye);
     } else {
         irradiance = skipCaustic(frame, whyNot);
@@ -176,8 +175,7 @@ FrameOutputs buildFrame(FrameBuilder& frame) {
             irradiance.ledger,
             caustic.inScattered,
             shadows,
-            caustic.map,
-            filtered};
+            caustic.map};
 }
 
 }  // namespace kaustik

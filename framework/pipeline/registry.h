@@ -48,8 +48,7 @@ struct FrameOutputs {
     Ledger ledger;  // with everything but what was deposited
     InScattered inScattered;
     Shadows shadows;
-    CausticMap map;            // what was deposited; without maps where a technique stores no flux
-    CausticMap filtered = {};  // and what became of it
+    CausticMap map;  // what was stored, filtered too; without maps where nothing is
 };
 
 using BuildFrame = std::function<FrameOutputs(FrameBuilder&)>;

@@ -218,7 +218,7 @@ graph::Compiled Renderer::keepLimits(const graph::Compiled& compiled,
 // What says where light went that was stored off the screen.
 void Renderer::requestForMaps() {
     bool isOffScreen = false;
-    for (const FluxMap& map : outputs_.filtered.maps) {
+    for (const FluxMap& map : outputs_.map.maps) {
         if (map.on.views->isEyes()) continue;
         isOffScreen = true;
         if (map.filtered.valid()) graph_->request(map.filtered);

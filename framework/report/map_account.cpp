@@ -53,14 +53,13 @@ json mapAccount(const Renderer& renderer) {
     json account{{"space", "light"}, {"maps", json::array()}};
     double filtered = 0.0;
     bool isFiltered = true;
-    for (std::size_t i = 0; i < maps.size(); ++i) {
-        const render::RasterViews& views = *maps[i].on.views;
-        account["maps"].push_back({{"light", maps[i].light},
+    for (const FluxMap& map : maps) {
+        const render::RasterViews& views = *map.on.views;
+        account["maps"].push_back({{"light", map.light},
                                    {"size", {views.width(), views.height()}},
                                    {"views", views.count()}});
-        const FluxMap& after = renderer.outputs().filtered.maps[i];
-        isFiltered = isFiltered && after.filtered.valid();
-        if (isFiltered) filtered += filteredWatts(renderer, after);
+        isFiltered = isFiltered && map.filtered.valid();
+        if (isFiltered) filtered += filteredWatts(renderer, map);
     }
     const auto ratio = [&](const char* key, double part, double whole, bool isThere,
                            const char* reason) {

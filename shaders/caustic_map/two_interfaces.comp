@@ -3,10 +3,12 @@
 // back faces says (include/two_interfaces.glsl). One thread a photon of one light.
 #include "include/next_photons.glsl"
 #include "include/lights.glsl"
+#ifdef BODIES
 #include "include/two_interfaces.glsl"
+#endif
 
 uniform int lightIndex;
-#ifdef PHOTON_BEAMS
+#if defined(PHOTON_BEAMS) && defined(BODIES)
 uniform sampler2D backShape;
 #endif
 
@@ -58,6 +60,7 @@ RoundBeam throughLens(RoundBeam round, float front, float back, float thickness,
     return refracted(within, -back, inside, outside);
 }
 
+#ifdef BODIES
 // The shape of the back faces in the eye's view, whose `normal` is given there.
 vec3 backShapeAt(ivec2 texel, vec3 normalLs, vec3 normalVs) {
     vec3 shape = texelFetch(backShape, texel, 0).xyz;
@@ -67,6 +70,7 @@ vec3 backShapeAt(ivec2 texel, vec3 normalLs, vec3 normalVs) {
     mat3 toEye = transpose(mat3(view.fromEye));
     return shapeOf(normalVs, toEye * turning * transpose(toEye));
 }
+#endif
 
 // After one interaction alone: at a mirror, a sheet, or where all is reflected.
 Beam beamAfterOne(ivec2 texel, Photon before, Hit hit, vec3 direction, bool isReflected) {
@@ -102,6 +106,7 @@ void sendNothing(uint slot, Photon photon, PhotonOrigin origin) {
 #endif
 }
 
+#ifdef BODIES
 // `inside`: the photon that has just entered; the light's view shows where it comes out.
 void goThrough(uint slot, ivec2 texel, Photon before, Hit hit, Photon inside, PhotonOrigin origin) {
     vec3 entry = pointFromEye(hit.positionVs);
@@ -157,6 +162,7 @@ void goThrough(uint slot, ivec2 texel, Photon before, Hit hit, Photon inside, Ph
     storeNextBeam(slot, beam);
 #endif
 }
+#endif
 
 void main() {
     uint index = photonOfThread();
@@ -197,11 +203,13 @@ void main() {
         return;
     }
     PhotonOrigin entered = originOfNext(origin, index, false);
+#ifdef BODIES
     bool entersBody =
         !isOpen(hit.material - 1u) && dot(photon.directionVs, hit.normalVs) < 0.0;
     if (entersBody) {
         goThrough(slot, texel, photon, hit, branches.transmitted, entered);
-    } else {
-        sendOnAfterOne(slot, texel, photon, hit, branches.transmitted, entered);
+        return;
     }
+#endif
+    sendOnAfterOne(slot, texel, photon, hit, branches.transmitted, entered);
 }

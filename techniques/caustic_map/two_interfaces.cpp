@@ -74,6 +74,21 @@ std::string whatIsNotFollowed(const FrameBuilder& frame, const TwoInterfacesPara
                        fmt::join(paths, "; nor "));
 }
 
+// What one light sees of the backs of bodies; drawn once a frame.
+BackFaces facesSeenFrom(FrameBuilder& frame, const TwoInterfacesParams& params,
+                        const Surfaces& surfaces, const LightSight& sight, std::size_t light,
+                        bool hasShape) {
+    const std::string suffix = light == 0 ? "" : fmt::format("_{}", light + 1);
+    return *frame.once<BackFaces>("specular.back_faces" + suffix, [&] {
+        const Views views = frame.makeViews(
+            render::Space::light, {render::inPixels(sight.view, params.size, params.size)});
+        return std::make_shared<BackFaces>(drawBackFaces(
+            frame, surfaces.geometry, views,
+            {"specular.back_faces", "photons leave transmitting objects through their backs",
+             "light" + suffix + ".", hasShape}));
+    });
+}
+
 Photons interactTwice(FrameBuilder& frame, const TwoInterfacesParams& params, Hits hits,
                       Surfaces surfaces) {
     const std::vector<LightSight> sights = *frame.once<std::vector<LightSight>>(
@@ -86,23 +101,20 @@ Photons interactTwice(FrameBuilder& frame, const TwoInterfacesParams& params, Hi
     const NextPhotons next = makeRoom(frame, hits, 1);
     Photons photons = next.photons;
     photons.ledger = hits.incoming.ledger;
-    const bool hasBeams = hits.incoming.hasBeams();
+    const bool hasBodies = frame.needs().closedDielectrics;
+    if (!hasBodies) frame.skip("specular.back_faces", "no dielectric of the scene has an inside");
     for (std::size_t light = 0; light < sights.size(); ++light) {
-        const std::string suffix = light == 0 ? "" : fmt::format("_{}", light + 1);
-        const auto faces = frame.once<BackFaces>("specular.back_faces" + suffix, [&] {
-            const Views views =
-                frame.makeViews(render::Space::light,
-                                {render::inPixels(sights[light].view, params.size, params.size)});
-            return std::make_shared<BackFaces>(drawBackFaces(
-                frame, surfaces.geometry, views,
-                {"specular.back_faces", "photons leave transmitting objects through their backs",
-                 "light" + suffix + ".", hasBeams}));
-        });
+        const BackFaces faces = hasBodies ? facesSeenFrom(frame, params, surfaces, sights[light],
+                                                          light, hits.incoming.hasBeams())
+                                          : BackFaces{};
         photons = frame.pass<Photons>(
             "specular.two_interfaces",
             "photons go through what the light sees the front and the back of",
             [&](graph::PassSetup& setup, Photons& data) {
-                faces->sample(setup);
+                if (hasBodies) {
+                    faces.sample(setup);
+                    setup.define("BODIES");
+                }
                 NextPhotons chained = next;
                 chained.photons = photons;
                 Hits accounted = hits;
@@ -112,11 +124,11 @@ Photons interactTwice(FrameBuilder& frame, const TwoInterfacesParams& params, Hi
                 data.paths.transmissionOnly = true;
                 data.paths.end = true;
             },
-            [params, light, list = hits.incoming, views = faces->views](const Photons&,
-                                                                        gl::PassContext& context) {
+            [params, light, list = hits.incoming, views = faces.views](const Photons&,
+                                                                       gl::PassContext& context) {
                 gl::Command command = context.compute("caustic_map/two_interfaces.comp");
-                views->bindTo(command)
-                    .params("specular.two_interfaces", params)
+                if (views) views->bindTo(command);
+                command.params("specular.two_interfaces", params)
                     .set("lightIndex", static_cast<int>(light));
                 dispatchOver(command, list);
             });
