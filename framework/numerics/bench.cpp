@@ -290,10 +290,38 @@ Frame reconstructHits(Lab& lab, const Lab::Choice& reconstruct, const scene::Sce
         const Hits hits = inject(builder, batch);
         const Surfaces surfaces{geometry, eye, {}};
         const CausticMap map = builder.run<ReconstructStage>(hits, surfaces, CausticMap{});
-        const IrradianceMap caustic = builder.run<GatherStage>(map, surfaces);
+        const CausticMap filtered = builder.run<FilterStage>(map);
+        const IrradianceMap caustic = builder.run<GatherStage>(filtered, surfaces);
         const Nothing nothing = addNothing(builder, caustic.ledger);
-        return FrameOutputs{nothing.picture, caustic, eye, {}, hits, caustic.ledger, {}, {}, map};
+        return FrameOutputs{nothing.picture, caustic, eye, {},  hits,
+                            caustic.ledger,  {},      {},  map, filtered};
     });
+}
+
+StoredFlux readStored(const Frame& frame, int set) {
+    const FluxMap& map = frame.renderer().outputs().map.maps.front();
+    const gl::Texture& texture = frame.renderer().texture(map.flux);
+    const std::vector<std::uint32_t> words = texture.readWords();
+    const double quantum = static_cast<double>(ledgerQuantum(frame.renderer().scene()));
+    StoredFlux stored{texture.desc().width, texture.desc().height, {}};
+    const auto layer = static_cast<std::size_t>(stored.width * stored.height);
+    // Two words a channel, the lower one first; green is the second.
+    const std::size_t low = layer * (transport::kFluxWords * static_cast<std::size_t>(set) + 2);
+    for (std::size_t i = 0; i < layer; ++i) {
+        stored.watts.push_back(
+            (static_cast<double>(words[low + layer + i]) * 4294967296.0 + words[low + i]) *
+            quantum);
+    }
+    return stored;
+}
+
+double StoredFlux::in(int x0, int y0, int x1, int y1) const {
+    double sum = 0.0;
+    for (int y = std::max(y0, 0); y < std::min(y1, height); ++y) {
+        for (int x = std::max(x0, 0); x < std::min(x1, width); ++x)
+            sum += watts[static_cast<std::size_t>(y * width + x)];
+    }
+    return sum;
 }
 
 Frame scatterPhotons(Lab& lab, const Lab::Choice& media, const scene::Scene& scene,

@@ -80,11 +80,23 @@ struct Bent {
                                    const Settings& settings);
 
 // Photons that have landed on a receiver, whose normal is `startNormal`, become irradiance; the
-// frame has "caustic.irradiance" and "eye.receiver".
+// frame has "caustic.irradiance" and "eye.receiver". They are of the scene's first light.
 [[nodiscard]] Frame reconstructHits(Lab& lab, const Lab::Choice& reconstruct,
                                     const scene::Scene& scene,
                                     const std::vector<BenchPhoton>& photons,
                                     const Settings& settings = {}, BenchSize size = {});
+
+// What the first map of such a frame holds, of green light, before any filter: W by texel, lower
+// left first.
+struct StoredFlux {
+    int width = 0;
+    int height = 0;
+    std::vector<double> watts;
+    // Of texels of [x0, x1) x [y0, y1).
+    [[nodiscard]] double in(int x0, int y0, int x1, int y1) const;
+    [[nodiscard]] double all() const { return in(0, 0, width, height); }
+};
+[[nodiscard]] StoredFlux readStored(const Frame& frame, int set = 0);
 
 // What photons that were on their way scatter towards the eye: outputs().inScattered, invalid where
 // the node leaves it out.

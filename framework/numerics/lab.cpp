@@ -62,7 +62,18 @@ Lab::Choice Lab::choose(const std::string& stage, const std::string& node) const
         if (registry_.makeParams(technique).choice(stage) == node)
             return {technique.name, {}, stage + "." + node};
     }
-    return {registry_.techniques().front().name, {{stage, node}}, stage + "." + node};
+    Choice choice{registry_.techniques().front().name, {{stage, node}}, stage + "." + node};
+    if (stage == ReconstructStage::name) {
+        const std::string filter = registry_.findNode(stage, node).description.filter;
+        if (!filter.empty()) choice.settings.emplace_back(FilterStage::name, filter);
+    }
+    return choice;
+}
+
+bool Lab::goesThroughBodies(const Choice& specular) const {
+    const std::size_t dot = specular.subject.find('.');
+    return registry_.findNode(SpecularStage::name, specular.subject.substr(dot + 1))
+        .description.throughBodies;
 }
 
 Sees Lab::seenBy(const Choice& tracer) const {

@@ -44,7 +44,8 @@ class Lab {
                       double measured, const std::string& reason);
 
     // The nodes that answer a stage, and the settings that choose one: those of the first technique
-    // that uses it, else of the first technique with this node put into it.
+    // that uses it, else of the first technique with this node put into it, and the filter that a
+    // reconstruction needs.
     [[nodiscard]] std::vector<std::string> nodesOf(const std::string& stage) const;
     struct Choice {
         std::string technique;
@@ -64,6 +65,13 @@ class Lab {
     // What a tracer can find.
     [[nodiscard]] Sees seenBy(const Choice& tracer) const;
     [[nodiscard]] Sees seenBy(const Technique& technique) const;
+
+    // Whether it finds no specular surface at all.
+    [[nodiscard]] bool seesReceiversAlone(const Choice& tracer) const {
+        return seenBy(tracer) == Sees::flatReceivers || seenBy(tracer) == Sees::lightFront;
+    }
+    // Whether photons that enter a body go on from where they leave it.
+    [[nodiscard]] bool goesThroughBodies(const Choice& specular) const;
 
     // Renders with every texture kept, and memory that starts as NaN; each texture is scanned, and
     // the case gets a row that says how many values were none.

@@ -34,6 +34,11 @@ struct NodeDescription {
     bool beams = false;
     // Of a reconstruction: it joins what neighbouring cells bring, across batches too.
     bool joinsCells = false;
+    // Of a reconstruction: the filter that makes one map of the several that it stores; "" where it
+    // stores one.
+    std::string filter = {};
+    // Of a node of interaction: photons that enter a body go on from where they leave it.
+    bool throughBodies = false;
     // Of an emitter: rows and columns of one light's photons, where emit.photons does not say it.
     std::function<params::Extent(const FrameBuilder&)> photons = {};
 };

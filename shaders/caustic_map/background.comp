@@ -153,6 +153,11 @@ Hit traced(Photon photon) {
         ledgerAdd(kAccountNotANumber, vec3(0.0));
         return nothingHit();
     }
+    // The far side of a body is nothing that the light's view of receivers shows.
+    if (isInBody(photon.media)) {
+        ledgerAdd(kAccountMissedByTracer, photon.fluxWatts);
+        return nothingHit();
+    }
     Found nearest = Found(false, 0.0, ivec2(0));
     int faceOfNearest = 0;
     uint causeOfMiss = kAccountUnresolved;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Photons as Gaussian splats of a map's texels (WD06, WD08): one size for all, four sizes at once,
 // or as wide as each photon's beam; in one level of the map's resolution. Weights are summed over
-// the texels first, so that exactly the photon's flux is deposited. One thread a photon.
+// the texels first, so that exactly the photon's flux is deposited, or counted where something
+// nearer hides it or the map ends (hard cases 31, 32); what hangs off the surface's edge is
+// redistributed on it. One thread a photon.
 //   FOUR_RADII    a set of the map a size, and counts of photons beside them
 //   BEAM_WIDTHS   as wide as the photon's beam is where it arrives
 //   LEVELS        the map holds coarser ones of itself; `level` is this draw's
@@ -78,11 +80,25 @@ int lookAt(Splat splat, ivec2 texel) {
     return seenAt(texel, depth, splat.normal, tolerance, area);
 }
 
-bool takes(Splat splat, ivec2 texel) {
-    if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, sizeOfLevel(level)))) return false;
-    if (keepsEdges == 0 || level > 0) return true;
-    return lookAt(splat, texel) == kSeenOn;
+// What becomes of the part of a splat that lies on a texel; kSeenBeside: the others have it.
+int fateOfPart(Splat splat, ivec2 texel) {
+    if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, sizeOfLevel(level)))) {
+#ifdef MANY_VIEWS
+        return kSeenBeside;  // the next face has it
+#else
+        return kSeenOffScreen;
+#endif
+    }
+    if (keepsEdges == 0 || level > 0) return kSeenOn;
+    return lookAt(splat, texel);
 }
+
+// Sums of weights.
+struct Parts {
+    WEIGHT deposited;
+    WEIGHT hidden;
+    WEIGHT clipped;
+};
 
 void add(ivec2 texel, int set, vec3 flux) {
     sumAdd(placeOfLevel(level) + texel, viewIndex * mapsPerView + set + setOfLevel(level),
@@ -124,31 +140,52 @@ float reachOf(Splat splat) {
 ivec2 firstOf(Splat splat) { return ivec2(ceil(splat.center - reachOf(splat) - 0.5)); }
 ivec2 lastOf(Splat splat) { return ivec2(floor(splat.center + reachOf(splat) - 0.5)); }
 
-WEIGHT sumOfWeights(Splat splat) {
+void addParts(Splat splat, inout Parts parts) {
     ivec2 first = firstOf(splat);
     ivec2 last = lastOf(splat);
-    WEIGHT total = WEIGHT(0.0);
     for (int y = first.y; y <= last.y; ++y) {
         for (int x = first.x; x <= last.x; ++x) {
-            if (takes(splat, ivec2(x, y))) total += weightAt(splat, ivec2(x, y));
+            WEIGHT weight = weightAt(splat, ivec2(x, y));
+            int fate = fateOfPart(splat, ivec2(x, y));
+            if (fate == kSeenOn) parts.deposited += weight;
+            if (fate == kSeenOccluded) parts.hidden += weight;
+            if (fate == kSeenOffScreen) parts.clipped += weight;
         }
     }
-    return total;
 }
 
-// `total`: of the weights in all views.
-void splatInView(Splat splat, WEIGHT total, vec3 flux, vec3 direction) {
+// Counts what of a splat is not deposited, of those of the map's first set.
+void countLost(Parts parts, vec3 flux) {
+#ifdef FOUR_RADII
+    int used = 0;
+    while (used < 3 && parts.deposited[used] <= 0.0) ++used;
+    float deposited = parts.deposited[used];
+    float hidden = parts.hidden[used];
+    float clipped = parts.clipped[used];
+#else
+    float deposited = parts.deposited;
+    float hidden = parts.hidden;
+    float clipped = parts.clipped;
+#endif
+    vec3 ofWeight = flux / (deposited + hidden + clipped);
+    if (hidden > 0.0) ledgerAdd(kAccountHidden, ofWeight * hidden);
+    if (clipped > 0.0) ledgerAdd(kAccountBeside, ofWeight * clipped);
+}
+
+// `parts`: of the splat in all views.
+void splatInView(Splat splat, Parts parts, vec3 flux, vec3 direction) {
+    WEIGHT total = max(parts.deposited + parts.hidden + parts.clipped, WEIGHT(1e-37));
     ivec2 first = firstOf(splat);
     ivec2 last = lastOf(splat);
     for (int y = first.y; y <= last.y; ++y) {
         for (int x = first.x; x <= last.x; ++x) {
             ivec2 texel = ivec2(x, y);
-            if (!takes(splat, texel)) continue;
-            WEIGHT share = weightAt(splat, texel) / max(total, WEIGHT(1e-37));
+            if (fateOfPart(splat, texel) != kSeenOn) continue;
+            WEIGHT share = weightAt(splat, texel) / total;
 #ifdef FOUR_RADII
             // A small splat that finds no texel is as wide as the next.
             for (int i = 2; i >= 0; --i) {
-                if (total[i] <= 0.0) share[i] = share[i + 1];
+                if (parts.deposited[i] <= 0.0) share[i] = share[i + 1];
             }
             deposit(splat, texel, share, flux, direction);
 #else
@@ -201,7 +238,7 @@ void main() {
     vec3 positionVs = texelFetch(hitPosition, texel, 0).xyz;
     vec4 surface = texelFetch(hitSurface, texel, 0);
     vec3 direction = texelFetch(photonDirection, texel, 0).xyz;
-    WEIGHT total = WEIGHT(0.0);
+    Parts parts = Parts(WEIGHT(0.0), WEIGHT(0.0), WEIGHT(0.0));
     uint account = kAccountBeside;  // of a photon that finds no texel
     Splat splat;
     for (int face = 0; face < viewCount; ++face) {
@@ -216,23 +253,26 @@ void main() {
             account = isHidden || !isLit ? kAccountHidden : kAccountEdgeOn;
             if (!isLit) break;
         }
-        total += sumOfWeights(splat);
+        addParts(splat, parts);
     }
 #ifdef FOUR_RADII
-    bool finds = total.w > 0.0;
+    bool finds = parts.deposited.w > 0.0;
 #else
-    bool finds = total > 0.0;
+    bool finds = parts.deposited > 0.0;
 #endif
     // Where it arrives beside all views, what reaches into one is not of it alone.
     if (account == kAccountBeside) finds = false;
+    // Of coarser levels nothing is seen; what the map's own texel does not see is not in them.
+    if (level > 0 && keepsEdges == 1 && account == kAccountHidden) finds = false;
     if (!finds) {
         if (level == 0) ledgerAdd(account, flux);
         return;
     }
+    if (level == 0) countLost(parts, flux);
     for (int face = 0; face < viewCount; ++face) {
 #ifdef MANY_VIEWS
         viewIndex = face;
 #endif
-        if (splatOf(texel, positionVs, surface.xyz, splat)) splatInView(splat, total, flux, direction);
+        if (splatOf(texel, positionVs, surface.xyz, splat)) splatInView(splat, parts, flux, direction);
     }
 }

@@ -35,6 +35,15 @@ uvec4 innerMedia(uint media) {
     return around;
 }
 
+// Whether any of them has an inside, whose far side a tracer of receivers alone never finds.
+bool isInBody(uint media) {
+    uvec4 around = innerMedia(media);
+    for (int i = 0; i < 4; ++i) {
+        if (around[i] != 0u && !isOpen(around[i] - 1u)) return true;
+    }
+    return false;
+}
+
 // Whether one more fits.
 bool canEnter(uint media, uint medium) {
     return pushOn(stackOf(media), numberOf(medium), mediaBase) < mediaEnd;

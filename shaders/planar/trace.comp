@@ -39,15 +39,6 @@ float meetFace(FlatFace face, vec3 origin, vec3 direction) {
     return isInside ? t : nowhere;
 }
 
-// Whether any of the dielectrics around the photon has an inside, whose far side nobody finds here.
-bool isInBody(uint media) {
-    uvec4 around = innerMedia(media);
-    for (int i = 0; i < 4; ++i) {
-        if (around[i] != 0u && !isOpen(around[i] - 1u)) return true;
-    }
-    return false;
-}
-
 Hit traceToPlanes(Photon photon) {
     if (!isNumber(photon)) {
         ledgerAdd(kAccountNotANumber, vec3(0.0));

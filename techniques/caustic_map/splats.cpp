@@ -180,7 +180,7 @@ CausticMap splatLevels(FrameBuilder& frame, const LevelsParams& params, Hits hit
                        Surfaces surfaces, CausticMap before) {
     TexelSplats splats{.node = "reconstruct.levels",
                        .why = "photons are splats in every level of the map"};
-    splats.edges = SplatEdges::crossed;
+    // Coarser levels' texels hold several surfaces, and cross edges all the same.
     splats.diameter = static_cast<float>(params.diameter);
     splats.flux = 2;
     splats.counts = true;
@@ -206,14 +206,17 @@ void registerTexelSplats(Registry& registry) {
         &splatFixed);
     registry.node<ReconstructStage>(
         "four_radii",
-        {"Splats each photon in four sizes at once, 3, 7, 11 and 15 texels, and counts photons; "
-         "filter.blend takes one or some of them.",
-         "WD08, section 4.1"},
+        {.sentence = "Splats each photon in four sizes at once, 3, 7, 11 and 15 texels, and counts "
+                     "photons; filter.blend takes one or some of them.",
+         .source = "WD08, section 4.1",
+         .filter = "blend"},
         &splatFourRadii);
     registry.node<ReconstructStage>(
         "levels",
-        {"Splats each photon into every level of the map's resolution; filter.levels takes one.",
-         "WD08, section 4, Fig. 4; rejected there"},
+        {.sentence = "Splats each photon into every level of the map's resolution; filter.levels "
+                     "takes one.",
+         .source = "WD08, section 4, Fig. 4; rejected there",
+         .filter = "levels"},
         &splatLevels);
     registry.node<ReconstructStage>(
         "lens",

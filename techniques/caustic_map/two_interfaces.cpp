@@ -141,9 +141,10 @@ Photons interactTwice(FrameBuilder& frame, const TwoInterfacesParams& params, Hi
 void registerTwoInterfaces(Registry& registry) {
     registry.node<SpecularStage>(
         "two_interfaces",
-        {"Refracts photons into a body and out of its back faces as the light sees them; reflects "
-         "them at mirrors.",
-         "Wyman 2005 (W05), as WD08 describes it"},
+        {.sentence = "Refracts photons into a body and out of its back faces as the light sees "
+                     "them; reflects them at mirrors.",
+         .source = "Wyman 2005 (W05), as WD08 describes it",
+         .throughBodies = true},
         &interactTwice);
 }
 

@@ -105,7 +105,7 @@ void photonsThrough(Lab& lab, int shells) {
                               {"specular.bounces", "12"}}};
         request.recordsTraces = true;
         const Frame frame = lab.render(tracer, scene, request);
-        if (lab.seenBy(tracer) == Sees::flatReceivers) {
+        if (lab.seesReceiversAlone(tracer)) {
             // A ball reflects less than a tenth of what falls on it.
             const EnergyLedger ledger = frame.renderer().ledger();
             lab.expect(tracer.subject,

@@ -68,7 +68,7 @@ double shareOf(Lab& lab, unsigned account, const Lab::Choice& choice, const scen
 
 void expectNothingTrapped(Lab& lab, const Lab::Choice& tracer, const scene::Scene& scene,
                           const std::string& what) {
-    const bool seesNoGlass = lab.seenBy(tracer) == Sees::flatReceivers;
+    const bool seesNoGlass = lab.seesReceiversAlone(tracer);
     for (const int bounces : {1, 2, 16}) {
         if (seesNoGlass) {
             lab.expect(tracer.subject,

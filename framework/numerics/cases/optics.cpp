@@ -138,7 +138,9 @@ void lookingOutOfWater(Lab& lab) {
     const double r0 = std::pow((kWaterIndex - 1.0) / (kWaterIndex + 1.0), 2.0);
     const double background = 2.0;
     for (const Lab::Choice& node : lab.each<ViewStage>()) {
-        const Frame frame = lab.render(node, scene, {65, 65, {{"emit.photons", "64x64"}}});
+        // Where a technique stores light in a map, splats of some texels leave no gaps.
+        const Frame frame = lab.render(
+            node, scene, {65, 65, {{"emit.photons", "64x64"}, {"reconstruct.map_size", "64"}}});
         const Texels seen = frame.read(frame.renderer().outputs().picture.radiance);
         const Texels below = frame.read("compose.receiver_radiance");
         const double inside = below.rgb(32, 32).g;
@@ -193,16 +195,29 @@ void nestedDielectrics(Lab& lab) {
         const ExactInterface total =
             exactInterface(photons[2].direction, {0, -1, 0}, kGlassIndex, kWaterIndex);
         // A result's direction is read as its normal.
-        lab.expectDeviation(specular.subject, "error of direction from water into glass",
-                            glm::length(result.hits[0].normal - in.refracted), kDirection);
+        if (lab.goesThroughBodies(specular)) {
+            // Through the glass, whose faces are parallel, and back in water.
+            lab.expectDeviation(specular.subject, "error of direction through glass in water",
+                                glm::length(result.hits[0].normal - photons[0].direction),
+                                kDirection);
+            lab.expect(specular.subject, "flux through glass in water, W",
+                       (1.0 - in.reflectance) * (1.0 - in.reflectance),
+                       result.hits[0].fluxWatts.g, {1e-6, "roundings of 6e-8"});
+        } else {
+            lab.expectDeviation(specular.subject, "error of direction from water into glass",
+                                glm::length(result.hits[0].normal - in.refracted), kDirection);
+            lab.expect(specular.subject, "flux from water into glass, W", 1.0 - in.reflectance,
+                       result.hits[0].fluxWatts.g, {1e-6, "roundings of 6e-8"});
+        }
         lab.expectDeviation(specular.subject, "error of direction from glass into water",
                             glm::length(result.hits[1].normal - out.refracted), kDirection);
         lab.expectDeviation(specular.subject, "error of direction of total internal reflection",
                             glm::length(result.hits[2].normal - total.reflected), kDirection);
-        lab.expect(specular.subject, "flux from water into glass, W", 1.0 - in.reflectance,
-                   result.hits[0].fluxWatts.g, {1e-6, "roundings of 6e-8"});
+        const Media entered =
+            lab.goesThroughBodies(specular) ? Media{kWater} : glassInWater;
         const std::vector<std::pair<const char*, Media>> expected = {
-            {"in glass in water", glassInWater},
+            {lab.goesThroughBodies(specular) ? "through glass in water" : "in glass in water",
+             entered},
             {"back in water", {kWater}},
             {"in glass in water after total internal reflection", glassInWater}};
         for (std::size_t i = 0; i < expected.size(); ++i) {
@@ -234,7 +249,7 @@ void cubeWithInternalReflections(Lab& lab) {
             lab.expect(tracer.subject, fmt::format("balance of {} interactions", bounces), 0.0,
                        ledger.balance(), {2e-6, "sums of 32-bit fluxes and areas in fixed point"});
             const double share = ledger.watts[kAccountBounceLimit] / ledger.watts[kAccountEmitted];
-            if (lab.seenBy(tracer) == Sees::flatReceivers) {
+            if (lab.seesReceiversAlone(tracer)) {
                 lab.expect(tracer.subject,
                            fmt::format("share at the limit of {}, of a body that it cannot leave",
                                        bounces),

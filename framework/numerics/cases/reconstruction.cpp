@@ -18,6 +18,7 @@ const Tolerance kWeights{1e-6, "1e-6 of the flux, as the case asks for"};
 
 // The camera: 128 x 128 pixels of 60 degrees at the origin.
 constexpr int kSide = 128;
+constexpr int kEverywhere = 1 << 20;
 constexpr double kTangent = 0.57735026918962576;
 
 glm::dvec3 at(double pixelX, double pixelY, double depth) {
@@ -46,30 +47,48 @@ double deposited(const Texels& irradiance, const Texels& receiver, int x0, int y
     return watts;
 }
 
-double depositedEverywhere(const Frame& frame) {
-    const Texels irradiance = frame.read(frame.renderer().outputs().caustic.irradiance);
-    const Texels receiver = frame.read(frame.renderer().outputs().eye.receiver);
-    return deposited(irradiance, receiver, 0, 0, irradiance.width, irradiance.height);
-}
-
 // Of one of three equal channels.
 double account(const Frame& frame, unsigned which) {
     return frame.renderer().ledger().watts[which];
 }
 
+// W of a channel that are stored on these pixels: as irradiance says, or, where a filter makes one
+// map of several and keeps no sum, as the first of them does.
+double arrived(const Frame& frame, int x0, int y0, int x1, int y1) {
+    if (frame.renderer().outputs().map.maps.front().sets.flux > 1)
+        return readStored(frame).in(x0, y0, x1, y1);
+    const Texels irradiance = frame.read(frame.renderer().outputs().caustic.irradiance);
+    const Texels receiver = frame.read(frame.renderer().outputs().eye.receiver);
+    return deposited(irradiance, receiver, x0, y0, x1, y1);
+}
+double arrivedEverywhere(const Frame& frame) {
+    return arrived(frame, 0, 0, kEverywhere, kEverywhere);
+}
+
 const std::string kSun = sun({0.0, -1.0, 0.0});
+// One whose map looks as the eye does.
+const std::string kSunAlongTheView = sun({0.0, 0.0, -1.0});
+
+// Where light is stored, whatever the technique that a node comes from chooses.
+const Settings kOnTheScreen = {{"reconstruct.space", "screen"}, {"gather", "screen"}};
+Settings inTheLightsMap(int texels, const char* covers = "seen") {
+    return {{"reconstruct.space", "light"},
+            {"gather", "project"},
+            {"reconstruct.map_size", std::to_string(texels)},
+            {"reconstruct.map_covers", covers}};
+}
 
 void kernelAtEverySubPixelOffset(Lab& lab) {
     const scene::Scene scene = makeScene({}, kSun + facingPlane("wall", "grey", 60, {0, 0, -10}));
     const double pixel = 2.0 * kTangent * 10.0 / kSide;
     for (const Lab::Choice& node : lab.each<ReconstructStage>()) {
-        expectKernelWeights(lab, node, {}, "");
+        expectKernelWeights(lab, node, kOnTheScreen, "");
         std::vector<BenchPhoton> border;
         for (int i = 0; i < 60; ++i)
             border.push_back(
                 landing(at(0.05 * i, 4.0 + 2.0 * i, 10.0), {0, 0, 1}, {0, 0, -1}, pixel));
-        const Frame frame = reconstructHits(lab, node, scene, border);
-        const double on = depositedEverywhere(frame);
+        const Frame frame = reconstructHits(lab, node, scene, border, kOnTheScreen);
+        const double on = arrivedEverywhere(frame);
         const double off = account(frame, kAccountOffScreen);
         lab.expect(node.subject, "flux on the picture and clipped by its border, W", 60.0, on + off,
                    {60e-6, "1e-6 of the flux, as the case asks for"});
@@ -77,6 +96,39 @@ void kernelAtEverySubPixelOffset(Lab& lab) {
                           "else the border would not be tried");
         lab.expectAtLeast(node.subject, "of it, on the picture, W", 30.0, on,
                           "the photons lie on the picture, and so does half of each at least");
+    }
+}
+
+// As expectKernelWeights, of a map: texels of a sun that looks as the eye does, 12 of them from
+// photon to photon and a tenth more.
+void kernelAtEverySubTexelOffset(Lab& lab) {
+    const double texel = 0.1;
+    // The map covers a wall of 12.8 m.
+    const scene::Scene scene =
+        makeScene({}, kSunAlongTheView + facingPlane("wall", "grey", kSide * texel, {0, 0, -20}));
+    for (const Lab::Choice& node : lab.each<ReconstructStage>()) {
+        for (const double width : {0.02, 0.3, 1.3}) {
+            std::vector<BenchPhoton> photons;
+            for (int i = 0; i < 100; ++i) {
+                photons.push_back(landing({12.1 * texel * (i % 10 - 4.5) + 0.03 * texel,
+                                           12.1 * texel * (i / 10 - 4.5) + 0.03 * texel, -20.0},
+                                          {0, 0, 1}, {0.2, 0.1, -1}, width * texel));
+            }
+            const Frame frame =
+                reconstructHits(lab, node, scene, photons, inTheLightsMap(kSide, "scene"));
+            const StoredFlux stored = readStored(frame);
+            double worst = 0.0;
+            for (const BenchPhoton& photon : photons) {
+                const int x = static_cast<int>(std::floor(photon.position.x / texel)) + kSide / 2;
+                const int y = static_cast<int>(std::floor(photon.position.y / texel)) + kSide / 2;
+                worst = std::max(worst, std::abs(stored.in(x - 5, y - 5, x + 6, y + 6) - 1.0));
+            }
+            lab.expectDeviation(
+                node.subject,
+                fmt::format("worst sum of weights, less 1, of beams {} texels of a map wide",
+                            width),
+                worst, kWeights);
+        }
     }
 }
 
@@ -104,22 +156,18 @@ void grazingEdgeAndOccluder(Lab& lab) {
     }
     for (const Lab::Choice& node : lab.each<ReconstructStage>()) {
         lab.expect(node.subject, "flux on a floor seen at 2 degrees, W", 100.0,
-                   depositedEverywhere(reconstructHits(lab, node, floor, grazing)),
+                   arrivedEverywhere(reconstructHits(lab, node, floor, grazing, kOnTheScreen)),
                    {100e-6, "1e-6 of the flux, as for every kernel"});
 
-        const Frame edge = reconstructHits(lab, node, shelf, onTheEdge);
-        const Texels onEdge = edge.read(edge.renderer().outputs().caustic.irradiance);
-        const Texels edgeArea = edge.read(edge.renderer().outputs().eye.receiver);
+        const Frame edge = reconstructHits(lab, node, shelf, onTheEdge, kOnTheScreen);
         lab.expect(node.subject, "flux kept on a shelf by splats that hang off its edge, W", 60.0,
-                   deposited(onEdge, edgeArea, 0, 0, 64, kSide),
+                   arrived(edge, 0, 0, 64, kSide),
                    {60e-6, "1e-6 of the flux: what hangs off is redistributed on the shelf"});
         lab.expectDeviation(node.subject, "flux that leaks to the wall beyond, W",
-                            deposited(onEdge, edgeArea, 64, 0, kSide, kSide), kExactly);
+                            arrived(edge, 64, 0, kSide, kSide), kExactly);
 
-        const Frame hidden = reconstructHits(lab, node, shelf, behindTheEdge);
-        const Texels onWall = hidden.read(hidden.renderer().outputs().caustic.irradiance);
-        const Texels wallArea = hidden.read(hidden.renderer().outputs().eye.receiver);
-        const double wall = deposited(onWall, wallArea, 64, 0, kSide, kSide);
+        const Frame hidden = reconstructHits(lab, node, shelf, behindTheEdge, kOnTheScreen);
+        const double wall = arrived(hidden, 64, 0, kSide, kSide);
         const double occluded = account(hidden, kAccountOccludedSplat);
         lab.expect(node.subject, "flux on the wall and counted as hidden by the shelf, W", 60.0,
                    wall + occluded, {60e-6, "1e-6 of the flux"});
@@ -128,7 +176,82 @@ void grazingEdgeAndOccluder(Lab& lab) {
         lab.expectAtLeast(node.subject, "of it, on the wall, W", 20.0, wall,
                           "the photons lie on the wall, and so does much of each");
         lab.expectDeviation(node.subject, "flux that leaks to the shelf in front of it, W",
-                            deposited(onWall, wallArea, 0, 0, 64, kSide), kExactly);
+                            arrived(hidden, 0, 0, 64, kSide), kExactly);
+    }
+}
+
+// The same where light is stored in the map of a light: the eye sees the floor well, the sun sees it
+// at 2 degrees; map and picture end at the same places.
+void borderOfAMap(Lab& lab) {
+    const scene::Scene scene =
+        makeScene({}, kSunAlongTheView + facingPlane("wall", "grey", 60, {0, 0, -10}));
+    // Half a metre to each side of where the map ends: a fiftieth beyond what the eye sees.
+    const double end = 1.04 * 10.0 * kTangent;
+    std::vector<BenchPhoton> border;
+    for (int i = 0; i < 60; ++i) {
+        border.push_back(landing({end - 0.5 + i / 60.0, -5.0 + i / 6.0, -10.0}, {0, 0, 1},
+                                 {0, 0, -1}, 0.1));
+    }
+    for (const Lab::Choice& node : lab.each<ReconstructStage>()) {
+        const Frame frame = reconstructHits(lab, node, scene, border, inTheLightsMap(kSide));
+        const double on = readStored(frame).all();
+        const double off = account(frame, kAccountOutsideMap);
+        lab.expect(node.subject, "flux in a light's map and counted outside of it, W", 60.0,
+                   on + off, {60e-6, "1e-6 of the flux, as the case asks for"});
+        lab.expectAtLeast(node.subject, "of it, counted outside of the map, W", 15.0, off,
+                          "half of the photons lie outside");
+        lab.expectAtLeast(node.subject, "of it, in the map, W", 15.0, on,
+                          "half of the photons lie inside");
+    }
+}
+
+void grazingEdgeAndOccluderOfAMap(Lab& lab) {
+    CameraText above;
+    above.position = {0.0, 3.0, 0.01};
+    const double low = glm::radians(2.0);
+    const scene::Scene floor =
+        makeScene(above, sun({0.0, -std::sin(low), -std::cos(low)}) +
+                             floorPlane("floor", "grey", 200, {0, 0, 0}));
+    std::vector<BenchPhoton> grazing;
+    for (int i = 0; i < 100; ++i) {
+        grazing.push_back(landing({0.1 * (i % 10) - 0.45, 0.0, 0.1 * (i / 10) - 0.45}, {0, 1, 0},
+                                  {0.3, -1.0, 0.2}, 0.02));
+    }
+    const scene::Scene shelf =
+        makeScene({}, kSunAlongTheView + facingPlane("wall", "grey", 60, {0, 0, -10}) +
+                          facingPlane("shelf", "grey", 10, {-5.0, 0, -5}));
+    const double texel = 2.0 * 1.04 * 10.0 * kTangent / kSide;
+    std::vector<BenchPhoton> onTheEdge;
+    std::vector<BenchPhoton> behindTheEdge;
+    for (int i = 0; i < 60; ++i) {
+        const double y = 0.09 * i - 2.7;
+        onTheEdge.push_back(
+            landing({-0.5 * texel, y, -5.0}, {0, 0, 1}, {0, 0, -1}, 1.6 * texel));
+        behindTheEdge.push_back(
+            landing({0.5 * texel, y, -10.0}, {0, 0, 1}, {0, 0, -1}, 1.6 * texel));
+    }
+    const Settings settings = inTheLightsMap(kSide);
+    for (const Lab::Choice& node : lab.each<ReconstructStage>()) {
+        lab.expect(node.subject, "flux on a floor that its light sees at 2 degrees, W", 100.0,
+                   readStored(reconstructHits(lab, node, floor, grazing, settings)).all(),
+                   {100e-6, "1e-6 of the flux, as for every kernel"});
+
+        const Frame edge = reconstructHits(lab, node, shelf, onTheEdge, settings);
+        lab.expect(node.subject, "flux kept on a shelf's part of a light's map, W", 60.0,
+                   readStored(edge).in(0, 0, kSide / 2, kSide),
+                   {60e-6, "1e-6 of the flux: what hangs off is redistributed on the shelf"});
+        lab.expectDeviation(node.subject, "flux that leaks to the wall's part of the map, W",
+                            readStored(edge).in(kSide / 2, 0, kSide, kSide), kExactly);
+
+        const Frame hidden = reconstructHits(lab, node, shelf, behindTheEdge, settings);
+        const double wall = readStored(hidden).in(kSide / 2, 0, kSide, kSide);
+        const double counted = account(hidden, kAccountHiddenInMap);
+        lab.expect(node.subject, "flux on the wall and counted as hidden from the light, W", 60.0,
+                   wall + counted, {60e-6, "1e-6 of the flux"});
+        lab.expectAtLeast(node.subject, "of it, counted as hidden from the light, W", 10.0,
+                          counted, "else the edge would not be tried");
+        lab.expectDeviation(node.subject, "flux that leaks to the shelf's part of the map, W",
+                            readStored(hidden).in(0, 0, kSide / 2, kSide), kExactly);
     }
 }
 
@@ -141,14 +264,41 @@ void manyDepositsInOnePixel(Lab& lab) {
     photon.fluxWatts = glm::dvec3(0.1);
     const std::vector<BenchPhoton> photons(kDeposits, photon);
     for (const Lab::Choice& node : lab.each<ReconstructStage>()) {
-        const Frame frame = reconstructHits(lab, node, scene, photons, {}, {1, 1});
+        const Frame frame = reconstructHits(lab, node, scene, photons, kOnTheScreen, {1, 1});
         const double flux = 0.1 * kDeposits - account(frame, kAccountOffScreen);
         lab.expect(node.subject, "flux of 2^21 deposits of 0.1 W in one pixel, W", flux,
-                   depositedEverywhere(frame), {1e-4 * flux, "1e-4, as the case asks for"});
+                   arrivedEverywhere(frame), {1e-4 * flux, "1e-4, as the case asks for"});
         lab.expect(node.subject, "share of it that is in the pixel", 1.0, flux / (0.1 * kDeposits),
                    {0.1,
                     "a splat of one pixel's radius on a picture of "
                     "one: its rim may touch what is beside it"});
+    }
+}
+
+// A plate of less than a texel in the middle of one, and others that make the map as large as it is.
+void manyDepositsInOneTexel(Lab& lab) {
+    constexpr int kTexels = 16;
+    const double size = 1.0 / kTexels;  // of a texel, of a map of [-0.5, 0.5]²
+    std::string plates;
+    for (const double x : {-0.45, 0.45}) {
+        for (const double y : {-0.45, 0.45})
+            plates += facingPlane(fmt::format("{} {}", x, y), "grey", 0.1, {x, y, -10});
+    }
+    const glm::dvec3 middle(0.5 * size, 0.5 * size, -10.0);
+    const scene::Scene scene = makeScene(
+        {}, kSunAlongTheView + plates + facingPlane("plate", "grey", 0.8 * size, middle));
+    constexpr int kDeposits = 1 << 21;
+    BenchPhoton photon = landing(middle, {0, 0, 1}, {0, 0, -1}, 0.001);
+    photon.fluxWatts = glm::dvec3(0.1);
+    const std::vector<BenchPhoton> photons(kDeposits, photon);
+    for (const Lab::Choice& node : lab.each<ReconstructStage>()) {
+        const Frame frame = reconstructHits(lab, node, scene, photons,
+                                            inTheLightsMap(kTexels, "scene"), {1, 1});
+        const double flux = 0.1 * kDeposits;
+        lab.expect(node.subject, "flux of 2^21 deposits of 0.1 W in one texel of a map, W", flux,
+                   readStored(frame).in(kTexels / 2, kTexels / 2, kTexels / 2 + 1,
+                                        kTexels / 2 + 1),
+                   {1e-4 * flux, "1e-4, as the case asks for"});
     }
 }
 
@@ -183,6 +333,37 @@ void pointLightGrid(Lab& lab) {
     }
 }
 
+// A receiver that the sun sees at 60 degrees from its normal, through a sheet that bends nothing:
+// what a texel holds is spread over the receiver's area, not over the texel's.
+void slantedReceiverOfAMap(Lab& lab) {
+    CameraText camera;
+    camera.position = {0.0, 3.0, 0.01};
+    const double slant = glm::radians(60.0);
+    scene::Scene scene =
+        makeScene(camera, sun({std::sin(slant), -std::cos(slant), 0.0}) +
+                              floorPlane("floor", "grey", 8, {0, 0, 0}) +
+                              floorPlane("air", "water", 6, {0, 0.2, 0}));
+    scene.materials[kWater - 1].ior = 1.0f;
+    for (const Lab::Choice& node : lab.each<ReconstructStage>()) {
+        FrameRequest request{48, 48, inTheLightsMap(64, "scene")};
+        request.settings.emplace_back("emit.photons", "128x128");
+        const Frame frame = lab.render(node, scene, request);
+        const Texels irradiance = frame.read(frame.renderer().outputs().caustic.irradiance);
+        double sum = 0.0;
+        for (int y = 16; y < 32; ++y) {
+            for (int x = 16; x < 32; ++x)
+                sum += irradiance.rgb(x, y).g;
+        }
+        const double expected = 1000.0 * std::cos(slant);
+        lab.expect(node.subject, "irradiance of a floor seen by its sun at 60 degrees, W/m²",
+                   expected, sum / 256.0,
+                   {0.02 * expected,
+                    "one to three photons fall on a texel, and their rows beat with the map's: "
+                    "over the 16 x 16 pixels looked at, some 20 x 10 texels, that leaves 1 %; "
+                    "over the texel's own area it would be 100 % more"});
+    }
+}
+
 }  // namespace
 
 void expectKernelWeights(Lab& lab, const Lab::Choice& reconstruct, const Settings& settings,
@@ -198,14 +379,11 @@ void expectKernelWeights(Lab& lab, const Lab::Choice& reconstruct, const Setting
             photons.push_back(landing(at(x, y, 10.0), {0, 0, 1}, {0.2, 0.1, -1}, footprint));
         }
         const Frame frame = reconstructHits(lab, reconstruct, scene, photons, settings);
-        const Texels irradiance = frame.read(frame.renderer().outputs().caustic.irradiance);
-        const Texels receiver = frame.read(frame.renderer().outputs().eye.receiver);
         double worst = 0.0;
         for (int i = 0; i < 100; ++i) {
             const int x = 12 * (i % 10);
             const int y = 12 * (i / 10);
-            worst = std::max(worst,
-                             std::abs(deposited(irradiance, receiver, x, y, x + 12, y + 12) - 1.0));
+            worst = std::max(worst, std::abs(arrived(frame, x, y, x + 12, y + 12) - 1.0));
         }
         lab.expectDeviation(reconstruct.subject,
                             fmt::format("worst sum of weights, less 1, of beams {} pixels wide{}",
@@ -219,12 +397,17 @@ void addReconstructionCases(Suite& suite) {
               "A kernel keeps its flux at every offset and size; what the border clips is "
               "counted.",
               kernelAtEverySubPixelOffset);
+    suite.add("D31", "", kernelAtEverySubTexelOffset);
+    suite.add("D31", "", borderOfAMap);
     suite.add("D32",
               "A splat stays on its surface: at grazing angles, at an edge, behind an "
               "occluder.",
               grazingEdgeAndOccluder);
+    suite.add("D32", "", grazingEdgeAndOccluderOfAMap);
     suite.add("D34", "Very many deposits in one pixel do not drift.", manyDepositsInOnePixel);
+    suite.add("D34", "", manyDepositsInOneTexel);
     suite.add("D34a", "The flux of a point light's texel is by its solid angle.", pointLightGrid);
+    suite.add("D34a", "", slantedReceiverOfAMap);
 }
 
 }  // namespace kaustik::numerics

@@ -77,7 +77,7 @@ void expectNoHits(Lab& lab, const std::string& subject, const std::string& what,
 }
 
 // The same of what the eye does not see; of a tracer that sees it all the same, rows that say that
-// all hit. The scenes are of flat receivers.
+// all hit. The scenes are of flat receivers, which their light sees.
 void expectCounted(Lab& lab, const Lab::Choice& tracer, const std::string& what,
                    const std::vector<BenchPhoton>& photons, const Traced& traced,
                    const std::vector<unsigned>& accounts, const std::string& names) {
@@ -90,12 +90,18 @@ void expectCounted(Lab& lab, const Lab::Choice& tracer, const std::string& what,
     expectNoHits(lab, tracer.subject, what, photons, traced, accounts, names);
 }
 
-// Flux that is in the ledger needs a light for its quantum.
+// Flux that is in the ledger needs a light for its quantum, and a tracer in a light's depths one that
+// sees what is to be hit: the sun sees no wall that faces the eye, a lamp beside the eye all around it.
 const std::string kSun = sun({0.0, -1.0, 0.0});
+const std::string kLampAtTheEye =
+    "[[light]]\nname = \"lamp\"\ntype = \"point\"\nposition = [0.02, 0.03, 0]\nintensity = 1000\n";
+// Of what the light's view of receivers does not show.
+const std::vector<unsigned> kUnseenByLight = {kAccountHiddenInMap, kAccountOutsideMap,
+                                              kAccountUnresolved};
 
 void nearPlaneAndBehindTheEye(Lab& lab) {
     const scene::Scene scene =
-        makeScene({}, kSun + facingPlane("wall", "grey", 60, {0, 0, -10}) +
+        makeScene({}, kLampAtTheEye + facingPlane("wall", "grey", 60, {0, 0, -10}) +
                           facingPlane("wall behind", "grey", 60, {0, 0, 10}));
     std::vector<BenchPhoton> fromBehind;
     std::vector<BenchPhoton> toBehind;
@@ -117,7 +123,7 @@ void nearPlaneAndBehindTheEye(Lab& lab) {
 
 void whollyBehindTheEye(Lab& lab) {
     const scene::Scene scene =
-        makeScene({}, kSun + facingPlane("wall", "grey", 60, {0, 0, -10}) +
+        makeScene({}, kLampAtTheEye + facingPlane("wall", "grey", 60, {0, 0, -10}) +
                           facingPlane("wall behind", "grey", 60, {0, 0, 10}));
     std::vector<BenchPhoton> photons;
     for (int i = 0; i < 64; ++i)
@@ -130,8 +136,9 @@ void whollyBehindTheEye(Lab& lab) {
 }
 
 void alongTheViewDirection(Lab& lab) {
-    const scene::Scene scene = makeScene({}, kSun + facingPlane("wall", "grey", 60, {0, 0, -10}) +
-                                                 facingPlane("plate", "white", 4, {0, 0, -3}));
+    const scene::Scene scene =
+        makeScene({}, kLampAtTheEye + facingPlane("wall", "grey", 60, {0, 0, -10}) +
+                          facingPlane("plate", "white", 4, {0, 0, -3}));
     std::vector<BenchPhoton> parallel;
     std::vector<BenchPhoton> away;
     std::vector<BenchPhoton> towards;
@@ -159,7 +166,8 @@ glm::dvec3 at(double pixelX, double pixelY, double depth) {
 }
 
 void diagonalsEdgesAndTies(Lab& lab) {
-    const scene::Scene scene = makeScene({}, kSun + facingPlane("wall", "grey", 60, {0, 0, -10}));
+    const scene::Scene scene =
+        makeScene({}, kLampAtTheEye + facingPlane("wall", "grey", 60, {0, 0, -10}));
     std::vector<BenchPhoton> photons;
     for (const double start : {20.0, 20.5, 33.25}) {
         for (const double length : {1.0, 7.0, 32.0, 60.0}) {
@@ -178,7 +186,8 @@ void diagonalsEdgesAndTies(Lab& lab) {
 }
 
 void offScreenAndBeyondTheLastLayer(Lab& lab) {
-    const scene::Scene scene = makeScene({}, kSun + facingPlane("1", "grey", 40, {0, 0, -3}) +
+    const scene::Scene scene = makeScene({}, kLampAtTheEye +
+                                                 facingPlane("1", "grey", 40, {0, 0, -3}) +
                                                  facingPlane("2", "grey", 40, {0, 0, -4}) +
                                                  facingPlane("3", "grey", 40, {0, 0, -5}) +
                                                  facingPlane("4", "grey", 40, {0, 0, -6}));
@@ -193,6 +202,12 @@ void offScreenAndBeyondTheLastLayer(Lab& lab) {
     for (const Lab::Choice& tracer : lab.each<TraceStage>()) {
         expectCounted(lab, tracer, "rays that leave the screen before they hit", leaving,
                       tracePhotons(lab, tracer, scene, leaving), {kAccountOffScreen}, "off screen");
+        if (lab.seenBy(tracer) == Sees::lightFront) {
+            expectNoHits(lab, tracer.subject, "rays beyond what the light sees", hidden,
+                         tracePhotons(lab, tracer, scene, hidden), kUnseenByLight,
+                         "hidden in the map or unresolved");
+            continue;
+        }
         expectCounted(lab, tracer, "rays beyond the last of 3 layers", hidden,
                       tracePhotons(lab, tracer, scene, hidden, {{"layers.count", "3"}}),
                       {kAccountBeyondLastLayer, kAccountUnresolved},
@@ -202,7 +217,7 @@ void offScreenAndBeyondTheLastLayer(Lab& lab) {
 
 void passesBehind(Lab& lab) {
     const scene::Scene scene =
-        makeScene({}, kSun + facingPlane("wall", "grey", 60, {0, 0, -10}) +
+        makeScene({}, kLampAtTheEye + facingPlane("wall", "grey", 60, {0, 0, -10}) +
                           object("box", "box", "white", {0, 0, -5}, "size = [2, 2, 1]") +
                           facingPlane("plate", "white", 1, {2, 1.5, -5}));
     std::vector<BenchPhoton> photons;
@@ -218,7 +233,7 @@ void passesBehind(Lab& lab) {
 void stepsAcrossAThinSurface(Lab& lab) {
     const glm::dvec3 normal = glm::normalize(glm::dvec3(0.0, std::sin(0.5), std::cos(0.5)));
     const scene::Scene scene =
-        makeScene({}, kSun + facingPlane("wall", "grey", 60, {0, 0, -100}) +
+        makeScene({}, kLampAtTheEye + facingPlane("wall", "grey", 60, {0, 0, -100}) +
                           object("sheet", "plane", "white", {0, 0, -5},
                                  fmt::format("size = [8, 8]\nrotation_degrees = [{}, 0, 0]",
                                              number(90.0 - glm::degrees(0.5)))));
@@ -309,12 +324,12 @@ void openMirrors(Lab& lab) {
     }
     const Tolerance offsets{1e-4, "32-bit depths and normals of planes 6 m away, seen at a slant"};
     for (const Lab::Choice& tracer : lab.each<TraceStage>()) {
-        if (lab.seenBy(tracer) == Sees::flatReceivers) {
+        if (lab.seesReceiversAlone(tracer)) {
             for (const std::vector<BenchPhoton>* photons : {&inTheOpen, &fromFront, &fromBack}) {
                 expectNoHits(lab, tracer.subject,
                              "photons between open mirrors, of which it sees none", *photons,
-                             tracePhotons(lab, tracer, scene, *photons), {kAccountUnresolved},
-                             "unresolved");
+                             tracePhotons(lab, tracer, scene, *photons), kUnseenByLight,
+                             "unresolved or outside of the map");
             }
             continue;
         }
@@ -332,7 +347,7 @@ void openMirrors(Lab& lab) {
 void twoSurfacesWithinEpsilon(Lab& lab) {
     const double gap = 0.002;
     const scene::Scene scene =
-        makeScene({}, kSun + facingPlane("front", "grey", 60, {0, 0, -10}) +
+        makeScene({}, kLampAtTheEye + facingPlane("front", "grey", 60, {0, 0, -10}) +
                           facingPlane("back", "white", 60, {0, 0, -10 - gap}) +
                           facingPlane("behind", "grey", 60, {0, 0, -20}));
     std::vector<BenchPhoton> forth;
@@ -348,6 +363,13 @@ void twoSurfacesWithinEpsilon(Lab& lab) {
     for (const Lab::Choice& tracer : lab.each<TraceStage>()) {
         expectHits(lab, tracer.subject, "the nearer of two walls 2 mm apart", forth,
                    tracePhotons(lab, tracer, scene, forth), {0, 0, 1}, -10.0, kGrey);
+        if (lab.seenBy(tracer) == Sees::lightFront) {
+            // It has no thickness to be told of, and trace.test and epsilon are not its.
+            expectHits(lab, tracer.subject,
+                       "the farther of them from behind, which alone its light sees", back,
+                       tracePhotons(lab, tracer, scene, back), {0, 0, 1}, -10.0, kGrey);
+            continue;
+        }
         expectHits(lab, tracer.subject, "the nearer of them from behind", back,
                    tracePhotons(lab, tracer, scene, back), {0, 0, 1}, -10.0 - gap, kWhite);
         // No step is longer than 0.2 m here, so that none can see the farther wall alone.
@@ -388,6 +410,14 @@ void edgeOnOrBelowAPixel(Lab& lab) {
                                                 kAccountUnresolved, kAccountOffScreen};
         expectCounted(lab, tracer, "a sheet seen edge-on", edge,
                       tracePhotons(lab, tracer, scene, edge), accounts, "lost");
+        if (lab.seenBy(tracer) == Sees::lightFront) {
+            // The sides of the speck, which the sun does not see.
+            std::vector<unsigned> unseen = kUnseenByLight;
+            unseen.push_back(kAccountMissedByTracer);
+            expectNoHits(lab, tracer.subject, "a speck below a texel of its light's", speck,
+                         tracePhotons(lab, tracer, scene, speck), unseen, "lost");
+            continue;
+        }
         expectCounted(lab, tracer, "a speck below a pixel", speck,
                       tracePhotons(lab, tracer, scene, speck), accounts, "lost");
     }
