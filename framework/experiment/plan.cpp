@@ -123,6 +123,7 @@ class Planner {
 
     static AxisDescription describe(const std::string& key, const params::ParamSet& params) {
         if (key == "time") return {key, "s", "Time of the animation", {}};
+        if (key == "time_step") return {key, "s", "Time from frame to frame", {}};
         if (key == "size") return {key, "px", "Picture size", {}};
         if (Resolver::isRunKey(key)) return {key, "", "", {}};
         for (const params::NamedField& named : params.all()) {

@@ -20,9 +20,18 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 const std::vector<std::string>& runKeys() {
-    static const std::vector<std::string> keys = {
-        "scene",     "technique",         "size",   "frames", "warmup", "seed", "precise", "time",
-        "reference", "reference_photons", "disable"};
+    static const std::vector<std::string> keys = {"scene",
+                                                  "technique",
+                                                  "size",
+                                                  "frames",
+                                                  "warmup",
+                                                  "seed",
+                                                  "precise",
+                                                  "time",
+                                                  "time_step",
+                                                  "reference",
+                                                  "reference_photons",
+                                                  "disable"};
     return keys;
 }
 
@@ -224,6 +233,8 @@ Resolver::Resolved Resolver::resolve(const std::vector<Setting>& base,
     const KnownScene& scene = this->scene(values["scene"]);
     const bool hasTime = values.contains("time");
     const double time = hasTime ? requireSeconds(values["time"]) : scene.timeSeconds;
+    const bool hasTimeStep = values.contains("time_step");
+    const double timeStep = hasTimeStep ? requireSeconds(values["time_step"]) : 0.0;
     if (!values["precise"].value.is_boolean()) {
         fail(values["precise"], "precise must be true or false.");
     }
@@ -244,6 +255,9 @@ Resolver::Resolved Resolver::resolve(const std::vector<Setting>& base,
         {"reference", reference},
         {"reference_photons", requireWhole(values["reference_photons"], 1, kMostReferencePhotons)},
         {"version", versionString()}};
+
+    // Only where it is there, so that studies of still scenes keep the folders that they have.
+    if (hasTimeStep) result.settings["time_step_s"] = timeStep;
 
     const json& settings = result.settings;
     result.disablePlace = values["disable"].place;
@@ -267,12 +281,15 @@ Resolver::Resolved Resolver::resolve(const std::vector<Setting>& base,
         result.runArguments.push_back(
             option("reference-photons", settings["reference_photons"].dump()));
     }
+    if (hasTimeStep)
+        result.runArguments.push_back(option("time-step", fmt::format("{}", timeStep)));
     if (precise) result.runArguments.emplace_back("--precise");
     return result;
 }
 
 json Resolver::valueOf(const json& settings, const std::string& fullKey) {
     if (fullKey == "time") return settings.at("time_s");
+    if (fullKey == "time_step") return settings.value("time_step_s", json());
     if (fullKey == "disable") {
         const auto passes = settings.at("disable").get<std::vector<std::string>>();
         return passes.empty() ? json("none") : json(fmt::format("{}", fmt::join(passes, " ")));

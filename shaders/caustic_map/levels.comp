@@ -35,7 +35,7 @@ void main() {
     for (int view = 0; view < views; ++view) {
         int chosen = levels - 1;
         for (int level = levels - 1; level >= 0; --level) {
-            if (countAt(texel >> level, level, view) >= uint(filter_levels_photons)) chosen = level;
+            if (countAt(texel >> level, level, view) >= uint(filter_levels_enough)) chosen = level;
         }
         storeFiltered(texel, view, 0, sampleLevel(texel, chosen, view));
     }

@@ -114,46 +114,48 @@ void deposit(Splat splat, ivec2 texel, WEIGHT share, vec3 flux, vec3 direction) 
         depositGlossy(texel, viewIndex * mapsPerView + mapsPerView - 1, flux * widest, direction);
 }
 
-// Gives the account of what was not deposited, kAccountDeposited where all was.
-uint splatInView(Splat splat, vec3 flux, vec3 direction) {
-    float reach = max(splat.radius, 0.5);
+float reachOf(Splat splat) {
 #ifdef FOUR_RADII
-    reach = 7.5;
+    return 7.5;
+#else
+    return max(splat.radius, 0.5);
 #endif
-    ivec2 first = ivec2(ceil(splat.center - reach - 0.5));
-    ivec2 last = ivec2(floor(splat.center + reach - 0.5));
+}
+ivec2 firstOf(Splat splat) { return ivec2(ceil(splat.center - reachOf(splat) - 0.5)); }
+ivec2 lastOf(Splat splat) { return ivec2(floor(splat.center + reachOf(splat) - 0.5)); }
+
+WEIGHT sumOfWeights(Splat splat) {
+    ivec2 first = firstOf(splat);
+    ivec2 last = lastOf(splat);
     WEIGHT total = WEIGHT(0.0);
     for (int y = first.y; y <= last.y; ++y) {
         for (int x = first.x; x <= last.x; ++x) {
             if (takes(splat, ivec2(x, y))) total += weightAt(splat, ivec2(x, y));
         }
     }
-#ifdef FOUR_RADII
-    if (total.w <= 0.0) return lookAt(splat, ivec2(floor(splat.center))) == kSeenOccluded ? kAccountHidden : kAccountEdgeOn;
-    // A small splat that finds no texel is as wide as the next.
-    for (int i = 2; i >= 0; --i) {
-        if (total[i] <= 0.0) total[i] = -1.0;
-    }
-#else
-    if (total <= 0.0) return lookAt(splat, ivec2(floor(splat.center))) == kSeenOccluded ? kAccountHidden : kAccountEdgeOn;
-#endif
+    return total;
+}
+
+// `total`: of the weights in all views.
+void splatInView(Splat splat, WEIGHT total, vec3 flux, vec3 direction) {
+    ivec2 first = firstOf(splat);
+    ivec2 last = lastOf(splat);
     for (int y = first.y; y <= last.y; ++y) {
         for (int x = first.x; x <= last.x; ++x) {
             ivec2 texel = ivec2(x, y);
             if (!takes(splat, texel)) continue;
-            WEIGHT weight = weightAt(splat, texel);
+            WEIGHT share = weightAt(splat, texel) / max(total, WEIGHT(1e-37));
 #ifdef FOUR_RADII
-            vec4 share = weight / total;
+            // A small splat that finds no texel is as wide as the next.
             for (int i = 2; i >= 0; --i) {
-                if (total[i] < 0.0) share[i] = share[i + 1];
+                if (total[i] <= 0.0) share[i] = share[i + 1];
             }
             deposit(splat, texel, share, flux, direction);
 #else
-            if (weight > 0.0) deposit(splat, texel, weight / total, flux, direction);
+            if (share > 0.0) deposit(splat, texel, share, flux, direction);
 #endif
         }
     }
-    return kAccountDeposited;
 }
 
 float radiusOf(ivec2 texel, vec3 position) {
@@ -172,6 +174,24 @@ float radiusOf(ivec2 texel, vec3 position) {
 #endif
 }
 
+// Of a photon that arrives at `positionVs`, in the current view; false where none of it lies there.
+// A splat at the edge of one face of a cube goes on in the next.
+bool splatOf(ivec2 texel, vec3 positionVs, vec3 normalVs, out Splat splat) {
+    splat.position = pointFromEye(positionVs);
+    if (-splat.position.z <= view.frustum.z) return false;
+    splat.normal = directionFromEye(normalVs);
+    splat.radius = radiusOf(texel, splat.position);
+    splat.center = pixelOf(splat.position) / float(1 << level);
+    if (atTexels == 1) splat.center = floor(splat.center) + 0.5;
+    vec2 beside = max(-splat.center, splat.center - vec2(sizeOfLevel(level)));
+    return all(lessThan(beside, vec2(reachOf(splat))));
+}
+
+bool isInView(Splat splat) {
+    vec2 at = pixelOf(splat.position);
+    return all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, view.sizePixels.xy));
+}
+
 void main() {
     uint index = photonOfThread();
     if (index >= photons.count) return;
@@ -181,24 +201,38 @@ void main() {
     vec3 positionVs = texelFetch(hitPosition, texel, 0).xyz;
     vec4 surface = texelFetch(hitSurface, texel, 0);
     vec3 direction = texelFetch(photonDirection, texel, 0).xyz;
-    uint account = kAccountBeside;
+    WEIGHT total = WEIGHT(0.0);
+    uint account = kAccountBeside;  // of a photon that finds no texel
+    Splat splat;
     for (int face = 0; face < viewCount; ++face) {
 #ifdef MANY_VIEWS
         viewIndex = face;
 #endif
-        Splat splat;
-        splat.position = pointFromEye(positionVs);
-        if (-splat.position.z <= view.frustum.z) continue;
-        vec2 at = pixelOf(splat.position);
-        if (any(lessThan(at, vec2(0.0))) || any(greaterThanEqual(at, view.sizePixels.xy))) continue;
-        splat.normal = directionFromEye(surface.xyz);
-        splat.radius = radiusOf(texel, splat.position);
-        splat.center = at / float(1 << level);
-        if (atTexels == 1) splat.center = floor(splat.center) + 0.5;
-        bool isLit = !isOpen(uint(surface.w) - 1u) ||
-                     seesLitSide(splat.position, splat.normal, directionFromEye(direction));
-        account = isLit ? splatInView(splat, flux, direction) : kAccountHidden;
-        break;
+        if (!splatOf(texel, positionVs, surface.xyz, splat)) continue;
+        if (isInView(splat)) {
+            bool isLit = !isOpen(uint(surface.w) - 1u) ||
+                         seesLitSide(splat.position, splat.normal, directionFromEye(direction));
+            bool isHidden = lookAt(splat, ivec2(floor(pixelOf(splat.position)))) == kSeenOccluded;
+            account = isHidden || !isLit ? kAccountHidden : kAccountEdgeOn;
+            if (!isLit) break;
+        }
+        total += sumOfWeights(splat);
     }
-    if (account != kAccountDeposited && level == 0) ledgerAdd(account, flux);
+#ifdef FOUR_RADII
+    bool finds = total.w > 0.0;
+#else
+    bool finds = total > 0.0;
+#endif
+    // Where it arrives beside all views, what reaches into one is not of it alone.
+    if (account == kAccountBeside) finds = false;
+    if (!finds) {
+        if (level == 0) ledgerAdd(account, flux);
+        return;
+    }
+    for (int face = 0; face < viewCount; ++face) {
+#ifdef MANY_VIEWS
+        viewIndex = face;
+#endif
+        if (splatOf(texel, positionVs, surface.xyz, splat)) splatInView(splat, total, flux, direction);
+    }
 }

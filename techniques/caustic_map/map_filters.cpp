@@ -47,15 +47,15 @@ struct BlendParams {
 enum class LevelSource : int { splats, mip };
 
 struct LevelFilterParams {
-    LevelSource source = LevelSource::splats;
-    int photons = 16;
+    LevelSource from = LevelSource::splats;
+    int enough = 16;
     template <class R>
     void reflect(R& r) {
-        r.choice(source, "source",
+        r.choice(from, "from",
                  "splats: levels as reconstruct.levels has splatted them; mip: sums of four texels "
                  "of the level before",
                  {"splats", "mip"});
-        r.field(photons, "photons", "Photons on a texel of a level from which on it is enough", "",
+        r.field(enough, "enough", "Photons on a texel of a level from which on it is enough", "",
                 params::range(1, 1000000));
     }
 };
@@ -189,7 +189,7 @@ FluxMap makeMipChain(FrameBuilder& frame, const FluxMap& map) {
 
 CausticMap pickLevels(FrameBuilder& frame, const LevelFilterParams& params, CausticMap map) {
     needsSets("filter.levels", map, 2, "reconstruct.levels");
-    if (params.source == LevelSource::mip) {
+    if (params.from == LevelSource::mip) {
         for (FluxMap& one : map.maps)
             one = makeMipChain(frame, one);
     }

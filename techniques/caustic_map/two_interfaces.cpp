@@ -12,6 +12,10 @@
 // that D = D0 |1 + d_bg (1/d_front - P)| stays finite with the receiver at the focus and the light
 // at the focal length.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <string>
+#include <vector>
 
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/caustic_map/nodes.h"
@@ -49,11 +53,36 @@ struct TwoInterfacesParams {
     }
 };
 
+// Paths that the scene has and this cannot form, in a sentence; "" where it has none.
+std::string whatIsNotFollowed(const FrameBuilder& frame, const TwoInterfacesParams& params) {
+    const scene::SceneNeeds& needs = frame.needs();
+    std::vector<std::string> paths;
+    if (needs.reflectedLight && params.branch == FollowedBranch::refracted) {
+        paths.push_back(fmt::format("of what '{}' reflects to '{}'", needs.reflectedLight->sheet,
+                                    needs.reflectedLight->receiver));
+    }
+    if (needs.concaveBody) {
+        paths.push_back(fmt::format("through more than two interfaces of '{}', which is not convex",
+                                    *needs.concaveBody));
+    }
+    if (needs.reflectors > 0 && needs.hitsAgain.reflected)
+        paths.emplace_back("from one mirror to another, or to itself");
+    if (needs.reflectors + needs.refractors > 1 && needs.hitsAgain.transmitted)
+        paths.emplace_back("from one specular object to another");
+    if (paths.empty()) return "";
+    return fmt::format("specular=two_interfaces: this technique cannot form paths {}.",
+                       fmt::join(paths, "; nor "));
+}
+
 Photons interactTwice(FrameBuilder& frame, const TwoInterfacesParams& params, Hits hits,
                       Surfaces surfaces) {
     const std::vector<LightSight> sights = *frame.once<std::vector<LightSight>>(
         "specular.sights",
         [&] { return std::make_shared<std::vector<LightSight>>(sightsOfSpecular(frame)); });
+    if (frame.runsOf(SpecularStage::name) == 1) {
+        const std::string sentence = whatIsNotFollowed(frame, params);
+        if (!sentence.empty()) frame.warn(sentence);
+    }
     const NextPhotons next = makeRoom(frame, hits, 1);
     Photons photons = next.photons;
     photons.ledger = hits.incoming.ledger;
