@@ -14,10 +14,25 @@ const Registry& registry() {
     return instance;
 }
 
-numerics::FrameRequest request(const Settings& settings, bool hasBeams, int width, int height) {
+// Whether photons are counted in the map.
+bool hasCounts(const std::string& technique, const Settings& settings) {
+    bool has = technique == "multi_resolution";
+    for (const auto& [name, value] : settings) {
+        if (name == "reconstruct") has = value == "four_radii" || value == "levels";
+    }
+    return has;
+}
+
+numerics::FrameRequest request(const std::string& technique, const Settings& settings,
+                               bool hasBeams, int width, int height) {
     numerics::FrameRequest request{width, height, settings};
     request.saved = {"eye.receiver", "eye.receiver_surface", "caustic.irradiance", "hits.position",
                      "hits.flux"};
+    bool isInMap = true;
+    for (const auto& [name, value] : settings)
+        isInMap = isInMap && (name != "reconstruct.space" || value == "light");
+    if (isInMap) request.saved.emplace_back("caustic.flux");
+    if (hasCounts(technique, settings)) request.saved.emplace_back("caustic.flux_counts");
     if (hasBeams) request.saved.insert(request.saved.end(), {"photons.place_1", "photons.turn_1"});
     request.recordsTraces = true;
     return request;
@@ -39,7 +54,7 @@ glm::dvec3 MapTexels::sum() const {
 MapFrame::MapFrame(const scene::Scene& scene, const std::string& technique,
                    const Settings& settings, bool hasBeams, int width, int height)
     : numerics::Frame(context(), registry(), scene, registry().findTechnique(technique),
-                      request(settings, hasBeams, width, height)),
+                      request(technique, settings, hasBeams, width, height)),
       hasBeams_(hasBeams) {}
 
 std::vector<MapPhoton> MapFrame::photons() const {
@@ -82,31 +97,6 @@ const FluxMap& MapFrame::map(std::size_t light) const {
     return renderer().outputs().map.maps[light];
 }
 
-const render::RasterView& MapFrame::mapView(int view, std::size_t light) const {
-    return map(light).on.views->view(view);
-}
-
-MapTexels MapFrame::stored(int set, int view, std::size_t light) const {
-    const FluxMap& map = this->map(light);
-    const std::vector<std::uint32_t> words = renderer().texture(map.flux).readWords();
-    MapTexels texels{map.on.views->width(), map.on.views->height(), {}};
-    const auto layer =
-        static_cast<std::size_t>(texels.width) * static_cast<std::size_t>(texels.height);
-    const double unit = mapUnit(renderer().scene());
-    const auto first = static_cast<std::size_t>(static_cast<int>(transport::kFluxWords) *
-                                                (view * map.sets.perView() + set));
-    for (std::size_t i = 0; i < layer; ++i) {
-        glm::dvec3 flux(0.0);
-        for (std::size_t c = 0; c < 3; ++c) {
-            const std::size_t low = (first + 2 * c) * layer + i;
-            flux[static_cast<int>(c)] =
-                (4294967296.0 * words[low + layer] + double(words[low])) * unit;
-        }
-        texels.flux.push_back(flux);
-    }
-    return texels;
-}
-
 MapTexels MapFrame::filtered(int view, std::size_t light) const {
     const FluxMap& map = renderer().outputs().filtered.maps[light];
     const Texels read = this->read(map.filtered, view * map.filteredPerView());
@@ -134,14 +124,6 @@ std::vector<std::uint32_t> MapFrame::words() const {
     return all;
 }
 
-glm::dvec2 MapFrame::texelOf(const glm::dvec3& world) const {
-    const render::RasterView& view = mapView();
-    const glm::dvec3 point(view.worldToView * glm::dvec4(world, 1.0));
-    const double depth = view.isOrthographic ? 1.0 : -point.z;
-    const glm::dvec2 size(view.width, view.height);
-    return (0.5 + 0.5 * glm::dvec2(point) / (depth * view.halfExtent)) * size;
-}
-
 double MapFrame::watts(std::uint32_t account) const {
     return renderer().ledger().watts[account];
 }
@@ -156,6 +138,45 @@ void MapFrame::expectBalance() const {
                     renderer().ledger(renderer().traces().front().after).watts[kAccountOutsideMap] -
                     renderer().ledger(renderer().traces().front().after).watts[kAccountHiddenInMap],
                 ledger.watts[kAccountArrived], 1e-6 * ledger.watts[kAccountArrived]);
+}
+
+MapTexels storedIn(const numerics::Frame& frame, int set, int view, std::size_t light) {
+    const FluxMap& map = frame.renderer().outputs().map.maps[light];
+    const std::vector<std::uint32_t> words = frame.renderer().texture(map.flux).readWords();
+    MapTexels texels{map.on.views->width(), map.on.views->height(), {}};
+    const auto layer =
+        static_cast<std::size_t>(texels.width) * static_cast<std::size_t>(texels.height);
+    const double unit = mapUnit(frame.renderer().scene());
+    const auto first = static_cast<std::size_t>(static_cast<int>(transport::kFluxWords) *
+                                                (view * map.sets.perView() + set));
+    for (std::size_t i = 0; i < layer; ++i) {
+        glm::dvec3 flux(0.0);
+        for (std::size_t c = 0; c < 3; ++c) {
+            const std::size_t low = (first + 2 * c) * layer + i;
+            flux[static_cast<int>(c)] =
+                (4294967296.0 * words[low + layer] + double(words[low])) * unit;
+        }
+        texels.flux.push_back(flux);
+    }
+    return texels;
+}
+
+const render::RasterView& mapViewOf(const numerics::Frame& frame, int view, std::size_t light) {
+    return frame.renderer().outputs().map.maps[light].on.views->view(view);
+}
+
+glm::dvec2 texelOn(const render::RasterView& view, const glm::dvec3& world) {
+    const glm::dvec3 point(view.worldToView * glm::dvec4(world, 1.0));
+    const double depth = view.isOrthographic ? 1.0 : -point.z;
+    const glm::dvec2 size(view.width, view.height);
+    return (0.5 + 0.5 * glm::dvec2(point) / (depth * view.halfExtent)) * size;
+}
+
+glm::dvec3 placeBefore(const render::RasterView& view, const glm::dvec2& texel, double depth) {
+    const glm::dvec2 size(view.width, view.height);
+    const glm::dvec2 across =
+        (2.0 * texel / size - 1.0) * view.halfExtent * (view.isOrthographic ? 1.0 : depth);
+    return glm::dvec3(glm::inverse(view.worldToView) * glm::dvec4(across, -depth, 1.0));
 }
 
 double mapUnit(const scene::Scene& scene) {

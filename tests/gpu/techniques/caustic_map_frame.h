@@ -48,6 +48,17 @@ struct MapTexels {
     [[nodiscard]] glm::dvec3 sum() const;
 };
 
+// Of any frame that has maps: a set of a view of the map of a light.
+[[nodiscard]] MapTexels storedIn(const numerics::Frame& frame, int set = 0, int view = 0,
+                                 std::size_t light = 0);
+[[nodiscard]] const render::RasterView& mapViewOf(const numerics::Frame& frame, int view = 0,
+                                                  std::size_t light = 0);
+// Where a view sees a place, in texels from its lower left corner, and the other way round: the
+// place that is `depth` m before it.
+[[nodiscard]] glm::dvec2 texelOn(const render::RasterView& view, const glm::dvec3& world);
+[[nodiscard]] glm::dvec3 placeBefore(const render::RasterView& view, const glm::dvec2& texel,
+                                     double depth);
+
 class MapFrame : public numerics::Frame {
   public:
     // `hasBeams`: photons carry beams, whoever uses them.
@@ -56,8 +67,6 @@ class MapFrame : public numerics::Frame {
 
     // Of the first tracing, which light comes to after the first specular stage.
     [[nodiscard]] std::vector<MapPhoton> photons() const;
-    // Sums of a set of flux, in a view of the map of a light.
-    [[nodiscard]] MapTexels stored(int set = 0, int view = 0, std::size_t light = 0) const;
     // What a filter has made of it.
     [[nodiscard]] MapTexels filtered(int view = 0, std::size_t light = 0) const;
     // Photons that were counted in a set.
@@ -65,9 +74,6 @@ class MapFrame : public numerics::Frame {
     // All words of all maps: equal ones are equal to the bit.
     [[nodiscard]] std::vector<std::uint32_t> words() const;
     [[nodiscard]] const FluxMap& map(std::size_t light = 0) const;
-    [[nodiscard]] const render::RasterView& mapView(int view = 0, std::size_t light = 0) const;
-    // Where the map's view sees a place, in texels from its lower left corner.
-    [[nodiscard]] glm::dvec2 texelOf(const glm::dvec3& world) const;
     [[nodiscard]] double watts(std::uint32_t account) const;
     // That the ledger balances, and everything that arrived is in an account.
     void expectBalance() const;
