@@ -544,7 +544,7 @@ TEST(Maps, OfAllSizesHoldAllLight) {
         for (const auto& settings :
              {Settings{{"reconstruct", "fixed"}},
               Settings{{"reconstruct", "four_radii"}, {"filter", "blend"}}, kLevels}) {
-            if (std::string(size) == "4096" && settings.front().second != "fixed") continue;
+            if (std::string(size).size() > 2 && settings.front().second != "fixed") continue;
             const MapFrame frame(scene, "caustic_map",
                                  with(settings, {{"emit.photons", "32x32"},
                                                  {"reconstruct.map_size", size},
@@ -577,7 +577,9 @@ TEST(Photons, OfAllNumbersBringTheSameLight) {
     const scene::Scene scene = uniform();
     for (const char* photons : {"32x32", "513x7", "2048x2048"}) {
         const MapFrame frame(scene, "caustic_map",
-                             {{"emit.photons", photons}, {"reconstruct.map_size", "256"}});
+                             {{"emit.photons", photons},
+                              {"reconstruct.map_size", "256"},
+                              {"reconstruct.fixed.diameter", "1"}});
         EXPECT_NEAR(frame.watts(kAccountArrived), 4000.0, 1e-3 * 4000.0) << photons;
         frame.expectBalance();
     }
