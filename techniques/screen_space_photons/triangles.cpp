@@ -110,10 +110,16 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& params, const Hits& h
             context.buffer(data.photonOfCell).clear();
             context.buffer(data.counts).clear();
             context.buffer(data.narrowed).clear();
-            const auto shader = [&](const char* name) {
+            // `asksLight`: whether it is the one that asks which photons arrive.
+            const auto shader = [&](const char* name, bool asksLight) {
                 gl::Command command =
                     context.compute(fmt::format("screen_space_photons/{}.comp", name));
-                bindStore(command, store).params("reconstruct.triangles", params);
+                if (asksLight) {
+                    bindStore(command, store);
+                } else {
+                    store.receivers.views->bindTo(command);
+                }
+                command.params("reconstruct.triangles", params);
                 setCells(command, list.cells);
                 return command;
             };
@@ -123,12 +129,12 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& params, const Hits& h
                     .dispatch(1);
             };
             for (const char* name : {"triangles_cells", "triangles_join", "triangles_list"}) {
-                gl::Command command = shader(name);
+                gl::Command command = shader(name, std::string(name) != "triangles_join");
                 dispatchOver(command, list);
             }
             for (int isWide = 0; isWide < 2; ++isWide) {
                 countGroups(isWide);
-                gl::Command command = shader(isWide == 1 ? "triangles_wide" : "triangles");
+                gl::Command command = shader(isWide == 1 ? "triangles_wide" : "triangles", false);
                 setDeposit(command, sets);
                 command.dispatchIndirect(data.counts,
                                          static_cast<std::size_t>(isWide) * sizeof(PatchCount) +

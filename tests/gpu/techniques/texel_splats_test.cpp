@@ -1,0 +1,589 @@
+// SPDX-License-Identifier: MIT
+// Splats of a light's map (WD06; WD08, sections 4 and 4.1): what they keep, against conservation
+// and linearity, and what filters make of them. A sheet of index 1 lets light through as it comes,
+// so that the irradiance below it is the light's own.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "framework/numerics/bench.h"
+#include "framework/numerics/cases/scene_text.h"
+#include "framework/report/map_account.h"
+#include "tests/gpu/techniques/caustic_map_frame.h"
+
+namespace kaustik::test {
+namespace {
+
+using namespace numerics;
+using namespace transport;
+using glm::dvec2;
+using glm::dvec3;
+
+const CameraText kAbove{{0.0, 3.0, 4.0}, {0.0, -0.5, 0.0}, 60.0, 0.01};
+const std::string kAir = "[[material]]\nname = \"air\"\ntype = \"dielectric\"\nior = 1\n";
+// Every flux that is summed in 64 bits, of weights in 32.
+constexpr double kFlux = 1e-5;
+
+std::string sheet(double side, const std::string& material = "air", double height = 0.0) {
+    return (material == "air" ? kAir : "") + object("sheet", "plane", material, {0, height, 0},
+                                                    fmt::format("size = [{0}, {0}]", number(side)));
+}
+std::string floorOf(double side) {
+    return floorPlane("floor", "grey", side, {0, -1, 0});
+}
+
+// Light of some structure, a part of which falls beside the map of what the eye sees.
+scene::Scene waves() {
+    return makeScene(kAbove, sun({0.2, -1.0, 0.1}) +
+                                 object("water", "water", "water", {0, 0, 0},
+                                        "size = [2, 1.5]\ncells = [96, 72]\n"
+                                        "waves = [{amplitude = 0.02, wavelength = 0.6}]") +
+                                 floorOf(3.0));
+}
+scene::Scene uniform() {
+    return makeScene(kAbove, sun({0, -1, 0}) + sheet(2.0) + floorOf(4.0));
+}
+
+Settings with(Settings settings, const Settings& more) {
+    settings.insert(settings.end(), more.begin(), more.end());
+    return settings;
+}
+const Settings kSmall{{"emit.photons", "96x96"},
+                      {"reconstruct.map_size", "96"},
+                      {"reconstruct.map_covers", "scene"},
+                      {"specular.two_interfaces.size", "256"}};
+
+double brightest(const MapTexels& map) {
+    double most = 0.0;
+    for (const dvec3& flux : map.flux)
+        most = std::max({most, flux.r, flux.g, flux.b});
+    return most;
+}
+double largestDifference(const MapTexels& a, const MapTexels& b) {
+    double most = 0.0;
+    for (std::size_t i = 0; i < a.flux.size(); ++i) {
+        const dvec3 off = glm::abs(a.flux[i] - b.flux[i]);
+        most = std::max({most, off.r, off.g, off.b});
+    }
+    return most;
+}
+
+TEST(BlurredPoints, AreSplatsByLinearity) {
+    const scene::Scene scene = waves();
+    for (const auto& [blur, diameter] : {std::pair{"7", "7"}, {"3", "3"}, {"15", "15"}}) {
+        SCOPED_TRACE(blur);
+        const MapFrame splats(scene, "caustic_map",
+                              with(kSmall, {{"reconstruct.fixed.diameter", diameter},
+                                            {"reconstruct.fixed.center", "texel"},
+                                            {"reconstruct.fixed.edges", "crossed"}}));
+        const MapFrame points(scene, "caustic_map",
+                              with(kSmall, {{"reconstruct.fixed.diameter", "1"},
+                                            {"filter", "blur"},
+                                            {"filter.blur.diameter", blur}}));
+        const MapTexels drawn = storedIn(splats);
+        const MapTexels blurred = points.filtered();
+        // To the border: both keep on the map what would fall beside it.
+        EXPECT_GT(brightest(drawn), 0.0);
+        EXPECT_LT(largestDifference(drawn, blurred), kFlux * brightest(drawn));
+        // It is a blur.
+        EXPECT_GT(largestDifference(drawn, storedIn(points)), 0.01 * brightest(drawn));
+        splats.expectBalance();
+        points.expectBalance();
+    }
+}
+
+TEST(ABlurOfAnEvenDiameter, IsThatOfOneLess) {
+    const scene::Scene scene = waves();
+    const auto blurred = [&](const char* diameter) {
+        const Settings points{{"reconstruct.fixed.diameter", "1"},
+                              {"filter", "blur"},
+                              {"filter.blur.diameter", diameter}};
+        return MapFrame(scene, "caustic_map", with(kSmall, points)).filtered();
+    };
+    EXPECT_EQ(largestDifference(blurred("8"), blurred("7")), 0.0);
+}
+
+class MadeUpPhotons : public ::testing::Test {
+  protected:
+    // On the floor, of 1 W, where the map of the light has these texels.
+    numerics::Frame store(const scene::Scene& scene, const render::RasterView& view,
+                          const std::vector<dvec2>& texels, double depth,
+                          const Settings& settings) {
+        std::vector<BenchPhoton> photons;
+        for (const dvec2& texel : texels) {
+            BenchPhoton photon;
+            photon.position = placeBefore(view, texel, depth);
+            photon.direction = {0, -1, 0};
+            photon.startNormal = {0, 1, 0};
+            photon.startMaterial = kGrey;
+            photons.push_back(photon);
+        }
+        return reconstruct(scene, photons, settings);
+    }
+    numerics::Frame reconstruct(const scene::Scene& scene, const std::vector<BenchPhoton>& photons,
+                                const Settings& settings) {
+        return reconstructHits(lab_, lab_.choose(ReconstructStage::name, "fixed"), scene, photons,
+                               with({{"reconstruct.space", "light"},
+                                     {"gather", "project"},
+                                     {"filter", "none"},
+                                     {"reconstruct.map_size", "128"},
+                                     {"reconstruct.map_covers", "scene"}},
+                                    settings));
+    }
+
+    // A floor that fills the map, but for its own border.
+    const scene::Scene floor_ = makeScene(kAbove, sun({0, -1, 0}) + floorOf(4.0));
+    [[nodiscard]] double depthOfFloor(const render::RasterView& view) const {
+        return -glm::dvec3(view.worldToView * glm::dvec4(0, -1, 0, 1)).z;
+    }
+
+  private:
+    Registry registry_ = registerAll();
+    Suite suite_;
+    Lab lab_{context(), registry_, suite_};
+};
+
+TEST_F(MadeUpPhotons, AreWholeSplatsAtEveryOffsetWithinATexel) {
+    const render::RasterView view = mapViewOf(reconstruct(floor_, {}, {}));
+    constexpr int kSteps = 8;
+    constexpr int kApart = 15;
+    for (const int diameter : {1, 2, 3, 7, 14}) {
+        for (const char* center : {"photon", "texel"}) {
+            SCOPED_TRACE(fmt::format("{} {}", diameter, center));
+            std::vector<dvec2> texels;
+            for (int i = 0; i < kSteps * kSteps; ++i) {
+                // From one edge of a texel to the other, but not on them.
+                const dvec2 offset((i % kSteps + 0.01) / kSteps, (i / kSteps + 0.01) / kSteps);
+                texels.push_back(dvec2(i % kSteps, i / kSteps) * double(kApart) + 10.0 + offset);
+            }
+            const numerics::Frame frame =
+                store(floor_, view, texels, depthOfFloor(view),
+                      {{"reconstruct.fixed.diameter", std::to_string(diameter)},
+                       {"reconstruct.fixed.center", center}});
+            const MapTexels map = storedIn(frame);
+            double worstFlux = 0.0;
+            double worstPlace = 0.0;
+            for (const dvec2& texel : texels) {
+                const glm::ivec2 own(glm::floor(texel));
+                double sum = 0.0;
+                dvec2 moment(0.0);
+                for (int y = own.y - 7; y <= own.y + 7; ++y) {
+                    for (int x = own.x - 7; x <= own.x + 7; ++x) {
+                        sum += map.at(x, y).g;
+                        moment += map.at(x, y).g * (dvec2(x, y) + 0.5);
+                    }
+                }
+                worstFlux = std::max(worstFlux, std::abs(sum - 1.0));
+                const bool isAtPhoton = std::string(center) == "photon" && diameter > 1;
+                const dvec2 middle = isAtPhoton ? texel : dvec2(own) + 0.5;
+                worstPlace = std::max(worstPlace, glm::distance(moment / sum, middle));
+            }
+            EXPECT_LT(worstFlux, kFlux);
+            // A Gaussian that is cut at three deviations, by texels that it covers the middle of;
+            // one of a texel or two is a square that jumps.
+            EXPECT_LT(worstPlace, diameter >= 7 ? 0.07 : diameter == 3 ? 0.25 : 0.71);
+        }
+    }
+}
+
+TEST_F(MadeUpPhotons, KeepTheirFluxAtTheMapsBorder) {
+    const render::RasterView view = mapViewOf(reconstruct(floor_, {}, {}));
+    std::vector<dvec2> texels;
+    for (int i = 0; i < 40; ++i) {
+        const double near = 0.25 + 0.1 * i;
+        for (const dvec2& texel : {dvec2(near, 3.0 * i + 1.3), dvec2(3.0 * i + 1.3, near),
+                                   dvec2(128.0 - near, 3.0 * i + 1.7), dvec2(near, near)})
+            texels.push_back(texel);
+    }
+    for (const char* diameter : {"1", "7", "63"}) {
+        const numerics::Frame frame = store(floor_, view, texels, depthOfFloor(view),
+                                            {{"reconstruct.fixed.diameter", diameter}});
+        EXPECT_NEAR(storedIn(frame).sum().g, double(texels.size()), kFlux * double(texels.size()))
+            << diameter;
+    }
+}
+
+TEST_F(MadeUpPhotons, BesideTheMapAndBehindWhatItSeesAreInTheLedger) {
+    const scene::Scene scene = makeScene(
+        kAbove, sun({0, -1, 0}) + floorOf(4.0) + floorPlane("table", "white", 1.0, {0, -0.5, 0}));
+    const auto landing = [](const dvec3& position, const dvec3& direction = {0, -1, 0}) {
+        BenchPhoton photon;
+        photon.position = position;
+        photon.direction = direction;
+        photon.startNormal = {0, 1, 0};
+        photon.startMaterial = kGrey;
+        return photon;
+    };
+    std::vector<BenchPhoton> photons(1, landing({1.2, -1.0, 0.3}));  // seen
+    photons.insert(photons.end(), 2, landing({0.1, -1.0, 0.1}));     // below the table
+    photons.insert(photons.end(), 4, landing({3.0, -1.0, 0.1}));     // beside the map
+    // From below: the side that the light does not see.
+    photons.insert(photons.end(), 8, landing({1.2, -1.0, 0.3}, {0, 1, 0}));
+    const EnergyLedger ledger = reconstruct(scene, photons, {}).renderer().ledger();
+    EXPECT_NEAR(ledger.watts[kAccountDeposited], 1.0, kFlux);
+    EXPECT_NEAR(ledger.watts[kAccountHiddenInMap], 10.0, kFlux);
+    EXPECT_NEAR(ledger.watts[kAccountOutsideMap], 4.0, kFlux);
+}
+
+// A table whose edge the splats reach over.
+TEST_F(MadeUpPhotons, StayOnTheirSurfaceWhereEdgesAreKept) {
+    const scene::Scene scene = makeScene(
+        kAbove, sun({0, -1, 0}) + floorOf(4.0) + floorPlane("table", "white", 1.0, {0, -0.5, 0}));
+    std::vector<BenchPhoton> photons;
+    for (int i = 0; i < 50; ++i) {
+        BenchPhoton photon;
+        photon.position = {0.5 - 0.003 * (i + 0.5), -0.5, 0.4 * std::sin(7.0 * i)};
+        photon.direction = {0, -1, 0};
+        photon.startNormal = {0, 1, 0};
+        photon.startMaterial = kWhite;
+        photons.push_back(photon);
+    }
+    for (const char* edges : {"kept", "crossed"}) {
+        const numerics::Frame frame =
+            reconstruct(scene, photons, {{"reconstruct.fixed.edges", edges}});
+        const MapTexels map = storedIn(frame);
+        const Texels seen = frame.read("light.receiver");
+        const render::RasterView& view = mapViewOf(frame);
+        double onTable = 0.0;
+        double onFloor = 0.0;
+        for (int y = 0; y < map.height; ++y) {
+            for (int x = 0; x < map.width; ++x) {
+                const dvec3 place = placeBefore(view, {x + 0.5, y + 0.5}, seen.at(x, y, 0));
+                (std::abs(place.y + 0.5) < 1e-3 ? onTable : onFloor) += map.at(x, y).g;
+            }
+        }
+        EXPECT_NEAR(onTable + onFloor, 50.0, kFlux * 50.0);
+        if (std::string(edges) == "kept") {
+            EXPECT_EQ(onFloor, 0.0);
+        } else {
+            EXPECT_GT(onFloor, 1.0);
+        }
+    }
+}
+
+// 2^18 photons of 0.1 W on a texel: a sum of floats is off by 2^18 halves of a last digit.
+TEST_F(MadeUpPhotons, AddUpInATexelWithoutDrift) {
+    const render::RasterView view = mapViewOf(reconstruct(floor_, {}, {}));
+    constexpr std::size_t kPhotons = std::size_t{1} << 18U;
+    BenchPhoton photon;
+    photon.position = placeBefore(view, {64.5, 64.5}, depthOfFloor(view));
+    photon.direction = {0, -1, 0};
+    photon.fluxWatts = dvec3(0.1);
+    photon.startNormal = {0, 1, 0};
+    photon.startMaterial = kGrey;
+    const numerics::Frame frame = reconstruct(floor_, std::vector<BenchPhoton>(kPhotons, photon),
+                                              {{"reconstruct.fixed.diameter", "1"}});
+    const double expected = double(kPhotons) * double{0.1f};
+    EXPECT_NEAR(storedIn(frame).at(64, 64).g, expected, 1e-7 * expected);
+}
+
+// Irradiance in the middle of what the sheet lights, of a set of flux.
+struct Field {
+    double mean = 0.0;
+    double worst = 0.0;  // relative
+    int texels = 0;
+};
+Field fieldOf(const MapFrame& frame, const MapTexels& map, double expected) {
+    const render::RasterView& view = mapViewOf(frame);
+    const double side = 2.0 * view.halfExtent.x / view.width;
+    Field field;
+    for (int y = 0; y < map.height; ++y) {
+        for (int x = 0; x < map.width; ++x) {
+            const dvec3 place = placeBefore(view, {x + 0.5, y + 0.5}, 0.0);
+            // Eight texels from the border of the light.
+            if (std::max(std::abs(place.x), std::abs(place.z)) > 1.0 - 8.0 * side) continue;
+            const double irradiance = map.at(x, y).g / (side * side);
+            field.mean += irradiance;
+            field.worst = std::max(field.worst, std::abs(irradiance / expected - 1.0));
+            ++field.texels;
+        }
+    }
+    field.mean /= field.texels;
+    return field;
+}
+
+class Uniform : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(Uniform, LightIsSoInAllSizesAndInTheirBlend) {
+    const scene::Scene scene = uniform();
+    // 2.4 photons a texel and axis: 52 on a splat of three texels, and more on the larger ones.
+    const MapFrame frame(scene, "multi_resolution",
+                         {{"emit.photons", "77x77"},
+                          {"reconstruct.map_size", "64"},
+                          {"reconstruct.map_covers", "scene"},
+                          {"filter.blend.interpolant", GetParam()}});
+    const double arrived = frame.watts(kAccountArrived);
+    EXPECT_NEAR(arrived, 4000.0, 1e-3 * 4000.0);
+    for (int set = 0; set < 4; ++set) {
+        SCOPED_TRACE(set);
+        const MapTexels map = storedIn(frame, set);
+        for (int channel = 0; channel < 3; ++channel)
+            EXPECT_NEAR(map.sum()[channel], arrived, kFlux * arrived);
+        const Field field = fieldOf(frame, map, 1000.0);
+        EXPECT_GT(field.texels, 200);
+        EXPECT_NEAR(field.mean, 1000.0, 5.0);
+        // A Gaussian of half a texel's deviation ripples with the photons' grid.
+        EXPECT_LT(field.worst, set == 0 ? 0.08 : 0.02);
+        const double width = 3.0 + 4.0 * set;
+        const double expected = std::pow(width * 77.0 / 2.0 * (4.0 / 64.0), 2.0);
+        const std::vector<std::uint32_t> counts = frame.counts(set);
+        const double counted = counts[32 * 64 + 32];
+        // A row more or less.
+        EXPECT_NEAR(std::sqrt(counted), std::sqrt(expected), 1.0);
+    }
+    // So many photons that the smallest size is enough everywhere.
+    const Field field = fieldOf(frame, frame.filtered(), 1000.0);
+    EXPECT_NEAR(field.mean, 1000.0, 5.0);
+    EXPECT_LT(field.worst, 0.08);
+    frame.expectBalance();
+}
+
+TEST_P(Uniform, LightOfFewPhotonsIsSoInTheBlendToo) {
+    const scene::Scene scene = uniform();
+    // 1.1 photons a texel and axis: of the smallest size 9 to 16, where sizes are blended.
+    const MapFrame frame(scene, "multi_resolution",
+                         {{"emit.photons", "35x35"},
+                          {"reconstruct.map_size", "64"},
+                          {"reconstruct.map_covers", "scene"},
+                          {"filter.blend.interpolant", GetParam()}});
+    const std::vector<std::uint32_t> counts = frame.counts(0);
+    const std::uint32_t middle = counts[32 * 64 + 32];
+    EXPECT_GT(middle, 8U);
+    EXPECT_LT(middle, 17U);
+    const Field field = fieldOf(frame, frame.filtered(), 1000.0);
+    // Only brighter splats are joined, which takes from the mean of those of three texels less
+    // than their ripple.
+    EXPECT_NEAR(field.mean, 1000.0, 30.0);
+    EXPECT_LT(field.worst, 0.2);
+    double filtered = 0.0;
+    for (const dvec3& flux : frame.filtered().flux)
+        filtered += (flux.r + flux.g + flux.b) / 3.0;
+    const auto account = report::mapAccount(frame.renderer());
+    EXPECT_NEAR(account["blend_energy_ratio"].get<double>(),
+                filtered / frame.watts(kAccountDeposited), 1e-6);
+    EXPECT_NEAR(account["flux_ratio"].get<double>(), 1.0, 1e-6);
+}
+
+INSTANTIATE_TEST_SUITE_P(By, Uniform, ::testing::Values("bernstein", "linear"),
+                         [](const auto& tested) { return std::string(tested.param); });
+
+class Blend : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(Blend, TakesTheSmallestSizeThatHasEnoughAndLiesBetweenSizes) {
+    const scene::Scene scene = waves();
+    const auto render = [&](const char* least, const char* most) {
+        return MapFrame(scene, "multi_resolution",
+                        with(kSmall, {{"filter.blend.interpolant", GetParam()},
+                                      {"filter.blend.least", least},
+                                      {"filter.blend.most", most}}));
+    };
+    // Of floats with 24 bits.
+    const auto same = [](double a, double b) { return std::abs(a - b) <= 1e-6 * std::max(a, b); };
+    const MapFrame all = render("0", "1");
+    const MapFrame none = render("999999", "1000000");
+    const MapFrame usual = render("8", "16");
+    std::vector<MapTexels> sets;
+    for (int i = 0; i < 4; ++i)
+        sets.push_back(storedIn(usual, i));
+    const std::vector<std::uint32_t> counts[4] = {usual.counts(0), usual.counts(1), usual.counts(2),
+                                                  usual.counts(3)};
+    const MapTexels smallest = all.filtered();
+    const MapTexels largest = none.filtered();
+    const MapTexels blended = usual.filtered();
+    int whole = 0;
+    int mixed = 0;
+    for (std::size_t i = 0; i < blended.flux.size(); ++i) {
+        const double value = blended.flux[i].g;
+        if (counts[0][i] > 0) {
+            ASSERT_TRUE(same(smallest.flux[i].g, sets[0].flux[i].g));
+        }
+        ASSERT_TRUE(same(largest.flux[i].g, sets[3].flux[i].g));
+        double least = 1e30;
+        double most = 0.0;
+        for (const MapTexels& set : sets) {
+            least = std::min(least, set.flux[i].g);
+            most = std::max(most, set.flux[i].g);
+        }
+        ASSERT_GE(value, least * (1.0 - 1e-6));
+        ASSERT_LE(value, most * (1.0 + 1e-6));
+        if (counts[0][i] >= 16) {
+            ++whole;
+            ASSERT_TRUE(same(value, sets[0].flux[i].g));
+            continue;
+        }
+        // Sizes with eight photons or fewer have no part in it.
+        int enough = 0;
+        while (enough < 3 && counts[enough][i] < 16)
+            ++enough;
+        if (counts[enough - 1][i] <= 8) {
+            ASSERT_TRUE(same(value, sets[static_cast<std::size_t>(enough)].flux[i].g));
+        } else if (std::string(GetParam()) == "bernstein") {
+            // Never darker than the size that has enough.
+            ASSERT_GE(value, sets[static_cast<std::size_t>(enough)].flux[i].g * (1.0 - 1e-6));
+            ++mixed;
+        } else {
+            const double t = (counts[enough - 1][i] - 8.0) / 8.0;
+            const auto k = static_cast<std::size_t>(enough);
+            ASSERT_TRUE(same(value, t * sets[k - 1].flux[i].g + (1.0 - t) * sets[k].flux[i].g));
+            ++mixed;
+        }
+    }
+    EXPECT_GT(whole, 100);
+    EXPECT_GT(mixed, 100);
+}
+
+INSTANTIATE_TEST_SUITE_P(By, Blend, ::testing::Values("bernstein", "linear"),
+                         [](const auto& tested) { return std::string(tested.param); });
+
+const Settings kLevels{{"reconstruct", "levels"}, {"filter", "levels"}};
+
+// Levels of 96 texels: 96, 48, 24, 12; the coarser ones side by side.
+TEST(Levels, HaveAllFluxEach) {
+    const scene::Scene scene = waves();
+    for (const char* diameter : {"1", "3", "8"}) {
+        for (const int size : {96, 77}) {
+            const MapFrame frame(
+                scene, "caustic_map",
+                with(with(kSmall, kLevels), {{"reconstruct.levels.diameter", diameter},
+                                             {"reconstruct.map_size", std::to_string(size)}}));
+            const double stored = frame.watts(kAccountDeposited);
+            EXPECT_GT(stored, 0.0);
+            EXPECT_NEAR(storedIn(frame, 0).sum().g, stored, kFlux * stored);
+            const MapTexels coarser = storedIn(frame, 1);
+            int first = 0;
+            int levels = 0;
+            for (int side = (size + 1) / 2; size >> (levels + 1) >= 8; side = (side + 1) / 2) {
+                double sum = 0.0;
+                for (int y = 0; y < side; ++y) {
+                    for (int x = first; x < first + side; ++x)
+                        sum += coarser.at(x, y).g;
+                }
+                ++levels;
+                EXPECT_NEAR(sum, stored, kFlux * stored) << levels << " of " << size;
+                first += side;
+            }
+            EXPECT_EQ(levels, 3);
+            frame.expectBalance();
+        }
+    }
+}
+
+TEST(Levels, OfPointsAreTheMipChainToTheBit) {
+    const scene::Scene scene = waves();
+    for (const char* size : {"96", "77"}) {
+        const auto render = [&](const char* source) {
+            return MapFrame(scene, "caustic_map",
+                            with(with(kSmall, kLevels), {{"reconstruct.levels.diameter", "1"},
+                                                         {"reconstruct.map_size", size},
+                                                         {"filter.levels.from", source}}));
+        };
+        const MapFrame splats = render("splats");
+        const MapFrame mip = render("mip");
+        EXPECT_EQ(splats.words(), mip.words()) << size;
+        EXPECT_EQ(splats.counts(1), mip.counts(1)) << size;
+        EXPECT_EQ(largestDifference(splats.filtered(), mip.filtered()), 0.0) << size;
+    }
+}
+
+TEST(Levels, OfUniformLightGiveItsIrradiance) {
+    const scene::Scene scene = uniform();
+    for (const char* source : {"splats", "mip"}) {
+        const MapFrame frame(scene, "caustic_map",
+                             with(kLevels, {{"emit.photons", "128x128"},
+                                            {"reconstruct.map_size", "128"},
+                                            {"reconstruct.map_covers", "scene"},
+                                            {"filter.levels.from", source}}));
+        // Four photons a texel, sixteen on one of the level beyond: that one is taken.
+        const Field field = fieldOf(frame, frame.filtered(), 1000.0);
+        EXPECT_NEAR(field.mean, 1000.0, 5.0);
+        EXPECT_LT(field.worst, 0.05);
+    }
+}
+
+// Nodes that store light in maps, with everything that they need besides.
+const std::vector<std::pair<std::string, Settings>> kAll{
+    {"fixed", {{"reconstruct", "fixed"}}},
+    {"blur", {{"reconstruct", "fixed"}, {"filter", "blur"}}},
+    {"four_radii", {{"reconstruct", "four_radii"}, {"filter", "blend"}}},
+    {"levels", kLevels},
+    {"lens", {{"reconstruct", "lens"}}},
+    {"sprites", {{"reconstruct", "sprites"}}},
+    {"triangles", {{"reconstruct", "triangles"}}},
+    {"beams", {{"reconstruct", "beams"}}}};
+
+TEST(Maps, AreTheSameToTheBitInEveryRun) {
+    const scene::Scene scene = waves();
+    for (const auto& [name, settings] : kAll) {
+        const MapFrame first(scene, "caustic_map", with(kSmall, settings));
+        const MapFrame second(scene, "caustic_map", with(kSmall, settings));
+        EXPECT_GT(first.watts(kAccountDeposited), 100.0) << name;
+        EXPECT_EQ(first.words(), second.words()) << name;
+        first.expectBalance();
+    }
+}
+
+TEST(Maps, OfBatchesAreThoseOfAllPhotonsAtOnceToTheBit) {
+    const scene::Scene scene = waves();
+    for (const auto& [name, settings] : kAll) {
+        // Those that join the photons of neighbouring cells share what two batches bring.
+        if (name == "triangles" || name == "beams") continue;
+        const MapFrame all(scene, "caustic_map", with(kSmall, settings));
+        for (const char* batch : {"1000", "4096"}) {
+            const MapFrame parts(scene, "caustic_map",
+                                 with(with(kSmall, settings), {{"emit.batch", batch}}));
+            EXPECT_EQ(all.words(), parts.words()) << name << " " << batch;
+        }
+    }
+}
+
+TEST(Maps, OfAllSizesHoldAllLight) {
+    const scene::Scene scene = uniform();
+    for (const char* size : {"16", "17", "1000", "4096"}) {
+        for (const auto& settings :
+             {Settings{{"reconstruct", "fixed"}},
+              Settings{{"reconstruct", "four_radii"}, {"filter", "blend"}}, kLevels}) {
+            if (std::string(size).size() > 2 && settings.front().second != "fixed") continue;
+            const MapFrame frame(scene, "caustic_map",
+                                 with(settings, {{"emit.photons", "32x32"},
+                                                 {"reconstruct.map_size", size},
+                                                 {"reconstruct.map_covers", "scene"}}));
+            EXPECT_EQ(frame.map().on.views->width(), std::stoi(size));
+            EXPECT_NEAR(frame.watts(kAccountDeposited), 4000.0, 1e-3 * 4000.0);
+            EXPECT_TRUE(frame.renderer().warnings().empty());
+            frame.expectBalance();
+        }
+    }
+}
+
+TEST(Maps, ThatDoNotFitAreHalvedAndTheReportSaysSo) {
+    const scene::Scene scene = uniform();
+    const MapFrame frame(scene, "caustic_map",
+                         {{"emit.photons", "32x32"},
+                          {"reconstruct.map_size", "1024"},
+                          {"reconstruct.map_memory", "1"}});
+    const int width = frame.map().on.views->width();
+    // 24 bytes a texel are the sums alone.
+    EXPECT_LE(24.0 * width * width, 1048576.0);
+    EXPECT_GE(width, 64);
+    ASSERT_EQ(frame.renderer().warnings().size(), 1U);
+    EXPECT_NE(frame.renderer().warnings().front().find("reconstruct.map_memory"),
+              std::string::npos);
+    frame.expectBalance();
+}
+
+TEST(Photons, OfAllNumbersBringTheSameLight) {
+    const scene::Scene scene = uniform();
+    for (const char* photons : {"32x32", "513x7", "2048x2048"}) {
+        const MapFrame frame(scene, "caustic_map",
+                             {{"emit.photons", photons},
+                              {"reconstruct.map_size", "256"},
+                              {"reconstruct.fixed.diameter", "1"}});
+        EXPECT_NEAR(frame.watts(kAccountArrived), 4000.0, 1e-3 * 4000.0) << photons;
+        frame.expectBalance();
+    }
+}
+
+}  // namespace
+}  // namespace kaustik::test
