@@ -165,13 +165,6 @@ FrameOutputs buildFrame(FrameBuilder& frame) {
     } else {
         irradiance = skipCaustic(frame, whyNot);
     }
-    // A filter may have gone on writing what was stored: the ledger counts that.
-    for (std::size_t i = 0; i < filtered.maps.size(); ++i) {
-        FluxMap& stored = caustic.map.maps[i];
-        const FluxMap& after = filtered.maps[i];
-        if (after.flux.index == stored.flux.index) stored.flux = after.flux;
-        if (after.counts.index == stored.counts.index) stored.counts = after.counts;
-    }
     const Picture picture = frame.run<ComposeStage>(
         geometry, eye, layers, LightParts{shadows, irradiance, caustic.inScattered});
     return {picture,

@@ -122,18 +122,11 @@ Stored splatInto(FrameBuilder& frame, const Splatting& splatting, const Hits& hi
             for (const char* shader : {"sprite_totals", "sprites"}) {
                 gl::Command command =
                     context.compute(fmt::format("screen_space_photons/{}.comp", shader));
-                const bool deposits = shader == std::string("sprites");
-                // What the first finds no total for the second passes over.
-                if (deposits) {
-                    store.receivers.views->bindTo(command);
-                } else {
-                    bindStore(command, store);
-                }
-                command.params("reconstruct.sprites", splatting.params);
+                bindStore(command, store).params("reconstruct.sprites", splatting.params);
                 command.set("mostReach", reach);
                 if (splatting.areBeams)
                     command.define("BEAM_SPLATS").set("isRound", splatting.areRound ? 1 : 0);
-                if (deposits) setDeposit(command, sets);
+                if (shader == std::string("sprites")) setDeposit(command, sets);
                 dispatchOver(command, list);
             }
         });

@@ -110,16 +110,10 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& params, const Hits& h
             context.buffer(data.photonOfCell).clear();
             context.buffer(data.counts).clear();
             context.buffer(data.narrowed).clear();
-            // `asksLight`: whether it is the one that asks which photons arrive.
-            const auto shader = [&](const char* name, bool asksLight) {
+            const auto shader = [&](const char* name) {
                 gl::Command command =
                     context.compute(fmt::format("screen_space_photons/{}.comp", name));
-                if (asksLight) {
-                    bindStore(command, store);
-                } else {
-                    store.receivers.views->bindTo(command);
-                }
-                command.params("reconstruct.triangles", params);
+                bindStore(command, store).params("reconstruct.triangles", params);
                 setCells(command, list.cells);
                 return command;
             };
@@ -129,12 +123,12 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& params, const Hits& h
                     .dispatch(1);
             };
             for (const char* name : {"triangles_cells", "triangles_join", "triangles_list"}) {
-                gl::Command command = shader(name, std::string(name) != "triangles_join");
+                gl::Command command = shader(name);
                 dispatchOver(command, list);
             }
             for (int isWide = 0; isWide < 2; ++isWide) {
                 countGroups(isWide);
-                gl::Command command = shader(isWide == 1 ? "triangles_wide" : "triangles", false);
+                gl::Command command = shader(isWide == 1 ? "triangles_wide" : "triangles");
                 setDeposit(command, sets);
                 command.dispatchIndirect(data.counts,
                                          static_cast<std::size_t>(isWide) * sizeof(PatchCount) +
