@@ -167,6 +167,21 @@ INSTANTIATE_TEST_SUITE_P(By, Lens,
                                            Model{"beam", 1.5}),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
+// A convex mirror spreads parallel light as if it came from half a radius behind it.
+TEST_P(Lens, OfAMirrorHasItsFocusHalfARadiusBehindIt) {
+    const scene::Scene scene = makeScene(
+        kAbove, sun({0, -1, 0}) +
+                    object("ball", "sphere", "mirror", {0, 0, 0}, "radius = 0.5\nsegments = 640") +
+                    floorAt(-2.0));
+    const std::vector<MapPhoton> photons = paraxial(render(scene, model), 0.05);
+    ASSERT_GT(photons.size(), 20U);
+    for (const MapPhoton& photon : photons) {
+        EXPECT_TRUE(photon.isReflected);
+        // A tenth of a radius off the axis it is 1 % nearer in one direction.
+        EXPECT_NEAR(toFocus(photon), -0.25, 0.25 * 0.02);
+    }
+}
+
 // The ball in front of a lamp at its focal length, 1.5 radii from its middle.
 TEST(AThickLens, MakesABallsFocalLengthParallel) {
     const scene::Scene scene = makeScene(kAbove, lamp(0.75) + ball() + floorAt(-2.0));
