@@ -72,7 +72,7 @@ void clearIfFirst(gl::PassContext& context, const Stored& stored) {
 
 gl::Command& bindStore(gl::Command& command, const Store& store) {
     store.receivers.views->bindTo(command);
-    if (store.light >= 0) command.define("ONE_LIGHT").set("lightOfMap", store.light);
+    if (store.light >= 0) command.define("ONE_LIGHT").offer("lightOfMap", store.light);
     return command;
 }
 
