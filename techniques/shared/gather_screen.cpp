@@ -11,7 +11,10 @@ namespace {
 IrradianceMap gatherOnScreen(FrameBuilder& frame, const params::NoParams&, CausticMap map,
                              Surfaces surfaces) {
     const FluxMap& stored = map.maps.front();
-    needsEyesView("gather.screen", "the map of flux", stored.on.views);
+    if (!stored.on.views->isEyes())
+        throw ConfigError(
+            "gather.screen takes light that is stored on the screen, but it is stored in the "
+            "lights' maps; take gather=project, or reconstruct.space=screen.");
     if (stored.sets.flux > 1 && !stored.filtered.valid())
         throw ConfigError(
             "gather.screen takes one map, but the light is stored in several sizes or "
