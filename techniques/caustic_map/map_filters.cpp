@@ -132,7 +132,7 @@ CausticMap blurMap(FrameBuilder& frame, const BlurParams& params, CausticMap map
     if (map.maps.front().sets.flux > 1)
         throw ConfigError(
             "filter.blur takes one map; reconstruct.four_radii and levels make "
-            "several, for filter.blend and filter.levels.");
+            "several: take filter=blend or filter=levels.");
     const int diameter = params.diameter - (params.diameter % 2 == 0 ? 1 : 0);
     return filterMaps(
         frame, "filter.blur", "points become what splats would be", std::move(map),

@@ -46,9 +46,8 @@ Shadows traceShadowRays(FrameBuilder& frame, const params::NoParams&, Geometry g
     }
     if (frame.tracerSees() != Sees::eyeLayers) {
         throw ConfigError(
-            "shadow=rays looks through the layers that the eye sees, and the chosen tracer does "
-            "not: "
-            "set shadow=map, or a tracer of the layers, trace=hierarchical say.");
+            "shadow.rays looks through the layers that the eye sees, and the chosen tracer does "
+            "not: take shadow=map, or a tracer of the layers, trace=hierarchical say.");
     }
     const FrameBuilder::Within within(frame, "shadow");
     Shadows shadows;

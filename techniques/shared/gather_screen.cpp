@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // gather.screen: a map of flux that was stored by the eye's own pixels becomes irradiance over the
 // area of the receiver that each sees. In: flux, W (W/sr towards the eye); out: W/m² (W/m²/sr).
+#include <fmt/format.h>
+
 #include "framework/core/error.h"
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/shared/nodes.h"
@@ -11,7 +13,11 @@ namespace {
 IrradianceMap gatherOnScreen(FrameBuilder& frame, const params::NoParams&, CausticMap map,
                              Surfaces surfaces) {
     const FluxMap& stored = map.maps.front();
-    needsEyesView("gather.screen", "the map of flux", stored.on.views);
+    if (!stored.on.views->isEyes())
+        throw ConfigError(
+            fmt::format("gather.screen works on the screen, but the map of flux it is given is "
+                        "{}; take gather=project, or reconstruct.space=screen.",
+                        render::describe(stored.on.views->space())));
     if (stored.sets.flux > 1 && !stored.filtered.valid())
         throw ConfigError(
             "gather.screen takes one map, but the light is stored in several sizes or "

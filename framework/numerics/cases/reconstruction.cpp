@@ -171,8 +171,8 @@ void grazingEdgeAndOccluder(Lab& lab) {
         const double occluded = account(hidden, kAccountOccludedSplat);
         lab.expect(node.subject, "flux on the wall and counted as hidden by the shelf, W", 60.0,
                    wall + occluded, {60e-6, "1e-6 of the flux"});
-        lab.expectAtLeast(node.subject, "of it, counted as hidden, W", 10.0, occluded,
-                          "else the edge would not be tried");
+        lab.expectAtLeast(node.subject, "of it, counted as hidden, W", 5.0, occluded,
+                          "of the narrowest, three texels wide, a tenth lies behind the shelf");
         lab.expectAtLeast(node.subject, "of it, on the wall, W", 20.0, wall,
                           "the photons lie on the wall, and so does much of each");
         lab.expectDeviation(node.subject, "flux that leaks to the shelf in front of it, W",
@@ -248,7 +248,7 @@ void grazingEdgeAndOccluderOfAMap(Lab& lab) {
         const double counted = account(hidden, kAccountHiddenInMap);
         lab.expect(node.subject, "flux on the wall and counted as hidden from the light, W", 60.0,
                    wall + counted, {60e-6, "1e-6 of the flux"});
-        lab.expectAtLeast(node.subject, "of it, counted as hidden from the light, W", 10.0,
+        lab.expectAtLeast(node.subject, "of it, counted as hidden from the light, W", 5.0,
                           counted, "else the edge would not be tried");
         lab.expectDeviation(node.subject, "flux that leaks to the shelf's part of the map, W",
                             readStored(hidden).in(0, 0, kSide / 2, kSide), kExactly);
@@ -268,10 +268,10 @@ void manyDepositsInOnePixel(Lab& lab) {
         const double flux = 0.1 * kDeposits - account(frame, kAccountOffScreen);
         lab.expect(node.subject, "flux of 2^21 deposits of 0.1 W in one pixel, W", flux,
                    arrivedEverywhere(frame), {1e-4 * flux, "1e-4, as the case asks for"});
-        lab.expect(node.subject, "share of it that is in the pixel", 1.0, flux / (0.1 * kDeposits),
-                   {0.1,
-                    "a splat of one pixel's radius on a picture of "
-                    "one: its rim may touch what is beside it"});
+        lab.expectAtLeast(node.subject, "share of it that is in the pixel", 0.1,
+                          flux / (0.1 * kDeposits),
+                          "of a Gaussian seven pixels wide, which is the widest, the middle one "
+                          "holds 0.117");
     }
 }
 

@@ -201,7 +201,9 @@ void offScreenAndBeyondTheLastLayer(Lab& lab) {
     }
     for (const Lab::Choice& tracer : lab.each<TraceStage>()) {
         expectCounted(lab, tracer, "rays that leave the screen before they hit", leaving,
-                      tracePhotons(lab, tracer, scene, leaving), {kAccountOffScreen}, "off screen");
+                      tracePhotons(lab, tracer, scene, leaving,
+                                   {{"reconstruct.map_covers", "scene"}}),
+                      {kAccountOffScreen}, "off screen");
         if (lab.seenBy(tracer) == Sees::lightFront) {
             expectNoHits(lab, tracer.subject, "rays beyond what the light sees", hidden,
                          tracePhotons(lab, tracer, scene, hidden), kUnseenByLight,

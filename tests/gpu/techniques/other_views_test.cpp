@@ -265,10 +265,10 @@ TEST(ANodeInASpaceThatItCannotServe, SaysSo) {
     };
     EXPECT_EQ(refusal(storingIn(sun, "screen")),
               "gather.screen works on the screen, but the map of flux it is given is in a light's "
-              "view.");
+              "view; take gather=project, or reconstruct.space=screen.");
     EXPECT_EQ(refusal(storingIn(cube, "screen")),
               "gather.screen works on the screen, but the map of flux it is given is on the faces "
-              "of a cube.");
+              "of a cube; take gather=project, or reconstruct.space=screen.");
     EXPECT_EQ(refusal(tracingIn(sun, "lines")),
               "trace.lines works on the screen, but the layers it is given are in a light's view.");
     EXPECT_EQ(refusal(tracingIn(cube, "all_hits")),
