@@ -98,7 +98,7 @@ const FluxMap& MapFrame::map(std::size_t light) const {
 }
 
 MapTexels MapFrame::filtered(int view, std::size_t light) const {
-    const FluxMap& map = renderer().outputs().filtered.maps[light];
+    const FluxMap& map = renderer().outputs().map.maps[light];
     const Texels read = this->read(map.filtered, view * map.filteredPerView());
     MapTexels texels{read.width, read.height, {}};
     for (int y = 0; y < read.height; ++y) {
