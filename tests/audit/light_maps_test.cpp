@@ -35,8 +35,8 @@ Audited audited(const std::string& name) {
     const reference::EmbreeScene embree(scene);
     Audited result{audit::auditHits(renderer, embree), {}};
     // With what the photons themselves emit: the grid's own error is another test's.
-    result.ledger = audit::resolveLedger(renderer, result.hits,
-                                         renderer.ledger().watts[kAccountEmitted]);
+    result.ledger =
+        audit::resolveLedger(renderer, result.hits, renderer.ledger().watts[kAccountEmitted]);
     return result;
 }
 

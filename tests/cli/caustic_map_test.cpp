@@ -44,9 +44,9 @@ TEST_F(CausticMaps, AreInTheReportAndNotOfTheScreen) {
 
 TEST_F(CausticMaps, TakeAnySizeThatFits) {
     for (const char* size : {"5000", "16"}) {
-        static_cast<void>(renderWater({"--technique", "caustic_map", "--set",
-                                       std::string("reconstruct.map_size=") + size},
-                                      size));
+        static_cast<void>(renderWater(
+            {"--technique", "caustic_map", "--set", std::string("reconstruct.map_size=") + size},
+            size));
         EXPECT_EQ(report(size).at("map").at("maps").at(0).at("size").at(0), std::stoi(size));
     }
     static_cast<void>(folder.file("wavy.toml", kWavyWater));

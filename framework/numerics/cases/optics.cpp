@@ -201,8 +201,8 @@ void nestedDielectrics(Lab& lab) {
                                 glm::length(result.hits[0].normal - photons[0].direction),
                                 kDirection);
             lab.expect(specular.subject, "flux through glass in water, W",
-                       (1.0 - in.reflectance) * (1.0 - in.reflectance),
-                       result.hits[0].fluxWatts.g, {1e-6, "roundings of 6e-8"});
+                       (1.0 - in.reflectance) * (1.0 - in.reflectance), result.hits[0].fluxWatts.g,
+                       {1e-6, "roundings of 6e-8"});
         } else {
             lab.expectDeviation(specular.subject, "error of direction from water into glass",
                                 glm::length(result.hits[0].normal - in.refracted), kDirection);
@@ -213,8 +213,7 @@ void nestedDielectrics(Lab& lab) {
                             glm::length(result.hits[1].normal - out.refracted), kDirection);
         lab.expectDeviation(specular.subject, "error of direction of total internal reflection",
                             glm::length(result.hits[2].normal - total.reflected), kDirection);
-        const Media entered =
-            lab.goesThroughBodies(specular) ? Media{kWater} : glassInWater;
+        const Media entered = lab.goesThroughBodies(specular) ? Media{kWater} : glassInWater;
         const std::vector<std::pair<const char*, Media>> expected = {
             {lab.goesThroughBodies(specular) ? "through glass in water" : "in glass in water",
              entered},

@@ -180,8 +180,8 @@ void grazingEdgeAndOccluder(Lab& lab) {
     }
 }
 
-// The same where light is stored in the map of a light: the eye sees the floor well, the sun sees it
-// at 2 degrees; map and picture end at the same places.
+// The same where light is stored in the map of a light: the eye sees the floor well, the sun sees
+// it at 2 degrees; map and picture end at the same places.
 void borderOfAMap(Lab& lab) {
     const scene::Scene scene =
         makeScene({}, kSunAlongTheView + facingPlane("wall", "grey", 60, {0, 0, -10}));
@@ -189,8 +189,8 @@ void borderOfAMap(Lab& lab) {
     const double end = 1.04 * 10.0 * kTangent;
     std::vector<BenchPhoton> border;
     for (int i = 0; i < 60; ++i) {
-        border.push_back(landing({end - 0.5 + i / 60.0, -5.0 + i / 6.0, -10.0}, {0, 0, 1},
-                                 {0, 0, -1}, 0.1));
+        border.push_back(
+            landing({end - 0.5 + i / 60.0, -5.0 + i / 6.0, -10.0}, {0, 0, 1}, {0, 0, -1}, 0.1));
     }
     for (const Lab::Choice& node : lab.each<ReconstructStage>()) {
         const Frame frame = reconstructHits(lab, node, scene, border, inTheLightsMap(kSide));
@@ -209,9 +209,8 @@ void grazingEdgeAndOccluderOfAMap(Lab& lab) {
     CameraText above;
     above.position = {0.0, 3.0, 0.01};
     const double low = glm::radians(2.0);
-    const scene::Scene floor =
-        makeScene(above, sun({0.0, -std::sin(low), -std::cos(low)}) +
-                             floorPlane("floor", "grey", 200, {0, 0, 0}));
+    const scene::Scene floor = makeScene(above, sun({0.0, -std::sin(low), -std::cos(low)}) +
+                                                    floorPlane("floor", "grey", 200, {0, 0, 0}));
     std::vector<BenchPhoton> grazing;
     for (int i = 0; i < 100; ++i) {
         grazing.push_back(landing({0.1 * (i % 10) - 0.45, 0.0, 0.1 * (i / 10) - 0.45}, {0, 1, 0},
@@ -225,8 +224,7 @@ void grazingEdgeAndOccluderOfAMap(Lab& lab) {
     std::vector<BenchPhoton> behindTheEdge;
     for (int i = 0; i < 60; ++i) {
         const double y = 0.09 * i - 2.7;
-        onTheEdge.push_back(
-            landing({-0.5 * texel, y, -5.0}, {0, 0, 1}, {0, 0, -1}, 1.6 * texel));
+        onTheEdge.push_back(landing({-0.5 * texel, y, -5.0}, {0, 0, 1}, {0, 0, -1}, 1.6 * texel));
         behindTheEdge.push_back(
             landing({0.5 * texel, y, -10.0}, {0, 0, 1}, {0, 0, -1}, 1.6 * texel));
     }
@@ -248,8 +246,8 @@ void grazingEdgeAndOccluderOfAMap(Lab& lab) {
         const double counted = account(hidden, kAccountHiddenInMap);
         lab.expect(node.subject, "flux on the wall and counted as hidden from the light, W", 60.0,
                    wall + counted, {60e-6, "1e-6 of the flux"});
-        lab.expectAtLeast(node.subject, "of it, counted as hidden from the light, W", 5.0,
-                          counted, "else the edge would not be tried");
+        lab.expectAtLeast(node.subject, "of it, counted as hidden from the light, W", 5.0, counted,
+                          "else the edge would not be tried");
         lab.expectDeviation(node.subject, "flux that leaks to the shelf's part of the map, W",
                             readStored(hidden).in(0, 0, kSide / 2, kSide), kExactly);
     }
@@ -275,29 +273,31 @@ void manyDepositsInOnePixel(Lab& lab) {
     }
 }
 
-// A plate of less than a texel in the middle of one, and others that make the map as large as it is.
+// A plate of less than a texel in the middle of one, and others that make the map as large as it
+// is.
 void manyDepositsInOneTexel(Lab& lab) {
     constexpr int kTexels = 16;
     const double size = 1.0 / kTexels;  // of a texel, of a map of [-0.5, 0.5]²
+    // The ledger's unit is by what the light sends: no less than what is deposited.
+    const std::string brightSun = sun({0.0, 0.0, -1.0}, 1e6);
     std::string plates;
     for (const double x : {-0.45, 0.45}) {
         for (const double y : {-0.45, 0.45})
             plates += facingPlane(fmt::format("{} {}", x, y), "grey", 0.1, {x, y, -10});
     }
     const glm::dvec3 middle(0.5 * size, 0.5 * size, -10.0);
-    const scene::Scene scene = makeScene(
-        {}, kSunAlongTheView + plates + facingPlane("plate", "grey", 0.8 * size, middle));
+    const scene::Scene scene =
+        makeScene({}, brightSun + plates + facingPlane("plate", "grey", 0.8 * size, middle));
     constexpr int kDeposits = 1 << 21;
     BenchPhoton photon = landing(middle, {0, 0, 1}, {0, 0, -1}, 0.001);
     photon.fluxWatts = glm::dvec3(0.1);
     const std::vector<BenchPhoton> photons(kDeposits, photon);
     for (const Lab::Choice& node : lab.each<ReconstructStage>()) {
-        const Frame frame = reconstructHits(lab, node, scene, photons,
-                                            inTheLightsMap(kTexels, "scene"), {1, 1});
+        const Frame frame =
+            reconstructHits(lab, node, scene, photons, inTheLightsMap(kTexels, "scene"), {1, 1});
         const double flux = 0.1 * kDeposits;
         lab.expect(node.subject, "flux of 2^21 deposits of 0.1 W in one texel of a map, W", flux,
-                   readStored(frame).in(kTexels / 2, kTexels / 2, kTexels / 2 + 1,
-                                        kTexels / 2 + 1),
+                   readStored(frame).in(kTexels / 2, kTexels / 2, kTexels / 2 + 1, kTexels / 2 + 1),
                    {1e-4 * flux, "1e-4, as the case asks for"});
     }
 }
@@ -339,10 +339,9 @@ void slantedReceiverOfAMap(Lab& lab) {
     CameraText camera;
     camera.position = {0.0, 3.0, 0.01};
     const double slant = glm::radians(60.0);
-    scene::Scene scene =
-        makeScene(camera, sun({std::sin(slant), -std::cos(slant), 0.0}) +
-                              floorPlane("floor", "grey", 8, {0, 0, 0}) +
-                              floorPlane("air", "water", 6, {0, 0.2, 0}));
+    scene::Scene scene = makeScene(camera, sun({std::sin(slant), -std::cos(slant), 0.0}) +
+                                               floorPlane("floor", "grey", 8, {0, 0, 0}) +
+                                               floorPlane("air", "water", 6, {0, 0.2, 0}));
     scene.materials[kWater - 1].ior = 1.0f;
     for (const Lab::Choice& node : lab.each<ReconstructStage>()) {
         FrameRequest request{48, 48, inTheLightsMap(64, "scene")};

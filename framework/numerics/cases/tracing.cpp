@@ -90,8 +90,9 @@ void expectCounted(Lab& lab, const Lab::Choice& tracer, const std::string& what,
     expectNoHits(lab, tracer.subject, what, photons, traced, accounts, names);
 }
 
-// Flux that is in the ledger needs a light for its quantum, and a tracer in a light's depths one that
-// sees what is to be hit: the sun sees no wall that faces the eye, a lamp beside the eye all around it.
+// Flux that is in the ledger needs a light for its quantum, and a tracer in a light's depths one
+// that sees what is to be hit: the sun sees no wall that faces the eye, a lamp beside the eye all
+// around it.
 const std::string kSun = sun({0.0, -1.0, 0.0});
 const std::string kLampAtTheEye =
     "[[light]]\nname = \"lamp\"\ntype = \"point\"\nposition = [0.02, 0.03, 0]\nintensity = 1000\n";
@@ -186,11 +187,11 @@ void diagonalsEdgesAndTies(Lab& lab) {
 }
 
 void offScreenAndBeyondTheLastLayer(Lab& lab) {
-    const scene::Scene scene = makeScene({}, kLampAtTheEye +
-                                                 facingPlane("1", "grey", 40, {0, 0, -3}) +
-                                                 facingPlane("2", "grey", 40, {0, 0, -4}) +
-                                                 facingPlane("3", "grey", 40, {0, 0, -5}) +
-                                                 facingPlane("4", "grey", 40, {0, 0, -6}));
+    const scene::Scene scene =
+        makeScene({}, kLampAtTheEye + facingPlane("1", "grey", 40, {0, 0, -3}) +
+                          facingPlane("2", "grey", 40, {0, 0, -4}) +
+                          facingPlane("3", "grey", 40, {0, 0, -5}) +
+                          facingPlane("4", "grey", 40, {0, 0, -6}));
     std::vector<BenchPhoton> leaving;
     std::vector<BenchPhoton> hidden;
     for (int i = 0; i < 64; ++i) {
@@ -200,10 +201,10 @@ void offScreenAndBeyondTheLastLayer(Lab& lab) {
         hidden.push_back(photon({x, y, -5.5}, {0.2, 0.1, -1.0}));
     }
     for (const Lab::Choice& tracer : lab.each<TraceStage>()) {
-        expectCounted(lab, tracer, "rays that leave the screen before they hit", leaving,
-                      tracePhotons(lab, tracer, scene, leaving,
-                                   {{"reconstruct.map_covers", "scene"}}),
-                      {kAccountOffScreen}, "off screen");
+        expectCounted(
+            lab, tracer, "rays that leave the screen before they hit", leaving,
+            tracePhotons(lab, tracer, scene, leaving, {{"reconstruct.map_covers", "scene"}}),
+            {kAccountOffScreen}, "off screen");
         if (lab.seenBy(tracer) == Sees::lightFront) {
             expectNoHits(lab, tracer.subject, "rays beyond what the light sees", hidden,
                          tracePhotons(lab, tracer, scene, hidden), kUnseenByLight,

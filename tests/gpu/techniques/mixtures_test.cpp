@@ -129,9 +129,9 @@ bool rendersOrSaysWhyNot(const Settings& mixture) {
         EXPECT_TRUE(std::all_of(display.begin(), display.end(),
                                 [](float value) { return std::isfinite(value); }));
         // trace.all_hits lights more than there is.
-        const bool isRight =
-            std::none_of(mixture.begin(), mixture.end(),
-                         [](const auto& setting) { return setting.second == "all_hits"; });
+        const bool isRight = std::none_of(mixture.begin(), mixture.end(), [](const auto& setting) {
+            return setting.second == "all_hits";
+        });
         if (isRight) {
             EXPECT_LT(std::abs(frame.renderer().ledger().balance()), 1e-6);
         }
