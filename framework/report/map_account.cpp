@@ -25,7 +25,7 @@ double filteredWatts(const Renderer& renderer, const FluxMap& map) {
                 sum += static_cast<double>(texels[i + c]);
         }
     }
-    return sum / transport::kChannels;
+    return sum / static_cast<double>(transport::kChannels);
 }
 
 // W that the picture shows of it.
@@ -39,7 +39,7 @@ double seenWatts(const Renderer& renderer) {
         for (std::size_t c = 0; c < transport::kChannels; ++c)
             sum += static_cast<double>(irradiance[4 * pixel + c]) * area;
     }
-    return sum / transport::kChannels;
+    return sum / static_cast<double>(transport::kChannels);
 }
 
 }  // namespace

@@ -61,13 +61,19 @@ double brightest(const MapTexels& map) {
         most = std::max({most, flux.r, flux.g, flux.b});
     return most;
 }
-double largestDifference(const MapTexels& a, const MapTexels& b) {
+// `inset`: texels along the border that do not count.
+double largestDifferenceWithin(const MapTexels& a, const MapTexels& b, int inset) {
     double most = 0.0;
-    for (std::size_t i = 0; i < a.flux.size(); ++i) {
-        const dvec3 off = glm::abs(a.flux[i] - b.flux[i]);
-        most = std::max({most, off.r, off.g, off.b});
+    for (int y = inset; y < a.height - inset; ++y) {
+        for (int x = inset; x < a.width - inset; ++x) {
+            const dvec3 off = glm::abs(a.at(x, y) - b.at(x, y));
+            most = std::max({most, off.r, off.g, off.b});
+        }
     }
     return most;
+}
+double largestDifference(const MapTexels& a, const MapTexels& b) {
+    return largestDifferenceWithin(a, b, 0);
 }
 
 TEST(BlurredPoints, AreSplatsByLinearity) {
@@ -90,9 +96,11 @@ TEST(BlurredPoints, AreSplatsByLinearity) {
                                             {"filter.blur.diameter", blur}}));
         const MapTexels drawn = storedIn(splats);
         const MapTexels blurred = points.filtered();
-        // To the border: both keep on the map what would fall beside it.
+        // As far from the border as no splat that it clips, of which a blur keeps the rest,
+        // reaches.
         EXPECT_GT(brightest(drawn), 0.0);
-        EXPECT_LT(largestDifference(drawn, blurred), kFlux * brightest(drawn));
+        EXPECT_LT(largestDifferenceWithin(drawn, blurred, std::stoi(diameter)),
+                  kFlux * brightest(drawn));
         // It is a blur.
         EXPECT_GT(largestDifference(drawn, storedIn(points)), 0.01 * brightest(drawn));
         splats.expectBalance();
@@ -194,7 +202,7 @@ TEST_F(MadeUpPhotons, AreWholeSplatsAtEveryOffsetWithinATexel) {
     }
 }
 
-TEST_F(MadeUpPhotons, KeepTheirFluxAtTheMapsBorder) {
+TEST_F(MadeUpPhotons, AreInTheMapOrCountedBesideItAtItsBorder) {
     const render::RasterView view = mapViewOf(reconstruct(floor_, {}, {}));
     std::vector<dvec2> texels;
     for (int i = 0; i < 40; ++i) {
@@ -206,8 +214,12 @@ TEST_F(MadeUpPhotons, KeepTheirFluxAtTheMapsBorder) {
     for (const char* diameter : {"1", "7", "63"}) {
         const numerics::Frame frame = store(floor_, view, texels, depthOfFloor(view),
                                             {{"reconstruct.fixed.diameter", diameter}});
-        EXPECT_NEAR(storedIn(frame).sum().g, double(texels.size()), kFlux * double(texels.size()))
+        const double beside = frame.renderer().ledger().watts[transport::kAccountOutsideMap];
+        EXPECT_NEAR(storedIn(frame).sum().g + beside, double(texels.size()),
+                    kFlux * double(texels.size()))
             << diameter;
+        // Points lie on one texel, and nothing of them beside the map.
+        EXPECT_EQ(beside > 0.0, std::string(diameter) != "1") << diameter;
     }
 }
 
@@ -467,7 +479,10 @@ TEST(Levels, HaveAllFluxEach) {
                         sum += coarser.at(x, y).g;
                 }
                 ++levels;
-                EXPECT_NEAR(sum, stored, kFlux * stored) << levels << " of " << size;
+                // What the border clips of splats grows with the texels.
+                const double clipped = std::string(diameter) == "1" ? kFlux : 0.03;
+                EXPECT_NEAR(sum, stored, clipped * stored) << levels << " of " << size;
+                EXPECT_LE(sum, stored * (1.0 + kFlux)) << levels << " of " << size;
                 first += side;
             }
             EXPECT_EQ(levels, 3);
