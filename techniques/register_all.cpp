@@ -2,6 +2,7 @@
 #include "techniques/register_all.h"
 
 #include "techniques/caustic_map/nodes.h"
+#include "techniques/caustic_triangles/nodes.h"
 #include "techniques/planar/nodes.h"
 #ifdef KAUSTIK_HAS_EMBREE
 #include "techniques/raytraced/nodes.h"
@@ -20,6 +21,7 @@ Registry registerAll() {
 #endif
     registerPlanar(registry);
     registerCausticMap(registry);
+    registerCausticTriangles(registry);
     registerNoMedia(registry);
     return registry;
 }

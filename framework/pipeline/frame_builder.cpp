@@ -166,7 +166,7 @@ FrameOutputs buildFrame(FrameBuilder& frame) {
         irradiance = skipCaustic(frame, whyNot);
     }
     const Picture picture = frame.run<ComposeStage>(
-        geometry, eye, layers, LightParts{shadows, irradiance, caustic.inScattered});
+        geometry, eye, layers, LightParts{shadows, irradiance, caustic.inScattered, caustic.map});
     return {picture,
             irradiance,
             eye,

@@ -42,6 +42,7 @@ const std::vector<std::pair<unsigned, std::string>>& lossCauses() {
         {kAccountOccludedSplat, "occluded"},
         {kAccountOutsideMap, "outside_map"},
         {kAccountHiddenInMap, "hidden_in_map"},
+        {kAccountDiscardedTriangle, "discarded_triangle"},
         {kAccountNotANumber, "not_a_number"},
         {kAccountUnresolved, "unresolved"}};
     return causes;

@@ -64,7 +64,7 @@ struct TraceParams {
 };
 
 // Where light is stored.
-enum class StoreSpace : int { screen, light };
+enum class StoreSpace : int { screen, light, cube };
 // What a light's map covers.
 enum class MapCover : int { seen, scene };
 
@@ -77,13 +77,15 @@ struct ReconstructParams {
     void reflect(R& r) {
         r.choice(space, "space",
                  "screen: by the eye's pixels; light: in a caustic map of each light, as it sees "
-                 "the receivers",
-                 {"screen", "light"});
+                 "the receivers; cube: on six faces around each caustic generator",
+                 {"screen", "light", "cube"});
         r.field(mapSize, "map_size",
-                "Side of a light's caustic map; half of it where a light needs six, around it",
+                "Side of a light's caustic map; half of it where six are needed, around a light or "
+                "a generator",
                 "texels", params::range(16, 8192));
         r.choice(covers, "map_covers",
-                 "seen: the receivers within what the eye looks at; scene: all of them",
+                 "seen: of a light's, the receivers within what the eye looks at; scene: all of "
+                 "them",
                  {"seen", "scene"});
         r.field(memoryMebibytes, "map_memory",
                 "Most memory of all caustic maps together and of what the lights see there; larger "

@@ -50,12 +50,14 @@ json mapAccount(const Renderer& renderer) {
     const EnergyLedger ledger = renderer.ledger();
     const double deposited = ledger.watts[transport::kAccountDeposited];
     const double arrived = ledger.watts[transport::kAccountArrived];
-    json account{{"space", "light"}, {"maps", json::array()}};
+    const bool isOfGenerators = maps.front().generator >= 0;
+    json account{{"space", isOfGenerators ? "cube" : "light"}, {"maps", json::array()}};
     double filtered = 0.0;
     bool isFiltered = true;
     for (const FluxMap& map : maps) {
         const render::RasterViews& views = *map.on.views;
-        account["maps"].push_back({{"light", map.light},
+        account["maps"].push_back({{isOfGenerators ? "generator" : "light",
+                                    isOfGenerators ? map.generator : map.light},
                                    {"size", {views.width(), views.height()}},
                                    {"views", views.count()}});
         isFiltered = isFiltered && map.filtered.valid();

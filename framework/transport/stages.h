@@ -109,6 +109,10 @@ struct DisplayTexel {  // rgb: display-encoded (sRGB), [0,1]
 struct VisibilityTexel {  // x: share of a light's direct light that reaches the receiver, [0, 1]
     static constexpr Format format = Format::r32f;
 };
+// Which layer of a texel is in which slot, four bits a slot from the lowest; 15: none.
+struct LayerOrderTexel {
+    static constexpr Format format = Format::r32ui;
+};
 struct ExitPosition {  // xyz: view space, m; w: specular surfaces that the eye's ray hit, 0 none
     static constexpr Format format = Format::rgba32f;
 };
@@ -149,6 +153,12 @@ struct LayeredDepth {
     graph::Buffer<transport::LayerStatistics> statistics;
     int layers = 0;
     Views views;
+};
+
+// All surfaces around a caustic generator, as its reference point sees them (U08, section 3).
+struct SurfacesAround {
+    LayeredDepth layers;                    // of a cube
+    graph::Texture<LayerOrderTexel> order;  // array, a layer a face
 };
 
 // The paths that photons stand for, of all that light takes: what a technique claims to model. The
@@ -270,7 +280,8 @@ struct FluxMap {
     graph::Texture<FilteredTexel> filtered;
     FluxSets sets;
     ReceiverView on;
-    int light = -1;  // whose photons alone it holds; -1: all lights'
+    int light = -1;      // whose photons alone it holds; -1: all lights'
+    int generator = -1;  // the same of what they have left last; -1: of all
     // Layers of `filtered` and of `flux` that each view has.
     [[nodiscard]] int filteredPerView() const { return 1 + sets.perView() - sets.flux; }
     [[nodiscard]] int wordsPerView() const {
@@ -328,6 +339,7 @@ struct LightParts {
     Shadows shadows;
     IrradianceMap caustic;
     InScattered inScattered;
+    CausticMap map;  // without maps where no light is stored
 };
 
 struct Picture {
@@ -383,6 +395,11 @@ struct LayersStage : Stage<LayeredDepth(Geometry)> {
     static constexpr const char* name = "layers";
     static constexpr const char* question = "Which surfaces lie along each eye ray?";
 };
+// By generator (techniques/shared/generators.h). Run by whoever asks for it.
+struct AroundStage : Stage<std::vector<SurfacesAround>(Geometry)> {
+    static constexpr const char* name = "around";
+    static constexpr const char* question = "Which surfaces lie around each caustic generator?";
+};
 // Drives the stages from emit to media: which photons are emitted, and when.
 struct DriverStage : Stage<Caustic(Surfaces)> {
     static constexpr const char* name = "driver";
@@ -433,7 +450,7 @@ struct ShadowStage : Stage<Shadows(Geometry, EyeBuffer, LayeredDepth)> {
     static constexpr const char* name = "shadow";
     static constexpr const char* question = "Which receivers does direct light reach?";
 };
-struct ViewStage : Stage<View(Geometry, EyeBuffer, LayeredDepth, Radiance, Shadows)> {
+struct ViewStage : Stage<View(Geometry, EyeBuffer, LayeredDepth, Radiance, Shadows, CausticMap)> {
     static constexpr const char* name = "view";
     static constexpr const char* question = "What does the eye see through specular surfaces?";
 };

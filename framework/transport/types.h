@@ -36,6 +36,17 @@ struct ViewData {
 
 const uint kMostViews = 6u;  // of a block: the faces of a cube
 
+// The caustic generators of a scene, in a uniform block (std140): by them photons find the surfaces
+// that lie around what they have left last, and the map that stores them (include/generators.glsl).
+const uint kMostGenerators = 32u;
+struct GeneratorsData {
+    mat4 eyeToWorld;  // rotation only
+    uvec4 count;      // x
+    // Boxes along the world's axes, from the eye, m.
+    vec4 centers[kMostGenerators];
+    vec4 halfExtents[kMostGenerators];
+};
+
 // One placed mesh, for one view (std430).
 struct InstanceData {
     mat4 modelToView;
@@ -189,7 +200,9 @@ const uint kAccountNestingLimit = 18u;
 // Stored in another view than the eye's: what arrived beside it, and behind what it sees.
 const uint kAccountOutsideMap = 19u;
 const uint kAccountHiddenInMap = 20u;
-const uint kAccountCount = 21u;
+// Between photons that cannot be joined to triangles, where nothing else covers it.
+const uint kAccountDiscardedTriangle = 21u;
+const uint kAccountCount = 22u;
 
 // A sum of watts in 64-bit fixed point, so that it neither drifts nor depends on the order:
 // watts = (high * 2^32 + low) * quantum. `events` counts the additions.

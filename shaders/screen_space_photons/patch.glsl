@@ -21,6 +21,7 @@ layout(std430) buffer NarrowedPatches {
 struct Patch {
     vec3 corners[4];  // around it
     float densities[4];
+    float first;      // share of the flux in the first of its two triangles
     vec3 normal;
     vec3 direction;
     vec3 flux;
@@ -31,14 +32,22 @@ struct Patch {
 // along either axis.
 Patch patchOfBeam(Arrival at, vec2 ends[4], float farthest) {
     vec3 extent = farthest * (abs(at.beside[0]) + abs(at.beside[1]));
-    float depth = -at.position.z;
     // In front of the view, and of bounded size on the screen.
     float scale = 1.0;
+#ifdef MANY_VIEWS
+    float depth = length(at.position);
+    float most = 0.5 * kWidestInCube * depth;
+    float wide = length(extent);
+    if (wide > most) scale = most / wide;
+    float widest = 2.0 * wide / pixelFootprint(depth);
+#else
+    float depth = -at.position.z;
 #ifndef ORTHOGRAPHIC_VIEW
     float room = 0.5 * (depth - view.frustum.z);
     if (extent.z > room) scale = max(room, 0.0) / extent.z;
 #endif
     float widest = 2.0 * max(extent.x, extent.y) / pixelFootprint(depth);
+#endif
     float largest = float(reconstruct_triangles_maximum);
     if (widest * scale > largest) {
         scale = largest / widest;
@@ -49,6 +58,7 @@ Patch patchOfBeam(Arrival at, vec2 ends[4], float farthest) {
     Patch made;
     for (int i = 0; i < 4; ++i) made.corners[i] = at.position + beside * ends[i];
     made.densities = float[4](1.0, 1.0, 1.0, 1.0);
+    made.first = 0.5;
     made.normal = at.normal;
     made.direction = at.direction;
     made.flux = at.flux;
@@ -56,9 +66,43 @@ Patch patchOfBeam(Arrival at, vec2 ends[4], float farthest) {
     return made;
 }
 
+layout(std430) readonly buffer PhotonShares {
+    VertexShares photonShares[];
+};
+
+// Twice the area of the triangle, m².
+float twiceArea(vec3 a, vec3 b, vec3 c) {
+    return length(cross(b - a, c - a));
+}
+
+// Irradiance at the corners by the areas of all triangles there (U08, section 4.2): a photon's flux
+// is shared out among them as they are large, so that the flux between three corners is their
+// triangle's area by a third of what each has over all of its own; linear between the corners. Where
+// none has any area, in equal parts.
+void shareByAreas(inout Patch made, uint photonsOf[4]) {
+    vec3 areas = 0.5 * vec3(twiceArea(made.corners[0], made.corners[1], made.corners[2]),
+                            twiceArea(made.corners[0], made.corners[2], made.corners[3]), 0.0);
+    vec3 first = vec3(0.0);
+    vec3 second = vec3(0.0);
+    for (int i = 0; i < 4; ++i) {
+        VertexShares shares = photonShares[photonsOf[i]];
+        vec3 flux = texelFetch(hitFlux, ivec2(photonTexel(photons, photonsOf[i])), 0).rgb *
+                    (shares.quarter * shares.cells);
+        bool hasArea = shares.area > 0.0;
+        vec2 part = hasArea ? areas.xy / shares.area : vec2(1.0 / max(shares.triangles, 1.0));
+        if (i != 3) first += flux * part.x;
+        if (i != 1) second += flux * part.y;
+        made.densities[i] = hasArea ? (flux.r + flux.g + flux.b) / shares.area : 0.0;
+    }
+    made.flux = first + second;
+    float all = made.flux.r + made.flux.g + made.flux.b;
+    made.first = all > 0.0 ? (first.r + first.g + first.b) / all : 0.5;
+}
+
 // Between four photons, from the one at the lower left.
 Patch patchBetween(Arrival a, Arrival b, Arrival c, Arrival d) {
     Patch made;
+    made.first = 0.5;
     made.corners = vec3[4](a.position, b.position, c.position, d.position);
     made.densities = float[4](a.density, b.density, c.density, d.density);
     made.normal = normalize(a.normal + b.normal + c.normal + d.normal);
@@ -71,10 +115,6 @@ Patch patchBetween(Arrival a, Arrival b, Arrival c, Arrival d) {
     return made;
 }
 
-layout(std430) readonly buffer PhotonShares {
-    float photonShares[];  // of a photon's flux that a whole quarter of its cell takes
-};
-
 uint neighbourOf(PhotonOrigin origin, ivec2 beside) {
     return cellPhotons[cellPlace(origin, beside)] - 1u;
 }
@@ -82,13 +122,13 @@ uint neighbourOf(PhotonOrigin origin, ivec2 beside) {
 // With the flux of a quarter of its cell.
 Arrival cornerOf(uint index) {
     Arrival corner = arrivalOf(ivec2(photonTexel(photons, index)));
-    corner.flux *= photonShares[index];
+    corner.flux *= photonShares[index].quarter;
     return corner;
 }
 
 // What a photon's flux has of a quarter of its cell.
 float fluxShare(Arrival at, uint index, uint quarter) {
-    return photonShares[index] * areaOf(cornersOf(at, quarter));
+    return photonShares[index].quarter * areaOf(cornersOf(at, quarter));
 }
 
 Patch patchOfQuarter(Arrival own, QuarterCorners corners, float farthest) {
@@ -123,16 +163,42 @@ Patch patchAtCrease(PhotonOrigin origin, uint quarter) {
     return patchOfQuarter(own, ownCorners, 1.0);
 }
 
+// Between the photons at the corners of so many cells.
+Patch patchOfCells(uint index, int side) {
+    PhotonOrigin origin = originAt(ivec2(photonTexel(photons, index)));
+    uint around[4] = uint[4](index, neighbourOf(origin, ivec2(side, 0)),
+                             neighbourOf(origin, ivec2(side)), neighbourOf(origin, ivec2(0, side)));
+    Patch made = patchBetween(cornerOf(around[0]), cornerOf(around[1]), cornerOf(around[2]),
+                              cornerOf(around[3]));
+    if (reconstruct_triangles_shading == reconstruct_triangles_shading_vertices)
+        shareByAreas(made, around);
+    return made;
+}
+
+#ifdef MERGES
+layout(std430) buffer PatchBlocks {
+    PatchBlock blocks[];
+};
+
+// Its power is the sum of all that it is made of (U08, section 5).
+Patch patchOfBlock(uint index, uint merges) {
+    Patch made = patchOfCells(index, 1 << merges);
+    made.flux = blocks[index].flux.rgb;
+    float first = twiceArea(made.corners[0], made.corners[1], made.corners[2]);
+    float second = twiceArea(made.corners[0], made.corners[2], made.corners[3]);
+    made.first = first + second > 0.0 ? first / (first + second) : 0.5;
+    return made;
+}
+#endif
+
 Patch patchOf(uint item) {
     uint index = item / kPatchParts;
     uint part = item % kPatchParts;
     ivec2 texel = ivec2(photonTexel(photons, index));
-    if (part == kPatchJoined) {
-        PhotonOrigin origin = originAt(texel);
-        return patchBetween(cornerOf(index), cornerOf(neighbourOf(origin, ivec2(1, 0))),
-                            cornerOf(neighbourOf(origin, ivec2(1, 1))),
-                            cornerOf(neighbourOf(origin, ivec2(0, 1))));
-    }
+    if (part == kPatchJoined) return patchOfCells(index, 1);
+#ifdef MERGES
+    if (part >= kPatchMerged) return patchOfBlock(index, part - kPatchMerged + 1u);
+#endif
     if (part >= kPatchCrease) return patchAtCrease(originAt(texel), part - kPatchCrease);
     Arrival own = arrivalOf(texel);
     if (part == kPatchBeam) {
@@ -154,7 +220,8 @@ struct PatchTriangle {
     vec3 densities;  // at its corners, about 1
 };
 
-PatchTriangle patchTriangle(Patch whole, vec3 a, vec3 b, vec3 c, vec3 densities, vec2 base) {
+PatchTriangle patchTriangle(Patch whole, vec3 a, vec3 b, vec3 c, vec3 densities, float part,
+                            vec2 base) {
     PatchTriangle made;
     made.onScreen = triangleOf(pixelOf(a) - base, pixelOf(b) - base, pixelOf(c) - base);
     vec3 area = cross(b - a, c - a);
@@ -169,13 +236,15 @@ PatchTriangle patchTriangle(Patch whole, vec3 a, vec3 b, vec3 c, vec3 densities,
     made.middle = middle;
     float covered = abs(made.onScreen.area) *
                     pixelArea(viewRay(pixelOf(middle)), -middle.z, made.plane);
-    made.perArea = 0.5 / max(isFlat ? max(0.5 * size, 0.25 * covered) : covered, 1e-30);
+    made.perArea = part / max(isFlat ? max(0.5 * size, 0.25 * covered) : covered, 1e-30);
     // Where the densities differ too much, they are those of a fold and say nothing of its middle.
     float mean = (densities.x + densities.y + densities.z) / 3.0;
     float least = min(densities.x, min(densities.y, densities.z));
     float most = max(densities.x, max(densities.y, densities.z));
-    bool isSmooth = reconstruct_triangles_shading == reconstruct_triangles_shading_smooth;
-    made.densities = isSmooth && mean > 0.0 && most <= 4.0 * least ? densities / mean : vec3(1.0);
+    bool isSmooth = reconstruct_triangles_shading == reconstruct_triangles_shading_smooth
+                        ? most <= 4.0 * least
+                        : reconstruct_triangles_shading == reconstruct_triangles_shading_vertices;
+    made.densities = isSmooth && mean > 0.0 ? densities / mean : vec3(1.0);
     return made;
 }
 
@@ -206,9 +275,9 @@ PatchOnScreen onScreen(Patch whole) {
     vec2 base = vec2(made.base);
     float q[4] = whole.densities;
     made.first = patchTriangle(whole, whole.corners[0], whole.corners[1], whole.corners[2],
-                               vec3(q[0], q[1], q[2]), base);
+                               vec3(q[0], q[1], q[2]), whole.first, base);
     made.second = patchTriangle(whole, whole.corners[0], whole.corners[2], whole.corners[3],
-                                vec3(q[0], q[2], q[3]), base);
+                                vec3(q[0], q[2], q[3]), 1.0 - whole.first, base);
     made.tolerance = whole.tolerance;
     made.normal = whole.normal;
     return made;
@@ -286,4 +355,32 @@ bool isBeforeView(Patch whole) {
         if (!(-whole.corners[i].z > view.frustum.z)) return false;
     }
     return true;
+}
+
+// The patch as a face sees it, which becomes the view; false: no part of it. The eye's or a light's
+// one view sees all that is before it.
+bool seenInFace(Patch whole, int face, out Patch there, out PatchOnScreen onto) {
+    there = whole;
+#ifdef MANY_VIEWS
+    mat3 turn = mat3(views[face].fromEye) * transpose(mat3(views[0].fromEye));
+    for (int i = 0; i < 4; ++i) there.corners[i] = turn * whole.corners[i];
+    there.normal = turn * whole.normal;
+    there.direction = turn * whole.direction;
+    viewIndex = face;
+    if (!isBeforeView(there)) return false;
+#endif
+    onto = onScreen(there);
+#ifdef MANY_VIEWS
+    return all(lessThanEqual(onto.low, onto.high));
+#else
+    return true;
+#endif
+}
+
+void addParts(PatchOnScreen onto, inout PatchParts parts) {
+    for (int row = onto.low.y; row <= onto.high.y; ++row) {
+        ivec2 columns = columnsOf(onto, row);
+        for (int column = columns.x; column <= columns.y; ++column)
+            addPart(parts, patchAt(onto, ivec2(column, row)));
+    }
 }

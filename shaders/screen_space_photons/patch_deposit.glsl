@@ -8,11 +8,11 @@ void deposit(Patch whole, ivec2 pixel, float share) {
 
 // What shares are divided by; 0 where no pixel shows any of it. Books what is hidden or beside the
 // view.
-float account(Patch whole, PatchOnScreen onto, PatchParts parts) {
+float account(Patch whole, bool isWhole, PatchParts parts) {
     float within = parts.on + parts.occluded;
     // All pixels' shares add up to 1 but for their rounding and the bend of perspective within one;
     // what is missing lies beside the view.
-    float outside = onto.isWhole ? 0.0 : max(1.0 - within - parts.beside, 0.0);
+    float outside = isWhole ? 0.0 : max(1.0 - within - parts.beside, 0.0);
     float total = within + outside;
     if (total <= 0.0) return 0.0;
     if (parts.occluded > 0.0) ledgerAdd(kAccountHidden, whole.flux * (parts.occluded / total));
@@ -22,8 +22,24 @@ float account(Patch whole, PatchOnScreen onto, PatchParts parts) {
 
 // No pixel under the patch shows its surface: the nearest that do get its flux, or else it is edge-on
 // or smaller than a pixel, or hidden by its own object.
-void depositNear(Patch whole, PatchOnScreen onto) {
+void depositNear(Patch whole) {
     vec3 middle = 0.25 * (whole.corners[0] + whole.corners[1] + whole.corners[2] + whole.corners[3]);
+#ifdef MANY_VIEWS
+    // The face that it lies on sees it at the largest depth.
+    mat3 toEye = transpose(mat3(views[0].fromEye));
+    int nearest = 0;
+    float deepest = -1.0;
+    for (int face = 0; face < viewCount; ++face) {
+        float depth = -(mat3(views[face].fromEye) * (toEye * middle)).z;
+        if (depth > deepest) nearest = face;
+        deepest = max(deepest, depth);
+    }
+    viewIndex = nearest;
+    mat3 turn = mat3(view.fromEye) * toEye;
+    middle = turn * middle;
+    whole.normal = turn * whole.normal;
+    whole.direction = turn * whole.direction;
+#endif
     if (-middle.z <= view.frustum.z) {
         ledgerAdd(kAccountBehind, whole.flux);
         return;
@@ -42,7 +58,7 @@ void depositNear(Patch whole, PatchOnScreen onto) {
         if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, size))) continue;
         float area;
         int where =
-            seenOnPlane(pixel, whole.normal, middle, whole.normal, onto.tolerance, area);
+            seenOnPlane(pixel, whole.normal, middle, whole.normal, whole.tolerance, area);
         if (where != kSeenOn) continue;
         nearness[i] = max(1.5 - length(vec2(pixel) + 0.5 - at), 1e-3);
         sum += nearness[i];
@@ -54,4 +70,16 @@ void depositNear(Patch whole, PatchOnScreen onto) {
     if (sum > 0.0) return;
     bool seesFront = dot(whole.normal, viewDirection(middle)) < 0.0;
     ledgerAdd(seesFront ? kAccountEdgeOn : kAccountHidden, whole.flux);
+}
+
+// To all pixels of the view that show the patch's surface, of shares that add up to `total`.
+void depositParts(Patch whole, PatchOnScreen onto, float total) {
+    for (int row = onto.low.y; row <= onto.high.y; ++row) {
+        ivec2 columns = columnsOf(onto, row);
+        for (int column = columns.x; column <= columns.y; ++column) {
+            PatchPixel pixel = patchAt(onto, ivec2(column, row));
+            if (pixel.where == kSeenOn && pixel.share > 0.0)
+                deposit(whole, ivec2(column, row), pixel.share / total);
+        }
+    }
 }

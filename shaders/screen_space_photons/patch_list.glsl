@@ -13,4 +13,21 @@ const uint kPatchQuarter = 0u;  // 0 to 3: of its beam, by the cell beside it: r
 const uint kPatchBeam = 4u;     // all of its beam
 const uint kPatchJoined = 5u;   // what it is the lower left corner of
 const uint kPatchCrease = 8u;   // 8 to 11: the same of where light comes down on several surfaces
+const uint kPatchMerged = 12u;  // 12 to 15: 2, 4, 8 and 16 such cells along each side, as one
+const uint kMostMerges = 4u;
 const uint kPatchParts = 16u;
+
+// What a photon's flux is shared out by.
+struct VertexShares {
+    float quarter;    // of its flux that a whole quarter of its cell takes
+    float area;       // of all triangles that it is a corner of, m² (U08, section 5)
+    float triangles;  // how many
+    float cells;      // of those that are joined, how many it is a corner of
+};
+
+// A square of joined cells, by the photon at its lower left.
+struct PatchBlock {
+    vec4 flux;  // rgb: W; w: its side is 2^w cells; -1: it is none, or part of a larger one
+    vec4 low;   // xyz: the box around it in the view, px; of a cube in directions, times px
+    vec4 high;
+};

@@ -13,6 +13,16 @@ bool isJoined(uint index) {
     uint found[4];
     if (!photonsAround(origin, 0u, found) || found[0] != index + 1u) return false;
     ArrivalsAround around = arrivalsOf(found);
+#ifdef MANY_VIEWS
+    // By the angle from the first, of which any two are no farther apart than twice.
+    float texel = 2.0 * view.sizePixels.z;
+    float widest = 0.5 * min(kWidestInCube, float(reconstruct_triangles_maximum) * texel);
+    vec3 middle = normalize(around.corners[0].position);
+    for (uint i = 1u; i < 4u; ++i) {
+        vec3 off = normalize(around.corners[i].position) - middle;
+        if (!(length(off) <= 2.0 * sin(0.5 * widest))) return false;
+    }
+#else
     vec2 least = vec2(1e30);
     vec2 most = vec2(-1e30);
     for (uint i = 0u; i < 4u; ++i) {
@@ -24,6 +34,7 @@ bool isJoined(uint index) {
     }
     vec2 size = most - least;
     if (!(max(size.x, size.y) <= float(reconstruct_triangles_maximum))) return false;
+#endif
     return areTogether(around, 0u, 1u) && areTogether(around, 2u, 3u) &&
            areTogether(around, 0u, 2u) && areTogether(around, 1u, 3u);
 }

@@ -3,6 +3,7 @@
 // quadrilaterals around it; those that are not joined it covers by its own beam, as far as light
 // comes that way. One thread a photon.
 #include "include/arriving.glsl"
+#include "include/ledger.glsl"
 #include "screen_space_photons/crease.glsl"
 #include "screen_space_photons/patch_list.glsl"
 
@@ -14,11 +15,35 @@ layout(std430) buffer PatchCounts {
     PatchCount widePatches;
 };
 layout(std430) writeonly buffer PhotonShares {
-    float photonShares[];
+    VertexShares photonShares[];
 };
 layout(std430) writeonly buffer Patches {
     uint patchList[];
 };
+
+// The areas of the triangles that the photon is a corner of, in cells that are joined: bits by the
+// corner of its cell (U08, section 5: in a pass of its own, once a photon).
+void addAreas(PhotonOrigin origin, uint joined, inout VertexShares shares) {
+    for (uint i = 0u; i < 4u; ++i) {
+        if ((joined & (1u << i)) == 0u) continue;
+        uint found[4];
+        photonsAround(origin, i ^ 3u, found);
+        vec3 corners[4];  // around the cell, from its lower left
+        for (uint k = 0u; k < 4u; ++k) {
+            uint corner = found[k ^ (k >> 1u)];
+            corners[k] = texelFetch(hitPosition, ivec2(photonTexel(photons, corner - 1u)), 0).xyz;
+        }
+        // Triangles 0 1 2 and 0 2 3; the photon is the corner across from `i`.
+        vec2 areas = 0.5 * vec2(length(cross(corners[1] - corners[0], corners[2] - corners[0])),
+                                length(cross(corners[2] - corners[0], corners[3] - corners[0])));
+        uint own = i ^ 3u;
+        bool isOfFirst = own != 2u;
+        bool isOfSecond = own != 1u;
+        shares.area += (isOfFirst ? areas.x : 0.0) + (isOfSecond ? areas.y : 0.0);
+        shares.triangles += (isOfFirst ? 1.0 : 0.0) + (isOfSecond ? 1.0 : 0.0);
+        shares.cells += 1.0;
+    }
+}
 
 bool isJoined(PhotonOrigin origin, ivec2 corner) {
     uint place = cellPlace(origin, corner);
@@ -56,6 +81,7 @@ void main() {
     uint parts[4];
     uint count = 0u;
     float whole = 0.0;
+    float discarded = 0.0;
     bool isPlain = true;
     bool isRead = false;
     for (uint i = 0u; i < 4u; ++i) {
@@ -71,16 +97,26 @@ void main() {
         float area = areaOf(cornersOf(own, i));
         whole += area;
         bool isListed = isCrease || (!isOther && area > 0.0);
-        if (isListed) parts[count++] = (isCrease ? kPatchCrease : kPatchQuarter) + i;
+        if (reconstruct_triangles_unjoined == reconstruct_triangles_unjoined_discard) {
+            discarded += area;
+        } else if (isListed) {
+            parts[count++] = (isCrease ? kPatchCrease : kPatchQuarter) + i;
+        }
     }
     // What the parts that light can come through take is all of its flux.
-    photonShares[index] = whole > 0.0 ? 1.0 / whole : 0.0;
+    VertexShares shares = VertexShares(whole > 0.0 ? 1.0 / whole : 0.0, 0.0, 0.0, 0.0);
+    if (reconstruct_triangles_shading == reconstruct_triangles_shading_vertices)
+        addAreas(origin, joined, shares);
+    photonShares[index] = shares;
+    if (discarded > 0.0)
+        ledgerAdd(kAccountDiscardedTriangle, flux.rgb * (shares.quarter * discarded));
     // A cell of its own is covered at once.
     if (joined == 0u && isPlain && count == 4u) {
         parts[0] = kPatchBeam;
         count = 1u;
     }
-    if ((joined & 8u) != 0u) parts[count++] = kPatchJoined;
+    // Where cells may be merged, their own pass lists them.
+    if ((joined & 8u) != 0u && reconstruct_triangles_merge <= 0.0) parts[count++] = kPatchJoined;
     if (count == 0u) return;
     uint at = atomicAdd(patches.count, count);
     for (uint i = 0u; i < count; ++i) patchList[at + i] = index * kPatchParts + parts[i];

@@ -3,25 +3,29 @@
 #include "screen_space_photons/patch.glsl"
 #include "screen_space_photons/patch_deposit.glsl"
 
-layout(std430) readonly buffer WidePatches {
-    uint widePatchList[];
+layout(std430) readonly buffer Patches {
+    uint patchList[];
 };
+uniform int firstWide;
 shared PatchParts partsOfThreads[64];
 
 void main() {
     uint index = workgroupNumber();
     bool isHere = index < widePatches.count;
     Patch whole;
+    Patch there;
     PatchOnScreen onto;
     PatchParts parts = PatchParts(0.0, 0.0, 0.0);
     ivec2 local = ivec2(gl_LocalInvocationIndex & 7u, gl_LocalInvocationIndex >> 3u);
     if (isHere) {
-        whole = patchOf(widePatchList[index]);
-        onto = onScreen(whole);
-        for (int row = onto.low.y + local.y; row <= onto.high.y; row += 8) {
-            ivec2 columns = columnsOf(onto, row);
-            for (int column = columns.x + local.x; column <= columns.y; column += 8)
-                addPart(parts, patchAt(onto, ivec2(column, row)));
+        whole = patchOf(patchList[uint(firstWide) + index]);
+        for (int face = 0; face < viewCount; ++face) {
+            if (!seenInFace(whole, face, there, onto)) continue;
+            for (int row = onto.low.y + local.y; row <= onto.high.y; row += 8) {
+                ivec2 columns = columnsOf(onto, row);
+                for (int column = columns.x + local.x; column <= columns.y; column += 8)
+                    addPart(parts, patchAt(onto, ivec2(column, row)));
+            }
         }
     }
     partsOfThreads[gl_LocalInvocationIndex] = parts;
@@ -35,20 +39,23 @@ void main() {
         }
         float total = 0.0;
         if (isHere) {
-            total = account(whole, onto, parts);
-            if (total <= 0.0) depositNear(whole, onto);
+            total = account(whole, viewCount > 1 || onto.isWhole, parts);
+            if (total <= 0.0) depositNear(whole);
         }
         partsOfThreads[0].on = parts.on > 0.0 ? total : 0.0;
     }
     barrier();
     float total = partsOfThreads[0].on;
     if (!isHere || total <= 0.0) return;
-    for (int row = onto.low.y + local.y; row <= onto.high.y; row += 8) {
-        ivec2 columns = columnsOf(onto, row);
-        for (int column = columns.x + local.x; column <= columns.y; column += 8) {
-            PatchPixel pixel = patchAt(onto, ivec2(column, row));
-            if (pixel.where == kSeenOn && pixel.share > 0.0)
-                deposit(whole, ivec2(column, row), pixel.share / total);
+    for (int face = 0; face < viewCount; ++face) {
+        if (!seenInFace(whole, face, there, onto)) continue;
+        for (int row = onto.low.y + local.y; row <= onto.high.y; row += 8) {
+            ivec2 columns = columnsOf(onto, row);
+            for (int column = columns.x + local.x; column <= columns.y; column += 8) {
+                PatchPixel pixel = patchAt(onto, ivec2(column, row));
+                if (pixel.where == kSeenOn && pixel.share > 0.0)
+                    deposit(there, ivec2(column, row), pixel.share / total);
+            }
         }
     }
 }

@@ -12,6 +12,7 @@
 #include "techniques/caustic_map/levels.h"
 #include "techniques/caustic_map/map_filters.h"
 #include "techniques/caustic_map/nodes.h"
+#include "techniques/shared/generators.h"
 
 namespace kaustik {
 namespace {
@@ -72,7 +73,8 @@ using MoreSetup = std::function<void(graph::PassSetup&, Filtered&)>;
 using FilterCommands = std::function<void(const Filtered&, gl::PassContext&)>;
 
 std::string suffixOf(const FluxMap& map) {
-    return map.light > 0 ? fmt::format(".light_{}", map.light + 1) : "";
+    if (map.light > 0) return fmt::format(".light_{}", map.light + 1);
+    return map.generator > 0 ? suffixOfGenerator(static_cast<std::size_t>(map.generator)) : "";
 }
 
 template <class Texel>
@@ -213,13 +215,16 @@ CausticMap pickLevels(FrameBuilder& frame, const LevelFilterParams& params, Caus
 
 CausticMap inFloats(FrameBuilder& frame, CausticMap map) {
     if (map.maps.front().filtered.valid()) return map;
-    return filterMaps(
-        frame, "gather.unpack", "a texel of the map is looked up more than once", std::move(map),
-        [](graph::PassSetup&, Filtered&) {},
-        [](const Filtered& data, gl::PassContext& context) {
-            gl::Command command = filterCommand(context, "unpack.comp", data.map);
-            dispatchOverMap(command, data.map);
-        });
+    // Of the frame's one map, for whoever asks first.
+    return *frame.once<CausticMap>("map.in_floats", [&] {
+        return std::make_shared<CausticMap>(filterMaps(
+            frame, "gather.unpack", "a texel of the map is looked up more than once", std::move(map),
+            [](graph::PassSetup&, Filtered&) {},
+            [](const Filtered& data, gl::PassContext& context) {
+                gl::Command command = filterCommand(context, "unpack.comp", data.map);
+                dispatchOverMap(command, data.map);
+            }));
+    });
 }
 
 void registerMapFilters(Registry& registry) {

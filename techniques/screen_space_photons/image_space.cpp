@@ -29,7 +29,8 @@ struct ImageSpaceViewParams {
 };
 
 View refractInImageSpace(FrameBuilder& frame, const ImageSpaceViewParams& params, Geometry geometry,
-                         EyeBuffer eye, LayeredDepth layers, Radiance receivers, Shadows shadows) {
+                         EyeBuffer eye, LayeredDepth layers, Radiance receivers, Shadows shadows,
+                         CausticMap /*map*/) {
     if (!eye.interface.valid()) {
         return seeReceiversAlone(frame, "view.image_space", receivers);
     }

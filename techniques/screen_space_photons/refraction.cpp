@@ -123,7 +123,8 @@ void keepToLimits(FrameBuilder& frame, const RefractionViewParams& params,
 }
 
 View traceRefraction(FrameBuilder& frame, const RefractionViewParams& wanted, Geometry geometry,
-                     EyeBuffer eye, LayeredDepth sceneLayers, Radiance receivers, Shadows shadows) {
+                     EyeBuffer eye, LayeredDepth sceneLayers, Radiance receivers, Shadows shadows,
+                     CausticMap /*map*/) {
     if (!eye.interface.valid()) {
         return seeReceiversAlone(frame, "view.refraction", receivers);
     }

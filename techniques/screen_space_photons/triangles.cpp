@@ -4,9 +4,10 @@
 // of each pixel is computed exactly, whatever their size; where a cell is folded over, light passes
 // as often as it is. What cannot be joined, at a silhouette, an edge or a change of path, is
 // covered by the photon's own beam. No blending and no order: sums are in fixed point. (Caustic
-// triangles: U08, section 4.2, there on the faces of a cube and by the device's rasteriser.) In:
-// hits with beams, eye view space, m and W, and what the eye, or another single view, sees; out:
-// flux a pixel, W, and where a receiver is glossy radiant intensity towards the eye, W/sr.
+// triangles: U08, section 4.2, there on the faces of a cube and by the device's rasteriser.) What
+// crosses from one face of a cube to the next is whole. In: hits with beams, eye view space, m and
+// W, and what views see; out: flux a pixel, W, and where a receiver is glossy radiant intensity
+// towards the eye, W/sr.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,12 +22,15 @@
 namespace kaustik {
 namespace {
 
-enum class TriangleShading : int { smooth, flat };
+enum class TriangleShading : int { smooth, flat, vertices };
+enum class Unjoined : int { beams, discard };
 
 struct TrianglesParams {
     float tolerance = 0.5f;
     int maximum = 512;
     TriangleShading shading = TriangleShading::smooth;
+    Unjoined unjoined = Unjoined::beams;
+    float merge = 0.0f;
     template <class R>
     void reflect(R& r) {
         r.field(
@@ -39,8 +43,17 @@ struct TrianglesParams {
                 "px", params::range(1, 1024));
         r.choice(shading, "shading",
                  "smooth: between the densities that the beams give at the corners; flat: the same "
-                 "all over a triangle",
-                 {"smooth", "flat"});
+                 "all over a triangle; vertices: between what each corner's photon has for a third "
+                 "of all triangles there (U08)",
+                 {"smooth", "flat", "vertices"});
+        r.choice(unjoined, "unjoined",
+                 "What becomes of light between photons that are not joined. beams: each covers its "
+                 "part by its own; discard: it is lost, and counted as discarded_triangle",
+                 {"beams", "discard"});
+        r.field(merge, "merge",
+                "Neighbouring cells, up to 16 along a side, that together span no more than this are "
+                "drawn as one, with their flux added; 0: none",
+                "px", params::range(0.0f, 64.0f));
     }
 };
 
@@ -48,6 +61,13 @@ struct TrianglesParams {
 struct PatchCount {
     std::uint32_t count, groupsX, groupsY, groupsZ;
 };
+struct VertexShares {
+    float quarter, area, triangles, cells;
+};
+struct PatchBlock {
+    glm::vec4 flux, low, high;
+};
+constexpr int kMostMerges = 4;
 
 void setCells(gl::Command& command, const CellGrid& cells) {
     command.set("cellGrid", glm::ivec2(cells.width, cells.rows))
@@ -58,20 +78,15 @@ void setCells(gl::Command& command, const CellGrid& cells) {
 
 Stored coverIn(FrameBuilder& frame, const TrianglesParams& params, const Hits& hits,
                const Store& store, const FluxMap& before) {
-    const ReceiverView& receivers = store.receivers;
-    if (receivers.views->count() > 1)
-        throw ConfigError(
-            "reconstruct.triangles works in one view, but the receivers are those of a cube's "
-            "faces; take reconstruct=beams.");
     const FluxSets sets = setsIn(frame, store);
     const bool isGlossy = sets.hasIntensity;
     struct Data {
         Stored stored;
         graph::Buffer<std::uint32_t> photonOfCell;
         graph::Buffer<std::uint32_t> joins;
-        graph::Buffer<float> shares;
-        graph::Buffer<std::uint32_t> patches;
-        graph::Buffer<std::uint32_t> widePatches;
+        graph::Buffer<VertexShares> shares;
+        graph::Buffer<std::uint32_t> patches;  // those of one thread, then those of a workgroup
+        graph::Buffer<PatchBlock> blocks;      // where any are merged
         graph::Buffer<PatchCount> counts;
         graph::Buffer<transport::Narrowed> narrowed;
     };
@@ -100,8 +115,11 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& params, const Hits& h
                    std::max<std::size_t>(hits.incoming.cells.places(), 1));
             create(data.joins, "CellJoins", "joins", capacity);
             create(data.shares, "PhotonShares", "shares", capacity);
-            create(data.patches, "Patches", "patches", 4 * capacity);
-            create(data.widePatches, "WidePatches", "wide_patches", 4 * capacity);
+            create(data.patches, "Patches", "patches", 8 * capacity);
+            if (params.merge > 0.0f) {
+                setup.define("MERGES");
+                create(data.blocks, "PatchBlocks", "blocks", capacity);
+            }
             create(data.counts, "PatchCounts", "counts", 2);
             create(data.narrowed, "NarrowedPatches", "narrowed", 1);
         },
@@ -126,10 +144,16 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& params, const Hits& h
                 gl::Command command = shader(name);
                 dispatchOver(command, list);
             }
+            for (int step = 0; params.merge > 0.0f && step <= kMostMerges + 1; ++step) {
+                gl::Command command = shader("triangles_merge");
+                command.set("mergeStep", step);
+                dispatchOver(command, list);
+            }
             for (int isWide = 0; isWide < 2; ++isWide) {
                 countGroups(isWide);
                 gl::Command command = shader(isWide == 1 ? "triangles_wide" : "triangles");
                 setDeposit(command, sets);
+                command.set("firstWide", 4 * list.capacity());
                 command.dispatchIndirect(data.counts,
                                          static_cast<std::size_t>(isWide) * sizeof(PatchCount) +
                                              offsetof(PatchCount, groupsX));

@@ -16,8 +16,9 @@ IrradianceMap gatherOnScreen(FrameBuilder& frame, const params::NoParams&, Caust
     if (!stored.on.views->isEyes())
         throw ConfigError(
             fmt::format("gather.screen works on the screen, but the map of flux it is given is "
-                        "{}; take gather=project, or reconstruct.space=screen.",
-                        render::describe(stored.on.views->space())));
+                        "{}; take gather={}, or reconstruct.space=screen.",
+                        render::describe(stored.on.views->space()),
+                        stored.generator >= 0 ? "cube" : "project"));
     if (stored.sets.flux > 1 && !stored.filtered.valid())
         throw ConfigError(
             "gather.screen takes one map, but the light is stored in several sizes or "

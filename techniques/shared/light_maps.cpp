@@ -129,6 +129,9 @@ bool needsCube(const render::RasterView& view) {
            (view.isClipped || std::max(view.halfExtent.x, view.halfExtent.y) > kWidestTangent);
 }
 
+// Six faces of half a map's side.
+constexpr double kMapsOfCube = 6.0 / 4.0;
+
 // Of flux in the most ways that it is stored in, counts, depth, normal and reflectance.
 constexpr double kBytesPerTexel = 4.0 * 6.0 * 5.0 + 4.0 * 4.0 + 8.0 + 16.0 + 8.0;
 
@@ -147,6 +150,10 @@ int sideOfMaps(FrameBuilder& frame, const ReconstructParams& params, int views) 
     return side;
 }
 
+int sideOfFaces(int side) {
+    return std::max(side / 2, 16);
+}
+
 std::vector<ReceiverView> drawReceivers(FrameBuilder& frame, const Geometry& geometry) {
     const auto& params = frame.params<ReconstructParams>("reconstruct");
     const std::vector<scene::Light>& lights = frame.scene().lights;
@@ -155,7 +162,7 @@ std::vector<ReceiverView> drawReceivers(FrameBuilder& frame, const Geometry& geo
     double maps = 0.0;  // in sides of the size asked for
     for (const scene::Light& light : lights) {
         views.push_back(render::makeLightView(light, target, sceneBounds(frame.scene())));
-        maps += needsCube(views.back()) ? 6.0 / 4.0 : 1.0;
+        maps += needsCube(views.back()) ? kMapsOfCube : 1.0;
     }
     const int side = sideOfMaps(frame, params, static_cast<int>(std::ceil(maps)));
     std::vector<ReceiverView> receivers;
@@ -164,7 +171,7 @@ std::vector<ReceiverView> drawReceivers(FrameBuilder& frame, const Geometry& geo
             needsCube(views[i])
                 ? frame.makeViews(render::Space::cube,
                                   render::makeCube(lights[i].position, views[i].nearMeters,
-                                                   std::max(side / 2, 16)))
+                                                   sideOfFaces(side)))
                 : frame.makeViews(render::Space::light, {render::inPixels(views[i], side, side)});
         const std::string name = i == 0 ? "light" : fmt::format("light.{}", i + 1);
         receivers.push_back(
@@ -178,6 +185,12 @@ std::vector<ReceiverView> drawReceivers(FrameBuilder& frame, const Geometry& geo
 }
 
 }  // namespace
+
+int sideOfCubeMaps(FrameBuilder& frame, int cubes) {
+    const auto& params = frame.params<ReconstructParams>("reconstruct");
+    return sideOfFaces(
+        sideOfMaps(frame, params, static_cast<int>(std::ceil(kMapsOfCube * cubes))));
+}
 
 const std::vector<ReceiverView>& lightReceivers(FrameBuilder& frame, const Geometry& geometry) {
     return *frame.once<std::vector<ReceiverView>>("light.receivers", [&] {

@@ -15,4 +15,8 @@ namespace kaustik {
 [[nodiscard]] const std::vector<ReceiverView>& lightReceivers(FrameBuilder& frame,
                                                               const Geometry& geometry);
 
+// Of the faces of so many cubes that store light: half of reconstruct.map_size, or what fits into
+// reconstruct.map_memory.
+[[nodiscard]] int sideOfCubeMaps(FrameBuilder& frame, int cubes);
+
 }  // namespace kaustik

@@ -14,6 +14,7 @@ void registerSharedNodes(Registry& registry) {
     registry.stage<DriverStage>();
     registry.stage<EmitStage>();
     registry.stage<SpecularStage>();
+    registry.stage<AroundStage>();
     registry.stage<TraceStage>();
     registry.stage<ReconstructStage>();
     registry.stage<MediaStage>();

@@ -4,17 +4,29 @@
 #include <fmt/format.h>
 
 #include "framework/pipeline/stage_params.h"
+#include "techniques/shared/generators.h"
 #include "techniques/shared/light_maps.h"
 
 namespace kaustik {
 
 std::vector<Store> storesOf(FrameBuilder& frame, const Surfaces& surfaces) {
-    if (frame.params<ReconstructParams>("reconstruct").space == StoreSpace::screen)
-        return {{surfaces.eye, -1, ""}};
-    const std::vector<ReceiverView>& receivers = lightReceivers(frame, surfaces.geometry);
+    const StoreSpace space = frame.params<ReconstructParams>("reconstruct").space;
     std::vector<Store> stores;
+    if (space == StoreSpace::screen) {
+        stores.emplace_back().receivers = surfaces.eye;
+        return stores;
+    }
+    if (space == StoreSpace::cube) {
+        const std::vector<ReceiverView>& seen = generatorReceivers(frame, surfaces.geometry);
+        for (std::size_t generator = 0; generator < seen.size(); ++generator) {
+            stores.push_back({seen[generator], -1, static_cast<int>(generator),
+                              &generatorsBlock(frame), suffixOfGenerator(generator)});
+        }
+        return stores;
+    }
+    const std::vector<ReceiverView>& receivers = lightReceivers(frame, surfaces.geometry);
     for (std::size_t light = 0; light < receivers.size(); ++light) {
-        stores.push_back({receivers[light], static_cast<int>(light),
+        stores.push_back({receivers[light], static_cast<int>(light), -1, nullptr,
                           light == 0 ? "" : fmt::format(".light_{}", light + 1)});
     }
     return stores;
@@ -28,6 +40,7 @@ CausticMap storeEverywhere(FrameBuilder& frame, const Surfaces& surfaces, Hits h
         const FluxMap former = before.maps.empty() ? FluxMap{} : before.maps[i];
         Stored stored = deposit(stores[i], hits, former);
         stored.map.light = stores[i].light;
+        stored.map.generator = stores[i].generator;
         hits.incoming.ledger = stored.ledger;
         map.maps.push_back(stored.map);
     }
@@ -73,6 +86,11 @@ void clearIfFirst(gl::PassContext& context, const Stored& stored) {
 gl::Command& bindStore(gl::Command& command, const Store& store) {
     store.receivers.views->bindTo(command);
     if (store.light >= 0) command.define("ONE_LIGHT").offer("lightOfMap", store.light);
+    if (store.generator >= 0) {
+        command.define("ONE_GENERATOR")
+            .offer("generatorOfMap", store.generator)
+            .offer("Generators", *store.generators);
+    }
     return command;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Where reconstructions store light (reconstruct.space): one code for the screen, a light's map and
-// the faces of a cube.
+// the faces of a cube around a light or a caustic generator.
 #pragma once
 
 #include <functional>
@@ -14,11 +14,13 @@ namespace kaustik {
 struct Store {
     ReceiverView receivers;
     int light = -1;      // whose photons alone it takes; -1: all
-    std::string suffix;  // of its resources
+    int generator = -1;  // what they must have left last; -1: anything
+    const gl::Buffer* generators = nullptr;  // by which it is told; where there is one
+    std::string suffix;                      // of its resources
     [[nodiscard]] bool isEyes() const { return receivers.views->isEyes(); }
 };
 
-// The eye's receivers, or those that each light sees.
+// The eye's receivers, or those that each light or each caustic generator sees.
 [[nodiscard]] std::vector<Store> storesOf(FrameBuilder& frame, const Surfaces& surfaces);
 
 // What a store holds after a pass, and the account of what it has not taken.
@@ -42,8 +44,8 @@ using Deposit = std::function<Stored(const Store&, const Hits&, const FluxMap& b
                                const FluxMap& before, const FluxSets& sets);
 // The first thing that such a pass does: a new map is empty.
 void clearIfFirst(gl::PassContext& context, const Stored& stored);
-// Makes the shaders of its command see the store's views and take its light
-// (include/arriving.glsl); of those that include include/deposit.glsl the second.
+// Makes the shaders of its command see the store's views and take its light, or what comes from its
+// generator (include/arriving.glsl); of those that include include/deposit.glsl the second.
 gl::Command& bindStore(gl::Command& command, const Store& store);
 void setDeposit(gl::Command& command, const FluxSets& sets);
 

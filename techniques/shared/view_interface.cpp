@@ -22,7 +22,8 @@ struct InterfaceViewParams {
 };
 
 View viewThroughInterface(FrameBuilder& frame, const InterfaceViewParams& params, Geometry geometry,
-                          EyeBuffer eye, LayeredDepth layers, Radiance receivers, Shadows shadows) {
+                          EyeBuffer eye, LayeredDepth layers, Radiance receivers, Shadows shadows,
+                          CausticMap /*map*/) {
     if (!eye.interface.valid()) {
         return seeReceiversAlone(frame, "view.interface", receivers);
     }

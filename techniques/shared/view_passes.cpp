@@ -188,20 +188,17 @@ ViewPass declareLook(const FrameBuilder& frame, graph::PassSetup& setup,
     return pass;
 }
 
-void drawLook(const FrameInputs& inputs, gl::PassContext& context, const ViewPass& pass,
-              const SceneLookParams& look, const std::string& shader,
-              const std::function<void(gl::Command&)>& tell) {
+void drawSpecular(const FrameInputs& inputs, gl::PassContext& context, const ViewPass& pass,
+                  const std::string& shader, const std::vector<Tell>& tells) {
     const ViewSamples& samples = pass.samples;
     const float share = 1.0f / static_cast<float>(samples.count);
     // First pixels that need no look, then the others, by the marks that the first have left.
     const auto drawSample = [&](float shareOfRay, const glm::vec2& offset) {
         const bool isBeside = offset != glm::vec2(0.0f);
-        for (const bool looks : {false, true}) {
+        for (std::size_t draw = 0; draw <= tells.size(); ++draw) {
+            const bool looks = draw > 0;
             gl::Command command = context.fullscreen(looks ? shader : "shared/view_straight.frag");
-            if (looks) {
-                setLook(inputs, command, pass, look);
-                tell(command);
-            }
+            if (looks) tells[draw - 1](command);
             if (samples.count > 1) command.define("MORE_SAMPLES").set("sampleShare", shareOfRay);
             command.target(pass.seen.radiance);
             if (isBeside) {
@@ -227,6 +224,14 @@ void drawLook(const FrameInputs& inputs, gl::PassContext& context, const ViewPas
         drawSights(inputs, context, samples, offset);
         drawSample(share, offset);
     }
+}
+
+void drawLook(const FrameInputs& inputs, gl::PassContext& context, const ViewPass& pass,
+              const SceneLookParams& look, const std::string& shader, const Tell& tell) {
+    drawSpecular(inputs, context, pass, shader, {[&](gl::Command& command) {
+                     setLook(inputs, command, pass, look);
+                     tell(command);
+                 }});
 }
 
 std::size_t countExits(const gl::Texture& exitDirection, float ending) {

@@ -97,13 +97,16 @@ struct ViewPass {
                                    const EyeBuffer& eye, const LayeredDepth& sceneLayers,
                                    const Radiance& receivers, const Shadows& shadows);
 
+// Tells a shader what it asks for.
+using Tell = std::function<void(gl::Command&)>;
 // Draws all that such a pass gives: `shader` once for each sample of a pixel that meets a specular
-// surface first (shared/view_straight.frag draws the others), told what
-// include/scene_look.glsl is, and by `tell` what it asks for besides. Exits are those of the
-// middle, whose ray is followed for them where it is not one of the samples.
+// surface first (shared/view_straight.frag draws the others), as often as there are `tells`. Exits
+// are those of the middle, whose ray is followed for them where it is not one of the samples.
+void drawSpecular(const FrameInputs& inputs, gl::PassContext& context, const ViewPass& pass,
+                  const std::string& shader, const std::vector<Tell>& tells);
+// The same once, of a shader that is told besides what include/scene_look.glsl is.
 void drawLook(const FrameInputs& inputs, gl::PassContext& context, const ViewPass& pass,
-              const SceneLookParams& look, const std::string& shader,
-              const std::function<void(gl::Command&)>& tell);
+              const SceneLookParams& look, const std::string& shader, const Tell& tell);
 
 // How many pixels' paths have ended so (transport::kPath…). Waits for the device.
 [[nodiscard]] std::size_t countExits(const gl::Texture& exitDirection, float ending);

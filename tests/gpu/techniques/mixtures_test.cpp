@@ -113,7 +113,7 @@ void expectHelpful(const std::string& message) {
 // Whether it renders; anything thrown but a ConfigError fails the test.
 bool rendersOrSaysWhyNot(const Settings& mixture) {
     SCOPED_TRACE(textOf(mixture));
-    Settings settings = {{"emit.photons", "32x32"}, {"reconstruct.map_size", "64"}};
+    Settings settings = {{"emit.photons", "32x32"}, {"reconstruct.map_size", "64"}, {"around.cubes.size", "32"}};
     settings.insert(settings.end(), mixture.begin(), mixture.end());
     try {
         const numerics::Frame frame(
@@ -148,7 +148,9 @@ bool rendersOrSaysWhyNot(const Settings& mixture) {
 Settings storedIn(const std::string& space, const std::string& reconstruct) {
     Settings settings = {{"reconstruct", reconstruct},
                          {"reconstruct.space", space},
-                         {"gather", space == "light" ? "project" : "screen"}};
+                         {"gather", space == "light"  ? "project"
+                                    : space == "cube" ? "cube"
+                                                      : "screen"}};
     const std::string filter =
         registry().findNode(ReconstructStage::name, reconstruct).description.filter;
     if (!filter.empty()) settings.emplace_back("filter", filter);
@@ -160,7 +162,7 @@ class EveryTracer : public testing::TestWithParam<std::string> {};
 TEST_P(EveryTracer, FeedsEveryReconstructionInEverySpace) {
     int rendered = 0;
     int pairs = 0;
-    for (const char* space : {"screen", "light"}) {
+    for (const char* space : {"screen", "light", "cube"}) {
         for (const std::string& reconstruct : nodesOf(ReconstructStage::name)) {
             Settings settings = storedIn(space, reconstruct);
             settings.emplace_back("trace", GetParam());
@@ -178,7 +180,7 @@ INSTANTIATE_TEST_SUITE_P(Mixtures, EveryTracer, testing::ValuesIn(nodesOf(TraceS
 
 class EveryNode : public testing::TestWithParam<std::string> {};
 
-TEST_P(EveryNode, OfTheStageFitsIntoBothSpaces) {
+TEST_P(EveryNode, OfTheStageFitsIntoEverySpace) {
     int rendered = 0;
     for (const std::string& node : nodesOf(GetParam())) {
         for (const auto& [space, reconstruct, tracer] :
@@ -187,7 +189,9 @@ TEST_P(EveryNode, OfTheStageFitsIntoBothSpaces) {
               std::tuple("light", "fixed", "hierarchical"),
               std::tuple("light", "four_radii", "background"),
               std::tuple("light", "levels", "background"),
-              std::tuple("light", "triangles", "background")}) {
+              std::tuple("light", "triangles", "background"),
+              std::tuple("cube", "triangles", "secant"),
+              std::tuple("cube", "fixed", "secant")}) {
             Settings settings = storedIn(space, reconstruct);
             settings.emplace_back("trace", tracer);
             settings.emplace_back(GetParam(), node);  // the last one counts

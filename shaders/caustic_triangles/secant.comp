@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// trace.secant: one thread a photon of one generator.
+#include "include/photon_thread.glsl"
+#include "include/generators.glsl"
+#include "include/store_hits.glsl"
+#include "caustic_triangles/secant.glsl"
+
+uniform int generatorIndex;
+
+void main() {
+    uint index = photonOfThread();
+    if (index >= photons.count) return;
+    ivec2 texel = ivec2(photonTexel(photons, index));
+    Photon photon = photonAt(texel);
+    if (generators.count.x > 1u && generatorOf(photon.positionVs) != generatorIndex) return;
+    Hit hit = nothingHit();
+    if (photon.fate == kFateInFlight) {
+        bool isCut;
+        FirstHit first = searchAround(photon, trace_secant_stride, trace_secant_most,
+                                      trace_secant_refinements, isCut);
+        if (first.hit.layer < 0 && isCut && isNumber(photon)) {
+            ledgerAdd(kAccountBeyondLastLayer, photon.fluxWatts);
+        } else {
+            hit = deliver(photon, first);
+        }
+    }
+    storeHit(texel, hit);
+}

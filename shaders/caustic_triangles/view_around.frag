@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+// What the eye sees in and through a caustic generator: its ray is followed among the layers around
+// that (U08, section 6: "when secondary reflective or refractive rays are traced" the cube map "can be
+// looked up" too), and where it ends, whether the picture shows that or not, the receiver is lit by
+// the lights past what casts shadows there, and by the light that is stored around the generator.
+// Radiance changes by T at every interface and by 1/n² where what is seen lies in a medium of index n
+// (hard case 28a), and is absorbed on the way. Fragments of other generators are left out.
+//   LIGHT_IS_STORED    there is a map of it
+//   GLOSSY_RECEIVERS   which knows where it comes from
+#include "caustic_triangles/secant.glsl"
+#include "framework/transport/brdf.h"
+#include "include/environment.glsl"
+#include "include/first_surface.glsl"
+#include "include/generators.glsl"
+#include "include/lights.glsl"
+#define MAP_IS_CUBE
+#ifdef GLOSSY_RECEIVERS
+#define MEAN_INCIDENCE
+#endif
+#include "include/map_lookup.glsl"
+
+uniform sampler2DArray mapAlbedo;
+uniform int generatorIndex;
+uniform int lightCount;
+uniform vec4 eyeFrustum;  // as ViewData has them
+uniform vec4 eyeSizePixels;
+
+layout(location = 0) out vec4 radiance;
+layout(location = 1) out vec4 exitPosition;
+layout(location = 2) out vec4 exitDirection;
+
+FirstHit firstAround(vec3 origin, vec3 direction, uint media) {
+    bool isCut;
+    return searchAround(Photon(origin, 0.0, direction, kFateInFlight, vec3(0.0), media),
+                        view_around_stride, view_around_most, view_around_refinements, isCut);
+}
+
+// Of a receiver: where the reference point sees it, else its material's first colour.
+vec3 albedoAt(vec3 positionVs, vec3 normalVs, uint material) {
+    MapPlace place = placeOf(positionVs, normalVs);
+    if (place.face >= 0) {
+        ivec2 texel = ivec2(floor(place.pixel));
+        vec2 seen = mapReceiverAt(texel, place.face);
+        if (seesPlace(place, texel, seen, mapNormalAt(texel, place.face)))
+            return texelFetch(mapAlbedo, ivec3(texel, place.face), 0).rgb;
+    }
+    return materials[material - 1u].albedo.rgb;
+}
+
+// Radiance of a receiver back along a ray; `normal`: unit, towards the side that is looked at.
+vec3 radianceOf(vec3 positionVs, vec3 direction, vec3 normal, uint material) {
+    vec3 albedo = albedoAt(positionVs, normal, material);
+    vec4 lobe = materials[material - 1u].specular;
+    viewIndex = 0;
+    vec3 sum = (albedo + lobe.rgb) * (1.0 / 3.14159265) * view.ambient.rgb;
+    for (int i = 0; i < lightCount; ++i) {
+        vec3 toLight = -lightDirection(lights[i], positionVs);
+        float cosine = dot(normal, toLight);
+        vec3 irradiance = cosine > 0.0 ? lightIrradiance(lights[i], positionVs) : vec3(0.0);
+        if (irradiance == vec3(0.0)) continue;
+        FirstHit blocker = firstAround(positionVs, toLight, withLeftSide(0u, kLeftForAll));
+        bool isSun = uint(lights[i].positionVs.w) == kLightDirectional;
+        float reach = isSun ? 3.0e38 : length(lights[i].positionVs.xyz - positionVs);
+        if (blocker.hit.layer >= 0 && blocker.hit.t < reach) continue;
+        sum += irradiance * cosine *
+               receiverBrdf(albedo, lobe.rgb, lobe.w, normal, toLight, -direction);
+    }
+#ifdef LIGHT_IS_STORED
+    Gathered stored = gatherAt(positionVs, normal, direction);
+    float all = stored.irradiance.r + stored.irradiance.g + stored.irradiance.b;
+    if (all > 0.0) {
+        vec3 from = normal;
+#ifdef GLOSSY_RECEIVERS
+        from = -(stored.direction / all - 1.0);
+        float size = length(from);
+        from = size > 1e-6 ? from / size : normal;
+#endif
+        sum += stored.irradiance *
+               receiverBrdf(albedo, lobe.rgb, lobe.w, normal, from, -direction);
+    }
+#endif
+    return sum;
+}
+
+struct AroundPath {
+    vec3 origin;  // of its last piece
+    vec3 direction;
+    vec3 share;  // of the radiance that mirrors, interfaces and media leave, without 1/n²
+    uint media;
+    int hits;
+    float ending;  // kPath…
+};
+
+// At a specular surface with this normal, by bendingNormal: on, refracted, or where all is reflected
+// or it is a mirror, reflected. The share that a dielectric reflects, and its direction.
+float turn(inout AroundPath path, vec3 positionVs, vec3 normal, uint material,
+           out vec3 reflectedDirection) {
+    bool enters = dot(path.direction, normal) < 0.0;
+    path.origin = positionVs;
+    ++path.hits;
+    path.media = withLeftSide(path.media, kLeftNothing);
+    reflectedDirection = normalize(reflect(path.direction, normal));
+    if (materialKind(material - 1u) == kMaterialMirror) {
+        path.share *= materials[material - 1u].albedo.rgb;
+        path.direction = reflectedDirection;
+        if (isOpen(material - 1u))
+            path.media = withLeftSide(path.media, enters ? kLeftOutside : kLeftInside);
+        return 0.0;
+    }
+    vec2 indices = indicesAt(material, path.media, enters);
+    Interface interaction = interactAt(path.direction, normal, indices.x, indices.y);
+    reflectedDirection = interaction.reflected;
+    if (interaction.reflectance >= 1.0) {
+        path.direction = interaction.reflected;
+        return 0.0;
+    }
+    path.direction = interaction.refracted;
+    path.share *= 1.0 - interaction.reflectance;
+    if (enters && !canEnter(path.media, material)) {
+        path.ending = kPathNestedTooDeep;
+    } else {
+        path.media = enters ? enterMedium(path.media, material)
+                            : leaveMedium(path.media, material);
+    }
+    return interaction.reflectance;
+}
+
+// What the path sees at last, W/m²/sr, with what is left of it.
+vec3 follow(inout AroundPath path) {
+    for (int i = 0; i <= view_around_interfaces && path.ending > kPathLost; ++i) {
+        FirstHit first = firstAround(path.origin, path.direction, path.media);
+        if (first.hit.layer < 0) {
+            if (isInsideClosed(path.media)) path.ending = kPathLost;
+            viewIndex = 0;
+            return path.share * environmentRadiance(directionFromEye(path.direction)) *
+                   mediumTransmittance(innerMedium(path.media), 1e30);
+        }
+        viewIndex = first.face;
+        vec4 surface = texelFetch(layerSurfaces, layerTexel(first.pixel, first.hit.layer), 0);
+        LayerSurface layer = layerAt(first.pixel, first.hit.layer);
+        vec3 there = path.origin + first.hit.t * path.direction;
+        path.share *= mediumTransmittance(innerMedium(path.media), first.hit.t);
+        uint material = layer.material;
+        vec3 geometric = directionToEye(layer.normal);
+        if (isReceiver(materialKind(material - 1u))) {
+            vec3 normal = receiverNormal(there, path.direction, directionToEye(surface.xyz), geometric);
+            float side = dot(path.direction, geometric) < 0.0 ? 1.0 : -1.0;
+            return path.share * radianceOf(there, path.direction, side * normal, material);
+        }
+        if (i == view_around_interfaces) break;
+        vec3 shading =
+            directionToEye(smoothSurfaceAt(pointFromEye(there), surface, layer).normal);
+        vec3 normal = bendingNormal(path.direction, shading, geometric, material, path.media);
+        vec3 unused;
+        turn(path, there, normal, material, unused);
+    }
+    if (path.ending > kPathLost) path.ending = kPathStoppedInside;
+    viewIndex = 0;
+    return path.share * environmentRadiance(directionFromEye(path.direction));
+}
+
+// 1/n² of where it ends, times n² of where the eye is.
+float solidAngles(uint mediaAtEye, uint media) {
+    float ratio = mediumIndex(innerMedium(mediaAtEye)) / mediumIndex(innerMedium(media));
+    return ratio * ratio;
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    float depth = firstDepth(pixel);
+    if (depth <= 0.0) discard;
+    vec3 viewing =
+        vec3((positionOfSample() * eyeSizePixels.zw * 2.0 - 1.0) * eyeFrustum.xy, -1.0);
+    vec3 entry = viewing * depth;
+    if (generators.count.x > 1u && generatorOf(entry) != generatorIndex) discard;
+    vec4 surface = firstSurface(pixel);
+    uint material = uint(surface.w);
+    vec3 direction = normalize(viewing);
+    // An eye that looks at a dielectric from within is inside of it.
+    bool isEyeInside = materialKind(material - 1u) == kMaterialDielectric &&
+                       dot(direction, surface.xyz) > 0.0;
+    uint mediaAtEye = isEyeInside ? enterMedium(0u, material) : 0u;
+    AroundPath path =
+        AroundPath(vec3(0.0), direction, mediumTransmittance(innerMedium(mediaAtEye), length(entry)),
+                   mediaAtEye, 0, kPathCameOut);
+    vec3 reached = path.share;
+    vec3 normal = bendingNormal(direction, surface.xyz, surface.xyz, material, mediaAtEye);
+    vec3 reflectedDirection;
+    float reflectance = turn(path, entry, normal, material, reflectedDirection);
+    vec3 seen = follow(path);
+    exitPosition = vec4(path.origin, float(path.hits));
+    exitDirection = vec4(path.direction, path.ending);
+    seen *= solidAngles(mediaAtEye, path.media);
+    if (reflectance > 0.0) {
+        AroundPath reflected = AroundPath(entry, reflectedDirection, reached * reflectance,
+                                          withLeftSide(mediaAtEye, kLeftNothing), 1, kPathCameOut);
+        vec3 also = follow(reflected);
+        seen += also * solidAngles(mediaAtEye, reflected.media);
+    }
+    radiance = vec4(seen, 1.0);
+    weigh(radiance);
+}

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include "techniques/caustic_map/projection.h"
+
+#include <utility>
+
+#include "framework/core/error.h"
+#include "techniques/caustic_map/map_filters.h"
+
+namespace kaustik {
+IrradianceMap projectMaps(FrameBuilder& frame, const Projection& projection, CausticMap map,
+                          const Surfaces& surfaces) {
+    if (map.maps.front().sets.flux > 1 && !map.maps.front().filtered.valid()) {
+        throw ConfigError(projection.node +
+                          " takes one map, but the light is stored in several sizes "
+                          "or levels; take filter=blend or filter=levels.");
+    }
+    map = inFloats(frame, std::move(map));
+    IrradianceMap result;
+    result.ledger = map.ledger;
+    for (std::size_t i = 0; i < map.maps.size(); ++i) {
+        const FluxMap& stored = map.maps[i];
+        result = frame.pass<IrradianceMap>(
+            projection.node, projection.why,
+            [&](graph::PassSetup& setup, IrradianceMap& data) {
+                setup.sample("filteredFlux", stored.filtered);
+                setup.sample("mapReceiver", stored.on.receiver);
+                setup.sample("mapSurface", stored.on.receiverSurface);
+                setup.sample("receiver", surfaces.eye.receiver);
+                setup.sample("receiverSurface", surfaces.eye.receiverSurface);
+                data = result;
+                const bool isGlossy = stored.sets.hasDirection;
+                if (isGlossy) setup.sample("receiverAlbedo", surfaces.eye.receiverAlbedo);
+                if (i > 0) {
+                    data.irradiance = setup.write(result.irradiance);
+                    setup.bypass(data.irradiance, result.irradiance);
+                    if (isGlossy) {
+                        data.radiance = setup.write(result.radiance);
+                        setup.bypass(data.radiance, result.radiance);
+                    }
+                    return;
+                }
+                data.irradiance = setup.create<IrradianceTexel>("caustic.irradiance", frame.width(),
+                                                                frame.height());
+                setup.bypass(data.irradiance, {0, 0, 0, 0});
+                if (!isGlossy) return;
+                data.radiance =
+                    setup.create<RadianceTexel>("caustic.radiance", frame.width(), frame.height());
+                setup.bypass(data.radiance, {0, 0, 0, 0});
+            },
+            [projection, stored, isFirst = i == 0](const IrradianceMap& data,
+                                               gl::PassContext& context) {
+                const Views& views = stored.on.views;
+                gl::Command command = context.fullscreen("caustic_map/project.frag");
+                command.uniforms("MapViews", views->block())
+                    .set("mostPlaces", projection.places)
+                    .set("mapCount", views->count())
+                    .set("setsPerView", stored.filteredPerView());
+                if (views->count() > 1) command.define("MAP_IS_CUBE");
+                if (views->view(0).isOrthographic) command.define("MAP_IS_PARALLEL");
+                command.target(data.irradiance);
+                if (isFirst) command.clear();
+                if (stored.sets.hasDirection) {
+                    command.define("GLOSSY_RECEIVERS").target(data.radiance);
+                    command.set("comesFromCentre", projection.comesFromCentre ? 1 : 0);
+                    if (isFirst) command.clear();
+                }
+                command.blend(gl::Blend::add).draw();
+            });
+    }
+    return result;
+}
+
+}  // namespace kaustik

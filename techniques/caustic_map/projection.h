@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Maps of flux looked up at the eye's receivers, like shadow maps.
+#pragma once
+
+#include <string>
+
+#include "framework/pipeline/frame_builder.h"
+
+namespace kaustik {
+
+struct Projection {
+    std::string node;  // for pass and messages
+    std::string why;
+    int places = 4;                // most looks along each side of a pixel
+    bool comesFromCentre = false;  // where a receiver is glossy: light comes from where the map is
+                                   // seen from; else from the mean direction of a texel's
+};
+// In: flux a texel of each map, W, in one set; out: the sum of all, irradiance in W/m² and, where a
+// receiver is glossy, radiance in W/m²/sr. ConfigError where there are several sets.
+[[nodiscard]] IrradianceMap projectMaps(FrameBuilder& frame, const Projection& projection,
+                                        CausticMap map, const Surfaces& surfaces);
+
+}  // namespace kaustik

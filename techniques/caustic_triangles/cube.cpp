@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// gather.cube: the light cube map of each caustic generator looked up where the eye's receivers lie,
+// by their direction from its reference point, with their distance as a shadow test (U08, section
+// 4.3). Four texels around count that see the same surface. In: flux a texel of a face, W; out:
+// irradiance, W/m², and, where a receiver is glossy, radiance by its BRDF, W/m²/sr.
+#include <utility>
+
+#include "framework/core/error.h"
+#include "techniques/caustic_triangles/nodes.h"
+#include "techniques/caustic_map/projection.h"
+
+namespace kaustik {
+namespace {
+
+enum class Incidence : int { mean, centre };
+
+struct CubeParams {
+    int places = 4;
+    Incidence incidence = Incidence::mean;
+    template <class R>
+    void reflect(R& r) {
+        r.field(places, "places",
+                "Most looks at a cube along each side of a pixel that spans several of its texels",
+                "", params::range(1, 16));
+        r.choice(incidence, "incidence",
+                 "Where light comes from that a glossy receiver reflects. mean: the mean of what "
+                 "has arrived in a texel; centre: the reference point",
+                 {"mean", "centre"});
+    }
+};
+
+IrradianceMap gatherCubes(FrameBuilder& frame, const CubeParams& params, CausticMap map,
+                          Surfaces surfaces) {
+    if (map.maps.front().generator < 0) {
+        throw ConfigError(
+            "gather.cube looks light up around caustic generators, but it is stored elsewhere; "
+            "take reconstruct.space=cube, or gather=screen or gather=project.");
+    }
+    if (params.incidence == Incidence::centre && !frame.needs().glossyReceivers)
+        frame.warn("gather.cube.incidence has no effect: no receiver is glossy.");
+    return projectMaps(frame,
+                       {"gather.cube", "the light around each generator is looked up where the "
+                                       "eye's receivers lie",
+                        params.places, params.incidence == Incidence::centre},
+                       std::move(map), surfaces);
+}
+
+}  // namespace
+
+void registerCubeGather(Registry& registry) {
+    registry.node<GatherStage>(
+        "cube",
+        {"Looks each generator's light cube map up at the eye's receivers, by direction and "
+         "distance.",
+         "U08, section 4.3"},
+        &gatherCubes);
+}
+
+}  // namespace kaustik

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+// view.around: what the eye sees in and through specular surfaces, by rays that are searched in the
+// layers around the generator that they meet first: wherever they end, on the screen or beside it,
+// receivers are lit there, by the light that is stored around the generator too, so that caustics
+// are seen in mirrors and through glass (U08, section 6). In: the eye's first surfaces, layers and
+// maps around generators; out: radiance, W/m²/sr, and exits in eye view space, m.
+#include <utility>
+
+#include "framework/pipeline/frame_builder.h"
+#include "techniques/caustic_map/map_filters.h"
+#include "techniques/caustic_triangles/around.h"
+#include "techniques/caustic_triangles/nodes.h"
+#include "techniques/screen_space_photons/hit_testing.h"
+#include "techniques/shared/generators.h"
+#include "techniques/shared/view_passes.h"
+
+namespace kaustik {
+namespace {
+
+struct AroundViewParams {
+    int interfaces = 8;
+    float stride = 4.0f;
+    int most = 256;
+    int refinements = 8;
+    template <class R>
+    void reflect(R& r) {
+        r.field(interfaces, "interfaces",
+                "Specular surfaces that a ray of the eye is followed to after the first", "",
+                params::range(1, 64));
+        r.field(stride, "stride", "As trace.secant.stride", "texels", params::range(0.1f, 64.0f));
+        r.field(most, "most", "As trace.secant.most", "", params::range(2, 4096));
+        r.field(refinements, "refinements", "As trace.secant.refinements", "",
+                params::range(1, 32));
+    }
+};
+
+// The maps in which light is stored around generators; empty where it is stored elsewhere.
+std::vector<FluxMap> storedAround(FrameBuilder& frame, const CausticMap& map) {
+    if (map.maps.empty()) return {};
+    const bool isOne = map.maps.front().sets.flux == 1 || map.maps.front().filtered.valid();
+    if (map.maps.front().generator >= 0 && isOne) return inFloats(frame, map).maps;
+    frame.warn(
+        "view.around sees caustics in what it looks at by maps around generators alone; take "
+        "reconstruct.space=cube.");
+    return {};
+}
+
+View lookAround(FrameBuilder& frame, const AroundViewParams& params, Geometry geometry,
+                EyeBuffer eye, LayeredDepth sceneLayers, Radiance receivers, Shadows shadows,
+                CausticMap map) {
+    if (!eye.interface.valid()) return seeReceiversAlone(frame, "view.around", receivers);
+    const std::vector<SurfacesAround>& around = surfacesAround(frame, geometry);
+    const std::vector<ReceiverView>& seen = generatorReceivers(frame, geometry);
+    const std::vector<FluxMap> stored = storedAround(frame, map);
+    const View view =
+        frame
+            .pass<ViewPass>(
+                "view.around", whyLook(frame),
+                [&](graph::PassSetup& setup, ViewPass& look) {
+                    look = declareLook(frame, setup, {}, geometry, eye, sceneLayers, receivers,
+                                       shadows);
+                    for (std::size_t i = 0; i < around.size(); ++i) {
+                        setup.read(around[i].layers.depth);
+                        setup.read(around[i].layers.surface);
+                        setup.read(around[i].order);
+                        setup.read(seen[i].receiver);
+                        setup.read(seen[i].receiverSurface);
+                        setup.read(seen[i].receiverAlbedo);
+                        if (!stored.empty()) setup.read(stored[i].filtered);
+                    }
+                },
+                [&inputs = frame.inputs(), params, around, seen, stored,
+                 testing = hitTesting(frame), &block = generatorsBlock(frame),
+                 eyeView = viewData(frame.scene(), frame.view(), frame.view()),
+                 lights = frame.needs().lights](const ViewPass& look, gl::PassContext& context) {
+                    std::vector<Tell> tells;
+                    for (std::size_t i = 0; i < around.size(); ++i) {
+                        tells.emplace_back([&, i](gl::Command& command) {
+                            setHitTesting(command, testing, around[i].layers)
+                                .params("view.around", params)
+                                .texture("layerDepths", around[i].layers.depth)
+                                .texture("layerSurfaces", around[i].layers.surface)
+                                .texture("layerOrder", around[i].order)
+                                .texture("mapReceiver", seen[i].receiver)
+                                .texture("mapSurface", seen[i].receiverSurface)
+                                .texture("mapAlbedo", seen[i].receiverAlbedo)
+                                .uniforms("MapViews", seen[i].views->block())
+                                .uniforms("Generators", block)
+                                .set("mapCount", seen[i].views->count())
+                                .set("generatorIndex", static_cast<int>(i))
+                                .set("lightCount", lights)
+                                .set("eyeFrustum", eyeView.frustum)
+                                .set("eyeSizePixels", eyeView.sizePixels);
+                            if (stored.empty()) return;
+                            command.define("LIGHT_IS_STORED")
+                                .texture("filteredFlux", stored[i].filtered)
+                                .set("setsPerView", stored[i].filteredPerView());
+                            if (stored[i].sets.hasDirection) command.define("GLOSSY_RECEIVERS");
+                        });
+                    }
+                    drawSpecular(inputs, context, look, "caustic_triangles/view_around.frag",
+                                 tells);
+                })
+            .seen;
+    keepToExitLimit(frame, "view.around", view, "view.around.interfaces", "interfaces",
+                    params.interfaces, transport::kPathStoppedInside,
+                    "end at one more and are taken to see the environment");
+    return view;
+}
+
+}  // namespace
+
+void registerAroundView(Registry& registry) {
+    registry.node<ViewStage>("around",
+                             {"Searches the eye's rays in the layers around the specular object "
+                              "that they meet, and lights what they find, by caustics too.",
+                              "U08, sections 3 and 6"},
+                             &lookAround);
+}
+
+}  // namespace kaustik
