@@ -146,6 +146,7 @@ std::vector<Generator> findGenerators(FrameBuilder& frame, const GeneratorParams
         }
     }
     if (lit.empty()) lit = all;
+    if (lit.empty()) lit.push_back({"scene", sceneBounds(scene)});
     uniteNearest(lit, static_cast<std::size_t>(params.most));
     std::vector<Generator> generators;
     for (const Generator& whole : lit) {

@@ -36,7 +36,8 @@ struct Generator {
 };
 
 // Specular objects that no light can reach directly are left out, and those whose boxes overlap are
-// one. Made once a frame, by the first who asks. A scene without any that is lit has one of all.
+// one. Made once a frame, by the first who asks. A scene without
+// any that is lit has all of them, one without any has one of all its surfaces.
 [[nodiscard]] const std::vector<Generator>& causticGenerators(FrameBuilder& frame);
 
 // By generator: the receivers that its reference point sees, on the six faces of a cube; specular

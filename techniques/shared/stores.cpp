@@ -19,14 +19,14 @@ std::vector<Store> storesOf(FrameBuilder& frame, const Surfaces& surfaces) {
     if (space == StoreSpace::cube) {
         const std::vector<ReceiverView>& seen = generatorReceivers(frame, surfaces.geometry);
         for (std::size_t generator = 0; generator < seen.size(); ++generator) {
-            stores.push_back({seen[generator], -1, static_cast<int>(generator),
-                              &generatorsBlock(frame), suffixOfGenerator(generator)});
+            stores.push_back({seen[generator], -1, suffixOfGenerator(generator),
+                              static_cast<int>(generator), &generatorsBlock(frame)});
         }
         return stores;
     }
     const std::vector<ReceiverView>& receivers = lightReceivers(frame, surfaces.geometry);
     for (std::size_t light = 0; light < receivers.size(); ++light) {
-        stores.push_back({receivers[light], static_cast<int>(light), -1, nullptr,
+        stores.push_back({receivers[light], static_cast<int>(light),
                           light == 0 ? "" : fmt::format(".light_{}", light + 1)});
     }
     return stores;
