@@ -250,6 +250,7 @@ class Counter {
             case Sees::eyeLayers:
                 return fate.isVisible();
             case Sees::everything:
+            case Sees::around:
                 return exact.exists();
             case Sees::flatReceivers:
                 if (!flat_) flat_.emplace(scene_);

@@ -351,8 +351,9 @@ struct Picture {
 // Which surfaces a tracer can find. What it cannot see it cannot be expected to hit: the photon
 // audit, the hard cases and nodes that trace rays of their own ask for this. flatReceivers: those
 // of scene/flat_faces.h by photons outside of closed dielectrics, wherever the eye looks.
-// lightFront: the first receiver that the photon's light sees in any direction.
-enum class Sees { eyeLayers, everything, flatReceivers, lightFront };
+// lightFront: the first receiver that the photon's light sees in any direction. around: all that is
+// larger than a texel of the faces around the generator that the photon has left.
+enum class Sees { eyeLayers, everything, flatReceivers, lightFront, around };
 
 // Which of the lights' photons (FrameBuilder::photonsOfALight) are emitted at once: rows
 // [firstRow, firstRow + rows) of each light's.

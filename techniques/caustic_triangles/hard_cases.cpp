@@ -105,7 +105,8 @@ void acrossASilhouette(Lab& lab) {
                        kExactly);
         }
         const double stored = ledger.watts[kAccountDeposited] + discarded +
-                              ledger.watts[transport::kAccountHiddenInMap];
+                              ledger.watts[transport::kAccountHiddenInMap] +
+                              ledger.watts[transport::kAccountEdgeOn];
         lab.expectDeviation(subject, "stored, hidden and left out by what arrived, less 1",
                             std::abs(stored / ledger.watts[kAccountArrived] - 1.0),
                             {1e-5, "sums are integers"});
@@ -136,7 +137,8 @@ void foldedOver(Lab& lab) {
             object("waves", "water", "water", {0, 2, 0},
                    "size = [3, 3]\ncells = [96, 96]\n"
                    "waves = [{amplitude = 0.03, wavelength = 0.6, direction_degrees = 0}]"));
-    for (const char* merge : {"0", "2"}) {
+    double brightest = 0.0;
+    for (const char* merge : {"0", "32"}) {
         FrameRequest request{96, 96, onFaces("beams")};
         request.settings.emplace_back("reconstruct.triangles.merge", merge);
         request.saved = {"eye.receiver"};
@@ -163,6 +165,11 @@ void foldedOver(Lab& lab) {
         lab.expect(subject, "flux that the picture shows, of what is stored", 1.0,
                    shown / ledger.watts[kAccountDeposited],
                    {0.01, "pixels are as large as what they look up: sampled, not summed"});
+        if (folded < brightest) {
+            lab.expectAtLeast(subject, "brightest pixel by that without merging", 0.2,
+                              folded / brightest, "cells are merged, and not lost");
+        }
+        brightest = std::max(brightest, folded);
     }
 }
 

@@ -91,7 +91,7 @@ void registerSecant(Registry& registry) {
     registry.node<TraceStage>("secant",
                               {"Searches the layers around the generator that a photon has left, "
                                "linearly and by secants.",
-                               "U08, section 3", Sees::everything},
+                               "U08, section 3", Sees::around},
                               &traceSecant);
 }
 

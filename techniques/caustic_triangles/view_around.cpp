@@ -19,6 +19,7 @@ namespace {
 
 struct AroundViewParams {
     int interfaces = 8;
+    bool caustics = true;
     float stride = 4.0f;
     int most = 256;
     int refinements = 8;
@@ -27,6 +28,7 @@ struct AroundViewParams {
         r.field(interfaces, "interfaces",
                 "Specular surfaces that a ray of the eye is followed to after the first", "",
                 params::range(1, 64));
+        r.field(caustics, "caustics", "Light what rays end at by what is stored around generators");
         r.field(stride, "stride", "As trace.secant.stride", "texels", params::range(0.1f, 64.0f));
         r.field(most, "most", "As trace.secant.most", "", params::range(2, 4096));
         r.field(refinements, "refinements", "As trace.secant.refinements", "",
@@ -35,8 +37,9 @@ struct AroundViewParams {
 };
 
 // The maps in which light is stored around generators; empty where it is stored elsewhere.
-std::vector<FluxMap> storedAround(FrameBuilder& frame, const CausticMap& map) {
-    if (map.maps.empty()) return {};
+std::vector<FluxMap> storedAround(FrameBuilder& frame, const AroundViewParams& params,
+                                  const CausticMap& map) {
+    if (map.maps.empty() || !params.caustics) return {};
     const bool isOne = map.maps.front().sets.flux == 1 || map.maps.front().filtered.valid();
     if (map.maps.front().generator >= 0 && isOne) return inFloats(frame, map).maps;
     frame.warn(
@@ -51,7 +54,7 @@ View lookAround(FrameBuilder& frame, const AroundViewParams& params, Geometry ge
     if (!eye.interface.valid()) return seeReceiversAlone(frame, "view.around", receivers);
     const std::vector<SurfacesAround>& around = surfacesAround(frame, geometry);
     const std::vector<ReceiverView>& seen = generatorReceivers(frame, geometry);
-    const std::vector<FluxMap> stored = storedAround(frame, map);
+    const std::vector<FluxMap> stored = storedAround(frame, params, map);
     const View view =
         frame
             .pass<ViewPass>(

@@ -132,6 +132,15 @@ void sayWhichAreLarge(FrameBuilder& frame, const std::vector<Generator>& generat
     }
 }
 
+// Where nothing is specular nothing leaves anything: rays are looked for from where the eye is.
+Generator eyeOf(const scene::Scene& scene) {
+    Generator eye{"the eye", {}};
+    const glm::dvec3 reach(100.0 * static_cast<double>(scene.camera.nearMeters));
+    eye.bounds.include(scene.camera.position - reach);
+    eye.bounds.include(scene.camera.position + reach);
+    return eye;
+}
+
 std::vector<Generator> findGenerators(FrameBuilder& frame, const GeneratorParams& params) {
     const scene::Scene& scene = frame.scene();
     std::vector<Generator> lit;
@@ -146,7 +155,7 @@ std::vector<Generator> findGenerators(FrameBuilder& frame, const GeneratorParams
         }
     }
     if (lit.empty()) lit = all;
-    if (lit.empty()) lit.push_back({"scene", sceneBounds(scene)});
+    if (lit.empty()) lit.push_back(eyeOf(scene));
     uniteNearest(lit, static_cast<std::size_t>(params.most));
     std::vector<Generator> generators;
     for (const Generator& whole : lit) {

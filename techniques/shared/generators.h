@@ -37,7 +37,7 @@ struct Generator {
 
 // Specular objects that no light can reach directly are left out, and those whose boxes overlap are
 // one. Made once a frame, by the first who asks. A scene without
-// any that is lit has all of them, one without any has one of all its surfaces.
+// any that is lit has all of them, one without any has the eye.
 [[nodiscard]] const std::vector<Generator>& causticGenerators(FrameBuilder& frame);
 
 // By generator: the receivers that its reference point sees, on the six faces of a cube; specular

@@ -1,0 +1,215 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Tables of the studies of caustic triangles (experiments/umenhoffer2008_*.toml), in Markdown.
+
+    umenhoffer2008.py steps|error|reach|secant|grazing|merge RESULTS
+
+steps:   ms of every step of a frame, median over the repeats with their spread.
+error:   relMSE and time from emission to gather, and who is on the front of error against time.
+reach:   by scene, shares of the emitted flux that a cube around each generator cannot reach, by cause.
+secant:  photons that the secant search has right, and how far off, by size, layers and their order.
+grazing: error by the angle of the receiver, and light where the truth has none.
+merge:   time and error over the size up to which cells are merged.
+"""
+
+import argparse
+import statistics
+import sys
+from collections import defaultdict
+from pathlib import Path
+
+from wyman2008 import caustic_ms, head, line, runs_of, spread
+
+STEPS = [("layers around", "around."), ("photon hit image: emit", "emit."),
+         ("photon hit image: interactions", "specular."), ("photon hit image: secant search", "trace."),
+         ("receivers on the faces", "generator."), ("triangles", "reconstruct."),
+         ("projection", "gather."), ("reflections and refractions", "view."), ("the rest", "")]
+
+
+def scene_of(row: dict) -> str:
+    return Path(row["scene"]).stem
+
+
+def value(row: dict, key: str):
+    return row["report"]["parameters"][key]
+
+
+def steps(rows: list[dict]) -> None:
+    names = [name for name, _ in STEPS]
+    print(head(["scene"] + names + ["frame, ms"]))
+    by_scene: dict = defaultdict(list)
+    for row in rows:
+        times = dict.fromkeys(names, 0.0)
+        for one in row["report"]["passes"]:
+            if one.get("ran") and "gpu_ms" in one:
+                name = next(name for name, start in STEPS if one["name"].startswith(start))
+                times[name] += one["gpu_ms"]["median"]
+        times["frame"] = row["report"]["frame_ms"]["median"]
+        by_scene[scene_of(row)].append(times)
+    for scene, found in by_scene.items():
+        print(line([f"`{scene}`"] + [f"{statistics.median(t[name] for t in found):.0f}" for name in names] +
+                   [spread([t["frame"] for t in found])]))
+
+
+def name_of(row: dict) -> str:
+    technique = row["report"]["technique"]
+    name = value(row, "reconstruct")
+    if technique == "caustic_triangles":
+        if name == "triangles":
+            name += ", " + value(row, "reconstruct.triangles.shading")
+        return name + " @ cube"
+    return name + (" @ screen" if technique == "screen_space_photons" else " @ light")
+
+
+def error_of(row: dict) -> dict:
+    judged = row["report"]["error"]
+    return judged.get("modelled_paths", judged)["caustic_irradiance"]
+
+
+def error(rows: list[dict]) -> None:
+    by_scene: dict = defaultdict(list)
+    for row in rows:
+        by_scene[scene_of(row)].append((caustic_ms(row["report"]) + around_ms(row["report"]),
+                                        error_of(row)["rel_mse"],
+                                        row["report"]["error"]["caustic_irradiance"]["rel_mse"],
+                                        name_of(row), int(row["emit.photons"].split("x")[0])))
+    print("relMSE against the paths that the photons model (against all light), and ms from emission to "
+          "gather; **bold**: nothing is both faster and better")
+    for scene, found in by_scene.items():
+        print(f"\n`{scene}`\n")
+        photons = sorted({one[4] for one in found})
+        print(head(["reconstruction"] + [f"{n}²" for n in photons]))
+        front = [one for one in found if not any(o[0] < one[0] and o[1] < one[1] for o in found)]
+        for name in sorted({one[3] for one in found}):
+            cells = []
+            for n in photons:
+                cell = [one for one in found if one[3] == name and one[4] == n]
+                text = "; ".join(f"{one[1]:.2g} ({one[2]:.2g}), {one[0]:.0f}" for one in cell)
+                cells.append(f"**{text}**" if cell and cell[0] in front else text or "–")
+            print(line([name] + cells))
+
+
+def around_ms(report: dict) -> float:
+    return sum(p["gpu_ms"]["median"] for p in report["passes"]
+               if p.get("ran") and "gpu_ms" in p and p["name"].startswith(("around.", "generator.")))
+
+
+def reach(rows: list[dict]) -> None:
+    causes = ["hidden_in_map", "beyond_layers", "edge_on", "bounce_limit", "internal_reflection_limit",
+              "untraced_branch", "tracer", "unresolved"]
+    print(head(["scene", "generators", "stored", *causes, "right hits", "relMSE", "of modelled paths"]))
+    for row in rows:
+        report = row["report"]
+        energy = report["energy"]
+        emitted = energy["emitted_w"]
+        if not emitted:
+            print(line([f"`{scene_of(row)}`", "0", "nothing is specular"] + [""] * (len(causes) + 3)))
+            continue
+        judged = report["error"]
+        models = judged.get("modelled_paths", {}).get("caustic_irradiance")
+        right = report["hits"].get("agreement_reachable")
+        print(line([f"`{scene_of(row)}`", len(report["map"]["maps"]),
+                    f"{100 * energy['deposited_w'] / emitted:.2f} %"] +
+                   [f"{100 * energy['lost_w'].get(cause, 0.0) / emitted:.2f} %" for cause in causes] +
+                   ["–" if right is None else f"{100 * right:.2f} %",
+                    f"{judged['caustic_irradiance']['rel_mse']:.3g}",
+                    f"{models['rel_mse']:.3g}" if models else "–"]))
+
+
+def secant(rows: list[dict]) -> None:
+    for vary, fixed, at in (("around.cubes.size", "around.cubes.layers", 4),
+                            ("around.cubes.layers", "around.cubes.size", 256)):
+        chosen = [row for row in rows if value(row, fixed) == at]
+        values = sorted({value(row, vary) for row in chosen})
+        print(f"\nBy `{vary}`, at `{fixed}` = {at}: right hits of those that there are, %; of the hits, "
+              "distance that 99 % are within, mm; ms of the search\n")
+        print(head(["scene", "order"] + [str(v) for v in values]))
+        for scene in sorted({scene_of(row) for row in chosen}):
+            for order in ("smooth", "depth"):
+                cells = []
+                for v in values:
+                    found = [row for row in chosen if scene_of(row) == scene and value(row, vary) == v
+                             and value(row, "around.cubes.order") == order]
+                    if not found:
+                        cells.append("–")
+                        continue
+                    report = found[0]["report"]
+                    hits = report["hits"]
+                    ms = sum(p["gpu_ms"]["median"] for p in report["passes"]
+                             if p.get("ran") and p["name"] == "trace.secant")
+                    within = hits["distance_m"]["p99"] if "distance_m" in hits else hits.get("p99_m", 0.0)
+                    cells.append(f"{100 * hits['agreement_reachable']:.2f}, {1000 * within:.2g}, {ms:.0f}")
+                print(line([f"`{scene}`", order] + cells))
+
+
+def leaked(row: dict, results: Path) -> float:
+    """Share of the caustic, summed over pixels, that lies where the truth has hardly any."""
+    sys.path.insert(0, "/usr/lib/python3/dist-packages")
+    import OpenImageIO
+
+    def read(name: str):
+        path = results / row["folder"] / name
+        return OpenImageIO.ImageBuf(str(path)).get_pixels(OpenImageIO.FLOAT)[:, :, :3].mean(axis=2)
+
+    image, truth = read("caustic.exr"), read("reference.exr")
+    dark = truth < 1e-3 * truth.max()
+    return float(image[dark].sum() / truth.sum())
+
+
+def grazing(rows: list[dict], results: Path) -> None:
+    def kind(row: dict) -> str:
+        name = value(row, "reconstruct")
+        return name if name == "triangles" else f"splats of {value(row, 'reconstruct.fixed.diameter')} texels"
+
+    names = sorted({kind(row) for row in rows}, key=lambda n: (n != "triangles", len(n), n))
+    print("relMSE against the modelled paths; energy ratio; share of the light where the truth has less than a "
+          "thousandth of its most\n")
+    print(head(["scene"] + names))
+    scenes = list(dict.fromkeys(scene_of(row) for row in rows))
+    for scene in scenes:
+        cells = []
+        for name in names:
+            row = next(r for r in rows if scene_of(r) == scene and kind(r) == name)
+            errors = error_of(row)
+            cells.append(f"{errors['rel_mse']:.2g}; {errors['energy_ratio']:.3f}; {100 * leaked(row, results):.2f} %")
+        print(line([f"`{scene}`"] + cells))
+
+
+def merge(rows: list[dict]) -> None:
+    sizes = sorted({value(row, "reconstruct.triangles.merge") for row in rows})
+    print("ms of `reconstruct.triangles`; relMSE against the modelled paths; stored by what has arrived, less 1\n")
+    print(head(["scene", "photons"] + [f"{size:g} px" for size in sizes]))
+    cells: dict = defaultdict(dict)
+    for row in rows:
+        report = row["report"]
+        ms = sum(p["gpu_ms"]["median"] for p in report["passes"]
+                 if p.get("ran") and p["name"] == "reconstruct.triangles")
+        lost = report["energy"]["lost_w"]
+        arrived = report["energy"]["deposited_w"] + sum(
+            lost.get(cause, 0.0) for cause in ("hidden_in_map", "outside_map", "edge_on", "discarded_triangle"))
+        ratio = report["map"]["flux_ratio"] * arrived / report["energy"]["deposited_w"] - 1.0
+        cells[(scene_of(row), row["emit.photons"])][value(row, "reconstruct.triangles.merge")] = (
+            f"{ms:.0f}; {error_of(row)['rel_mse']:.3g}; {ratio:+.0e}")
+    for (scene, photons), found in cells.items():
+        print(line([f"`{scene}`", photons] + [found.get(size, "–") for size in sizes]))
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("table", choices=["steps", "error", "reach", "secant", "grazing", "merge"])
+    parser.add_argument("results", type=Path)
+    arguments = parser.parse_args()
+    if not (arguments.results / "runs.csv").is_file():
+        print(f"umenhoffer2008: '{arguments.results}' has no runs.csv; is it the results of 'kaustik "
+              "experiment run'?", file=sys.stderr)
+        return 1
+    rows = runs_of(arguments.results)
+    if arguments.table == "grazing":
+        grazing(rows, arguments.results)
+    else:
+        {"steps": steps, "error": error, "reach": reach, "secant": secant, "merge": merge}[arguments.table](rows)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
