@@ -35,8 +35,18 @@ FirstHit firstAround(vec3 origin, vec3 direction, uint media) {
                         view_around_stride, view_around_most, view_around_refinements, isCut);
 }
 
+// The map of a generator.
+void lookUpIn(int generator) {
+#ifdef SEVERAL_CUBES
+    mapCube = generator;
+    mapShift = (generators.centers[generator] - generators.centers[0]).xyz *
+               mat3(generators.eyeToWorld);
+#endif
+}
+
 // Of a receiver: where the reference point sees it, else its material's first colour.
 vec3 albedoAt(vec3 positionVs, vec3 normalVs, uint material) {
+    lookUpIn(generatorIndex);
     MapPlace place = placeOf(positionVs, normalVs);
     if (place.face >= 0) {
         ivec2 texel = ivec2(floor(place.pixel));
@@ -66,7 +76,13 @@ vec3 radianceOf(vec3 positionVs, vec3 direction, vec3 normal, uint material) {
                receiverBrdf(albedo, lobe.rgb, lobe.w, normal, toLight, -direction);
     }
 #ifdef LIGHT_IS_STORED
-    Gathered stored = gatherAt(positionVs, normal, direction);
+    Gathered stored = Gathered(vec3(0.0), vec3(0.0));
+    for (int i = 0; i < int(generators.count.x); ++i) {
+        lookUpIn(i);
+        Gathered one = gatherAt(positionVs, normal, direction);
+        stored.irradiance += one.irradiance;
+        stored.direction += one.direction;
+    }
     float all = stored.irradiance.r + stored.irradiance.g + stored.irradiance.b;
     if (all > 0.0) {
         vec3 from = normal;

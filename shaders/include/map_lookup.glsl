@@ -5,6 +5,7 @@
 // on the receiver is the irradiance.
 //   MAP_IS_CUBE, MAP_IS_PARALLEL  what the map's views are
 //   MEAN_INCIDENCE                also where the light comes from
+//   SEVERAL_CUBES                 of several, one after the other in the arrays, mapCube says which
 #include "framework/transport/types.h"
 
 layout(std140) uniform MapViews {
@@ -20,17 +21,29 @@ uniform sampler2D mapSurface;
 uniform sampler2DArray filteredFlux;
 uniform int mapCount;  // of its views
 uniform int setsPerView;
+#ifdef SEVERAL_CUBES
+int mapCube = 0;
+vec3 mapShift = vec3(0.0);  // of its middle from the first one's, the eye's view space, m
+int mapLayer(int face) {
+    return mapCube * mapCount + face;
+}
+#else
+const vec3 mapShift = vec3(0.0);
+int mapLayer(int face) {
+    return face;
+}
+#endif
 
 vec2 mapReceiverAt(ivec2 texel, int face) {
 #ifdef MAP_IS_CUBE
-    return texelFetch(mapReceiver, ivec3(texel, face), 0).xy;
+    return texelFetch(mapReceiver, ivec3(texel, mapLayer(face)), 0).xy;
 #else
     return texelFetch(mapReceiver, texel, 0).xy;
 #endif
 }
 vec3 mapNormalAt(ivec2 texel, int face) {
 #ifdef MAP_IS_CUBE
-    return texelFetch(mapSurface, ivec3(texel, face), 0).xyz;
+    return texelFetch(mapSurface, ivec3(texel, mapLayer(face)), 0).xyz;
 #else
     return texelFetch(mapSurface, texel, 0).xyz;
 #endif
@@ -77,7 +90,7 @@ struct MapPlace {
 
 MapPlace placeOf(vec3 positionVs, vec3 normalVs) {
     for (int face = 0; face < mapCount; ++face) {
-        vec3 point = (mapViews[face].fromEye * vec4(positionVs, 1.0)).xyz;
+        vec3 point = (mapViews[face].fromEye * vec4(positionVs - mapShift, 1.0)).xyz;
         if (-point.z <= mapViews[face].frustum.z) continue;
         vec2 pixel = mapPixelOf(mapViews[face], point);
         if (any(lessThan(pixel, vec2(0.0)))) continue;
@@ -130,7 +143,7 @@ Gathered gatherAt(vec3 positionVs, vec3 normalVs, vec3 towards) {
         vec2 axis = mix(1.0 - f, f, vec2(step));
         float weight = max(axis.x * axis.y, 1e-6);
         weights += weight;
-        int set = place.face * setsPerView;
+        int set = mapLayer(place.face) * setsPerView;
         float overArea = weight / seen.y;
         result.irradiance += texelFetch(filteredFlux, ivec3(texel, set), 0).rgb * overArea;
 #ifdef MEAN_INCIDENCE

@@ -48,6 +48,54 @@ std::vector<FluxMap> storedAround(FrameBuilder& frame, const AroundViewParams& p
     return {};
 }
 
+// What all generators' receivers and maps hold, in arrays one after the other.
+struct Collected {
+    graph::Texture<ReceiverTexel> receiver;
+    graph::Texture<SurfaceTexel> surface;
+    graph::Texture<FilteredTexel> flux;
+    Views views;  // of the first
+};
+
+Collected collect(FrameBuilder& frame, const std::vector<ReceiverView>& seen,
+                  const std::vector<FluxMap>& stored) {
+    if (stored.size() == 1)
+        return {seen[0].receiver, seen[0].receiverSurface, stored[0].filtered, seen[0].views};
+    return frame.pass<Collected>(
+        "view.maps", "light that is stored around any generator may be seen in each",
+        [&](graph::PassSetup& setup, Collected& data) {
+            const Views& views = seen[0].views;
+            const int w = views->width();
+            const int h = views->height();
+            const int layers = views->count() * static_cast<int>(seen.size());
+            data.views = views;
+            data.receiver = setup.image(
+                "allReceivers", setup.create<ReceiverTexel>("view.map_receiver", w, h, layers));
+            data.surface = setup.image(
+                "allSurfaces", setup.create<SurfaceTexel>("view.map_surface", w, h, layers));
+            data.flux = setup.image("allFlux", setup.create<FilteredTexel>(
+                                                   "view.map_flux", w, h,
+                                                   layers * stored[0].filteredPerView()));
+            for (std::size_t i = 0; i < seen.size(); ++i) {
+                setup.read(seen[i].receiver);
+                setup.read(seen[i].receiverSurface);
+                setup.read(stored[i].filtered);
+            }
+        },
+        [seen, stored](const Collected& data, gl::PassContext& context) {
+            const int sets = stored[0].filteredPerView();
+            for (std::size_t i = 0; i < seen.size(); ++i) {
+                context.compute("caustic_triangles/collect.comp")
+                    .texture("mapReceiver", seen[i].receiver)
+                    .texture("mapSurface", seen[i].receiverSurface)
+                    .texture("mapFlux", stored[i].filtered)
+                    .set("setsPerView", sets)
+                    .set("firstView", static_cast<int>(i) * data.views->count())
+                    .dispatchOver(data.views->width(), 8,
+                                  data.views->height() * data.views->count(), 8);
+            }
+        });
+}
+
 View lookAround(FrameBuilder& frame, const AroundViewParams& params, Geometry geometry,
                 EyeBuffer eye, LayeredDepth sceneLayers, Radiance receivers, Shadows shadows,
                 CausticMap map) {
@@ -55,11 +103,17 @@ View lookAround(FrameBuilder& frame, const AroundViewParams& params, Geometry ge
     const std::vector<SurfacesAround>& around = surfacesAround(frame, geometry);
     const std::vector<ReceiverView>& seen = generatorReceivers(frame, geometry);
     const std::vector<FluxMap> stored = storedAround(frame, params, map);
+    const Collected maps = stored.empty() ? Collected{} : collect(frame, seen, stored);
     const View view =
         frame
             .pass<ViewPass>(
                 "view.around", whyLook(frame),
                 [&](graph::PassSetup& setup, ViewPass& look) {
+                    if (!stored.empty()) {
+                        setup.read(maps.receiver);
+                        setup.read(maps.surface);
+                        setup.read(maps.flux);
+                    }
                     look = declareLook(frame, setup, {}, geometry, eye, sceneLayers, receivers,
                                        shadows);
                     for (std::size_t i = 0; i < around.size(); ++i) {
@@ -69,10 +123,9 @@ View lookAround(FrameBuilder& frame, const AroundViewParams& params, Geometry ge
                         setup.read(seen[i].receiver);
                         setup.read(seen[i].receiverSurface);
                         setup.read(seen[i].receiverAlbedo);
-                        if (!stored.empty()) setup.read(stored[i].filtered);
                     }
                 },
-                [&inputs = frame.inputs(), params, around, seen, stored,
+                [&inputs = frame.inputs(), params, around, seen, stored, maps,
                  testing = hitTesting(frame), &block = generatorsBlock(frame),
                  eyeView = viewData(frame.scene(), frame.view(), frame.view()),
                  lights = frame.needs().lights](const ViewPass& look, gl::PassContext& context) {
@@ -84,20 +137,26 @@ View lookAround(FrameBuilder& frame, const AroundViewParams& params, Geometry ge
                                 .texture("layerDepths", around[i].layers.depth)
                                 .texture("layerSurfaces", around[i].layers.surface)
                                 .texture("layerOrder", around[i].order)
-                                .texture("mapReceiver", seen[i].receiver)
-                                .texture("mapSurface", seen[i].receiverSurface)
                                 .texture("mapAlbedo", seen[i].receiverAlbedo)
-                                .uniforms("MapViews", seen[i].views->block())
                                 .uniforms("Generators", block)
                                 .set("mapCount", seen[i].views->count())
                                 .set("generatorIndex", static_cast<int>(i))
                                 .set("lightCount", lights)
                                 .set("eyeFrustum", eyeView.frustum)
                                 .set("eyeSizePixels", eyeView.sizePixels);
-                            if (stored.empty()) return;
+                            if (stored.empty()) {
+                                command.texture("mapReceiver", seen[i].receiver)
+                                    .texture("mapSurface", seen[i].receiverSurface)
+                                    .uniforms("MapViews", seen[i].views->block());
+                                return;
+                            }
                             command.define("LIGHT_IS_STORED")
-                                .texture("filteredFlux", stored[i].filtered)
+                                .texture("mapReceiver", maps.receiver)
+                                .texture("mapSurface", maps.surface)
+                                .texture("filteredFlux", maps.flux)
+                                .uniforms("MapViews", maps.views->block())
                                 .set("setsPerView", stored[i].filteredPerView());
+                            if (stored.size() > 1) command.define("SEVERAL_CUBES");
                             if (stored[i].sets.hasDirection) command.define("GLOSSY_RECEIVERS");
                         });
                     }
