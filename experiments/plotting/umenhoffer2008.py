@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Tables of the studies of caustic triangles (experiments/umenhoffer2008_*.toml), in Markdown.
 
-    umenhoffer2008.py steps|error|reach|secant|grazing|merge RESULTS
+    umenhoffer2008.py steps|error|reach|secant|grazing|merge|seen RESULTS
 
 steps:   ms of every step of a frame, median over the repeats with their spread.
 error:   relMSE and time from emission to gather, and who is on the front of error against time.
@@ -10,6 +10,7 @@ reach:   by scene, shares of the emitted flux that a cube around each generator 
 secant:  photons that the secant search has right, and how far off, by size, layers and their order.
 grazing: error by the angle of the receiver, and light where the truth has none.
 merge:   time and error over the size up to which cells are merged.
+seen:    caustics in a mirror and through glass, as experiments/umenhoffer2008_seen.sh has rendered them.
 """
 
 import argparse
@@ -142,16 +143,17 @@ def secant(rows: list[dict]) -> None:
                 print(line([f"`{scene}`", order] + cells))
 
 
-def leaked(row: dict, results: Path) -> float:
-    """Share of the caustic, summed over pixels, that lies where the truth has hardly any."""
+def grey(path: Path):
+    """The mean of an image's channels, as an array."""
     sys.path.insert(0, "/usr/lib/python3/dist-packages")
     import OpenImageIO
+    return OpenImageIO.ImageBuf(str(path)).get_pixels(OpenImageIO.FLOAT)[:, :, :3].mean(axis=2)
 
-    def read(name: str):
-        path = results / row["folder"] / name
-        return OpenImageIO.ImageBuf(str(path)).get_pixels(OpenImageIO.FLOAT)[:, :, :3].mean(axis=2)
 
-    image, truth = read("caustic.exr"), read("reference.exr")
+def leaked(row: dict, results: Path) -> float:
+    """Share of the caustic, summed over pixels, that lies where the truth has hardly any."""
+    image = grey(results / row["folder"] / "caustic.exr")
+    truth = grey(results / row["folder"] / "reference.exr")
     dark = truth < 1e-3 * truth.max()
     return float(image[dark].sum() / truth.sum())
 
@@ -194,11 +196,31 @@ def merge(rows: list[dict]) -> None:
         print(line([f"`{scene}`", photons] + [found.get(size, "–") for size in sizes]))
 
 
+def seen(results: Path) -> None:
+    import numpy
+    print(head(["scene", "view", "light seen, of the truth's", "relMSE", "pixels of the truth"]))
+    for scene in ("mirror-room", "pane-room"):
+        truth = grey(results / f"{scene}.caustic_view.exr")
+        for view in ("around", "refraction"):
+            image = (grey(results / f"{scene}-{view}-on" / "beauty.exr")
+                     - grey(results / f"{scene}-{view}-off" / "beauty.exr"))
+            # What the eye sees straight is no part of it.
+            there = truth > 0
+            image = numpy.where(there, image, 0.0)
+            epsilon = 0.01 * truth[there].mean() ** 2
+            error_square = (image - truth) ** 2 / (truth ** 2 + epsilon)
+            print(line([f"`{scene}`", view, f"{image.sum() / truth.sum():.3f}",
+                        f"{error_square[there].mean():.3g}", int(there.sum())]))
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("table", choices=["steps", "error", "reach", "secant", "grazing", "merge"])
+    parser.add_argument("table", choices=["steps", "error", "reach", "secant", "grazing", "merge", "seen"])
     parser.add_argument("results", type=Path)
     arguments = parser.parse_args()
+    if arguments.table == "seen":
+        seen(arguments.results)
+        return 0
     if not (arguments.results / "runs.csv").is_file():
         print(f"umenhoffer2008: '{arguments.results}' has no runs.csv; is it the results of 'kaustik "
               "experiment run'?", file=sys.stderr)

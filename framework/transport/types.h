@@ -45,6 +45,7 @@ struct GeneratorsData {
     // Boxes along the world's axes, from the eye, m.
     vec4 centers[kMostGenerators];
     vec4 halfExtents[kMostGenerators];
+    vec4 references[kMostGenerators];  // points, the same way
 };
 
 // One placed mesh, for one view (std430).

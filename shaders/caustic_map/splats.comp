@@ -137,8 +137,21 @@ float reachOf(Splat splat) {
     return max(splat.radius, 0.5);
 #endif
 }
-ivec2 firstOf(Splat splat) { return ivec2(ceil(splat.center - reachOf(splat) - 0.5)); }
-ivec2 lastOf(Splat splat) { return ivec2(floor(splat.center + reachOf(splat) - 0.5)); }
+// Of a cube's face no farther than it goes: the next one has the rest.
+ivec2 firstOf(Splat splat) {
+    ivec2 first = ivec2(ceil(splat.center - reachOf(splat) - 0.5));
+#ifdef MANY_VIEWS
+    first = max(first, ivec2(0));
+#endif
+    return first;
+}
+ivec2 lastOf(Splat splat) {
+    ivec2 last = ivec2(floor(splat.center + reachOf(splat) - 0.5));
+#ifdef MANY_VIEWS
+    last = min(last, sizeOfLevel(level) - 1);
+#endif
+    return last;
+}
 
 void addParts(Splat splat, inout Parts parts) {
     ivec2 first = firstOf(splat);

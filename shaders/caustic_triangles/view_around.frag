@@ -39,7 +39,7 @@ FirstHit firstAround(vec3 origin, vec3 direction, uint media) {
 void lookUpIn(int generator) {
 #ifdef SEVERAL_CUBES
     mapCube = generator;
-    mapShift = (generators.centers[generator] - generators.centers[0]).xyz *
+    mapShift = (generators.references[generator] - generators.references[0]).xyz *
                mat3(generators.eyeToWorld);
 #endif
 }

@@ -80,8 +80,12 @@ float twiceArea(vec3 a, vec3 b, vec3 c) {
 // triangle's area by a third of what each has over all of its own; linear between the corners. Where
 // none has any area, in equal parts.
 void shareByAreas(inout Patch made, uint photonsOf[4]) {
-    vec3 areas = 0.5 * vec3(twiceArea(made.corners[0], made.corners[1], made.corners[2]),
-                            twiceArea(made.corners[0], made.corners[2], made.corners[3]), 0.0);
+    // By the same numbers as those round the vertices were.
+    vec3 corners[4];
+    for (int i = 0; i < 4; ++i)
+        corners[i] = texelFetch(hitPosition, ivec2(photonTexel(photons, photonsOf[i])), 0).xyz;
+    vec2 areas = 0.5 * vec2(twiceArea(corners[0], corners[1], corners[2]),
+                            twiceArea(corners[0], corners[2], corners[3]));
     vec3 first = vec3(0.0);
     vec3 second = vec3(0.0);
     for (int i = 0; i < 4; ++i) {
@@ -89,7 +93,7 @@ void shareByAreas(inout Patch made, uint photonsOf[4]) {
         vec3 flux = texelFetch(hitFlux, ivec2(photonTexel(photons, photonsOf[i])), 0).rgb *
                     (shares.quarter * shares.cells);
         bool hasArea = shares.area > 0.0;
-        vec2 part = hasArea ? areas.xy / shares.area : vec2(1.0 / max(shares.triangles, 1.0));
+        vec2 part = hasArea ? areas / shares.area : vec2(1.0 / max(shares.triangles, 1.0));
         if (i != 3) first += flux * part.x;
         if (i != 1) second += flux * part.y;
         made.densities[i] = hasArea ? (flux.r + flux.g + flux.b) / shares.area : 0.0;

@@ -30,9 +30,16 @@ struct Parts {
 void addParts(Sprite sprite, inout Parts parts) {
     ivec2 reach = spriteReach(sprite);
     ivec2 middle = ivec2(floor(pixelOf(sprite.center)));
-    for (int y = -reach.y; y <= reach.y; ++y) {
-        for (int x = -reach.x; x <= reach.x; ++x) {
-            SpritePixel part = spriteAt(sprite, middle + ivec2(x, y));
+    ivec2 first = middle - reach;
+    ivec2 last = middle + reach;
+#ifdef MANY_VIEWS
+    // What lies beside a cube's face is in another.
+    first = max(first, ivec2(0));
+    last = min(last, ivec2(view.sizePixels.xy) - 1);
+#endif
+    for (int y = first.y; y <= last.y; ++y) {
+        for (int x = first.x; x <= last.x; ++x) {
+            SpritePixel part = spriteAt(sprite, ivec2(x, y));
             float amount = part.weight * part.area;
             if (part.where == kSeenOn) parts.on += amount;
             if (part.where == kSeenOccluded) parts.occluded += amount;

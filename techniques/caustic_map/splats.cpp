@@ -121,8 +121,14 @@ void drawSplats(const TexelSplats& splats, const Store& store, const Splatted& d
     }
 }
 
-Stored splatInto(FrameBuilder& frame, const TexelSplats& splats, const Hits& hits,
-                 const Store& store, const FluxMap& before) {
+// Mesa's software rasteriser ends all loops of a thread group after 65,535 turns together: two looks
+// at every texel of a splat, on each of six faces.
+constexpr float kMostOnCubes = 64.0f;
+
+Stored splatInto(FrameBuilder& frame, TexelSplats splats, const Hits& hits, const Store& store,
+                 const FluxMap& before) {
+    if (splats.lens && store.receivers.views->count() > 1)
+        splats.lens->most = std::min(splats.lens->most, kMostOnCubes);
     FluxSets sets = setsIn(frame, store);
     sets.flux = splats.flux;
     sets.counts = splats.counts;

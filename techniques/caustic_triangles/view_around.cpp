@@ -27,7 +27,7 @@ struct AroundViewParams {
     void reflect(R& r) {
         r.field(interfaces, "interfaces",
                 "Specular surfaces that a ray of the eye is followed to after the first", "",
-                params::range(1, 64));
+                params::range(1, 16));
         r.field(caustics, "caustics", "Light what rays end at by what is stored around generators");
         r.field(stride, "stride", "As trace.secant.stride", "texels", params::range(0.1f, 64.0f));
         r.field(most, "most", "As trace.secant.most", "", params::range(2, 4096));

@@ -77,7 +77,7 @@ std::vector<Generator> split(const Generator& whole, std::size_t points) {
                          : extent.y >= extent.z                       ? 1
                                                                       : 2;
         Generator second = *largest;
-        const double middle = largest->reference()[axis];
+        const double middle = 0.5 * (largest->bounds.minimum[axis] + largest->bounds.maximum[axis]);
         largest->bounds.maximum[axis] = middle;
         second.bounds.minimum[axis] = middle;
         parts.push_back(std::move(second));
@@ -190,6 +190,18 @@ std::vector<ReceiverView> drawReceivers(FrameBuilder& frame, const Geometry& geo
 
 }  // namespace
 
+glm::dvec3 Generator::reference() const {
+    const glm::dvec3 extent = bounds.maximum - bounds.minimum;
+    glm::dvec3 point = 0.5 * (bounds.minimum + bounds.maximum);
+    int thin = 0;
+    for (int axis = 1; axis < 3; ++axis) {
+        if (extent[axis] < extent[thin]) thin = axis;
+    }
+    const double wide = std::min(extent[(thin + 1) % 3], extent[(thin + 2) % 3]);
+    if (extent[thin] < 0.1 * wide) point[thin] = bounds.maximum[thin] + 0.1 * wide;
+    return point;
+}
+
 const std::vector<Generator>& causticGenerators(FrameBuilder& frame) {
     return *frame.once<std::vector<Generator>>("generators", [&] {
         return std::make_shared<std::vector<Generator>>(
@@ -212,8 +224,10 @@ const gl::Buffer& generatorsBlock(FrameBuilder& frame) {
         data.count.x = static_cast<unsigned>(generators.size());
         for (std::size_t i = 0; i < generators.size(); ++i) {
             const scene::Bounds& box = generators[i].bounds;
-            data.centers[i] =
-                glm::vec4(glm::vec3(generators[i].reference() - glm::dvec3(toWorld[3])), 0.0f);
+            const glm::dvec3 eye(toWorld[3]);
+            const glm::dvec3 middle = 0.5 * (box.minimum + box.maximum);
+            data.centers[i] = glm::vec4(glm::vec3(middle - eye), 0.0f);
+            data.references[i] = glm::vec4(glm::vec3(generators[i].reference() - eye), 0.0f);
             data.halfExtents[i] = glm::vec4(glm::vec3(0.5 * (box.maximum - box.minimum)), 0.0f);
         }
         return std::make_shared<gl::Buffer>(std::vector<transport::GeneratorsData>{data},

@@ -30,9 +30,8 @@ struct GeneratorParams {
 struct Generator {
     std::string name;      // of its objects
     scene::Bounds bounds;  // world space, m
-    [[nodiscard]] glm::dvec3 reference() const {
-        return 0.5 * (bounds.minimum + bounds.maximum);
-    }
+    // The box's middle; of a sheet, which that would see edge-on, somewhat above it.
+    [[nodiscard]] glm::dvec3 reference() const;
 };
 
 // Specular objects that no light can reach directly are left out, and those whose boxes overlap are

@@ -156,8 +156,10 @@ TEST(CausticTriangles, MergedHaveTheSameFlux) {
     }
 }
 
-// A photon at a corner of one batch is joined to those of the next.
-TEST(CausticTriangles, AreTheSameWhateverTheBatches) {
+// A photon at the border of one batch is joined to those of the next. Each batch spreads the flux of
+// its own corners of a triangle so that all of it is there, by the texels' middles: together they
+// are not quite what one spreads of all corners.
+TEST(CausticTriangles, AreNearlyTheSameWhateverTheBatches) {
     const scene::Scene scene = underASheet({{0.0, 1.8, 0.01}, {0.0, 0.0, 0.0}}, "");
     const numerics::Frame whole = render(scene, {});
     const numerics::Frame parts = render(scene, {{"emit.batch", "1000"}});
@@ -168,7 +170,11 @@ TEST(CausticTriangles, AreTheSameWhateverTheBatches) {
                                              parts.causticIrradiance().rgb(x, y).g));
         }
     }
-    EXPECT_LT(worst, 1e-3 * kSunlight);
+    EXPECT_LT(worst, 0.015 * kSunlight);
+    const auto stored = [](const numerics::Frame& frame) {
+        return frame.renderer().ledger().watts[transport::kAccountDeposited];
+    };
+    EXPECT_NEAR(stored(parts) / stored(whole), 1.0, 1e-6);
 }
 
 // The eye looks into a mirror, at a floor that only light through the sheet lights.
