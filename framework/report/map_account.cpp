@@ -56,10 +56,10 @@ json mapAccount(const Renderer& renderer) {
     bool isFiltered = true;
     for (const FluxMap& map : maps) {
         const render::RasterViews& views = *map.on.views;
-        account["maps"].push_back({{isOfGenerators ? "generator" : "light",
-                                    isOfGenerators ? map.generator : map.light},
-                                   {"size", {views.width(), views.height()}},
-                                   {"views", views.count()}});
+        account["maps"].push_back(
+            {{isOfGenerators ? "generator" : "light", isOfGenerators ? map.generator : map.light},
+             {"size", {views.width(), views.height()}},
+             {"views", views.count()}});
         isFiltered = isFiltered && map.filtered.valid();
         if (isFiltered) filtered += filteredWatts(renderer, map);
     }

@@ -218,8 +218,8 @@ CausticMap inFloats(FrameBuilder& frame, CausticMap map) {
     // Of the frame's one map, for whoever asks first.
     return *frame.once<CausticMap>("map.in_floats", [&] {
         return std::make_shared<CausticMap>(filterMaps(
-            frame, "gather.unpack", "a texel of the map is looked up more than once", std::move(map),
-            [](graph::PassSetup&, Filtered&) {},
+            frame, "gather.unpack", "a texel of the map is looked up more than once",
+            std::move(map), [](graph::PassSetup&, Filtered&) {},
             [](const Filtered& data, gl::PassContext& context) {
                 gl::Command command = filterCommand(context, "unpack.comp", data.map);
                 dispatchOverMap(command, data.map);

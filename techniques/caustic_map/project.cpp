@@ -29,8 +29,9 @@ IrradianceMap projectLightMaps(FrameBuilder& frame, const ProjectParams& params,
             "reconstruct.space=light, or gather=screen or gather=cube.");
     }
     return projectMaps(frame,
-                       {"gather.project", "each light's map is looked up where the eye's "
-                                          "receivers lie",
+                       {"gather.project",
+                        "each light's map is looked up where the eye's "
+                        "receivers lie",
                         params.places, false},
                        std::move(map), surfaces);
 }

@@ -48,7 +48,7 @@ IrradianceMap projectMaps(FrameBuilder& frame, const Projection& projection, Cau
                 setup.bypass(data.radiance, {0, 0, 0, 0});
             },
             [projection, stored, isFirst = i == 0](const IrradianceMap& data,
-                                               gl::PassContext& context) {
+                                                   gl::PassContext& context) {
                 const Views& views = stored.on.views;
                 gl::Command command = context.fullscreen("caustic_map/project.frag");
                 command.uniforms("MapViews", views->block())

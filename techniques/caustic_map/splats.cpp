@@ -121,8 +121,8 @@ void drawSplats(const TexelSplats& splats, const Store& store, const Splatted& d
     }
 }
 
-// Mesa's software rasteriser ends all loops of a thread group after 65,535 turns together: two looks
-// at every texel of a splat, on each of six faces.
+// Mesa's software rasteriser ends all loops of a thread group after 65,535 turns together: two
+// looks at every texel of a splat, on each of six faces.
 constexpr float kMostOnCubes = 64.0f;
 
 Stored splatInto(FrameBuilder& frame, TexelSplats splats, const Hits& hits, const Store& store,

@@ -58,9 +58,10 @@ int sideOfFaces(FrameBuilder& frame, const CubesParams& params, std::size_t gene
     while (side > 16 && kBytesPerTexel * side * side * faces > most)
         side /= 2;
     if (side < params.size) {
-        frame.warn(fmt::format("Layers around {} generators with faces of {} texels a side do not "
-                               "fit into around.cubes.memory = {} MiB; they have {}.",
-                               generators, params.size, params.memoryMebibytes, side));
+        frame.warn(
+            fmt::format("Layers around {} generators with faces of {} texels a side do not "
+                        "fit into around.cubes.memory = {} MiB; they have {}.",
+                        generators, params.size, params.memoryMebibytes, side));
     }
     return side;
 }
@@ -92,9 +93,8 @@ graph::Texture<LayerOrderTexel> orderLayers(FrameBuilder& frame, const LayeredDe
                 data.conflicts = setup.storage(
                     "KindConflicts",
                     setup.createBuffer<KindConflicts>("around.conflicts" + suffix, kKinds));
-                data.slots = setup.storage(
-                    "KindSlots",
-                    setup.createBuffer<std::uint32_t>("around.slots" + suffix, kKinds));
+                data.slots = setup.storage("KindSlots", setup.createBuffer<std::uint32_t>(
+                                                            "around.slots" + suffix, kKinds));
             },
             [layers, isSmooth](const Data& data, gl::PassContext& context) {
                 const auto shader = [&](const char* name) {
@@ -147,9 +147,10 @@ std::vector<SurfacesAround> sampleAround(FrameBuilder& frame, const CubesParams&
                      "layers",
                      static_cast<double>(params.layers),
                      static_cast<double>(found.complexity),
-                     fmt::format("{} of {} fragments around '{}', in {} texels, lie beyond the last "
-                                 "layer",
-                                 found.skipped, found.fragments, name, found.pixelsSkipped),
+                     fmt::format(
+                         "{} of {} fragments around '{}', in {} texels, lie beyond the last "
+                         "layer",
+                         found.skipped, found.fragments, name, found.pixelsSkipped),
                      0.0};
              }});
         around.order = orderLayers(frame, around.layers, params.order, suffix);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// gather.cube: the light cube map of each caustic generator looked up where the eye's receivers lie,
-// by their direction from its reference point, with their distance as a shadow test (U08, section
-// 4.3). Four texels around count that see the same surface. In: flux a texel of a face, W; out:
-// irradiance, W/m², and, where a receiver is glossy, radiance by its BRDF, W/m²/sr.
+// gather.cube: the light cube map of each caustic generator looked up where the eye's receivers
+// lie, by their direction from its reference point, with their distance as a shadow test (U08,
+// section 4.3). Four texels around count that see the same surface. In: flux a texel of a face, W;
+// out: irradiance, W/m², and, where a receiver is glossy, radiance by its BRDF, W/m²/sr.
 #include <utility>
 
 #include "framework/core/error.h"
-#include "techniques/caustic_triangles/nodes.h"
 #include "techniques/caustic_map/projection.h"
+#include "techniques/caustic_triangles/nodes.h"
 
 namespace kaustik {
 namespace {
@@ -39,8 +39,9 @@ IrradianceMap gatherCubes(FrameBuilder& frame, const CubeParams& params, Caustic
     if (params.incidence == Incidence::centre && !frame.needs().glossyReceivers)
         frame.warn("gather.cube.incidence has no effect: no receiver is glossy.");
     return projectMaps(frame,
-                       {"gather.cube", "the light around each generator is looked up where the "
-                                       "eye's receivers lie",
+                       {"gather.cube",
+                        "the light around each generator is looked up where the "
+                        "eye's receivers lie",
                         params.places, params.incidence == Incidence::centre},
                        std::move(map), surfaces);
 }

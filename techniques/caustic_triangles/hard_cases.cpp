@@ -26,10 +26,9 @@ scene::Scene underASheet(const std::string& parts, double sheetSide = 5.0) {
     CameraText camera;
     camera.position = {0.0, 6.0, 2.5};
     camera.target = {0.0, 0.0, 0.0};
-    scene::Scene scene = makeScene(camera, sun({0.0, -1.0, 0.0}) +
-                                               floorPlane("floor", "grey", 8, {0, 0, 0}) +
-                                               floorPlane("air", "water", sheetSide, {0, 1, 0}) +
-                                               parts);
+    scene::Scene scene =
+        makeScene(camera, sun({0.0, -1.0, 0.0}) + floorPlane("floor", "grey", 8, {0, 0, 0}) +
+                              floorPlane("air", "water", sheetSide, {0, 1, 0}) + parts);
     scene.materials[kWater - 1].ior = 1.0f;
     return scene;
 }
@@ -66,24 +65,24 @@ void acrossFaces(Lab& lab) {
         lab.expectAtLeast(subject, "pixels of a floor that five faces of a cube see", 1000.0,
                           static_cast<double>(pixels), kEnough);
         lab.expectDeviation(subject, "worst relative error of even light on it", worst,
-                            {0.02, "flux is exact in every texel that a triangle covers wholly; the "
-                                   "area that a texel sees is that of its middle's ray, 0.5 % off "
-                                   "in the corner of a face of 256 texels, and a pixel is the mean "
-                                   "of a few of them"});
+                            {0.02,
+                             "flux is exact in every texel that a triangle covers wholly; the "
+                             "area that a texel sees is that of its middle's ray, 0.5 % off "
+                             "in the corner of a face of 256 texels, and a pixel is the mean "
+                             "of a few of them"});
         const EnergyLedger ledger = frame.renderer().ledger();
-        lab.expectDeviation(subject, "stored by what arrived, less 1",
-                            std::abs(ledger.watts[kAccountDeposited] /
-                                         ledger.watts[kAccountArrived] -
-                                     1.0),
-                            {1e-5, "shares add up to 1 but for 32 bits, and sums are integers"});
+        lab.expectDeviation(
+            subject, "stored by what arrived, less 1",
+            std::abs(ledger.watts[kAccountDeposited] / ledger.watts[kAccountArrived] - 1.0),
+            {1e-5, "shares add up to 1 but for 32 bits, and sums are integers"});
     }
 }
 
 // At the silhouette of a block there is no triangle between its top and the floor.
 void acrossASilhouette(Lab& lab) {
     const Technique& technique = lab.registry().findTechnique("caustic_triangles");
-    const scene::Scene scene = underASheet(object("block", "box", "white", {1.2, 0.15, 0.0},
-                                                  "size = [0.9, 0.3, 0.9]"));
+    const scene::Scene scene =
+        underASheet(object("block", "box", "white", {1.2, 0.15, 0.0}, "size = [0.9, 0.3, 0.9]"));
     for (const char* unjoined : {"beams", "discard"}) {
         FrameRequest request{96, 96, onFaces(unjoined)};
         request.saved = {"eye.receiver_surface"};
@@ -98,8 +97,10 @@ void acrossASilhouette(Lab& lab) {
         const double between = 1000.0 * cell * (4.0 * 0.9 + 4.0 * 5.0 / 2.0);
         if (areDiscarded) {
             lab.expect(subject, "flux between surfaces and at the border, counted, W", between,
-                       discarded, {0.1 * between, "corners count differently, and the block's "
-                                                  "sides lie anywhere within a cell"});
+                       discarded,
+                       {0.1 * between,
+                        "corners count differently, and the block's "
+                        "sides lie anywhere within a cell"});
         } else {
             lab.expect(subject, "flux of triangles that were left out, W", 0.0, discarded,
                        kExactly);
@@ -157,11 +158,10 @@ void foldedOver(Lab& lab) {
         const std::string subject = fmt::format("reconstruct.triangles, merge {}", merge);
         lab.expectAtLeast(subject, "irradiance where waves fold light over, W/m²", 2000.0, folded,
                           "twice what comes down, or the case has no fold");
-        lab.expectDeviation(subject, "stored by what arrived, less 1",
-                            std::abs(ledger.watts[kAccountDeposited] /
-                                         ledger.watts[kAccountArrived] -
-                                     1.0),
-                            {1e-5, "shares add up to 1 but for 32 bits, and sums are integers"});
+        lab.expectDeviation(
+            subject, "stored by what arrived, less 1",
+            std::abs(ledger.watts[kAccountDeposited] / ledger.watts[kAccountArrived] - 1.0),
+            {1e-5, "shares add up to 1 but for 32 bits, and sums are integers"});
         lab.expect(subject, "flux that the picture shows, of what is stored", 1.0,
                    shown / ledger.watts[kAccountDeposited],
                    {0.01, "pixels are as large as what they look up: sampled, not summed"});
@@ -239,8 +239,8 @@ void searches(Lab& lab) {
         photons.push_back(leaving(normal, normal + 0.9 * lean));
     }
     for (const char* refinements : {"1", "3", "8", "32"}) {
-        const Traced traced = tracePhotons(lab, secant, scene, photons,
-                                           {{"trace.secant.refinements", refinements}});
+        const Traced traced =
+            tracePhotons(lab, secant, scene, photons, {{"trace.secant.refinements", refinements}});
         std::size_t right = 0;
         std::size_t wrong = 0;
         std::size_t missed = 0;
@@ -268,8 +268,8 @@ void searches(Lab& lab) {
                           kEnough);
         lab.expect(subject, "of these, hits: no bracket, or one of a jump in distance", 0.0,
                    static_cast<double>(inTheSky), kExactly);
-        lab.expectAtMost(subject, "hits elsewhere, of 1000 rays",
-                         3.0, 1000.0 * static_cast<double>(wrong) / kRays,
+        lab.expectAtMost(subject, "hits elsewhere, of 1000 rays", 3.0,
+                         1000.0 * static_cast<double>(wrong) / kRays,
                          "beside the plate's edge a texel of 1 cm is of plate or of floor");
         if (std::string(refinements) == "8" || std::string(refinements) == "32") {
             lab.expectAtMost(subject, "rays that end in no hit where there is one, of 1000", 5.0,
@@ -300,10 +300,11 @@ void alongASurface(Lab& lab) {
 }  // namespace
 
 void addCausticTrianglesCases(numerics::Suite& suite) {
-    suite.add("D33",
-              "A caustic triangle is whole across a cube's faces, left out across a silhouette, and "
-              "there as often as light is.",
-              acrossFaces);
+    suite.add(
+        "D33",
+        "A caustic triangle is whole across a cube's faces, left out across a silhouette, and "
+        "there as often as light is.",
+        acrossFaces);
     suite.add("D33", "", acrossASilhouette);
     suite.add("D33", "", foldedOver);
     suite.add("D35", "A secant search is bounded, and ends with what the residual allows.",

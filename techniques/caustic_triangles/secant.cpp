@@ -26,8 +26,7 @@ struct SecantParams {
                 "Texels that a step of the linear search spans, as the reference point sees it: "
                 "thinner surfaces may be missed",
                 "texels", params::range(0.1f, 64.0f));
-        r.field(most, "most", "Steps of a ray at most, each the wider", "",
-                params::range(2, 4096));
+        r.field(most, "most", "Steps of a ray at most, each the wider", "", params::range(2, 4096));
         r.field(refinements, "refinements", "Looks within the step that the surface is in", "",
                 params::range(1, 32));
     }

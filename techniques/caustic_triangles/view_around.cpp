@@ -72,9 +72,9 @@ Collected collect(FrameBuilder& frame, const std::vector<ReceiverView>& seen,
                 "allReceivers", setup.create<ReceiverTexel>("view.map_receiver", w, h, layers));
             data.surface = setup.image(
                 "allSurfaces", setup.create<SurfaceTexel>("view.map_surface", w, h, layers));
-            data.flux = setup.image("allFlux", setup.create<FilteredTexel>(
-                                                   "view.map_flux", w, h,
-                                                   layers * stored[0].filteredPerView()));
+            data.flux = setup.image(
+                "allFlux", setup.create<FilteredTexel>("view.map_flux", w, h,
+                                                       layers * stored[0].filteredPerView()));
             for (std::size_t i = 0; i < seen.size(); ++i) {
                 setup.read(seen[i].receiver);
                 setup.read(seen[i].receiverSurface);

@@ -46,14 +46,16 @@ struct TrianglesParams {
                  "all over a triangle; vertices: between what each corner's photon has for a third "
                  "of all triangles there (U08)",
                  {"smooth", "flat", "vertices"});
-        r.choice(unjoined, "unjoined",
-                 "What becomes of light between photons that are not joined. beams: each covers its "
-                 "part by its own; discard: it is lost, and counted as discarded_triangle",
-                 {"beams", "discard"});
-        r.field(merge, "merge",
-                "Neighbouring cells, up to 16 along a side, that together span no more than this are "
-                "drawn as one, with their flux added; 0: none",
-                "px", params::range(0.0f, 64.0f));
+        r.choice(
+            unjoined, "unjoined",
+            "What becomes of light between photons that are not joined. beams: each covers its "
+            "part by its own; discard: it is lost, and counted as discarded_triangle",
+            {"beams", "discard"});
+        r.field(
+            merge, "merge",
+            "Neighbouring cells, up to 16 along a side, that together span no more than this are "
+            "drawn as one, with their flux added; 0: none",
+            "px", params::range(0.0f, 64.0f));
     }
 };
 

@@ -34,8 +34,8 @@ bool mayLight(const scene::Light& light, const scene::Bounds& bounds) {
 }
 
 double distanceBetween(const scene::Bounds& a, const scene::Bounds& b) {
-    const glm::dvec3 gap = glm::max(glm::max(a.minimum - b.maximum, b.minimum - a.maximum),
-                                    glm::dvec3(0.0));
+    const glm::dvec3 gap =
+        glm::max(glm::max(a.minimum - b.maximum, b.minimum - a.maximum), glm::dvec3(0.0));
     return glm::length(gap);
 }
 
@@ -68,10 +68,10 @@ void uniteNearest(std::vector<Generator>& all, std::size_t most) {
 std::vector<Generator> split(const Generator& whole, std::size_t points) {
     std::vector<Generator> parts{whole};
     while (parts.size() < points) {
-        const auto largest =
-            std::max_element(parts.begin(), parts.end(), [](const Generator& a, const Generator& b) {
-                return radiusOf(a.bounds) < radiusOf(b.bounds);
-            });
+        const auto largest = std::max_element(parts.begin(), parts.end(),
+                                              [](const Generator& a, const Generator& b) {
+                                                  return radiusOf(a.bounds) < radiusOf(b.bounds);
+                                              });
         const glm::dvec3 extent = largest->bounds.maximum - largest->bounds.minimum;
         const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0
                          : extent.y >= extent.z                       ? 1
@@ -98,16 +98,14 @@ double distanceToReceivers(const scene::Scene& scene, const glm::dvec3& point) {
                     object.toWorld *
                     glm::dvec4(mesh.origin + glm::dvec3(mesh.positions[triangle[i]]), 1.0));
             }
-            const glm::dvec3 normal =
-                glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+            const glm::dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
             const double size = glm::length(normal);
             if (!(size > 0.0)) continue;
             // Of its plane where the point lies over it, else of the nearest corner: near enough.
             bool isOver = true;
             for (int i = 0; i < 3; ++i) {
                 const glm::dvec3 edge = corners[(i + 1) % 3] - corners[i];
-                isOver = isOver &&
-                         glm::dot(glm::cross(edge, point - corners[i]), normal) >= 0.0;
+                isOver = isOver && glm::dot(glm::cross(edge, point - corners[i]), normal) >= 0.0;
                 nearest = std::min(nearest, glm::length(point - corners[i]));
             }
             if (isOver)
@@ -176,8 +174,7 @@ std::vector<ReceiverView> drawReceivers(FrameBuilder& frame, const Geometry& geo
     const int side = sideOfCubeMaps(frame, static_cast<int>(generators.size()));
     std::vector<ReceiverView> receivers;
     for (std::size_t i = 0; i < generators.size(); ++i) {
-        const Views views =
-            frame.makeViews(render::Space::cube, facesAround(generators[i], side));
+        const Views views = frame.makeViews(render::Space::cube, facesAround(generators[i], side));
         receivers.push_back(
             seeReceivers(frame, geometry, views, "generator" + suffixOfGenerator(i),
                          fmt::format("generator '{}' stores caustics where it sees receivers",

@@ -20,10 +20,11 @@ struct GeneratorParams {
                 "Caustic generators: of more specular objects those nearest to one another share "
                 "one",
                 "", params::range(1, static_cast<int>(transport::kMostGenerators)));
-        r.field(points, "points",
-                "Reference points of a generator, each in a part of its box; more for one too large "
-                "to be seen from one, such as water",
-                "", params::range(1, 16));
+        r.field(
+            points, "points",
+            "Reference points of a generator, each in a part of its box; more for one too large "
+            "to be seen from one, such as water",
+            "", params::range(1, 16));
     }
 };
 

@@ -169,9 +169,9 @@ std::vector<ReceiverView> drawReceivers(FrameBuilder& frame, const Geometry& geo
     for (std::size_t i = 0; i < lights.size(); ++i) {
         const Views made =
             needsCube(views[i])
-                ? frame.makeViews(render::Space::cube,
-                                  render::makeCube(lights[i].position, views[i].nearMeters,
-                                                   sideOfFaces(side)))
+                ? frame.makeViews(
+                      render::Space::cube,
+                      render::makeCube(lights[i].position, views[i].nearMeters, sideOfFaces(side)))
                 : frame.makeViews(render::Space::light, {render::inPixels(views[i], side, side)});
         const std::string name = i == 0 ? "light" : fmt::format("light.{}", i + 1);
         receivers.push_back(
@@ -188,8 +188,7 @@ std::vector<ReceiverView> drawReceivers(FrameBuilder& frame, const Geometry& geo
 
 int sideOfCubeMaps(FrameBuilder& frame, int cubes) {
     const auto& params = frame.params<ReconstructParams>("reconstruct");
-    return sideOfFaces(
-        sideOfMaps(frame, params, static_cast<int>(std::ceil(kMapsOfCube * cubes))));
+    return sideOfFaces(sideOfMaps(frame, params, static_cast<int>(std::ceil(kMapsOfCube * cubes))));
 }
 
 const std::vector<ReceiverView>& lightReceivers(FrameBuilder& frame, const Geometry& geometry) {

@@ -168,7 +168,8 @@ Picture composePicture(FrameBuilder& frame, const PictureParams& params, Geometr
                        EyeBuffer eye, LayeredDepth layers, LightParts light) {
     const DirectLight direct = lightDirectly(frame, light.shadows, eye);
     const Radiance receivers = shadeReceivers(frame, eye, direct, light.caustic);
-    const View seen = frame.run<ViewStage>(geometry, eye, layers, receivers, light.shadows, light.map);
+    const View seen =
+        frame.run<ViewStage>(geometry, eye, layers, receivers, light.shadows, light.map);
     const Radiance whole = lookThroughMedium(frame, eye, {seen.radiance}, light.inScattered);
     const float exposure =
         params.exposure > 0.0f ? params.exposure : automaticExposure(frame.scene());

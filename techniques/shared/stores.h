@@ -13,9 +13,9 @@ namespace kaustik {
 
 struct Store {
     ReceiverView receivers;
-    int light = -1;      // whose photons alone it takes; -1: all
-    std::string suffix;  // of its resources
-    int generator = -1;  // what they must have left last; -1: anything
+    int light = -1;                          // whose photons alone it takes; -1: all
+    std::string suffix;                      // of its resources
+    int generator = -1;                      // what they must have left last; -1: anything
     const gl::Buffer* generators = nullptr;  // by which it is told; where there is one
     [[nodiscard]] bool isEyes() const { return receivers.views->isEyes(); }
 };

@@ -31,7 +31,8 @@ numerics::Frame render(const scene::Scene& scene, Settings settings,
 }
 
 std::size_t generatorsOf(const scene::Scene& scene, const Settings& settings = {}) {
-    Settings all{{"emit.photons", "8x8"}, {"reconstruct.map_size", "64"}, {"around.cubes.size", "32"}};
+    Settings all{
+        {"emit.photons", "8x8"}, {"reconstruct.map_size", "64"}, {"around.cubes.size", "32"}};
     all.insert(all.end(), settings.begin(), settings.end());
     const numerics::Frame frame = render(scene, all);
     return frame.renderer().outputs().map.maps.size();
@@ -50,14 +51,15 @@ const std::string kSpot =
 const CameraText kCamera{{0.0, 6.0, 6.0}, {0.0, 0.0, 0.0}};
 
 TEST(CausticGenerators, AreOneAnObject) {
-    EXPECT_EQ(generatorsOf(makeScene(kCamera, sun({0, -1, 0}) + kFloor + ball("a", {-2, 1, 0}, 0.3) +
-                                                  ball("b", {2, 1, 0}, 0.3))),
-              2u);
+    EXPECT_EQ(
+        generatorsOf(makeScene(kCamera, sun({0, -1, 0}) + kFloor + ball("a", {-2, 1, 0}, 0.3) +
+                                            ball("b", {2, 1, 0}, 0.3))),
+        2u);
 }
 
 TEST(CausticGenerators, ThatNoLightReachesAreNone) {
-    EXPECT_EQ(generatorsOf(makeScene(
-                  kCamera, kSpot + kFloor + ball("a", {-2, 1, 0}, 0.3) + ball("b", {2, 1, 0}, 0.3))),
+    EXPECT_EQ(generatorsOf(makeScene(kCamera, kSpot + kFloor + ball("a", {-2, 1, 0}, 0.3) +
+                                                  ball("b", {2, 1, 0}, 0.3))),
               1u);
 }
 
@@ -83,8 +85,8 @@ TEST(CausticGenerators, MayHaveSeveralReferencePoints) {
 }
 
 TEST(CausticGenerators, OneTooLargeForItsPointIsNamed) {
-    const scene::Scene scene = makeScene(
-        kCamera, sun({0, -1, 0}) + kFloor + floorPlane("pond", "water", 8, {0, 0.2, 0}));
+    const scene::Scene scene =
+        makeScene(kCamera, sun({0, -1, 0}) + kFloor + floorPlane("pond", "water", 8, {0, 0.2, 0}));
     const numerics::Frame frame = render(scene, {});
     const auto& warnings = frame.renderer().warnings();
     EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
@@ -95,9 +97,8 @@ TEST(CausticGenerators, OneTooLargeForItsPointIsNamed) {
 
 // A sheet that bends nothing stores all light that comes down through it.
 scene::Scene underASheet(const CameraText& camera, const std::string& parts) {
-    scene::Scene scene =
-        makeScene(camera, sun({0, -1, 0}, kSunlight) + kFloor +
-                              floorPlane("air", "water", 6, {0, 2, 0}) + parts);
+    scene::Scene scene = makeScene(camera, sun({0, -1, 0}, kSunlight) + kFloor +
+                                               floorPlane("air", "water", 6, {0, 2, 0}) + parts);
     scene.materials[kWater - 1].ior = 1.0f;
     return scene;
 }
@@ -105,8 +106,7 @@ scene::Scene underASheet(const CameraText& camera, const std::string& parts) {
 TEST(CausticTriangles, MayShareAGeneratorAmongPointsWithoutASeam) {
     const scene::Scene scene = underASheet({{0.0, 1.8, 2.5}, {0.0, 0.0, 0.0}}, "");
     for (const char* points : {"1", "4"}) {
-        const numerics::Frame frame =
-            render(scene, {{"around.points", points}}, {"eye.receiver"});
+        const numerics::Frame frame = render(scene, {{"around.points", points}}, {"eye.receiver"});
         const Texels irradiance = frame.causticIrradiance();
         const Texels receiver = frame.read("eye.receiver");
         double worst = 0.0;
@@ -124,9 +124,9 @@ TEST(CausticTriangles, MayShareAGeneratorAmongPointsWithoutASeam) {
         // Beams overlap and leave gaps at the border of two maps by a part of a cell of 9 cm.
         EXPECT_LT(worst, std::string(points) == "1" ? 0.01 : 0.6) << points;
         const EnergyLedger ledger = frame.renderer().ledger();
-        EXPECT_NEAR(ledger.watts[transport::kAccountDeposited] /
-                        ledger.watts[transport::kAccountArrived],
-                    1.0, 1e-5);
+        EXPECT_NEAR(
+            ledger.watts[transport::kAccountDeposited] / ledger.watts[transport::kAccountArrived],
+            1.0, 1e-5);
     }
 }
 
@@ -134,8 +134,7 @@ TEST(CausticTriangles, MayShareAGeneratorAmongPointsWithoutASeam) {
 TEST(CausticTriangles, HaveTheLightOfTheirVerticesForAThirdOfTheAreasThere) {
     const scene::Scene scene = underASheet({{0.0, 1.8, 0.01}, {0.0, 0.0, 0.0}}, "");
     for (const char* shading : {"vertices", "smooth", "flat"}) {
-        const numerics::Frame frame =
-            render(scene, {{"reconstruct.triangles.shading", shading}});
+        const numerics::Frame frame = render(scene, {{"reconstruct.triangles.shading", shading}});
         EXPECT_NEAR(frame.causticIrradiance().rgb(32, 32).g, kSunlight, 0.005 * kSunlight)
             << shading;
     }
@@ -144,21 +143,20 @@ TEST(CausticTriangles, HaveTheLightOfTheirVerticesForAThirdOfTheAreasThere) {
 TEST(CausticTriangles, MergedHaveTheSameFlux) {
     const scene::Scene scene = underASheet({{0.0, 1.8, 0.01}, {0.0, 0.0, 0.0}}, "");
     for (const char* merge : {"0", "4", "64"}) {
-        const numerics::Frame frame = render(scene, {{"emit.photons", "256x256"},
-                                                     {"reconstruct.triangles.merge", merge}});
+        const numerics::Frame frame =
+            render(scene, {{"emit.photons", "256x256"}, {"reconstruct.triangles.merge", merge}});
         const EnergyLedger ledger = frame.renderer().ledger();
-        EXPECT_NEAR(ledger.watts[transport::kAccountDeposited] /
-                        ledger.watts[transport::kAccountArrived],
-                    1.0, 1e-5)
+        EXPECT_NEAR(
+            ledger.watts[transport::kAccountDeposited] / ledger.watts[transport::kAccountArrived],
+            1.0, 1e-5)
             << merge;
-        EXPECT_NEAR(frame.causticIrradiance().rgb(32, 32).g, kSunlight, 0.005 * kSunlight)
-            << merge;
+        EXPECT_NEAR(frame.causticIrradiance().rgb(32, 32).g, kSunlight, 0.005 * kSunlight) << merge;
     }
 }
 
-// A photon at the border of one batch is joined to those of the next. Each batch spreads the flux of
-// its own corners of a triangle so that all of it is there, by the texels' middles: together they
-// are not quite what one spreads of all corners.
+// A photon at the border of one batch is joined to those of the next. Each batch spreads the flux
+// of its own corners of a triangle so that all of it is there, by the texels' middles: together
+// they are not quite what one spreads of all corners.
 TEST(CausticTriangles, AreNearlyTheSameWhateverTheBatches) {
     const scene::Scene scene = underASheet({{0.0, 1.8, 0.01}, {0.0, 0.0, 0.0}}, "");
     const numerics::Frame whole = render(scene, {});
@@ -179,10 +177,10 @@ TEST(CausticTriangles, AreNearlyTheSameWhateverTheBatches) {
 
 // The eye looks into a mirror, at a floor that only light through the sheet lights.
 TEST(CausticsSeen, InAMirrorAreThoseOfWhatItShows) {
-    const scene::Scene scene = underASheet(
-        {{0.0, 0.8, 1.0}, {0.0, 0.8, -1.0}},
-        object("mirror", "plane", "mirror", {0, 0.8, -1.5},
-               "size = [1.6, 1.6]\nrotation_degrees = [105, 0, 0]"));
+    const scene::Scene scene =
+        underASheet({{0.0, 0.8, 1.0}, {0.0, 0.8, -1.0}},
+                    object("mirror", "plane", "mirror", {0, 0.8, -1.5},
+                           "size = [1.6, 1.6]\nrotation_degrees = [105, 0, 0]"));
     const numerics::Frame frame = render(scene, {}, {"view.radiance", "eye.interface"});
     const Texels radiance = frame.read("view.radiance");
     const double expected = 0.9 * 0.5 / std::numbers::pi * kSunlight;
@@ -194,9 +192,9 @@ TEST(CausticsSeen, InAMirrorAreThoseOfWhatItShows) {
 }
 
 TEST(CausticsSeen, ThroughGlassAreWeakenedByBothInterfaces) {
-    scene::Scene scene = underASheet(
-        {{0.0, 1.5, 0.01}, {0.0, 0.0, 0.0}},
-        object("slab", "box", "glass", {0, 0.8, 0}, "size = [0.8, 0.1, 0.8]"));
+    scene::Scene scene =
+        underASheet({{0.0, 1.5, 0.01}, {0.0, 0.0, 0.0}},
+                    object("slab", "box", "glass", {0, 0.8, 0}, "size = [0.8, 0.1, 0.8]"));
     const numerics::Frame frame = render(scene, {}, {"view.radiance"});
     // Light that comes down through the slab has lost 4 % at each side of it, and so has the eye's.
     const double transmitted = 0.96 * 0.96;
@@ -213,15 +211,15 @@ TEST(LightCube, OnAGlossyReceiverComesFromWhereItCame) {
     floor.specular = glm::vec3(0.3f);
     floor.exponent = 50.0f;
     const auto seen = [&](const char* incidence) {
-        const numerics::Frame frame =
-            render(scene, {{"gather.cube.incidence", incidence}}, {"eye.receiver", "caustic.radiance"});
+        const numerics::Frame frame = render(scene, {{"gather.cube.incidence", incidence}},
+                                             {"eye.receiver", "caustic.radiance"});
         const Texels receiver = frame.read("eye.receiver");
         const glm::dvec3 at = frame.worldAt(32, 32, static_cast<double>(receiver.at(32, 32, 0)));
         const glm::dvec3 toEye = glm::normalize(scene.camera.position - at);
         const double expected =
-            kSunlight *
-            transport::receiverBrdf(glm::dvec3(0.5), glm::dvec3(0.3), 50.0, {0, 1, 0}, {0, 1, 0}, toEye)
-                .g;
+            kSunlight * transport::receiverBrdf(glm::dvec3(0.5), glm::dvec3(0.3), 50.0, {0, 1, 0},
+                                                {0, 1, 0}, toEye)
+                            .g;
         return frame.read("caustic.radiance").rgb(32, 32).g / expected;
     };
     EXPECT_NEAR(seen("mean"), 1.0, 0.02);

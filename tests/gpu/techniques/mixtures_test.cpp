@@ -113,7 +113,8 @@ void expectHelpful(const std::string& message) {
 // Whether it renders; anything thrown but a ConfigError fails the test.
 bool rendersOrSaysWhyNot(const Settings& mixture) {
     SCOPED_TRACE(textOf(mixture));
-    Settings settings = {{"emit.photons", "32x32"}, {"reconstruct.map_size", "64"}, {"around.cubes.size", "32"}};
+    Settings settings = {
+        {"emit.photons", "32x32"}, {"reconstruct.map_size", "64"}, {"around.cubes.size", "32"}};
     settings.insert(settings.end(), mixture.begin(), mixture.end());
     try {
         const numerics::Frame frame(
@@ -190,8 +191,7 @@ TEST_P(EveryNode, OfTheStageFitsIntoEverySpace) {
               std::tuple("light", "four_radii", "background"),
               std::tuple("light", "levels", "background"),
               std::tuple("light", "triangles", "background"),
-              std::tuple("cube", "triangles", "secant"),
-              std::tuple("cube", "fixed", "secant")}) {
+              std::tuple("cube", "triangles", "secant"), std::tuple("cube", "fixed", "secant")}) {
             Settings settings = storedIn(space, reconstruct);
             settings.emplace_back("trace", tracer);
             settings.emplace_back(GetParam(), node);  // the last one counts
