@@ -151,11 +151,11 @@ def grey(path: Path):
 
 
 def leaked(row: dict, results: Path) -> float:
-    """Share of the caustic, summed over pixels, that lies where the truth has hardly any."""
+    """What is too much where the truth has hardly any, of all its light, summed over pixels."""
     image = grey(results / row["folder"] / "caustic.exr")
     truth = grey(results / row["folder"] / "reference.exr")
     dark = truth < 1e-3 * truth.max()
-    return float(image[dark].sum() / truth.sum())
+    return float((image - truth)[dark].clip(min=0.0).sum() / truth.sum())
 
 
 def grazing(rows: list[dict], results: Path) -> None:
@@ -164,8 +164,8 @@ def grazing(rows: list[dict], results: Path) -> None:
         return name if name == "triangles" else f"splats of {value(row, 'reconstruct.fixed.diameter')} texels"
 
     names = sorted({kind(row) for row in rows}, key=lambda n: (n != "triangles", len(n), n))
-    print("relMSE against the modelled paths; energy ratio; share of the light where the truth has less than a "
-          "thousandth of its most\n")
+    print("relMSE against the modelled paths; energy ratio; light that is too much where the truth has less "
+          "than a thousandth of its most, of all\n")
     print(head(["scene"] + names))
     scenes = list(dict.fromkeys(scene_of(row) for row in rows))
     for scene in scenes:
@@ -198,18 +198,19 @@ def merge(rows: list[dict]) -> None:
 
 def seen(results: Path) -> None:
     import numpy
-    print(head(["scene", "view", "light seen, of the truth's", "relMSE", "pixels of the truth"]))
+    print(head(["scene", "view", "light seen, of the truth's", "relMSE", "specular pixels"]))
     for scene in ("mirror-room", "pane-room"):
         truth = grey(results / f"{scene}.caustic_view.exr")
         for view in ("around", "refraction"):
             image = (grey(results / f"{scene}-{view}-on" / "beauty.exr")
                      - grey(results / f"{scene}-{view}-off" / "beauty.exr"))
             # What the eye sees straight is no part of it.
-            there = truth > 0
+            off = grey(results / f"{scene}-around-off" / "beauty.exr")
+            there = abs(off - grey(results / f"{scene}-straight" / "beauty.exr")) > 1e-6
             image = numpy.where(there, image, 0.0)
             epsilon = 0.01 * truth[there].mean() ** 2
             error_square = (image - truth) ** 2 / (truth ** 2 + epsilon)
-            print(line([f"`{scene}`", view, f"{image.sum() / truth.sum():.3f}",
+            print(line([f"`{scene}`", view, f"{image[there].sum() / truth[there].sum():.3f}",
                         f"{error_square[there].mean():.3g}", int(there.sum())]))
 
 

@@ -8,10 +8,6 @@
 #include "include/photon_thread.glsl"
 #include "include/view.glsl"
 
-// On the faces of a cube nothing wider than this, rad, is one triangle: whichever face sees a part
-// of it, it is all before that.
-const float kWidestInCube = 0.6;
-
 // A beam that grazes is taken as if it came at this sine at least, which bounds what it covers.
 const float kLeastArrivalSlant = 0.01;
 

@@ -36,10 +36,7 @@ Patch patchOfBeam(Arrival at, vec2 ends[4], float farthest) {
     float scale = 1.0;
 #ifdef MANY_VIEWS
     float depth = length(at.position);
-    float most = 0.5 * kWidestInCube * depth;
-    float wide = length(extent);
-    if (wide > most) scale = most / wide;
-    float widest = 2.0 * wide / pixelFootprint(depth);
+    float widest = 2.0 * length(extent) / pixelFootprint(depth);
 #else
     float depth = -at.position.z;
 #ifndef ORTHOGRAPHIC_VIEW

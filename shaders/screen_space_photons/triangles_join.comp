@@ -16,7 +16,7 @@ bool isJoined(uint index) {
 #ifdef MANY_VIEWS
     // By the angle from the first, of which any two are no farther apart than twice.
     float texel = 2.0 * view.sizePixels.z;
-    float widest = 0.5 * min(kWidestInCube, float(reconstruct_triangles_maximum) * texel);
+    float widest = 0.5 * float(reconstruct_triangles_maximum) * texel;
     vec3 middle = normalize(around.corners[0].position);
     for (uint i = 1u; i < 4u; ++i) {
         vec3 off = normalize(around.corners[i].position) - middle;

@@ -78,8 +78,20 @@ void setCells(gl::Command& command, const CellGrid& cells) {
         .set("cellSplits", cells.splits);
 }
 
-Stored coverIn(FrameBuilder& frame, const TrianglesParams& params, const Hits& hits,
+// On the faces of a cube nothing wider than this, rad, is one triangle: whichever face sees its middle
+// has nearly always all of it before it; what little another sees then is shared among the rest.
+constexpr float kWidestOnCube = 1.2f;
+
+TrianglesParams forViews(TrianglesParams params, const render::RasterViews& views) {
+    if (views.count() == 1) return params;
+    const float most = kWidestOnCube * 0.5f * static_cast<float>(views.width());
+    params.maximum = std::clamp(static_cast<int>(most), 1, params.maximum);
+    return params;
+}
+
+Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Hits& hits,
                const Store& store, const FluxMap& before) {
+    const TrianglesParams params = forViews(wanted, *store.receivers.views);
     const FluxSets sets = setsIn(frame, store);
     const bool isGlossy = sets.hasIntensity;
     struct Data {

@@ -115,10 +115,42 @@ double distanceToReceivers(const scene::Scene& scene, const glm::dvec3& point) {
     return nearest;
 }
 
+// Where a generator is looked around from. A sheet has places that receivers leave free, nearest to
+// its middle first.
+glm::dvec3 referenceOf(const scene::Scene& scene, const scene::Bounds& bounds) {
+    const glm::dvec3 extent = bounds.maximum - bounds.minimum;
+    glm::dvec3 point = 0.5 * (bounds.minimum + bounds.maximum);
+    int thin = 0;
+    for (int axis = 1; axis < 3; ++axis) {
+        if (extent[axis] < extent[thin]) thin = axis;
+    }
+    const int along = (thin + 1) % 3;
+    const int across = (thin + 2) % 3;
+    const double wide = std::min(extent[along], extent[across]);
+    if (extent[thin] >= 0.1 * wide) return point;
+    point[thin] = bounds.maximum[thin] + 0.1 * wide;
+    // Of a sheet in or on a wall nothing is better.
+    glm::dvec3 best = point;
+    double farthest = distanceToReceivers(scene, point);
+    for (int i = 1; i < 25 && farthest < 0.1 * wide; ++i) {
+        // Rings of a spiral out to a quarter of the sheet.
+        const double turn = 2.399963229728653 * i;
+        const double reach = 0.25 * std::sqrt(i / 24.0);
+        glm::dvec3 other = point;
+        other[along] += reach * std::cos(turn) * extent[along];
+        other[across] += reach * std::sin(turn) * extent[across];
+        const double distance = distanceToReceivers(scene, other);
+        if (distance <= farthest) continue;
+        farthest = distance;
+        best = other;
+    }
+    return best;
+}
+
 // A generator much wider than its receivers are far is seen from one point at grazing angles.
 void sayWhichAreLarge(FrameBuilder& frame, const std::vector<Generator>& generators, int points) {
     for (const Generator& generator : generators) {
-        const double distance = distanceToReceivers(frame.scene(), generator.reference());
+        const double distance = distanceToReceivers(frame.scene(), generator.reference);
         const double radius = radiusOf(generator.bounds);
         if (!(radius > 4.0 * distance)) continue;
         frame.warn(fmt::format(
@@ -165,6 +197,8 @@ std::vector<Generator> findGenerators(FrameBuilder& frame, const GeneratorParams
                 generators.push_back(std::move(part));
         }
     }
+    for (Generator& generator : generators)
+        generator.reference = referenceOf(scene, generator.bounds);
     sayWhichAreLarge(frame, generators, params.points);
     return generators;
 }
@@ -186,18 +220,6 @@ std::vector<ReceiverView> drawReceivers(FrameBuilder& frame, const Geometry& geo
 }
 
 }  // namespace
-
-glm::dvec3 Generator::reference() const {
-    const glm::dvec3 extent = bounds.maximum - bounds.minimum;
-    glm::dvec3 point = 0.5 * (bounds.minimum + bounds.maximum);
-    int thin = 0;
-    for (int axis = 1; axis < 3; ++axis) {
-        if (extent[axis] < extent[thin]) thin = axis;
-    }
-    const double wide = std::min(extent[(thin + 1) % 3], extent[(thin + 2) % 3]);
-    if (extent[thin] < 0.1 * wide) point[thin] = bounds.maximum[thin] + 0.1 * wide;
-    return point;
-}
 
 const std::vector<Generator>& causticGenerators(FrameBuilder& frame) {
     return *frame.once<std::vector<Generator>>("generators", [&] {
@@ -224,7 +246,7 @@ const gl::Buffer& generatorsBlock(FrameBuilder& frame) {
             const glm::dvec3 eye(toWorld[3]);
             const glm::dvec3 middle = 0.5 * (box.minimum + box.maximum);
             data.centers[i] = glm::vec4(glm::vec3(middle - eye), 0.0f);
-            data.references[i] = glm::vec4(glm::vec3(generators[i].reference() - eye), 0.0f);
+            data.references[i] = glm::vec4(glm::vec3(generators[i].reference - eye), 0.0f);
             data.halfExtents[i] = glm::vec4(glm::vec3(0.5 * (box.maximum - box.minimum)), 0.0f);
         }
         return std::make_shared<gl::Buffer>(std::vector<transport::GeneratorsData>{data},
@@ -237,7 +259,7 @@ std::string suffixOfGenerator(std::size_t generator) {
 }
 
 std::vector<render::RasterView> facesAround(const Generator& generator, int side) {
-    return render::makeCube(generator.reference(), 1e-3 * radiusOf(generator.bounds), side);
+    return render::makeCube(generator.reference, 1e-3 * radiusOf(generator.bounds), side);
 }
 
 }  // namespace kaustik

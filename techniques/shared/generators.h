@@ -31,8 +31,9 @@ struct GeneratorParams {
 struct Generator {
     std::string name;      // of its objects
     scene::Bounds bounds;  // world space, m
-    // The box's middle; of a sheet, which that would see edge-on, somewhat above it.
-    [[nodiscard]] glm::dvec3 reference() const;
+    // The box's middle; of a sheet, which that would see edge-on, somewhat above it and away from
+    // receivers that stand in it.
+    glm::dvec3 reference{0.0};
 };
 
 // Specular objects that no light can reach directly are left out, and those whose boxes overlap are
