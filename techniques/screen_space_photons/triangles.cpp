@@ -78,8 +78,9 @@ void setCells(gl::Command& command, const CellGrid& cells) {
         .set("cellSplits", cells.splits);
 }
 
-// On the faces of a cube nothing wider than this, rad, is one triangle: whichever face sees its middle
-// has nearly always all of it before it; what little another sees then is shared among the rest.
+// On the faces of a cube nothing wider than this, rad, is one triangle: whichever face sees its
+// middle has nearly always all of it before it; what little another sees then is shared among the
+// rest.
 constexpr float kWidestOnCube = 1.2f;
 
 TrianglesParams forViews(TrianglesParams params, const render::RasterViews& views) {
