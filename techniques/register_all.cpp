@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "techniques/register_all.h"
 
+#include "techniques/adaptive_caustic_map/nodes.h"
 #include "techniques/caustic_map/nodes.h"
 #include "techniques/caustic_triangles/nodes.h"
 #include "techniques/planar/nodes.h"
@@ -22,6 +23,7 @@ Registry registerAll() {
     registerPlanar(registry);
     registerCausticMap(registry);
     registerCausticTriangles(registry);
+    registerAdaptiveCausticMap(registry);
     registerNoMedia(registry);
     return registry;
 }

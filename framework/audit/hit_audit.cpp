@@ -146,7 +146,8 @@ class LightReach {
     // Whether the light's map, if it has one, covers a point.
     [[nodiscard]] bool isInMap(std::uint32_t light, const glm::dvec3& world) const {
         for (const FluxMap& map : renderer_.outputs().map.maps) {
-            if (map.light != static_cast<int>(light) || map.on.views->count() > 1) continue;
+            if (map.light != static_cast<int>(light) || map.cascade > 0) continue;
+            if (map.on.views->count() > 1) continue;
             const render::RasterView& view = map.on.views->view(0);
             const glm::dvec3 there(view.worldToView * glm::dvec4(world, 1.0));
             const double scale = view.isOrthographic ? 1.0 : -there.z;

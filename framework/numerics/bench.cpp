@@ -177,6 +177,7 @@ Traced tracePhotons(Lab& lab, const Lab::Choice& tracer, const scene::Scene& sce
                                 nothing.caustic.ledger,
                                 {},
                                 {},
+                                {},
                                 {}};
         });
     return {benchHits(frame, frame.renderer().outputs().hits, photons.size()),
@@ -196,7 +197,7 @@ Traced interactPhotons(Lab& lab, const Lab::Choice& specular, const scene::Scene
                                                                 Surfaces{geometry, eye, {}}));
         const Nothing nothing = addNothing(builder, after.ledger);
         return FrameOutputs{
-            nothing.picture, nothing.caustic, eye, {}, {}, nothing.caustic.ledger, {}, {}, {}};
+            nothing.picture, nothing.caustic, eye, {}, {}, nothing.caustic.ledger, {}, {}, {}, {}};
     });
     const glm::dmat3 back(glm::transpose(glm::dmat3(frame.view().worldToView)));
     const scene::Dielectrics dielectrics = numberDielectrics(scene);
@@ -267,7 +268,7 @@ Bent emitAndInteract(Lab& lab, const Lab::Choice& emitter, const scene::Scene& s
         after = keepPhotons(builder, builder.run<SpecularStage>(hits, Surfaces{geometry, eye, {}}));
         const Nothing nothing = addNothing(builder, after.ledger);
         return FrameOutputs{
-            nothing.picture, nothing.caustic, eye, {}, {}, nothing.caustic.ledger, {}, {}, {}};
+            nothing.picture, nothing.caustic, eye, {}, {}, nothing.caustic.ledger, {}, {}, {}, {}};
     });
     const auto cells = static_cast<std::size_t>(before.capacity());
     return {emittedOf(frame, before, cells), emittedOf(frame, after, cells),
@@ -293,7 +294,8 @@ Frame reconstructHits(Lab& lab, const Lab::Choice& reconstruct, const scene::Sce
             builder.run<FilterStage>(builder.run<ReconstructStage>(hits, surfaces, CausticMap{}));
         const IrradianceMap caustic = builder.run<GatherStage>(map, surfaces);
         const Nothing nothing = addNothing(builder, caustic.ledger);
-        return FrameOutputs{nothing.picture, caustic, eye, {}, hits, caustic.ledger, {}, {}, map};
+        return FrameOutputs{nothing.picture, caustic, eye, {},  hits,
+                            caustic.ledger,  {},      {},  map, {}};
     });
 }
 
@@ -340,7 +342,7 @@ Frame scatterPhotons(Lab& lab, const Lab::Choice& media, const scene::Scene& sce
         const InScattered scattered = builder.run<MediaStage>(hits, eye, InScattered{});
         const Nothing nothing = addNothing(builder, hits.incoming.ledger);
         return FrameOutputs{nothing.picture,        nothing.caustic, eye, {}, hits,
-                            nothing.caustic.ledger, scattered,       {},  {}};
+                            nothing.caustic.ledger, scattered,       {},  {}, {}};
     });
 }
 

@@ -97,8 +97,9 @@ std::size_t Frame::countNotFinite(const std::string& texture) const {
     // What lies beyond a list of photons nobody writes, or reads.
     for (const char* listed : {"photons.", "hits."}) {
         if (!texture.starts_with(listed)) continue;
+        const std::size_t suffix = texture.find_first_of("._", std::string(listed).size());
         const graph::ResourceRef list =
-            graph.find(kListName + texture.substr(std::min(texture.find('_'), texture.size())));
+            graph.find(kListName + texture.substr(std::min(suffix, texture.size())));
         if (!list.valid()) continue;
         const auto count = renderer_->buffer(list).read<transport::PhotonList>().front().count;
         values.resize(std::min<std::size_t>(values.size(), 4 * std::size_t{count}));

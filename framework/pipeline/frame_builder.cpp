@@ -175,7 +175,8 @@ FrameOutputs buildFrame(FrameBuilder& frame) {
             irradiance.ledger,
             caustic.inScattered,
             shadows,
-            caustic.map};
+            caustic.map,
+            caustic.cells};
 }
 
 }  // namespace kaustik

@@ -83,6 +83,9 @@ class FrameBuilder {
             {prefix_ + name, why}, std::forward<Setup>(setup), std::forward<Execute>(execute));
     }
     void skip(const std::string& name, const std::string& why) { graph_.skip(prefix_ + name, why); }
+    // See graph::Graph::beginLoop.
+    void beginLoop() { graph_.beginLoop(); }
+    void endLoop(const graph::ResourceRef& again, std::size_t word) { graph_.endLoop(again, word); }
 
     // While it lives, passes are named "STAGE.…": for a stage that uses nodes of another one, a
     // tracer say. Such tracings are not part of what the photon audit records.

@@ -79,6 +79,7 @@ Ledger closeBatch(FrameBuilder& frame, const Hits& hits, const Ledger& ledger) {
 
 Ledger sumMaps(FrameBuilder& frame, const std::vector<FluxMap>& maps, Ledger ledger) {
     for (const FluxMap& map : maps) {
+        if (map.cascade > 0) continue;
         ledger = frame.pass<Ledger>(
             "ledger.close", "the report accounts for every watt",
             [&](graph::PassSetup& setup, Ledger& data) {
@@ -90,6 +91,7 @@ Ledger sumMaps(FrameBuilder& frame, const std::vector<FluxMap>& maps, Ledger led
                 context.compute("framework/ledger_close.comp")
                     .set("mapCount", map.on.views->count())
                     .set("wordsPerMap", map.wordsPerView())
+                    .set("parts", map.sets.parts)
                     .dispatchOver(desc.width, 8, desc.height, 8);
             });
     }

@@ -10,6 +10,7 @@
 // its passes. MineParams then appear as trace.mine.*.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -39,6 +40,10 @@ struct NodeDescription {
     std::string filter = {};
     // Of a node of interaction: photons that enter a body go on from where they leave it.
     bool throughBodies = false;
+    // Of an emitter: it can be given cells one by one (Samples::cells).
+    bool emitsCells = false;
+    // Of a driver: refine.* say which photons there are; without it they have no effect.
+    bool refines = false;
     // Of an emitter: rows and columns of one light's photons, where emit.photons does not say it.
     std::function<params::Extent(const FrameBuilder&)> photons = {};
 };
@@ -54,6 +59,7 @@ struct FrameOutputs {
     InScattered inScattered;
     Shadows shadows;
     CausticMap map;  // what was stored, filtered too; without maps where nothing is
+    graph::Buffer<transport::CellCounts> cells;  // where the driver chooses its photons
 };
 
 using BuildFrame = std::function<FrameOutputs(FrameBuilder&)>;
@@ -107,6 +113,13 @@ class Registry {
 
     void technique(Technique technique);
 
+    // A folder of shaders that are not the project's own, for programs built elsewhere: a node of
+    // theirs names a file in it, which includes the project's as any other ("include/hits.glsl").
+    void shaders(std::filesystem::path folder) { shaderFolders_.push_back(std::move(folder)); }
+    [[nodiscard]] const std::vector<std::filesystem::path>& shaderFolders() const {
+        return shaderFolders_;
+    }
+
     struct StageEntry {
         std::string name;
         std::string question;
@@ -139,6 +152,7 @@ class Registry {
     std::vector<StageEntry> stages_;
     std::vector<Node> nodes_;
     std::vector<Technique> techniques_;
+    std::vector<std::filesystem::path> shaderFolders_;
     std::vector<std::function<void(params::ParamSet&)>> declarations_;
 };
 

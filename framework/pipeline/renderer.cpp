@@ -44,16 +44,17 @@ std::vector<std::string> passesMeant(const std::string& name,
 }
 
 // The only one. Throws ConfigError with the nearest name.
-std::string fullPassName(const std::string& name, const std::vector<std::string>& passes) {
+std::string fullPassName(const std::string& name, const std::vector<std::string>& passes,
+                         const std::string& disabledBy) {
     const std::vector<std::string> matches = passesMeant(name, passes);
     if (matches.size() == 1) return matches.front();
     if (matches.empty()) {
         throw ConfigError(
-            fmt::format("--disable: there is no pass '{}'{} ('kaustik explain' prints them all).",
-                        name, didYouMean(name, passes)));
+            fmt::format("{}: there is no pass '{}'{} ('kaustik explain' prints them all).",
+                        disabledBy, name, didYouMean(name, passes)));
     }
-    throw ConfigError(
-        fmt::format("--disable: '{}' could be {}; write out which.", name, joinNames(matches)));
+    throw ConfigError(fmt::format("{}: '{}' could be {}; write out which.", disabledBy, name,
+                                  joinNames(matches)));
 }
 
 bool compiles(const graph::Graph& graph) {
@@ -65,14 +66,15 @@ bool compiles(const graph::Graph& graph) {
     }
 }
 
-// Compiles the graph without the passes that `disabled` names, and puts their full names there.
+// Compiles the graph without the passes that the settings disable, and puts their full names there.
 // Throws ConfigError for a name that does not exist and for a pass that is required.
-graph::Compiled compileWithout(graph::Graph& graph, std::set<std::string>& disabled) {
+graph::Compiled compileWithout(graph::Graph& graph, RenderSettings& settings) {
+    std::set<std::string>& disabled = settings.disabledPasses;
     // What fails here is not the user's mistake.
     const std::vector<std::string> passes = namesOf(graph.compile());
     std::set<std::string> fullNames;
     for (const std::string& name : disabled)
-        fullNames.insert(fullPassName(name, passes));
+        fullNames.insert(fullPassName(name, passes, settings.disabledBy));
     disabled = std::move(fullNames);
 
     const std::vector<std::string> declared = graph.passNames();
@@ -81,8 +83,9 @@ graph::Compiled compileWithout(graph::Graph& graph, std::set<std::string>& disab
         if (std::find(declared.begin(), declared.end(), name) == declared.end()) continue;
         graph.disable(name);
         if (!compiles(graph)) {
-            throw ConfigError(fmt::format(
-                "--disable: pass '{}' is required; nothing stands in for what it makes.", name));
+            throw ConfigError(
+                fmt::format("{}: pass '{}' is required; nothing stands in for what it makes.",
+                            settings.disabledBy, name));
         }
     }
     return graph.compile();
@@ -104,6 +107,7 @@ Renderer::Renderer(gl::Context& context, const Registry& registry, const scene::
       needs_(sceneNeeds(scene)),
       ledgerQuantumWatts_(ledgerQuantum(scene)),
       inputs_{registry_, settings_.params, gpuScene_, needs_, view_, instances_, settings_.seed},
+      programs_(registry.shaderFolders()),
       executor_(context, programs_) {
     bindToAll();
     context_.check();
@@ -177,9 +181,8 @@ graph::Compiled Renderer::compile(Purpose purpose, const std::vector<std::string
         }
         graph_->request(handle);
     }
-    graph::Compiled compiled = settings_.disabledPasses.empty()
-                                   ? graph_->compile()
-                                   : compileWithout(*graph_, settings_.disabledPasses);
+    graph::Compiled compiled =
+        settings_.disabledPasses.empty() ? graph_->compile() : compileWithout(*graph_, settings_);
     // Of layers that something else needs: a measurement asks for no pass of its own.
     const graph::ResourceRef& statistics = outputs_.layers.statistics;
     hasLayerStatistics_ = statistics.valid() && purpose != Purpose::picture &&
@@ -224,6 +227,7 @@ void Renderer::requestForMaps() {
         if (map.filtered.valid()) graph_->request(map.filtered);
     }
     if (isOffScreen) graph_->request(outputs_.eye.receiver);
+    if (outputs_.cells.valid()) graph_->request(outputs_.cells);
 }
 
 void Renderer::requestForAudit() {

@@ -21,6 +21,7 @@ struct RenderSettings {
     Technique technique;
     params::ParamSet params;
     std::set<std::string> disabledPasses;
+    std::string disabledBy = "--disable";  // what names them, for messages
     int width = 800;
     int height = 600;
     std::uint64_t seed = 1;  // of everything random; equal ones give equal bits

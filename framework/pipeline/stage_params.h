@@ -3,6 +3,7 @@
 #pragma once
 
 #include "framework/params/field.h"
+#include "framework/transport/types.h"
 
 namespace kaustik {
 
@@ -29,6 +30,56 @@ struct EmitParams {
             "a photon and list, 160 with beams, or twice that with both branches; more follow "
             "in batches of whole rows",
             "", params::range(1, 268435456));
+    }
+};
+
+// By what it is told that a cell of a light's view needs no more photons.
+enum class RefineMetric : int { traversal, map, eye };
+enum class RefineSwitch : int { on, off };
+
+struct RefineParams {
+    RefineMetric metric = RefineMetric::map;
+    float tolerance = 1.0f;
+    int finest = 4096;
+    int start = 64;
+    int check = 512;
+    float medium = 4.0f;
+    RefineSwitch mask = RefineSwitch::on;
+    RefineSwitch signature = RefineSwitch::on;
+    int memoryMebibytes = 1024;
+    template <class R>
+    void reflect(R& r) {
+        r.choice(metric, "metric",
+                 "traversal: split to the finest cells; map: until four photons arrive in one "
+                 "texel of what light is stored in; eye: until they do in one of the eye's "
+                 "pixels, or where the eye does not see them",
+                 {"traversal", "map", "eye"});
+        r.field(tolerance, "tolerance",
+                "Four photons become one where they arrive within so many texels; 0: never",
+                "texels", params::range(0.0f, 64.0f));
+        r.field(medium, "medium",
+                "Where a medium scatters: its light has photons of its own, of which four become "
+                "one where both ends of their paths are seen within so many of the eye's pixels; "
+                "0: those of the map",
+                "px", params::range(0.0f, 64.0f));
+        r.field(finest, "finest", "Finest cells along a side of a light's view; a power of two", "",
+                params::range(8, 1 << transport::kMostCellLevel));
+        r.field(start, "start", "Cells along a side to begin with; a power of two", "",
+                params::range(2, 1024));
+        r.field(check, "check",
+                "Cells along a side from which on the metric is asked; a power of two", "",
+                params::range(2, 65536));
+        r.choice(
+            mask, "mask",
+            "on: a cell is dropped where nothing specular is seen in all of it; off: where its "
+            "four photons miss, as published",
+            {"on", "off"});
+        r.choice(signature, "signature",
+                 "on: four photons whose paths meet different things, or part, stay apart",
+                 {"on", "off"});
+        r.field(memoryMebibytes, "memory",
+                "Most memory of cells and photons; what needs more is done in batches, depth first",
+                "MiB", params::range(1, 65536));
     }
 };
 
@@ -72,6 +123,7 @@ struct ReconstructParams {
     StoreSpace space = StoreSpace::screen;
     int mapSize = 1024;
     MapCover covers = MapCover::seen;
+    int cascades = 1;
     int memoryMebibytes = 4096;
     template <class R>
     void reflect(R& r) {
@@ -87,6 +139,11 @@ struct ReconstructParams {
                  "seen: of a light's, the receivers within what the eye looks at; scene: all of "
                  "them",
                  {"seen", "scene"});
+        r.field(
+            cascades, "map_cascades",
+            "Maps of each light: one of all that map_covers says, and further ones, of the same "
+            "size, of what the eye sees nearer and nearer by, where it looks more closely",
+            "", params::range(1, 1 + static_cast<int>(transport::kMostViews)));
         r.field(memoryMebibytes, "map_memory",
                 "Most memory of all caustic maps together and of what the lights see there; larger "
                 "ones are halved until they fit, and the report says so",

@@ -13,7 +13,7 @@ const char* const kBeamVariant = "PHOTON_BEAMS";
 }  // namespace
 
 Photons Photons::create(graph::PassSetup& setup, int width, int height, const std::string& suffix,
-                        bool hasBeams) {
+                        bool hasBeams, const LightCells& cells) {
     Photons photons;
     photons.width = width;
     photons.height = height;
@@ -27,7 +27,9 @@ Photons Photons::create(graph::PassSetup& setup, int width, int height, const st
         photons.beamPlace = setup.create<BeamPlace>("photons.place" + suffix, width, height);
         photons.beamTurn = setup.create<BeamTurn>("photons.turn" + suffix, width, height);
     }
-    photons.list = setup.createBuffer<transport::PhotonList>("photons.list" + suffix, 1);
+    photons.list = cells.valid()
+                       ? cells.list
+                       : setup.createBuffer<transport::PhotonList>("photons.list" + suffix, 1);
     return photons;
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "framework/graph/graph.h"
+#include "framework/transport/light_cells.h"
 #include "framework/transport/types.h"
 
 namespace kaustik {
@@ -219,9 +220,9 @@ struct Photons {
     [[nodiscard]] int capacity() const { return width * height; }
     [[nodiscard]] bool hasBeams() const { return beamPlace.valid(); }
 
-    // New textures and a new list, to be filled by the pass.
+    // New textures, to be filled by the pass, and a new list, unless it is that of `cells`.
     static Photons create(graph::PassSetup& setup, int width, int height, const std::string& suffix,
-                          bool hasBeams);
+                          bool hasBeams, const LightCells& cells = {});
     // For a pass that reads photons: "photonPosition", "photonDirection", "photonFlux",
     // "photonOrigin" and the block "Photons"; with beams, for which the shaders of the pass are
     // compiled as PHOTON_BEAMS, "photonBeamPlace" and "photonBeamTurn".
@@ -258,8 +259,9 @@ struct Hits {
 // What a map of flux holds of each view.
 struct FluxSets {
     // Maps of all the flux, where it is stored in several ways: a splat's sizes, levels of
-    // resolution. The first is what the ledger counts.
+    // resolution.
     int flux = 1;
+    int parts = 1;              // of these sets add up to all flux; the ledger counts them
     bool counts = false;        // and how many photons each of them has by texel
     bool hasIntensity = false;  // and what goes to the eye, W/sr; the eye's view alone
     // And the flux of all channels times 1 + the direction in which it arrives, eye view space: its
@@ -282,6 +284,9 @@ struct FluxMap {
     ReceiverView on;
     int light = -1;      // whose photons alone it holds; -1: all lights'
     int generator = -1;  // the same of what they have left last; -1: of all
+    // Which of its light's maps: those after the first hold a part of the same light again, in
+    // finer texels, each map a part of the one before.
+    int cascade = 0;
     // Layers of `filtered` and of `flux` that each view has.
     [[nodiscard]] int filteredPerView() const { return 1 + sets.perView() - sets.flux; }
     [[nodiscard]] int wordsPerView() const {
@@ -362,8 +367,26 @@ struct Samples {
     int lights = 1;
     int firstRow = 0;
     int rows = 1;
-    std::string suffix;  // of this batch's resources; "" of the first
-    Ledger ledger;       // of the batches before; invalid before the first
+    std::string suffix;     // of this batch's resources; "" of the first
+    Ledger ledger;          // of the batches before; invalid before the first
+    LightCells cells = {};  // valid: these instead, of any light; the ledger is valid too
+    bool isProbe = false;   // PhotonOrigin::cell is to be the photon's number in the list
+};
+
+// An adaptive traversal of lights' views between two of its rounds (WN09, section 3.2).
+struct CellTraversal {
+    graph::Buffer<transport::LightCell> waiting;  // the last ones are the next to be looked at
+    LightCells taken;                             // in this round
+    LightCells probes;                            // their quarters, four after one another
+    LightCells photons;                           // what is to be emitted
+    graph::Buffer<transport::CellCounts> counts;
+    graph::Buffer<transport::Landing> landings;  // by probe and branch; where a metric needs them
+    int branches = 1;                            // that a probe may land by
+    float tolerance = 1.0f;                      // of the metric, texels of its view
+    int checkLevel = 0;                          // of the first probes of which it is asked
+    std::string suffix;                          // of its resources
+    Hits first;                                  // of the probes, on specular surfaces
+    Geometry geometry;
 };
 
 // What following photons leaves.
@@ -371,6 +394,8 @@ struct Caustic {
     Hits last;  // of the last tracing
     CausticMap map;
     InScattered inScattered;
+    // Where the driver chooses its photons: what that has come to, once all are done.
+    graph::Buffer<transport::CellCounts> cells;
 };
 
 class FrameBuilder;
@@ -409,6 +434,11 @@ struct DriverStage : Stage<Caustic(Surfaces)> {
 struct EmitStage : Stage<Hits(Surfaces, Samples)> {
     static constexpr const char* name = "emit";
     static constexpr const char* question = "Where does light first hit a specular surface?";
+};
+// Of the cells that were taken: drops, splits, or makes photons of them.
+struct RefineStage : Stage<CellTraversal(CellTraversal)> {
+    static constexpr const char* name = "refine";
+    static constexpr const char* question = "Which cells of a light's view are split further?";
 };
 // Gives the photons that go on, and no others, in the order of those that were there.
 struct SpecularStage : Stage<Photons(Hits, Surfaces)> {

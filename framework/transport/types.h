@@ -34,7 +34,11 @@ struct ViewData {
     vec4 environment;       // x: image layer of the environment, -1 none; y: its turn, rad
 };
 
-const uint kMostViews = 6u;  // of a block: the faces of a cube
+const uint kMostViews = 6u;  // of a block: the faces of a cube, a light's further maps
+
+// Along each side of such a map, of the side: what has arrived beside it is missing there, so that
+// the eye's receivers are looked up in the map before (caustic_map/project.frag).
+const float kBorderOfPart = 0.0625f;
 
 // The caustic generators of a scene, in a uniform block (std140): by them photons find the surfaces
 // that lie around what they have left last, and the map that stores them (include/generators.glsl).
@@ -130,6 +134,46 @@ struct PhotonList {
 };
 const uint kPhotonGroup = 64u;
 const uint kMostGroupsX = 32768u;
+
+// A cell of a light's view, of 2^level by 2^level, from the lower left (std430): what adaptive
+// photons are emitted by (WN09, section 3.2).
+struct LightCell {
+    uint x;
+    uint y;
+    uint level;
+    // Bits 0 to 3: of its four quarters, right: 1, up: 2, those whose light its photon carries;
+    // none of them: it carries the whole cell's. From bit 8 on: the light.
+    uint lightAndQuarters;
+};
+const uint kMostCellLevel = 19u;
+
+// What has become of an adaptive traversal, on the device.
+struct CellCounts {
+    uint moreCells;    // not 0: there are cells to look at and room for what comes of them
+    uint moreBatches;  // not 0: there are cells left once the batch's photons are done
+    uint waiting;      // cells
+    uint taken;        // of them, in this round
+    uint photons;      // of this batch
+    // In the whole frame.
+    uint probes;
+    uint emitted;    // photons
+    uint merged;     // of them those that stand for several of a cell's quarters
+    uint discarded;  // cells that hold nothing specular
+    uint deepest;    // level of a photon's cell
+    uint rounds;
+    uint batches;
+};
+
+// Where a probe's light arrives, by the view that a metric looks from.
+struct Landing {
+    // xy: where it arrives, continuous texels of the view; zw: of a path through a medium, where it
+    // begins.
+    vec4 ends;
+    uint seenBy;     // the view's number + 1; 0: nowhere that it sees
+    uint signature;  // of the probe's path: what it has met, and how it left that
+    uint unused0;
+    uint unused1;
+};
 
 // Where a photon comes from: one texel, RGBA32UI.
 struct PhotonOrigin {

@@ -2,7 +2,7 @@
 // filter.levels: of each texel the finest level on whose texel enough photons lie (WD08, section
 // 4), bilinear between that level's texels.
 #include "caustic_map/filtered.glsl"
-#include "caustic_map/levels.glsl"
+#include "caustic_map/sample_level.glsl"
 
 uniform usampler2DArray photonCounts;
 uniform int levels;
@@ -10,23 +10,6 @@ uniform int levels;
 uint countAt(ivec2 texel, int level, int view) {
     return texelFetch(photonCounts,
                       ivec3(placeOfLevel(level) + texel, 2 * view + setOfLevel(level)), 0).x;
-}
-
-// What the texel gets of one of a level that is 4^level times as large.
-vec3 sampleLevel(ivec2 texel, int level, int view) {
-    if (level == 0) return sumAt(texel, view * setsBefore);
-    vec2 at = (vec2(texel) + 0.5) / float(1 << level) - 0.5;
-    ivec2 first = ivec2(floor(at));
-    vec2 f = at - vec2(first);
-    vec3 sum = vec3(0.0);
-    for (int i = 0; i < 4; ++i) {
-        ivec2 step = ivec2(i & 1, i >> 1);
-        ivec2 there = clamp(first + step, ivec2(0), sizeOfLevel(level) - 1);
-        vec2 axis = mix(1.0 - f, f, vec2(step));
-        sum += axis.x * axis.y *
-               sumAt(placeOfLevel(level) + there, view * setsBefore + setOfLevel(level));
-    }
-    return sum / float(1 << (2 * level));
 }
 
 void main() {

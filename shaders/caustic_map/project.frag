@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // gather.project, gather.cube: what the caustic map of a light or of a generator holds where the eye's
 // receivers lie. A pixel that spans several texels is the mean of several places of it.
+//   MAP_HAS_PARTS  parts of it are in finer maps, of what the eye sees nearer by
 #include "include/view.glsl"
 #ifdef GLOSSY_RECEIVERS
 #define MEAN_INCIDENCE
@@ -11,6 +12,13 @@
 uniform sampler2D receiver;
 uniform sampler2D receiverSurface;
 uniform int mostPlaces;  // along a side of a pixel
+#ifdef MAP_HAS_PARTS
+layout(std140) uniform MapParts {
+    ViewData mapParts[kMostViews];
+};
+uniform int partCount;
+uniform int part;  // that this map is, 0: the whole
+#endif
 #ifdef GLOSSY_RECEIVERS
 uniform int comesFromCentre;  // all light from where the map is seen from, not its mean direction
 #endif
@@ -43,6 +51,27 @@ int placesAcross(vec3 positionVs, vec3 normalVs) {
     return clamp(int(ceil(texels - 0.25)), 1, mostPlaces);
 }
 
+#ifdef MAP_HAS_PARTS
+// Whether a part is looked up at a place: not in its border, where light is missing that has arrived
+// beside it and reaches in.
+bool isLookedUpIn(ViewData map, vec3 positionVs) {
+    vec3 point = (map.fromEye * vec4(positionVs, 1.0)).xyz;
+    if (-point.z <= map.frustum.z) return false;
+    vec2 at = mapPixelOf(map, point) * map.sizePixels.zw;
+    return all(greaterThanEqual(at, vec2(kBorderOfPart))) &&
+           all(lessThan(at, vec2(1.0 - kBorderOfPart)));
+}
+
+// Of all maps one is looked up in a pixel: the finest that has its middle, with all before it.
+bool isOurs(vec3 positionVs) {
+    int finest = 0;
+    while (finest < partCount && isLookedUpIn(mapParts[finest], positionVs)) ++finest;
+    return finest == part;
+}
+#else
+bool isOurs(vec3 positionVs) { return true; }
+#endif
+
 void main() {
     irradiance = vec4(0.0);
 #ifdef GLOSSY_RECEIVERS
@@ -53,6 +82,7 @@ void main() {
     if (depth <= 0.0) return;
     vec4 surface = texelFetch(receiverSurface, pixel, 0);
     vec3 positionVs = viewRay(gl_FragCoord.xy) * depth;
+    if (!isOurs(positionVs)) return;
     int places = placesAcross(positionVs, surface.xyz);
     Gathered sum = Gathered(vec3(0.0), vec3(0.0));
     for (int i = 0; i < places * places; ++i) {

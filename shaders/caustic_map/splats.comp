@@ -6,6 +6,7 @@
 // redistributed on it. One thread a photon.
 //   FOUR_RADII    a set of the map a size, and counts of photons beside them
 //   BEAM_WIDTHS   as wide as the photon's beam is where it arrives
+//   ONE_LEVEL     only photons whose beams are as wide as the level's texels
 //   LEVELS        the map holds coarser ones of itself; `level` is this draw's
 #include "include/arriving.glsl"
 #include "include/ledger.glsl"
@@ -27,6 +28,9 @@ uniform float most;
 layout(std430) buffer CutSplats {
     Narrowed narrowed;
 };
+#endif
+#ifdef ONE_LEVEL
+uniform int levels;
 #endif
 #ifdef COUNTS
 layout(r32ui) uniform uimage2DArray photonCounts;
@@ -237,6 +241,29 @@ bool splatOf(ivec2 texel, vec3 positionVs, vec3 normalVs, out Splat splat) {
     return all(lessThan(beside, vec2(reachOf(splat))));
 }
 
+// Whether the ledger counts what this level does not take.
+bool isBooked() {
+#ifdef ONE_LEVEL
+    return true;
+#else
+    return level == 0;
+#endif
+}
+
+// Whether the photon is this level's, as the current view sees it.
+bool isOfLevel(ivec2 texel, vec3 positionVs) {
+#ifdef ONE_LEVEL
+    vec3 point = pointFromEye(positionVs);
+    Beam beam = beamAt(texel);
+    float width = sqrt(abs(determinant(beam.place +
+                                       texelFetch(hitPosition, texel, 0).w * beam.turn)));
+    float wanted = width / pixelFootprint(max(-point.z, view.frustum.z));
+    return clamp(int(ceil(log2(clamp(wanted, 1.0, 65536.0)))), 0, levels - 1) == level;
+#else
+    return true;
+#endif
+}
+
 bool isInView(Splat splat) {
     vec2 at = pixelOf(splat.position);
     return all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, view.sizePixels.xy));
@@ -254,13 +281,16 @@ void main() {
     Parts parts = Parts(WEIGHT(0.0), WEIGHT(0.0), WEIGHT(0.0));
     uint account = kAccountBeside;  // of a photon that finds no texel
     Splat splat;
+    bool isOurs = false;
+    bool isLit = true;
     for (int face = 0; face < viewCount; ++face) {
 #ifdef MANY_VIEWS
         viewIndex = face;
 #endif
         if (!splatOf(texel, positionVs, surface.xyz, splat)) continue;
+        if (isInView(splat)) isOurs = isOfLevel(texel, positionVs);
         if (isInView(splat)) {
-            bool isLit = !isOpen(uint(surface.w) - 1u) ||
+            isLit = !isOpen(uint(surface.w) - 1u) ||
                          seesLitSide(splat.position, splat.normal, directionFromEye(direction));
             bool isHidden = lookAt(splat, ivec2(floor(pixelOf(splat.position)))) == kSeenOccluded;
             account = isHidden || !isLit ? kAccountHidden : kAccountEdgeOn;
@@ -273,15 +303,21 @@ void main() {
 #else
     bool finds = parts.deposited > 0.0;
 #endif
-    // Where it arrives beside all views, what reaches into one is not of it alone.
-    if (account == kAccountBeside) finds = false;
+#ifdef ONE_LEVEL
+    // Beside all views it is the finest level's to say.
+    if (account == kAccountBeside) isOurs = level == 0;
+    if (!isOurs) return;
+#endif
+    // Where it arrives beside all views, or on the far side of what they see, what of it reaches into
+    // one is not all of it.
+    if (account == kAccountBeside || !isLit) finds = false;
     // Of coarser levels nothing is seen; what the map's own texel does not see is not in them.
     if (level > 0 && keepsEdges == 1 && account == kAccountHidden) finds = false;
     if (!finds) {
-        if (level == 0) ledgerAdd(account, flux);
+        if (isBooked()) ledgerAdd(account, flux);
         return;
     }
-    if (level == 0) countLost(parts, flux);
+    if (isBooked()) countLost(parts, flux);
     for (int face = 0; face < viewCount; ++face) {
 #ifdef MANY_VIEWS
         viewIndex = face;

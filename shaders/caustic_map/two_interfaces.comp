@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: MIT
 // specular.two_interfaces: a photon that has entered a body leaves it where the light's view of its
 // back faces says (include/two_interfaces.glsl). One thread a photon of one light.
-#include "include/next_photons.glsl"
+#include "include/first_interaction.glsl"
 #include "include/lights.glsl"
 #ifdef BODIES
-#include "include/two_interfaces.glsl"
-#endif
-
-uniform int lightIndex;
-#if defined(PHOTON_BEAMS) && defined(BODIES)
-uniform sampler2D backShape;
+#include "include/back_faces.glsl"
+#include "include/through_body.glsl"
 #endif
 
 #ifdef PHOTON_BEAMS
@@ -60,18 +56,6 @@ RoundBeam throughLens(RoundBeam round, float front, float back, float thickness,
     return refracted(within, -back, inside, outside);
 }
 
-#ifdef BODIES
-// The shape of the back faces in the eye's view, whose `normal` is given there.
-vec3 backShapeAt(ivec2 texel, vec3 normalLs, vec3 normalVs) {
-    vec3 shape = texelFetch(backShape, texel, 0).xyz;
-    mat2x3 tangents = basisAcross(texelFetch(backSurface, texel, 0).xyz);
-    mat3x2 across = transpose(tangents);
-    mat3 turning = tangents * (mat2(shape.x, shape.z, shape.z, shape.y) * across);
-    mat3 toEye = transpose(mat3(view.fromEye));
-    return shapeOf(normalVs, toEye * turning * transpose(toEye));
-}
-#endif
-
 // After one interaction alone: at a mirror, a sheet, or where all is reflected.
 Beam beamAfterOne(ivec2 texel, Photon before, Hit hit, vec3 direction, bool isReflected) {
     Beam beam = beamAt(texel);
@@ -87,129 +71,59 @@ Beam beamAfterOne(ivec2 texel, Photon before, Hit hit, vec3 direction, bool isRe
 }
 #endif
 
-void sendOnAfterOne(uint slot, ivec2 texel, Photon before, Hit hit, Photon branch,
-                    PhotonOrigin origin) {
-    storeNext(slot, branch, origin);
+void sendOnAfterOne(Arrival arrival, Photon branch, PhotonOrigin origin) {
+    storeNext(arrival.slot, branch, origin);
 #ifdef PHOTON_BEAMS
     bool isReflected = (origin.path & 1u) == 1u;
-    storeNextBeam(slot, beamAfterOne(texel, before, hit, branch.directionVs, isReflected));
-#endif
-}
-
-// One that ends here, of which the ledger has the flux: the list has a place for it.
-void sendNothing(uint slot, Photon photon, PhotonOrigin origin) {
-    photon.fate = kFateEnded;
-    photon.fluxWatts = vec3(0.0);
-    storeNext(slot, photon, origin);
-#ifdef PHOTON_BEAMS
-    storeNextBeam(slot, Beam(mat2(0.0), mat2(0.0)));
+    storeNextBeam(arrival.slot, beamAfterOne(arrival.texel, arrival.photon, arrival.hit,
+                                             branch.directionVs, isReflected));
 #endif
 }
 
 #ifdef BODIES
 // `inside`: the photon that has just entered; the light's view shows where it comes out.
-void goThrough(uint slot, ivec2 texel, Photon before, Hit hit, Photon inside, PhotonOrigin origin) {
-    vec3 entry = pointFromEye(hit.positionVs);
-    vec3 along = directionFromEye(before.directionVs);
-    vec3 onward = directionFromEye(inside.directionVs);
-    vec3 normal = directionFromEye(hit.normalVs);
-    ivec2 there = texelAt(entry);
-    float through = (backAt(there) + entry.z) * length(viewRay(pixelOf(entry)));
-    vec2 indices = indicesAt(hit.material, before.media, true);
+void goThrough(Arrival arrival, Photon inside, PhotonOrigin origin) {
+    Passage passage =
+        throughBody(arrival.photon, arrival.hit, inside, specular_two_interfaces_steps,
+                    specular_two_interfaces_distance, true);
     PhotonOrigin beyond = PhotonOrigin(origin.cell, origin.light, origin.path << 1, origin.parent);
-    WayInside way = WayInside(0.0, entry, -normal, there);
-    if (backAt(there) > 0.0 && through > 0.0) {
-        way = wayInside(entry, along, onward, normal, through, indices.y / indices.x,
-                        specular_two_interfaces_steps, specular_two_interfaces_distance);
-    } else {
-        // At the very rim the back faces are another texel's: no thickness, and it goes straight on.
-        onward = along;
+    if (!passage.isOut) {
+        sendNothing(arrival.slot, passage.photon, beyond);
+        return;
     }
-    vec3 left = mediumTransmittance(hit.material, way.length);
-    ledgerAdd(kAccountAbsorbed, inside.fluxWatts * (1.0 - left));
-    inside.fluxWatts *= left;
-    vec3 direction = directionToEye(onward);
-    vec3 exitNormal = directionToEye(way.normal);
-    if (way.length > 0.0) {
-        Interface second = interactAt(direction, exitNormal, indices.y, indices.x);
-        if (second.reflectance >= 1.0 || dot(direction, exitNormal) <= 0.0) {
-            // What is totally reflected inside is not followed (WD08, section 6).
-            ledgerAdd(kAccountInternalReflectionLimit, inside.fluxWatts);
-            sendNothing(slot, inside, beyond);
-            return;
-        }
-        ledgerAdd(kAccountUntracedBranch, inside.fluxWatts * second.reflectance);
-        inside.fluxWatts *= 1.0 - second.reflectance;
-        direction = second.refracted;
-    }
-    vec3 within = inside.directionVs;
-    inside.positionVs = hit.positionVs + directionToEye(way.exit - entry);
-    inside.directionVs = direction;
-    inside.media = leaveMedium(inside.media, hit.material);
-    storeNext(slot, inside, beyond);
+    storeNext(arrival.slot, passage.photon, beyond);
 #ifdef PHOTON_BEAMS
-    vec3 backs = way.length > 0.0 ? backShapeAt(way.texel, way.normal, exitNormal) : vec3(0.0);
-    Beam beam = beamAt(texel);
+    Beam beam = beamAt(arrival.texel);
     if (specular_two_interfaces_lens == specular_two_interfaces_lens_beam) {
-        beam = beamBeyond(beam, before.directionVs, hit.distanceMeters, hit.normalVs, hit.shape,
-                          within, indices.x / indices.y);
-        beam = beamBeyond(beam, within, way.length, exitNormal, backs, direction,
-                          indices.y / indices.x);
+        beam = beamThrough(beam, arrival.photon, arrival.hit, passage);
     } else {
-        beam = beamOf(throughLens(roundBeamAt(beam, before, hit), meanCurvature(hit.shape),
-                                  meanCurvature(backs), way.length, indices.x, indices.y));
+        beam = beamOf(throughLens(roundBeamAt(beam, arrival.photon, arrival.hit),
+                                  meanCurvature(arrival.hit.shape),
+                                  meanCurvature(shapeAtExit(passage)), passage.way.length,
+                                  passage.indices.x, passage.indices.y));
     }
-    storeNextBeam(slot, beam);
+    storeNextBeam(arrival.slot, beam);
 #endif
 }
 #endif
 
 void main() {
-    uint index = photonOfThread();
-    ivec2 texel = ivec2(photonTexel(photons, index));
-    bool goesOn = index < photons.count &&
-                  uint(texelFetch(hitFlux, texel, 0).w) == kFateSpecular;
-    uint slot = nextSlot(goesOn);
-    if (!goesOn) return;
-    PhotonOrigin origin = originAt(texel);
-    if (int(origin.light) != lightIndex) return;
-    Hit hit = hitAt(texel);
-    Photon photon = photonAt(texel);
-    if (origin.path != kEmittedPath) {
-        // The light's view says nothing of light that has been bent already.
-        ledgerAdd(kAccountBounceLimit, hit.fluxWatts);
-        sendNothing(slot, photon, originOfNext(origin, index, false));
+    Arrival arrival;
+    if (!arrivalOfThread(arrival)) return;
+    TakenBranch taken = branchTaken(
+        arrival.photon, arrival.hit,
+        specular_two_interfaces_branch == specular_two_interfaces_branch_reflected);
+    PhotonOrigin origin = originOfNext(arrival.origin, arrival.index, taken.isReflected);
+    if (taken.photon.fate != kFateInFlight) {
+        sendNothing(arrival.slot, taken.photon,
+                    originOfNext(arrival.origin, arrival.index, false));
         return;
     }
-    ledgerAdd(kAccountEmitted, hit.fluxWatts);
-    Branches branches = branchesOf(photon, hit);
-    bool refracts = branches.transmitted.fate == kFateInFlight;
-    bool reflects = branches.reflected.fate == kFateInFlight;
-    if (refracts && reflects) {
-        bool wantsReflected =
-            specular_two_interfaces_branch == specular_two_interfaces_branch_reflected;
-        ledgerAdd(kAccountUntracedBranch,
-                  (wantsReflected ? branches.transmitted : branches.reflected).fluxWatts);
-        refracts = !wantsReflected;
-    }
-    if (!refracts) {
-        if (!reflects) {
-            // It was in more dielectrics than a stack holds.
-            sendNothing(slot, branches.reflected, originOfNext(origin, index, false));
-            return;
-        }
-        sendOnAfterOne(slot, texel, photon, hit, branches.reflected,
-                       originOfNext(origin, index, true));
-        return;
-    }
-    PhotonOrigin entered = originOfNext(origin, index, false);
 #ifdef BODIES
-    bool entersBody =
-        !isOpen(hit.material - 1u) && dot(photon.directionVs, hit.normalVs) < 0.0;
-    if (entersBody) {
-        goThrough(slot, texel, photon, hit, branches.transmitted, entered);
+    if (!taken.isReflected && entersBody(arrival.photon, arrival.hit)) {
+        goThrough(arrival, taken.photon, origin);
         return;
     }
 #endif
-    sendOnAfterOne(slot, texel, photon, hit, branches.transmitted, entered);
+    sendOnAfterOne(arrival, taken.photon, origin);
 }

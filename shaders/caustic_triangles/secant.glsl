@@ -103,6 +103,26 @@ struct Bracket {
     int slot;
 };
 
+// Whether something is seen about where the plane of a texel is met: in that texel its surface, in
+// another one any. Past a silhouette nothing is, and planes have no end.
+bool isSurfaceAt(vec3 world, FirstHit found, float margin) {
+    AroundPlace place = placeAt(world);
+    bool isSame = place.texel == found.pixel && viewIndex == found.face;
+    for (int slot = 0; slot < layerCount && !isSame; ++slot) {
+        int layer = layerOfSlot(place, slot);
+        if (layer < 0) continue;
+        float allowed = max(margin, layerAt(place.texel, layer).margin);
+        isSame = abs(beyondSlot(place, slot)) <= allowed;
+    }
+    viewIndex = found.face;
+    return isSame;
+}
+
+bool arrivesAt(FirstHit found) {
+    uint material = uint(texelFetch(layerSurfaces, layerTexel(found.pixel, found.hit.layer), 0).w);
+    return isReceiver(materialKind(material - 1u));
+}
+
 // Where the ray meets the slot's surface within the bracket, and by which texel and layer; layer < 0
 // where no place that was looked at lies on it. Never more than `most` looks (hard case 35).
 FirstHit secantIn(AroundRay ray, TracedRay photon, Bracket bracket, int most) {
@@ -155,7 +175,13 @@ FirstHit secantIn(AroundRay ray, TracedRay photon, Bracket bracket, int most) {
     float slack = 0.5 * (bracket.high - bracket.low);
     if (abs(closing) > 1e-4) {
         float t = -heightAbove(origin, surface.normal, found.pixel, surface.depth) / closing;
-        if (abs(t - found.hit.t) <= slack && t > 0.0) found.hit.t = t;
+        if (abs(t - found.hit.t) <= slack && t > 0.0) {
+            if (arrivesAt(found) && !isSurfaceAt(ray.origin + t * ray.direction, found, surface.margin)) {
+                found.hit.layer = -1;
+                return found;
+            }
+            found.hit.t = t;
+        }
     }
     return found;
 }

@@ -4,21 +4,11 @@
 // inverse normal, d_N. The weight of d_V is the ratio of the angles of refraction and incidence:
 // right for an index of 1, where the ray goes straight on, and for one without limit, where it
 // follows the normal. For any view from which rays come: the eye's, or a light's for its photons.
-#include "include/view.glsl"
-
-uniform sampler2D backDepth;    // of the farthest back faces, 0 none
-uniform sampler2D backSurface;  // their outward normals; w: material + 1
-
-ivec2 texelAt(vec3 positionVs) {
-    return ivec2(floor(pixelOf(vec3(positionVs.xy, min(positionVs.z, -view.frustum.z)))));
-}
+// Of which buffers the faces are says whoever includes this (include/faces.glsl).
+#include "include/faces.glsl"
 
 // Depth of the back faces, 0 where there are none.
-float backAt(ivec2 texel) {
-    if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, ivec2(view.sizePixels.xy))))
-        return 0.0;
-    return texelFetch(backDepth, texel, 0).x;
-}
+float backAt(ivec2 texel) { return depthOfFace(texel, kBackFace); }
 
 // From a point of the front along `direction`, unit, to the back faces, m: a point on that way is
 // inside as long as these lie beyond it. In steps that grow, from a quarter of what the view's ray
@@ -50,23 +40,6 @@ float distanceInside(vec3 entry, vec3 direction, float through, int steps) {
         }
     }
     return 0.5 * (inside + outside);
-}
-
-// The normal of the back faces around a point: bilinear between the pixels that have one.
-vec3 backNormalAround(vec3 positionVs, ivec2 fallback) {
-    vec2 corner = pixelOf(vec3(positionVs.xy, min(positionVs.z, -view.frustum.z))) - 0.5;
-    ivec2 first = ivec2(floor(corner));
-    vec2 f = corner - vec2(first);
-    vec3 sum = vec3(0.0);
-    for (int i = 0; i < 4; ++i) {
-        ivec2 step = ivec2(i & 1, i >> 1);
-        ivec2 texel = first + step;
-        if (backAt(texel) <= 0.0) continue;
-        vec2 axis = mix(1.0 - f, f, vec2(step));
-        sum += axis.x * axis.y * texelFetch(backSurface, texel, 0).xyz;
-    }
-    float size = length(sum);
-    return size > 1e-3 ? sum / size : texelFetch(backSurface, fallback, 0).xyz;
 }
 
 struct WayInside {
@@ -101,5 +74,5 @@ WayInside wayInside(vec3 entry, vec3 along, vec3 onward, vec3 normal, float thro
     const int kTries = 8;
     for (int i = 1; i <= kTries && backAt(there) <= 0.0; ++i)
         there = texelAt(mix(exit, entry, float(i) / float(kTries)));
-    return WayInside(inside, exit, backNormalAround(exit, there), there);
+    return WayInside(inside, exit, normalAround(exit, there, kBackFace), there);
 }

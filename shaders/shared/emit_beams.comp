@@ -9,7 +9,7 @@
 layout(rgba32f) writeonly uniform image2D nextBeamPlace;
 layout(rgba32f) writeonly uniform image2D nextBeamTurn;
 layout(rgba32f) writeonly uniform image2D hitShape;
-uniform sampler2D hitSurface;
+uniform sampler2D startSurface;
 uniform mat3 lightToEye;  // columns: to the grid's right, up, and against the light
 
 Beam emittedBeam(Photon photon, LightData light, bool isParallel) {
@@ -38,7 +38,7 @@ void main() {
             pointOnTriangle(seenAt(cell, ivec2(0)), placeOfCell(cell), isParallel);
         // Of what is interpolated over the triangle, as the normals are.
         float size = max(length(point.normal), 1e-12);
-        shape = shapeFrom(texelFetch(hitSurface, texel, 0).xyz, point.places, point.turns / size);
+        shape = shapeFrom(texelFetch(startSurface, texel, 0).xyz, point.places, point.turns / size);
     }
     imageStore(nextBeamPlace, texel, beamPlaceTexel(beam));
     imageStore(nextBeamTurn, texel, beamTurnTexel(beam));

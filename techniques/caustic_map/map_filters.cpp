@@ -73,7 +73,10 @@ using MoreSetup = std::function<void(graph::PassSetup&, Filtered&)>;
 using FilterCommands = std::function<void(const Filtered&, gl::PassContext&)>;
 
 std::string suffixOf(const FluxMap& map) {
-    if (map.light > 0) return fmt::format(".light_{}", map.light + 1);
+    if (map.light >= 0) {
+        return (map.light > 0 ? fmt::format(".light_{}", map.light + 1) : "") +
+               (map.cascade > 0 ? fmt::format(".cascade_{}", map.cascade + 1) : "");
+    }
     return map.generator > 0 ? suffixOfGenerator(static_cast<std::size_t>(map.generator)) : "";
 }
 
@@ -211,6 +214,24 @@ CausticMap pickLevels(FrameBuilder& frame, const LevelFilterParams& params, Caus
         });
 }
 
+CausticMap addLevels(FrameBuilder& frame, const params::NoParams&, CausticMap map) {
+    if (map.maps.front().sets.parts != 2) {
+        throw ConfigError(
+            "filter.level_sum takes the maps of reconstruct.multi_level; take that, or "
+            "filter=none.");
+    }
+    return filterMaps(
+        frame, "filter.level_sum", "each place gets what every level holds of it", std::move(map),
+        [](graph::PassSetup&, Filtered&) {},
+        [](const Filtered& data, gl::PassContext& context) {
+            const Views& views = data.map.on.views;
+            gl::Command command = filterCommand(context, "level_sum.comp", data.map);
+            setLevelLayout(command, data.map);
+            command.set("levels", levelsOf(views->width(), views->height()));
+            dispatchOverMap(command, data.map);
+        });
+}
+
 }  // namespace
 
 CausticMap inFloats(FrameBuilder& frame, CausticMap map) {
@@ -238,6 +259,9 @@ void registerMapFilters(Registry& registry) {
                                {"Takes of each place the finest level with enough photons.",
                                 "WD08, section 4, Fig. 4; rejected there"},
                                &pickLevels);
+    registry.node<FilterStage>(
+        "level_sum", {"Adds up all levels of a multi-resolution map.", "WN09, section 3.2.2"},
+        &addLevels);
 }
 
 }  // namespace kaustik

@@ -7,6 +7,19 @@
 #include "techniques/caustic_map/map_filters.h"
 
 namespace kaustik {
+namespace {
+
+// The views of a light's maps after the first; nothing where it has one.
+Views partsOf(FrameBuilder& frame, const std::vector<FluxMap>& maps, int light) {
+    std::vector<render::RasterView> views;
+    for (const FluxMap& map : maps) {
+        if (map.light == light && map.cascade > 0) views.push_back(map.on.views->view(0));
+    }
+    return views.empty() ? nullptr : frame.makeViews(render::Space::light, std::move(views));
+}
+
+}  // namespace
+
 IrradianceMap projectMaps(FrameBuilder& frame, const Projection& projection, CausticMap map,
                           const Surfaces& surfaces) {
     if (map.maps.front().sets.flux > 1 && !map.maps.front().filtered.valid()) {
@@ -17,8 +30,10 @@ IrradianceMap projectMaps(FrameBuilder& frame, const Projection& projection, Cau
     map = inFloats(frame, std::move(map));
     IrradianceMap result;
     result.ledger = map.ledger;
+    Views parts;
     for (std::size_t i = 0; i < map.maps.size(); ++i) {
         const FluxMap& stored = map.maps[i];
+        if (stored.cascade == 0) parts = partsOf(frame, map.maps, stored.light);
         result = frame.pass<IrradianceMap>(
             projection.node, projection.why,
             [&](graph::PassSetup& setup, IrradianceMap& data) {
@@ -47,8 +62,8 @@ IrradianceMap projectMaps(FrameBuilder& frame, const Projection& projection, Cau
                     setup.create<RadianceTexel>("caustic.radiance", frame.width(), frame.height());
                 setup.bypass(data.radiance, {0, 0, 0, 0});
             },
-            [projection, stored, isFirst = i == 0](const IrradianceMap& data,
-                                                   gl::PassContext& context) {
+            [projection, stored, parts, isFirst = i == 0](const IrradianceMap& data,
+                                                          gl::PassContext& context) {
                 const Views& views = stored.on.views;
                 gl::Command command = context.fullscreen("caustic_map/project.frag");
                 command.uniforms("MapViews", views->block())
@@ -57,6 +72,12 @@ IrradianceMap projectMaps(FrameBuilder& frame, const Projection& projection, Cau
                     .set("setsPerView", stored.filteredPerView());
                 if (views->count() > 1) command.define("MAP_IS_CUBE");
                 if (views->view(0).isOrthographic) command.define("MAP_IS_PARALLEL");
+                if (parts) {
+                    command.define("MAP_HAS_PARTS")
+                        .uniforms("MapParts", parts->block())
+                        .set("partCount", parts->count())
+                        .set("part", stored.cascade);
+                }
                 command.target(data.irradiance);
                 if (isFirst) command.clear();
                 if (stored.sets.hasDirection) {

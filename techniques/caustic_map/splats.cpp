@@ -8,6 +8,7 @@
 
 #include <algorithm>
 
+#include "framework/core/error.h"
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/caustic_map/levels.h"
 #include "techniques/caustic_map/nodes.h"
@@ -57,6 +58,15 @@ struct LevelsParams {
     }
 };
 
+struct MultiLevelParams {
+    int diameter = 3;
+    template <class R>
+    void reflect(R& r) {
+        r.field(diameter, "diameter", "Of a splat, in texels of its photon's level; 1: points",
+                "texels", params::range(1, 15));
+    }
+};
+
 struct LensParams {
     float widths = 3.5f;
     float least = 2.0f;
@@ -78,12 +88,14 @@ struct LensParams {
 struct TexelSplats {
     std::string node;
     std::string why;
-    int flux = 1;  // sets of it
+    int flux = 1;   // sets of it
+    int parts = 1;  // of these add up
     bool counts = false;
     SplatEdges edges = SplatEdges::kept;
     SplatCenter center = SplatCenter::photon;
     float diameter = 7.0f;
     bool hasLevels = false;
+    bool intoOne = false;  // of the levels, as coarse as the photon's beam is wide
     std::optional<LensParams> lens = {};
 };
 
@@ -107,6 +119,7 @@ void drawSplats(const TexelSplats& splats, const Store& store, const Splatted& d
             .set("level", level);
         if (map.sets.counts) command.define("COUNTS").set("countsPerView", map.sets.flux);
         setDeposit(command, map.sets);
+        if (splats.intoOne) command.define("ONE_LEVEL").set("levels", levels);
         if (splats.lens) {
             command.define("BEAM_WIDTHS")
                 .set("widths", splats.lens->widths)
@@ -131,6 +144,7 @@ Stored splatInto(FrameBuilder& frame, TexelSplats splats, const Hits& hits, cons
         splats.lens->most = std::min(splats.lens->most, kMostOnCubes);
     FluxSets sets = setsIn(frame, store);
     sets.flux = splats.flux;
+    sets.parts = splats.parts;
     sets.counts = splats.counts;
     const Splatted& splatted = frame.pass<Splatted>(
         splats.node, splats.why,
@@ -145,7 +159,7 @@ Stored splatInto(FrameBuilder& frame, TexelSplats splats, const Hits& hits, cons
         },
         [splats, store, list = hits.incoming](const Splatted& data, gl::PassContext& context) {
             clearIfFirst(context, data.stored);
-            if (splats.lens) context.buffer(data.narrowed).clear();
+            if (splats.lens && !context.isRepeated()) context.buffer(data.narrowed).clear();
             drawSplats(splats, store, data, list, context);
         });
     if (splats.lens) {
@@ -194,6 +208,25 @@ CausticMap splatLevels(FrameBuilder& frame, const LevelsParams& params, Hits hit
     return splat(frame, splats, hits, surfaces, before);
 }
 
+CausticMap splatOneLevel(FrameBuilder& frame, const MultiLevelParams& params, Hits hits,
+                         Surfaces surfaces, CausticMap before) {
+    needsBeams(frame, "reconstruct.multi_level", hits.incoming);
+    TexelSplats splats{.node = "reconstruct.multi_level",
+                       .why = "photons whose light spreads are splats in coarser levels"};
+    splats.diameter = static_cast<float>(params.diameter);
+    splats.flux = 2;
+    splats.counts = true;
+    splats.hasLevels = true;
+    splats.intoOne = true;
+    splats.parts = 2;
+    if (frame.needs().glossyReceivers) {
+        throw ConfigError(
+            "reconstruct.multi_level keeps no directions, which the scene's glossy receivers need; "
+            "take reconstruct=lens.");
+    }
+    return splat(frame, splats, hits, surfaces, before);
+}
+
 CausticMap splatLens(FrameBuilder& frame, const LensParams& params, Hits hits, Surfaces surfaces,
                      CausticMap before) {
     needsBeams(frame, "reconstruct.lens", hits.incoming);
@@ -224,6 +257,14 @@ void registerTexelSplats(Registry& registry) {
          .source = "WD08, section 4, Fig. 4; rejected there",
          .filter = "levels"},
         &splatLevels);
+    registry.node<ReconstructStage>(
+        "multi_level",
+        {.sentence = "Splats each photon into that level of the map's resolution whose texels are "
+                     "as wide as its beam where it arrives; filter.level_sum adds up all of them.",
+         .source = "WN09, section 3.2.2, multi-resolution caustic map",
+         .beams = true,
+         .filter = "level_sum"},
+        &splatOneLevel);
     registry.node<ReconstructStage>(
         "lens",
         {.sentence = "Splats each photon as a round Gaussian as wide as its beam is where it "

@@ -98,8 +98,10 @@ InScattered drawGodRays(FrameBuilder& frame, const GodRayParams& params, Hits hi
         },
         [params, isFirst, w, h, list = hits.incoming, scale = radianceScaleOf(frame)](
             const Data& data, gl::PassContext& context) {
-            if (isFirst) context.texture(data.out.sums).clear({0, 0, 0, 0});
-            context.buffer(data.narrowed).clear();
+            if (!context.isRepeated()) {
+                if (isFirst) context.texture(data.out.sums).clear({0, 0, 0, 0});
+                context.buffer(data.narrowed).clear();
+            }
             const int columns = columnsOf(params);
             for (int column = 0; column < std::max(w, h); column += columns) {
                 dispatchOver(context.compute("screen_space_photons/god_rays.comp")

@@ -117,7 +117,7 @@ Stored splatInto(FrameBuilder& frame, const Splatting& splatting, const Hits& hi
         },
         [splatting, reach, sets, store, list = hits.incoming](const Data& data,
                                                               gl::PassContext& context) {
-            context.buffer(data.cut).clear();
+            if (!context.isRepeated()) context.buffer(data.cut).clear();
             clearIfFirst(context, data.stored);
             for (const char* shader : {"sprite_totals", "sprites"}) {
                 gl::Command command =

@@ -142,7 +142,7 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Hits& h
             clearIfFirst(context, data.stored);
             context.buffer(data.photonOfCell).clear();
             context.buffer(data.counts).clear();
-            context.buffer(data.narrowed).clear();
+            if (!context.isRepeated()) context.buffer(data.narrowed).clear();
             const auto shader = [&](const char* name) {
                 gl::Command command =
                     context.compute(fmt::format("screen_space_photons/{}.comp", name));

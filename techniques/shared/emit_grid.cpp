@@ -109,7 +109,7 @@ void emitFrom(const FrameInputs& inputs, gl::PassContext& context, const GridEmi
     beams.texture("photonPosition", photons.position)
         .texture("photonDirection", photons.direction)
         .texture("photonFlux", photons.flux)
-        .texture("hitSurface", data.hits.surface)
+        .texture("startSurface", data.hits.surface)
         .set("lightToEye", glm::mat3(render::between(seen.view, inputs.view)));
     dispatchOverCells(inputs, std::move(beams), data, seen, rows, light, firstOfLight);
 }

@@ -8,117 +8,91 @@
 
 #include "framework/pipeline/stage_params.h"
 #include "techniques/shared/receivers.h"
+#include "techniques/shared/seen_part.h"
 
 namespace kaustik {
 namespace {
 
-scene::Bounds receiverBounds(const scene::Scene& scene) {
-    scene::Bounds bounds;
+std::vector<scene::Bounds> boundsOfReceivers(const scene::Scene& scene) {
+    std::vector<scene::Bounds> bounds;
     for (const scene::Object& object : scene.objects) {
         if (!isReceiver(scene.materials[object.material].kind)) continue;
-        const scene::Bounds objects = objectBounds(scene, object);
-        if (objects.empty) continue;
-        bounds.include(objects.minimum);
-        bounds.include(objects.maximum);
+        bounds.push_back(objectBounds(scene, object));
     }
     return bounds;
 }
 
-// What of a box the eye looks at: the box around all corners of box and frustum, and all places
-// where the edges of one meet the sides of the other. Points are in the eye's view space.
-class SeenPart {
-  public:
-    SeenPart(const render::RasterView& eye, const scene::Bounds& box)
-        : eye_(eye), toWorld_(glm::inverse(eye.worldToView)), box_(box) {}
+void include(scene::Bounds& bounds, const scene::Bounds& more) {
+    if (more.empty) return;
+    bounds.include(more.minimum);
+    bounds.include(more.maximum);
+}
 
-    [[nodiscard]] scene::Bounds bounds() {
-        const std::vector<glm::dvec3> corners = cornersOf(box_);
-        for (std::size_t i = 0; i < corners.size(); ++i) {
-            for (const std::size_t bit : {1U, 2U, 4U}) {
-                if ((i & bit) == 0) addEdge(corners[i], corners[i | bit]);
-            }
-        }
-        const glm::dvec3 eye(toWorld_[3]);
-        for (const double x : {-1.0, 1.0}) {
-            for (const double y : {-1.0, 1.0}) {
-                const glm::dvec3 ray(x * eye_.halfExtent.x, y * eye_.halfExtent.y, -1.0);
-                addRay(eye, glm::dmat3(toWorld_) * ray);
-            }
-        }
-        return seen_;
-    }
+scene::Bounds receiverBounds(const scene::Scene& scene) {
+    scene::Bounds bounds;
+    for (const scene::Bounds& one : boundsOfReceivers(scene))
+        include(bounds, one);
+    return bounds;
+}
 
-  private:
-    static std::vector<glm::dvec3> cornersOf(const scene::Bounds& box) {
-        std::vector<glm::dvec3> all;
-        for (std::size_t i = 0; i < 8; ++i) {
-            all.emplace_back((i & 1) != 0 ? box.maximum.x : box.minimum.x,
-                             (i & 2) != 0 ? box.maximum.y : box.minimum.y,
-                             (i & 4) != 0 ? box.maximum.z : box.minimum.z);
-        }
-        return all;
-    }
-
-    // The part of [low, high] along a line where a + b t >= 0.
-    static void cut(double a, double b, double& low, double& high) {
-        if (b > 0.0) {
-            low = std::max(low, -a / b);
-        } else if (b < 0.0) {
-            high = std::min(high, -a / b);
-        } else if (a < 0.0) {
-            high = low - 1.0;
-        }
-    }
-
-    // An edge of the box, as far as it is in the frustum.
-    void addEdge(const glm::dvec3& from, const glm::dvec3& to) {
-        const glm::dvec3 a(eye_.worldToView * glm::dvec4(from, 1.0));
-        const glm::dvec3 b = glm::dvec3(eye_.worldToView * glm::dvec4(to, 1.0)) - a;
-        double low = 0.0;
-        double high = 1.0;
-        cut(-a.z, -b.z, low, high);
-        for (int axis = 0; axis < 2; ++axis) {
-            const double wide = eye_.halfExtent[axis];
-            cut(-a.z * wide - a[axis], -b.z * wide - b[axis], low, high);
-            cut(-a.z * wide + a[axis], -b.z * wide + b[axis], low, high);
-        }
-        addEnds(from, to - from, low, high);
-    }
-
-    // An edge of the frustum, as far as it is in the box.
-    void addRay(const glm::dvec3& from, const glm::dvec3& along) {
-        double low = 0.0;
-        double high = 1e30;
-        for (int axis = 0; axis < 3; ++axis) {
-            cut(from[axis] - box_.minimum[axis], along[axis], low, high);
-            cut(box_.maximum[axis] - from[axis], -along[axis], low, high);
-        }
-        addEnds(from, along, low, high);
-    }
-
-    void addEnds(const glm::dvec3& from, const glm::dvec3& along, double low, double high) {
-        if (low > high) return;
-        seen_.include(from + low * along);
-        seen_.include(from + high * along);
-    }
-
-    const render::RasterView& eye_;
-    glm::dmat4 toWorld_;
-    scene::Bounds box_;
-    scene::Bounds seen_;
-};
+scene::Bounds widened(scene::Bounds box, const glm::dvec3& margin) {
+    box.minimum -= margin;
+    box.maximum += margin;
+    return box;
+}
 
 scene::Bounds coveredBounds(const FrameBuilder& frame, MapCover covers) {
     const scene::Bounds all = receiverBounds(frame.scene());
     if (covers == MapCover::scene || all.empty) return all;
-    scene::Bounds seen = SeenPart(frame.view(), all).bounds();
+    scene::Bounds seen = seenPartOf(all, frame.view()).bounds;
     if (seen.empty) return all;
     // Splats of what lies just beside the picture reach into it.
-    const glm::dvec3 margin =
-        0.02 * (seen.maximum - seen.minimum) + 1e-6 * glm::length(all.maximum - all.minimum);
-    seen.minimum = glm::max(seen.minimum - margin, all.minimum);
-    seen.maximum = glm::min(seen.maximum + margin, all.maximum);
+    seen = widened(
+        seen, 0.02 * (seen.maximum - seen.minimum) + 1e-6 * glm::length(all.maximum - all.minimum));
+    seen.minimum = glm::max(seen.minimum, all.minimum);
+    seen.maximum = glm::min(seen.maximum, all.maximum);
     return seen;
+}
+
+// A further map goes beyond what the eye sees by its border, which is not looked up.
+const double kBorder = double{transport::kBorderOfPart};
+const double kBorderOfSeen = kBorder / (1.0 - 2.0 * kBorder);
+// Nothing is taken to be nearer than this share of the farthest: the box of a room that the eye is
+// in begins at the eye.
+constexpr double kNearestShare = 1.0 / 64.0;
+
+// What of all receivers the eye sees, as their boxes tell, to a depth.
+SeenPart seenOfReceivers(const FrameBuilder& frame, double farMeters = 1e30) {
+    SeenPart seen;
+    for (const scene::Bounds& bounds : boundsOfReceivers(frame.scene())) {
+        if (bounds.empty) continue;
+        const SeenPart part = seenPartOf(bounds, frame.view(), farMeters);
+        if (part.bounds.empty) continue;
+        const bool isFirst = seen.bounds.empty;
+        seen.nearestMeters =
+            isFirst ? part.nearestMeters : std::min(seen.nearestMeters, part.nearestMeters);
+        seen.farthestMeters = std::max(seen.farthestMeters, part.farthestMeters);
+        include(seen.bounds, part.bounds);
+    }
+    return seen;
+}
+
+// What further maps cover: each what is nearer than a depth, which fall by the same factor.
+std::vector<scene::Bounds> nearerBounds(const FrameBuilder& frame, int cascades) {
+    std::vector<scene::Bounds> nearer;
+    if (cascades < 2) return nearer;
+    const SeenPart seen = seenOfReceivers(frame);
+    if (seen.bounds.empty) return nearer;
+    const double farthest = seen.farthestMeters;
+    const double nearest = std::max(seen.nearestMeters, kNearestShare * farthest);
+    for (int i = 1; i < cascades; ++i) {
+        const double depth =
+            farthest * std::pow(nearest / farthest, i / static_cast<double>(cascades));
+        const scene::Bounds part = seenOfReceivers(frame, depth).bounds;
+        if (part.empty) continue;
+        nearer.push_back(widened(part, kBorderOfSeen * (part.maximum - part.minimum)));
+    }
+    return nearer;
 }
 
 // A perspective view wider than this wastes most of its texels on its rim.
@@ -154,34 +128,70 @@ int sideOfFaces(int side) {
     return std::max(side / 2, 16);
 }
 
-std::vector<ReceiverView> drawReceivers(FrameBuilder& frame, const Geometry& geometry) {
-    const auto& params = frame.params<ReconstructParams>("reconstruct");
-    const std::vector<scene::Light>& lights = frame.scene().lights;
-    const scene::Bounds target = coveredBounds(frame, params.covers);
+// The views of all maps, before anything is drawn.
+struct PlannedMaps {
+    std::vector<render::RasterView> whole;                // by light
+    std::vector<std::vector<render::RasterView>> nearer;  // by light, coarsest first
+    int side = 0;
+};
+
+// A texel of a map of so many along a side, at a depth of 1 m or at any.
+double texelArea(const render::RasterView& view) {
+    const double side =
+        needsCube(view) ? 4.0 : 2.0 * std::max(view.halfExtent.x, view.halfExtent.y);
+    return side * side;
+}
+
+// Of a light: those that are finer than the map before.
+std::vector<render::RasterView> finerViews(FrameBuilder& frame, const scene::Light& light,
+                                           const render::RasterView& whole, int cascades) {
     std::vector<render::RasterView> views;
-    double maps = 0.0;  // in sides of the size asked for
-    for (const scene::Light& light : lights) {
-        views.push_back(render::makeLightView(light, target, sceneBounds(frame.scene())));
-        maps += needsCube(views.back()) ? kMapsOfCube : 1.0;
+    double before = texelArea(whole);
+    for (const scene::Bounds& bounds : nearerBounds(frame, cascades)) {
+        const render::RasterView view =
+            render::makeLightView(light, bounds, sceneBounds(frame.scene()));
+        // Six faces around the light are what the whole map is already.
+        if (needsCube(view) || texelArea(view) > 0.5 * before) continue;
+        before = texelArea(view);
+        views.push_back(view);
     }
-    const int side = sideOfMaps(frame, params, static_cast<int>(std::ceil(maps)));
-    std::vector<ReceiverView> receivers;
-    for (std::size_t i = 0; i < lights.size(); ++i) {
-        const Views made =
-            needsCube(views[i])
-                ? frame.makeViews(
-                      render::Space::cube,
-                      render::makeCube(lights[i].position, views[i].nearMeters, sideOfFaces(side)))
-                : frame.makeViews(render::Space::light, {render::inPixels(views[i], side, side)});
-        const std::string name = i == 0 ? "light" : fmt::format("light.{}", i + 1);
-        receivers.push_back(
-            seeReceivers(
-                frame, geometry, made, name,
-                fmt::format("light '{}' stores caustics where it sees receivers", lights[i].name),
-                render::DrawSet::receivers)
-                .receivers);
+    const auto asked = static_cast<std::size_t>(cascades - 1);
+    if (views.size() < asked) {
+        frame.warn(fmt::format(
+            "reconstruct.map_cascades = {}: {} of the further maps of light '{}' would be hardly "
+            "finer than those before, or none; they are left out.",
+            cascades, asked - views.size(), light.name));
     }
-    return receivers;
+    return views;
+}
+
+const PlannedMaps& plannedMaps(FrameBuilder& frame) {
+    return *frame.once<PlannedMaps>("light.maps", [&] {
+        const auto& params = frame.params<ReconstructParams>("reconstruct");
+        const scene::Bounds target = coveredBounds(frame, params.covers);
+        auto planned = std::make_shared<PlannedMaps>();
+        double maps = 0.0;  // in sides of the size asked for
+        for (const scene::Light& light : frame.scene().lights) {
+            planned->whole.push_back(
+                render::makeLightView(light, target, sceneBounds(frame.scene())));
+            planned->nearer.push_back(
+                finerViews(frame, light, planned->whole.back(), params.cascades));
+            maps += needsCube(planned->whole.back()) ? kMapsOfCube : 1.0;
+            maps += static_cast<double>(planned->nearer.back().size());
+        }
+        planned->side = sideOfMaps(frame, params, static_cast<int>(std::ceil(maps)));
+        return planned;
+    });
+}
+
+ReceiverView drawReceivers(FrameBuilder& frame, const Geometry& geometry, std::size_t light,
+                           const Views& views, const std::string& suffix) {
+    const std::string name = (light == 0 ? "light" : fmt::format("light.{}", light + 1)) + suffix;
+    return seeReceivers(frame, geometry, views, name,
+                        fmt::format("light '{}' stores caustics where it sees receivers",
+                                    frame.scene().lights[light].name),
+                        render::DrawSet::receivers)
+        .receivers;
 }
 
 }  // namespace
@@ -193,7 +203,39 @@ int sideOfCubeMaps(FrameBuilder& frame, int cubes) {
 
 const std::vector<ReceiverView>& lightReceivers(FrameBuilder& frame, const Geometry& geometry) {
     return *frame.once<std::vector<ReceiverView>>("light.receivers", [&] {
-        return std::make_shared<std::vector<ReceiverView>>(drawReceivers(frame, geometry));
+        const PlannedMaps& planned = plannedMaps(frame);
+        auto receivers = std::make_shared<std::vector<ReceiverView>>();
+        for (std::size_t light = 0; light < planned.whole.size(); ++light) {
+            const render::RasterView& view = planned.whole[light];
+            const int side = planned.side;
+            const Views made =
+                needsCube(view)
+                    ? frame.makeViews(render::Space::cube,
+                                      render::makeCube(frame.scene().lights[light].position,
+                                                       view.nearMeters, sideOfFaces(side)))
+                    : frame.makeViews(render::Space::light, {render::inPixels(view, side, side)});
+            receivers->push_back(drawReceivers(frame, geometry, light, made, ""));
+        }
+        return receivers;
+    });
+}
+
+const std::vector<std::vector<ReceiverView>>& nearerReceivers(FrameBuilder& frame,
+                                                              const Geometry& geometry) {
+    using All = std::vector<std::vector<ReceiverView>>;
+    return *frame.once<All>("light.nearer_receivers", [&] {
+        const PlannedMaps& planned = plannedMaps(frame);
+        auto receivers = std::make_shared<All>(planned.nearer.size());
+        for (std::size_t light = 0; light < planned.nearer.size(); ++light) {
+            for (const render::RasterView& view : planned.nearer[light]) {
+                const Views made = frame.makeViews(
+                    render::Space::light, {render::inPixels(view, planned.side, planned.side)});
+                std::vector<ReceiverView>& own = (*receivers)[light];
+                own.push_back(drawReceivers(frame, geometry, light, made,
+                                            fmt::format(".cascade_{}", own.size() + 2)));
+            }
+        }
+        return receivers;
     });
 }
 

@@ -15,6 +15,11 @@ namespace kaustik {
 [[nodiscard]] const std::vector<ReceiverView>& lightReceivers(FrameBuilder& frame,
                                                               const Geometry& geometry);
 
+// By light: what reconstruct.map_cascades asks for besides, coarsest first: one view each of what
+// the eye sees nearer by, in as many texels. None where it would be hardly finer.
+[[nodiscard]] const std::vector<std::vector<ReceiverView>>& nearerReceivers(
+    FrameBuilder& frame, const Geometry& geometry);
+
 // Of the faces of so many cubes that store light: half of reconstruct.map_size, or what fits into
 // reconstruct.map_memory.
 [[nodiscard]] int sideOfCubeMaps(FrameBuilder& frame, int cubes);

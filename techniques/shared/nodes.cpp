@@ -13,6 +13,7 @@ void registerSharedNodes(Registry& registry) {
     registry.stage<ShadowStage>();
     registry.stage<DriverStage>();
     registry.stage<EmitStage>();
+    registry.stage<RefineStage>();
     registry.stage<SpecularStage>();
     registry.stage<AroundStage>();
     registry.stage<TraceStage>();
@@ -27,6 +28,7 @@ void registerSharedNodes(Registry& registry) {
 
     registry.sharedParams<LayersStage, LayersParams>();
     registry.sharedParams<EmitStage, EmitParams>();
+    registry.sharedParams<RefineStage, RefineParams>();
     registry.sharedParams<SpecularStage, SpecularParams>();
     registry.sharedParams<TraceStage, TraceParams>();
     registry.sharedParams<ReconstructStage, ReconstructParams>();

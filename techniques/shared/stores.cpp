@@ -8,10 +8,23 @@
 #include "techniques/shared/light_maps.h"
 
 namespace kaustik {
+namespace {
+
+void sayThatCascadesAreOfLights(FrameBuilder& frame) {
+    const char* const name = "reconstruct.map_cascades";
+    if (!frame.inputs().params.isSetByUser(name)) return;
+    static_cast<void>(frame.once<std::string>(name, [&] {
+        frame.warn(fmt::format("{} has no effect: reconstruct.space is not light.", name));
+        return std::make_shared<std::string>();
+    }));
+}
+
+}  // namespace
 
 std::vector<Store> storesOf(FrameBuilder& frame, const Surfaces& surfaces) {
     const StoreSpace space = frame.params<ReconstructParams>("reconstruct").space;
     std::vector<Store> stores;
+    if (space != StoreSpace::light) sayThatCascadesAreOfLights(frame);
     if (space == StoreSpace::screen) {
         stores.emplace_back().receivers = surfaces.eye;
         return stores;
@@ -25,9 +38,17 @@ std::vector<Store> storesOf(FrameBuilder& frame, const Surfaces& surfaces) {
         return stores;
     }
     const std::vector<ReceiverView>& receivers = lightReceivers(frame, surfaces.geometry);
+    const auto& nearer = nearerReceivers(frame, surfaces.geometry);
     for (std::size_t light = 0; light < receivers.size(); ++light) {
-        stores.push_back({receivers[light], static_cast<int>(light),
-                          light == 0 ? "" : fmt::format(".light_{}", light + 1)});
+        const std::string suffix = light == 0 ? "" : fmt::format(".light_{}", light + 1);
+        stores.push_back({receivers[light], static_cast<int>(light), suffix});
+        for (std::size_t i = 0; i < nearer[light].size(); ++i) {
+            Store& store = stores.emplace_back();
+            store.receivers = nearer[light][i];
+            store.light = static_cast<int>(light);
+            store.suffix = fmt::format("{}.cascade_{}", suffix, i + 2);
+            store.cascade = static_cast<int>(i) + 1;
+        }
     }
     return stores;
 }
@@ -41,7 +62,8 @@ CausticMap storeEverywhere(FrameBuilder& frame, const Surfaces& surfaces, Hits h
         Stored stored = deposit(stores[i], hits, former);
         stored.map.light = stores[i].light;
         stored.map.generator = stores[i].generator;
-        hits.incoming.ledger = stored.ledger;
+        stored.map.cascade = stores[i].cascade;
+        if (stores[i].cascade == 0) hits.incoming.ledger = stored.ledger;
         map.maps.push_back(stored.map);
     }
     map.ledger = hits.incoming.ledger;
@@ -72,13 +94,22 @@ Stored depositIn(graph::PassSetup& setup, const Store& store, const Hits& hits,
     stored.isFirst = !before.flux.valid();
     stored.map =
         FluxMap::deposit(setup, before, store.receivers, sets, "caustic.flux" + store.suffix);
+    if (store.cascade > 0) {
+        // Never read: the light's first map has counted everything.
+        stored.ledger = setup.storage(
+            "LedgerEntries",
+            setup.createBuffer<transport::LedgerEntry>(
+                "ledger" + store.suffix + hits.incoming.suffix, transport::kAccountCount));
+        setup.bypass(stored.ledger, {0, 0, 0, 0});
+        return stored;
+    }
     stored.ledger = setup.storage("LedgerEntries", setup.write(hits.incoming.ledger));
     setup.bypass(stored.ledger, hits.incoming.ledger);
     return stored;
 }
 
 void clearIfFirst(gl::PassContext& context, const Stored& stored) {
-    if (!stored.isFirst) return;
+    if (!stored.isFirst || context.isRepeated()) return;
     context.texture(stored.map.flux).clear({0, 0, 0, 0});
     if (stored.map.sets.counts) context.texture(stored.map.counts).clear({0, 0, 0, 0});
 }

@@ -17,6 +17,9 @@ struct Store {
     std::string suffix;                      // of its resources
     int generator = -1;                      // what they must have left last; -1: anything
     const gl::Buffer* generators = nullptr;  // by which it is told; where there is one
+    // Which of its light's maps (reconstruct.map_cascades); those after the first hold again what
+    // that holds, and nothing of them is in the ledger.
+    int cascade = 0;
     [[nodiscard]] bool isEyes() const { return receivers.views->isEyes(); }
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tests/gpu/techniques/caustic_map_frame.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -24,7 +26,7 @@ bool hasCounts(const std::string& technique, const Settings& settings) {
 }
 
 numerics::FrameRequest request(const std::string& technique, const Settings& settings,
-                               bool hasBeams, int width, int height) {
+                               std::size_t lights, bool hasBeams, int width, int height) {
     numerics::FrameRequest request{width, height, settings};
     request.saved = {"eye.receiver", "eye.receiver_surface", "caustic.irradiance", "hits.position",
                      "hits.flux"};
@@ -32,6 +34,8 @@ numerics::FrameRequest request(const std::string& technique, const Settings& set
     for (const auto& [name, value] : settings)
         isInMap = isInMap && (name != "reconstruct.space" || value == "light");
     if (isInMap) request.saved.emplace_back("caustic.flux");
+    for (std::size_t light = 1; isInMap && light < lights; ++light)
+        request.saved.emplace_back(fmt::format("caustic.flux.light_{}", light + 1));
     if (hasCounts(technique, settings)) request.saved.emplace_back("caustic.flux_counts");
     if (hasBeams) request.saved.insert(request.saved.end(), {"photons.place_1", "photons.turn_1"});
     request.recordsTraces = true;
@@ -54,7 +58,7 @@ glm::dvec3 MapTexels::sum() const {
 MapFrame::MapFrame(const scene::Scene& scene, const std::string& technique,
                    const Settings& settings, bool hasBeams, int width, int height)
     : numerics::Frame(context(), registry(), scene, registry().findTechnique(technique),
-                      request(technique, settings, hasBeams, width, height)),
+                      request(technique, settings, scene.lights.size(), hasBeams, width, height)),
       hasBeams_(hasBeams) {}
 
 std::vector<MapPhoton> MapFrame::photons() const {

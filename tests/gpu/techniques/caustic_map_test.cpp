@@ -142,6 +142,40 @@ TEST_P(UnderEachLight, APhotonHitsAFlatReceiverWhereItsRayMeetsIt) {
     }
 }
 
+// Of a cube around a lamp a bent ray goes from face to face: it ends where it meets the floor, not
+// where a face ends before.
+TEST(ABentRay, ThatGoesOnInTheNextFaceHitsAsIfThereWereNoEdge) {
+    const dvec3 from(0.1, 0.3, 0.05);
+    const scene::Scene scene = makeScene(
+        kAbove, lamp(from) + object("sheet", "plane", "water", {0, 0, 0}, "size = [2, 2]") +
+                    floorPlane("floor", "grey", 6, {0, -1, 0}));
+    const auto faceOf = [&](const dvec3& place) {
+        const dvec3 way = glm::abs(place - from);
+        return way.x > way.y && way.x > way.z ? 0 : way.z > way.y ? 2 : 1;
+    };
+    for (const char* steps : {"0", "48"}) {
+        SCOPED_TRACE(steps);
+        const MapFrame frame(scene, "caustic_map",
+                             {{"emit.photons", "96x96"},
+                              {"reconstruct.map_size", "64"},
+                              {"reconstruct.map_covers", "scene"},
+                              {"trace.background.steps", steps}});
+        ASSERT_EQ(frame.map().on.views->count(), 6);
+        int changes = 0;
+        double worst = 0.0;
+        for (const MapPhoton& photon : frame.photons()) {
+            if (photon.fate != kFateInFlight || photon.hitFate != kFateReceiver) continue;
+            const double t = (-1.0 - photon.position.y) / photon.direction.y;
+            const dvec3 there = photon.position + t * photon.direction;
+            changes += faceOf(photon.position) != faceOf(there) ? 1 : 0;
+            worst = std::max(worst, glm::distance(photon.hit, there));
+        }
+        EXPECT_GT(changes, 100);
+        EXPECT_LT(worst, 1e-4);
+        frame.expectBalance();
+    }
+}
+
 TEST_P(UnderEachLight, IrradianceIsOverTheAreaOfASlantedReceiver) {
     const scene::Scene scene = slanted(GetParam());
     const MapFrame frame(scene, "caustic_map",

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A sheet shows only the side that the eye looks at: light that arrives at its back lights nothing
 // that is seen, and is in the ledger as occluded.
-#include "tests/gpu/fixture.h"
+#include "framework/numerics/cases/scene_text.h"
+#include "tests/gpu/techniques/caustic_map_frame.h"
 
 namespace kaustik::test {
 namespace {
@@ -125,6 +126,30 @@ rotation_degrees = [90, 0, 0]
         EXPECT_NEAR(ledger.watts[kAccountArrived], 250.0, 1e-3) << which;
         EXPECT_EQ(ledger.watts[kAccountEdgeOn], 0.0) << which;
         EXPECT_EQ(ledger.watts[kAccountOccludedSplat], ledger.watts[kAccountArrived]) << which;
+    }
+}
+
+// A mirror sends light to the back of a sheet, of which a map with six faces sees the front: a
+// splat that reaches from one face into the next is not stored by half.
+TEST(ReceiverSide, ThatAMapDoesNotSeeGetsNothingFromAnyOfItsFaces) {
+    if (isWithoutExactTracer()) GTEST_SKIP() << "built without Embree";
+    const scene::Scene scene = numerics::makeScene(
+        {{0, 6, 6}, {0, 0, 0}},
+        "[[light]]\nname = \"lamp\"\ntype = \"point\"\nposition = [0, 2, 0]\nintensity = 100\n" +
+            numerics::object("floor", "plane", "mirror", {0, 0, 0}, "size = [8, 8]") +
+            numerics::object("sheet", "plane", "grey", {2.5, 1, 0}, "size = [3, 8]"));
+    for (const char* diameter : {"1", "7"}) {
+        SCOPED_TRACE(diameter);
+        const MapFrame frame(scene, "caustic_map",
+                             {{"emit.photons", "128x128"},
+                              {"trace", "raytraced"},
+                              {"specular", "interface"},
+                              {"reconstruct.map_size", "64"},
+                              {"reconstruct.fixed.diameter", diameter}});
+        ASSERT_EQ(frame.map().on.views->count(), 6);
+        frame.expectBalance();
+        EXPECT_GT(frame.watts(kAccountHiddenInMap), 1.0);
+        EXPECT_EQ(frame.watts(kAccountDeposited), 0.0);
     }
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Splats of a light's map (WD06; WD08, sections 4 and 4.1): what they keep, against conservation
-// and linearity, and what filters make of them. A sheet of index 1 lets light through as it comes,
-// so that the irradiance below it is the light's own.
+// and linearity, and what filters make of them.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,9 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/numerics/bench.h"
-#include "framework/numerics/cases/scene_text.h"
 #include "framework/report/map_account.h"
-#include "tests/gpu/techniques/caustic_map_frame.h"
+#include "tests/gpu/techniques/lit_by_a_sheet.h"
 
 namespace kaustik::test {
 namespace {
@@ -20,61 +18,6 @@ using namespace numerics;
 using namespace transport;
 using glm::dvec2;
 using glm::dvec3;
-
-const CameraText kAbove{{0.0, 3.0, 4.0}, {0.0, -0.5, 0.0}, 60.0, 0.01};
-const std::string kAir = "[[material]]\nname = \"air\"\ntype = \"dielectric\"\nior = 1\n";
-// Every flux that is summed in 64 bits, of weights in 32.
-constexpr double kFlux = 1e-5;
-
-std::string sheet(double side, const std::string& material = "air", double height = 0.0) {
-    return (material == "air" ? kAir : "") + object("sheet", "plane", material, {0, height, 0},
-                                                    fmt::format("size = [{0}, {0}]", number(side)));
-}
-std::string floorOf(double side) {
-    return floorPlane("floor", "grey", side, {0, -1, 0});
-}
-
-// Light of some structure, a part of which falls beside the map of what the eye sees.
-scene::Scene waves() {
-    return makeScene(kAbove, sun({0.2, -1.0, 0.1}) +
-                                 object("water", "water", "water", {0, 0, 0},
-                                        "size = [2, 1.5]\ncells = [96, 72]\n"
-                                        "waves = [{amplitude = 0.02, wavelength = 0.6}]") +
-                                 floorOf(3.0));
-}
-scene::Scene uniform() {
-    return makeScene(kAbove, sun({0, -1, 0}) + sheet(2.0) + floorOf(4.0));
-}
-
-Settings with(Settings settings, const Settings& more) {
-    settings.insert(settings.end(), more.begin(), more.end());
-    return settings;
-}
-const Settings kSmall{{"emit.photons", "96x96"},
-                      {"reconstruct.map_size", "96"},
-                      {"reconstruct.map_covers", "scene"},
-                      {"specular.two_interfaces.size", "256"}};
-
-double brightest(const MapTexels& map) {
-    double most = 0.0;
-    for (const dvec3& flux : map.flux)
-        most = std::max({most, flux.r, flux.g, flux.b});
-    return most;
-}
-// `inset`: texels along the border that do not count.
-double largestDifferenceWithin(const MapTexels& a, const MapTexels& b, int inset) {
-    double most = 0.0;
-    for (int y = inset; y < a.height - inset; ++y) {
-        for (int x = inset; x < a.width - inset; ++x) {
-            const dvec3 off = glm::abs(a.at(x, y) - b.at(x, y));
-            most = std::max({most, off.r, off.g, off.b});
-        }
-    }
-    return most;
-}
-double largestDifference(const MapTexels& a, const MapTexels& b) {
-    return largestDifferenceWithin(a, b, 0);
-}
 
 TEST(BlurredPoints, AreSplatsByLinearity) {
     // A floor that is smaller than what the water lights, so that light lies at the map's border.
@@ -297,31 +240,6 @@ TEST_F(MadeUpPhotons, AddUpInATexelWithoutDrift) {
     EXPECT_NEAR(storedIn(frame).at(64, 64).g, expected, 1e-7 * expected);
 }
 
-// Irradiance in the middle of what the sheet lights, of a set of flux.
-struct Field {
-    double mean = 0.0;
-    double worst = 0.0;  // relative
-    int texels = 0;
-};
-Field fieldOf(const MapFrame& frame, const MapTexels& map, double expected) {
-    const render::RasterView& view = mapViewOf(frame);
-    const double side = 2.0 * view.halfExtent.x / view.width;
-    Field field;
-    for (int y = 0; y < map.height; ++y) {
-        for (int x = 0; x < map.width; ++x) {
-            const dvec3 place = placeBefore(view, {x + 0.5, y + 0.5}, 0.0);
-            // Eight texels from the border of the light.
-            if (std::max(std::abs(place.x), std::abs(place.z)) > 1.0 - 8.0 * side) continue;
-            const double irradiance = map.at(x, y).g / (side * side);
-            field.mean += irradiance;
-            field.worst = std::max(field.worst, std::abs(irradiance / expected - 1.0));
-            ++field.texels;
-        }
-    }
-    field.mean /= field.texels;
-    return field;
-}
-
 class Uniform : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(Uniform, LightIsSoInAllSizesAndInTheirBlend) {
@@ -454,157 +372,6 @@ TEST_P(Blend, TakesTheSmallestSizeThatHasEnoughAndLiesBetweenSizes) {
 
 INSTANTIATE_TEST_SUITE_P(By, Blend, ::testing::Values("bernstein", "linear"),
                          [](const auto& tested) { return std::string(tested.param); });
-
-const Settings kLevels{{"reconstruct", "levels"}, {"filter", "levels"}};
-
-// Levels of 96 texels: 96, 48, 24, 12; the coarser ones side by side.
-TEST(Levels, HaveAllFluxEach) {
-    const scene::Scene scene = waves();
-    for (const char* diameter : {"1", "3", "8"}) {
-        for (const int size : {96, 77}) {
-            const MapFrame frame(
-                scene, "caustic_map",
-                with(with(kSmall, kLevels), {{"reconstruct.levels.diameter", diameter},
-                                             {"reconstruct.map_size", std::to_string(size)}}));
-            const double stored = frame.watts(kAccountDeposited);
-            EXPECT_GT(stored, 0.0);
-            EXPECT_NEAR(storedIn(frame, 0).sum().g, stored, kFlux * stored);
-            const MapTexels coarser = storedIn(frame, 1);
-            int first = 0;
-            int levels = 0;
-            for (int side = (size + 1) / 2; size >> (levels + 1) >= 8; side = (side + 1) / 2) {
-                double sum = 0.0;
-                for (int y = 0; y < side; ++y) {
-                    for (int x = first; x < first + side; ++x)
-                        sum += coarser.at(x, y).g;
-                }
-                ++levels;
-                // What the border clips of splats grows with the texels.
-                const double clipped = std::string(diameter) == "1" ? kFlux : 0.03;
-                EXPECT_NEAR(sum, stored, clipped * stored) << levels << " of " << size;
-                EXPECT_LE(sum, stored * (1.0 + kFlux)) << levels << " of " << size;
-                first += side;
-            }
-            EXPECT_EQ(levels, 3);
-            frame.expectBalance();
-        }
-    }
-}
-
-TEST(Levels, OfPointsAreTheMipChainToTheBit) {
-    const scene::Scene scene = waves();
-    for (const char* size : {"96", "77"}) {
-        const auto render = [&](const char* source) {
-            return MapFrame(scene, "caustic_map",
-                            with(with(kSmall, kLevels), {{"reconstruct.levels.diameter", "1"},
-                                                         {"reconstruct.map_size", size},
-                                                         {"filter.levels.from", source}}));
-        };
-        const MapFrame splats = render("splats");
-        const MapFrame mip = render("mip");
-        EXPECT_EQ(splats.words(), mip.words()) << size;
-        EXPECT_EQ(splats.counts(1), mip.counts(1)) << size;
-        EXPECT_EQ(largestDifference(splats.filtered(), mip.filtered()), 0.0) << size;
-    }
-}
-
-TEST(Levels, OfUniformLightGiveItsIrradiance) {
-    const scene::Scene scene = uniform();
-    for (const char* source : {"splats", "mip"}) {
-        const MapFrame frame(scene, "caustic_map",
-                             with(kLevels, {{"emit.photons", "128x128"},
-                                            {"reconstruct.map_size", "128"},
-                                            {"reconstruct.map_covers", "scene"},
-                                            {"filter.levels.from", source}}));
-        // Four photons a texel, sixteen on one of the level beyond: that one is taken.
-        const Field field = fieldOf(frame, frame.filtered(), 1000.0);
-        EXPECT_NEAR(field.mean, 1000.0, 5.0);
-        EXPECT_LT(field.worst, 0.05);
-    }
-}
-
-// Nodes that store light in maps, with everything that they need besides.
-const std::vector<std::pair<std::string, Settings>> kAll{
-    {"fixed", {{"reconstruct", "fixed"}}},
-    {"blur", {{"reconstruct", "fixed"}, {"filter", "blur"}}},
-    {"four_radii", {{"reconstruct", "four_radii"}, {"filter", "blend"}}},
-    {"levels", kLevels},
-    {"lens", {{"reconstruct", "lens"}}},
-    {"sprites", {{"reconstruct", "sprites"}}},
-    {"triangles", {{"reconstruct", "triangles"}}},
-    {"beams", {{"reconstruct", "beams"}}}};
-
-TEST(Maps, AreTheSameToTheBitInEveryRun) {
-    const scene::Scene scene = waves();
-    for (const auto& [name, settings] : kAll) {
-        const MapFrame first(scene, "caustic_map", with(kSmall, settings));
-        const MapFrame second(scene, "caustic_map", with(kSmall, settings));
-        EXPECT_GT(first.watts(kAccountDeposited), 100.0) << name;
-        EXPECT_EQ(first.words(), second.words()) << name;
-        first.expectBalance();
-    }
-}
-
-TEST(Maps, OfBatchesAreThoseOfAllPhotonsAtOnceToTheBit) {
-    const scene::Scene scene = waves();
-    for (const auto& [name, settings] : kAll) {
-        // Those that join the photons of neighbouring cells share what two batches bring.
-        if (name == "triangles" || name == "beams") continue;
-        const MapFrame all(scene, "caustic_map", with(kSmall, settings));
-        for (const char* batch : {"1000", "4096"}) {
-            const MapFrame parts(scene, "caustic_map",
-                                 with(with(kSmall, settings), {{"emit.batch", batch}}));
-            EXPECT_EQ(all.words(), parts.words()) << name << " " << batch;
-        }
-    }
-}
-
-TEST(Maps, OfAllSizesHoldAllLight) {
-    const scene::Scene scene = uniform();
-    for (const char* size : {"16", "17", "1000", "4096"}) {
-        for (const auto& settings :
-             {Settings{{"reconstruct", "fixed"}},
-              Settings{{"reconstruct", "four_radii"}, {"filter", "blend"}}, kLevels}) {
-            if (std::string(size).size() > 2 && settings.front().second != "fixed") continue;
-            const MapFrame frame(scene, "caustic_map",
-                                 with(settings, {{"emit.photons", "32x32"},
-                                                 {"reconstruct.map_size", size},
-                                                 {"reconstruct.map_covers", "scene"}}));
-            EXPECT_EQ(frame.map().on.views->width(), std::stoi(size));
-            EXPECT_NEAR(frame.watts(kAccountDeposited), 4000.0, 1e-3 * 4000.0);
-            EXPECT_TRUE(frame.renderer().warnings().empty());
-            frame.expectBalance();
-        }
-    }
-}
-
-TEST(Maps, ThatDoNotFitAreHalvedAndTheReportSaysSo) {
-    const scene::Scene scene = uniform();
-    const MapFrame frame(scene, "caustic_map",
-                         {{"emit.photons", "32x32"},
-                          {"reconstruct.map_size", "1024"},
-                          {"reconstruct.map_memory", "1"}});
-    const int width = frame.map().on.views->width();
-    // 24 bytes a texel are the sums alone.
-    EXPECT_LE(24.0 * width * width, 1048576.0);
-    EXPECT_GE(width, 64);
-    ASSERT_EQ(frame.renderer().warnings().size(), 1U);
-    EXPECT_NE(frame.renderer().warnings().front().find("reconstruct.map_memory"),
-              std::string::npos);
-    frame.expectBalance();
-}
-
-TEST(Photons, OfAllNumbersBringTheSameLight) {
-    const scene::Scene scene = uniform();
-    for (const char* photons : {"32x32", "513x7", "2048x2048"}) {
-        const MapFrame frame(scene, "caustic_map",
-                             {{"emit.photons", photons},
-                              {"reconstruct.map_size", "256"},
-                              {"reconstruct.fixed.diameter", "1"}});
-        EXPECT_NEAR(frame.watts(kAccountArrived), 4000.0, 1e-3 * 4000.0) << photons;
-        frame.expectBalance();
-    }
-}
 
 }  // namespace
 }  // namespace kaustik::test

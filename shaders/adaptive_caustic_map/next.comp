@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+// After a batch's photons have been followed: there is room again. One thread.
+#include "adaptive_caustic_map/cells.glsl"
+
+layout(local_size_x = 1) in;
+
+void main() {
+    counting.photons = 0u;
+    counting.batches += 1u;
+    counting.moreBatches = counting.waiting;
+}

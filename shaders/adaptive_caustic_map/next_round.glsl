@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// The end of a round of an adaptive traversal.
+#include "adaptive_caustic_map/cells.glsl"
+
+layout(std430) writeonly buffer PhotonCellList {
+    PhotonList photonCellList;
+};
+uniform uint mostTaken;
+uniform uint mostPhotons;
+uniform uint photonRow;
+
+// With so many cells that wait, and photons.
+void closeRound(uint waiting, uint photons) {
+    counting.emitted += photons - counting.photons;
+    counting.waiting = waiting;
+    counting.photons = photons;
+    photonCellList = photonListOf(photons, photonRow);
+    // A round that would have to stop short waits for the next batch.
+    uint wanted = min(waiting, mostTaken);
+    counting.moreCells = (mostPhotons - photons) / 4u >= wanted ? wanted : 0u;
+}

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// filter.level_sum: what all levels of a multi-resolution map hold of each texel, bilinear between
+// the coarser ones' (WN09, section 3.2.2).
+#include "caustic_map/filtered.glsl"
+#include "caustic_map/sample_level.glsl"
+
+uniform int levels;
+
+void main() {
+    ivec2 texel;
+    if (!texelOfThread(texel)) return;
+    for (int view = 0; view < views; ++view) {
+        vec3 sum = vec3(0.0);
+        for (int level = 0; level < levels; ++level)
+            sum += sampleLevel(texel, level, view);
+        storeFiltered(texel, view, 0, sum);
+    }
+    keepLast(texel);
+}

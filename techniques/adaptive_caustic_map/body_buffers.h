@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// Fronts and backs of each body by itself, so that rays go from one to another (WN09, section
+// 3.1.1): normals, depths and materials, and where photons have beams how the normals turn. A body
+// is an object, or several whose boxes overlap, of which none is told from the others. Each is
+// drawn once for both.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "techniques/adaptive_caustic_map/deferred_buffers.h"
+
+namespace kaustik {
+
+// Closed dielectrics, one or those whose boxes overlap. World space, m.
+struct Body {
+    std::vector<std::size_t> objects;
+    std::vector<std::string> names;
+    std::vector<scene::Bounds> boxes;  // of the objects; overlap no other body's
+};
+[[nodiscard]] std::vector<Body> bodiesOf(const scene::Scene& scene);
+
+// Coarsely sorted, by the nearest points of their boxes: from a point, or along a direction.
+[[nodiscard]] std::vector<Body> nearestFirst(std::vector<Body> bodies, const scene::Light& light);
+[[nodiscard]] std::vector<Body> nearestFirst(std::vector<Body> bodies, const glm::dvec3& eye);
+// "'a', 'b'"
+[[nodiscard]] std::string quoted(const std::vector<std::string>& names);
+// Of what is left of them beyond the first so many; "" where nothing is.
+[[nodiscard]] std::string namesBeyond(const std::vector<Body>& bodies, int most);
+void keepFirst(std::vector<Body>& bodies, int most);
+
+// Arrays: the front and the back of body i are layers 2i and 2i + 1, and after those of all the
+// first surface that is no dielectric.
+struct BodyBuffers {
+    graph::Texture<ViewDepth> depth;
+    graph::Texture<SurfaceTexel> surface;  // normals in the view's space
+    graph::Texture<HitShape> shape;        // the same; where it was asked for
+    Views views;                           // one
+    int bodies = 0;
+    int boxes = 0;
+    const gl::Buffer* boxData = nullptr;  // of deferred::BodyBox; lives as long as the frame
+    // For adaptive_caustic_map/bodies.glsl: "bodyDepth", "bodySurface", "bodyShape"; shaders are
+    // compiled as BODIES, and of more than one as SEVERAL_BODIES.
+    void sample(graph::PassSetup& setup) const;
+    // The block "BodyBoxes", "boxCount" and "bodyCount".
+    void bindTo(gl::Command& command) const;
+};
+
+// How rays that have left a body look for the next one (include/plane_search.glsl).
+struct BodySearchParams {
+    int looks = 48;
+    int iterations = 4;
+    int refinements = 6;
+    template <class R>
+    void reflect(R& r) {
+        r.field(looks, "looks",
+                "Even steps through a body's box in which its front is searched before what "
+                "iteration has found, or where it has found nothing",
+                "", params::range(0, 1024));
+        r.field(iterations, "iterations",
+                "Looks at the front that a ray may meet before the residual's test", "",
+                params::range(1, 64));
+        r.field(refinements, "refinements", "Bisections of the step in which a front was found", "",
+                params::range(0, 32));
+    }
+};
+
+// A deferred::BodyBox an object of these, for `buffers` of one view.
+void setBoxes(FrameBuilder& frame, const std::vector<Body>& bodies, const std::string& prefix,
+              BodyBuffers& buffers);
+
+// What the pass is called, and the names of its textures begin with.
+struct BodyBuffersPass {
+    std::string name;
+    std::string why;
+    std::string prefix;
+    bool hasShape = false;
+    DeferredGeometry geometry = DeferredGeometry::once;
+};
+[[nodiscard]] BodyBuffers drawBodies(FrameBuilder& frame, const Geometry& geometry,
+                                     const Views& views, const std::vector<Body>& bodies,
+                                     const BodyBuffersPass& pass);
+
+}  // namespace kaustik

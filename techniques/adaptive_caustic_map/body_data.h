@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// An object of a body as shaders know it that go from one body to another: the box that holds it,
+// and nothing of other bodies. C++ and GLSL both read this file.
+#pragma once
+
+#include "framework/transport/types.h"
+
+#ifdef __cplusplus
+namespace kaustik::deferred {
+using glm::vec4;
+#endif
+
+// In a view's space, along the world's axes, m (std430). The centre's w: the body's number.
+struct BodyBox {
+    vec4 centerVs;
+    vec4 halfExtent;
+};
+
+#ifdef __cplusplus
+}  // namespace kaustik::deferred
+#endif

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+// emit.deferred: photons from what lights see of fronts, at any place of their views (WN09, section
+// 3.2): on a grid of emit.photons, or one for each cell that an adaptive driver asks for. Out:
+// photons that arrive (flux in W) and the hits that they make; eye view space, m.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "framework/pipeline/frame_builder.h"
+#include "framework/pipeline/stage_params.h"
+#include "techniques/adaptive_caustic_map/deferred_buffers.h"
+#include "techniques/adaptive_caustic_map/nodes.h"
+
+namespace kaustik {
+namespace {
+
+struct DeferredRows {
+    params::Extent grid;
+    int first = 0;
+    int count = 0;
+};
+
+// A thread a photon, for each light in turn.
+void dispatchOverLights(const FrameInputs& inputs, gl::PassContext& context, const Hits& hits,
+                        const Geometry& geometry, const std::vector<DeferredBuffers>& buffers,
+                        const DeferredParams& params, const Samples& samples,
+                        const DeferredRows& rows, bool onlyBeams) {
+    const bool isList = samples.cells.valid();
+    const int first = isList ? 0 : samples.firstLight;
+    const int end =
+        isList ? static_cast<int>(buffers.size())
+               : std::min(samples.firstLight + samples.lights, static_cast<int>(buffers.size()));
+    for (int light = first; light < end; ++light) {
+        const DeferredBuffers& seen = buffers[static_cast<std::size_t>(light)];
+        gl::Command command =
+            context.compute(onlyBeams ? "adaptive_caustic_map/emit_deferred_beams.comp"
+                                      : "adaptive_caustic_map/emit_deferred.comp");
+        if (isList) {
+            command.define("CELL_LIST").storage("LightCells", samples.cells.cells);
+            if (samples.isProbe) command.define("PROBES");
+        } else {
+            command.set("gridSize", glm::ivec2(rows.grid.width, rows.grid.height))
+                .set("firstRow", rows.first)
+                .set("rowsHere", rows.count)
+                .set("firstLight", samples.firstLight);
+            if (!onlyBeams) {
+                command.set("ownRows",
+                            glm::ivec2(samples.firstRow, samples.firstRow + samples.rows));
+            }
+        }
+        if (onlyBeams) {
+            const Photons& photons = hits.incoming;
+            command.texture("photonPosition", photons.position)
+                .texture("photonDirection", photons.direction)
+                .texture("photonFlux", photons.flux)
+                .texture("startSurface", hits.surface)
+                .storage("Photons", photons.list);
+        }
+        seen.views->bindTo(command);
+        seen.bindTo(command);
+        command.params("emit.deferred", params)
+            .set("lightIndex", light)
+            .storage("Instances", inputs.instances.instances)
+            .storage("LightInstances", seen.views->instances(0).instances);
+        inputs.gpuScene.bindTriangles(command, geometry);
+        dispatchOver(command, hits.incoming);
+    }
+}
+
+Hits emitDeferred(FrameBuilder& frame, const DeferredParams& params, Surfaces surfaces,
+                  Samples samples) {
+    const std::vector<DeferredBuffers>& buffers = deferredBuffers(frame, surfaces.geometry);
+    const bool isList = samples.cells.valid();
+    const params::Extent grid = frame.params<EmitParams>("emit").photons;
+    // Cells beside a batch are known to it where they are to be joined with.
+    const int beside = frame.joinsCells() ? 1 : 0;
+    DeferredRows rows{grid, std::max(samples.firstRow - beside, 0), 0};
+    rows.count = std::min(samples.firstRow + samples.rows + beside, grid.height) - rows.first;
+    struct Data {
+        Hits hits;
+        Geometry geometry;
+    };
+    return frame
+        .pass<Data>(
+            "emit.deferred",
+            isList ? "a photon for each cell of the lights' views that is asked for"
+                   : fmt::format("{} photons a light, {} light{}", grid.width * grid.height,
+                                 buffers.size(), buffers.size() == 1 ? "" : "s"),
+            [&](graph::PassSetup& setup, Data& data) {
+                data.geometry = surfaces.geometry;
+                if (data.geometry.heightFields.valid()) setup.read(data.geometry.heightFields);
+                for (const DeferredBuffers& seen : buffers)
+                    seen.read(setup);
+                if (isList) {
+                    setup.read(samples.cells.cells);
+                    setup.read(samples.cells.list);
+                }
+                const int width = isList ? samples.cells.width : grid.width;
+                const int height = isList ? samples.cells.height : rows.count * samples.lights;
+                Photons photons = Photons::create(setup, width, height, samples.suffix,
+                                                  frame.usesBeams(), samples.cells);
+                photons.batch = samples.suffix;
+                if (!isList) {
+                    photons.cells = {grid.width,         rows.first,     rows.count,
+                                     samples.firstLight, samples.lights, 0};
+                }
+                photons.ledger = samples.ledger.valid()
+                                     ? setup.write(samples.ledger)
+                                     : setup.createBuffer<transport::LedgerEntry>(
+                                           "ledger", transport::kAccountCount);
+                photons.store(setup);
+                data.hits = Hits::create(setup, photons);
+                data.hits.store(setup);
+            },
+            [&inputs = frame.inputs(), params, buffers, samples, rows](const Data& data,
+                                                                       gl::PassContext& context) {
+                const Photons& photons = data.hits.incoming;
+                if (!samples.ledger.valid()) context.buffer(photons.ledger).clear();
+                if (!samples.cells.valid()) fillList(context, photons);
+                for (const bool onlyBeams : {false, true}) {
+                    if (onlyBeams && !photons.hasBeams()) continue;
+                    dispatchOverLights(inputs, context, data.hits, data.geometry, buffers, params,
+                                       samples, rows, onlyBeams);
+                }
+            })
+        .hits;
+}
+
+}  // namespace
+
+void registerDeferredEmission(Registry& registry) {
+    registry.node<EmitStage>(
+        "deferred",
+        {.sentence =
+             "Makes photons at any place of a light's view from fronts that are drawn once.",
+         .source = "WN09, sections 3.1 and 3.2",
+         .beams = true,
+         .emitsCells = true},
+        &emitDeferred);
+}
+
+}  // namespace kaustik

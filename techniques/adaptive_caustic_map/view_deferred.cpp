@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// view.deferred: deferred refraction of the eye's rays (WN09, section 3.1), through several bodies
+// (3.1.1): "view.body_buffers" draws each body's fronts and backs once for both, and
+// "view.deferred" looks through them in one pass over the screen. Not in passes from back to front,
+// as published: the ray that leaves a body is searched in the fronts of the others, and refracted
+// by its own direction, or, as the paper does, as if the eye saw that body straight. What it sees
+// in the end is looked up as view.image_space does. In: eye buffer, radiance of the receivers; out:
+// radiance, W/m²/sr, and where each ray left, view space, m. Of what bodies behind the first one
+// reflect nothing is seen, and what is totally reflected inside goes on unbent.
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "framework/pipeline/frame_builder.h"
+#include "techniques/adaptive_caustic_map/body_buffers.h"
+#include "techniques/adaptive_caustic_map/nodes.h"
+#include "techniques/shared/back_faces.h"
+#include "techniques/shared/view_passes.h"
+
+namespace kaustik {
+namespace {
+
+enum class EyesIncidence : int { ray, eye };
+
+struct DeferredViewParams {
+    int layers = 4;
+    EyesIncidence incidence = EyesIncidence::ray;
+    int steps = 12;
+    DistanceInside distance = DistanceInside::estimates;
+    BodySearchParams search;
+    DeferredGeometry geometry = DeferredGeometry::once;
+    SceneLookParams look;
+    template <class R>
+    void reflect(R& r) {
+        r.field(layers, "layers",
+                "Most bodies, those nearest to the eye, that rays go through one after the other",
+                "bodies", params::range(1, 8));
+        r.choice(incidence, "incidence",
+                 "How rays come to a body behind another one. ray: as they have left that; eye: as "
+                 "if the eye saw it straight (WN09, section 3.1.1)",
+                 {"ray", "eye"});
+        reflectDistance(r, distance, steps);
+        search.reflect(r);
+        reflectGeometry(r, geometry);
+        look.reflect(r);
+    }
+};
+
+BodyBuffers bodiesSeenByEye(FrameBuilder& frame, const DeferredViewParams& params,
+                            const Geometry& geometry) {
+    std::vector<Body> bodies = nearestFirst(bodiesOf(frame.scene()), frame.scene().camera.position);
+    if (bodies.empty()) {
+        frame.skip("view.body_buffers", "no dielectric of the scene has an inside");
+        return {};
+    }
+    const std::string names = namesBeyond(bodies, params.layers);
+    if (!names.empty()) {
+        frame.warn(fmt::format(
+            "view=deferred keeps {} of the {} bodies, those nearest to the eye: it looks straight "
+            "through {} (view.deferred.layers).",
+            params.layers, bodies.size(), names));
+    }
+    keepFirst(bodies, params.layers);
+    return drawBodies(frame, geometry, frame.eyeViews(), bodies,
+                      {"view.body_buffers",
+                       fmt::format("the eye's rays go through {} bod{}", bodies.size(),
+                                   bodies.size() == 1 ? "y" : "ies"),
+                       "view.", false, params.geometry});
+}
+
+View refractDeferred(FrameBuilder& frame, const DeferredViewParams& params, Geometry geometry,
+                     EyeBuffer eye, LayeredDepth layers, Radiance receivers, Shadows shadows,
+                     CausticMap /*map*/) {
+    if (!eye.interface.valid()) return seeReceiversAlone(frame, "view.deferred", receivers);
+    const BodyBuffers bodies = bodiesSeenByEye(frame, params, geometry);
+    const View view =
+        frame
+            .pass<ViewPass>(
+                "view.deferred", whyLook(frame),
+                [&](graph::PassSetup& setup, ViewPass& look) {
+                    if (bodies.bodies > 0) bodies.sample(setup);
+                    look = declareLook(frame, setup, params.look, geometry, eye, layers, receivers,
+                                       shadows);
+                },
+                [&inputs = frame.inputs(), params, bodies](const ViewPass& look,
+                                                           gl::PassContext& context) {
+                    drawLook(inputs, context, look, params.look,
+                             "adaptive_caustic_map/view_deferred.frag", [&](gl::Command& command) {
+                                 if (bodies.bodies > 0) bodies.bindTo(command);
+                                 command.params("view.deferred", params);
+                             });
+                })
+            .seen;
+    keepToMirrors(frame, "view.deferred", view, params.look);
+    return view;
+}
+
+}  // namespace
+
+void registerDeferredView(Registry& registry) {
+    registry.node<ViewStage>(
+        "deferred",
+        {"Refracts the eye's rays through several bodies in turn, of each by fronts and backs that "
+         "are drawn once.",
+         "WN09, sections 3.1 and 3.1.1; W05"},
+        &refractDeferred);
+}
+
+}  // namespace kaustik

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include "techniques/shared/photon_paths.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+
+#include "framework/pipeline/ledger.h"
+#include "framework/pipeline/stage_params.h"
+
+namespace kaustik {
+
+int interactionCount(const FrameBuilder& frame, const ModelledPaths& paths) {
+    if (paths.end) return 1;
+    const scene::HitsAgain& again = frame.needs().hitsAgain;
+    const bool canRepeat = paths.transmissionOnly ? again.transmitted : again.reflected;
+    return canRepeat ? frame.params<SpecularParams>("specular").bounces : 1;
+}
+
+std::vector<Samples> batchesOfGrids(const FrameBuilder& frame, int together) {
+    const int most = frame.params<EmitParams>("emit").batch;
+    const params::Extent photons = frame.photonsOfALight();
+    const int lights = std::max(frame.needs().lights, 1);
+    const std::int64_t all = std::int64_t{photons.width} * photons.height * lights;
+    if (all <= most) return {{0, lights, 0, photons.height, "", {}}};
+    int rows = std::clamp(most / photons.width, 1, photons.height);
+    if (rows > together) rows -= rows % together;
+    std::vector<Samples> batches;
+    for (int light = 0; light < lights; ++light) {
+        for (int row = 0; row < photons.height; row += rows) {
+            const std::string suffix =
+                batches.empty() ? "" : fmt::format(".{}", batches.size() + 1);
+            batches.push_back({light, 1, row, std::min(rows, photons.height - row), suffix, {}});
+        }
+    }
+    return batches;
+}
+
+void followPhotons(FrameBuilder& frame, const Surfaces& surfaces, Samples samples, Caustic& caustic,
+                   const PhotonUse& use) {
+    const bool scatters = use.scatters && frame.needs().scatteringMedium;
+    if (use.stores) samples.ledger = caustic.map.ledger;
+    Hits hits = frame.run<EmitStage>(surfaces, samples);
+    int interactions = 1;
+    for (int i = 0; i < interactions; ++i) {
+        const Photons photons = frame.run<SpecularStage>(hits, surfaces);
+        interactions = interactionCount(frame, photons.paths);
+        hits = frame.run<TraceStage>(photons, surfaces);
+        if (use.stores) {
+            const Hits stored = use.arriving ? use.arriving(hits) : hits;
+            caustic.map = frame.run<ReconstructStage>(stored, surfaces, caustic.map);
+            hits.incoming.ledger = caustic.map.ledger;
+        }
+        if (scatters)
+            caustic.inScattered = frame.run<MediaStage>(hits, surfaces.eye, caustic.inScattered);
+    }
+    if (!use.stores) return;
+    // What is still on its way is counted at once, so that the batch need not be kept.
+    caustic.map.ledger = closeBatch(frame, hits, caustic.map.ledger);
+    caustic.last = hits;
+}
+
+void warnOfRefinement(FrameBuilder& frame, const std::string& driver,
+                      const std::set<std::string>& read) {
+    for (const std::string& name : frame.inputs().params.setByUser()) {
+        if (!name.starts_with(RefineStage::name) || read.contains(name)) continue;
+        frame.warn(
+            fmt::format("{} has no effect with driver={}; take driver=adaptive.", name, driver));
+    }
+}
+
+void finishMedia(FrameBuilder& frame, Caustic& caustic) {
+    if (frame.needs().scatteringMedium) {
+        caustic.inScattered = frame.run<BlurStage>(caustic.inScattered);
+        return;
+    }
+    for (const char* stage : {MediaStage::name, BlurStage::name}) {
+        frame.skip(std::string(stage) + "." + frame.chosenNode(stage).name,
+                   "the scene has no medium that scatters");
+    }
+}
+
+}  // namespace kaustik

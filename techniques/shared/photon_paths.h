@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// What drivers do with the photons that they have chosen.
+#pragma once
+
+#include <functional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "framework/pipeline/frame_builder.h"
+
+namespace kaustik {
+
+// How often photons may interact. A path through still water hits it once. Where one can come back,
+// the limit decides, and the ledger says what it cost.
+[[nodiscard]] int interactionCount(const FrameBuilder& frame, const ModelledPaths& paths);
+
+// All photons of the lights' grids at once, or, where they are more than a batch may hold, whole
+// rows of one light's after the other; `together`: rows that one batch has, if it can.
+[[nodiscard]] std::vector<Samples> batchesOfGrids(const FrameBuilder& frame, int together = 1);
+
+// What photons are followed for.
+struct PhotonUse {
+    bool stores = true;    // light that arrives
+    bool scatters = true;  // light in a medium, where the scene has one
+    // Makes of hits those that are stored.
+    std::function<Hits(const Hits&)> arriving = {};
+};
+
+// Emits these samples and follows them from interaction to interaction: what arrives, or is
+// scattered, is added to `caustic` at once. Photons that are stored have the ledger of `caustic`'s
+// map, others that of the samples, which nobody reads.
+void followPhotons(FrameBuilder& frame, const Surfaces& surfaces, Samples samples, Caustic& caustic,
+                   const PhotonUse& use = {});
+
+// Warns of settings of the stage refine that are set and that this driver does not read; those of
+// `read` it does.
+void warnOfRefinement(FrameBuilder& frame, const std::string& driver,
+                      const std::set<std::string>& read = {});
+
+// After the last photons: smooths what a medium scatters, or says why there is none.
+void finishMedia(FrameBuilder& frame, Caustic& caustic);
+
+}  // namespace kaustik
