@@ -18,6 +18,7 @@ import sys
 from collections import defaultdict
 from pathlib import Path
 
+from study import require_one_device
 
 STAGES = ("emit.", "specular.", "trace.", "reconstruct.")
 ERROR = "caustic_irradiance"
@@ -64,6 +65,7 @@ def main() -> int:
         return 1
     with table.open(newline="") as lines:
         rows = list(csv.DictReader(lines))
+    require_one_device([row for row in rows if row.get("status") == "done"], arguments.results)
     curves: dict = defaultdict(lambda: defaultdict(list))
     at_base = {}
     for row in rows:

@@ -314,7 +314,18 @@ def file_name(text: str) -> str:
 
 
 def all_figures(study: Study):
-    """(name of the file, caption, figure), as they are drawn."""
+    """(name of the file, caption, figure), as they are drawn; where there are several models of
+    devices, for each of them."""
+    if len(study.devices) == 1:
+        yield from figures_of(study)
+        return
+    for number, device in enumerate(study.devices, start=1):
+        for name, caption, figure in figures_of(study.on(device)):
+            yield f"{name}-device-{number}", f"On device {number}, {device}: {caption}", figure
+
+
+def figures_of(study: Study):
+    """The same for one model of device, whose times may be compared."""
     repeats = (
         f"Error bars are the standard deviation between {study.repeats} processes"
         f"{f' of {study.seeds} seeds' if study.seeds > 1 else ''}."

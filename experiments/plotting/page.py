@@ -47,10 +47,13 @@ def failures_html(study: Study) -> str:
 
 def facts(study: Study) -> str:
     finished = sum(len(c.rows) for c in study.configurations)
+    devices = f"Device: {study.devices[0]}."
+    if len(study.devices) > 1:
+        listed = "; ".join(f"{number}: {d}" for number, d in enumerate(study.devices, start=1))
+        devices = f"Devices, whose times are never averaged nor drawn together: {listed}."
     return (
         f"{finished} of {study.planned} runs: {len(study.configurations)} configurations, each "
-        f"repeated in up to {study.repeats} processes. Device: {', '.join(study.devices)}. "
-        f"Kaustik {study.version}."
+        f"repeated in up to {study.repeats} processes. {devices} Kaustik {study.version}."
     )
 
 

@@ -45,12 +45,16 @@ def summary(study) -> tuple[list[str], list[list[str]], str]:
         ("warnings", "warnings"),
     ]
     measured = [(c, name) for c, name in measured if study.columns_like(c.replace(".", r"\."))]
-    header = ["settings"] + [axis.label for axis in study.axes] + ["repeats"]
+    devices = study.devices
+    header = ["settings"] + [axis.label for axis in study.axes]
+    header += ["device"] if len(devices) > 1 else []
+    header += ["repeats"]
     header += [name for _, name in measured]
     rows = []
     for configuration in study.configurations:
         row = [configuration.hash[:8]]
         row += [as_text(configuration.axes.get(axis.key)) for axis in study.axes]
+        row += [str(devices.index(configuration.device) + 1)] if len(devices) > 1 else []
         row.append(str(len(configuration.rows)))
         row += [number(configuration.mean(c), configuration.spread(c)) for c, _ in measured]
         rows.append(row)

@@ -3,7 +3,8 @@
 
 A configuration is one choice of all settings but the seed; its repeats are separate processes, of one
 seed or of several. What is said of a configuration is the mean over its repeats, and its spread is
-the standard deviation between them.
+the standard deviation between them. Times of different models of devices are never averaged nor drawn
+together: a configuration that ran on several is one configuration on each.
 """
 
 import csv
@@ -11,7 +12,8 @@ import json
 import math
 import re
 import statistics
-from dataclasses import dataclass, field
+import sys
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 Value = str | float | None
@@ -53,6 +55,23 @@ def evenly(items: list, most: int) -> list:
     return [items[round(i * (len(items) - 1) / (most - 1))] for i in range(most)]
 
 
+def device_of(row: dict) -> str:
+    """The model that the times of a row are of: on a software rasteriser it is the processor."""
+    threads = row.get("threads")
+    parts = [row.get("device"), row.get("cpu"), f"{as_text(as_value(str(threads)))} threads" if threads else None]
+    return ", ".join(str(part) for part in parts if part)
+
+
+def require_one_device(rows: list[dict], results: Path) -> None:
+    """For tables that compare times of all rows; ends the program where they are of several models."""
+    devices = sorted({device_of(row) for row in rows})
+    if len(devices) > 1:
+        sys.exit(
+            f"{results} holds times of {len(devices)} models of devices, which cannot be compared: "
+            f"{'; '.join(devices)}. 'kaustik experiment report' keeps them apart."
+        )
+
+
 @dataclass
 class Axis:
     """A setting that the study varies."""
@@ -69,11 +88,12 @@ class Axis:
 
 @dataclass
 class Configuration:
-    """All repeats of one choice of settings, whatever their seeds."""
+    """All repeats of one choice of settings on one model of device, whatever their seeds."""
 
     hash: str  # of the first seed
     axes: dict[str, Value]
     products: list[int]
+    device: str = ""
     label: str = ""
     rows: list[dict[str, Value]] = field(default_factory=list)  # finished repeats
     folders: list[Path] = field(default_factory=list)
@@ -117,8 +137,11 @@ class Study:
 
     @property
     def devices(self) -> list[str]:
-        found = {str(row.get("device")) for c in self.configurations for row in c.rows}
-        return sorted(found)
+        return sorted({c.device for c in self.configurations})
+
+    def on(self, device: str) -> "Study":
+        """What of it ran on that model."""
+        return replace(self, configurations=[c for c in self.configurations if c.device == device])
 
 
 def read_json(path: Path) -> dict:
@@ -144,8 +167,11 @@ def label_all(configurations: list[Configuration], axes: list[Axis]) -> None:
         if len({as_text(c.axes.get(axis.key)) for c in configurations}) > 1
     ]
     names = short_names(varied)
+    devices = sorted({c.device for c in configurations})
     for configuration in configurations:
         parts = [f"{names[key]} {as_text(configuration.axes.get(key))}" for key in varied]
+        if len(devices) > 1:
+            parts.append(f"device {devices.index(configuration.device) + 1}")
         configuration.label = ", ".join(parts) or "all runs"
 
 
@@ -177,6 +203,11 @@ def read_study(folder: Path) -> Study:
         if axis["key"] != SEED
     ]
     by_hash = read_configurations(described["runs"])
+    samples = {}
+    if (folder / "samples.json").exists():
+        for run in read_json(folder / "samples.json").get("runs", []):
+            samples[run["hash"], run["repeat"]] = run["frame_samples_ms"]
+    on_devices = {}
     seeds = len({run["axes"].get(SEED) for run in described["runs"]})
     failures = []
     try:
@@ -189,18 +220,24 @@ def read_study(folder: Path) -> Study:
                 if row.get("status") == "failed":
                     failures.append(row)
                 elif configuration is not None:
-                    configuration.rows.append(row)
-                    configuration.folders.append(folder / cells["folder"])
+                    device = device_of(row)
+                    own = on_devices.setdefault(
+                        (id(configuration), device),
+                        replace(configuration, device=device, rows=[], folders=[], frame_samples_ms=[]),
+                    )
+                    own.rows.append(row)
+                    own.folders.append(folder / cells["folder"])
+                    if (cells["hash"], row["repeat"]) in samples:
+                        own.frame_samples_ms.append(samples[cells["hash"], row["repeat"]])
     except OSError as error:
         raise StudyError(f"{folder / 'runs.csv'} cannot be read: {error.strerror}.") from error
     except KeyError as error:
         raise StudyError(f"{folder / 'runs.csv'} has no column {error}.") from error
-    if (folder / "samples.json").exists():
-        for run in read_json(folder / "samples.json").get("runs", []):
-            if run["hash"] in by_hash:
-                by_hash[run["hash"]].frame_samples_ms.append(run["frame_samples_ms"])
-    # Each once, in the order of their first runs.
-    configurations = [c for c in {id(c): c for c in by_hash.values()}.values() if c.rows]
+    # In the order of their first runs.
+    order = {id(c): index for index, c in reversed(list(enumerate(by_hash.values())))}
+    configurations = [
+        c for (of, _), c in sorted(on_devices.items(), key=lambda item: (order[item[0][0]], item[0][1]))
+    ]
     if not configurations:
         raise StudyError(f"{folder / 'runs.csv'} has no finished run, so there is nothing to draw.")
     label_all(configurations, axes)

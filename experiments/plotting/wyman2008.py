@@ -23,6 +23,8 @@ import sys
 from collections import defaultdict
 from pathlib import Path
 
+from study import require_one_device
+
 STAGES = ("geometry.", "emit.", "specular.", "light.", "trace.", "reconstruct.", "filter.", "gather.",
           "temporal.", "layers.")
 
@@ -39,6 +41,7 @@ def runs_of(results: Path) -> list[dict]:
     """The rows of runs.csv that are done, each with its report."""
     with (results / "runs.csv").open(newline="") as lines:
         rows = [row for row in csv.DictReader(lines) if row.get("status") == "done"]
+    require_one_device(rows, results)
     for row in rows:
         row["report"] = json.loads((results / row["folder"] / "report.json").read_text())
     return rows
