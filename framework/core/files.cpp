@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "framework/core/files.h"
 
+#include <dlfcn.h>
 #include <fmt/format.h>
+#include <link.h>
 #include <signal.h>
 #include <unistd.h>
 
@@ -13,12 +15,17 @@
 #include <fstream>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <system_error>
 #include <utility>
 #include <vector>
 
 #include "framework/core/error.h"
+
+// The prefix, of a program that is linked elsewhere with what was installed: kaustikConfig.cmake
+// defines it there, and nobody does here.
+extern "C" [[gnu::weak]] const char* kaustikPrefix();
 
 namespace kaustik {
 namespace fs = std::filesystem;
@@ -27,24 +34,84 @@ std::string versionString() {
     return KAUSTIK_VERSION;
 }
 
-fs::path executableFolder() {
+namespace {
+
+// The program that this code is linked into, or the shared library: a module of Python, say.
+fs::path ownFile() {
+    Dl_info info{};
+    void* found = nullptr;
+    const bool isKnown = ::dladdr1(reinterpret_cast<const void*>(&versionString), &info, &found,
+                                   RTLD_DL_LINKMAP) != 0;
+    const auto* const library = static_cast<const link_map*>(found);
     std::error_code error;
-    const fs::path self = fs::read_symlink("/proc/self/exe", error);
-    return error ? fs::current_path() : self.parent_path();
+    // The program itself has no name there, or the one that it was called by.
+    const bool isLibrary = isKnown && library != nullptr && library->l_name[0] != '\0';
+    const fs::path file = fs::canonical(isLibrary ? library->l_name : "/proc/self/exe", error);
+    return error ? fs::current_path() / "kaustik" : file;
 }
+
+struct Places {
+    fs::path root;  // "" where there is none
+    fs::path programs;
+    fs::path helpers;
+};
+
+std::optional<Places> placesInPrefix(const fs::path& prefix) {
+    const fs::path root = prefix / "share/kaustik";
+    std::error_code error;
+    if (!fs::is_directory(root / "shaders", error)) return {};
+    return Places{root, prefix / "bin", prefix / "lib/kaustik"};
+}
+
+// CMake leaves there where the sources are, so that no program has to know.
+std::optional<Places> placesInBuildTree(const fs::path& folder) {
+    std::ifstream file(folder / "kaustik_source_tree");
+    std::string sources;
+    if (!std::getline(file, sources)) return {};
+    return Places{sources, folder / "bin", folder / "bin"};
+}
+
+const Places& places() {
+    static const Places found = [] {
+        if (kaustikPrefix != nullptr) {
+            if (const std::optional<Places> linked = placesInPrefix(kaustikPrefix())) {
+                return *linked;
+            }
+        }
+        const fs::path own = ownFile().parent_path();
+        for (fs::path folder = own; folder.has_relative_path(); folder = folder.parent_path()) {
+            if (const std::optional<Places> installed = placesInPrefix(folder)) return *installed;
+            if (const std::optional<Places> built = placesInBuildTree(folder)) return *built;
+        }
+        return Places{{}, own, own};
+    }();
+    return found;
+}
+
+}  // namespace
 
 const fs::path& projectRoot() {
     static const fs::path root = [] {
         if (const char* fromEnvironment = std::getenv("KAUSTIK_ROOT")) {
             if (*fromEnvironment != '\0') return fs::path(fromEnvironment);
         }
-        for (fs::path folder = executableFolder(); folder.has_relative_path();
-             folder = folder.parent_path()) {
-            if (fs::exists(folder / "shaders/common")) return folder;
+        if (places().root.empty()) {
+            throw IoError(fmt::format(
+                "There are no shaders and scenes near {}: it is in neither an installed prefix nor "
+                "a build tree. Set KAUSTIK_ROOT to share/kaustik of a prefix, or to a source tree.",
+                ownFile().string()));
         }
-        return fs::path(KAUSTIK_SOURCE_DIR);
+        return places().root;
     }();
     return root;
+}
+
+const fs::path& programFolder() {
+    return places().programs;
+}
+
+const fs::path& helperFolder() {
+    return places().helpers;
 }
 
 std::string readFile(const fs::path& path) {
@@ -126,6 +193,10 @@ void makeFolder(const fs::path& folder) {
 }
 
 }  // namespace
+
+fs::path unfinishedBeside(const fs::path& path) {
+    return temporaryFor(path.has_parent_path() ? path.parent_path() : fs::path("."), path);
+}
 
 void writeFileWhole(const fs::path& path, const std::function<void(const fs::path&)>& write) {
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");

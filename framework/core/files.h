@@ -11,15 +11,25 @@ namespace kaustik {
 
 [[nodiscard]] std::string versionString();
 
-// The folder that holds shaders/, experiments/ and meshes/: $KAUSTIK_ROOT, else the nearest such
-// folder above the executable, else the source tree that the program was built from.
+// The folder that holds shaders/, experiments/ and meshes/: $KAUSTIK_ROOT, else share/kaustik of
+// the prefix that this code is installed in or was linked from, else the source tree of the build
+// tree that it is in. Throws IoError where it is in none of these.
 [[nodiscard]] const std::filesystem::path& projectRoot();
 
-// The folder of the running executable; modules that are loaded at run time lie beside it.
-[[nodiscard]] std::filesystem::path executableFolder();
+// The folder of the program kaustik: bin of that prefix or build tree, else as the next.
+[[nodiscard]] const std::filesystem::path& programFolder();
+
+// The folder of kaustik_reader and of the modules that are loaded at run time: lib/kaustik of that
+// prefix, else bin/ of that build tree, else the folder that the program itself is in.
+[[nodiscard]] const std::filesystem::path& helperFolder();
 
 // The whole file as bytes. Throws IoError (missing, a directory, no permission) naming the file.
 [[nodiscard]] std::string readFile(const std::filesystem::path& path);
+
+// A hidden name beside `path` for what is not finished, of this process alone, also where several
+// machines write into the folder. What a process of this machine has left under such a name
+// because it was killed, the next writeFileWhole() into the folder removes.
+[[nodiscard]] std::filesystem::path unfinishedBeside(const std::filesystem::path& path);
 
 // Calls `write` with a temporary path beside `path` (same extension), then renames it over `path`.
 // When `write` throws, or the disk is full, nothing is left behind and `path` is untouched. What a

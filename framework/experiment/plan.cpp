@@ -125,7 +125,7 @@ class Planner {
         if (key == "time") return {key, "s", "Time of the animation", {}};
         if (key == "time_step") return {key, "s", "Time from frame to frame", {}};
         if (key == "size") return {key, "px", "Picture size", {}};
-        if (Resolver::isRunKey(key)) return {key, "", "", {}};
+        if (isRunKey(key)) return {key, "", "", {}};
         for (const params::NamedField& named : params.all()) {
             if (named.fullName == key) return {key, named.field.unit, named.field.sentence, {}};
         }

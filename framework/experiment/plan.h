@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: MIT
 // All runs of an experiment, with every setting resolved, before any of them starts. What is wrong
-// with the experiment is found here.
-//
-// Keys of [base] and [permute]: scene (a name or a file beside the experiment), technique, size
-// ("WIDTHxHEIGHT"), frames, warmup, seed, precise, time (seconds), reference (none, auto or a
-// file), reference_photons (of auto, at least), disable (a list of passes), and every parameter by
-// its name or a unique shorter form.
+// with the experiment is found here; setting.h has the keys of [base] and [permute].
 #pragma once
 
 #include <functional>
@@ -60,7 +55,6 @@ struct RunDefaults {
     std::string reference;
     long long referencePhotons = 0;
 };
-inline constexpr long long kMostReferencePhotons = 1'000'000'000'000'000;
 
 // The parameters of a technique with their defaults; throws ConfigError for an unknown one.
 using MakeParams = std::function<params::ParamSet(const std::string& technique)>;

@@ -4,12 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "framework/core/error.h"
 #include "framework/core/files.h"
-#include "framework/core/names.h"
 #include "framework/experiment/fingerprint.h"
 #include "framework/scene/files/scene_file.h"
 
@@ -18,110 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-const std::vector<std::string>& runKeys() {
-    static const std::vector<std::string> keys = {"scene",
-                                                  "technique",
-                                                  "size",
-                                                  "frames",
-                                                  "warmup",
-                                                  "seed",
-                                                  "precise",
-                                                  "time",
-                                                  "time_step",
-                                                  "reference",
-                                                  "reference_photons",
-                                                  "disable"};
-    return keys;
-}
-
-[[noreturn]] void fail(const Setting& setting, const std::string& message) {
-    throw ConfigError(fmt::format("{}: {}", setting.place, message));
-}
-
-std::string textOf(const Setting& setting) {
-    if (setting.value.is_array()) {
-        fail(setting, fmt::format("{} takes one value, not a list.", setting.key));
-    }
-    return setting.value.is_string() ? setting.value.get<std::string>() : setting.value.dump();
-}
-
-std::string requireText(const Setting& setting) {
-    if (!setting.value.is_string()) {
-        fail(setting, fmt::format("{} must be text, not {}.", setting.key, setting.value.dump()));
-    }
-    return setting.value.get<std::string>();
-}
-
-long long requireWhole(const Setting& setting, long long minimum, long long maximum) {
-    const bool isWhole = setting.value.is_number_integer();
-    const long long value = isWhole ? setting.value.get<long long>() : 0;
-    if (!isWhole || value < minimum || value > maximum) {
-        fail(setting, fmt::format("{} must be a whole number from {} to {}, not {}.", setting.key,
-                                  minimum, maximum, setting.value.dump()));
-    }
-    return value;
-}
-
-double requireSeconds(const Setting& setting) {
-    const bool isNumber = setting.value.is_number();
-    if (!isNumber || !std::isfinite(setting.value.get<double>())) {
-        fail(setting, fmt::format("{} must be a number of seconds, not {}.", setting.key,
-                                  setting.value.dump()));
-    }
-    return setting.value.get<double>();
-}
-
-std::vector<std::string> requireTexts(const Setting& setting) {
-    if (setting.value.is_string()) return {setting.value.get<std::string>()};
-    if (!setting.value.is_array()) {
-        fail(setting,
-             fmt::format("{} must be a list of texts, not {}.", setting.key, setting.value.dump()));
-    }
-    auto texts = setting.value.get<std::vector<std::string>>();
-    std::sort(texts.begin(), texts.end());
-    texts.erase(std::unique(texts.begin(), texts.end()), texts.end());
-    return texts;
-}
-
-std::string requireSize(const Setting& setting) {
-    params::Extent size;
-    const params::Field field{"size", "", "px", &size, 1.0, 16384.0, {}};
-    field.set(textOf(setting), "size", setting.place);
-    return field.text();
-}
-
-// The full name of a parameter; a key that is none is compared with the keys of a run as well.
-std::string parameterName(const params::ParamSet& params, const Setting& setting) {
-    try {
-        return params.resolve(setting.key, setting.place);
-    } catch (const ConfigError&) {
-        std::vector<std::string> names = runKeys();
-        for (const params::NamedField& named : params.all())
-            names.push_back(named.fullName);
-        const std::string nearest = nearestName(setting.key, names);
-        if (!Resolver::isRunKey(nearest)) throw;
-        fail(setting, fmt::format("'{}' is not a key; did you mean '{}'?", setting.key, nearest));
-    }
-}
-
-// Full keys of the settings in their order. Throws where two of them mean the same.
-std::vector<std::string> fullKeysOf(const std::vector<Setting>& settings,
-                                    const params::ParamSet& params) {
-    std::map<std::string, const Setting*> writtenAs;
-    std::vector<std::string> keys;
-    for (const Setting& setting : settings) {
-        keys.push_back(Resolver::isRunKey(setting.key) ? setting.key
-                                                       : parameterName(params, setting));
-        const auto [other, isNew] = writtenAs.emplace(keys.back(), &setting);
-        if (!isNew) {
-            fail(setting,
-                 fmt::format("'{}' and '{}' ({}) both set {}; leave one of them out.", setting.key,
-                             other->second->key, other->second->place, keys.back()));
-        }
-    }
-    return keys;
-}
 
 template <class T>
 std::string_view bytesOf(const std::vector<T>& values) {
@@ -150,18 +44,12 @@ Resolver::Resolver(fs::path specFile, RunDefaults defaults, MakeParams makeParam
       defaults_(std::move(defaults)),
       makeParams_(std::move(makeParams)) {}
 
-bool Resolver::isRunKey(const std::string& key) {
-    return std::find(runKeys().begin(), runKeys().end(), key) != runKeys().end();
-}
-
 const Resolver::KnownScene& Resolver::scene(const Setting& setting) {
-    const std::string name = requireText(setting);
+    const auto name = runValue(setting).get<std::string>();
     const auto found = scenes_.find(name);
     if (found != scenes_.end()) return found->second;
-    // A file is looked for beside the experiment, wherever the program is started.
     KnownScene known;
-    known.argument =
-        scene::isSceneFile(name) ? fs::absolute(specFile_.parent_path() / name).string() : name;
+    known.argument = sceneArgument(setting, specFile_);
     try {
         const scene::Scene loaded = scene::loadScene(known.argument);
         known.timeSeconds = loaded.timeSeconds;
@@ -169,7 +57,7 @@ const Resolver::KnownScene& Resolver::scene(const Setting& setting) {
                           {"fingerprint", fingerprint(readFile(loaded.file))},
                           {"contents", contentsOf(loaded)}};
     } catch (const ConfigError& error) {
-        fail(setting, error.what());
+        failAt(setting, error.what());
     } catch (const IoError& error) {
         throw IoError(fmt::format("{}: {}", setting.place, error.what()));
     }
@@ -177,17 +65,11 @@ const Resolver::KnownScene& Resolver::scene(const Setting& setting) {
 }
 
 std::pair<json, std::string> Resolver::reference(const Setting& setting) const {
-    const std::string name = requireText(setting);
-    if (name == "none" || name == "auto") return {name, name};
-    const fs::path file = fs::absolute(specFile_.parent_path() / name);
-    if (!fs::is_regular_file(file)) {
-        fail(setting, fmt::format("reference is none, auto or a file beside the experiment, and "
-                                  "there is no file '{}'{}",
-                                  name, didYouMean(name, {"none", "auto"})) +
-                          (didYouMean(name, {"none", "auto"}).empty() ? "." : ""));
-    }
-    return {json{{"name", file.filename().string()}, {"fingerprint", fingerprint(readFile(file))}},
-            file.string()};
+    const std::string argument = referenceArgument(setting, specFile_);
+    if (argument == "none" || argument == "auto") return {argument, argument};
+    return {json{{"name", fs::path(argument).filename().string()},
+                 {"fingerprint", fingerprint(readFile(argument))}},
+            argument};
 }
 
 Resolver::Resolved Resolver::resolve(const std::vector<Setting>& base,
@@ -214,12 +96,12 @@ Resolver::Resolved Resolver::resolve(const std::vector<Setting>& base,
             if (isRunKey(setting.key)) values[setting.key] = setting;
         }
     }
-    const std::string technique = requireText(values["technique"]);
+    const std::string technique = runValue(values["technique"]).get<std::string>();
     Resolved result;
     try {
         result.params = makeParams_(technique);
     } catch (const ConfigError& error) {
-        fail(values["technique"], error.what());
+        failAt(values["technique"], error.what());
     }
     for (const std::vector<Setting>* settings : {&base, &chosen}) {
         result.fullKeys = fullKeysOf(*settings, result.params);
@@ -232,29 +114,25 @@ Resolver::Resolved Resolver::resolve(const std::vector<Setting>& base,
 
     const KnownScene& scene = this->scene(values["scene"]);
     const bool hasTime = values.contains("time");
-    const double time = hasTime ? requireSeconds(values["time"]) : scene.timeSeconds;
+    const double time = hasTime ? runValue(values["time"]).get<double>() : scene.timeSeconds;
     const bool hasTimeStep = values.contains("time_step");
-    const double timeStep = hasTimeStep ? requireSeconds(values["time_step"]) : 0.0;
-    if (!values["precise"].value.is_boolean()) {
-        fail(values["precise"], "precise must be true or false.");
-    }
-    const bool precise = values["precise"].value.get<bool>();
+    const double timeStep = hasTimeStep ? runValue(values["time_step"]).get<double>() : 0.0;
+    const bool precise = runValue(values["precise"]).get<bool>();
     const auto [reference, referenceArgument] = this->reference(values["reference"]);
-    result.settings = {
-        {"schema", "kaustik.settings/1"},
-        {"scene", scene.identity},
-        {"technique", technique},
-        {"parameters", result.params.json()},
-        {"disable", requireTexts(values["disable"])},
-        {"size", requireSize(values["size"])},
-        {"frames", requireWhole(values["frames"], 1, 1000000)},
-        {"warmup", requireWhole(values["warmup"], 0, 1000000)},
-        {"seed", requireWhole(values["seed"], INT64_MIN, INT64_MAX)},
-        {"precise", precise},
-        {"time_s", time},
-        {"reference", reference},
-        {"reference_photons", requireWhole(values["reference_photons"], 1, kMostReferencePhotons)},
-        {"version", versionString()}};
+    result.settings = {{"schema", "kaustik.settings/1"},
+                       {"scene", scene.identity},
+                       {"technique", technique},
+                       {"parameters", result.params.json()},
+                       {"disable", runValue(values["disable"])},
+                       {"size", runValue(values["size"])},
+                       {"frames", runValue(values["frames"])},
+                       {"warmup", runValue(values["warmup"])},
+                       {"seed", runValue(values["seed"])},
+                       {"precise", precise},
+                       {"time_s", time},
+                       {"reference", reference},
+                       {"reference_photons", runValue(values["reference_photons"])},
+                       {"version", versionString()}};
 
     // Only where it is there, so that studies of still scenes keep the folders that they have.
     if (hasTimeStep) result.settings["time_step_s"] = timeStep;

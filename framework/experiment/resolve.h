@@ -30,7 +30,6 @@ class Resolver {
     // The value that a run has for a full key, as a table would show it.
     [[nodiscard]] static nlohmann::json valueOf(const nlohmann::json& settings,
                                                 const std::string& fullKey);
-    [[nodiscard]] static bool isRunKey(const std::string& key);
 
   private:
     struct KnownScene {

@@ -31,12 +31,8 @@ std::string checksum(const std::string& bytes) {
     return fmt::format("{:08x}", ::crc32_z(0, data, bytes.size()));
 }
 
-json parseJson(const fs::path& file) {
-    const json parsed = json::parse(readFile(file), nullptr, false);
-    if (parsed.is_discarded()) {
-        throw IoError(fmt::format("{} is not valid JSON.", file.string()));
-    }
-    return parsed;
+json readJson(const fs::path& file) {
+    return parseJson(readFile(file), file.string());
 }
 
 json manifestOf(const fs::path& folder) {
@@ -81,7 +77,7 @@ std::string folderName(const PlannedRun& run, int repeat) {
 FinishedRun readFinishedRun(const fs::path& folder, const PlannedRun& run, int repeat) {
     FinishedRun finished;
     const fs::path recordFile = folder / kRecord;
-    finished.record = parseJson(recordFile);
+    finished.record = readJson(recordFile);
     require(finished.record.is_object() && finished.record.value("schema", "") == "kaustik.run/1",
             recordFile, "this is not a kaustik.run/1");
     require(finished.record.value("settings", json()) == run.settings, recordFile,
@@ -95,13 +91,13 @@ FinishedRun readFinishedRun(const fs::path& folder, const PlannedRun& run, int r
         require(expected == json{{"bytes", bytes.size()}, {"crc32", checksum(bytes)}},
                 folder / name, "this file is damaged");
     }
-    finished.report = parseJson(folder / "report.json");
-    finished.samples = parseJson(folder / "samples.json");
+    finished.report = readJson(folder / "report.json");
+    finished.samples = readJson(folder / "samples.json");
     return finished;
 }
 
 void sealRun(const fs::path& folder, const PlannedRun& run, int repeat, double wallSeconds) {
-    requireReportOf(parseJson(folder / "report.json"), run, folder / "report.json");
+    requireReportOf(readJson(folder / "report.json"), run, folder / "report.json");
     const json record = {{"schema", "kaustik.run/1"},
                          {"version", versionString()},
                          {"hash", run.hash},
@@ -115,10 +111,10 @@ void sealRun(const fs::path& folder, const PlannedRun& run, int repeat, double w
 
 void putInPlace(const fs::path& fresh, const fs::path& folder) {
     std::error_code error;
-    if (!fs::exists(folder)) {
-        fs::rename(fresh, folder, error);
-    } else if (::renameat2(AT_FDCWD, fresh.c_str(), AT_FDCWD, folder.c_str(), RENAME_EXCHANGE) ==
-               0) {
+    fs::rename(fresh, folder, error);  // fails where there is one, perhaps since a moment ago
+    if (!error) return;
+    error.clear();
+    if (::renameat2(AT_FDCWD, fresh.c_str(), AT_FDCWD, folder.c_str(), RENAME_EXCHANGE) == 0) {
         fs::remove_all(fresh, error);
         error.clear();
     } else {

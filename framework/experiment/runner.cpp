@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "framework/experiment/runner.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <unistd.h>
 
-#include <cerrno>
 #include <chrono>
-#include <cstring>
 #include <map>
 #include <set>
 #include <system_error>
@@ -17,9 +12,10 @@
 #include "framework/core/error.h"
 #include "framework/core/files.h"
 #include "framework/core/json_text.h"
+#include "framework/experiment/deal.h"
 #include "framework/experiment/process.h"
+#include "framework/experiment/results.h"
 #include "framework/experiment/run_folder.h"
-#include "framework/experiment/table.h"
 
 namespace kaustik::experiment {
 namespace {
@@ -29,85 +25,36 @@ using nlohmann::json;
 
 using Clock = std::chrono::steady_clock;
 
-constexpr const char* kUnfinished = ".part";
 constexpr std::chrono::seconds kTimeBetweenTables{5};
-
-// The folder of results, held by this process alone until it ends, however that happens.
-class OutputFolder {
-  public:
-    explicit OutputFolder(const fs::path& path) {
-        std::error_code error;
-        fs::create_directories(path, error);
-        if (error) {
-            throw IoError(fmt::format("--out: the folder {} cannot be made: {}.", path.string(),
-                                      error.message()));
-        }
-        lock_ = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-        if (lock_ >= 0 && ::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-            ::close(lock_);
-            throw ConfigError(
-                fmt::format("--out: another experiment is writing into {}; wait for it, or give "
-                            "another folder.",
-                            path.string()));
-        }
-        // What a process left behind that was killed.
-        for (const fs::directory_entry& entry : fs::directory_iterator(path)) {
-            const std::string name = entry.path().filename().string();
-            if (name.starts_with('.') && name.ends_with(kUnfinished)) {
-                std::error_code ignored;
-                fs::remove_all(entry.path(), ignored);
-            }
-        }
-    }
-    ~OutputFolder() {
-        if (lock_ >= 0) ::close(lock_);
-    }
-    OutputFolder(const OutputFolder&) = delete;
-    OutputFolder& operator=(const OutputFolder&) = delete;
-
-  private:
-    int lock_ = -1;
-};
-
-json describe(const Plan& plan) {
-    json axes = json::array();
-    for (const AxisDescription& axis : plan.axes) {
-        axes.push_back({{"key", axis.key},
-                        {"unit", axis.unit},
-                        {"description", axis.sentence},
-                        {"products", axis.products}});
-    }
-    json runs = json::array();
-    for (const PlannedRun& run : plan.runs) {
-        runs.push_back({{"hash", run.hash}, {"axes", run.axes}, {"products", run.products}});
-    }
-    return {{"schema", "kaustik.experiment/1"},
-            {"version", versionString()},
-            {"name", plan.spec.name},
-            {"description", plan.spec.description},
-            {"repeats", plan.spec.repeats},
-            {"axes", axes},
-            {"runs", runs}};
-}
 
 struct Task {
     const PlannedRun* run;
     int repeat;
-    // One of the two, once it is finished:
-    Row row;
-    json samples;
+    Result result;  // once it is finished
 };
 
 class Runner {
   public:
     Runner(const Plan& plan, const RunnerOptions& options, const RunnerHooks& hooks)
-        : options_(options), hooks_(hooks), folder_(options.out) {
+        : options_(options),
+          hooks_(hooks),
+          folder_(options.out,
+                  options.shard ? OutputFolder::Use::shared : OutputFolder::Use::alone) {
+        const std::vector<const PlannedRun*> runs = runsOf(plan, options.shard.value_or(Shard()));
         for (int repeat = 1; repeat <= plan.spec.repeats; ++repeat) {
-            for (const PlannedRun& run : plan.runs)
-                tasks_.push_back({&run, repeat, {}, {}});
+            for (const PlannedRun* run : runs)
+                tasks_.push_back({run, repeat, {}});
         }
         summary_.planned = static_cast<int>(tasks_.size());
-        writeFileWhole(options_.out / "experiment.json", jsonText(describe(plan), 2) + "\n");
+        const fs::path description = options_.out / "experiment.json";
+        const std::string text = jsonText(describe(plan), 2) + "\n";
+        if (options.shard && fs::exists(description) && readFile(description) != text) {
+            throw ConfigError(fmt::format(
+                "--out: {} holds results of another study, or of this one before its file, a scene "
+                "or the program changed; give another folder.",
+                options_.out.string()));
+        }
+        writeFileWhole(description, text);
     }
 
     RunnerSummary run() {
@@ -128,18 +75,13 @@ class Runner {
             writeRowsNowAndThen();
             hooks_.onProgress(summary_.done, static_cast<int>(left.size()));
         }
-        writeRows();
-        writeSamples();
+        writeTables();
         return summary_;
     }
 
   private:
     [[nodiscard]] fs::path pathOf(const Task& task) const {
-        return options_.out / folderName(*task.run, task.repeat);
-    }
-
-    [[nodiscard]] fs::path failureOf(const Task& task) const {
-        return options_.out / (folderName(*task.run, task.repeat) + ".failed.json");
+        return runFolder(options_.out, *task.run, task.repeat);
     }
 
     [[nodiscard]] bool isFinished(Task& task) {
@@ -154,20 +96,13 @@ class Runner {
     }
 
     void gather(Task& task) const {
-        const FinishedRun finished = readFinishedRun(pathOf(task), *task.run, task.repeat);
-        task.row = identityColumns(*task.run, task.repeat, "");
-        const Row results = resultColumns(finished.report);
-        task.row.insert(task.row.end(), results.begin(), results.end());
-        task.samples = {{"hash", task.run->hash},
-                        {"repeat", task.repeat},
-                        {"frame_samples_ms", finished.samples.at("frame_samples_ms")},
-                        {"passes", finished.samples.at("passes")}};
+        task.result =
+            resultOf(*task.run, task.repeat, readFinishedRun(pathOf(task), *task.run, task.repeat));
     }
 
     // Gives false when it was interrupted; nothing is left of the run then.
     [[nodiscard]] bool perform(Task& task) {
-        const fs::path fresh =
-            options_.out / fmt::format(".{}{}", folderName(*task.run, task.repeat), kUnfinished);
+        const fs::path fresh = unfinishedBeside(pathOf(task));
         std::vector<std::string> words = {"kaustik", "run"};
         for (const auto* arguments : {&task.run->sceneArguments, &task.run->runArguments})
             words.insert(words.end(), arguments->begin(), arguments->end());
@@ -190,7 +125,7 @@ class Runner {
         fs::remove_all(fresh, ignored);
         if (outcome.interrupted) return false;
         if (problem.empty()) {
-            fs::remove(failureOf(task), ignored);
+            fs::remove(failureFile(options_.out, *task.run, task.repeat), ignored);
         } else {
             recordFailure(task, outcome.exitCode, problem);
         }
@@ -204,48 +139,38 @@ class Runner {
                               {"exit_code", exitCode},
                               {"message", problem},
                               {"settings", task.run->settings}};
-        writeFileWhole(failureOf(task), jsonText(failure, 2) + "\n");
-        task.row = identityColumns(*task.run, task.repeat, problem);
+        writeFileWhole(failureFile(options_.out, *task.run, task.repeat),
+                       jsonText(failure, 2) + "\n");
+        task.result = failedResult(*task.run, task.repeat, problem);
         ++summary_.failed;
         if (summary_.firstFailure.empty()) summary_.firstFailure = problem;
     }
 
-    // All tasks that have something to tell, the repeats of a run beside each other, which is how
-    // people read them.
-    [[nodiscard]] std::vector<const Task*> inReadingOrder() const {
-        std::map<std::string, std::vector<const Task*>> repeatsOf;
+    [[nodiscard]] std::vector<const Result*> inReadingOrder() const {
+        std::map<std::string, std::vector<const Result*>> repeatsOf;
         for (const Task& task : tasks_)
-            repeatsOf[task.run->hash].push_back(&task);
-        std::vector<const Task*> ordered;
+            repeatsOf[task.run->hash].push_back(&task.result);
+        std::vector<const Result*> ordered;
         for (const Task& first : tasks_) {
             if (first.repeat > 1) break;
-            for (const Task* task : repeatsOf[first.run->hash]) {
-                if (!task->row.empty()) ordered.push_back(task);
-            }
+            const auto& repeats = repeatsOf[first.run->hash];
+            ordered.insert(ordered.end(), repeats.begin(), repeats.end());
         }
         return ordered;
     }
 
-    void writeRows() {
-        std::vector<Row> rows;
-        for (const Task* task : inReadingOrder())
-            rows.push_back(task->row);
-        writeFileWhole(options_.out / "runs.csv", toCsv(rows));
-        rowsWritten_ = Clock::now();
+    // A shard knows too little of the study for them.
+    void writeTables() {
+        if (options_.shard) return;
+        writeRows(options_.out, inReadingOrder());
+        writeSamples(options_.out, inReadingOrder());
     }
 
     // So that a long study can be looked at while it runs, and after it was killed.
     void writeRowsNowAndThen() {
-        if (Clock::now() - rowsWritten_ > kTimeBetweenTables) writeRows();
-    }
-
-    void writeSamples() const {
-        json runs = json::array();
-        for (const Task* task : inReadingOrder()) {
-            if (!task->samples.is_null()) runs.push_back(task->samples);
-        }
-        const json all = {{"schema", "kaustik.experiment-samples/1"}, {"runs", std::move(runs)}};
-        writeFileWhole(options_.out / "samples.json", jsonText(all) + "\n");
+        if (options_.shard || Clock::now() - rowsWritten_ <= kTimeBetweenTables) return;
+        writeRows(options_.out, inReadingOrder());
+        rowsWritten_ = Clock::now();
     }
 
     const RunnerOptions& options_;

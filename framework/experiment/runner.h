@@ -7,12 +7,15 @@
 //   <hash>[-rN].failed.json   why a run failed, in its stead
 //   runs.csv              one row a run, failed ones included
 //   samples.json          kaustik.experiment-samples/1: every frame and pass time of every run
+// The last two are of all runs; where they are done in shards, merge.h makes them.
 #pragma once
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 
+#include "framework/core/shard.h"
 #include "framework/experiment/plan.h"
 
 namespace kaustik::experiment {
@@ -21,6 +24,7 @@ struct RunnerOptions {
     std::filesystem::path out;
     bool resume = false;            // leaves runs alone that are finished and undamaged
     std::filesystem::path program;  // that does one run
+    std::optional<Shard> shard;     // does only this one's runs, and leaves tables to merge.h
 };
 
 struct RunnerHooks {
@@ -44,8 +48,9 @@ struct RunnerSummary {
 void requireDisabledPasses(const Plan& plan, const std::filesystem::path& program,
                            const std::function<bool()>& isInterrupted);
 
-// Repeats are interleaved (A B A B), so that a machine that slows down slows all alike. Throws
-// IoError when nothing can be written, and ConfigError when another process works in `out`.
+// Repeats are interleaved (A B A B), so that a machine that slows down slows all alike. Several
+// processes may do shards in one folder. Throws IoError when nothing can be written, and
+// ConfigError when another process works in `out`, or shards of another study are there.
 [[nodiscard]] RunnerSummary runPlan(const Plan& plan, const RunnerOptions& options,
                                     const RunnerHooks& hooks);
 

@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <functional>
-#include <tuple>
 
 #include "framework/core/error.h"
 #include "framework/experiment/value_range.h"
@@ -20,114 +18,47 @@ using nlohmann::json;
 using scene::TomlNode;
 using scene::TomlTable;
 
-TomlNode parse(const fs::path& file) {
-    try {
-        return scene::readToml(file);
-    } catch (const ConfigError& error) {
-        const std::string what = error.what();
-        // TOML has no table and value of one name: trace = "lines" beside trace.epsilon.
-        const bool isBoth = what.find("redefine") != std::string::npos;
-        throw ConfigError(
-            what + (isBoth ? " Write dotted names in quotes: \"trace.epsilon\" = 0.01." : ""));
-    }
-}
-
-// Reads what the tables of an experiment hold, and knows where they are.
+// What the tables of an experiment hold.
 class Reader {
   public:
-    explicit Reader(const fs::path& file) : file_(file) {}
-
-    [[nodiscard]] std::vector<Setting> settings(const TomlNode& table) const {
-        std::vector<Setting> settings;
-        visit(table, "", true, [&](const std::string& key, const TomlNode& node) {
-            settings.push_back({key, value(key, node), place(node)});
-        });
-        return settings;
-    }
+    explicit Reader(const fs::path& file) : file_(file), reader_(file) {}
 
     [[nodiscard]] Product product(const TomlNode& table) const {
         Product product;
-        visit(table, "", false, [&](const std::string& key, const TomlNode& node) {
-            product.push_back({key, values(key, node), place(node)});
+        reader_.visit(table, "", false, [&](const std::string& key, const TomlNode& node) {
+            product.push_back({key, values(key, node), reader_.place(node)});
         });
         return product;
     }
 
   private:
-    using Visitor = std::function<void(const std::string& key, const TomlNode& node)>;
-
-    [[nodiscard]] std::string place(const TomlNode& node) const {
-        return fmt::format("{}:{}", file_.string(), node.line);
-    }
-
-    [[noreturn]] void fail(const TomlNode& node, const std::string& message) const {
-        throw ConfigError(fmt::format("{}: {}.", place(node), message));
-    }
-
-    // The leaves by dotted name, in the order of the file.
-    void visit(const TomlNode& table, const std::string& prefix, bool entersInline,
-               const Visitor& visitor) const {
-        std::vector<std::pair<std::string, const TomlNode*>> entries;
-        for (const auto& [key, node] : table.entries())
-            entries.emplace_back(prefix + key, &node);
-        std::sort(entries.begin(), entries.end(), [](const auto& a, const auto& b) {
-            return std::tie(a.second->line, a.second->column) <
-                   std::tie(b.second->line, b.second->column);
-        });
-        for (const auto& [name, node] : entries) {
-            const TomlTable* inner = node->as<TomlTable>();
-            if (inner != nullptr && (entersInline || !inner->isInline)) {
-                visit(*node, name + ".", entersInline, visitor);
-            } else {
-                visitor(name, *node);
-            }
-        }
-    }
-
-    [[nodiscard]] json value(const std::string& key, const TomlNode& node) const {
-        if (const auto* text = node.as<std::string>()) return *text;
-        if (const auto* integer = node.as<std::int64_t>()) return *integer;
-        if (const auto* number = node.as<double>()) return *number;
-        if (const auto* flag = node.as<bool>()) return *flag;
-        const std::vector<TomlNode>* list = node.list();
-        if (list == nullptr) {
-            fail(node, fmt::format("{} must be text, a number, true or false", key));
-        }
-        json texts = json::array();
-        for (const TomlNode& element : *list) {
-            const auto* text = element.as<std::string>();
-            if (text == nullptr) {
-                fail(element, fmt::format("{} cannot be a list; only disable can, of texts", key));
-            }
-            texts.push_back(*text);
-        }
-        return texts;
-    }
-
     [[nodiscard]] std::vector<Setting> values(const std::string& key, const TomlNode& node) const {
         std::vector<Setting> values;
         if (node.as<TomlTable>() != nullptr) {
             for (json& number : readRange(node, key, file_))
-                values.push_back({key, std::move(number), place(node)});
+                values.push_back({key, std::move(number), reader_.place(node)});
             return values;
         }
         const std::vector<TomlNode>* list = node.list();
         if (list == nullptr) {
-            fail(node, fmt::format("permute: {} must be a list of values or a range such as "
-                                   "{{from = 1, to = 8, factor = 2}}",
-                                   key));
+            reader_.fail(node,
+                         fmt::format("permute: {} must be a list of values or a range such as "
+                                     "{{from = 1, to = 8, factor = 2}}",
+                                     key));
         }
         if (list->empty()) {
-            fail(node, fmt::format("permute: {} is an empty list; give it at least one value, or "
-                                   "leave it out",
-                                   key));
+            reader_.fail(node,
+                         fmt::format("permute: {} is an empty list; give it at least one value, or "
+                                     "leave it out",
+                                     key));
         }
         for (const TomlNode& element : *list)
-            values.push_back({key, value(key, element), place(element)});
+            values.push_back({key, reader_.value(key, element), reader_.place(element)});
         return values;
     }
 
     fs::path file_;
+    SettingReader reader_;
 };
 
 void checkName(scene::TableReader& top, const std::string& name) {
@@ -153,7 +84,8 @@ void readSuite(scene::TableReader& top, Spec& spec) {
 }  // namespace
 
 Spec readSpec(const fs::path& file) {
-    const TomlNode document = parse(file);
+    const SettingReader settings(file);
+    const TomlNode document = settings.parse();
     scene::TableReader top(document, file, "");
     Spec spec;
     spec.file = file;
@@ -176,7 +108,7 @@ Spec readSpec(const fs::path& file) {
     checkName(top, spec.name);
 
     const Reader reader(file);
-    if (const TomlNode* base = document.find("base")) spec.base = reader.settings(*base);
+    if (const TomlNode* base = document.find("base")) spec.base = settings.settings(*base);
     if (!isList) {
         spec.products.push_back(permute == nullptr ? Product{} : reader.product(*permute));
         return spec;

@@ -4,7 +4,7 @@
 //   name = "epsilon"              names the folder of results: letters, digits, '-' and '_'
 //   description = ""              for the report
 //   repeats = 1                   each a process of its own, so that their spread is real
-//   [base]                        what all runs share; see plan.h for the keys
+//   [base]                        what all runs share; see setting.h for the keys
 //   scene = "pool"
 //   "trace.lines.width" = 512     a dotted name in quotes, or as a table: trace.epsilon = 0.01
 //   [permute]                     every combination of one value from each key
@@ -22,18 +22,12 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
-namespace kaustik::experiment {
+#include "framework/experiment/setting.h"
 
-// A key with one value (text, whole number, number, true or false, or a list of texts).
-struct Setting {
-    std::string key;  // as written, dotted
-    nlohmann::json value;
-    std::string place;  // "file:line"
-};
+namespace kaustik::experiment {
 
 // A key with all the values that it is to take, in order; at least one.
 struct Axis {

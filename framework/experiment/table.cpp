@@ -69,7 +69,11 @@ Row resultColumns(const json& report) {
     for (const char* part : {"photons", "layers", "hits", "error", "energy", "memory"})
         addNumbers(row, part, report.value(part, json()));
     row.emplace_back("warnings", report.value("warnings", json::array()).size());
-    row.emplace_back("device", report.value("device", json::object()).value("renderer", ""));
+    // Together the model that the times are of: on a software rasteriser it is the processor.
+    const json device = report.value("device", json::object());
+    row.emplace_back("device", device.value("renderer", ""));
+    row.emplace_back("cpu", device.value("cpu", ""));
+    row.emplace_back("threads", device.value("threads", json()));
     row.emplace_back("version", report.value("version", ""));
     return row;
 }

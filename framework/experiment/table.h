@@ -18,7 +18,8 @@ using Row = std::vector<std::pair<std::string, nlohmann::json>>;
 [[nodiscard]] Row identityColumns(const PlannedRun& run, int repeat, const std::string& message);
 
 // frame_ms.median …, startup_ms, pass:NAME (median, ms), and every number below photons, layers,
-// hits, error, energy and memory by its dotted name; what the report lacks has no column.
+// hits, error, energy and memory by its dotted name; warnings (how many), device, cpu, threads and
+// version. What the report lacks has no column.
 [[nodiscard]] Row resultColumns(const nlohmann::json& report);
 
 // RFC 4180. The columns of all rows: one that only some have stands after the one that it follows

@@ -2,10 +2,12 @@
 // PixelSums as bytes: what a run that was interrupted leaves behind, and what shards send home.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstring>
 #include <string_view>
 
 #include "framework/core/error.h"
+#include "framework/image/image_limits.h"
 #include "framework/reference/content_hash.h"
 #include "framework/reference/pixel_sums.h"
 
@@ -14,7 +16,10 @@ namespace {
 
 constexpr std::string_view kMagic = "kaustik.sums/2\n";
 constexpr std::size_t kHashDigits = 32;
-constexpr std::uint64_t kMaximumBatchRanges = 1u << 24;
+// Sums of as many fit into 128 bits (framework/reference/pixel_sums.cpp).
+constexpr std::uint64_t kMostBatches = 1u << 22;
+constexpr int kMostBits = 126;
+constexpr int kMostLayers = 16;
 
 class Writer {
   public:
@@ -58,7 +63,7 @@ class Reader {
     template <class T>
     void getAll(std::vector<T>& values) {
         const std::string_view part = take(values.size() * sizeof(T));
-        std::memcpy(values.data(), part.data(), part.size());
+        if (!values.empty()) std::memcpy(values.data(), part.data(), part.size());
     }
     [[nodiscard]] bool isAtEnd() const { return bytes_.empty(); }
 
@@ -66,6 +71,19 @@ class Reader {
     std::string_view bytes_;
     const std::string& name_;
 };
+
+// Sorted, apart from each other, and no more than may be.
+void requireBatches(const std::vector<BatchRange>& batches, const Reader& reader) {
+    std::uint64_t count = 0;
+    std::uint64_t end = 0;
+    for (const BatchRange& range : batches) {
+        const bool isNext = count == 0 || range.first > end;
+        if (!isNext || range.end <= range.first || range.end - range.first > kMostBatches - count)
+            reader.fail("its batches make no sense");
+        count += range.end - range.first;
+        end = range.end;
+    }
+}
 
 }  // namespace
 
@@ -112,12 +130,16 @@ PixelSums PixelSums::fromBytes(std::string_view bytes, const std::string& key,
     sums.rays_ = reader.get<std::uint64_t>();
     sums.rejectedValues_ = reader.get<std::uint64_t>();
     const auto rangeCount = reader.get<std::uint64_t>();
-    if (rangeCount > kMaximumBatchRanges || sums.width_ < 1 || sums.height_ < 1 ||
-        sums.layers_ < 1) {
+    if (rangeCount > kMostBatches || sums.layers_ < 1 || sums.layers_ > kMostLayers ||
+        !imageSizeProblem(sums.width_, sums.height_, 3).empty()) {
         reader.fail("its sizes make no sense");
     }
+    if (!std::isnormal(sums.quantum_) || !std::isnormal(sums.energyQuantum_))
+        reader.fail("its units make no sense");
+    if (rangeCount > bytes.size() / sizeof(BatchRange)) reader.fail("it ends too early");
     sums.batches_.resize(rangeCount);
     reader.getAll(sums.batches_);
+    requireBatches(sums.batches_, reader);
     sums.energy_ = reader.get<decltype(sums.energy_)>();
     const std::size_t values = static_cast<std::size_t>(sums.width_) *
                                static_cast<std::size_t>(sums.height_) *
@@ -127,6 +149,16 @@ PixelSums PixelSums::fromBytes(std::string_view bytes, const std::string& key,
     sums.squares_.resize(values);
     reader.getAll(sums.sums_);
     reader.getAll(sums.squares_);
+    const auto isPossible = [limit = Int128{1} << kMostBits](Int128 sum) {
+        return sum >= -limit && sum <= limit;
+    };
+    for (const Int128 sum : sums.energy_) {
+        if (!isPossible(sum)) reader.fail("its sums are larger than batches can make them");
+    }
+    for (std::size_t i = 0; i < values; ++i) {
+        if (!isPossible(sums.sums_[i]) || !isPossible(sums.squares_[i]) || sums.squares_[i] < 0)
+            reader.fail("its sums are larger than batches can make them");
+    }
     if (reader.take(kHashDigits).size() != kHashDigits || !reader.isAtEnd())
         reader.fail("it is too long");
     return sums;

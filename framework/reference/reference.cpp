@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "framework/reference/reference.h"
 
+#include <algorithm>
+
 #include "framework/core/error.h"
 #include "framework/core/files.h"
 #include "framework/reference/content_hash.h"
+#include "framework/reference/light_sampling.h"
 #include "framework/reference/light_tracing.h"
 #include "framework/reference/photon_mapping.h"
 
@@ -91,36 +94,37 @@ void addBatches(const EmbreeScene& scene, const ReferenceRequest& request,
     }
 }
 
-Reference makeReference(const scene::Scene& scene, const ReferenceRequest& request,
-                        const PixelSums& sums, double seconds) {
+Subject subjectOf(const scene::Scene& scene, const ReferenceRequest& request) {
+    const bool isMapped = request.estimator == Estimator::sppm;
+    const int radianceLayer = causticRadianceLayer(scene);
+    return {
+        .key = referenceKey(scene, request),
+        .scene = scene.name,
+        .request = request,
+        .inScatteredLayer = isMapped ? -1 : inScatteredLayer(scene),
+        .causticRadianceLayer =
+            isMapped && radianceLayer > 0 ? kMappedRadianceLayer : radianceLayer,
+        .causticViewLayer = isMapped ? viewedCausticsLayer(scene, mappingSettings(request)) : -1};
+}
+
+Reference makeReference(const Subject& subject, const PixelSums& sums, double seconds) {
     if (sums.batchCount() < 2) {
         throw ConfigError(
             "A reference needs at least two batches, or its error is unknown; let it run longer.");
     }
     Reference reference;
-    reference.key = referenceKey(scene, request);
-    reference.scene = scene.name;
-    reference.request = request;
-    reference.irradiance = sums.meanImage(kIrradianceLayer);
-    reference.irradianceError = sums.standardErrorImage(kIrradianceLayer);
-    const int scatteredLayer = inScatteredLayer(scene);
-    if (request.estimator == Estimator::light && scatteredLayer > 0) {
-        reference.inScattered = sums.meanImage(scatteredLayer);
-        reference.inScatteredError = sums.standardErrorImage(scatteredLayer);
-    }
-    const int radianceLayer =
-        request.estimator == Estimator::light ? causticRadianceLayer(scene) : kMappedRadianceLayer;
-    if (radianceLayer > 0 && sums.layers() > radianceLayer) {
-        reference.causticRadiance = sums.meanImage(radianceLayer);
-        reference.causticRadianceError = sums.standardErrorImage(radianceLayer);
-    }
-    const int viewLayer = request.estimator == Estimator::sppm
-                              ? viewedCausticsLayer(scene, mappingSettings(request))
-                              : -1;
-    if (viewLayer > 0) {
-        reference.causticView = sums.meanImage(viewLayer);
-        reference.causticViewError = sums.standardErrorImage(viewLayer);
-    }
+    reference.key = subject.key;
+    reference.scene = subject.scene;
+    reference.request = subject.request;
+    const auto fill = [&](int layer, Image& mean, Image& error) {
+        if (layer < 0 || layer >= sums.layers()) return;
+        mean = sums.meanImage(layer);
+        error = sums.standardErrorImage(layer);
+    };
+    fill(kIrradianceLayer, reference.irradiance, reference.irradianceError);
+    fill(subject.inScatteredLayer, reference.inScattered, reference.inScatteredError);
+    fill(subject.causticRadianceLayer, reference.causticRadiance, reference.causticRadianceError);
+    fill(subject.causticViewLayer, reference.causticView, reference.causticViewError);
     reference.energy = sums.energy();
     reference.photons = sums.photons();
     reference.batches = sums.batchCount();
@@ -128,6 +132,18 @@ Reference makeReference(const scene::Scene& scene, const ReferenceRequest& reque
     reference.relativeError = sums.relativeStandardError(kIrradianceLayer);
     reference.seconds = seconds;
     return reference;
+}
+
+Reference makeReference(const scene::Scene& scene, const ReferenceRequest& request,
+                        const PixelSums& sums, double seconds) {
+    return makeReference(subjectOf(scene, request), sums, seconds);
+}
+
+std::uint64_t batchesFor(const EmbreeScene& scene, const ReferenceRequest& request,
+                         std::uint64_t photons) {
+    const std::uint64_t each = LightSampler(scene, request.photonsPerBatch).photonsPerBatch();
+    if (each == 0) return 2;  // nothing is sent out, however often
+    return std::max<std::uint64_t>(2, photons / each + (photons % each == 0 ? 0 : 1));
 }
 
 }  // namespace kaustik::reference

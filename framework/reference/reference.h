@@ -63,9 +63,27 @@ struct Reference {
 void addBatches(const EmbreeScene& scene, const ReferenceRequest& request,
                 const RunOptions& options, PixelSums& sums);
 
+// What sums are of, and which of their layers hold what: with it they become a reference without
+// the scene.
+struct Subject {
+    std::string key;    // referenceKey
+    std::string scene;  // name
+    ReferenceRequest request;
+    int inScatteredLayer = -1;  // -1: there is none
+    int causticRadianceLayer = -1;
+    int causticViewLayer = -1;
+};
+[[nodiscard]] Subject subjectOf(const scene::Scene& scene, const ReferenceRequest& request);
+
 // What the sums have found. Throws ConfigError below two batches, of which no error can be told.
+[[nodiscard]] Reference makeReference(const Subject& subject, const PixelSums& sums,
+                                      double seconds);
 [[nodiscard]] Reference makeReference(const scene::Scene& scene, const ReferenceRequest& request,
                                       const PixelSums& sums, double seconds);
+
+// How many batches a reference of that many photons has, before any is computed: two at least.
+[[nodiscard]] std::uint64_t batchesFor(const EmbreeScene& scene, const ReferenceRequest& request,
+                                       std::uint64_t photons);
 
 // NAME.exr (or .pfm) is the irradiance; beside it NAME.stderr.exr, NAME.caustic_radiance.exr and
 // NAME.caustic_radiance.stderr.exr where a receiver is glossy, NAME.caustic_view.exr and

@@ -11,6 +11,7 @@
 #include "framework/core/json_text.h"
 #include "framework/reference/content_hash.h"
 #include "framework/reference/reference.h"
+#include "framework/reference/request_json.h"
 
 namespace kaustik::reference {
 namespace {
@@ -65,38 +66,6 @@ json number(double value) {
     return std::isfinite(value) ? json(value) : json(nullptr);
 }
 
-json requestToJson(const ReferenceRequest& request) {
-    json result = {{"estimator", request.estimator == Estimator::light ? "light" : "sppm"},
-                   {"size", {request.width, request.height}},
-                   {"seed", request.seed},
-                   {"photons_per_batch", request.photonsPerBatch},
-                   {"transmission_only", request.filter.transmissionOnly},
-                   {"maximum_interactions", request.filter.maximumInteractions},
-                   {"split_interactions", request.filter.splitInteractions}};
-    if (request.estimator == Estimator::sppm) {
-        result["initial_radius_px"] = request.initialRadiusPixels;
-        result["alpha"] = request.alpha;
-        result["caustic_view"] = request.causticView;
-    }
-    return result;
-}
-
-ReferenceRequest requestFromJson(const json& from) {
-    ReferenceRequest request;
-    request.estimator = from.at("estimator") == "sppm" ? Estimator::sppm : Estimator::light;
-    request.width = from.at("size").at(0);
-    request.height = from.at("size").at(1);
-    request.seed = from.at("seed");
-    request.photonsPerBatch = from.at("photons_per_batch");
-    request.filter.transmissionOnly = from.at("transmission_only");
-    request.filter.maximumInteractions = from.at("maximum_interactions");
-    request.filter.splitInteractions = from.at("split_interactions");
-    request.initialRadiusPixels = from.value("initial_radius_px", request.initialRadiusPixels);
-    request.alpha = from.value("alpha", request.alpha);
-    request.causticView = from.value("caustic_view", request.causticView);
-    return request;
-}
-
 Energy energyFromJson(const json& from) {
     using namespace transport;
     Energy energy;
@@ -147,7 +116,7 @@ Reference readReference(const fs::path& path, const std::string& expectedKey) {
     Reference reference;
     json images;
     try {
-        const json from = json::parse(readFile(sidecar));
+        const json from = parseJson(readFile(sidecar), sidecar.string());
         if (from.at("schema") != kSchema)
             throw IoError(fmt::format("{} is not a reference of this version.", sidecar.string()));
         reference.key = from.at("key");

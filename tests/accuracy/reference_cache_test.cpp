@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <limits>
 #include <string>
@@ -12,6 +13,7 @@
 
 #include "framework/core/error.h"
 #include "framework/core/files.h"
+#include "framework/reference/content_hash.h"
 #include "framework/reference/reference.h"
 #include "framework/scene/files/scene_file.h"
 #include "tests/unit/temporary_folder.h"
@@ -157,6 +159,45 @@ TEST_F(ReferenceCache, DamagedSumsAreReportedAndBegunAgain) {
                                                 referenceKey(scene_, request_), "cut"),
                      IoError);
     }
+}
+
+// A right checksum says that bytes are as they were written, not who wrote them.
+TEST(SumsInAFile, ThatNoRunMakesAreRefused) {
+    PixelSums sums(2, 1, 1, 1.0, 1.0);
+    BatchResult batch;
+    batch.values.assign(6, 1.0);
+    sums.add(3, batch);
+    const std::string whole = sums.toBytes("key");
+    const std::string content = whole.substr(0, whole.size() - 32);
+    const auto problemWith = [&](std::size_t place, auto value) {
+        std::string changed = content;
+        std::memcpy(changed.data() + place, &value, sizeof(value));
+        const std::string bytes = changed + ContentHash().addBytes(changed).hex();
+        return test::messageOf<IoError>(
+            [&] { static_cast<void>(PixelSums::fromBytes(bytes, "key", "a.sums")); });
+    };
+    // After 15 bytes of "kaustik.sums/2", 8 of a size and the 3 of the key.
+    const std::size_t width = 26, layers = 34, unit = 38, ranges = 78, first = 86, end = 94;
+    const std::size_t sum = content.size() - 2 * 6 * sizeof(Int128);
+    EXPECT_EQ(problemWith(width, 2), "") << "as it was";
+    EXPECT_NE(problemWith(width, std::int64_t{0x0000'ffff'7fff'ffff}), "") << "height 65535";
+    EXPECT_NE(problemWith(layers, 1 << 30), "");
+    EXPECT_NE(problemWith(unit, 0.0), "");
+    EXPECT_NE(problemWith(unit, std::numeric_limits<double>::quiet_NaN()), "");
+    EXPECT_NE(problemWith(ranges, std::uint64_t{1} << 20), "") << "more than the file has";
+    EXPECT_NE(problemWith(first, std::uint64_t{4}), "") << "from 4 to 4";
+    EXPECT_NE(problemWith(end, std::uint64_t{1} << 60), "") << "2^60 batches";
+    EXPECT_NE(problemWith(sum, Int128{1} << 126 | 1), "") << "two of them would overflow";
+    EXPECT_NE(problemWith(sum + 6 * sizeof(Int128), Int128{-1}), "") << "a square below 0";
+}
+
+TEST_F(ReferenceCache, ASidecarThatIsNestedTooDeepIsAnError) {
+    const Reference made = load();
+    const std::string deep = std::string(100000, '[') + std::string(100000, ']');
+    writeFileWhole(entry(".json"), "{\"images\": " + deep + "}");
+    EXPECT_EQ(load().irradiance.values, made.irradiance.values);
+    ASSERT_EQ(messages_.size(), 1u);
+    EXPECT_NE(messages_[0].find("nested more than 64 deep"), std::string::npos) << messages_[0];
 }
 
 TEST_F(ReferenceCache, ValuesThatAreNoNumbersAreNeverWrittenNorBelieved) {

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "framework/reference/order.h"
+
+#include <fmt/format.h>
+
+#include "framework/core/error.h"
+
+namespace kaustik::reference {
+namespace {
+
+Estimator estimatorOf(const Order& order, const Spelling& spelled) {
+    if (order.estimator == "light") return Estimator::light;
+    if (order.estimator == "sppm") return Estimator::sppm;
+    throw ConfigError(
+        fmt::format("{}: '{}' is neither light nor sppm.", spelled("estimator"), order.estimator));
+}
+
+void requireWithin(const std::string& name, int value, int least, int most) {
+    if (value < least || value > most)
+        throw ConfigError(fmt::format("{}: {} is not from {} to {}.", name, value, least, most));
+}
+
+void requireAboveZero(const std::string& name, double value) {
+    if (!(value > 0.0)) throw ConfigError(fmt::format("{}: must be above 0.", name));
+}
+
+}  // namespace
+
+ReferenceRequest requestOf(const Order& order, const Spelling& spelled) {
+    ReferenceRequest request;
+    request.estimator = estimatorOf(order, spelled);
+    request.width = order.width;
+    request.height = order.height;
+    if (order.seed < 0)
+        throw ConfigError(fmt::format("{}: must not be negative.", spelled("seed")));
+    request.seed = static_cast<std::uint64_t>(order.seed);
+    request.filter.transmissionOnly = order.transmissionOnly;
+    requireWithin(spelled("interactions"), order.interactions, 1, 1000);
+    request.filter.maximumInteractions = order.interactions;
+    request.causticView = order.causticView;
+    if (request.causticView && request.estimator != Estimator::sppm) {
+        throw ConfigError(fmt::format("{}: only {} sppm sees through specular surfaces.",
+                                      spelled("caustic-view"), spelled("estimator")));
+    }
+    return request;
+}
+
+RunOptions optionsOf(const Order& order, const Spelling& spelled) {
+    RunOptions options;
+    if (order.photons) {
+        requireAboveZero(spelled("photons"), static_cast<double>(*order.photons));
+        options.stop.photons = static_cast<std::uint64_t>(*order.photons);
+    }
+    if (order.seconds) {
+        requireAboveZero(spelled("seconds"), *order.seconds);
+        options.stop.seconds = order.seconds;
+    }
+    if (order.relativeError) {
+        requireAboveZero(spelled("error"), *order.relativeError);
+        options.stop.relativeError = order.relativeError;
+    }
+    if (!order.photons && !order.seconds && !order.relativeError)
+        options.stop.photons = static_cast<std::uint64_t>(kUsualPhotons);
+    requireWithin(spelled("threads"), order.threads, 0, 1024);
+    options.threads = order.threads;
+    return options;
+}
+
+}  // namespace kaustik::reference

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// A reference as people ask for it, in the words of a command line or of Python, and what that
+// means; so that all ways in have the same limits and the same sentences.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "framework/reference/batches.h"
+#include "framework/reference/reference.h"
+
+namespace kaustik::reference {
+
+// Of a reference that says nowhere where to stop.
+inline constexpr long long kUsualPhotons = 1LL << 26;
+
+struct Order {
+    std::string estimator = "light";  // or sppm
+    int width = 800;                  // pixels
+    int height = 600;
+    std::optional<long long> photons;     // where to stop: what is reached first
+    std::optional<double> seconds;        //
+    std::optional<double> relativeError;  // standard error over the mean
+    long long seed = 1;
+    int threads = 0;  // 0: all
+    bool transmissionOnly = false;
+    int interactions = 64;
+    bool causticView = false;
+};
+
+// How whoever asks writes the name of a setting: "--caustic-view" for "caustic-view".
+using Spelling = std::function<std::string(const std::string& name)>;
+
+// Both throw ConfigError, by the setting's name, for what there is not or what is out of range.
+[[nodiscard]] ReferenceRequest requestOf(const Order& order, const Spelling& spelled);
+[[nodiscard]] RunOptions optionsOf(const Order& order, const Spelling& spelled);
+
+}  // namespace kaustik::reference

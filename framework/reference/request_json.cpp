@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#include "framework/reference/request_json.h"
+
+#include <nlohmann/json.hpp>
+
+namespace kaustik::reference {
+
+using nlohmann::json;
+
+json requestToJson(const ReferenceRequest& request) {
+    json result = {{"estimator", request.estimator == Estimator::light ? "light" : "sppm"},
+                   {"size", {request.width, request.height}},
+                   {"seed", request.seed},
+                   {"photons_per_batch", request.photonsPerBatch},
+                   {"transmission_only", request.filter.transmissionOnly},
+                   {"maximum_interactions", request.filter.maximumInteractions},
+                   {"split_interactions", request.filter.splitInteractions}};
+    if (request.estimator == Estimator::sppm) {
+        result["initial_radius_px"] = request.initialRadiusPixels;
+        result["alpha"] = request.alpha;
+        result["caustic_view"] = request.causticView;
+    }
+    return result;
+}
+
+ReferenceRequest requestFromJson(const json& from) {
+    ReferenceRequest request;
+    request.estimator = from.at("estimator") == "sppm" ? Estimator::sppm : Estimator::light;
+    request.width = from.at("size").at(0);
+    request.height = from.at("size").at(1);
+    request.seed = from.at("seed");
+    request.photonsPerBatch = from.at("photons_per_batch");
+    request.filter.transmissionOnly = from.at("transmission_only");
+    request.filter.maximumInteractions = from.at("maximum_interactions");
+    request.filter.splitInteractions = from.at("split_interactions");
+    request.initialRadiusPixels = from.value("initial_radius_px", request.initialRadiusPixels);
+    request.alpha = from.value("alpha", request.alpha);
+    request.causticView = from.value("caustic_view", request.causticView);
+    return request;
+}
+
+}  // namespace kaustik::reference
