@@ -10,9 +10,11 @@
 #include <cstring>
 #include <limits>
 #include <new>
+#include <set>
 #include <system_error>
 
 #include "framework/app/commands.h"
+#include "framework/app/merge.h"
 #include "framework/core/error.h"
 #include "framework/core/files.h"
 #include "framework/core/names.h"
@@ -20,11 +22,25 @@
 namespace kaustik::app {
 namespace {
 
+// What follows, and every program that it starts, finds the device in the environment.
+void addDeviceOption(CLI::App& command) {
+    command.add_option_function<std::string>(
+        "--device",
+        [](const std::string& device) { ::setenv("KAUSTIK_DEVICE", device.c_str(), 1); },
+        "The device: a number or a UUID from 'check', or a part of its name");
+}
+
 void addSceneOptions(CLI::App& command, SceneOptions& options) {
     command.add_option("scene", options.scene, "A name from 'list scenes', a .toml, .gltf or .glb")
         ->capture_default_str();
     command.add_option("--technique", options.technique, "A name from 'list techniques'")
         ->capture_default_str();
+    command
+        .add_option("--merge", options.merged,
+                    "A .toml of settings; a later one counts more, and options more than it")
+        ->take_all()
+        ->expected(1)
+        ->allow_extra_args(false);
     command
         .add_option("--set", options.assignments,
                     "A parameter, as name=value; any unique short form of its name will do")
@@ -39,6 +55,34 @@ void addSceneOptions(CLI::App& command, SceneOptions& options) {
     command.add_option("--time", options.time, "Time of the animation in seconds");
     command.add_flag("--gl-debug", options.glDebug,
                      "Has OpenGL check every pass, which takes time; an error then names its pass");
+    addDeviceOption(command);
+}
+
+// The options and arguments that the command line itself has, by name.
+std::set<std::string> givenOptions(const CLI::App& command) {
+    std::set<std::string> names;
+    for (const CLI::Option* option : command.get_options()) {
+        if (option->count() == 0) continue;
+        names.insert(option->get_single_name());
+    }
+    return names;
+}
+
+// Merging knows everything else from the parts.
+void addMergeOptions(CLI::App& command, ReferenceOptions& options) {
+    const std::vector<CLI::Option*> others = command.get_options();
+    CLI::Option* const merge = command.add_option(
+        "--merge", options.merged, "Instead of a scene: all parts of a reference, as one");
+    command.callback([merge, others] {
+        for (const CLI::Option* other : others) {
+            if (merge->count() > 0 && other->count() > 0)
+                throw CLI::ExcludesError(merge->get_name(), other->get_name());
+        }
+    });
+    command
+        .add_flag("--incomplete", options.incomplete,
+                  "Merges though parts are missing; the reference has fewer photons")
+        ->needs(merge);
 }
 
 // CLI11 takes a whole number beyond 64 bits for the largest that there is.
@@ -158,6 +202,10 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry,
         ->take_all()
         ->expected(1)
         ->allow_extra_args(false);
+    runApp->add_flag("--capture", run.captures,
+                     "One more frame, captured by RenderDoc, which must have started this");
+    runApp->add_option("--tev", run.viewer,
+                       "HOST or HOST:PORT of a running tev, which is sent the pictures");
     runApp->add_option("--out", run.out, "Folder for what is written");
 
     ListOptions list;
@@ -176,9 +224,8 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry,
     ReferenceOptions reference;
     CLI::App* referenceApp =
         app.add_subcommand("reference", "Computes the ray-traced reference of a scene");
-    referenceApp
-        ->add_option("scene", reference.scene, "A name from 'list scenes', a .toml, .gltf or .glb")
-        ->required();
+    referenceApp->add_option("scene", reference.scene,
+                             "A name from 'list scenes', a .toml, .gltf or .glb");
     referenceApp->add_option("--photons", reference.photons, "Stops at this number of photons")
         ->check(beyondWholeNumbers);
     referenceApp->add_option("--seconds", reference.seconds, "Stops after this time");
@@ -202,7 +249,11 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry,
         ->capture_default_str();
     referenceApp->add_flag("--caustic-view", reference.causticView,
                            "Also what the eye sees of it through and in specular surfaces (sppm)");
-    referenceApp->add_option("--out", reference.out, "The .exr or .pfm that is written");
+    referenceApp->add_option("--shard", reference.shard,
+                             "K/N: only the K-th of N equal parts of --photons, as a .shard");
+    addMergeOptions(*referenceApp, reference);
+    referenceApp->add_option("--out", reference.out,
+                             "The .exr or .pfm (with --shard: .shard) that is written");
 
     CompareOptions compare;
     CLI::App* compareApp =
@@ -223,11 +274,17 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry,
     ExperimentOptions experiment;
     CLI::App* experimentApp =
         app.add_subcommand("experiment", "Does all runs of a study, or draws what they found");
-    experimentApp->add_option("action", experiment.action, "run or report")->required();
+    experimentApp->add_option("action", experiment.action, "run, merge or report")->required();
     experimentApp
-        ->add_option("target", experiment.target, "run: the study, a .toml; report: its results")
+        ->add_option("target", experiment.targets,
+                     "run: the study, a .toml; report: its results; merge: those of its shards")
         ->required();
-    experimentApp->add_option("--out", experiment.out, "Folder for the results of run");
+    experimentApp->add_option("--out", experiment.out, "Folder for the results of run and merge");
+    addDeviceOption(*experimentApp);
+    experimentApp->add_option("--shard", experiment.shard,
+                              "K/N: run does only the K-th of N parts of the study");
+    experimentApp->add_flag("--incomplete", experiment.incomplete,
+                            "merge takes what there is, though runs are missing");
     experimentApp->add_flag("--resume", experiment.resume, "Leaves finished runs alone");
 
     GuiOptions guiOptions;
@@ -237,7 +294,11 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry,
     guiApp->add_option("--describe", guiOptions.describe,
                        "A file that always says what is on the screen, as JSON, for tests");
 
-    CLI::App* checkApp = app.add_subcommand("check", "Prints what this device offers");
+    addDeviceOption(*guiApp);
+
+    CLI::App* checkApp =
+        app.add_subcommand("check", "Prints what this device offers, and which others there are");
+    addDeviceOption(*checkApp);
 
     try {
         app.parse(argc, argv);
@@ -249,9 +310,15 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry,
                     kExitBadRequest);
     }
     try {
-        if (runApp->parsed()) runCommand(run, registry);
+        if (runApp->parsed()) {
+            mergeSettings(run, givenOptions(*runApp), registry);
+            runCommand(run, registry);
+        }
         if (listApp->parsed()) listCommand(list, registry);
-        if (explainApp->parsed()) explainCommand(explain, registry);
+        if (explainApp->parsed()) {
+            mergeSettings(explain, givenOptions(*explainApp), registry);
+            explainCommand(explain, registry);
+        }
         if (referenceApp->parsed()) referenceCommand(reference);
         if (compareApp->parsed()) compareCommand(compare);
         if (experimentApp->parsed()) experimentCommand(experiment, registry, parts.addHardCases);

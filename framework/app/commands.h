@@ -39,8 +39,10 @@ struct ProgramParts {
 
 // Checks everything that the options name, before any device is asked for.
 [[nodiscard]] RenderSettings makeSettings(const SceneOptions& options, const Registry& registry);
-// `time`: seconds, or "" for the scene's own.
-[[nodiscard]] scene::Scene loadRequestedScene(const std::string& name, const std::string& time);
+// `time`: seconds, or "" for the scene's own. `namedAt`: the place in a file that names the scene,
+// for messages; "" for the command line.
+[[nodiscard]] scene::Scene loadRequestedScene(const std::string& name, const std::string& time,
+                                              const std::string& namedAt = "");
 // WIDTHxHEIGHT of --size.
 [[nodiscard]] params::Extent parseSize(const std::string& text);
 

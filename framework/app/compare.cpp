@@ -2,23 +2,20 @@
 // kaustik compare: how wrong an image is against a reference, for people or as JSON, and where.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
-#include <cctype>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include "framework/app/commands.h"
 #include "framework/core/error.h"
 #include "framework/core/json_text.h"
 #include "framework/image/image.h"
-#include "framework/measure/color.h"
 #include "framework/measure/heat_map.h"
 #include "framework/measure/image_errors.h"
+#include "framework/measure/image_file.h"
 
 namespace kaustik::app {
 namespace {
@@ -27,22 +24,8 @@ namespace fs = std::filesystem;
 using measure::ImageErrors;
 using nlohmann::json;
 
-std::string extensionOf(const std::string& file) {
-    std::string extension = fs::path(file).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension;
-}
-
-// Made for a display: not linear, and with 1 as its white.
-bool isDisplayPicture(const std::string& file) {
-    constexpr std::array kExtensions{".png", ".ppm", ".jpg", ".jpeg", ".bmp", ".gif", ".webp"};
-    return std::find(kExtensions.begin(), kExtensions.end(), extensionOf(file)) !=
-           kExtensions.end();
-}
-
 void checkRequest(const CompareOptions& options) {
-    if (isDisplayPicture(options.image) != isDisplayPicture(options.reference)) {
+    if (measure::isDisplayPicture(options.image) != measure::isDisplayPicture(options.reference)) {
         throw ConfigError(fmt::format(
             "{} and {} cannot be compared: one was made for a display and the other holds linear "
             "light.",
@@ -52,7 +35,7 @@ void checkRequest(const CompareOptions& options) {
         throw ConfigError(fmt::format("--ppd: {} is not above 0 and at most 10000.", *ppd));
     }
     if (options.heatMapFile.empty()) return;
-    const std::string extension = extensionOf(options.heatMapFile);
+    const std::string extension = measure::lowerExtension(options.heatMapFile);
     if (extension != ".png" && extension != ".ppm") {
         throw ConfigError(fmt::format("--heatmap: {} is no picture's name; use .png or .ppm.",
                                       options.heatMapFile));
@@ -67,11 +50,6 @@ void checkRequest(const CompareOptions& options) {
                             options.heatMapFile));
         }
     }
-}
-
-Image readLinear(const std::string& file) {
-    Image image = readImage(file);
-    return isDisplayPicture(file) ? measure::decodeSrgb(std::move(image)) : image;
 }
 
 std::optional<Image> readOptional(const std::string& file) {
@@ -135,8 +113,8 @@ void printTable(const CompareOptions& options, const measure::ImagePair& pair, c
 
 void compareCommand(const CompareOptions& options) {
     checkRequest(options);
-    const Image image = readLinear(options.image);
-    const Image reference = readLinear(options.reference);
+    const Image image = measure::readLinear(options.image);
+    const Image reference = measure::readLinear(options.reference);
     const std::optional<Image> mask = readOptional(options.maskFile);
     const std::optional<Image> standardError = readOptional(options.standardErrorFile);
     const std::optional<Image> area = readOptional(options.areaFile);
@@ -152,7 +130,7 @@ void compareCommand(const CompareOptions& options) {
                                    .areaName = options.areaFile});
     measure::MeasureParams params;
     params.pixelsPerDegree = options.pixelsPerDegree.value_or(params.pixelsPerDegree);
-    if (isDisplayPicture(options.reference)) params.displayWhite = 1.0;
+    if (measure::isDisplayPicture(options.reference)) params.displayWhite = 1.0;
     const ImageErrors errors = measure::measureErrors(pair, params);
 
     json result{{"schema", "kaustik.compare/1"},

@@ -8,12 +8,23 @@
 
 namespace kaustik::app {
 
+// A parameter as a file of --merge sets it.
+struct FileParameter {
+    std::string name;  // full
+    std::string value;
+    std::string place;  // "file:line"
+};
+
 // What `run` and `explain` share.
 struct SceneOptions {
     std::string scene = "pool";
+    std::string scenePlace;  // of a file that names it; "" for the command line
     std::string technique = "screen_space_photons";
-    std::vector<std::string> assignments;  // --set name=value
+    std::vector<std::string> merged;        // files of settings; mergeSettings() reads them
+    std::vector<FileParameter> parameters;  // what they set, in order; before `assignments`
+    std::vector<std::string> assignments;   // --set name=value
     std::vector<std::string> disabled;
+    std::string disabledBy = "--disable";  // or the place in a file
     std::string size = "800x600";
     std::string time;  // seconds; "" for the scene's own
     bool glDebug = false;
@@ -29,6 +40,8 @@ struct RunOptions {
     std::string reference = "none";
     long long referencePhotons = 1LL << 26;  // of auto, at least
     std::vector<std::string> saved;          // resources
+    bool captures = false;                   // a frame for RenderDoc
+    std::optional<std::string> viewer;       // address of a tev that pictures are sent to
     std::string out;                         // "" for results/runs/<scene>-<technique>
 };
 
@@ -45,7 +58,10 @@ struct ReferenceOptions {
     bool transmissionOnly = false;
     int interactions = 64;
     bool causticView = false;
-    std::string out;  // "" for results/references/<scene>-<estimator>-<size>.exr
+    std::string out;                  // "" for results/references/<scene>-<estimator>-<size>.exr
+    std::string shard;                // K/N; "" for the whole
+    std::vector<std::string> merged;  // parts; then nothing else counts but `out` and
+    bool incomplete = false;
 };
 
 struct ListOptions {
@@ -71,10 +87,12 @@ struct CompareOptions {
 };
 
 struct ExperimentOptions {
-    std::string action;  // run or report
-    std::string target;  // the TOML file, or the folder of results
-    std::string out;     // "" for results/runs/experiments/<name>
+    std::string action;                // run, merge or report
+    std::vector<std::string> targets;  // the TOML file, or folders of results
+    std::string out;                   // "" for results/runs/experiments/<name>
+    std::string shard;                 // of run: K/N; "" for all
     bool resume = false;
+    bool incomplete = false;  // merge
 };
 
 struct GuiOptions {

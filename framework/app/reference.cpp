@@ -1,14 +1,21 @@
 // SPDX-License-Identifier: MIT
-// kaustik reference: computes the ray-traced reference of a scene, or goes on with it.
+// kaustik reference: computes the ray-traced reference of a scene, or goes on with it; computes one
+// shard of it; merges the shards.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <optional>
 
 #include "framework/app/commands.h"
 #include "framework/core/error.h"
+#include "framework/core/shard.h"
 #include "framework/run/output.h"
 
 #ifdef KAUSTIK_HAS_EMBREE
+#include "framework/reference/order.h"
 #include "framework/run/reference_work.h"
 #endif
 
@@ -27,52 +34,23 @@ namespace {
 namespace fs = std::filesystem;
 using namespace reference;
 
-Estimator estimatorNamed(const std::string& name) {
-    if (name == "light") return Estimator::light;
-    if (name == "sppm") return Estimator::sppm;
-    throw ConfigError(fmt::format("--estimator: '{}' is neither light nor sppm.", name));
-}
-
-StopWhen stopOf(const ReferenceOptions& options) {
-    const auto check = [](const char* name, double value) {
-        if (!(value > 0.0)) throw ConfigError(fmt::format("{}: must be above 0.", name));
-    };
-    StopWhen stop;
-    if (options.photons) {
-        check("--photons", static_cast<double>(*options.photons));
-        stop.photons = static_cast<std::uint64_t>(*options.photons);
-    }
-    if (options.seconds) {
-        check("--seconds", *options.seconds);
-        stop.seconds = options.seconds;
-    }
-    if (options.standardError) {
-        check("--error", *options.standardError);
-        stop.relativeError = options.standardError;
-    }
-    if (!stop.photons && !stop.seconds && !stop.relativeError)
-        stop.photons = static_cast<std::uint64_t>(app::RunOptions().referencePhotons);
-    return stop;
-}
-
-ReferenceRequest requestOf(const ReferenceOptions& options) {
-    ReferenceRequest request;
-    request.estimator = estimatorNamed(options.estimator);
+Order orderOf(const ReferenceOptions& options) {
     const params::Extent size = parseSize(options.size);
-    request.width = size.width;
-    request.height = size.height;
-    if (options.seed < 0) throw ConfigError("--seed: must not be negative.");
-    request.seed = static_cast<std::uint64_t>(options.seed);
-    request.filter.transmissionOnly = options.transmissionOnly;
-    if (options.interactions < 1 || options.interactions > 1000) {
-        throw ConfigError(
-            fmt::format("--interactions: {} is not from 1 to 1000.", options.interactions));
-    }
-    request.filter.maximumInteractions = options.interactions;
-    request.causticView = options.causticView;
-    if (request.causticView && request.estimator != Estimator::sppm)
-        throw ConfigError("--caustic-view: only --estimator sppm sees through specular surfaces.");
-    return request;
+    return {.estimator = options.estimator,
+            .width = size.width,
+            .height = size.height,
+            .photons = options.photons,
+            .seconds = options.seconds,
+            .relativeError = options.standardError,
+            .seed = options.seed,
+            .threads = options.threads,
+            .transmissionOnly = options.transmissionOnly,
+            .interactions = options.interactions,
+            .causticView = options.causticView};
+}
+
+std::string asOption(const std::string& name) {
+    return "--" + name;
 }
 
 void print(const Reference& result, const fs::path& file) {
@@ -94,26 +72,80 @@ void print(const Reference& result, const fs::path& file) {
     fmt::print("wrote {}\n", file.string());
 }
 
+// The file that is written, whose folder can be; throws ConfigError where it ends otherwise.
+fs::path outputFile(const std::string& out, const std::string& fallback,
+                    const std::vector<std::string>& endings) {
+    const fs::path file = out.empty() ? fs::path("results/references") / fallback : fs::path(out);
+    if (std::find(endings.begin(), endings.end(), file.extension()) == endings.end()) {
+        throw ConfigError(
+            fmt::format("--out: {} must end in {}.", file.string(), fmt::join(endings, " or ")));
+    }
+    run::requireWritable(file.parent_path().empty() ? fs::path(".") : file.parent_path(), "--out");
+    return file;
+}
+
+const std::vector<std::string> kImageEndings = {".exr", ".pfm"};
+
+std::string nameOf(const std::string& scene, const ReferenceRequest& request) {
+    return fmt::format("{}-{}-{}x{}", scene,
+                       request.estimator == Estimator::light ? "light" : "sppm", request.width,
+                       request.height);
+}
+
+void merge(const ReferenceOptions& options) {
+    const std::vector<fs::path> files(options.merged.begin(), options.merged.end());
+    const Subject subject = readPartHead(files.front()).subject;
+    const fs::path file = outputFile(
+        options.out, nameOf(subject.scene, subject.request) + floatImageExtension(), kImageEndings);
+    const Reference result = run::mergeShards(files, options.incomplete);
+    writeReference(file, result);
+    print(result, file);
+}
+
+void print(const ShardResult& result, const fs::path& file) {
+    const PartHead& head = result.head;
+    const BatchRange own = head.own();
+    fmt::print("{}, {}x{}, shard {}/{}: {} of the reference's {} batches, {:.1f} s\n",
+               head.subject.scene, head.subject.request.width, head.subject.request.height,
+               head.shard.number, head.shard.count, own.end - own.first, head.batchesOfAll,
+               head.seconds);
+    fmt::print("{} {}\n", result.wasThere ? "it was there already:" : "wrote", file.string());
+}
+
 }  // namespace
 
 void referenceCommand(const ReferenceOptions& options) {
-    const ReferenceRequest request = requestOf(options);
-    reference::RunOptions run;
-    run.stop = stopOf(options);
-    if (options.threads < 0 || options.threads > 1024)
-        throw ConfigError(fmt::format("--threads: {} is not from 0 to 1024.", options.threads));
-    run.threads = options.threads;
+    if (!options.merged.empty()) return merge(options);
+    if (options.scene.empty()) {
+        throw ConfigError("reference: name a scene, or the parts of a reference with --merge.");
+    }
+    const Order order = orderOf(options);
+    const ReferenceRequest request = requestOf(order, asOption);
+    reference::RunOptions run = optionsOf(order, asOption);
+    std::optional<Shard> shard;
+    if (!options.shard.empty()) {
+        shard = parseShard(options.shard, "--shard");
+        if (!options.photons || options.seconds || options.standardError) {
+            throw ConfigError(
+                "--shard: give --photons of the whole reference; a shard knows neither --error nor "
+                "--seconds of the others.");
+        }
+    }
     const scene::Scene scene = loadRequestedScene(options.scene, options.time);
+    const std::string name = nameOf(scene.name, request);
     const fs::path file =
-        options.out.empty() ? fs::path("results/references") /
-                                  fmt::format("{}-{}-{}x{}{}", scene.name, options.estimator,
-                                              request.width, request.height, floatImageExtension())
-                            : fs::path(options.out);
-    const std::string extension = file.extension().string();
-    if (extension != ".exr" && extension != ".pfm")
-        throw ConfigError(fmt::format("--out: {} must end in .exr or .pfm.", file.string()));
-    run::requireWritable(file.parent_path().empty() ? fs::path(".") : file.parent_path(), "--out");
+        shard ? outputFile(options.out,
+                           fmt::format("{}-{}-of-{}.shard", name, shard->number, shard->count),
+                           {".shard"})
+              : outputFile(options.out, name + floatImageExtension(), kImageEndings);
     const EmbreeScene embree(scene);
+    if (shard) {
+        run.stop = {};
+        print(run::obtainShard(embree, request,
+                               {*shard, static_cast<std::uint64_t>(*options.photons), file}, run),
+              file);
+        return;
+    }
     const Reference result = run::obtainReference(embree, request, run);
     writeReference(file, result);
     print(result, file);

@@ -10,6 +10,8 @@
 
 #include "framework/app/commands.h"
 #include "framework/core/error.h"
+#include "framework/gl/capture.h"
+#include "framework/image/tev_client.h"
 #include "framework/report/limits.h"
 #include "framework/run/output.h"
 #include "framework/run/progress.h"
@@ -73,13 +75,22 @@ std::vector<gl::FrameTime> renderTimedFrames(Renderer& renderer, gl::PassTimer& 
     return times;
 }
 
+// Those of linear values, which a viewer of such pictures is for.
+void showPictures(TevClient& viewer, const std::vector<fs::path>& files, const std::string& scene) {
+    for (const fs::path& file : files) {
+        if (file.extension() == floatImageExtension())
+            viewer.show(fmt::format("{}/{}", scene, file.stem().string()), readImage(file));
+    }
+}
+
 }  // namespace
 
 void runCommand(const RunOptions& options, const Registry& registry) {
     using Clock = std::chrono::steady_clock;
     const Clock::time_point begin = Clock::now();
     checkOptions(options);
-    scene::Scene scene = loadRequestedScene(options.scene.scene, options.scene.time);
+    scene::Scene scene =
+        loadRequestedScene(options.scene.scene, options.scene.time, options.scene.scenePlace);
     // Pictures, ledger and reference are the last frame's.
     const double firstTime = scene.timeSeconds;
     const auto timeOf = [&](int frame) { return firstTime + frame * options.timeStepSeconds; };
@@ -90,6 +101,10 @@ void runCommand(const RunOptions& options, const Registry& registry) {
         options.out.empty()
             ? fs::path("results/runs") / fmt::format("{}-{}", scene.name, settings.technique.name)
             : fs::path(options.out);
+
+    if (options.captures) gl::requireRenderDoc();
+    std::optional<TevClient> viewer;
+    if (options.viewer) viewer.emplace(*options.viewer);
 
     const std::unique_ptr<gl::Context> context = gl::Context::createHeadless(options.scene.glDebug);
     Renderer renderer(*context, registry, scene, std::move(settings));
@@ -127,8 +142,17 @@ void runCommand(const RunOptions& options, const Registry& registry) {
     };
     record.frames = renderTimedFrames(renderer, timer, options, goTo, rendered);
 
-    const std::vector<fs::path> files =
+    std::vector<fs::path> files;
+    if (options.captures) {
+        gl::PassTimer untimed(gl::TimerMode::finish);
+        files.push_back(gl::captureFrame(folder, [&] { renderer.renderFrame(untimed); }));
+        record.warnings.emplace_back("RenderDoc was there, which takes time in every frame.");
+    }
+    const std::vector<fs::path> written =
         run::finishRun(renderer, reference, record, folder, options.saved, context->info());
+
+    files.insert(files.begin(), written.begin(), written.end());
+    if (viewer) showPictures(*viewer, written, scene.name);
 
     fmt::print("{} with {}, {}x{}, on {}{}\n", scene.name, renderer.settings().technique.name,
                renderer.settings().width, renderer.settings().height, context->info().renderer,

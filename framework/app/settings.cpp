@@ -10,11 +10,28 @@
 #include "framework/scene/shapes/height_field.h"
 
 namespace kaustik::app {
+namespace {
+
+// A file that names it is where the mistake may be.
+scene::Scene loadNamedScene(const std::string& name, const std::string& namedAt) {
+    if (namedAt.empty()) return scene::loadScene(name);
+    try {
+        return scene::loadScene(name);
+    } catch (const ConfigError& error) {
+        throw ConfigError(fmt::format("{}: {}", namedAt, error.what()));
+    } catch (const IoError& error) {
+        throw IoError(fmt::format("{}: {}", namedAt, error.what()));
+    }
+}
+
+}  // namespace
 
 RenderSettings makeSettings(const SceneOptions& options, const Registry& registry) {
     RenderSettings settings;
     settings.technique = registry.findTechnique(options.technique);
     settings.params = registry.makeParams(settings.technique);
+    for (const FileParameter& parameter : options.parameters)
+        settings.params.set(parameter.name, parameter.value, parameter.place);
     for (const std::string& assignment : options.assignments) {
         settings.params.setAssignment(assignment, "--set");
     }
@@ -22,6 +39,7 @@ RenderSettings makeSettings(const SceneOptions& options, const Registry& registr
     settings.width = size.width;
     settings.height = size.height;
     settings.disabledPasses.insert(options.disabled.begin(), options.disabled.end());
+    settings.disabledBy = options.disabledBy;
     return settings;
 }
 
@@ -32,8 +50,9 @@ params::Extent parseSize(const std::string& text) {
     return size;
 }
 
-scene::Scene loadRequestedScene(const std::string& name, const std::string& time) {
-    scene::Scene scene = scene::loadScene(name);
+scene::Scene loadRequestedScene(const std::string& name, const std::string& time,
+                                const std::string& namedAt) {
+    scene::Scene scene = loadNamedScene(name, namedAt);
     if (!time.empty()) {
         double seconds = 0.0;
         const char* end = time.data() + time.size();

@@ -6,7 +6,8 @@ namespace {
 
 // Those that shaders read by, and the ends of the reads are not waited for by a later store.
 bool isShaderAccess(Use use) {
-    return use != Use::target && use != Use::updateTexture && use != Use::updateBuffer;
+    return use != Use::target && use != Use::updateTexture && use != Use::updateBuffer &&
+           use != Use::capture && use != Use::queryResult;
 }
 
 }  // namespace

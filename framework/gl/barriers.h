@@ -20,6 +20,8 @@ enum class Use : GLbitfield {
     vertices = GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT,
     drawCommands = GL_COMMAND_BARRIER_BIT,
     target = GL_FRAMEBUFFER_BARRIER_BIT,
+    capture = GL_TRANSFORM_FEEDBACK_BARRIER_BIT,
+    queryResult = GL_QUERY_BUFFER_BARRIER_BIT,
     updateTexture = GL_TEXTURE_UPDATE_BARRIER_BIT,  // cleared, copied or read by the processor
     updateBuffer = GL_BUFFER_UPDATE_BARRIER_BIT,
 };

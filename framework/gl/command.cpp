@@ -183,8 +183,8 @@ Command& Command::target(const graph::ResourceRef& handle, int layer) {
     return *this;
 }
 
-Command& Command::depth(const graph::ResourceRef& handle, DepthTest test) {
-    depth_ = {&textureToDrawTo(handle), 0, false, {}};
+Command& Command::depth(const graph::ResourceRef& handle, DepthTest test, int layer) {
+    depth_ = {&textureToDrawTo(handle), layer, false, {}};
     depthTest_ = test;
     lastIsDepth_ = true;
     return *this;
@@ -240,6 +240,11 @@ Program& Command::bind() {
         if (isLeftOut(bound)) continue;
         const GLint location = program.uniform(bound.name);
         if (location < 0) continue;
+        if (std::any_of(textures_.begin(), textures_.end(),
+                        [&](const Bound& other) { return other.name == bound.name; })) {
+            throw GraphError(fmt::format("Pass '{}' binds '{}' both as a texture and as an image.",
+                                         context_.passName(), bound.name));
+        }
         accesses.push_back(bound.access);
         glBindImageTexture(unit, bound.texture->id(), 0, GL_TRUE, 0,
                            bound.access.stores ? GL_READ_WRITE : GL_READ_ONLY,
@@ -272,7 +277,9 @@ void Command::bindTargets() {
     for (const Target& target : targets_) {
         attachments.push_back({target.texture, target.layer, false});
     }
-    if (depth_.texture != nullptr) attachments.push_back({depth_.texture, 0, true});
+    const bool hasAllLayers = !targets_.empty() && targets_.front().layer == kAllLayers;
+    if (depth_.texture != nullptr)
+        attachments.push_back({depth_.texture, hasAllLayers ? kAllLayers : depth_.layer, true});
     if (attachments.empty()) {
         throw GraphError(
             fmt::format("Pass '{}' draws {} to nothing: target() or depth() is missing.",
@@ -376,6 +383,41 @@ void Command::drawIndirect(GLenum mode, const graph::ResourceRef& commands, std:
     glBindVertexArray(context_.emptyVertexArray());
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, buffer);
     glDrawArraysIndirect(mode, reinterpret_cast<const void*>(offset));
+}
+
+void Command::captureIndirect(GLenum mode, const graph::ResourceRef& commands, std::size_t offset,
+                              const std::vector<graph::ResourceRef>& streams,
+                              const graph::ResourceRef& counts) {
+    const GLuint buffer = indirect(commands);
+    std::vector<GLuint> captured;
+    for (const graph::ResourceRef& stream : streams) {
+        accesses_.push_back(context_.access(stream, Use::capture));
+        captured.push_back(context_.bufferOf(accesses_.back()).id());
+    }
+    accesses_.push_back(context_.access(counts, Use::queryResult));
+    const GLuint results = context_.bufferOf(accesses_.back()).id();
+    bind();
+    glBindFramebuffer(GL_FRAMEBUFFER, context_.framebuffer({}));
+    glBindVertexArray(context_.emptyVertexArray());
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, buffer);
+    glEnable(GL_RASTERIZER_DISCARD);
+    std::vector<QueryObject> queries;
+    for (GLuint stream = 0; stream < captured.size(); ++stream) {
+        glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, stream, captured[stream]);
+        queries.push_back(makeCaptureQuery());
+        glBeginQueryIndexed(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN, stream, queries.back().id());
+    }
+    glBeginTransformFeedback(GL_POINTS);
+    glDrawArraysIndirect(mode, reinterpret_cast<const void*>(offset));
+    glEndTransformFeedback();
+    for (GLuint stream = 0; stream < captured.size(); ++stream)
+        glEndQueryIndexed(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN, stream);
+    glDisable(GL_RASTERIZER_DISCARD);
+    for (GLuint stream = 0; stream < captured.size(); ++stream) {
+        glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, stream, 0);
+        glGetQueryBufferObjectuiv(queries[stream].id(), results, GL_QUERY_RESULT,
+                                  static_cast<GLintptr>(stream * sizeof(GLuint)));
+    }
 }
 
 void Command::dispatchOver(int countX, int localX, int countY, int localY) {

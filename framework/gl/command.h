@@ -69,9 +69,11 @@ class Command {
     // `#define NAME` for variants.
     Command& define(const std::string& name);
 
-    // Outputs, in the order of the fragment shader's locations; `layer` of an array texture.
+    // Outputs, in the order of the fragment shader's locations; `layer` of an array texture, or all
+    // of them, of which a geometry shader takes one. The depth has as many as the first target.
+    static constexpr int kAllLayers = -1;
     Command& target(const graph::ResourceRef& handle, int layer = 0);
-    Command& depth(const graph::ResourceRef& handle, DepthTest test);
+    Command& depth(const graph::ResourceRef& handle, DepthTest test, int layer = 0);
     // Clears the last target (or depth) before drawing; GraphError where there is none yet.
     Command& clear(graph::ClearValue value = {0.0f, 0.0f, 0.0f, 0.0f});
     Command& blend(Blend blend);
@@ -91,6 +93,11 @@ class Command {
     void dispatchIndirect(const graph::ResourceRef& commands, std::size_t offset);
     // The same of a draw: count, instances, first vertex and first instance.
     void drawIndirect(GLenum mode, const graph::ResourceRef& commands, std::size_t offset);
+    // Draws what a geometry shader's streams capture in buffers, instead of rasterising it, and
+    // writes how many points each stream had, a uint each, to `counts`.
+    void captureIndirect(GLenum mode, const graph::ResourceRef& commands, std::size_t offset,
+                         const std::vector<graph::ResourceRef>& streams,
+                         const graph::ResourceRef& counts);
 
   private:
     // `access`: of the graph's memory, where it is that.

@@ -8,12 +8,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <map>
+#include <mutex>
 #include <utility>
 
 #include "framework/core/error.h"
+#include "framework/gl/egl_devices.h"
 
 namespace kaustik::gl {
 namespace {
@@ -48,45 +52,40 @@ long long availableDeviceBytes(bool isSoftware) {
     return static_cast<long long>(kibibytes) * 1024;
 }
 
-struct Candidate {
-    EGLDisplay display = EGL_NO_DISPLAY;
-    std::string platform;
-};
+// Of the device of the current context.
+std::string deviceUuid() {
+    if (!epoxy_has_gl_extension("GL_EXT_memory_object")) return "";
+    std::array<unsigned char, GL_UUID_SIZE_EXT> uuid{};
+    glGetUnsignedBytei_vEXT(GL_DEVICE_UUID_EXT, 0, uuid.data());
+    return uuidText(uuid);
+}
 
-// Surfaceless first (Mesa), then every device of the device platform (vendor drivers).
-std::vector<Candidate> candidateDisplays(std::vector<std::string>& tried) {
-    std::vector<Candidate> candidates;
+// Surfaceless (Mesa) is EGL's default; else the device platform (vendors' drivers).
+EGLDisplay displayOf(const EglDevice& device) {
+    if (device.index < 0) {
+        return eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY,
+                                        nullptr);
+    }
+    return eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, device.handle, nullptr);
+}
+
+std::string platformOf(const EglDevice& device) {
+    return device.index < 0 ? "surfaceless" : fmt::format("device {}", device.index);
+}
+
+bool eglHas(const char* extension) {
     const char* text = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
-    const std::string extensions = text != nullptr ? text : "";
-    const auto has = [&](const char* name) { return extensions.find(name) != std::string::npos; };
-    if (!has("EGL_EXT_platform_base")) {
-        tried.emplace_back("this EGL has no platform displays (EGL_EXT_platform_base)");
-        return candidates;
-    }
-    if (has("EGL_MESA_platform_surfaceless")) {
-        candidates.push_back(
-            {eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr),
-             "surfaceless"});
-    } else {
-        tried.emplace_back("surfaceless: not offered");
-    }
-    if (has("EGL_EXT_platform_device") && has("EGL_EXT_device_enumeration")) {
-        std::array<EGLDeviceEXT, 16> devices{};
-        EGLint count = 0;
-        eglQueryDevicesEXT(static_cast<EGLint>(devices.size()), devices.data(), &count);
-        for (EGLint i = 0; i < count; ++i) {
-            candidates.push_back(
-                {eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT,
-                                          devices[static_cast<std::size_t>(i)], nullptr),
-                 fmt::format("device {}", i)});
-        }
-    }
-    return candidates;
+    return text != nullptr && std::string(text).find(extension) != std::string::npos;
+}
+
+std::string environmentText(const char* name) {
+    const char* text = std::getenv(name);
+    return text != nullptr ? text : "";
 }
 
 bool environmentDebugs() {
-    const char* text = std::getenv("KAUSTIK_GL_DEBUG");
-    return text != nullptr && std::strcmp(text, "") != 0 && std::strcmp(text, "0") != 0;
+    const std::string text = environmentText("KAUSTIK_GL_DEBUG");
+    return !text.empty() && text != "0";
 }
 
 EGLContext createContext(EGLDisplay display, bool robust, bool debugs) {
@@ -104,18 +103,52 @@ EGLContext createContext(EGLDisplay display, bool robust, bool debugs) {
     return eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes.data());
 }
 
+// A process has a display once: eglInitialize gives all of its contexts the same, and eglTerminate
+// would take it from all of them.
+class SharedDisplays {
+  public:
+    bool open(EGLDisplay display) {
+        const std::lock_guard lock(mutex_);
+        EGLint major = 0;
+        EGLint minor = 0;
+        if (eglInitialize(display, &major, &minor) != EGL_TRUE) return false;
+        ++users_[display];
+        return true;
+    }
+    void close(EGLDisplay display) {
+        const std::lock_guard lock(mutex_);
+        if (--users_[display] == 0) eglTerminate(display);
+    }
+
+  private:
+    std::mutex mutex_;
+    std::map<EGLDisplay, int> users_;
+};
+
+SharedDisplays& sharedDisplays() {
+    static auto* const displays = new SharedDisplays;  // for contexts that live until the end
+    return *displays;
+}
+
 }  // namespace
 
 struct Context::Egl {
-    EGLDisplay display = EGL_NO_DISPLAY;
+    EglDevice device;
+    EGLDisplay display = EGL_NO_DISPLAY;  // in use by this
     EGLContext context = EGL_NO_CONTEXT;
-    std::string platform;
     bool robust = false;
+
+    Egl() = default;
+    Egl(const Egl&) = delete;
+    Egl& operator=(const Egl&) = delete;
     ~Egl() {
         if (display == EGL_NO_DISPLAY) return;
-        eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-        if (context != EGL_NO_CONTEXT) eglDestroyContext(display, context);
-        eglTerminate(display);
+        if (context != EGL_NO_CONTEXT) {
+            if (eglGetCurrentContext() == context)
+                eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+            eglDestroyContext(display, context);
+        }
+        sharedDisplays().close(display);
     }
 };
 
@@ -142,61 +175,140 @@ void requireLibraries() {
     }
 }
 
-}  // namespace
-
-std::unique_ptr<Context> Context::createHeadless(bool debugs) {
-    debugs = debugs || environmentDebugs();
+void prepareEgl() {
     // Mesa says "DISPLAY" things on standard error when it is asked about drivers; keep it quiet.
     ::setenv("EGL_LOG_LEVEL", "fatal", 0);
     requireLibraries();
+    if (eglHas("EGL_EXT_platform_base")) return;
+    throw DeviceError(
+        "No OpenGL 4.5 context could be had through EGL (this EGL has no platform displays, "
+        "EGL_EXT_platform_base). Install a driver; without a GPU, Debian's libegl-mesa0 and "
+        "libgl1-mesa-dri render on the processor.",
+        kExitFailed);
+}
+
+bool containsInAnyCase(const std::string& text, const std::string& part) {
+    const auto same = [](unsigned char a, unsigned char b) {
+        return std::tolower(a) == std::tolower(b);
+    };
+    return std::search(text.begin(), text.end(), part.begin(), part.end(), same) != text.end();
+}
+
+std::string joined(const std::vector<std::string>& words, const char* between = ", ") {
+    return fmt::format("{}", fmt::join(words, between));
+}
+
+}  // namespace
+
+std::unique_ptr<Context> Context::createOn(const EglDevice& device, bool debugs,
+                                           std::string& problem) {
+    const std::string platform = platformOf(device);
+    const auto fails = [&](std::string why) {
+        problem = fmt::format("{}: {}", platform, std::move(why));
+        return std::unique_ptr<Context>();
+    };
+    if (device.index < 0 && !eglHas("EGL_MESA_platform_surfaceless")) return fails("not offered");
+    const EGLDisplay display = displayOf(device);
+    if (display == EGL_NO_DISPLAY || !sharedDisplays().open(display))
+        return fails(fmt::format("no display ({})", eglErrorText()));
+    auto egl = std::make_unique<Egl>();
+    egl->device = device;
+    egl->display = display;
+    eglBindAPI(EGL_OPENGL_API);
+    for (const bool robust : {true, false}) {
+        egl->context = createContext(display, robust, debugs);
+        egl->robust = robust;
+        if (egl->context != EGL_NO_CONTEXT) break;
+    }
+    if (egl->context == EGL_NO_CONTEXT)
+        return fails(fmt::format("no OpenGL 4.5 core context ({})", eglErrorText()));
+    if (eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, egl->context) != EGL_TRUE)
+        return fails(fmt::format("the context cannot be made current ({})", eglErrorText()));
+    std::unique_ptr<Context> context(new Context(std::move(egl)));
+    context->readInfo();
+    if (!context->info_.missing.empty()) {
+        return fails(fmt::format("{} lacks {}", context->info_.renderer,
+                                 fmt::join(context->info_.missing, ", ")));
+    }
+    context->info_.debugs = debugs;
+    if (debugs) context->enableDebugOutput();
+    return context;
+}
+
+// Of several that answer to the name, the one that the job was given.
+EglDevice Context::deviceNamed(const std::string& name, const GivenDevices& given) {
+    std::vector<EglDevice> found;
+    std::vector<std::string> names;
+    std::optional<EglDevice> refused;
+    for (const EglDevice& device : listEglDevices()) {
+        std::string problem;
+        const std::unique_ptr<Context> context = createOn(device, false, problem);
+        if (context == nullptr) continue;
+        names.push_back(fmt::format("{} {}", device.index, context->info().renderer));
+        if (!containsInAnyCase(context->info().renderer, name)) continue;
+        if (isGiven(device, given).value_or(true)) {
+            found.push_back(device);
+        } else {
+            refused = device;
+        }
+    }
+    if (found.size() == 1) return found.front();
+    if (found.empty() && refused) requireGiven(*refused, given);
+    throw ConfigError(fmt::format("--device: {} is called '{}'; say one of them by its number: {}.",
+                                  found.empty() ? "no device" : "more than one device", name,
+                                  names.empty() ? "EGL lists none" : joined(names)));
+}
+
+std::unique_ptr<Context> Context::createHeadless(bool debugs, const std::string& device) {
+    debugs = debugs || environmentDebugs();
+    prepareEgl();
+    const GivenDevices given = givenDevices([](const char* name) { return std::getenv(name); });
+    const std::string wanted = device.empty() ? environmentText("KAUSTIK_DEVICE") : device;
+    std::vector<EglDevice> candidates;
+    if (wanted.empty()) {
+        candidates = inOrderOfChoice(listEglDevices(), given);
+    } else {
+        candidates = thoseWanted(listEglDevices(), wanted, given);
+        if (candidates.empty()) candidates.push_back(deviceNamed(wanted, given));
+        if (candidates.size() > 1) {
+            throw ConfigError(
+                fmt::format("--device: more than one device has a UUID that begins "
+                            "with '{}'; 'kaustik check' lists them.",
+                            wanted));
+        }
+    }
     std::vector<std::string> tried;
-    for (const Candidate& candidate : candidateDisplays(tried)) {
-        if (candidate.display == EGL_NO_DISPLAY) continue;
-        auto egl = std::make_unique<Egl>();
-        EGLint major = 0;
-        EGLint minor = 0;
-        if (eglInitialize(candidate.display, &major, &minor) != EGL_TRUE) {
-            tried.push_back(fmt::format("{}: no display ({})", candidate.platform, eglErrorText()));
-            continue;
-        }
-        egl->display = candidate.display;
-        egl->platform = candidate.platform;
-        eglBindAPI(EGL_OPENGL_API);
-        for (const bool robust : {true, false}) {
-            egl->context = createContext(egl->display, robust, debugs);
-            egl->robust = robust;
-            if (egl->context != EGL_NO_CONTEXT) break;
-        }
-        if (egl->context == EGL_NO_CONTEXT) {
-            tried.push_back(fmt::format("{}: no OpenGL 4.5 core context ({})", candidate.platform,
-                                        eglErrorText()));
-            continue;
-        }
-        if (eglMakeCurrent(egl->display, EGL_NO_SURFACE, EGL_NO_SURFACE, egl->context) !=
-            EGL_TRUE) {
-            tried.push_back(fmt::format("{}: the context cannot be made current ({})",
-                                        candidate.platform, eglErrorText()));
-            continue;
-        }
-        std::unique_ptr<Context> context(new Context(std::move(egl)));
-        context->readInfo();
-        if (!context->info_.missing.empty()) {
-            tried.push_back(fmt::format("{}: {} lacks {}", candidate.platform,
-                                        context->info_.renderer,
-                                        fmt::join(context->info_.missing, ", ")));
-            continue;
-        }
-        context->info_.debugs = debugs;
-        if (debugs) context->enableDebugOutput();
-        return context;
+    for (const EglDevice& candidate : candidates) {
+        std::string problem;
+        if (std::unique_ptr<Context> context = createOn(candidate, debugs, problem)) return context;
+        tried.push_back(std::move(problem));
     }
     throw DeviceError(
-        fmt::format(
-            "No OpenGL 4.5 context could be had through EGL ({}). Install a driver; without "
-            "a GPU, Debian's libegl-mesa0 and libgl1-mesa-dri render on the processor.",
-            tried.empty() ? "no EGL display is offered"
-                          : fmt::format("{}", fmt::join(tried, "; "))),
+        fmt::format("No OpenGL 4.5 context could be had through EGL ({}). Install a driver; "
+                    "without a GPU, Debian's libegl-mesa0 and libgl1-mesa-dri render on the "
+                    "processor.",
+                    joined(tried, "; ")),
         kExitFailed);
+}
+
+std::vector<ListedDevice> listDevices() {
+    prepareEgl();
+    const GivenDevices given = givenDevices([](const char* name) { return std::getenv(name); });
+    std::vector<ListedDevice> listed;
+    for (const EglDevice& device : listEglDevices()) {
+        ListedDevice entry;
+        entry.isGiven = isGiven(device, given);
+        const std::unique_ptr<Context> context = Context::createOn(device, false, entry.problem);
+        if (context != nullptr) {
+            entry.info = context->info();
+        } else {
+            entry.info.index = device.index;
+            entry.info.uuid = device.uuid;
+            entry.info.node = device.node;
+        }
+        listed.push_back(std::move(entry));
+    }
+    return listed;
 }
 
 Context::Context(std::unique_ptr<Egl> egl) : egl_(std::move(egl)) {}
@@ -214,7 +326,10 @@ void Context::readInfo() {
     info_.renderer = text(GL_RENDERER);
     info_.vendor = text(GL_VENDOR);
     info_.version = text(GL_VERSION);
-    info_.platform = egl_->platform;
+    info_.platform = platformOf(egl_->device);
+    info_.index = egl_->device.index;
+    info_.uuid = egl_->device.uuid.empty() ? deviceUuid() : egl_->device.uuid;
+    info_.node = egl_->device.node;
     info_.robust = egl_->robust;
     info_.isSoftware = isSoftwareRasteriser(info_.renderer);
     info_.availableBytes = availableDeviceBytes(info_.isSoftware);

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,9 @@ struct DeviceInfo {
     std::string vendor;
     std::string version;
     std::string platform;  // which EGL platform gave the context
+    int index = -1;        // among EGL's devices; -1: EGL's default
+    std::string uuid;      // as nvidia-smi and Vulkan have it; "" where nobody says
+    std::string node;      // such as /dev/dri/renderD128, or ""
     int maxTextureSize = 0;
     int maxViewport = 0;
     int maxTextureLayers = 0;
@@ -29,12 +33,20 @@ struct DeviceInfo {
     std::vector<std::string> missing;  // what the project needs and the device lacks
 };
 
+struct EglDevice;
+struct GivenDevices;
+struct ListedDevice;
+
 class Context {
   public:
     // Makes the context current on this thread. Throws DeviceError (exit code 1) that says what was
     // tried when there is no EGL, no OpenGL 4.5, or something that every node needs is missing.
     // It debugs where `debugs` or the environment's KAUSTIK_GL_DEBUG=1 says so, which takes time.
-    [[nodiscard]] static std::unique_ptr<Context> createHeadless(bool debugs = false);
+    // `device`: a number, a UUID or its beginning, or a part of a renderer's name; "" for what the
+    // environment's KAUSTIK_DEVICE says, else the best that the job was given (egl_devices.h).
+    // ConfigError for one that is not there, not given, or not the only one of its name.
+    [[nodiscard]] static std::unique_ptr<Context> createHeadless(bool debugs = false,
+                                                                 const std::string& device = "");
     ~Context();
     Context(const Context&) = delete;
     Context& operator=(const Context&) = delete;
@@ -53,6 +65,11 @@ class Context {
 
   private:
     struct Egl;
+    friend std::vector<ListedDevice> listDevices();
+    // Null, with why not, where there can be no context.
+    [[nodiscard]] static std::unique_ptr<Context> createOn(const EglDevice& device, bool debugs,
+                                                           std::string& problem);
+    [[nodiscard]] static EglDevice deviceNamed(const std::string& name, const GivenDevices& given);
     explicit Context(std::unique_ptr<Egl> egl);
     void readInfo();
     void enableDebugOutput();
@@ -63,5 +80,15 @@ class Context {
     std::string firstError_;
     bool outOfMemory_ = false;
 };
+
+// A device that EGL lists, with what a context on it says of itself.
+struct ListedDevice {
+    DeviceInfo info;
+    std::string problem;          // why there is no context on it; then only index, uuid, node hold
+    std::optional<bool> isGiven;  // to this job, where that can be told
+};
+
+// All that EGL lists, each tried in turn. Throws DeviceError without EGL.
+[[nodiscard]] std::vector<ListedDevice> listDevices();
 
 }  // namespace kaustik::gl

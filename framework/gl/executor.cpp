@@ -23,6 +23,9 @@ class DebugGroup {
     DebugGroup& operator=(const DebugGroup&) = delete;
 };
 
+// Of a frame's loops: far beyond what any needs.
+constexpr std::size_t kMostRounds = 1U << 20U;
+
 }  // namespace
 
 Command PassContext::fullscreen(const std::string& fragmentShader) {
@@ -169,10 +172,13 @@ void Executor::clearSlot(std::size_t slot, const graph::ClearValue& value) {
     }
 }
 
-void Executor::poison(const graph::Step& step) {
+void Executor::poison(const graph::Step& step, bool isRepeated) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const std::uint32_t ones = ~0u;
     for (const std::size_t slot : step.births) {
+        if (isRepeated &&
+            std::count(step.carriedBirths.begin(), step.carriedBirths.end(), slot) > 0)
+            continue;
         if (const auto* texture = std::get_if<graph::TextureDesc>(&slots_[slot].desc)) {
             const bool isDepth = texture->format == graph::Format::depth32f;
             clearSlot(slot, isDepth ? graph::ClearValue{} : graph::ClearValue{nan, nan, nan, nan});
@@ -184,27 +190,55 @@ void Executor::poison(const graph::Step& step) {
     }
 }
 
+bool Executor::runsAgain(const graph::Loop& loop) {
+    order({{loop.slot, Use::updateBuffer}});
+    std::uint32_t word = 0;
+    glGetNamedBufferSubData(slots_[loop.slot].buffer.id(),
+                            static_cast<GLintptr>(loop.word * sizeof(word)), sizeof(word), &word);
+    return word != 0;
+}
+
 bool Executor::runFrame(PassTimer& timer, const std::function<bool(std::size_t)>& goesOn) {
     const bool debugs = context_.info().debugs;
-    timer.beginFrame(compiled_.steps.size());
+    const std::size_t count = compiled_.steps.size();
+    timer.beginFrame(count);
     context_.setScope("in a frame");
-    for (std::size_t i = 0; i < compiled_.steps.size(); ++i) {
+    std::vector<bool> hasRun(count, false);
+    std::vector<bool> isDone(count, false);  // since a loop has come round that it depends on
+    std::size_t rounds = 0;
+    for (std::size_t i = 0; i < count;) {
         const graph::Step& step = compiled_.steps[i];
         if (goesOn && !goesOn(i)) return false;  // the timer begins this frame again
-        if (debugs) context_.setScope("in pass '" + step.name + "'");
-        PassContext context(*this, step);
-        const DebugGroup group(i, step.name);
-        if (isFresh_) {
-            for (const std::size_t slot : step.keptBirths)
-                clearSlot(slot, {});
+        if (!isDone[i]) {
+            if (debugs) context_.setScope("in pass '" + step.name + "'");
+            PassContext context(*this, step, hasRun[i]);
+            const DebugGroup group(i, step.name);
+            if (isFresh_ && !hasRun[i]) {
+                for (const std::size_t slot : step.keptBirths)
+                    clearSlot(slot, {});
+            }
+            if (poison_) poison(step, hasRun[i]);
+            timer.beginPass(i);
+            for (const graph::Step::Clear& clear : step.clears)
+                clearSlot(clear.slot, clear.value);
+            if (step.execute) step.execute(context);
+            timer.endPass(i);
+            if (debugs) context_.check();
+            hasRun[i] = true;
+            isDone[i] = true;
         }
-        if (poison_) poison(step);
-        timer.beginPass(i);
-        for (const graph::Step::Clear& clear : step.clears)
-            clearSlot(clear.slot, clear.value);
-        if (step.execute) step.execute(context);
-        timer.endPass(i);
-        if (debugs) context_.check();
+        std::size_t next = i + 1;
+        for (const graph::Loop& loop : compiled_.loops) {
+            if (loop.last != i || !runsAgain(loop)) continue;
+            if (++rounds > kMostRounds)
+                throw GraphError("A loop around pass '" + step.name +
+                                 "' does not come to its end.");
+            for (std::size_t s = loop.first; s <= loop.last; ++s)
+                isDone[s] = loop.invariant.contains(s);
+            next = loop.first;
+            break;
+        }
+        i = next;
     }
     timer.endFrame();
     isFresh_ = false;
@@ -221,6 +255,11 @@ GLuint Executor::framebuffer(const std::vector<Attachment>& attachments) {
     if (known != framebuffers_.end()) return known->second.id();
 
     FramebufferObject framebuffer = makeFramebuffer();
+    if (attachments.empty()) {
+        // Nothing is drawn to it, but it has to be complete.
+        glNamedFramebufferParameteri(framebuffer.id(), GL_FRAMEBUFFER_DEFAULT_WIDTH, 1);
+        glNamedFramebufferParameteri(framebuffer.id(), GL_FRAMEBUFFER_DEFAULT_HEIGHT, 1);
+    }
     std::vector<GLenum> drawBuffers;
     for (const Attachment& attachment : attachments) {
         GLenum point = GL_DEPTH_ATTACHMENT;
@@ -228,7 +267,7 @@ GLuint Executor::framebuffer(const std::vector<Attachment>& attachments) {
             point = GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(drawBuffers.size());
             drawBuffers.push_back(point);
         }
-        if (attachment.texture->desc().layers > 0) {
+        if (attachment.texture->desc().layers > 0 && attachment.layer != Command::kAllLayers) {
             glNamedFramebufferTextureLayer(framebuffer.id(), point, attachment.texture->id(), 0,
                                            attachment.layer);
         } else {

@@ -31,7 +31,11 @@ class Executor;
 // a GraphError names the pass and the resource.
 class PassContext : public graph::ExecuteContext {
   public:
-    PassContext(Executor& executor, const graph::Step& step) : executor_(executor), step_(step) {}
+    PassContext(Executor& executor, const graph::Step& step, bool isRepeated)
+        : executor_(executor), step_(step), isRepeated_(isRepeated) {}
+
+    // Whether the pass has run in this frame before: a loop has come round.
+    [[nodiscard]] bool isRepeated() const { return isRepeated_; }
 
     [[nodiscard]] Command fullscreen(const std::string& fragmentShader);
     [[nodiscard]] Command compute(const std::string& computeShader);
@@ -59,6 +63,7 @@ class PassContext : public graph::ExecuteContext {
   private:
     Executor& executor_;
     const graph::Step& step_;
+    bool isRepeated_;
 };
 
 class Executor {
@@ -96,7 +101,8 @@ class Executor {
         std::string lastingName;  // of the resource whose it is from frame to frame
     };
     void clearSlot(std::size_t slot, const graph::ClearValue& value);
-    void poison(const graph::Step& step);
+    void poison(const graph::Step& step, bool isRepeated);
+    [[nodiscard]] bool runsAgain(const graph::Loop& loop);
     void order(const std::vector<Access>& accesses);
     GLuint framebuffer(const std::vector<Attachment>& attachments);
 

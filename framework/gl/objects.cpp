@@ -215,6 +215,12 @@ VertexArrayObject makeVertexArray() {
     return VertexArrayObject(id);
 }
 
+QueryObject makeCaptureQuery() {
+    GLuint id = 0;
+    glCreateQueries(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN, 1, &id);
+    return QueryObject(id);
+}
+
 QueryObject makeTimestampQuery() {
     GLuint id = 0;
     glCreateQueries(GL_TIMESTAMP, 1, &id);

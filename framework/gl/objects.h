@@ -119,5 +119,7 @@ class Buffer {
 [[nodiscard]] FramebufferObject makeFramebuffer();
 [[nodiscard]] VertexArrayObject makeVertexArray();
 [[nodiscard]] QueryObject makeTimestampQuery();
+// Of the points that transform feedback has written.
+[[nodiscard]] QueryObject makeCaptureQuery();
 
 }  // namespace kaustik::gl

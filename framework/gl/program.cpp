@@ -16,20 +16,26 @@ namespace kaustik::gl {
 namespace {
 namespace fs = std::filesystem;
 
-fs::path findShader(const std::string& file) {
-    std::vector<fs::path> folders{projectRoot() / "shaders", projectRoot()};
+ShaderFolders searchedFolders(const ShaderFolders& moreFolders) {
+    ShaderFolders folders{projectRoot() / "shaders", projectRoot()};
+    folders.insert(folders.end(), moreFolders.begin(), moreFolders.end());
     if (const char* fromEnvironment = std::getenv("KAUSTIK_SHADERS")) {
         if (*fromEnvironment != '\0') folders.emplace_back(fromEnvironment);
     }
-    for (const fs::path& folder : folders) {
-        const fs::path path = folder / file;
-        if (fs::is_regular_file(path)) return path;
-    }
-    return {};
+    return folders;
+}
+
+// As messages name it: what is not the project's with its whole path.
+std::string shownName(const fs::path& file) {
+    const fs::path relative = file.lexically_relative(projectRoot());
+    const bool isOurs = !relative.empty() && *relative.begin() != "..";
+    return isOurs ? relative.string() : file.string();
 }
 
 class Expander {
   public:
+    explicit Expander(const ShaderFolders& moreFolders) : folders_(searchedFolders(moreFolders)) {}
+
     ShaderText run(const std::string& file, const std::string& declarations) {
         append("#version 450 core", {"(start of " + file + ")", 1});
         std::istringstream lines(declarations);
@@ -42,6 +48,14 @@ class Expander {
     }
 
   private:
+    [[nodiscard]] fs::path find(const std::string& file) const {
+        for (const fs::path& folder : folders_) {
+            const fs::path path = folder / file;
+            if (fs::is_regular_file(path)) return path;
+        }
+        return {};
+    }
+
     void append(const std::string& line, SourceLine where) {
         result_.text += line + "\n";
         result_.lines.push_back(std::move(where));
@@ -52,15 +66,18 @@ class Expander {
             throw ShaderError(fmt::format("{} includes itself by way of {}.", file, includedFrom));
         }
         if (std::find(done_.begin(), done_.end(), file) != done_.end()) return;
-        const fs::path path = findShader(file);
+        const fs::path path = find(file);
         if (path.empty()) {
+            std::vector<std::string> searched;
+            for (const fs::path& folder : folders_)
+                searched.push_back(folder.string());
             throw ShaderError(
                 fmt::format("The shader file '{}'{} does not exist below {}.", file,
                             includedFrom.empty() ? "" : " included at " + includedFrom,
-                            (projectRoot() / "shaders").string()));
+                            fmt::join(searched, ", ")));
         }
         stack_.push_back(file);
-        const std::string name = fs::relative(path, projectRoot()).string();
+        const std::string name = shownName(path);
         std::istringstream lines(readFile(path));
         static const std::regex include(R"rx(^\s*#\s*include\s+"([^"]+)"\s*(//.*)?$)rx");
         static const std::regex skipped(R"rx(^\s*#\s*(version|pragma\s+once).*)rx");
@@ -78,6 +95,7 @@ class Expander {
         done_.push_back(file);
     }
 
+    ShaderFolders folders_;
     ShaderText result_;
     std::vector<std::string> stack_;
     std::vector<std::string> done_;  // each file is included once
@@ -130,8 +148,9 @@ void insertWords(const std::string& text, std::set<std::string>& words) {
 
 }  // namespace
 
-ShaderText loadShaderText(const std::string& file, const std::string& declarations) {
-    return Expander().run(file, declarations);
+ShaderText loadShaderText(const std::string& file, const std::string& declarations,
+                          const ShaderFolders& moreFolders) {
+    return Expander(moreFolders).run(file, declarations);
 }
 
 std::string readableShaderLog(const std::string& log, const std::vector<SourceLine>& sourceLines) {
@@ -157,11 +176,12 @@ std::string readableShaderLog(const std::string& log, const std::vector<SourceLi
     return readable;
 }
 
-Program::Program(const ProgramKey& key) : object_(glCreateProgram()) {
+Program::Program(const ProgramKey& key, const ShaderFolders& moreFolders)
+    : object_(glCreateProgram()) {
     std::vector<ShaderObject> shaders;
     for (const std::string& file : key.files) {
         name_ += (name_.empty() ? "" : " + ") + file;
-        const ShaderText source = loadShaderText(file, key.declarations);
+        const ShaderText source = loadShaderText(file, key.declarations, moreFolders);
         insertWords(source.text, words_);
         shaders.push_back(compile(file, source));
         glAttachShader(id(), shaders.back().id());
@@ -215,14 +235,14 @@ GLuint Program::uniformBlock(const std::string& name) {
 Program& ProgramCache::get(const ProgramKey& key) {
     const auto known = programs_.find(key);
     if (known != programs_.end()) return known->second;
-    return programs_.emplace(key, Program(key)).first->second;
+    return programs_.emplace(key, Program(key, moreFolders_)).first->second;
 }
 
 std::vector<std::string> ProgramCache::reload() {
     std::vector<std::string> errors;
     for (auto& [key, program] : programs_) {
         try {
-            program = Program(key);
+            program = Program(key, moreFolders_);
         } catch (const Error& error) {
             errors.emplace_back(error.what());
         }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Shader programs from files with includes. A file is looked up in shaders/, then from the
-// project's root (for the headers that C++ and GLSL share), then in the folder that KAUSTIK_SHADERS
-// names (for a technique that lives elsewhere). A compile error names the file and line as written.
+// project's root (for the headers that C++ and GLSL share), then in the folders of techniques that
+// live elsewhere, and in that which KAUSTIK_SHADERS names. A compile error names the file and line
+// as written.
 // Programs are cached by their files and declarations.
 #pragma once
 
@@ -9,6 +10,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "framework/gl/objects.h"
@@ -35,7 +37,9 @@ struct ShaderText {
     std::vector<SourceLine> lines;  // of `text`, from its first
 };
 // Throws ShaderError when a file is missing or includes itself, naming the file and line.
-[[nodiscard]] ShaderText loadShaderText(const std::string& file, const std::string& declarations);
+using ShaderFolders = std::vector<std::filesystem::path>;
+[[nodiscard]] ShaderText loadShaderText(const std::string& file, const std::string& declarations,
+                                        const ShaderFolders& moreFolders = {});
 
 // "file:line: message" from a driver's log, whatever its format.
 [[nodiscard]] std::string readableShaderLog(const std::string& log,
@@ -43,7 +47,7 @@ struct ShaderText {
 
 class Program {
   public:
-    explicit Program(const ProgramKey& key);
+    explicit Program(const ProgramKey& key, const ShaderFolders& moreFolders = {});
     [[nodiscard]] GLuint id() const { return object_.id(); }
     // The location of a uniform, -1 where the compiler has removed it. A name that the source does
     // not declare throws ShaderError: it is a mistake.
@@ -67,6 +71,9 @@ class Program {
 
 class ProgramCache {
   public:
+    // `moreFolders` are searched besides the project's own.
+    explicit ProgramCache(ShaderFolders moreFolders = {}) : moreFolders_(std::move(moreFolders)) {}
+
     // Compiles at first use. Throws ShaderError.
     [[nodiscard]] Program& get(const ProgramKey& key);
 
@@ -75,6 +82,7 @@ class ProgramCache {
     [[nodiscard]] std::vector<std::string> reload();
 
   private:
+    ShaderFolders moreFolders_;
     std::map<ProgramKey, Program> programs_;
 };
 

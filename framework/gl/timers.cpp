@@ -18,33 +18,35 @@ void PassTimer::beginFrame(std::size_t passCount) {
         slot.pending = false;
     }
     slot.time = FrameTime{frame_, 0.0, 0.0, std::vector<PassTime>(passCount)};
-    slot.begins.resize(passCount);
-    if (mode_ == TimerMode::timestamps) {
-        while (slot.queries.size() < 2 * passCount)
-            slot.queries.push_back(makeTimestampQuery());
-    } else {
-        glFinish();
-    }
+    slot.runs.clear();
+    if (mode_ == TimerMode::finish) glFinish();
     slot.frameBegin = Clock::now();
 }
 
 void PassTimer::beginPass(std::size_t pass) {
     Slot& slot = ring_[frame_ % kFramesInFlight];
-    slot.begins[pass] = Clock::now();
-    if (mode_ == TimerMode::timestamps) glQueryCounter(slot.queries[2 * pass].id(), GL_TIMESTAMP);
+    slot.runs.push_back(pass);
+    if (mode_ == TimerMode::timestamps) {
+        while (slot.queries.size() < 2 * slot.runs.size())
+            slot.queries.push_back(makeTimestampQuery());
+    }
+    slot.runBegin = Clock::now();
+    if (mode_ == TimerMode::timestamps)
+        glQueryCounter(slot.queries[2 * slot.runs.size() - 2].id(), GL_TIMESTAMP);
 }
 
 void PassTimer::endPass(std::size_t pass) {
     Slot& slot = ring_[frame_ % kFramesInFlight];
     PassTime& time = slot.time.passes[pass];
-    time.cpuMs = milliseconds(Clock::now() - slot.begins[pass]);
+    time.cpuMs += milliseconds(Clock::now() - slot.runBegin);
+    ++time.runs;
     if (mode_ == TimerMode::timestamps) {
-        glQueryCounter(slot.queries[2 * pass + 1].id(), GL_TIMESTAMP);
+        glQueryCounter(slot.queries[2 * slot.runs.size() - 1].id(), GL_TIMESTAMP);
         return;
     }
     glFinish();
-    time.gpuMs = milliseconds(Clock::now() - slot.begins[pass]);
-    time.startMs = milliseconds(slot.begins[pass] - slot.frameBegin);
+    time.gpuMs += milliseconds(Clock::now() - slot.runBegin);
+    if (time.runs == 1) time.startMs = milliseconds(slot.runBegin - slot.frameBegin);
 }
 
 void PassTimer::endFrame() {
@@ -62,9 +64,9 @@ void PassTimer::endFrame() {
 
 bool PassTimer::collect(Slot& slot, bool wait) {
     FrameTime& time = slot.time;
-    if (mode_ == TimerMode::timestamps && !time.passes.empty()) {
+    if (mode_ == TimerMode::timestamps && !slot.runs.empty()) {
         GLint available = GL_FALSE;
-        glGetQueryObjectiv(slot.queries[2 * time.passes.size() - 1].id(), GL_QUERY_RESULT_AVAILABLE,
+        glGetQueryObjectiv(slot.queries[2 * slot.runs.size() - 1].id(), GL_QUERY_RESULT_AVAILABLE,
                            &available);
         if (available != GL_TRUE && !wait) return false;
         const auto nanoseconds = [&](std::size_t query) {
@@ -74,14 +76,18 @@ bool PassTimer::collect(Slot& slot, bool wait) {
         };
         const GLuint64 frameBegin = nanoseconds(0);
         GLuint64 frameEnd = frameBegin;
-        for (std::size_t pass = 0; pass < time.passes.size(); ++pass) {
-            const GLuint64 begin = nanoseconds(2 * pass);
+        for (PassTime& pass : time.passes)
+            pass.runs = 0;
+        for (std::size_t run = 0; run < slot.runs.size(); ++run) {
+            const GLuint64 begin = nanoseconds(2 * run);
             // Clocks of different queues may disagree by a tick: never below zero.
-            const GLuint64 end = std::max(nanoseconds(2 * pass + 1), begin);
+            const GLuint64 end = std::max(nanoseconds(2 * run + 1), begin);
             frameEnd = std::max(frameEnd, end);
-            time.passes[pass].gpuMs = static_cast<double>(end - begin) * 1e-6;
-            time.passes[pass].startMs =
-                static_cast<double>(std::max(begin, frameBegin) - frameBegin) * 1e-6;
+            PassTime& pass = time.passes[slot.runs[run]];
+            pass.gpuMs += static_cast<double>(end - begin) * 1e-6;
+            if (++pass.runs == 1) {
+                pass.startMs = static_cast<double>(std::max(begin, frameBegin) - frameBegin) * 1e-6;
+            }
         }
         time.frameMs = static_cast<double>(frameEnd - frameBegin) * 1e-6;
     }

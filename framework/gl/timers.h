@@ -15,10 +15,11 @@ namespace kaustik::gl {
 
 enum class TimerMode { timestamps, finish };
 
-struct PassTime {
+struct PassTime {  // of all runs of a frame together
     double gpuMs = 0.0;
     double cpuMs = 0.0;
-    double startMs = 0.0;  // since the start of its frame
+    double startMs = 0.0;  // of the first, since the start of its frame
+    int runs = 0;
 };
 
 struct FrameTime {
@@ -50,8 +51,9 @@ class PassTimer {
     struct Slot {
         bool pending = false;
         FrameTime time;
-        std::vector<QueryObject> queries;  // two a pass
-        std::vector<Clock::time_point> begins;
+        std::vector<QueryObject> queries;  // two a run
+        std::vector<std::size_t> runs;     // their passes; in a loop one has several
+        Clock::time_point runBegin;
         Clock::time_point frameBegin;
     };
     [[nodiscard]] bool collect(Slot& slot, bool wait);

@@ -41,7 +41,7 @@ OpenImageIoModule loadOpenImageIoModule(const std::filesystem::path& file) {
 
 const OpenImageIoModule& openImageIo() {
     static const OpenImageIoModule module =
-        loadOpenImageIoModule(executableFolder() / "kaustik_openimageio.so");
+        loadOpenImageIoModule(helperFolder() / "kaustik_openimageio.so");
     return module;
 }
 

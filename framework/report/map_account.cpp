@@ -11,6 +11,8 @@ namespace {
 
 using nlohmann::json;
 
+constexpr auto kColors = static_cast<std::size_t>(transport::kChannels);
+
 // W that a filter has left, the mean of the channels.
 double filteredWatts(const Renderer& renderer, const FluxMap& map) {
     const gl::Texture& texture = renderer.texture(map.filtered);
@@ -21,7 +23,7 @@ double filteredWatts(const Renderer& renderer, const FluxMap& map) {
     for (int view = 0; view < map.on.views->count(); ++view) {
         const std::size_t begin = layer * static_cast<std::size_t>(view * map.filteredPerView());
         for (std::size_t i = begin; i < begin + layer; i += 4) {
-            for (std::size_t c = 0; c < transport::kChannels; ++c)
+            for (std::size_t c = 0; c < kColors; ++c)
                 sum += static_cast<double>(texels[i + c]);
         }
     }
@@ -36,7 +38,7 @@ double seenWatts(const Renderer& renderer) {
     double sum = 0.0;
     for (std::size_t pixel = 0; 4 * pixel + 3 < irradiance.size(); ++pixel) {
         const double area = static_cast<double>(receiver[2 * pixel + 1]);
-        for (std::size_t c = 0; c < transport::kChannels; ++c)
+        for (std::size_t c = 0; c < kColors; ++c)
             sum += static_cast<double>(irradiance[4 * pixel + c]) * area;
     }
     return sum / static_cast<double>(transport::kChannels);
@@ -60,6 +62,10 @@ json mapAccount(const Renderer& renderer) {
             {{isOfGenerators ? "generator" : "light", isOfGenerators ? map.generator : map.light},
              {"size", {views.width(), views.height()}},
              {"views", views.count()}});
+        if (map.cascade > 0) {
+            account["maps"].back()["cascade"] = map.cascade;
+            continue;
+        }
         isFiltered = isFiltered && map.filtered.valid();
         if (isFiltered) filtered += filteredWatts(renderer, map);
     }
@@ -73,6 +79,17 @@ json mapAccount(const Renderer& renderer) {
     ratio("blend_energy_ratio", filtered, deposited, isFiltered, "no filter has changed the map");
     ratio("seen_ratio", seenWatts(renderer), deposited, true, "");
     return account;
+}
+
+json cellAccount(const Renderer& renderer) {
+    const graph::Buffer<transport::CellCounts>& cells = renderer.outputs().cells;
+    if (!cells.valid()) return nullptr;
+    const transport::CellCounts counts =
+        renderer.buffer(cells).read<transport::CellCounts>().front();
+    return {{"probes", counts.probes},         {"photons", counts.emitted},
+            {"merged", counts.merged},         {"discarded", counts.discarded},
+            {"deepest_level", counts.deepest}, {"rounds", counts.rounds},
+            {"batches", counts.batches}};
 }
 
 }  // namespace kaustik::report

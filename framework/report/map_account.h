@@ -12,4 +12,8 @@ namespace kaustik::report {
 // screen.
 [[nodiscard]] nlohmann::json mapAccount(const Renderer& renderer);
 
+// The same frame's `cells`: how many photons a driver that chooses them has taken, and looked at;
+// null where it takes all of a grid's.
+[[nodiscard]] nlohmann::json cellAccount(const Renderer& renderer);
+
 }  // namespace kaustik::report

@@ -28,19 +28,6 @@ std::string processorName() {
     return "unknown";
 }
 
-json needsJson(const scene::SceneNeeds& needs, const LayerStatistics& layers) {
-    return {{"specular_interfaces", needs.specularInterfaces},
-            {"reflectors", needs.reflectors},
-            {"refractors", needs.refractors},
-            {"closed_dielectrics", needs.closedDielectrics},
-            {"medium", needs.medium},
-            {"glossy_receivers", needs.glossyReceivers},
-            {"animated", needs.animated},
-            {"lights", needs.lights},
-            {"receivers", needs.receivers},
-            {"depth_complexity", layers.complexity}};
-}
-
 json energyJson(const EnergyLedger& ledger) {
     json lost = json::object();
     for (const auto& [account, name] : lossCauses()) {
@@ -209,6 +196,19 @@ std::string referenceTable(const RunRecord& record) {
 
 }  // namespace
 
+json needsJson(const scene::SceneNeeds& needs, long long depthComplexity) {
+    return {{"specular_interfaces", needs.specularInterfaces},
+            {"reflectors", needs.reflectors},
+            {"refractors", needs.refractors},
+            {"closed_dielectrics", needs.closedDielectrics},
+            {"medium", needs.medium},
+            {"glossy_receivers", needs.glossyReceivers},
+            {"animated", needs.animated},
+            {"lights", needs.lights},
+            {"receivers", needs.receivers},
+            {"depth_complexity", depthComplexity}};
+}
+
 std::vector<PassTimes> timesByPass(const RunRecord& record) {
     std::vector<PassTimes> times;
     std::map<std::string, std::size_t> indexOf;
@@ -238,13 +238,15 @@ json makeReport(const RunRecord& record, const Renderer& renderer, const gl::Dev
          {{"renderer", device.renderer},
           {"vendor", device.vendor},
           {"gl", device.version},
+          {"platform", device.platform},
+          {"uuid", device.uuid},
           {"gl_debug", device.debugs},
           {"cpu", processorName()},
           {"threads", std::thread::hardware_concurrency()}}},
         {"scene",
          {{"name", renderer.scene().name},
           {"triangles", triangleCount(renderer.scene())},
-          {"needs", needsJson(renderer.needs(), record.layers)}}},
+          {"needs", needsJson(renderer.needs(), record.layers.complexity)}}},
         {"technique", settings.technique.name},
         {"parameters", settings.params.json()},
         {"disabled", settings.disabledPasses},
@@ -278,6 +280,7 @@ json makeReport(const RunRecord& record, const Renderer& renderer, const gl::Dev
         {"limits", toJson(reachedLimits(record, renderer))},
         {"warnings", record.warnings}};
     if (!record.map.is_null()) report["map"] = record.map;
+    if (!record.cells.is_null()) report["cells"] = record.cells;
     if (!record.hits.is_null()) report["hits"] = record.hits;
     if (!record.error.is_null()) report["error"] = record.error;
     return report;
@@ -304,6 +307,14 @@ std::string makeTable(const RunRecord& record) {
         if (pass.state == graph::PassState::ran) continue;
         const char* state = pass.state == graph::PassState::bypassed ? "bypassed" : "skipped";
         table += fmt::format("{:<24}{:>10}   {}\n", pass.name, state, pass.why);
+    }
+    if (!record.cells.is_null()) {
+        const auto count = [&](const char* key) { return record.cells[key].get<unsigned>(); };
+        table += fmt::format(
+            "cells                 {} photons, {} of them for several cells, of {} probes; level "
+            "{}, {} rounds, {} batches\n",
+            count("photons"), count("merged"), count("probes"), count("deepest_level"),
+            count("rounds"), count("batches"));
     }
     const EnergyLedger& ledger = record.ledger;
     const double emitted = ledger.watts[kAccountEmitted];
@@ -339,8 +350,32 @@ json makeSamples(const RunRecord& record) {
             {"passes", passes}};
 }
 
+namespace {
+
+// A counter's events, one for each change; viewers draw a track for every value.
+class Counter {
+  public:
+    Counter(json& events, std::string name) : events_(events), name_(std::move(name)) {}
+    void set(double timeMs, json values) {
+        if (values == last_) return;
+        events_.push_back(
+            {{"name", name_}, {"ph", "C"}, {"pid", 1}, {"ts", timeMs * 1e3}, {"args", values}});
+        last_ = std::move(values);
+    }
+
+  private:
+    json& events_;
+    std::string name_;
+    json last_;
+};
+
+}  // namespace
+
 json makeChromeTrace(const RunRecord& record) {
     json events = json::array();
+    Counter frameTimes(events, "time");
+    Counter memory(events, "memory");
+    Counter photons(events, "photons");
     double frameBegin = 0.0;
     const auto add = [&](const std::string& name, double startMs, double durationMs, int thread) {
         events.push_back({{"name", name},
@@ -352,9 +387,15 @@ json makeChromeTrace(const RunRecord& record) {
     };
     for (const gl::FrameTime& frame : record.frames) {
         add(fmt::format("frame {}", frame.frame), frameBegin, frame.frameMs, 0);
+        frameTimes.set(frameBegin,
+                       {{"device_ms", frame.frameMs}, {"bookkeeping_ms", frame.bookkeepingMs}});
+        // They are counted in a frame of their own, which repeats the last one.
+        if (&frame == &record.frames.back()) photons.set(frameBegin, photonsJson(record.ledger));
         for (std::size_t step = 0; step < frame.passes.size(); ++step) {
-            add(record.stepNames[step], frameBegin + frame.passes[step].startMs,
-                frame.passes[step].gpuMs, 1);
+            const double begin = frameBegin + frame.passes[step].startMs;
+            add(record.stepNames[step], begin, frame.passes[step].gpuMs, 1);
+            const auto& [textures, buffers] = record.stepBytes[step];
+            memory.set(begin, {{"texture_bytes", textures}, {"buffer_bytes", buffers}});
         }
         frameBegin += frame.frameMs;
     }

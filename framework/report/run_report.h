@@ -16,9 +16,10 @@ namespace kaustik::report {
 // Everything but the times and the ledger is read from the renderer.
 struct RunRecord {
     gl::TimerMode timer = gl::TimerMode::timestamps;
-    std::vector<std::string> stepNames;     // of the timed graph
-    std::vector<graph::PassRecord> passes;  // of the timed graph
-    std::vector<gl::FrameTime> frames;      // timed ones only
+    std::vector<std::string> stepNames;                          // of the timed graph
+    std::vector<std::pair<std::size_t, std::size_t>> stepBytes;  // textures, buffers in use in them
+    std::vector<graph::PassRecord> passes;                       // of the timed graph
+    std::vector<gl::FrameTime> frames;                           // timed ones only
     int warmup = 0;
     long long seed = 1;
     double timeStepSeconds = 0.0;  // between timed frames
@@ -33,6 +34,7 @@ struct RunRecord {
     std::size_t peakBytes = 0;
     bool photonsEnd = false;  // ModelledPaths::end
     nlohmann::json map;       // mapAccount
+    nlohmann::json cells;     // cellAccount
     nlohmann::json hits;      // null where no reference was asked for, as is the next
     nlohmann::json error;     //
     std::vector<std::string> warnings;
@@ -46,6 +48,9 @@ struct PassTimes {
 };
 [[nodiscard]] std::vector<PassTimes> timesByPass(const RunRecord& record);
 
+// scene.needs of the report. `depthComplexity`: surfaces along a pixel's ray, at most.
+[[nodiscard]] nlohmann::json needsJson(const scene::SceneNeeds& needs, long long depthComplexity);
+
 [[nodiscard]] nlohmann::json makeReport(const RunRecord& record, const Renderer& renderer,
                                         const gl::DeviceInfo& device);
 
@@ -55,7 +60,8 @@ struct PassTimes {
 // Every time behind the report's statistics (schema kaustik.samples/1).
 [[nodiscard]] nlohmann::json makeSamples(const RunRecord& record);
 
-// Complete events of every pass and frame, for chrome://tracing and Perfetto.
+// Complete events of every pass and frame and counters (times, memory by pass, photons), for
+// chrome://tracing and Perfetto.
 [[nodiscard]] nlohmann::json makeChromeTrace(const RunRecord& record);
 
 }  // namespace kaustik::report

@@ -46,6 +46,16 @@ std::string reachedBy(const reference::Progress& progress) {
     return text;
 }
 
+void tellDamage(const std::string& damage) {
+    fmt::print(stderr, "{}\n", damage);
+}
+
+[[noreturn]] void failInterrupted(std::uint64_t photons) {
+    throw Error(
+        fmt::format("Interrupted after {} photons; the same command goes on from there.", photons),
+        kExitFailed);
+}
+
 }  // namespace
 
 fs::path cacheFolder() {
@@ -81,22 +91,41 @@ Reference obtainReference(const EmbreeScene& scene, const ReferenceRequest& requ
     };
     options.pulse = [&](std::uint64_t) { return watch.goesOn(); };
     const auto failIfInterrupted = [&] {
-        if (watch.goesOn()) return;
-        throw Error(
-            fmt::format("Interrupted after {} photons; the same command goes on from there.",
-                        photons),
-            kExitFailed);
+        if (!watch.goesOn()) failInterrupted(photons);
     };
     try {
         const Reference reference =
-            loadOrCompute(scene, request, cacheFolder() / "references", options,
-                          [](const std::string& damage) { fmt::print(stderr, "{}\n", damage); });
+            loadOrCompute(scene, request, cacheFolder() / "references", options, tellDamage);
         failIfInterrupted();
         return reference;
     } catch (const ConfigError&) {
         failIfInterrupted();  // below two batches there is no reference to give
         throw;
     }
+}
+
+ShardResult obtainShard(const EmbreeScene& scene, const ReferenceRequest& request,
+                        const ShardRequest& asked, RunOptions options) {
+    catchInterrupts();
+    Progress progress(fmt::format("shard {}/{}:", asked.shard.number, asked.shard.count));
+    const auto [first, end] = rangeOf(asked.shard, batchesFor(scene, request, asked.photons));
+    const double wanted = static_cast<double>(end - first);
+    std::uint64_t photons = 0;
+    options.progress = [&](const reference::Progress& now) {
+        photons = now.photons;
+        progress.updateShare(static_cast<double>(now.batches) / wanted, reachedBy(now));
+        return !isInterrupted();
+    };
+    options.pulse = [](std::uint64_t) { return !isInterrupted(); };
+    ShardResult result = computeShard(scene, request, asked, options, tellDamage);
+    if (!result.head.isWhole()) failInterrupted(photons);
+    return result;
+}
+
+Reference mergeShards(const std::vector<fs::path>& files, bool incomplete) {
+    Progress progress("part", static_cast<int>(files.size()));
+    return mergeParts(files,
+                      {incomplete, [&](int done, int) { progress.update(done); }, tellDamage});
 }
 
 }  // namespace kaustik::run

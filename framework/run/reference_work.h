@@ -3,8 +3,10 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "framework/reference/reference.h"
+#include "framework/reference/shards.h"
 #include "framework/run/progress.h"
 
 namespace kaustik::run {
@@ -23,5 +25,15 @@ namespace kaustik::run {
                                                    const reference::ReferenceRequest& request,
                                                    reference::RunOptions options,
                                                    const Watch& watch);
+
+// A shard of one, with its progress on standard error. Throws Error when interrupted; the next call
+// goes on from there.
+[[nodiscard]] reference::ShardResult obtainShard(const reference::EmbreeScene& scene,
+                                                 const reference::ReferenceRequest& request,
+                                                 const reference::ShardRequest& asked,
+                                                 reference::RunOptions options);
+// The reference of all parts, with the progress of reading them.
+[[nodiscard]] reference::Reference mergeShards(const std::vector<std::filesystem::path>& files,
+                                               bool incomplete);
 
 }  // namespace kaustik::run

@@ -23,25 +23,28 @@ report::RunRecord startRecord(const Renderer& renderer, gl::TimerMode timer) {
     record.textureBytes = renderer.compiled().textureBytes;
     record.bufferBytes = renderer.compiled().bufferBytes;
     record.peakBytes = renderer.compiled().peakBytes;
-    for (const graph::Step& step : renderer.compiled().steps)
+    for (const graph::Step& step : renderer.compiled().steps) {
         record.stepNames.push_back(step.name);
+        record.stepBytes.emplace_back(step.liveTextureBytes, step.liveBufferBytes);
+    }
     return record;
 }
 
-std::vector<fs::path> finishRun(Renderer& renderer, const RunReference& reference,
-                                report::RunRecord& record, const fs::path& folder,
-                                const std::vector<std::string>& saved,
-                                const gl::DeviceInfo& device) {
+bool measureRun(Renderer& renderer, const RunReference& reference, report::RunRecord& record,
+                const std::vector<std::string>& saved,
+                const std::function<bool(std::size_t)>& goesOn) {
     renderer.build(reference.purpose(), saved);
     gl::PassTimer untimed(gl::TimerMode::finish);
-    renderer.renderFrame(untimed);
+    if (!renderer.renderFrame(untimed, goesOn)) return false;
     record.ledger = renderer.ledger();
     record.layers = renderer.layerStatistics();
     record.layersAllowed = renderer.outputs().layers.layers;
     record.nodeLimits = renderer.reachedLimits();
     record.map = report::mapAccount(renderer);
+    record.cells = report::cellAccount(renderer);
     record.photonsEnd = renderer.outputs().hits.incoming.paths.end;
-    record.warnings = renderer.scene().warnings;
+    const std::vector<std::string>& ofScene = renderer.scene().warnings;
+    record.warnings.insert(record.warnings.end(), ofScene.begin(), ofScene.end());
     record.warnings.insert(record.warnings.end(), renderer.warnings().begin(),
                            renderer.warnings().end());
     if (!renderer.isRandom() && record.seed != report::RunRecord{}.seed) {
@@ -57,7 +60,14 @@ std::vector<fs::path> finishRun(Renderer& renderer, const RunReference& referenc
         record.warnings.push_back(
             fmt::format("{} was set, but no node of this run uses it.", name));
     }
+    return true;
+}
 
+std::vector<fs::path> finishRun(Renderer& renderer, const RunReference& reference,
+                                report::RunRecord& record, const fs::path& folder,
+                                const std::vector<std::string>& saved,
+                                const gl::DeviceInfo& device) {
+    measureRun(renderer, reference, record, saved);
     throwIfInterrupted();
     // A report beside the pictures of another run would be worse than none.
     FilesTogether together(folder);

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include "framework/run/explanation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "framework/gl/objects.h"
+
+namespace kaustik::run {
+namespace {
+
+using nlohmann::json;
+
+const char* stateName(graph::PassState state) {
+    switch (state) {
+        case graph::PassState::ran:
+            return "runs";
+        case graph::PassState::bypassed:
+            return "bypassed";
+        case graph::PassState::culled:
+            return "culled";
+        case graph::PassState::skipped:
+            return "skipped";
+    }
+    return "";
+}
+
+std::string needsText(const scene::Scene& scene, const scene::SceneNeeds& needs) {
+    const auto line = [](const char* what, const auto& value) {
+        return fmt::format("  {:<42}{}\n", what, value);
+    };
+    const auto orNone = [](bool has) { return has ? "yes" : "none"; };
+    return fmt::format("scene {}: {} triangles\n", scene.name, triangleCount(scene)) +
+           line("specular interfaces on the longest chain", needs.specularInterfaces) +
+           line("reflectors, refractors",
+                fmt::format("{}, {}", needs.reflectors, needs.refractors)) +
+           line("medium", orNone(needs.medium)) +
+           line("glossy receivers", orNone(needs.glossyReceivers)) +
+           line("depth complexity from the eye",
+                needs.measuredDepthComplexity < 0 ? "not measured"
+                                                  : std::to_string(needs.measuredDepthComplexity)) +
+           line("animated", needs.animated ? "yes" : "no") + line("lights", needs.lights);
+}
+
+std::string describe(const graph::ResourceDesc& desc) {
+    if (const auto* texture = std::get_if<graph::TextureDesc>(&desc)) {
+        return fmt::format("{}x{}{} {}", texture->width, texture->height,
+                           texture->layers > 0 ? fmt::format("x{}", texture->layers) : "",
+                           graph::formatName(texture->format));
+    }
+    return fmt::format("{} bytes", graph::bytesOf(desc));
+}
+
+}  // namespace
+
+std::string explain(const Renderer& renderer) {
+    std::string text = needsText(renderer.scene(), renderer.needs());
+    text += fmt::format("technique {}\n", renderer.settings().technique.name);
+    const std::vector<graph::PassRecord>& passes = renderer.compiled().records;
+    std::size_t longest = 0;
+    for (const graph::PassRecord& pass : passes)
+        longest = std::max(longest, pass.name.size());
+    for (const graph::PassRecord& pass : passes) {
+        text += fmt::format("  {:<{}}  {:<10}{}\n", pass.name, longest, stateName(pass.state),
+                            pass.why);
+    }
+    text += "resources (--save takes the textures)\n";
+    const std::vector<std::string> resources = renderer.graph().resourceNames();
+    longest = 0;
+    for (const std::string& name : resources)
+        longest = std::max(longest, name.size());
+    for (const std::string& name : resources) {
+        text += fmt::format("  {:<{}}  {}\n", name, longest,
+                            describe(renderer.graph().descOf(renderer.graph().find(name))));
+    }
+    for (const std::string& warning : renderer.warnings())
+        text += fmt::format("warning: {}\n", warning);
+    return text;
+}
+
+json listPasses(const Renderer& renderer) {
+    json passes = json::array();
+    for (const graph::PassRecord& pass : renderer.compiled().records) {
+        passes.push_back({{"name", pass.name},
+                          {"stage", pass.name.substr(0, pass.name.find('.'))},
+                          {"state", stateName(pass.state)},
+                          {"why", pass.why}});
+    }
+    return passes;
+}
+
+json listResources(const Renderer& renderer) {
+    json resources = json::array();
+    for (const std::string& name : renderer.graph().resourceNames()) {
+        const graph::ResourceDesc& desc = renderer.graph().descOf(renderer.graph().find(name));
+        if (const auto* texture = std::get_if<graph::TextureDesc>(&desc)) {
+            resources.push_back({{"name", name},
+                                 {"kind", "texture"},
+                                 {"width", texture->width},
+                                 {"height", texture->height},
+                                 {"channels", gl::formatInfo(texture->format).channels},
+                                 {"layers", texture->layers},
+                                 {"format", graph::formatName(texture->format)}});
+        } else {
+            resources.push_back(
+                {{"name", name}, {"kind", "buffer"}, {"bytes", graph::bytesOf(desc)}});
+        }
+    }
+    return resources;
+}
+
+}  // namespace kaustik::run

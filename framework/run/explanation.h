@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// What a renderer's last build is made of, for people and as JSON.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "framework/pipeline/renderer.h"
+
+namespace kaustik::run {
+
+// What the scene needs, every pass with the reason that it runs or not, every resource, warnings.
+[[nodiscard]] std::string explain(const Renderer& renderer);
+
+// A list of objects with `name`, `stage`, `state` ("runs", "bypassed", "culled", "skipped"), `why`.
+[[nodiscard]] nlohmann::json listPasses(const Renderer& renderer);
+
+// Of textures `name`, `kind` "texture", `width`, `height`, `channels`, `layers` (0: not an array of
+// layers) and `format`; of buffers `name`, `kind` "buffer" and `bytes`.
+[[nodiscard]] nlohmann::json listResources(const Renderer& renderer);
+
+}  // namespace kaustik::run
