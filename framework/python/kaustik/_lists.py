@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: MIT
+"""What there is to choose from."""
+
+from typing import Any, Dict, List
+
+from . import _kaustik
+
+
+def scenes() -> List[Dict[str, Any]]:
+    """The shipped scenes: name, description, file."""
+    return _kaustik.scenes()
+
+
+def techniques() -> List[Dict[str, Any]]:
+    """The techniques: name, description, source (the paper), defaults (parameter: text)."""
+    return _kaustik.techniques()
+
+
+def nodes(technique: str = "") -> List[Dict[str, Any]]:
+    """The nodes, or those that a technique chooses: name, stage, description, source."""
+    return _kaustik.nodes(technique)
+
+
+def params(technique: str = "") -> List[Dict[str, Any]]:
+    """The parameters, or those of a technique's nodes with its own defaults: name, type, default,
+    unit, range (text; also minimum and maximum, or choices), description."""
+    return _kaustik.params(technique)

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "framework/core/error.h"
+#include "framework/python/bindings.h"
+
+#ifdef KAUSTIK_HAS_EMBREE
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "framework/measure/image_file.h"
+#include "framework/params/field.h"
+#include "framework/python/array.h"
+#include "framework/python/scene_source.h"
+#include "framework/python/values.h"
+#include "framework/python/waiting.h"
+#include "framework/reference/order.h"
+#include "framework/run/reference_work.h"
+#include "framework/scene/shapes/height_field.h"
+
+namespace kaustik::python {
+namespace {
+
+namespace py = pybind11;
+using namespace reference;
+
+params::Extent pixels(const std::string& text) {
+    params::Extent size;
+    params::Field{"size", "", "px", &size, 1.0, 16384.0, {}}.set(text, "size", "reference");
+    return size;
+}
+
+// The name of an argument: caustic_view for caustic-view.
+std::string asArgument(std::string name) {
+    std::replace(name.begin(), name.end(), '-', '_');
+    return name;
+}
+
+// Tells a Python function, which may raise and by that end the work.
+class Progress {
+  public:
+    explicit Progress(py::object function) : function_(std::move(function)) {}
+
+    void tell(double share, const std::string& reached) {
+        if (function_.is_none() || hasFailed_) return;
+        const py::gil_scoped_acquire gil;
+        try {
+            function_(share, reached);
+        } catch (py::error_already_set& error) {
+            raised_.emplace(error);
+            hasFailed_ = true;
+        }
+    }
+    [[nodiscard]] bool hasFailed() const { return hasFailed_; }
+    void throwIfFailed() {
+        if (raised_) throw py::error_already_set(*raised_);
+    }
+
+  private:
+    py::object function_;
+    std::optional<py::error_already_set> raised_;
+    std::atomic<bool> hasFailed_{false};
+};
+
+std::shared_ptr<Reference> compute(const py::object& scene, const std::string& base,
+                                   const py::object& size, std::optional<double> time,
+                                   const std::string& estimator, std::optional<long long> photons,
+                                   std::optional<double> seconds,
+                                   std::optional<double> standardError, long long seed, int threads,
+                                   bool transmissionOnly, int interactions, bool causticView,
+                                   const py::object& progress) {
+    const SceneSource source(scene, base);
+    const params::Extent pixelsWanted = pixels(settingText("size", size));
+    const Order order{.estimator = estimator,
+                      .width = pixelsWanted.width,
+                      .height = pixelsWanted.height,
+                      .photons = photons,
+                      .seconds = seconds,
+                      .relativeError = standardError,
+                      .seed = seed,
+                      .threads = threads,
+                      .transmissionOnly = transmissionOnly,
+                      .interactions = interactions,
+                      .causticView = causticView};
+    const ReferenceRequest request = requestOf(order, asArgument);
+    const RunOptions options = optionsOf(order, asArgument);
+    Progress told(progress);
+    try {
+        return waitFor([&](const WorkThread::GoesOn& mayWait) {
+            std::shared_ptr<Reference> found;
+            WorkThread thread;
+            thread.run(
+                [&](const WorkThread::GoesOn& goesOn) {
+                    scene::Scene loaded = source.load();
+                    if (time) scene::setTime(loaded, *time);
+                    const run::Watch watch{
+                        [&] { return goesOn() && !told.hasFailed(); },
+                        [&](double share, const std::string& text) { told.tell(share, text); }};
+                    found = std::make_shared<Reference>(
+                        run::obtainReference(EmbreeScene(loaded), request, options, watch));
+                },
+                mayWait);
+            return found;
+        });
+    } catch (const Error&) {
+        told.throwIfFailed();
+        throw;
+    }
+}
+
+// None for what the reference does not have.
+py::object arrayOf(const Image& image) {
+    if (image.values.empty()) return py::none();
+    return py::cast(std::make_shared<Array>(image));
+}
+
+// A property that hands out a copy of an image.
+auto asArray(Image Reference::*image) {
+    return [image](const Reference& reference) { return arrayOf(reference.*image); };
+}
+
+py::dict energyOf(const Reference& reference) {
+    const auto& watts = reference.energy.watts;
+    py::dict energy;
+    energy["emitted_w"] = watts[transport::kAccountEmitted];
+    energy["deposited_w"] = watts[transport::kAccountDeposited];
+    energy["visible_w"] = reference.energy.visibleWatts;
+    energy["balance"] = reference.energy.balance();
+    return energy;
+}
+
+void save(const Reference& reference, const std::filesystem::path& file) {
+    const std::string extension = measure::lowerExtension(file);
+    if (extension != ".exr" && extension != ".pfm")
+        throw ConfigError(fmt::format("save: {} must end in .exr or .pfm.", file.string()));
+    waitFor([&](const WorkThread::GoesOn&) { writeReference(file, reference); });
+}
+
+}  // namespace
+
+void bindReference(py::module_& module) {
+    py::class_<Reference, std::shared_ptr<Reference>> type(module, "Reference", R"(
+A ray-traced reference: images with the standard error of every pixel, height x width x channels.
+
+Irradiance in W/m2, radiance in W/m2/sr, linear Rec.709.
+)");
+    type.attr("__module__") = "kaustik";
+    type.def_property_readonly("irradiance", asArray(&Reference::irradiance),
+                               "Caustic irradiance at the first receiver, H x W x 3, W/m2.")
+        .def_property_readonly("standard_error", asArray(&Reference::irradianceError),
+                               "Of the irradiance, one standard deviation, H x W x 3, W/m2.")
+        .def_property_readonly("caustic_radiance", asArray(&Reference::causticRadiance),
+                               "H x W x 3, W/m2/sr; None where no receiver is glossy.")
+        .def_property_readonly("caustic_view", asArray(&Reference::causticView),
+                               "As seen through specular surfaces, H x W x 3; None unless asked "
+                               "for.")
+        .def_property_readonly("in_scattered", asArray(&Reference::inScattered),
+                               "H x W x 3, W/m2/sr; None without a medium that scatters.")
+        .def_property_readonly(
+            "photons", [](const Reference& reference) { return reference.photons; },
+            "How many photons were traced.")
+        .def_property_readonly(
+            "relative_error",
+            [](const Reference& reference) -> std::optional<double> {
+                if (!std::isfinite(reference.relativeError)) return std::nullopt;
+                return reference.relativeError;
+            },
+            "Standard error over the mean of a lit pixel; None where no pixel is lit.")
+        .def_property_readonly(
+            "seconds", [](const Reference& reference) { return reference.seconds; },
+            "How long it was computed, s.")
+        .def_property_readonly("energy", &energyOf,
+                               "Watts: emitted_w, deposited_w, visible_w; and their balance.")
+        .def_property_readonly(
+            "scene", [](const Reference& reference) { return reference.scene; },
+            "The scene's name.")
+        .def("save", &save, py::arg("file"),
+             "Writes FILE (.exr or .pfm), its standard error and a .json beside it, as `kaustik "
+             "reference` does.")
+        .def("__repr__", [](const Reference& reference) {
+            return fmt::format("kaustik.Reference({}, {}x{}, {} photons)", reference.scene,
+                               reference.request.width, reference.request.height,
+                               reference.photons);
+        });
+    module.def("reference", &compute, py::arg("scene"), py::arg("base"), py::arg("size"),
+               py::arg("time"), py::arg("estimator"), py::arg("photons"), py::arg("seconds"),
+               py::arg("error"), py::arg("seed"), py::arg("threads"), py::arg("transmission_only"),
+               py::arg("interactions"), py::arg("caustic_view"), py::arg("progress"));
+    module.def(
+        "read_reference",
+        [](const std::filesystem::path& file) {
+            return std::make_shared<Reference>(readReference(file));
+        },
+        py::arg("file"));
+}
+
+}  // namespace kaustik::python
+
+#else
+
+namespace kaustik::python {
+
+namespace {
+struct Reference {};
+}  // namespace
+
+void bindReference(pybind11::module_& module) {
+    pybind11::class_<Reference>(module, "Reference", "Not in this build, which has no Embree.");
+    for (const char* name : {"reference", "read_reference"}) {
+        module.def(name, [](const pybind11::args&, const pybind11::kwargs&) {
+            throw ConfigError("This module was built without Embree and has no references.");
+        });
+    }
+}
+
+}  // namespace kaustik::python
+
+#endif
