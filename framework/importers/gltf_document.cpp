@@ -13,6 +13,7 @@
 
 #include "framework/core/error.h"
 #include "framework/core/files.h"
+#include "framework/core/json_text.h"
 #include "framework/importers/gltf_document.h"
 
 namespace kaustik::scene {
@@ -20,9 +21,6 @@ namespace {
 namespace fs = std::filesystem;
 
 using Json = nlohmann::json;
-
-// Deeper than any exporter nests, and shallow enough for readers that recurse.
-constexpr int kDeepestJson = 64;
 
 std::uint32_t number32(std::string_view bytes, std::size_t at) {
     std::uint32_t number = 0;
@@ -36,26 +34,8 @@ bool isGlb(std::string_view bytes) {
     return bytes.starts_with("glTF");
 }
 
-// The parser could be asked to watch the depth, but looks at all that an object's parent holds so
-// far when the object ends: 300,000 nodes would take half a minute.
-void checkDepth(std::string_view text, const std::string& name) {
-    int depth = 0;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        if (text[i] == '"') {
-            for (++i; i < text.size() && text[i] != '"'; ++i)
-                i += text[i] == '\\' ? 1 : 0;
-        } else if (text[i] == '{' || text[i] == '[') {
-            if (++depth <= kDeepestJson) continue;
-            throw IoError(
-                fmt::format("{}: the JSON is nested more than {} deep.", name, kDeepestJson));
-        } else if (text[i] == '}' || text[i] == ']') {
-            --depth;
-        }
-    }
-}
-
-Json parseJson(std::string_view text, const std::string& name) {
-    checkDepth(text, name);
+Json parseGltfJson(std::string_view text, const std::string& name) {
+    requireShallowJson(text, name);
     try {
         return Json::parse(text);
     } catch (const Json::exception& error) {
@@ -172,7 +152,7 @@ tinygltf::Model loadGltfModel(const fs::path& path) {
     }
     const std::string_view text = gltfJsonText(bytes, name);
     {
-        const Json document = parseJson(text, name);
+        const Json document = parseGltfJson(text, name);
         checkGltfJson(document, name);
         checkBufferFiles(document, path, isGlb(bytes));
     }

@@ -75,7 +75,8 @@ class Cutter {
             }
             candidates = cutEars(candidates);
         }
-        const std::size_t last = std::find(isCut_.begin(), isCut_.end(), false) - isCut_.begin();
+        const auto last = static_cast<std::size_t>(std::find(isCut_.begin(), isCut_.end(), false) -
+                                                   isCut_.begin());
         addTriangle(last);
         result_.isSimple = result_.isSimple && turn(last) >= 0.0;
         result_.work += tree_.work() + searched_;

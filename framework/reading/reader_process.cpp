@@ -95,7 +95,7 @@ ReaderProcess::~ReaderProcess() {
 }
 
 fs::path ReaderProcess::defaultProgram() {
-    return executableFolder() / "kaustik_reader";
+    return helperFolder() / "kaustik_reader";
 }
 
 void ReaderProcess::start() {

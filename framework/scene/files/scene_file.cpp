@@ -45,7 +45,7 @@ std::vector<fs::path> shippedSceneFiles() {
 // A file that says `extends`: only what it changes is in it.
 Scene loadExtension(TableReader& top, const fs::path& path) {
     const std::string base = top.text("extends");
-    const std::string name = top.text("name", path.stem().string());
+    const std::string name = top.text("name", path.has_stem() ? path.stem().string() : "scene");
     const std::string description = top.text("description", "");
     const SceneEdits edits = readEdits(top);
     // A scene that extends itself, by whatever way, would be loaded for ever.
@@ -85,12 +85,15 @@ std::string lowerExtension(const fs::path& path) {
 Scene loadSceneFile(const fs::path& path) {
     // One process for the scene and its meshes; each file has all of the time.
     reading::ReaderProcess process;
-    const TomlNode document = readToml(path, process);
+    return makeScene(readToml(path, process), path, process);
+}
+
+Scene makeScene(const TomlNode& document, const fs::path& path, reading::ReaderProcess& process) {
     TableReader top(document, path, "");
     if (top.has("extends")) return loadExtension(top, path);
     Scene scene;
     scene.file = path;
-    scene.name = top.text("name", path.stem().string());
+    scene.name = top.text("name", path.has_stem() ? path.stem().string() : "scene");
     scene.description = top.text("description", "");
     scene.backgroundRadiance =
         top.uniformOrVector3("background_radiance", kNotNegative, glm::dvec3(0.0));

@@ -18,6 +18,9 @@ namespace kaustik::scene {
 namespace {
 namespace fs = std::filesystem;
 
+// Four of the finest shapes have as many, and take a gigabyte.
+constexpr std::size_t kMostTriangles = std::size_t{1} << 25;
+
 // How the file places an object; `fit` and `rest_on` need the mesh, so this is applied later.
 struct Placement {
     glm::dvec3 position{0.0};
@@ -131,6 +134,18 @@ std::uint32_t findMaterial(TableReader& reader, const std::string& name, const S
     reader.fail("material", "material " + TableReader::notOneOf(name, names));
 }
 
+// A few lines of text must not take all of the memory.
+void requireRoom(const Mesh& shape, const Scene& scene, const TableReader& reader) {
+    std::size_t triangles = shape.triangles.size();
+    for (const Mesh& mesh : scene.meshes)
+        triangles += mesh.triangles.size();
+    if (triangles <= kMostTriangles) return;
+    reader.fail("shape",
+                fmt::format("with this shape the scene has {} triangles, more than {}; give its "
+                            "shapes fewer cells or segments",
+                            triangles, kMostTriangles));
+}
+
 }  // namespace
 
 Object readObject(TableReader& reader, Scene& scene, reading::ReaderProcess& process) {
@@ -151,6 +166,7 @@ Object readObject(TableReader& reader, Scene& scene, reading::ReaderProcess& pro
         Mesh mesh = readShape(reader, scene.timeSeconds);
         mesh.name = object.name;
         object.material = findMaterial(reader, material, scene);
+        requireRoom(mesh, scene, reader);
         scene.meshes.push_back(std::move(mesh));
         object.mesh = static_cast<std::uint32_t>(scene.meshes.size() - 1);
     }

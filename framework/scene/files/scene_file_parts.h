@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The tables of a scene file, one reader each; `scene_file.h` describes their keys.
+// A scene file's table and the tables in it, one reader each; `scene_file.h` describes their keys.
 #pragma once
 
 #include <filesystem>
@@ -10,6 +10,12 @@
 #include "framework/scene/scene_edits.h"
 
 namespace kaustik::scene {
+
+// The scene of a table. What it names is looked for beside `path`, which is a folder with a '/' at
+// its end where the table stands in no file: errors then begin with "the scene". `process` reads
+// mesh files. Throws as loadSceneFile().
+[[nodiscard]] Scene makeScene(const TomlNode& document, const std::filesystem::path& path,
+                              reading::ReaderProcess& process);
 
 [[nodiscard]] Camera readCamera(TableReader& reader);
 [[nodiscard]] Medium readMedium(TableReader& reader);

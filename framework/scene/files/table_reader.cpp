@@ -264,6 +264,7 @@ void TableReader::failMissing(std::string_view key) const {
 }
 
 std::string TableReader::place(std::string_view key) const {
+    if (!file_.has_filename()) return "the scene";
     const TomlNode* node = key.empty() ? nullptr : table_->find(key);
     return fmt::format("{}:{}", file_.string(), std::max(1u, (node ? node : table_)->line));
 }

@@ -91,7 +91,8 @@ class TableReader {
 
     // Throws ConfigError at the key's line (the table's where the key is absent).
     [[noreturn]] void fail(std::string_view key, const std::string& message) const;
-    [[nodiscard]] std::string place(std::string_view key = "") const;  // "file:line"
+    // "file:line"; "the scene" where the table stands in no file.
+    [[nodiscard]] std::string place(std::string_view key = "") const;
     [[nodiscard]] const std::string& subject() const { return subject_; }
     [[nodiscard]] const std::filesystem::path& file() const { return file_; }
 

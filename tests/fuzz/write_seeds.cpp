@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// fuzz_write_seeds FOLDER: the seeds that only the program can write, a folder for each target.
+#include <nlohmann/json.hpp>
+
+#include "framework/core/files.h"
+#include "framework/gui/document.h"
+#include "framework/gui/state.h"
+#include "framework/image/image.h"
+#include "tests/fuzz/seeds.h"
+
+int main(int argc, char** argv) {
+    using namespace kaustik;
+    if (argc != 2) return 2;
+    const std::filesystem::path folder = argv[1];
+
+    reference::writeReference(folder / "reference/seed.pfm", fuzz::smallReference());
+    for (const char* image :
+         {"seed.pfm", "seed.stderr.pfm", "seed.caustic_view.pfm", "seed.caustic_view.stderr.pfm"}) {
+        std::filesystem::remove(folder / "reference" / image);
+    }
+
+    constexpr std::size_t kChecksumBytes = 32;  // which the target adds
+    const std::string sums = fuzz::smallSums().toBytes(fuzz::kSumsKey);
+    writeFileWhole(folder / "cache/sums", sums.substr(0, sums.size() - kChecksumBytes));
+
+    Image picture(3, 2, 3);
+    for (std::size_t i = 0; i < picture.values.size(); ++i)
+        picture.values[i] = static_cast<float>(i) / 18.0f;
+    for (const char* name : {"pfm/seed.pfm", "pfm/seed.ppm", "image/seed.exr", "image/seed.png"})
+        writeImage(folder / name, picture);
+
+    nlohmann::json all = toJson(gui::Kept());
+    gui::Document document;
+    document.variant.assignments = {{"trace.epsilon", "0.25"}};
+    document.other = gui::Variant{"wyman2008", {{"trace", "lines"}}, {"filter.gaussian"}};
+    document.edits.camera.emplace();
+    document.edits.medium.emplace();
+    document.edits.timeSeconds = 1.5;
+    document.edits.lights["sun"] = {glm::dvec3(0, -1, 0), glm::dvec3(0, 2, 0), 0.5f};
+    document.edits.waves["water"] = {scene::Wave{}};
+    all["document"] = toJson(document);
+    writeFileWhole(folder / "settings/workbench.json", all.dump());
+}
