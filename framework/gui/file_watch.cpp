@@ -9,12 +9,14 @@ FileWatch::Times FileWatch::look() const {
     namespace fs = std::filesystem;
     Times times;
     std::error_code error;
-    // A folder that cannot be read now, because an editor is at work in it, say, has no files.
-    for (fs::recursive_directory_iterator it(folder_, error), end; !error && it != end;
-         it.increment(error)) {
-        std::error_code ofFile;
-        const auto time = it->last_write_time(ofFile);
-        if (!ofFile && it->is_regular_file(ofFile)) times.emplace(it->path().string(), time);
+    for (const fs::path& folder : folders_) {
+        // A folder that cannot be read now, because an editor is at work in it, say, has no files.
+        for (fs::recursive_directory_iterator it(folder, error), end; !error && it != end;
+             it.increment(error)) {
+            std::error_code ofFile;
+            const auto time = it->last_write_time(ofFile);
+            if (!ofFile && it->is_regular_file(ofFile)) times.emplace(it->path().string(), time);
+        }
     }
     return times;
 }

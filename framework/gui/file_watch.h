@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Whether files below a folder have been written since one last looked.
+// Whether files below some folders have been written since one last looked.
 #pragma once
 
 #include <filesystem>
 #include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace kaustik::gui {
 
 class FileWatch {
   public:
-    explicit FileWatch(std::filesystem::path folder) : folder_(std::move(folder)), known_(look()) {}
+    explicit FileWatch(std::vector<std::filesystem::path> folders)
+        : folders_(std::move(folders)), known_(look()) {}
 
     // True once for every change: a file that is new, gone, or has another time.
     [[nodiscard]] bool hasChanged();
@@ -19,7 +22,7 @@ class FileWatch {
     using Times = std::map<std::string, std::filesystem::file_time_type>;
     [[nodiscard]] Times look() const;
 
-    std::filesystem::path folder_;
+    std::vector<std::filesystem::path> folders_;
     Times known_;
 };
 

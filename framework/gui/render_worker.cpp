@@ -1,27 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include "framework/gui/render_worker.h"
 
-#include <fmt/format.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include "framework/core/error.h"
 #include "framework/core/files.h"
-#include "framework/gui/file_watch.h"
-#include "framework/run/output.h"
-#include "framework/run/run_record.h"
-#include "framework/run/run_reference.h"
+#include "framework/gui/render_worker_device.h"
 #include "framework/scene/files/scene_file.h"
 #include "framework/scene/shapes/height_field.h"
 
 namespace kaustik::gui {
 namespace {
 
-namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
 constexpr auto kIdle = 300ms;  // between looks at the shaders' files
@@ -68,48 +62,16 @@ std::shared_ptr<const SceneFacts> factsOf(const scene::Scene& base, const scene:
     return facts;
 }
 
+std::vector<std::filesystem::path> shaderFolders(const Registry& registry) {
+    std::vector<std::filesystem::path> folders = registry.shaderFolders();
+    folders.push_back(projectRoot() / "shaders");
+    return folders;
+}
+
 }  // namespace
 
-struct RenderWorker::Device {
-    explicit Device(std::unique_ptr<gl::Context> c) : context(std::move(c)) {}
-    std::unique_ptr<gl::Context> context;
-    FileWatch shaders{projectRoot() / "shaders"};
-    std::string sceneName;
-    int sceneReloads = 0;
-    std::unique_ptr<scene::Scene> base;  // as its file says
-    std::unique_ptr<scene::Scene> scene;
-    std::optional<scene::SceneEdits> edits;  // that the scene has
-    std::array<std::unique_ptr<VariantRenderer>, 2> renderers;
-
-    // Of textures: unlike those of any other device of this program.
-    std::uint64_t versions = static_cast<std::uint64_t>(Clock::now().time_since_epoch().count());
-    FrameOrder order;
-    std::uint64_t number = 0;
-    int framesDone = 0;
-    bool hasExtras = false;
-    // Frames and the like that the order has had rendered, and those that it takes in all; 0 before
-    // they are counted.
-    int rendered = 0;
-    int toRender = 0;
-
-    // Begins to count for the order at hand.
-    void countFrames() {
-        const auto count = static_cast<int>(variants());
-        int previews = 0;
-        for (int i = 0; i < count; ++i)
-            previews += hasPicture(static_cast<std::size_t>(i)) ? 0 : 1;
-        const int extras = count + (order.probe ? 1 : 0);
-        rendered = framesDone * count;
-        toRender = order.isPreview ? count : previews + order.frames * count + extras;
-    }
-    [[nodiscard]] bool hasPicture(std::size_t variant) const {
-        return renderers[variant] && renderers[variant]->result().viewed;
-    }
-    [[nodiscard]] std::size_t variants() const { return order.document.other ? 2 : 1; }
-    [[nodiscard]] const Variant& variant(std::size_t i) const {
-        return i == 0 ? order.document.variant : *order.document.other;
-    }
-};
+RenderWorker::Device::Device(std::unique_ptr<gl::Context> c, const Registry& registry)
+    : context(std::move(c)), shaders(shaderFolders(registry)) {}
 
 RenderWorker::RenderWorker(const Registry& registry, std::function<void()> onNews)
     : registry_(registry), onNews_(std::move(onNews)), thread_([this] { run(); }) {}
@@ -200,7 +162,7 @@ VariantRenderer::GoesOn RenderWorker::watch(const Device& device, const std::str
 void RenderWorker::run() {
     lowerPriority();
     try {
-        Device device(gl::Context::createHeadless());
+        Device device(gl::Context::createHeadless(), registry_);
         working_.device = device.context->info();
         serve(device);
     } catch (const std::bad_alloc&) {
@@ -407,94 +369,6 @@ void RenderWorker::reloadShaders(Device& device) {
     device.toRender = 0;
     device.hasExtras = false;
     post();
-}
-
-void RenderWorker::writeRecording(Device& device, const RecordRequest& request) {
-    try {
-        run::requireWritable(request.folder, "Recording");
-        if (request.what == RecordRequest::What::report) {
-            writeReport(device, request);
-        } else {
-            writeSequence(device, request);
-        }
-    } catch (const DeviceError& error) {
-        setRecording({false, error.what(), true});
-        throw;
-    } catch (const Error& error) {
-        // A reference that is ended in the middle is an error for others.
-        setRecording({false, cancelRecording_ ? "The report was cancelled." : error.what(), true});
-    }
-    // The picture that is shown comes back by a frame of its own.
-    device.framesDone = 0;
-    device.toRender = 0;
-    device.hasExtras = false;
-    if (device.renderers[0]) device.renderers[0]->noteSceneChange();
-}
-
-void RenderWorker::writeReport(Device& device, const RecordRequest& request) {
-    const Document& document = device.order.document;
-    const gl::TimerMode mode =
-        device.order.isPrecise ? gl::TimerMode::finish : gl::TimerMode::timestamps;
-    Renderer renderer(*device.context, registry_, *device.scene,
-                      settingsOf(document.variant, document.size, registry_));
-    renderer.build(Purpose::picture);
-    const run::Watch watch{
-        [this] { return !stop_ && !cancelRecording_; },
-        [this](double share, const std::string& reached) {
-            setRecording(
-                {true, fmt::format("reference, {:.0f} %: {}", 100.0 * share, reached), false});
-        }};
-    if (request.referencePhotons > 0) setRecording({true, "looking for a reference", false});
-    const run::RunReference reference(request.referencePhotons > 0 ? "auto" : "none",
-                                      request.referencePhotons, renderer, watch);
-    report::RunRecord record = run::startRecord(renderer, mode);
-    record.warmup = 1;
-    gl::PassTimer timer(mode);
-    for (int frame = 0; frame <= request.frames; ++frame) {
-        setRecording({true, fmt::format("frame {} of {}", frame, request.frames), false});
-        const bool isWhole =
-            renderer.renderFrame(timer, [&](std::size_t) { return !stop_ && !cancelRecording_; });
-        if (!isWhole) return setRecording({false, "The report was cancelled.", true});
-        for (gl::FrameTime& time : timer.takeFinished(true))
-            record.frames.push_back(std::move(time));
-    }
-    record.frames.erase(record.frames.begin());  // the first one compiles
-    setRecording(
-        {true, reference.purpose() == Purpose::audit ? "measuring and writing" : "writing", false});
-    const std::vector<fs::path> files =
-        run::finishRun(renderer, reference, record, request.folder, {}, device.context->info());
-    setRecording({false,
-                  fmt::format("Wrote {} files into {}.", files.size(), request.folder.string()),
-                  false});
-}
-
-void RenderWorker::writeSequence(Device& device, const RecordRequest& request) {
-    const Document& document = device.order.document;
-    scene::Scene scene = *device.scene;
-    const double begin = scene.timeSeconds;
-    Renderer renderer(*device.context, registry_, scene,
-                      settingsOf(document.variant, document.size, registry_));
-    gl::PassTimer timer(gl::TimerMode::finish);
-    for (int frame = 0; frame < request.frames; ++frame) {
-        setRecording({true, fmt::format("picture {} of {}", frame + 1, request.frames), false});
-        setTime(scene, begin + frame * request.secondsPerFrame);
-        renderer.update(renderer.settings());
-        renderer.build(Purpose::picture);
-        const bool isWhole =
-            renderer.renderFrame(timer, [&](std::size_t) { return !stop_ && !cancelRecording_; });
-        if (!isWhole) {
-            return setRecording({false,
-                                 fmt::format("Cancelled after {} of {} pictures, which are in {}.",
-                                             frame, request.frames, request.folder.string()),
-                                 true});
-        }
-        static_cast<void>(timer.takeFinished(true));
-        writeImage(request.folder / fmt::format("{:04}{}", frame, displayImageExtension()),
-                   run::readTexture(renderer.texture(renderer.outputs().picture.display), 0, 3));
-    }
-    setRecording(
-        {false, fmt::format("Wrote {} pictures into {}.", request.frames, request.folder.string()),
-         false});
 }
 
 }  // namespace kaustik::gui

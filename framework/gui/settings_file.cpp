@@ -9,6 +9,7 @@
 
 #include "framework/core/error.h"
 #include "framework/core/files.h"
+#include "framework/core/json_text.h"
 
 namespace kaustik::gui {
 namespace {
@@ -40,7 +41,7 @@ Settings readSettings(const fs::path& folder, const Registry& registry) {
     if (folder.empty() || !fs::exists(file, error)) return settings;
     std::vector<std::string>& problems = settings.problems;
     try {
-        const json all = json::parse(readFile(file));
+        const json all = parseJson(readFile(file), file.string());
         settings.kept = keptFromJson(all, problems);
         if (all.is_object() && all.contains("document")) {
             settings.document = documentFromJson(all.at("document"), problems);

@@ -6,18 +6,10 @@
 #include "framework/core/error.h"
 #include "framework/gui/panels/panels.h"
 #include "framework/gui/widgets.h"
+#include "framework/pipeline/in_use.h"
 
 namespace kaustik::gui {
 namespace {
-
-// Whether a node that the settings choose has the parameter, or all nodes of a stage share it.
-bool isInUse(const params::ParamSet& params, const std::string& name) {
-    const auto dot = name.find('.');
-    if (dot == std::string::npos) return false;  // the choice of a node: panel Technique
-    const auto second = name.find('.', dot + 1);
-    return second == std::string::npos ||
-           params.choice(name.substr(0, dot)) == name.substr(dot + 1, second - dot - 1);
-}
 
 bool matches(const params::NamedField& named, const std::string& search) {
     const auto lower = [](std::string text) {
@@ -88,7 +80,7 @@ void drawParameters(Bench& bench) {
         });
         for (const params::NamedField& named : fields) {
             if (named.fullName.find('.') == std::string::npos) continue;
-            if (!panels.showsAllParameters && !isInUse(params, named.fullName) &&
+            if (!panels.showsAllParameters && !isInUse(bench.registry, params, named.fullName) &&
                 !params.isSetByUser(named.fullName)) {
                 continue;
             }

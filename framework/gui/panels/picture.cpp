@@ -101,12 +101,12 @@ void drawPixelValues(const Bench& bench, const PictureFrame& frame, const Image&
 }
 
 void zoomAt(ViewState& view, const PictureFrame& frame, ImVec2 mouse, float factor) {
-    if (frame.reduction != 1.0f) return;  // a moment later the whole picture is there
     const glm::vec2 pixel = frame.pixelAt(mouse);
-    view.zoom = std::clamp(frame.zoom * factor, 0.05f, 256.0f);
-    // The pixel under the mouse stays there.
-    const glm::vec2 fromMiddle((mouse.x - frame.corner.x - 0.5f * frame.size.x) / view.zoom,
-                               (mouse.y - frame.corner.y - 0.5f * frame.size.y) / view.zoom);
+    view.zoom = std::clamp(frame.zoom / frame.reduction * factor, 0.05f, 256.0f);
+    // The pixel under the mouse stays there, also of a quick picture, which has fewer.
+    const float zoom = view.zoom * frame.reduction;
+    const glm::vec2 fromMiddle((mouse.x - frame.corner.x - 0.5f * frame.size.x) / zoom,
+                               (mouse.y - frame.corner.y - 0.5f * frame.size.y) / zoom);
     view.middle = (pixel - fromMiddle) / glm::vec2(frame.width, frame.height);
 }
 

@@ -53,8 +53,11 @@ TEST(FileWatch, SeesWhatIsWrittenAddedAndRemovedOnce) {
         std::ofstream(folder / name) << text;
     };
     write("a.glsl", "1");
-    FileWatch watch(folder / ".");
+    const kaustik::test::TemporaryFolder other;
+    FileWatch watch({folder / ".", other / "."});
     EXPECT_FALSE(watch.hasChanged());
+    static_cast<void>(other.file("c.glsl", "3"));
+    EXPECT_TRUE(watch.hasChanged());
     write("b.glsl", "2");
     EXPECT_TRUE(watch.hasChanged());
     EXPECT_FALSE(watch.hasChanged());

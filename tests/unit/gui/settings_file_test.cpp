@@ -56,6 +56,12 @@ TEST_F(SettingsFile, ThatIsCutOffIsKeptUnderAnotherName) {
     EXPECT_EQ(readFile(folder_ / "workbench-damaged-1.json"), R"({"view": {"layer": 3)");
 }
 
+TEST_F(SettingsFile, ThatIsNestedDeeperThanTheStackIsDamaged) {
+    write("{\"view\": {\"layer\": " + std::string(100000, '[') + std::string(100000, ']') + "}}");
+    ASSERT_EQ(read().problems.size(), 1u);
+    EXPECT_NE(read().problems.front().find("nested more than 64 deep"), std::string::npos);
+}
+
 TEST_F(SettingsFile, OfWhichAPartMakesNoSenseIsDamagedAndTheRestIsUsed) {
     write(R"({"view": {"layer": "three", "split": 0.25}})");
     const Settings settings = read();
