@@ -2,6 +2,9 @@
 # SPDX-License-Identifier: MIT
 # Installs the Debian 12 packages that Kaustik is built, run and tested with: those that are
 # missing, and only those. Answers at once when nothing is. Needs root or sudo only to install.
+#   install_packages.sh [--cluster] [--fuzz]
+#   --cluster: also Slurm and GNU parallel, which experiments/cluster uses
+#   --fuzz: also what tests/fuzz/run.sh needs
 set -euo pipefail
 
 packages=(
@@ -16,13 +19,26 @@ packages=(
     libembree-dev libtbb-dev
     # The workbench
     libimgui-dev libglfw3-dev fonts-dejavu-core
+    # The Python module
+    pybind11-dev python3-dev libdlpack-dev
     # Figures and pages of a study; OpenImageIO reads EXR there
     python3 python3-matplotlib python3-openimageio
     # Formatting, as .ci/run checks it
     clang-format
     # Tests; the page of a study is opened in a browser, the workbench on a display without a screen
-    libgtest-dev libgmock-dev chromium chromium-driver xvfb x11-xkb-utils libxtst-dev
+    libgtest-dev libgmock-dev chromium chromium-driver xvfb x11-xkb-utils libxtst-dev python3-numpy
+    python3-jsonschema
 )
+for argument in "$@"; do
+    case $argument in
+        --cluster) packages+=(slurmctld slurmd slurm-client munge parallel procps) ;;
+        --fuzz) packages+=(clang libclang-rt-dev) ;;
+        *)
+            echo "packages: there is no option '$argument'; there are --cluster and --fuzz" >&2
+            exit 2
+            ;;
+    esac
+done
 
 if ! command -v dpkg-query > /dev/null || ! command -v apt-get > /dev/null; then
     echo "packages: this is not Debian, so install these or their like yourself: ${packages[*]}" >&2

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # The README's example technique as files, so that what is tested is what is read there: each block
-# of code in "Add a technique" that begins with "// PATH" becomes FOLDER/PATH.
+# of code from "Add a technique" on that begins with "// PATH" or "# PATH" becomes FOLDER/PATH.
 function(kaustik_readme_example folder)
     set(readme ${CMAKE_SOURCE_DIR}/README.md)
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${readme})
@@ -12,7 +12,10 @@ function(kaustik_readme_example folder)
     foreach(path ${ARGN})
         string(FIND "${rest}" "\n// ${path}\n" begin)
         if(begin EQUAL -1)
-            message(FATAL_ERROR "README.md, \"Add a technique\": no block begins with \"// ${path}\".")
+            string(FIND "${rest}" "\n# ${path}\n" begin)
+        endif()
+        if(begin EQUAL -1)
+            message(FATAL_ERROR "README.md, \"Add a technique\": no block begins with \"${path}\".")
         endif()
         string(SUBSTRING "${rest}" ${begin} -1 block)
         string(FIND "${block}" "\n```\n" end)

@@ -70,6 +70,36 @@ void Graph::planBypasses(Plan& plan) const {
     }
 }
 
+// What a loop that runs hands on to its next run: the word that it asks, and of what was made
+// before it the newest. True where that takes passes that were not needed so far.
+bool Graph::needNextRun(Plan& plan, const PassLoop& loop) const {
+    bool runs = false;
+    for (std::size_t p = loop.first; p < loop.end; ++p)
+        runs = runs || plan.needed[p];
+    if (!runs) return false;
+    std::set<std::size_t> passes;
+    const auto lastWithin = [&](const Resource& resource) {
+        for (std::size_t v = resource.writers.size(); v-- > 0;)
+            if (loop.holds(resource.writers[v])) return resource.writers[v];
+        return passes_.size();
+    };
+    passes.insert(lastWithin(resources_[loop.again.index]));
+    for (std::size_t p = loop.first; p < loop.end; ++p) {
+        if (!plan.needed[p]) continue;
+        for (const ResourceRef& handle : passes_[p].reads) {
+            const Resource& resource = resources_[handle.index];
+            if (resource.writers.front() < loop.first) passes.insert(lastWithin(resource));
+        }
+    }
+    bool found = false;
+    for (const std::size_t pass : passes) {
+        if (pass >= passes_.size() || plan.needed[pass]) continue;
+        plan.needed[pass] = true;
+        found = true;
+    }
+    return found;
+}
+
 // Walks back from what is asked for; insertion order is a topological order.
 void Graph::planRequired(Plan& plan) const {
     const auto need = [&](const ResourceRef& handle) {
@@ -103,6 +133,8 @@ void Graph::planRequired(Plan& plan) const {
             plan.needed[resource.writers.back()] = true;
             found = true;
         }
+        for (const PassLoop& loop : loops_)
+            found = needNextRun(plan, loop) || found;
         if (found) walkBack();
     }
 }
@@ -162,11 +194,71 @@ void Graph::fillRecords(const Plan& plan, Compiled& compiled) const {
     }
 }
 
-void Graph::assignSlots(const Plan& plan, Compiled& compiled) const {
-    struct Life {
-        std::size_t first = kNoSlot;
-        std::size_t last = 0;
+struct Graph::Life {
+    std::size_t first = kNoSlot;
+    std::size_t last = 0;
+    std::size_t made = kNoSlot;  // the step that first writes it
+};
+
+// Passes of a loop that read nothing that its runs change, and change nothing but what they make.
+std::set<std::size_t> Graph::invariantOf(const Plan& plan, const PassLoop& loop) const {
+    std::set<std::size_t> invariant;
+    const auto changes = [&](const ResourceRef& handle) {
+        const std::vector<std::size_t>& writers = resources_[handle.index].writers;
+        return std::any_of(writers.begin(), writers.end(), [&](std::size_t writer) {
+            return loop.holds(writer) && !invariant.contains(writer);
+        });
     };
+    for (std::size_t p = loop.first; p < loop.end; ++p) {
+        const Pass& pass = passes_[p];
+        if (pass.isSkipped || pass.hasSideEffect || plan.bypassed[p]) continue;
+        const bool makesAll =
+            std::all_of(pass.outputs.begin(), pass.outputs.end(), [&](const ResourceRef& output) {
+                return output.version == 0 && resources_[output.index].writers.size() == 1;
+            });
+        if (makesAll && std::none_of(pass.reads.begin(), pass.reads.end(), changes))
+            invariant.insert(p);
+    }
+    return invariant;
+}
+
+void Graph::placeLoops(const Plan& plan, const std::vector<std::size_t>& passOfStep,
+                       Compiled& compiled) const {
+    for (const PassLoop& loop : loops_) {
+        Loop placed{passOfStep.size(), 0, loop.again, 0, loop.word, {}};
+        const std::set<std::size_t> invariant = invariantOf(plan, loop);
+        for (std::size_t step = 0; step < passOfStep.size(); ++step) {
+            if (!loop.holds(passOfStep[step])) continue;
+            placed.first = std::min(placed.first, step);
+            placed.last = step;
+            if (invariant.contains(passOfStep[step])) placed.invariant.insert(step);
+        }
+        if (placed.first < passOfStep.size()) compiled.loops.push_back(placed);
+    }
+}
+
+// Whatever a loop finds from before, or leaves to what comes after it or to its next run, nobody
+// else's memory may be while it runs.
+void Graph::stretchLives(const Compiled& compiled, std::vector<Life>& lives) {
+    for (bool found = true; found;) {
+        found = false;
+        for (const Loop& loop : compiled.loops) {
+            for (Life& life : lives) {
+                const bool isUsed =
+                    life.first != kNoSlot && life.first <= loop.last && life.last >= loop.first;
+                const bool isWithin = life.first >= loop.first && life.last <= loop.last;
+                const bool isKept = loop.invariant.contains(life.made);
+                if (!isUsed || (isWithin && !isKept)) continue;
+                const Life whole{std::min(life.first, loop.first), std::max(life.last, loop.last),
+                                 life.made};
+                found = found || whole.first != life.first || whole.last != life.last;
+                life = whole;
+            }
+        }
+    }
+}
+
+void Graph::assignSlots(const Plan& plan, Compiled& compiled) const {
     std::vector<Life> lives(resources_.size());
     const auto touch = [&](const ResourceRef& handle, std::size_t step) {
         Life& life = lives[plan.home[handle.index][handle.version]];
@@ -206,6 +298,17 @@ void Graph::assignSlots(const Plan& plan, Compiled& compiled) const {
         }
     }
 
+    for (Life& life : lives)
+        life.made = life.first;
+    placeLoops(plan, passOfStep, compiled);
+    stretchLives(compiled, lives);
+    const auto isCarried = [&](const Life& life) {
+        return std::any_of(compiled.loops.begin(), compiled.loops.end(), [&](const Loop& loop) {
+            return life.first >= loop.first && life.first <= loop.last &&
+                   (life.last >= loop.last || loop.invariant.contains(life.made));
+        });
+    };
+
     compiled.slotOfResource.assign(resources_.size(), kNoSlot);
     std::vector<std::size_t> freeAfter;  // by slot: last step of its tenant
     for (std::size_t step = 0; step < passOfStep.size(); ++step) {
@@ -221,10 +324,11 @@ void Graph::assignSlots(const Plan& plan, Compiled& compiled) const {
             compiledStep.defines = pass.defines;
         }
 
-        std::size_t alive = 0;
         for (std::size_t r = 0; r < resources_.size(); ++r) {
             if (lives[r].first > step || lives[r].last < step) continue;
-            alive += bytesOf(resources_[r].desc);
+            (std::holds_alternative<TextureDesc>(resources_[r].desc)
+                 ? compiledStep.liveTextureBytes
+                 : compiledStep.liveBufferBytes) += bytesOf(resources_[r].desc);
             if (lives[r].first != step) continue;
             const bool lasts = resources_[r].lasts;
             std::size_t slot = kNoSlot;
@@ -241,9 +345,11 @@ void Graph::assignSlots(const Plan& plan, Compiled& compiled) const {
             compiled.slotOfResource[r] = slot;
             if (lasts) continue;  // it is born once
             compiledStep.births.push_back(slot);
+            if (isCarried(lives[r])) compiledStep.carriedBirths.push_back(slot);
             if (lives[r].last == passOfStep.size()) compiledStep.keptBirths.push_back(slot);
         }
-        compiled.peakBytes = std::max(compiled.peakBytes, alive);
+        compiled.peakBytes = std::max(compiled.peakBytes,
+                                      compiledStep.liveTextureBytes + compiledStep.liveBufferBytes);
         if (bypassed) {
             for (const Bypass& bypass : pass.bypasses) {
                 if (bypass.input.valid()) continue;
@@ -254,6 +360,8 @@ void Graph::assignSlots(const Plan& plan, Compiled& compiled) const {
         compiled.steps.push_back(std::move(compiledStep));
     }
 
+    for (Loop& loop : compiled.loops)
+        loop.slot = compiled.slotOfResource[plan.home[loop.again.index][loop.again.version]];
     for (const Slot& slot : compiled.slots) {
         const std::size_t bytes = bytesOf(slot.desc);
         compiled.allocatedBytes += bytes;

@@ -138,6 +138,33 @@ bool Graph::checkBypassed(const ResourceRef& output, std::size_t pass) {
     return false;
 }
 
+void Graph::beginLoop() {
+    openLoops_.push_back(passes_.size());
+}
+
+void Graph::endLoop(const ResourceRef& again, std::size_t word) {
+    if (openLoops_.empty()) {
+        problems_.emplace_back("a loop ends that has not begun");
+        return;
+    }
+    const PassLoop loop{openLoops_.back(), passes_.size(), again, word};
+    openLoops_.pop_back();
+    if (!isMade(again)) {
+        problems_.emplace_back("a loop asks a handle that no pass has made whether to go on");
+        return;
+    }
+    const std::vector<std::size_t>& writers = resources_[again.index].writers;
+    if (std::none_of(writers.begin(), writers.end(),
+                     [&](std::size_t pass) { return loop.holds(pass); })) {
+        problems_.push_back(
+            fmt::format("a loop asks '{}' whether to go on, which none of its "
+                        "passes writes",
+                        resources_[again.index].name));
+        return;
+    }
+    loops_.push_back(loop);
+}
+
 void Graph::skip(std::string name, std::string why) {
     passes_.push_back({});
     passes_.back().info = {std::move(name), std::move(why)};

@@ -169,13 +169,29 @@ struct Step {
     };
     std::vector<Clear> clears;        // neutral outputs of a bypassed pass
     std::vector<std::size_t> births;  // slots whose contents are undefined before this step
+    // Of those the ones that a loop around this step hands on from one run to the next.
+    std::vector<std::size_t> carriedBirths;
     // Of those the ones that live to the end: before the first frame they are zeros, so that what
     // a pass leaves unwritten, the rest of a list's texture, is.
     std::vector<std::size_t> keptBirths;
+    std::size_t liveTextureBytes = 0;  // of what has contents that are of use during it
+    std::size_t liveBufferBytes = 0;
+};
+
+// Steps that run again as long as a word of a buffer is not 0 after the last of them.
+struct Loop {
+    std::size_t first = 0;  // steps
+    std::size_t last = 0;
+    ResourceRef again;
+    std::size_t slot = 0;  // of that
+    std::size_t word = 0;
+    // Of its steps those that would make the same again: they run once.
+    std::set<std::size_t> invariant;
 };
 
 struct Compiled {
     std::vector<Step> steps;
+    std::vector<Loop> loops;  // an inner one before those around it
     std::vector<Slot> slots;
     std::vector<PassRecord> records;  // in graph order, left-out ones where they were declared
     std::size_t allocatedBytes = 0;   // all slots
@@ -235,6 +251,13 @@ class Graph {
         return *data;
     }
 
+    // The passes added in between run again, in their order, as long as the `word` of `again`, a
+    // buffer that one of them writes, is not 0 after the last of them. What was made before them,
+    // and what is read after them, they find as their last run has left it; what only they use is
+    // new each time. Passes that depend on nothing that changes run once. Loops nest.
+    void beginLoop();
+    void endLoop(const ResourceRef& again, std::size_t word = 0);
+
     // Records a node that the scene does not need, with the reason, for `explain`.
     void skip(std::string name, std::string why);
 
@@ -287,6 +310,14 @@ class Graph {
         std::vector<std::size_t> writers;  // pass of each version
         bool lasts = false;
     };
+    struct PassLoop {
+        std::size_t first;  // passes
+        std::size_t end;    // behind its last
+        ResourceRef again;
+        std::size_t word;
+        [[nodiscard]] bool holds(std::size_t pass) const { return pass >= first && pass < end; }
+    };
+    struct Life;
     struct Plan;
 
     std::size_t beginPass(PassInfo info);
@@ -297,6 +328,11 @@ class Graph {
     [[nodiscard]] const Resource& resourceOf(const ResourceRef& handle) const;
     [[nodiscard]] Plan plan() const;
     void planRequired(Plan& plan) const;
+    [[nodiscard]] bool needNextRun(Plan& plan, const PassLoop& loop) const;
+    void placeLoops(const Plan& plan, const std::vector<std::size_t>& passOfStep,
+                    Compiled& compiled) const;
+    [[nodiscard]] std::set<std::size_t> invariantOf(const Plan& plan, const PassLoop& loop) const;
+    static void stretchLives(const Compiled& compiled, std::vector<Life>& lives);
     void planBypasses(Plan& plan) const;
     [[nodiscard]] std::string bypassText(const Pass& pass) const;
     void fillRecords(const Plan& plan, Compiled& compiled) const;
@@ -306,6 +342,8 @@ class Graph {
     std::vector<Resource> resources_;
     std::unordered_map<std::string, std::size_t> resourceOfName_;
     std::vector<ResourceRef> requested_;
+    std::vector<PassLoop> loops_;         // ended ones, an inner one before those around it
+    std::vector<std::size_t> openLoops_;  // their first passes
     std::set<std::string> disabled_;
     std::vector<std::string> problems_;
     bool keepAll_ = false;

@@ -19,6 +19,9 @@ template <class... Cases>
 struct Overloaded : Cases... {
     using Cases::operator()...;
 };
+// Clang 14 deduces nothing for an aggregate.
+template <class... Cases>
+Overloaded(Cases...) -> Overloaded<Cases...>;
 
 template <class T>
 std::optional<T> parseNumber(std::string_view text) {

@@ -152,6 +152,32 @@ TEST_F(ExperimentReport, SummarizesOverSeeds) {
     EXPECT_EQ(summary.find("bbbbbbbb"), std::string::npos) << summary;
 }
 
+TEST_F(ExperimentReport, NeverAveragesTimesOfDifferentDevices) {
+    writeResults();
+    // The second repeats were requeued to a machine with another device.
+    std::string table = contents("out/runs.csv");
+    for (std::size_t at = table.find("-r2"); at != std::string::npos;
+         at = table.find("-r2", at + 1)) {
+        table.replace(table.find("<b>, a device", at), 13, "another device");
+    }
+    static_cast<void>(folder.file("out/runs.csv", table));
+    const Outcome outcome = draw();
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const std::string summary = contents("out/summary.csv");
+    EXPECT_NE(summary.find("\naaaaaaaa,0.001,1,1,4.1,"), std::string::npos) << summary;
+    EXPECT_NE(summary.find("\naaaaaaaa,0.001,2,1,4.2,"), std::string::npos) << summary;
+    EXPECT_EQ(summary.find("4.15"), std::string::npos) << summary;
+    // Nor are they drawn together.
+    for (const char* name : {"speed-error-caustic-irradiance-rel-mse", "passes",
+                             "sweep-trace-epsilon", "frame-times"}) {
+        EXPECT_TRUE(files().contains(fmt::format("out/figures/{}-device-1.svg", name))) << name;
+        EXPECT_TRUE(files().contains(fmt::format("out/figures/{}-device-2.svg", name))) << name;
+        EXPECT_FALSE(files().contains(fmt::format("out/figures/{}.svg", name))) << name;
+    }
+    const std::string page = contents("out/report.html");
+    EXPECT_NE(page.find("1: &lt;b&gt;, a device; 2: another device"), std::string::npos);
+}
+
 TEST_F(ExperimentReport, WithoutMatplotlibNamesThePackage) {
     writeResults();
     fs::create_directory(folder / "broken");

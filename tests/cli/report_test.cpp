@@ -50,7 +50,7 @@ TEST_F(Report, HasTheKeysOfTheSchema) {
                     "disabled", "time_s", "time_step_s", "bookkeeping_ms", "graph_build_ms",
                     "layers", "limits"}));
     EXPECT_EQ(keysOf(report.at("device")),
-              (Keys{"renderer", "vendor", "gl", "gl_debug", "cpu", "threads"}));
+              (Keys{"renderer", "vendor", "gl", "platform", "uuid", "gl_debug", "cpu", "threads"}));
     EXPECT_EQ(keysOf(report.at("scene")), (Keys{"name", "triangles", "needs"}));
     EXPECT_EQ(keysOf(report.at("photons")), (Keys{"emitted", "specular", "hit", "missed", "nan"}));
     EXPECT_EQ(keysOf(report.at("energy")), (Keys{"emitted_w", "deposited_w", "absorbed_w",

@@ -97,6 +97,7 @@ TEST_F(RunCommand, TraceHasEveryPassOfEveryTimedFrame) {
     const json trace = json::parse(contents("out/trace.json"));
     std::multiset<std::string> names;
     for (const json& event : trace.at("traceEvents")) {
+        if (event.at("ph") == "C") continue;
         EXPECT_EQ(event.at("ph"), "X") << event;
         EXPECT_GE(event.at("ts").get<double>(), 0.0) << event;
         EXPECT_GE(event.at("dur").get<double>(), 0.0) << event;
@@ -107,6 +108,45 @@ TEST_F(RunCommand, TraceHasEveryPassOfEveryTimedFrame) {
         if (!pass.at("ran").get<bool>()) continue;
         EXPECT_GE(names.count(pass.at("name")), 1u) << pass.at("name");
     }
+}
+
+TEST_F(RunCommand, TraceCountsTimeMemoryAndPhotonsAsTheReportDoes) {
+    static_cast<void>(folder.file("wavy.toml", kWavyWater));
+    const Outcome outcome = run({"run", "wavy.toml", "--size", "32x24", "--set", "photons=8x8",
+                                 "--frames", "2", "--precise", "--out", "out"});
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const json trace = json::parse(contents("out/trace.json"));
+    const json samples = json::parse(contents("out/samples.json"));
+    const json report = this->report();
+    std::vector<double> frameTimes;
+    std::vector<double> frameBegins;
+    double mostBytes = 0.0;
+    std::set<double> bytes;
+    json photons;
+    for (const json& event : trace.at("traceEvents")) {
+        const std::string name = event.at("name");
+        if (name.starts_with("frame ")) frameBegins.push_back(event.at("ts"));
+        if (event.at("ph") != "C") continue;
+        const json& values = event.at("args");
+        EXPECT_GE(event.at("ts").get<double>(), 0.0) << event;
+        if (name == "time") {
+            frameTimes.push_back(values.at("device_ms"));
+            EXPECT_EQ(event.at("ts"), frameBegins.back());
+        } else if (name == "memory") {
+            bytes.insert(values.at("texture_bytes").get<double>() +
+                         values.at("buffer_bytes").get<double>());
+            mostBytes = *bytes.rbegin();
+        } else {
+            EXPECT_EQ(name, "photons");
+            EXPECT_EQ(event.at("ts"), frameBegins.back());
+            photons = values;
+        }
+    }
+    EXPECT_EQ(frameTimes, samples.at("frame_samples_ms").get<std::vector<double>>());
+    EXPECT_EQ(photons, report.at("photons"));
+    EXPECT_GT(photons.at("hit"), 0);
+    EXPECT_EQ(mostBytes, report.at("memory").at("peak_bytes"));
+    EXPECT_GT(bytes.size(), 3u);  // it goes up and down
 }
 
 TEST_F(RunCommand, SavesATextureUnderItsName) {

@@ -122,5 +122,15 @@ TEST_F(ParametersPanel, TheParametersOfAChosenNodeAppear) {
     EXPECT_TRUE(bench->has("parameter.specular.split.levels"));
 }
 
+// Settings that no other driver reads are not there to be turned in vain.
+TEST_F(ParametersPanel, OfRefinementAppearWithADriverThatRefines) {
+    start();
+    EXPECT_FALSE(bench->has("parameter.refine.tolerance"));
+    EXPECT_FALSE(bench->has("parameter.reconstruct.map_size")) << "light is stored on the screen";
+    open("Technique");
+    choose("stage.driver", "hierarchical");
+    EXPECT_TRUE(bench->has("parameter.refine.tolerance"));
+}
+
 }  // namespace
 }  // namespace kaustik::test

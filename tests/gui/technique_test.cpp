@@ -83,7 +83,7 @@ TEST_F(TechniquePanel, StagesAreThoseOfTheRegistryInTheOrderOfAFrame) {
         expected.push_back(stage);
     }
     // These have no pass of their own here.
-    for (const char* stage : {"driver", "around", "filter", "temporal"})
+    for (const char* stage : {"driver", "refine", "around", "filter", "temporal"})
         EXPECT_EQ(std::erase(stages, stage), 1u) << stage;
     EXPECT_EQ(stages, expected);
 }

@@ -1,87 +1,16 @@
 // SPDX-License-Identifier: MIT
 // The graph without any device. The pictures in the comments are the graphs under test.
-#include "framework/graph/graph.h"
-
 #include <gtest/gtest.h>
 
+#include <set>
 #include <string>
-#include <vector>
 
-#include "framework/core/error.h"
+#include "tests/unit/graph/fake_passes.h"
 
 namespace kaustik::graph {
 namespace {
 
-struct Depth {
-    static constexpr Format format = Format::r32f;
-};
-struct Color {
-    static constexpr Format format = Format::rgba32f;
-};
-struct Element {
-    float value[4];
-};
-
-struct FakeContext : ExecuteContext {
-    std::vector<std::string> ran;
-};
-struct None {};
-
-// A pass that turns `input` (if valid) into a new texture `output`.
-Texture<Color> filter(Graph& graph, const std::string& name, Texture<Color> input,
-                      bool withBypass = false, int size = 8) {
-    struct Data {
-        Texture<Color> output;
-    };
-    return graph
-        .addPass<Data, FakeContext>(
-            {name, "test"},
-            [&](PassSetup& setup, Data& data) {
-                if (input.valid()) setup.read(input);
-                data.output = setup.create<Color>(name + ".out", size, size);
-                if (withBypass && input.valid()) setup.bypass(data.output, input);
-                if (withBypass && !input.valid()) setup.bypass(data.output, {0.5f, 0, 0, 0});
-            },
-            [name](const Data&, FakeContext& context) { context.ran.push_back(name); })
-        .output;
-}
-
-// A pass that writes on `image` in place.
-Texture<Color> draw(Graph& graph, const std::string& name, Texture<Color> image) {
-    struct Data {
-        Texture<Color> image;
-    };
-    return graph
-        .addPass<Data, FakeContext>(
-            {name, "test"},
-            [&](PassSetup& setup, Data& data) {
-                data.image = setup.write(image);
-                setup.bypass(data.image, image);
-            },
-            [name](const Data&, FakeContext& context) { context.ran.push_back(name); })
-        .image;
-}
-
-std::vector<std::string> run(const Compiled& compiled) {
-    FakeContext context;
-    for (const Step& step : compiled.steps) {
-        if (step.execute) step.execute(context);
-    }
-    return context.ran;
-}
-
-std::string problemsOf(const Graph& graph) {
-    try {
-        static_cast<void>(graph.compile());
-    } catch (const GraphError& error) {
-        return error.what();
-    }
-    return "";
-}
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
+using namespace test;
 
 TEST(Graph, RunsPassesInOrderAndCullsWhatNothingAsksFor) {
     //  a ──▶ b ──▶ (asked for)
@@ -363,6 +292,11 @@ TEST(Graph, ResourcesWithDisjointLifetimesShareMemory) {
     EXPECT_EQ(compiled.peakBytes, 2u * 8 * 8 * 16);
     EXPECT_EQ(compiled.allocatedBytes, compiled.peakBytes);
     EXPECT_EQ(compiled.textureBytes, compiled.peakBytes);
+    // The first pass has nothing but what it makes.
+    ASSERT_EQ(compiled.steps.size(), 4u);
+    EXPECT_EQ(compiled.steps[0].liveTextureBytes, 8u * 8 * 16);
+    EXPECT_EQ(compiled.steps[3].liveTextureBytes, 2u * 8 * 8 * 16);
+    EXPECT_EQ(compiled.steps[3].liveBufferBytes, 0u);
 }
 
 TEST(Graph, KeepingEverythingSharesNothing) {

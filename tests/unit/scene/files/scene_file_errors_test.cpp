@@ -277,6 +277,20 @@ TEST_F(SceneFileMistakes, AMissingTextureOrFileIsNamed) {
     EXPECT_THROW((void)loadSceneFile(folder), IoError);
 }
 
+TEST_F(SceneFileMistakes, ShapesThatTakeAllOfTheMemoryAreAnError) {
+    std::string text = "[[material]]\nname = 'm'\ntype = 'mirror'\n";
+    for (int i = 0; i < 5; ++i) {
+        text += fmt::format(
+            "[[object]]\nname = '{}'\nmaterial = 'm'\nshape = 'plane'\nsize = [1, 1]\n"
+            "cells = 2048\n",
+            i);
+    }
+    const std::string message = messageOf<ConfigError>(text);
+    EXPECT_NE(message.find("scene.toml:31: object '4': with this shape the scene has 41943040"),
+              std::string::npos)
+        << message;
+}
+
 TEST_F(SceneFileMistakes, CutOffOrDamagedAtAnyByteIsAnErrorOfOursOrASmallerScene) {
     const std::string whole =
         "name = 'x'\n[camera]\nposition = [0, 1, 2]\n[[light]]\nname = 'l'\ntype = 'point'\n"
