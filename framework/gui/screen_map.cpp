@@ -10,7 +10,7 @@
 
 namespace kaustik::gui {
 namespace {
-constexpr auto kEvery = std::chrono::milliseconds(50);
+constexpr auto kEvery = std::chrono::milliseconds(15);
 }
 
 void ScreenMap::beginFrame() {
