@@ -126,6 +126,26 @@ class Studies(TestCase):
         self.assertEqual(kaustik.run_experiment(study, out, resume=True), rows)
         self.assertEqual(kaustik.read_results(out), rows)
 
+    def test_in_shards_are_those_done_at_once(self):
+        study = {
+            "name": "shards",
+            "base": {"scene": "ring", "size": (24, 16), "frames": 1, "warmup": 0,
+                     "emit.photons": (16, 16), "shadow.map.size": 64},
+            "permute": {"layers.count": [1, 2, 4]},
+        }  # fmt: skip
+        folders = [os.path.join(self.folder(), name) for name in ("one", "two")]
+        for number, folder in enumerate(folders, 1):
+            self.assertEqual(kaustik.run_experiment(study, folder, shard=f"{number}/2"), [])
+        out = os.path.join(self.folder(), "all")
+        self.assert_fails(kaustik.ConfigError, ["missing"],
+                          kaustik.merge_experiments, folders[0], out)  # fmt: skip
+        rows = kaustik.merge_experiments(folders, out)
+        self.assertEqual([row["layers.count"] for row in rows], [1, 2, 4])
+        self.assertTrue(all(row["status"] == "done" for row in rows))
+        self.assertEqual(kaustik.read_results(out), rows)
+        self.assert_fails(kaustik.ConfigError, ["no shard 3 of 2"],
+                          kaustik.run_experiment, study, out, shard="3/2")  # fmt: skip
+
     def test_that_make_no_sense_name_what_is_wrong(self):
         out = os.path.join(self.folder(), "study")
         study = {"name": "x", "permute": {"layers.cuont": [1]}}

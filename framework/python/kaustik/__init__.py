@@ -26,7 +26,7 @@ from ._kaustik import (
     ShaderError,
     __version__,
 )
-from ._experiments import read_results, run_experiment
+from ._experiments import merge_experiments, read_results, run_experiment
 from ._names import no_attribute as _no_attribute
 from ._lists import nodes, params, scenes, techniques
 from ._pictures import array_html as _array_html
@@ -53,6 +53,7 @@ __all__ = [
     "__version__",
     "compare",
     "heat_map",
+    "merge_experiments",
     "nodes",
     "open",
     "params",

@@ -7,7 +7,7 @@ import os
 import signal
 import subprocess
 import tempfile
-from typing import Any, Dict, List, Mapping, Optional, Union
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Union
 
 from . import _kaustik
 
@@ -15,15 +15,17 @@ Path = Union[str, "os.PathLike[str]"]
 
 
 def run_experiment(
-    spec: Union[Path, Mapping[str, Any]], out: Path = "", *, resume: bool = False
+    spec: Union[Path, Mapping[str, Any]], out: Path = "", *, resume: bool = False, shard: str = ""
 ) -> List[Dict[str, Any]]:
     """Does the runs of a study and gives read_results() of them.
 
     spec is a .toml file, or a dict with the same keys (name, repeats, base, permute), whose files
     are seen from the current folder: {"name": "layers", "base": {"scene": "ring"}, "permute":
     {"layers.count": [1, 4]}}. out is the folder of results, by default
-    results/runs/experiments/NAME; resume goes on with those that are there. Ctrl-C keeps what is
-    finished. Raises ConfigError for a spec that makes no sense and KaustikError when runs fail.
+    results/runs/experiments/NAME; resume goes on with those that are there. shard, "2/8", does
+    the second eighth of the runs alone and gives none: merge_experiments() does once all are there.
+    Ctrl-C keeps what is finished. Raises ConfigError for a spec that makes no sense and
+    KaustikError when runs fail.
     """
     with tempfile.TemporaryDirectory(prefix="kaustik-") as folder:
         if isinstance(spec, Mapping):
@@ -37,9 +39,28 @@ def run_experiment(
             command += ["--out", os.fspath(out)]
         if resume:
             command.append("--resume")
-        printed = _run(command)
-    written = [line[6:] for line in printed.splitlines() if line.startswith("wrote ")]
-    return read_results(os.path.dirname(written[0])) if written else []
+        if shard:
+            command += ["--shard", shard]
+        return _results_of(_run(command))
+
+
+def merge_experiments(
+    folders: Union[Path, Sequence[Path]], out: Path = "", *, incomplete: bool = False
+) -> List[Dict[str, Any]]:
+    """Puts the shards of a study together, and gives read_results() of all.
+
+    folders are those of run_experiment(shard=…), one or several, in any order; out is the folder of
+    results, by default the only one of folders. A run that is there twice counts once. Raises
+    ConfigError for shards of different studies, and for missing ones unless incomplete is true;
+    KaustikError when runs have failed.
+    """
+    several = [folders] if isinstance(folders, (str, os.PathLike)) else list(folders)
+    command = ["experiment", "merge", *map(os.fspath, several)]
+    if os.fspath(out):
+        command += ["--out", os.fspath(out)]
+    if incomplete:
+        command.append("--incomplete")
+    return _results_of(_run(command))
 
 
 def read_results(folder: Path) -> List[Dict[str, Any]]:
@@ -54,6 +75,12 @@ def read_results(folder: Path) -> List[Dict[str, Any]]:
             f"{file} cannot be read: {error.strerror}; kaustik.run_experiment() makes one."
         ) from None
     return [{key: _cell(text) for key, text in row.items()} for row in rows]
+
+
+def _results_of(printed: str) -> List[Dict[str, Any]]:
+    """What a command says that it has written; a shard writes no tables."""
+    written = [line[6:] for line in printed.splitlines() if line.startswith("wrote ")]
+    return read_results(os.path.dirname(written[0])) if written else []
 
 
 def _cell(text: Optional[str]) -> Union[int, float, str, None]:
