@@ -131,6 +131,8 @@ class Checker {
             if (keyword == "end_header") break;
             if (keyword == "format") {
                 const std::string_view format = nextWord(line);
+                // Readers differ in which of two counts.
+                if (hasFormat) fail("has two formats in its header");
                 hasFormat = true;
                 if (format == "ascii") {
                     encoding_ = Encoding::ascii;

@@ -84,6 +84,13 @@ TEST_F(MeshImport, AnElementOfAPlyWithoutPropertiesIsAnErrorHoweverManyThereAre)
     }
 }
 
+// Assimp would read what follows as numbers of the first format: 34 GB from 300 bytes.
+TEST_F(MeshImport, APlyOfTwoFormatsIsAnError) {
+    std::string ply = plyWith("element face 1\n" + kFaceList, "3 0 1 2\n");
+    ply.insert(4, "format binary_little_endian 1.0\n");
+    EXPECT_THAT(errorOf("a.ply", ply), HasSubstr("has two formats in its header"));
+}
+
 TEST_F(MeshImport, WholeNumbersOfATextPlyAreWrittenAsSuchAndFitTheirType) {
     const auto error = [&](const std::string& face) {
         return errorOf("a.ply",
