@@ -36,6 +36,14 @@ std::string versionString() {
 
 namespace {
 
+// Where the program is, or was: it may be built anew while it runs.
+fs::path ownProgram(std::error_code& error) {
+    constexpr std::string_view kRemoved = " (deleted)";  // which Linux puts behind its name
+    std::string name = fs::read_symlink("/proc/self/exe", error).string();
+    if (name.ends_with(kRemoved)) name.resize(name.size() - kRemoved.size());
+    return name;
+}
+
 // The program that this code is linked into, or the shared library: a module of Python, say.
 fs::path ownFile() {
     Dl_info info{};
@@ -46,7 +54,7 @@ fs::path ownFile() {
     std::error_code error;
     // The program itself has no name there, or the one that it was called by.
     const bool isLibrary = isKnown && library != nullptr && library->l_name[0] != '\0';
-    const fs::path file = fs::canonical(isLibrary ? library->l_name : "/proc/self/exe", error);
+    const fs::path file = isLibrary ? fs::canonical(library->l_name, error) : ownProgram(error);
     return error ? fs::current_path() / "kaustik" : file;
 }
 

@@ -11,6 +11,8 @@
 
 #include "framework/core/error.h"
 #include "framework/core/files.h"
+#include "framework/core/json_number.h"
+#include "framework/core/json_text.h"
 #include "framework/experiment/fingerprint.h"
 #include "framework/experiment/results.h"
 #include "framework/experiment/run_folder.h"
@@ -38,7 +40,7 @@ json readDescription(const fs::path& folder) {
             "{} holds no {}; 'kaustik experiment run SPEC.toml --shard K/N --out {}' makes one.",
             folder.string(), kDescription, folder.string()));
     }
-    json described = json::parse(readFile(file), nullptr, false);
+    json described = parseJson(readFile(file), file.string());
     if (!described.is_object() || described.value("schema", json()) != "kaustik.experiment/1")
         throw IoError(fmt::format("{} is not a kaustik.experiment/1.", file.string()));
     return described;
@@ -77,13 +79,24 @@ Study readStudy(const std::vector<fs::path>& folders) {
         }
         study.text = readFile(folders.front() / kDescription);
         study.name = first.at("name");
-        study.repeats = first.at("repeats");
+        study.repeats = wholeNumber<int>(first.at("repeats"));
         for (const json& described : first.at("runs")) {
             PlannedRun run;
             run.hash = described.at("hash");
+            if (run.hash.find_first_not_of("0123456789abcdef") != std::string::npos) {
+                throw IoError(fmt::format("{}: '{}' is no fingerprint of a run.",
+                                          (folders.front() / kDescription).string(), run.hash));
+            }
             run.axes = described.at("axes");
-            run.products = described.at("products").get<std::vector<int>>();
+            for (const json& product : described.at("products"))
+                run.products.push_back(wholeNumber<int>(product));
             study.runs.push_back(std::move(run));
+        }
+        const std::uint64_t most = study.runs.empty() ? 1 : kMostRuns / study.runs.size();
+        if (study.repeats < 1 || static_cast<std::uint64_t>(study.repeats) > most) {
+            throw IoError(fmt::format("{} is damaged: {} repeats of {} runs cannot be.",
+                                      (folders.front() / kDescription).string(), study.repeats,
+                                      study.runs.size()));
         }
     } catch (const json::exception& error) {
         throw IoError(fmt::format("{} is damaged: {}.", (folders.front() / kDescription).string(),
@@ -103,6 +116,16 @@ struct Merged {
     std::string damage;    // of one that would have counted
 };
 
+// Why a run failed, as its record has it.
+std::string messageOf(const fs::path& failure) {
+    try {
+        return parseJson(readFile(failure), failure.string()).at("message").get<std::string>();
+    } catch (const json::exception&) {
+    } catch (const IoError&) {
+    }
+    return "its record is damaged";
+}
+
 // Takes the run of `folder` where it counts more than what there is by now.
 void consider(Merged& merged, const fs::path& folder) {
     const fs::path path = runFolder(folder, *merged.run, merged.repeat);
@@ -111,13 +134,14 @@ void consider(Merged& merged, const fs::path& folder) {
         try {
             // What the run was to be is in its record; its name is the fingerprint of that.
             PlannedRun run = *merged.run;
-            const json record = json::parse(readFile(path / "run.json"), nullptr, false);
+            const fs::path file = path / "run.json";
+            const json record = parseJson(readFile(file), file.string());
             if (record.is_object()) run.settings = record.value("settings", json());
             if (fingerprint(run.settings.dump()) != run.hash)
-                throw IoError(
-                    fmt::format("{}: this is another run.", (path / "run.json").string()));
+                throw IoError(fmt::format("{}: this is another run.", file.string()));
             const FinishedRun finished = readFinishedRun(path, run, merged.repeat);
-            const std::string when = finished.record.value("finished", "") + finished.record.dump();
+            const json& done = finished.record;
+            const std::string when = done.value("finished", json()).dump() + done.dump();
             if (merged.isDone && merged.finished <= when) return;
             merged.result = resultOf(run, merged.repeat, finished);
             merged.from = folder;
@@ -126,13 +150,14 @@ void consider(Merged& merged, const fs::path& folder) {
             return;
         } catch (const IoError& damage) {
             if (merged.damage.empty()) merged.damage = damage.what();
+        } catch (const json::exception& damage) {
+            if (merged.damage.empty())
+                merged.damage = fmt::format("{} is damaged: {}.", path.string(), damage.what());
         }
     }
     const fs::path failure = failureFile(folder, *merged.run, merged.repeat);
     if (merged.isDone || !fs::exists(failure, error)) return;
-    const json record = json::parse(readFile(failure), nullptr, false);
-    const std::string message =
-        record.is_object() ? record.value("message", "") : "its record is damaged";
+    const std::string message = messageOf(failure);
     if (!merged.from.empty() && merged.finished <= message) return;
     merged.result = failedResult(*merged.run, merged.repeat, message);
     merged.from = folder;

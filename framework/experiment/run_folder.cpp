@@ -74,7 +74,7 @@ std::string folderName(const PlannedRun& run, int repeat) {
     return repeat == 1 ? run.hash : fmt::format("{}-r{}", run.hash, repeat);
 }
 
-FinishedRun readFinishedRun(const fs::path& folder, const PlannedRun& run, int repeat) {
+FinishedRun readFinishedRun(const fs::path& folder, const PlannedRun& run, int repeat) try {
     FinishedRun finished;
     const fs::path recordFile = folder / kRecord;
     finished.record = readJson(recordFile);
@@ -82,7 +82,8 @@ FinishedRun readFinishedRun(const fs::path& folder, const PlannedRun& run, int r
             recordFile, "this is not a kaustik.run/1");
     require(finished.record.value("settings", json()) == run.settings, recordFile,
             "these are the settings of another run");
-    require(finished.record.value("repeat", 0) == repeat, recordFile, "this is another repeat");
+    require(finished.record.value("repeat", json()) == repeat, recordFile,
+            "this is another repeat");
     const json files = finished.record.value("files", json());
     require(files.is_object() && files.contains("report.json") && files.contains("samples.json"),
             recordFile, "it lists no report.json and samples.json");
@@ -94,6 +95,8 @@ FinishedRun readFinishedRun(const fs::path& folder, const PlannedRun& run, int r
     finished.report = readJson(folder / "report.json");
     finished.samples = readJson(folder / "samples.json");
     return finished;
+} catch (const json::exception& error) {
+    throw IoError(fmt::format("{} is damaged: {}.", (folder / kRecord).string(), error.what()));
 }
 
 void sealRun(const fs::path& folder, const PlannedRun& run, int repeat, double wallSeconds) {

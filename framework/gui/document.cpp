@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "framework/core/json_number.h"
 #include "framework/scene/files/scene_file.h"
 
 namespace kaustik::gui {
@@ -147,7 +148,8 @@ Document documentFromJson(const json& j, std::vector<std::string>& problems) {
         Document document;
         document.scene = j.at("scene").get<std::string>();
         document.edits = editsFrom(j.at("edits"));
-        document.size = {j.at("size").at(0), j.at("size").at(1)};
+        document.size = {wholeNumber<int>(j.at("size").at(0)),
+                         wholeNumber<int>(j.at("size").at(1))};
         document.variant = variantFrom(j.at("variant"));
         if (j.contains("other")) document.other = variantFrom(j.at("other"));
         const bool isSize = document.size.width >= 1 && document.size.width <= 16384 &&

@@ -12,6 +12,7 @@
 
 #include "framework/core/error.h"
 #include "framework/core/files.h"
+#include "framework/core/json_number.h"
 #include "framework/core/json_text.h"
 #include "framework/reference/content_hash.h"
 #include "framework/reference/request_json.h"
@@ -103,17 +104,19 @@ PartHead headFromJson(const json& from) {
     head.subject.scene = from.at("scene");
     head.subject.request = requestFromJson(from.at("request"));
     const json& layers = from.at("layers");
-    head.subject.inScatteredLayer = layers.at("in_scattered");
-    head.subject.causticRadianceLayer = layers.at("caustic_radiance");
-    head.subject.causticViewLayer = layers.at("caustic_view");
-    head.shard = {from.at("shard").at(0), from.at("shard").at(1)};
-    head.batchesOfAll = from.at("batches_of_all");
+    head.subject.inScatteredLayer = wholeNumber<int>(layers.at("in_scattered"));
+    head.subject.causticRadianceLayer = wholeNumber<int>(layers.at("caustic_radiance"));
+    head.subject.causticViewLayer = wholeNumber<int>(layers.at("caustic_view"));
+    head.shard = {wholeNumber<std::uint64_t>(from.at("shard").at(0)),
+                  wholeNumber<std::uint64_t>(from.at("shard").at(1))};
+    head.batchesOfAll = wholeNumber<std::uint64_t>(from.at("batches_of_all"));
     for (const json& range : from.at("batches"))
-        head.batches.push_back({range.at(0), range.at(1)});
+        head.batches.push_back(
+            {wholeNumber<std::uint64_t>(range.at(0)), wholeNumber<std::uint64_t>(range.at(1))});
     head.seconds = from.at("compute_s");
     head.fingerprint = from.at("fingerprint");
-    head.sumsBytes = from.at("sums_bytes");
-    head.compressedBytes = from.at("compressed_bytes");
+    head.sumsBytes = wholeNumber<std::uint64_t>(from.at("sums_bytes"));
+    head.compressedBytes = wholeNumber<std::uint64_t>(from.at("compressed_bytes"));
     return head;
 }
 
@@ -159,7 +162,7 @@ PartHead takeHead(std::istream& stream, const fs::path& file) {
     if (ContentHash().addBytes(text).hex() != takeLine(stream, 64))
         failDamaged(file, "the checksum of its head is wrong");
     try {
-        PartHead head = headFromJson(json::parse(text));
+        PartHead head = headFromJson(parseJson(text, file.string()));
         requireSense(head, file);
         return head;
     } catch (const json::exception& error) {

@@ -8,6 +8,7 @@
 
 #include "framework/core/error.h"
 #include "framework/core/files.h"
+#include "framework/core/json_number.h"
 #include "framework/core/json_text.h"
 #include "framework/reference/content_hash.h"
 #include "framework/reference/reference.h"
@@ -122,9 +123,9 @@ Reference readReference(const fs::path& path, const std::string& expectedKey) {
         reference.key = from.at("key");
         reference.scene = from.at("scene");
         reference.request = requestFromJson(from.at("request"));
-        reference.photons = from.at("photons");
-        reference.batches = from.at("batches");
-        reference.rejectedValues = from.at("rejected_values");
+        reference.photons = wholeNumber<std::uint64_t>(from.at("photons"));
+        reference.batches = wholeNumber<std::uint64_t>(from.at("batches"));
+        reference.rejectedValues = wholeNumber<std::uint64_t>(from.at("rejected_values"));
         const json& error = from.at("relative_stderr");
         reference.relativeError = error.is_null() ? HUGE_VAL : error.get<double>();
         reference.seconds = from.at("compute_s");

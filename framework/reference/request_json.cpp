@@ -3,6 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "framework/core/json_number.h"
+
 namespace kaustik::reference {
 
 using nlohmann::json;
@@ -26,13 +28,13 @@ json requestToJson(const ReferenceRequest& request) {
 ReferenceRequest requestFromJson(const json& from) {
     ReferenceRequest request;
     request.estimator = from.at("estimator") == "sppm" ? Estimator::sppm : Estimator::light;
-    request.width = from.at("size").at(0);
-    request.height = from.at("size").at(1);
-    request.seed = from.at("seed");
-    request.photonsPerBatch = from.at("photons_per_batch");
+    request.width = wholeNumber<int>(from.at("size").at(0));
+    request.height = wholeNumber<int>(from.at("size").at(1));
+    request.seed = wholeNumber<std::uint64_t>(from.at("seed"));
+    request.photonsPerBatch = wholeNumber<std::uint64_t>(from.at("photons_per_batch"));
     request.filter.transmissionOnly = from.at("transmission_only");
-    request.filter.maximumInteractions = from.at("maximum_interactions");
-    request.filter.splitInteractions = from.at("split_interactions");
+    request.filter.maximumInteractions = wholeNumber<int>(from.at("maximum_interactions"));
+    request.filter.splitInteractions = wholeNumber<int>(from.at("split_interactions"));
     request.initialRadiusPixels = from.value("initial_radius_px", request.initialRadiusPixels);
     request.alpha = from.value("alpha", request.alpha);
     request.causticView = from.value("caustic_view", request.causticView);

@@ -108,6 +108,28 @@ TEST_F(ExperimentRun, RecordsARunThatFailsAndGoesOn) {
     EXPECT_NE(failure.at("message").get<std::string>().find("fewer photons"), std::string::npos);
 }
 
+TEST_F(ExperimentRun, GoesOnWhenItsProgramIsGone) {
+    // As when it is built anew: a build tree of its own, with what the program needs there.
+    const fs::path built = fs::path(KAUSTIK_BINARY).parent_path();
+    const fs::path bin = folder / "tree/bin";
+    fs::create_directories(bin);
+    fs::copy_file(built.parent_path() / "kaustik_source_tree", folder / "tree/kaustik_source_tree");
+    for (const fs::directory_entry& entry : fs::directory_iterator(built)) {
+        if (entry.path().filename().string().starts_with("kaustik"))
+            fs::copy_file(entry.path(), bin / entry.path().filename());
+    }
+    Conditions conditions;
+    conditions.folder = folder / ".";
+    conditions.program = bin / "kaustik";
+    Program program(study(), conditions);
+    while (runs().empty() && program.isRunning())
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    fs::remove(bin / "kaustik");
+    const Outcome outcome = program.wait();
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_EQ(runs().size(), 4u);
+}
+
 TEST_F(ExperimentRun, InAFolderThatAnotherProcessWritesIntoIsRefused) {
     fs::create_directory(folder / "out");
     const int other = ::open((folder / "out").c_str(), O_RDONLY | O_DIRECTORY);

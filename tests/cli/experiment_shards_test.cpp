@@ -100,6 +100,23 @@ TEST_F(ExperimentShards, ThatAreMissingOrDamagedAreNamedAndNothingIsWritten) {
     EXPECT_EQ(merge({"a"}).exitCode, 0);
 }
 
+TEST_F(ExperimentShards, OfADescriptionThatSomebodyMadeUpAreAnError) {
+    doShard("1/1", "a");
+    const auto withDescription = [&](const std::string& text) {
+        static_cast<void>(folder.file("a/experiment.json", text));
+        return merge({"a"});
+    };
+    json made = json::parse(contents("a/experiment.json"));
+    made["repeats"] = 2.6e23;
+    expectFailure(withDescription(made.dump()), 1, {"experiment.json", "2.6e+23"});
+    made["repeats"] = 2;
+    made["runs"][0]["hash"] = "../../elsewhere";
+    expectFailure(withDescription(made.dump()), 1, {"experiment.json", "no fingerprint of a run"});
+    const std::string nested = std::string(100000, '[') + std::string(100000, ']');
+    expectFailure(withDescription(nested), 1, {"experiment.json", "nested more than"});
+    EXPECT_FALSE(fs::exists(folder / "merged"));
+}
+
 TEST_F(ExperimentShards, ThatFailedInOnePlaceAndAreDoneInAnotherAreDone) {
     writeStudy("[permute]\nsize = ['16384x16384', '32x24']\n'layers.count' = [64]\n");
     const Outcome first = shard("1/1", "a");

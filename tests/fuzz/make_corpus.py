@@ -14,6 +14,7 @@ import pathlib
 import re
 import struct
 import sys
+import zlib
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 FRAMEWORK = SOURCE / "framework"
@@ -214,6 +215,17 @@ def experiments():
            '"trace.count" = {from = 1, to = 8, step = 2}\ntime = {from = 0, to = 1, steps = 3}\n')
 
 
+def studies():
+    run = "0880955dd2ab1be95aa0733055c655b5"  # the fingerprint of {}
+    whole = {"bytes": 2, "crc32": f"{zlib.crc32(b'{}'):08x}"}
+    description = {"schema": "kaustik.experiment/1", "name": "s", "version": "0", "repeats": 1,
+                   "runs": [{"hash": run, "axes": {}, "products": [0]}]}
+    record = {"schema": "kaustik.run/1", "settings": {}, "repeat": 1, "finished": "2026",
+              "files": {"report.json": whole, "samples.json": whole}}
+    yield json.dumps(description) + "\n" + json.dumps(record)
+    yield "[" * 100000 + "\n" + "[" * 100000
+
+
 SEEDS = {
     "scene": scenes, "experiment": experiments, "gltf": gltfs, "obj": objs, "ply": plys,
     "3ds": threes, "gzip": lambda: (gzip.compress(seed, mtime=0) for seed in plys()),
@@ -223,7 +235,7 @@ SEEDS = {
                       b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\0\0\0\0"),
     "settings": lambda: ('{"view": {"a": ' + "[" * 70 + "]" * 70 + "}}",),
     "reference": lambda: ('{"images": ' + "[" * 70 + "]" * 70 + "}",),
-    "cache": lambda: (),
+    "cache": lambda: (), "part": lambda: (), "study": studies,
 }
 
 # Whose texts a target's reader compares with.
@@ -232,7 +244,8 @@ SOURCES = {
     "gltf": ["importers/gltf_*.cpp"], "obj": ["importers/mesh_file_obj.cpp"],
     "ply": ["importers/mesh_file_ply.cpp"], "3ds": [], "gzip": [], "pfm": [], "image": [],
     "settings": ["gui/document.cpp", "gui/state.cpp"], "reference": ["reference/*_file.cpp"],
-    "cache": [],
+    "cache": [], "part": ["reference/part_file.cpp", "reference/request_json.cpp"],
+    "study": ["experiment/merge.cpp", "experiment/run_folder.cpp", "experiment/results.cpp"],
 }
 
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // fuzz_write_seeds FOLDER: the seeds that only the program can write, a folder for each target.
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "framework/core/files.h"
 #include "framework/gui/document.h"
 #include "framework/gui/state.h"
 #include "framework/image/image.h"
+#include "framework/reference/part_file.h"
 #include "tests/fuzz/seeds.h"
 
 int main(int argc, char** argv) {
@@ -18,6 +20,20 @@ int main(int argc, char** argv) {
          {"seed.pfm", "seed.stderr.pfm", "seed.caustic_view.pfm", "seed.caustic_view.stderr.pfm"}) {
         std::filesystem::remove(folder / "reference" / image);
     }
+
+    reference::PartHead head;
+    head.subject = {.key = fuzz::kSumsKey, .scene = "smallest", .request = {}};
+    head.batchesOfAll = fuzz::smallSums().batchCount();
+    const std::filesystem::path part = folder / "part/seed";
+    reference::writePart(part, head, fuzz::smallSums());
+    // Without its first line and the checksum, which the target adds.
+    std::istringstream lines(readFile(part));
+    std::string format;
+    std::string first;
+    std::string checksum;
+    std::getline(std::getline(std::getline(lines, format), first), checksum);
+    writeFileWhole(part,
+                   first + "\n" + lines.str().substr(static_cast<std::size_t>(lines.tellg())));
 
     constexpr std::size_t kChecksumBytes = 32;  // which the target adds
     const std::string sums = fuzz::smallSums().toBytes(fuzz::kSumsKey);

@@ -11,6 +11,7 @@
 
 #include "framework/core/error.h"
 #include "framework/core/files.h"
+#include "framework/core/json_number.h"
 #include "framework/core/json_text.h"
 #include "framework/core/names.h"
 
@@ -197,6 +198,19 @@ TEST_F(Files, ErrorsNameTheFile) {
     writeFileWhole(folder_ / "file", "x");
     EXPECT_NE(messageOf([&] { writeFileWhole(folder_ / "file/below.txt", "x"); }).find("file"),
               std::string::npos);
+}
+
+TEST(WholeNumber, IsOneThatItsTypeHoldsOrAnError) {
+    using nlohmann::json;
+    EXPECT_EQ(wholeNumber<int>(json::parse("-3")), -3);
+    EXPECT_EQ(wholeNumber<std::uint64_t>(json::parse("18446744073709551615")), ~std::uint64_t{0});
+    for (const char* text :
+         {"2147483648", "-2147483649", "3.0", "2.6e23", "262100000000000000000044",
+          "18446744073709551615", "\"3\"", "null", "true", "[3]"}) {
+        EXPECT_THROW(static_cast<void>(wholeNumber<int>(json::parse(text))), json::exception)
+            << text;
+    }
+    EXPECT_THROW(static_cast<void>(wholeNumber<std::uint64_t>(json(-1))), json::exception);
 }
 
 TEST(TomlString, EscapesWhatWouldEndOrBreakIt) {
