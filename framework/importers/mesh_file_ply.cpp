@@ -11,6 +11,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <set>
 
 #include "framework/core/error.h"
 #include "framework/importers/mesh_file_checks.h"
@@ -153,14 +154,20 @@ class Checker {
         checkElements();
     }
 
-    // What has no properties takes no bytes, so that any number of it would fit into the file.
+    // What has no properties takes no bytes, so that any number of it would fit into the file. Of
+    // two elements with vertices or faces Assimp makes room for the first, and writes both.
     void checkElements() const {
+        std::set<std::string_view> names;
         for (const Element& element : elements_) {
+            if (!names.insert(element.name).second)
+                fail(fmt::format("declares the element '{}' twice in its header", element.name));
             if (element.properties.empty() && element.count > 0) {
                 fail(fmt::format("has {} elements '{}' without properties in its header",
                                  element.count, element.name));
             }
         }
+        if (names.contains("face") && names.contains("tristrips"))
+            fail("has both faces and strips of triangles; export it with one kind");
     }
 
     void declareElement(std::string_view line) {

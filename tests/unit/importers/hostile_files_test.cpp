@@ -84,6 +84,20 @@ TEST_F(MeshImport, AnElementOfAPlyWithoutPropertiesIsAnErrorHoweverManyThereAre)
     }
 }
 
+// Assimp would write the second into the room of the first.
+TEST_F(MeshImport, AnElementThatAPlyDeclaresTwiceIsAnError) {
+    const std::string faces = "element face 1\n" + kFaceList;
+    EXPECT_THAT(errorOf("a.ply", plyWith(faces + "element face 2\n" + kFaceList,
+                                         "3 0 1 2\n3 0 1 2\n3 0 1 2\n")),
+                HasSubstr("declares the element 'face' twice"));
+    EXPECT_THAT(
+        errorOf("b.ply", plyWith("element vertex 1\nproperty float x\n" + faces, "0\n3 0 1 2\n")),
+        HasSubstr("declares the element 'vertex' twice"));
+    EXPECT_THAT(errorOf("c.ply", plyWith(faces + "element tristrips 1\n" + kFaceList,
+                                         "3 0 1 2\n4 0 1 2 3\n")),
+                HasSubstr("both faces and strips"));
+}
+
 // Assimp would read what follows as numbers of the first format: 34 GB from 300 bytes.
 TEST_F(MeshImport, APlyOfTwoFormatsIsAnError) {
     std::string ply = plyWith("element face 1\n" + kFaceList, "3 0 1 2\n");
