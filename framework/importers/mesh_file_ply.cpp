@@ -91,6 +91,9 @@ class Checker {
     [[noreturn]] void fail(const std::string& problem) const {
         throw IoError(fmt::format("{} {}.", name_, problem));
     }
+    [[noreturn]] void failBeginning() const {
+        fail("is no PLY file: it does not begin with a line 'ply'");
+    }
     [[noreturn]] void failCutOff(const Element& element, std::uint64_t index) const {
         fail(fmt::format("is cut off: it holds {} of {} elements '{}'. Fetch or export it again",
                          index, element.count, element.name));
@@ -119,16 +122,20 @@ class Checker {
     }
 
     void header() {
-        if (!bytes_.starts_with("ply")) fail("is no PLY file: it does not begin with 'ply'");
         bool hasFormat = false;
-        for (;;) {
+        for (bool isFirst = true;; isFirst = false) {
             const std::size_t end = bytes_.find('\n', at_);
             if (end == std::string_view::npos) {
+                if (isFirst) failBeginning();
                 fail("is cut off in its header (no end_header). Fetch or export it again");
             }
             std::string_view line = bytes_.substr(at_, end - at_);
             at_ = end + 1;
             const std::string_view keyword = nextWord(line);
+            if (isFirst) {
+                if (keyword != "ply" || !nextWord(line).empty()) failBeginning();
+                continue;
+            }
             if (keyword == "end_header") break;
             if (keyword == "format") {
                 const std::string_view format = nextWord(line);
@@ -148,6 +155,10 @@ class Checker {
                 declareElement(line);
             } else if (keyword == "property") {
                 declareProperty(line);
+            } else if (!keyword.empty() && keyword != "comment" && keyword != "obj_info") {
+                // Assimp may take it for one of the above.
+                fail(
+                    fmt::format("has a line '{}' in its header, which PLY does not know", keyword));
             }
         }
         if (!hasFormat) fail("has no format in its header");

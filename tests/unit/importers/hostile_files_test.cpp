@@ -98,6 +98,17 @@ TEST_F(MeshImport, AnElementThatAPlyDeclaresTwiceIsAnError) {
                 HasSubstr("both faces and strips"));
 }
 
+TEST_F(MeshImport, ALineOfAPlysHeaderThatIsNoneIsAnError) {
+    std::string ply = plyWith("element face 1\n" + kFaceList, "3 0 1 2\n");
+    const std::string whole = ply;
+    const std::size_t afterFormat = ply.find("element");
+    ply.insert(afterFormat, "comment made by hand\nobj_info 1\n");
+    EXPECT_EQ(import("a.ply", ply).mesh.triangles.size(), 1u);
+    ply.insert(afterFormat, "elements vertex 100000000\n");
+    EXPECT_THAT(errorOf("b.ply", ply), HasSubstr("a line 'elements' in its header"));
+    EXPECT_THAT(errorOf("d.ply", "ply2" + whole.substr(3)), HasSubstr("a line 'ply'"));
+}
+
 // Assimp would read what follows as numbers of the first format: 34 GB from 300 bytes.
 TEST_F(MeshImport, APlyOfTwoFormatsIsAnError) {
     std::string ply = plyWith("element face 1\n" + kFaceList, "3 0 1 2\n");
