@@ -39,7 +39,7 @@ for argument in "$@"; do
     esac
 done
 
-# Copies beside the target first, so that a mesh appears under its name only when complete.
+# Copies next to the target first, so that a mesh appears under its name only when complete.
 install_mesh() {
     local source=$1 target=$meshes/$2
     [[ -s $source ]] || fail "$source is missing or empty; the package has changed."

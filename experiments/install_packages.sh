@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Installs the Debian 12 packages that Kaustik is built, run and tested with: those that are
+# Installs the Debian packages (12 or 13) that Kaustik is built, run and tested with: those that are
 # missing, and only those. Answers at once when nothing is. Needs root or sudo only to install.
 #   install_packages.sh [--cluster] [--fuzz]
 #   --cluster: also Slurm and GNU parallel, which experiments/cluster uses
@@ -14,7 +14,7 @@ packages=(
     libepoxy-dev libegl-dev libegl-mesa0 libgl1-mesa-dri
     # Libraries
     libglm-dev libfmt-dev nlohmann-json3-dev libtomlplusplus-dev libcli11-dev
-    libassimp-dev libtinygltf-dev zlib1g-dev libopenimageio-dev
+    libtinygltf-dev zlib1g-dev libopenimageio-dev
     # The ray-traced reference
     libembree-dev libtbb-dev
     # The workbench

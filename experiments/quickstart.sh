@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# From a bare Debian 12 machine to a picture: installs what is missing, fetches the meshes, builds,
-# and renders the default scene. Safe to run again: only what has changed is done again.
+# From a bare Debian 12 or 13 machine to a picture: installs what is missing, fetches the meshes,
+# builds, and renders the default scene. Safe to run again: only what has changed is done again.
 #   quickstart.sh [--no-run] [SCENE] [options of 'kaustik run']...
+# Its last line says how a shell finds what was built: kaustik, and the Python module.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -36,12 +37,11 @@ while (($# > 0)); do
     shift
 done
 
-"$root/experiments/set_up.sh" release kaustik
-if ! $run; then
-    echo "built: $kaustik"
-    exit 0
+"$root/experiments/set_up.sh" release kaustik kaustik_python
+if $run; then
+    "$kaustik" run "${arguments[@]}" "${out_option[@]}"
+    echo
+    echo "picture: $out/beauty.png"
+    echo "report:  $out/report.json"
 fi
-"$kaustik" run "${arguments[@]}" "${out_option[@]}"
-echo
-echo "picture: $out/beauty.png"
-echo "report:  $out/report.json"
+echo "to have 'kaustik' on the path, and in Python:  . $root/build/release/env.sh"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Everything between a bare Debian 12 and the programs: packages, meshes, configure, build. Each
-# step does only what is still to do.
+# Everything between a bare Debian 12 or 13 and the programs: packages, meshes, configure, build.
+# Each step does only what is still to do.
 #   set_up.sh PRESET TARGET...    a preset of CMakePresets.json; the result is in build/PRESET
 set -euo pipefail
 

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "techniques/caustic_triangles/nodes.h"
+// Caustic triangles: Umenhoffer, Patow, Szirmay-Kalos 2008 (U08). Its parts by section: papers.md.
+#include "framework/pipeline/registry.h"
 
 namespace kaustik {
 
 void registerCausticTriangles(Registry& registry) {
-    registerAround(registry);
-    registerSecant(registry);
-    registerCubeGather(registry);
-    registerAroundView(registry);
     registry.technique({"caustic_triangles",
                         "Photons traced in layers of distance around each caustic generator; the "
                         "triangles between them store light on the faces of a cube there, which is "
@@ -19,8 +16,7 @@ void registerCausticTriangles(Registry& registry) {
                          {"reconstruct.triangles.shading", "vertices"},
                          {"gather", "cube"},
                          {"view", "around"},
-                         {"emit.photons", "128x128"}},
-                        {}});
+                         {"emit.photons", "128x128"}}});
 }
 
 }  // namespace kaustik

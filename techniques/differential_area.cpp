@@ -1,25 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "techniques/planar/nodes.h"
-
-#include "framework/pipeline/frame_builder.h"
+// Light beams between the vertices of a mesh of water (Watt 1990, W90), on flat receivers.
+#include "framework/pipeline/registry.h"
 
 namespace kaustik {
 
-void registerPlanar(Registry& registry) {
-    registry.node<TraceStage>("plane",
-                              {"Hits each photon's ray with the planes of flat receivers; no other "
-                               "surface is seen.",
-                               "K06, section 1.1, Fig. 2", Sees::flatReceivers},
-                              &tracePlane);
-    registry.technique({"planar",
-                        "Photons hit flat receivers analytically and nothing else; else as "
-                        "screen_space_photons.",
-                        "K06, section 1.1, Fig. 2",
-                        {{"layers", "auto"},
-                         {"trace", "plane"},
-                         {"reconstruct", "triangles"},
-                         {"view", "refraction"}},
-                        {}});
+void registerDifferentialArea(Registry& registry) {
     registry.technique({"differential_area",
                         "Light beams between vertices of the water's mesh hit flat receivers "
                         "analytically: a vertex's irradiance is its flux over the area that the "
@@ -29,8 +14,7 @@ void registerPlanar(Registry& registry) {
                          {"layers", "auto"},
                          {"trace", "plane"},
                          {"reconstruct", "triangles"},
-                         {"view", "refraction"}},
-                        {}});
+                         {"view", "refraction"}}});
 }
 
 }  // namespace kaustik

@@ -1,31 +1,18 @@
 // SPDX-License-Identifier: MIT
-#include "techniques/screen_space_photons/nodes.h"
+// Screen-space photon tracing: Krüger, Bürger, Westermann 2006, "Interactive Screen-Space Accurate
+// Photon Tracing on GPUs" (K06). Its parts by section: papers.md.
+#include "framework/pipeline/registry.h"
 
 namespace kaustik {
 
 void registerScreenSpacePhotons(Registry& registry) {
-    // The first of a stage is what a technique has that does not choose.
-    registerLists(registry);
-    registerPeel(registry);
-    registerPeelObjects(registry);
-    registerLines(registry);
-    registerMarch(registry);
-    registerAllHits(registry);
-    registerShadowRays(registry);
-    registerTriangles(registry);
-    registerSprites(registry);
-    registerGodRays(registry);
-    registerGaussianBlur(registry);
-    registerRefraction(registry);
-    registerImageSpace(registry);
     registry.technique({"screen_space_photons",
                         "Photon rays traced on the screen through a layered depth image.",
                         "Krüger, Bürger, Westermann 2006",
                         {{"layers", "auto"},
                          {"trace", "hierarchical"},
                          {"reconstruct", "triangles"},
-                         {"view", "refraction"}},
-                        {}});
+                         {"view", "refraction"}}});
 }
 
 }  // namespace kaustik

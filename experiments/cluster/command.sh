@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# For the scripts beside it: one kaustik command, done in shards. Sets `arguments` (without --out),
+# For the scripts next to it: one kaustik command, done in shards. Sets `arguments` (without --out),
 # `out`, `kind` (reference or experiment) and `logs`; the functions do a shard and merge all.
 kaustik=${KAUSTIK:-$root/build/release/bin/kaustik}
 # Where it is installed, these scripts are in PREFIX/share/kaustik/experiments/cluster.

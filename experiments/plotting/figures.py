@@ -19,8 +19,8 @@ from study import Axis, Configuration, Study, as_number, as_text, evenly
 COLORS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000", "#F0E442"]
 OTHER = "#999999"
 MARKERS = "osD^vPX*"
-MOST_BARS = 40  # more are not read
-MOST_LABELS = 12
+MAX_BARS = 40  # more are not read
+MAX_LABELS = 12
 FRAME = "frame_ms.median"
 
 plt.rcParams.update(
@@ -135,7 +135,7 @@ def speed_against_error(study: Study, measure: Measure) -> Figure | None:
     # Only the front is named, else the names hide each other; the table has them all.
     middle = 0.5 * (front[0][0] + front[-1][0])
     for configuration, point in zip(shown, points):
-        if point not in front or len(front) > MOST_LABELS:
+        if point not in front or len(front) > MAX_LABELS:
             continue
         is_left = point[0] <= middle
         axes.annotate(
@@ -161,7 +161,7 @@ def time_per_pass(study: Study) -> Figure | None:
     passes = study.columns_like(r"pass:.*")
     if not passes:
         return None
-    shown = evenly(study.configurations, MOST_BARS)
+    shown = evenly(study.configurations, MAX_BARS)
     largest = {p: max((c.mean(p) or 0.0) for c in shown) for p in passes}
     kept = sorted(passes, key=lambda p: -largest[p])[: 2 * len(COLORS)]
     figure, axes = plt.subplots(
@@ -208,7 +208,7 @@ def time_per_pass(study: Study) -> Figure | None:
 
 def frame_times(study: Study) -> Figure | None:
     shown = [c for c in study.configurations if any(len(s) > 1 for s in c.frame_samples_ms)]
-    shown = evenly(shown, MOST_BARS)
+    shown = evenly(shown, MAX_BARS)
     if not shown:
         return None
     figure, axes = plt.subplots(figsize=(8.0, 1.4 + 0.32 * len(shown)), layout="constrained")
@@ -300,7 +300,7 @@ def sweep(study: Study, axis: Axis) -> Figure | None:
     last = rows[-1][0]
     if spans_decades(list(ticks)):
         last.set_xscale("log")
-    if len(ticks) <= MOST_LABELS:
+    if len(ticks) <= MAX_LABELS:
         last.set_xticks(list(ticks), list(ticks.values()))
         last.xaxis.set_minor_locator(NullLocator())
     last.set_xlabel(axis.label)

@@ -18,8 +18,8 @@ from matplotlib.figure import Figure
 from study import Configuration, evenly
 
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722])  # Rec. 709
-MOST_ROWS = 6  # of pictures beside each other
-MOST_PIXELS_WIDE = 1280  # of a picture on the page
+MAX_ROWS = 6  # of pictures next to each other
+MAX_PIXEL_WIDTH = 1280  # of a picture on the page
 
 
 def read_netpbm(path: Path) -> np.ndarray:
@@ -78,9 +78,9 @@ IN_SCATTERED = Output(
 def find_reference(configuration: Configuration, output: Output) -> Path | None:
     """The reference picture of a configuration: beside its report, or where that says it is."""
     for folder in configuration.folders:
-        beside = find_image(folder, output.reference, (".exr", ".pfm"))
-        if beside:
-            return beside
+        neighbour = find_image(folder, output.reference, (".exr", ".pfm"))
+        if neighbour:
+            return neighbour
         if output is not CAUSTIC:
             continue  # what the report names is the caustic's
         try:
@@ -182,7 +182,7 @@ def side_by_side(pictures: Pictures) -> Figure | None:
     if not shown:
         return None
     height, width = shown[0][1].shape[:2]
-    shown = evenly(shown, MOST_ROWS)
+    shown = evenly(shown, MAX_ROWS)
     errors = []
     for configuration, image in shown:
         difference = np.abs(image - pictures.references[configuration.hash])
@@ -238,7 +238,7 @@ def gallery(pictures: Pictures) -> Figure | None:
 
 
 def as_data_uri(pixels: np.ndarray) -> str:
-    step = -(-pixels.shape[1] // MOST_PIXELS_WIDE)
+    step = -(-pixels.shape[1] // MAX_PIXEL_WIDTH)
     buffer = io.BytesIO()
     plt.imsave(buffer, np.ascontiguousarray(pixels[::step, ::step]), format="png")
     return "data:image/png;base64," + base64.b64encode(buffer.getvalue()).decode("ascii")

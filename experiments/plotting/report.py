@@ -12,7 +12,7 @@ import os
 import sys
 from pathlib import Path
 
-MOST_PICTURES = 12  # configurations whose pictures are shown; all are in the table
+MAX_PICTURES = 12  # configurations whose pictures are shown; all are in the table
 
 
 def write_whole(path: Path, data: bytes) -> None:
@@ -74,7 +74,7 @@ def draw(folder: Path) -> None:
     from study import evenly, read_study
 
     study = read_study(folder)
-    shown = evenly(study.configurations, MOST_PICTURES)
+    shown = evenly(study.configurations, MAX_PICTURES)
     outputs = [Pictures(shown, output) for output in (CAUSTIC, IN_SCATTERED)]
     for problem in dict.fromkeys(problem for pictures in outputs for problem in pictures.problems):
         print(f"warning: {problem}")

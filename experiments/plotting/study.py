@@ -48,11 +48,11 @@ def as_text(value: Value) -> str:
     return f"{value:g}" if isinstance(value, float) else str(value)
 
 
-def evenly(items: list, most: int) -> list:
+def evenly(items: list, maximum: int) -> list:
     """At most that many, spread through the list, its ends included."""
-    if len(items) <= most:
+    if len(items) <= maximum:
         return items
-    return [items[round(i * (len(items) - 1) / (most - 1))] for i in range(most)]
+    return [items[round(i * (len(items) - 1) / (maximum - 1))] for i in range(maximum)]
 
 
 def device_of(row: dict) -> str:

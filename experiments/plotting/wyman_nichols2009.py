@@ -128,10 +128,10 @@ def batches(rows: list[dict]) -> None:
         found[key][row["repeat"]] = ms_of(row["report"])
         counts[key] = row["report"]["cells"]
     for key in sorted(found):
-        most = found[min(k for k in found if k[0] == key[0])]
+        maximum = found[min(k for k in found if k[0] == key[0])]
         print(line([f"`{key[0]}`", -key[1], counts[key]["batches"], counts[key]["rounds"],
                     f"{statistics.median(found[key].values()):.0f}",
-                    spread([found[key][r] / most[r] for r in found[key]])]))
+                    spread([found[key][r] / maximum[r] for r in found[key]])]))
 
 
 def starts(rows: list[dict]) -> None:

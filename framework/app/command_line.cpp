@@ -86,7 +86,7 @@ void addMergeOptions(CLI::App& command, ReferenceOptions& options) {
 }
 
 // CLI11 takes a whole number beyond 64 bits for the largest that there is.
-std::string beyondWholeNumbers(const std::string& text) {
+std::string integerRangeError(const std::string& text) {
     long long number = 0;
     const char* const first = text.data() + (text.starts_with('+') ? 1 : 0);
     const auto [end, problem] = std::from_chars(first, text.data() + text.size(), number);
@@ -180,7 +180,7 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry,
     runApp->add_option("--frames", run.frames, "Frames that are timed")->capture_default_str();
     runApp->add_option("--warmup", run.warmup, "Frames before them")->capture_default_str();
     runApp->add_option("--seed", run.seed, "Seed of everything random")
-        ->check(beyondWholeNumbers)
+        ->check(integerRangeError)
         ->capture_default_str();
     runApp
         ->add_option("--time-step", run.timeStepSeconds,
@@ -196,7 +196,7 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry,
     runApp
         ->add_option("--reference-photons", run.referencePhotons,
                      "Photons that the reference of auto has at least")
-        ->check(beyondWholeNumbers)
+        ->check(integerRangeError)
         ->capture_default_str();
     runApp->add_option("--save", run.saved, "A resource to save, by a name from 'explain'")
         ->take_all()
@@ -215,6 +215,12 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry,
     listApp->add_option("--technique", list.technique, "Only what this technique uses");
     listApp->add_flag("--json", list.json, "As JSON");
 
+    DocOptions doc;
+    CLI::App* docApp =
+        app.add_subcommand("doc", "Prints a node's page, or writes a page for each node");
+    docApp->add_option("node", doc.node, "A name from 'list nodes'; without it all of them");
+    docApp->add_option("--out", doc.out, "Folder for the pages, each NODE.md");
+
     ExplainOptions explain;
     CLI::App* explainApp =
         app.add_subcommand("explain", "Prints every pass and why it runs or was skipped");
@@ -227,7 +233,7 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry,
     referenceApp->add_option("scene", reference.scene,
                              "A name from 'list scenes', a .toml, .gltf or .glb");
     referenceApp->add_option("--photons", reference.photons, "Stops at this number of photons")
-        ->check(beyondWholeNumbers);
+        ->check(integerRangeError);
     referenceApp->add_option("--seconds", reference.seconds, "Stops after this time");
     referenceApp->add_option("--error", reference.standardError,
                              "Stops at this standard error, as a share of a lit pixel's mean");
@@ -237,7 +243,7 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry,
         ->capture_default_str();
     referenceApp->add_option("--time", reference.time, "Time of the animation in seconds");
     referenceApp->add_option("--seed", reference.seed, "Seed of everything random")
-        ->check(beyondWholeNumbers)
+        ->check(integerRangeError)
         ->capture_default_str();
     referenceApp->add_option("--threads", reference.threads, "Threads; 0: all; changes no value")
         ->capture_default_str();
@@ -300,6 +306,11 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry,
         app.add_subcommand("check", "Prints what this device offers, and which others there are");
     addDeviceOption(*checkApp);
 
+    std::string schemaOf;
+    CLI::App* schemaApp =
+        app.add_subcommand("schema", "Prints the keys of files, as JSON Schema for editors");
+    schemaApp->add_option("what", schemaOf, "scene, experiment or report");
+
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -315,6 +326,7 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry,
             runCommand(run, registry);
         }
         if (listApp->parsed()) listCommand(list, registry);
+        if (docApp->parsed()) docCommand(doc, registry);
         if (explainApp->parsed()) {
             mergeSettings(explain, givenOptions(*explainApp), registry);
             explainCommand(explain, registry);
@@ -323,6 +335,7 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry,
         if (compareApp->parsed()) compareCommand(compare);
         if (experimentApp->parsed()) experimentCommand(experiment, registry, parts.addHardCases);
         if (checkApp->parsed()) checkCommand();
+        if (schemaApp->parsed()) schemaCommand(schemaOf, registry);
         if (guiApp->parsed()) {
             if (parts.gui == nullptr) {
                 throw ConfigError(

@@ -12,6 +12,7 @@ namespace kaustik::app {
 
 void runCommand(const RunOptions& options, const Registry& registry);
 void listCommand(const ListOptions& options, const Registry& registry);
+void docCommand(const DocOptions& options, const Registry& registry);
 void explainCommand(const ExplainOptions& options, const Registry& registry);
 void referenceCommand(const ReferenceOptions& options);
 void compareCommand(const CompareOptions& options);
@@ -22,6 +23,7 @@ void experimentCommand(const ExperimentOptions& options, const Registry& registr
                        AddHardCases addHardCases);
 
 void checkCommand();
+void schemaCommand(const std::string& what, const Registry& registry);
 
 // `kaustik gui`, which sits on top of this; null in a program that was built without it.
 using GuiCommand = void (*)(const GuiOptions& options, const Registry& registry);
@@ -38,12 +40,11 @@ struct ProgramParts {
                                  const ProgramParts& parts = {});
 
 // Checks everything that the options name, before any device is asked for.
-[[nodiscard]] RenderSettings makeSettings(const SceneOptions& options, const Registry& registry);
+[[nodiscard]] RenderSettings makeSettings(const SceneOptions& options, const Registry& registry,
+                                          long long seed = 1);
 // `time`: seconds, or "" for the scene's own. `namedAt`: the place in a file that names the scene,
 // for messages; "" for the command line.
 [[nodiscard]] scene::Scene loadRequestedScene(const std::string& name, const std::string& time,
                                               const std::string& namedAt = "");
-// WIDTHxHEIGHT of --size.
-[[nodiscard]] params::Extent parseSize(const std::string& text);
 
 }  // namespace kaustik::app

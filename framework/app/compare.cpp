@@ -57,7 +57,7 @@ std::optional<Image> readOptional(const std::string& file) {
     return readImage(file);
 }
 
-// The value of a key, and beside it what a perfect image would get because of the reference's
+// The value of a key, and next to it what a perfect image would get because of the reference's
 // noise.
 void printRow(const json& errors, const char* key, const char* name) {
     const json& value = errors.at(key);

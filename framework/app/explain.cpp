@@ -6,19 +6,21 @@
 #include "framework/app/commands.h"
 #include "framework/core/files.h"
 #include "framework/run/explanation.h"
+#include "framework/run/session.h"
 
 namespace kaustik::app {
 
 void explainCommand(const ExplainOptions& options, const Registry& registry) {
-    const scene::Scene scene =
+    scene::Scene scene =
         loadRequestedScene(options.scene.scene, options.scene.time, options.scene.scenePlace);
     RenderSettings settings = makeSettings(options.scene, registry);
     const std::unique_ptr<gl::Context> context = gl::Context::createHeadless(options.scene.glDebug);
-    Renderer renderer(*context, registry, scene, std::move(settings));
-    renderer.measureDepthComplexity();
-    renderer.build(Purpose::picture);
-    if (!options.dotFile.empty()) writeFileWhole(options.dotFile, renderer.graph().toDot());
-    fmt::print("{}", run::explain(renderer));
+    run::Session session(*context, registry, scene, std::move(settings));
+    session.measureDepthComplexity();
+    session.prepare();
+    if (!options.dotFile.empty())
+        writeFileWhole(options.dotFile, session.renderer().graph().toDot());
+    fmt::print("{}", run::explain(session.renderer()));
     if (!options.dotFile.empty()) fmt::print("wrote {}\n", options.dotFile);
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "framework/core/error.h"
@@ -33,11 +34,11 @@ struct Found {
     }
 };
 
-using Take = void (*)(RunOptions& options, const Found& found);
+using OptionSetter = void (*)(RunOptions& options, const Found& found);
 
 // How an option takes over what a file says; by key.
-const std::map<std::string, Take>& takers() {
-    static const std::map<std::string, Take> takers = {
+const std::map<std::string, OptionSetter>& optionSetters() {
+    static const std::map<std::string, OptionSetter> optionSetters = {
         {"scene",
          [](RunOptions& options, const Found& found) {
              options.scene.scene = experiment::sceneArgument(found.setting, *found.file);
@@ -77,7 +78,7 @@ const std::map<std::string, Take>& takers() {
              options.referencePhotons = found.as<long long>();
          }},
     };
-    return takers;
+    return optionSetters;
 }
 
 std::string optionOf(std::string key) {
@@ -114,20 +115,15 @@ void mergeSettings(RunOptions& options, const std::set<std::string>& given,
         }
     }
     for (const auto& [key, value] : found) {
-        if (!given.contains(optionOf(key))) takers().at(key)(options, value);
+        if (!given.contains(optionOf(key))) optionSetters().at(key)(options, value);
     }
 
     const bool isNamedByFile = found.contains("technique") && !given.contains("technique");
     const params::ParamSet params = makeParams(
         options.scene.technique, isNamedByFile ? &found["technique"].setting : nullptr, registry);
     for (const SettingsFile& file : files) {
-        const std::vector<std::string> fullKeys = experiment::fullKeysOf(file.settings, params);
-        for (std::size_t i = 0; i < fullKeys.size(); ++i) {
-            const Setting& setting = file.settings[i];
-            if (experiment::isRunKey(setting.key)) continue;
-            options.scene.parameters.push_back(
-                {fullKeys[i], experiment::textOf(setting), setting.place});
-        }
+        for (params::Assignment& assignment : experiment::assignmentsOf(file.settings, params))
+            options.scene.parameters.push_back(std::move(assignment));
     }
 }
 

@@ -6,23 +6,18 @@
 #include <string>
 #include <vector>
 
-namespace kaustik::app {
+#include "framework/params/assignment.h"
 
-// A parameter as a file of --merge sets it.
-struct FileParameter {
-    std::string name;  // full
-    std::string value;
-    std::string place;  // "file:line"
-};
+namespace kaustik::app {
 
 // What `run` and `explain` share.
 struct SceneOptions {
     std::string scene = "pool";
     std::string scenePlace;  // of a file that names it; "" for the command line
     std::string technique = "screen_space_photons";
-    std::vector<std::string> merged;        // files of settings; mergeSettings() reads them
-    std::vector<FileParameter> parameters;  // what they set, in order; before `assignments`
-    std::vector<std::string> assignments;   // --set name=value
+    std::vector<std::string> merged;             // files of settings; mergeSettings() reads them
+    std::vector<params::Assignment> parameters;  // what they set, in order; before `assignments`
+    std::vector<std::string> assignments;        // --set name=value
     std::vector<std::string> disabled;
     std::string disabledBy = "--disable";  // or the place in a file
     std::string size = "800x600";
@@ -68,6 +63,11 @@ struct ListOptions {
     std::string what = "scenes";
     std::string technique;
     bool json = false;
+};
+
+struct DocOptions {
+    std::string node;  // "" for all
+    std::string out;   // "": one node's page is printed, all are written into results/runs/doc
 };
 
 struct ExplainOptions {

@@ -35,7 +35,7 @@ namespace fs = std::filesystem;
 using namespace reference;
 
 Order orderOf(const ReferenceOptions& options) {
-    const params::Extent size = parseSize(options.size);
+    const params::Extent size = params::parsePictureSize(options.size, "--size");
     return {.estimator = options.estimator,
             .width = size.width,
             .height = size.height,
@@ -109,7 +109,7 @@ void print(const ShardResult& result, const fs::path& file) {
                head.subject.scene, head.subject.request.width, head.subject.request.height,
                head.shard.number, head.shard.count, own.end - own.first, head.batchesOfAll,
                head.seconds);
-    fmt::print("{} {}\n", result.wasThere ? "it was there already:" : "wrote", file.string());
+    fmt::print("{} {}\n", result.wasComplete ? "it was there already:" : "wrote", file.string());
 }
 
 }  // namespace

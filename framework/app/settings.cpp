@@ -6,6 +6,7 @@
 
 #include "framework/app/commands.h"
 #include "framework/core/error.h"
+#include "framework/run/settings.h"
 #include "framework/scene/files/scene_file.h"
 #include "framework/scene/shapes/height_field.h"
 
@@ -26,28 +27,17 @@ scene::Scene loadNamedScene(const std::string& name, const std::string& namedAt)
 
 }  // namespace
 
-RenderSettings makeSettings(const SceneOptions& options, const Registry& registry) {
-    RenderSettings settings;
-    settings.technique = registry.findTechnique(options.technique);
-    settings.params = registry.makeParams(settings.technique);
-    for (const FileParameter& parameter : options.parameters)
-        settings.params.set(parameter.name, parameter.value, parameter.place);
-    for (const std::string& assignment : options.assignments) {
-        settings.params.setAssignment(assignment, "--set");
-    }
-    const params::Extent size = parseSize(options.size);
-    settings.width = size.width;
-    settings.height = size.height;
-    settings.disabledPasses.insert(options.disabled.begin(), options.disabled.end());
-    settings.disabledBy = options.disabledBy;
+RenderSettings makeSettings(const SceneOptions& options, const Registry& registry, long long seed) {
+    run::SettingsRequest request{options.technique,
+                                 options.parameters,
+                                 {options.disabled.begin(), options.disabled.end()},
+                                 options.disabledBy,
+                                 static_cast<std::uint64_t>(seed)};
+    for (const std::string& assignment : options.assignments)
+        request.assignments.push_back(params::parseAssignment(assignment, "--set"));
+    RenderSettings settings = run::makeSettings(request, registry);
+    run::setSize(settings, params::parsePictureSize(options.size, "--size"));
     return settings;
-}
-
-params::Extent parseSize(const std::string& text) {
-    params::Extent size;
-    const params::Field field{"size", "", "px", &size, 1.0, 16384.0, {}};
-    field.set(text, "size", "--size");
-    return size;
 }
 
 scene::Scene loadRequestedScene(const std::string& name, const std::string& time,

@@ -57,14 +57,14 @@ std::vector<TracedPhoton> readTrace(const Renderer& renderer, const TraceRecord&
 }
 
 // What a light sees of an exact hit: what tracers in its depths can find.
-enum class LightSees { shown, hidden, beside, specular };
+enum class LightVisibility { shown, hidden, outside, specular };
 
 // The account of a photon that got no hit. The screen excuses only those that look there.
-unsigned accountOf(Sight sight, Sees sees, std::optional<LightSees> light) {
-    if (light == LightSees::hidden) return kAccountHiddenInMap;
-    if (light == LightSees::beside) return kAccountOutsideMap;
-    if (light == LightSees::specular) return kAccountBounceLimit;
-    if (sees != Sees::eyeLayers && sight != Sight::none) return kAccountMissedByTracer;
+unsigned accountOf(Sight sight, TracerReach reach, std::optional<LightVisibility> light) {
+    if (light == LightVisibility::hidden) return kAccountHiddenInMap;
+    if (light == LightVisibility::outside) return kAccountOutsideMap;
+    if (light == LightVisibility::specular) return kAccountBounceLimit;
+    if (reach != TracerReach::eyeLayers && sight != Sight::none) return kAccountMissedByTracer;
     switch (sight) {
         case Sight::none:
             return kAccountLeftScene;
@@ -84,12 +84,12 @@ unsigned accountOf(Sight sight, Sees sees, std::optional<LightSees> light) {
 
 constexpr const char* kLightCauses[] = {"hidden_in_map", "outside_map", "specular"};
 
-const char* nameOf(Sight sight, Sees sees = Sees::eyeLayers,
-                   std::optional<LightSees> light = std::nullopt) {
-    if (light == LightSees::hidden) return kLightCauses[0];
-    if (light == LightSees::beside) return kLightCauses[1];
-    if (light == LightSees::specular) return kLightCauses[2];
-    if (sees != Sees::eyeLayers && sight != Sight::none) return nameOf(Sight::shown);
+const char* nameOf(Sight sight, TracerReach reach = TracerReach::eyeLayers,
+                   std::optional<LightVisibility> light = std::nullopt) {
+    if (light == LightVisibility::hidden) return kLightCauses[0];
+    if (light == LightVisibility::outside) return kLightCauses[1];
+    if (light == LightVisibility::specular) return kLightCauses[2];
+    if (reach != TracerReach::eyeLayers && sight != Sight::none) return nameOf(Sight::shown);
     switch (sight) {
         case Sight::none:
             return "no_surface";
@@ -107,11 +107,12 @@ const char* nameOf(Sight sight, Sees sees = Sees::eyeLayers,
     return "";
 }
 
-const char* falseHitName(const PhotonFate& fate, Sees sees, std::optional<LightSees> light) {
+const char* falseHitName(const PhotonFate& fate, TracerReach reach,
+                         std::optional<LightVisibility> light) {
     if (fate.verdict == Verdict::notANumber) return "not_a_number";
     if (fate.verdict == Verdict::displaced) return "displaced";
     if (fate.verdict == Verdict::tooNear) return "too_near";
-    return nameOf(fate.sight, sees, light);  // no surface at all, or why the exact hit was passed
+    return nameOf(fate.sight, reach, light);  // no surface at all, or why the exact hit was passed
 }
 
 // By the photon's light, and its map where there is one.
@@ -121,12 +122,13 @@ class LightReach {
         : renderer_(renderer), scene_(scene), toWorld_(glm::inverse(renderer.view().worldToView)) {}
 
     // `exact` exists.
-    [[nodiscard]] LightSees sees(std::uint32_t light, const reference::FirstHit& exact) const {
+    [[nodiscard]] LightVisibility visibility(std::uint32_t light,
+                                             const reference::FirstHit& exact) const {
         // Another specular surface, of which its view of receivers holds none.
         if (!isReceiver(renderer_.scene().materials[exact.material - 1].kind))
-            return LightSees::specular;
+            return LightVisibility::specular;
         const glm::dvec3 world(toWorld_ * glm::dvec4(exact.position, 1.0));
-        if (!isInMap(light, world)) return LightSees::beside;
+        if (!isInMap(light, world)) return LightVisibility::outside;
         const scene::Light& source = renderer_.scene().lights[light];
         const glm::dvec3 local = world - scene_.center();
         const bool isSun = source.kind == scene::LightKind::directional;
@@ -139,7 +141,7 @@ class LightReach {
         const double lift = 1e-6 * glm::length(size);
         const double side = glm::dot(normal, to - local) < 0.0 ? -1.0 : 1.0;
         const bool isSeen = scene_.isVisible(local + side * lift * normal, exact.triangle, to, 0.0);
-        return isSeen ? LightSees::shown : LightSees::hidden;
+        return isSeen ? LightVisibility::shown : LightVisibility::hidden;
     }
 
   private:
@@ -205,31 +207,32 @@ class Counter {
     }
 
     void add(const TracedPhoton& traced, const reference::FirstHit& exact, const PhotonFate& fate,
-             Sees sees) {
+             TracerReach reach) {
         const bool isRight = fate.verdict == Verdict::right;
         ++audit_.photons;
         if (exact.exists()) ++audit_.exactHits;
         if (fate.isVisible()) ++audit_.visible;
         if (isRight) ++audit_.right;
         if (isRight && fate.isVisible()) ++audit_.rightVisible;
-        std::optional<LightSees> light;
-        if (sees == Sees::lightFront && exact.exists()) light = lights_.sees(traced.light, exact);
-        const bool reachable = isReachable(traced, exact, fate, sees, light);
+        std::optional<LightVisibility> light;
+        if (reach == TracerReach::lightFront && exact.exists())
+            light = lights_.visibility(traced.light, exact);
+        const bool reachable = isReachable(traced, exact, fate, reach, light);
         if (reachable) ++audit_.reachable;
         if (isRight && reachable) ++audit_.rightReachable;
         if (fate.distanceMeters) meters_.push_back(*fate.distanceMeters);
         if (fate.distancePixels) pixels_.push_back(*fate.distancePixels);
         if (fate.distanceMeters && !fate.distancePixels) ++audit_.unplaced;
         if (!traced.found) {
-            const unsigned account = accountOf(fate.sight, sees, light);
+            const unsigned account = accountOf(fate.sight, reach, light);
             audit_.missedWatts[account] += transport::wattsOf(traced.fluxWatts);
             ++audit_.missedPhotons[account];
         }
         if (isRight) return;
         if (fate.verdict == Verdict::missed) {
-            ++audit_.missed[nameOf(fate.sight, sees, light)];
+            ++audit_.missed[nameOf(fate.sight, reach, light)];
         } else {
-            ++audit_.falseHits[falseHitName(fate, sees, light)];
+            ++audit_.falseHits[falseHitName(fate, reach, light)];
         }
         const bool isPlaced = traced.found && fate.verdict != Verdict::notANumber;
         if (!isPlaced && !exact.exists()) return;
@@ -244,16 +247,17 @@ class Counter {
 
   private:
     bool isReachable(const TracedPhoton& traced, const reference::FirstHit& exact,
-                     const PhotonFate& fate, Sees sees, std::optional<LightSees> light) {
-        switch (sees) {
-            case Sees::lightFront:
-                return light == LightSees::shown;
-            case Sees::eyeLayers:
+                     const PhotonFate& fate, TracerReach reach,
+                     std::optional<LightVisibility> light) {
+        switch (reach) {
+            case TracerReach::lightFront:
+                return light == LightVisibility::shown;
+            case TracerReach::eyeLayers:
                 return fate.isVisible();
-            case Sees::everything:
-            case Sees::around:
+            case TracerReach::everything:
+            case TracerReach::around:
                 return exact.exists();
-            case Sees::flatReceivers:
+            case TracerReach::flatReceivers:
                 if (!flat_) flat_.emplace(scene_);
                 return flat_->holds(traced, exact);
         }
@@ -269,7 +273,7 @@ class Counter {
     std::vector<double> pixels_;
 };
 
-// As include/octahedral.glsl folds it.
+// As include/views/octahedral.glsl folds it.
 glm::dvec3 unfoldUnitVector(const glm::dvec2& folded) {
     glm::dvec3 n(folded, 1.0 - std::abs(folded.x) - std::abs(folded.y));
     if (n.z < 0.0) {
@@ -282,7 +286,7 @@ glm::dvec3 unfoldUnitVector(const glm::dvec2& folded) {
 // Depths and, from the triangles' planes, their extents over the pixels; of the eye's layers alone.
 Layers readLayers(const Renderer& renderer) {
     const LayeredDepth& layers = renderer.outputs().layers;
-    if (!layers.depth.valid() || !layers.views->isEyes()) return {};
+    if (!layers.depth.valid() || !layers.views->isEyeView()) return {};
     const gl::Texture& texture = renderer.texture(layers.depth);
     const std::vector<float> texels = texture.read();
     const int width = texture.desc().width;
@@ -359,7 +363,7 @@ HitAudit auditHits(const Renderer& renderer, const reference::EmbreeScene& scene
         const std::vector<reference::FirstHit> exact =
             reference::exactFirstHits(scene, photons, viewToWorld, threads);
         for (std::size_t i = 0; i < traced.size(); ++i) {
-            counter.add(traced[i], exact[i], judge(view, layers, traced[i], exact[i]), trace.sees);
+            counter.add(traced[i], exact[i], judge(view, layers, traced[i], exact[i]), trace.reach);
         }
     }
     counter.finish();

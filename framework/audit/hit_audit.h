@@ -65,6 +65,7 @@ struct HitAudit {
 
 // The `hits` of report.json; null, with a reason, for what there is not.
 [[nodiscard]] nlohmann::json toJson(const HitAudit& audit);
+[[nodiscard]] nlohmann::json hitsSchema();
 
 // What the tracers of that frame have booked themselves, in all of its tracings.
 [[nodiscard]] EnergyLedger bookedByTracers(const Renderer& renderer);
@@ -76,7 +77,7 @@ struct HitAudit {
                                          double emittedWatts);
 
 // The wrong photons over `display` (display-encoded RGB, rows from the top), which is dimmed:
-// missed in blue, false in orange, those beside their place in yellow.
+// missed in blue, false in orange, those next to their place in yellow.
 [[nodiscard]] Image wrongPhotonsPicture(const HitAudit& audit, const Image& display);
 
 }  // namespace kaustik::audit

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/audit/hit_audit.h"
+#include "framework/core/json_schema.h"
 
 namespace kaustik::audit {
 namespace {
@@ -21,39 +22,46 @@ glm::vec3 colorOf(Verdict verdict) {
 
 }  // namespace
 
-nlohmann::json toJson(const HitAudit& audit) {
-    nlohmann::json result = {{"photons", audit.photons},
-                             {"exact_hits", audit.exactHits},
-                             {"visible", audit.visible},
-                             {"right", audit.right},
-                             {"right_visible", audit.rightVisible},
-                             {"nan", audit.notANumber},
-                             {"unplaced", audit.unplaced},
-                             {"false_hits", audit.falseHits},
-                             {"missed", audit.missed}};
-    const auto set = [&](const std::string& key, const std::optional<double>& value,
-                         const char* reason) {
-        result[key] = value ? nlohmann::json(*value) : nlohmann::json();
-        if (!value) result["reasons"][key] = reason;
-    };
-    set("agreement", audit.agreement(), "no photon was traced");
-    set("agreement_visible", audit.agreementVisible(),
-        "the screen shows no photon's exact first hit");
-    set("agreement_reachable", audit.agreementReachable(),
-        "the tracer can find no photon's exact first hit");
-    const auto setAll = [&](const std::string& unit, const std::optional<Quantiles>& of) {
-        const auto value = [&](double Quantiles::*part) {
-            return of ? std::optional<double>((*of).*part) : std::nullopt;
+template <class F>
+void reflect(F& f, const HitAudit& audit) {
+    f.field("photons", audit.photons, "That were traced");
+    f.field("exact_hits", audit.exactHits, "Of them those that have an exact first hit");
+    f.field("visible", audit.visible, "Of them those whose exact first hit the screen shows");
+    f.field("right", audit.right, "Photons with the right fate");
+    f.field("right_visible", audit.rightVisible, "Of those that are visible");
+    f.field("nan", audit.notANumber, "Photons that are no numbers");
+    f.field("unplaced", audit.unplaced, "Pairs of hits of which one is not before the eye");
+    f.field("false_hits", audit.falseHits, "By cause");
+    f.field("missed", audit.missed, "By cause");
+    f.fieldOrNull("agreement", audit.agreement(), "no photon was traced",
+                  "Share of right fates among all photons");
+    f.fieldOrNull("agreement_visible", audit.agreementVisible(),
+                  "the screen shows no photon's exact first hit", "Among those that are visible");
+    f.fieldOrNull("agreement_reachable", audit.agreementReachable(),
+                  "the tracer can find no photon's exact first hit",
+                  "Among those whose exact first hit the tracer can find");
+    const auto quantiles = [&](const std::array<const char*, 4>& keys,
+                               const std::optional<Quantiles>& of, const char* sentence) {
+        const auto quantile = [&](const char* key, double Quantiles::*part) {
+            f.fieldOrNull(key, of ? std::optional((*of).*part) : std::nullopt,
+                          "no photon has both a hit and an exact one", sentence);
         };
-        const char* const reason = "no photon has both a hit and an exact one";
-        set("median_" + unit, value(&Quantiles::median), reason);
-        set("p95_" + unit, value(&Quantiles::percentile95), reason);
-        set("p99_" + unit, value(&Quantiles::percentile99), reason);
-        set("max_" + unit, value(&Quantiles::maximum), reason);
+        quantile(keys[0], &Quantiles::median);
+        quantile(keys[1], &Quantiles::percentile95);
+        quantile(keys[2], &Quantiles::percentile99);
+        quantile(keys[3], &Quantiles::maximum);
     };
-    setAll("m", audit.meters);
-    setAll("px", audit.pixels);
-    return result;
+    quantiles({"median_m", "p95_m", "p99_m", "max_m"}, audit.meters, "From the exact hit");
+    quantiles({"median_px", "p95_px", "p99_px", "max_px"}, audit.pixels,
+              "From the exact hit on the screen");
+}
+
+nlohmann::json toJson(const HitAudit& audit) {
+    return jsonOf(audit);
+}
+
+nlohmann::json hitsSchema() {
+    return jsonSchemaOf<HitAudit>();
 }
 
 Image wrongPhotonsPicture(const HitAudit& audit, const Image& display) {

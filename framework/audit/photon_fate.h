@@ -29,7 +29,7 @@ enum class Verdict {
     right,      // the hit, or that there is none
     missed,     // no hit, but there is one
     noSurface,  // a hit, but there is none
-    displaced,  // a hit beside the exact one: within four pixels and four footprints of it
+    displaced,  // a hit next to the exact one: within four pixels and four footprints of it
     tooNear,    // a hit before the exact one
     tooFar,     // a hit past the exact one
     notANumber  // a hit, but not where

@@ -3,7 +3,9 @@
 
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 
+#include "framework/core/json_schema.h"
 #include "framework/reference/eye.h"
 #include "framework/reference/shadow_rays.h"
 
@@ -11,7 +13,7 @@ namespace kaustik::audit {
 namespace {
 
 // Light that grazes more is left out: there a shadow has no part in how bright the surface is.
-constexpr double kLeastCosine = 0.01;
+constexpr double kMinCosine = 0.01;
 
 // The direction to the light and how far it is; no distance for one without a place.
 struct LightPath {
@@ -30,10 +32,10 @@ LightPath pathTo(const scene::Light& light, const glm::dvec3& from, const glm::d
 }  // namespace
 
 void ShadowAudit::add(const ShadowAudit& other) {
-    asked += other.asked;
+    tested += other.tested;
     inShadow += other.inShadow;
-    litTakenForShadow += other.litTakenForShadow;
-    shadowTakenForLit += other.shadowTakenForLit;
+    falseShadow += other.falseShadow;
+    falseLit += other.falseLit;
 }
 
 ShadowAudit auditShadow(const Image& visibility, std::size_t light,
@@ -53,32 +55,44 @@ ShadowAudit auditShadow(const Image& visibility, std::size_t light,
             const double side = seesFront ? 1.0 : -1.0;
             // Both normals must face the light: what a shading normal alone turns to it is in the
             // shadow of its own triangle.
-            if (side * glm::dot(seen.geometricNormal, path.direction) < kLeastCosine ||
-                side * glm::dot(seen.shadingNormal, path.direction) < kLeastCosine) {
+            if (side * glm::dot(seen.geometricNormal, path.direction) < kMinCosine ||
+                side * glm::dot(seen.shadingNormal, path.direction) < kMinCosine) {
                 continue;
             }
             const bool isBlocked = shadowRays.isBlocked(seen, side * seen.geometricNormal,
                                                         path.direction, path.meters);
             const bool isDark = !(visibility.at(x, y, 0) > 0.5f);
-            ++audit.asked;
+            ++audit.tested;
             audit.inShadow += isBlocked ? 1 : 0;
-            audit.litTakenForShadow += isDark && !isBlocked ? 1 : 0;
-            audit.shadowTakenForLit += !isDark && isBlocked ? 1 : 0;
+            audit.falseShadow += isDark && !isBlocked ? 1 : 0;
+            audit.falseLit += !isDark && isBlocked ? 1 : 0;
         }
     }
     return audit;
 }
 
-nlohmann::json toJson(const ShadowAudit& audit) {
-    const auto share = [&](std::size_t part) -> nlohmann::json {
-        if (audit.asked == 0) return nullptr;
-        return static_cast<double>(part) / static_cast<double>(audit.asked);
+template <class F>
+void reflect(F& f, const ShadowAudit& audit) {
+    const auto share = [&](const char* key, std::size_t part, const char* sentence) {
+        const double of = static_cast<double>(audit.tested);
+        f.fieldOrNull(
+            key, audit.tested > 0 ? std::optional(static_cast<double>(part) / of) : std::nullopt,
+            "", sentence);
     };
-    return {{"pixels", audit.asked},
-            {"in_shadow", share(audit.inShadow)},
-            {"misclassified", share(audit.litTakenForShadow + audit.shadowTakenForLit)},
-            {"lit_taken_for_shadow", share(audit.litTakenForShadow)},
-            {"shadow_taken_for_lit", share(audit.shadowTakenForLit)}};
+    f.field("pixels", audit.tested, "Whose middle sees a receiver that faces a light, by light");
+    share("in_shadow", audit.inShadow, "Of them those that are in shadow");
+    share("misclassified", audit.falseShadow + audit.falseLit,
+          "Of them those that are taken for the other");
+    share("lit_taken_for_shadow", audit.falseShadow, "");
+    share("shadow_taken_for_lit", audit.falseLit, "");
+}
+
+nlohmann::json toJson(const ShadowAudit& audit) {
+    return jsonOf(audit);
+}
+
+nlohmann::json shadowSchema() {
+    return jsonSchemaOf<ShadowAudit>();
 }
 
 }  // namespace kaustik::audit

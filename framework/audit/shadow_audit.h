@@ -13,10 +13,10 @@ namespace kaustik::audit {
 
 // Over all lights, of pixels whose middle sees a receiver that faces the light.
 struct ShadowAudit {
-    std::size_t asked = 0;
+    std::size_t tested = 0;
     std::size_t inShadow = 0;  // exactly
-    std::size_t litTakenForShadow = 0;
-    std::size_t shadowTakenForLit = 0;
+    std::size_t falseShadow = 0;
+    std::size_t falseLit = 0;
     void add(const ShadowAudit& other);
 };
 
@@ -26,7 +26,8 @@ struct ShadowAudit {
 [[nodiscard]] ShadowAudit auditShadow(const Image& visibility, std::size_t light,
                                       const reference::EmbreeScene& scene);
 
-// For report.json: shares of `asked`; null where nothing was.
+// For report.json: shares of `tested`; null where nothing was.
 [[nodiscard]] nlohmann::json toJson(const ShadowAudit& audit);
+[[nodiscard]] nlohmann::json shadowSchema();
 
 }  // namespace kaustik::audit

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <nlohmann/json.hpp>
+#include <optional>
+
+#include "framework/core/json_schema.h"
 
 namespace kaustik::audit {
 namespace {
@@ -15,7 +18,7 @@ glm::dvec3 vectorAt(const Image& image, int x, int y) {
     return {image.at(x, y, 0), image.at(x, y, 1), image.at(x, y, 2)};
 }
 
-// Pixels from the middle of the picture; a point beside the eye is as far as can be.
+// Pixels from the middle of the picture; a point next to the eye is as far as can be.
 glm::dvec2 onScreen(const render::RasterView& view, const glm::dvec3& position) {
     const double depth = std::max(-position.z, view.nearMeters);
     return glm::dvec2(position) / (depth * view.footprintPerMeter());
@@ -32,22 +35,6 @@ void sort(ExitErrors& errors) {
          {&errors.directionDegrees, &errors.positionMeters, &errors.positionPixels}) {
         std::sort(values->begin(), values->end());
     }
-}
-
-json quantiles(const std::vector<double>& sorted) {
-    const auto at = [&](double share) -> json {
-        if (sorted.empty()) return nullptr;
-        const double place = share * static_cast<double>(sorted.size() - 1);
-        return sorted[static_cast<std::size_t>(std::lround(place))];
-    };
-    return {{"median", at(0.5)}, {"p95", at(0.95)}, {"p99", at(0.99)}};
-}
-
-json toJson(const ExitErrors& errors) {
-    return {{"pixels", errors.directionDegrees.size()},
-            {"exit_direction_deg", quantiles(errors.directionDegrees)},
-            {"exit_position_m", quantiles(errors.positionMeters)},
-            {"exit_position_px", quantiles(errors.positionPixels)}};
 }
 
 }  // namespace
@@ -95,20 +82,62 @@ ViewAudit auditView(const Image& exitPosition, const Image& exitDirection,
     return audit;
 }
 
-json toJson(const ViewAudit& audit) {
-    const auto share = [&](std::size_t count) -> json {
-        if (audit.pixels == 0) return nullptr;
-        return static_cast<double>(count) / static_cast<double>(audit.pixels);
+struct QuantilesTable {
+    std::optional<double> median;
+    std::optional<double> percentile95;
+    std::optional<double> percentile99;
+};
+template <class F>
+void reflect(F& f, const QuantilesTable& table) {
+    f.fieldOrNull("median", table.median, "", "");
+    f.fieldOrNull("p95", table.percentile95, "", "95th percentile");
+    f.fieldOrNull("p99", table.percentile99, "", "99th percentile");
+}
+QuantilesTable quantiles(const std::vector<double>& sorted) {
+    if (sorted.empty()) return {};
+    const auto at = [&](double share) {
+        const double place = share * static_cast<double>(sorted.size() - 1);
+        return sorted[static_cast<std::size_t>(std::lround(place))];
     };
-    json result = toJson(audit.all);
-    result["pixels_compared"] = result.at("pixels");
-    result["pixels"] = audit.pixels;
-    result["interfaces_right"] = share(audit.interfacesRight);
-    result["lost"] = share(audit.lost);
-    result["not_a_number"] = audit.notANumber;
-    result["mean_interfaces"] = audit.meanInterfaces;
-    result["same_interfaces"] = toJson(audit.sameInterfaces);
-    return result;
+    return {at(0.5), at(0.95), at(0.99)};
+}
+
+template <class F>
+void reflectExits(F& f, const ExitErrors& errors, const char* pixelsKey) {
+    f.field(pixelsKey, errors.directionDegrees.size(), "Whose rays came out on both sides");
+    f.field("exit_direction_deg", quantiles(errors.directionDegrees),
+            "Between the exact direction and the one under test");
+    f.field("exit_position_m", quantiles(errors.positionMeters), "Between both places");
+    f.field("exit_position_px", quantiles(errors.positionPixels), "The same on the screen");
+}
+template <class F>
+void reflect(F& f, const ExitErrors& errors) {
+    reflectExits(f, errors, "pixels");
+}
+
+template <class F>
+void reflect(F& f, const ViewAudit& audit) {
+    const auto share = [&](const char* key, std::size_t count, const char* sentence) {
+        const double of = static_cast<double>(audit.pixels);
+        f.fieldOrNull(
+            key, audit.pixels > 0 ? std::optional(static_cast<double>(count) / of) : std::nullopt,
+            "", sentence);
+    };
+    f.field("pixels", audit.pixels, "Whose middle sees a specular surface");
+    reflectExits(f, audit.all, "pixels_compared");
+    share("interfaces_right", audit.interfacesRight, "Of them: as many surfaces hit");
+    share("lost", audit.lost, "Of them: the exact ray came out, the other did not");
+    f.field("not_a_number", audit.notANumber, "Pixels with such a place or direction");
+    f.field("mean_interfaces", audit.meanInterfaces, "Surfaces that the exact ray hits");
+    f.field("same_interfaces", audit.sameInterfaces, "Of those alone that hit as many");
+}
+
+json toJson(const ViewAudit& audit) {
+    return jsonOf(audit);
+}
+
+json viewSchema() {
+    return jsonSchemaOf<ViewAudit>();
 }
 
 }  // namespace kaustik::audit

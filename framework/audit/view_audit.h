@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // How wrong the rays are that a node of the stage `view` follows: where and in which direction each
-// leaves the specular surfaces, beside the exact path through the same pixel's middle.
+// leaves the specular surfaces, next to the exact path through the same pixel's middle.
 #pragma once
 
 #include <cstddef>
@@ -37,5 +37,6 @@ struct ViewAudit {
 
 // For report.json; a number that does not exist is null.
 [[nodiscard]] nlohmann::json toJson(const ViewAudit& audit);
+[[nodiscard]] nlohmann::json viewSchema();
 
 }  // namespace kaustik::audit

@@ -9,7 +9,7 @@
 
 namespace kaustik {
 
-// Exit codes of the command line, as README.md gives them.
+// Exit codes of the command line, as framework/app/README.md gives them.
 inline constexpr int kExitDone = 0;
 inline constexpr int kExitFailed = 1;
 inline constexpr int kExitBadRequest = 2;

@@ -158,7 +158,7 @@ fs::path temporaryFor(const fs::path& folder, const fs::path& file) {
 }
 
 // Whether temporaryFor() made that name in a process of this machine that is no more.
-bool isLeftBehind(const std::string& name) {
+bool isLeftover(const std::string& name) {
     const std::string host = fmt::format(".{}.", hostName());
     const std::size_t part = name.rfind(".part");
     if (!name.starts_with('.') || part == std::string::npos) return false;
@@ -172,7 +172,7 @@ bool isLeftBehind(const std::string& name) {
 }
 
 // Once a folder: afterwards only this process's own files and those of others at work are there.
-void removeLeftBehind(const fs::path& folder) {
+void removeLeftovers(const fs::path& folder) {
     static std::mutex mutex;
     static std::set<fs::path> cleaned;
     const std::lock_guard lock(mutex);
@@ -181,7 +181,7 @@ void removeLeftBehind(const fs::path& folder) {
     std::vector<fs::path> found;
     for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
          entry.increment(error)) {
-        if (isLeftBehind(entry->path().filename().string())) found.push_back(entry->path());
+        if (isLeftover(entry->path().filename().string())) found.push_back(entry->path());
     }
     for (const fs::path& file : found)
         fs::remove_all(file, error);
@@ -202,14 +202,14 @@ void makeFolder(const fs::path& folder) {
 
 }  // namespace
 
-fs::path unfinishedBeside(const fs::path& path) {
+fs::path unfinishedPath(const fs::path& path) {
     return temporaryFor(path.has_parent_path() ? path.parent_path() : fs::path("."), path);
 }
 
 void writeFileWhole(const fs::path& path, const std::function<void(const fs::path&)>& write) {
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
     makeFolder(folder);
-    removeLeftBehind(folder);
+    removeLeftovers(folder);
     const fs::path temporary = temporaryFor(folder, path);
     struct Cleanup {
         const fs::path& file;
@@ -237,7 +237,7 @@ void writeFileWhole(const fs::path& path, std::string_view bytes) {
 FilesTogether::FilesTogether(fs::path folder)
     : folder_(std::move(folder)), work_(temporaryFor(folder_, "files")) {
     makeFolder(folder_);
-    removeLeftBehind(folder_);
+    removeLeftovers(folder_);
     std::error_code error;
     fs::remove_all(work_, error);  // of this process, which has failed to
     makeFolder(work_);

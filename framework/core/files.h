@@ -26,12 +26,12 @@ namespace kaustik {
 // The whole file as bytes. Throws IoError (missing, a directory, no permission) naming the file.
 [[nodiscard]] std::string readFile(const std::filesystem::path& path);
 
-// A hidden name beside `path` for what is not finished, of this process alone, also where several
+// A hidden name next to `path` for what is not finished, of this process alone, also where several
 // machines write into the folder. What a process of this machine has left under such a name
 // because it was killed, the next writeFileWhole() into the folder removes.
-[[nodiscard]] std::filesystem::path unfinishedBeside(const std::filesystem::path& path);
+[[nodiscard]] std::filesystem::path unfinishedPath(const std::filesystem::path& path);
 
-// Calls `write` with a temporary path beside `path` (same extension), then renames it over `path`.
+// Calls `write` with a temporary path next to `path` (same extension), then renames it over `path`.
 // When `write` throws, or the disk is full, nothing is left behind and `path` is untouched. What a
 // process of this machine has left in the folder because it was killed is removed first.
 // Creates missing parent folders. Throws IoError naming the file.
@@ -42,7 +42,7 @@ void writeFileWhole(const std::filesystem::path& path,
 void writeFileWhole(const std::filesystem::path& path, std::string_view bytes);
 
 // Several files that appear together or not at all: they are written into a folder of their own,
-// hidden beside their places, and then moved. What a full disk or an error leaves unfinished is
+// hidden next to their places, and then moved. What a full disk or an error leaves unfinished is
 // removed, and the older files stay as they were.
 class FilesTogether {
   public:
@@ -58,7 +58,7 @@ class FilesTogether {
     [[nodiscard]] std::filesystem::path placeOf(const std::filesystem::path& file) const;
     [[nodiscard]] std::string withPlaces(std::string text) const;
     // Moves all that is in the work folder. An older file called `seal` goes before anything else
-    // is moved and the new one comes last, so that it never stands beside files of another run.
+    // is moved and the new one comes last, so that it never stands next to files of another run.
     void publish(const std::string& seal);
 
   private:

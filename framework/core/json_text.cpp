@@ -20,9 +20,9 @@ void requireShallowJson(std::string_view text, const std::string& name) {
             for (++i; i < text.size() && text[i] != '"'; ++i)
                 i += text[i] == '\\' ? 1 : 0;
         } else if (text[i] == '{' || text[i] == '[') {
-            if (++depth <= kDeepestJson) continue;
+            if (++depth <= kMaxJsonDepth) continue;
             throw IoError(
-                fmt::format("{}: the JSON is nested more than {} deep.", name, kDeepestJson));
+                fmt::format("{}: the JSON is nested more than {} deep.", name, kMaxJsonDepth));
         } else if (text[i] == '}' || text[i] == ']') {
             --depth;
         }

@@ -13,7 +13,7 @@ namespace kaustik {
 [[nodiscard]] std::string jsonText(const nlohmann::json& json, int indent = -1);
 
 // Deeper than anything here or any exporter nests, and shallow enough for what recurses over it.
-inline constexpr int kDeepestJson = 64;
+inline constexpr int kMaxJsonDepth = 64;
 
 // Throws IoError that names `name` for what is nested deeper than that. The parser could be asked
 // to watch the depth, but looks at all that an object's parent holds so far when the object ends:

@@ -23,9 +23,9 @@ Shard parseShard(const std::string& text, const std::string& option) {
         throw ConfigError(fmt::format(
             "{}: '{}' is not K/N, such as 2/8 for the second of eight shards.", option, text));
     }
-    if (shard.count < 1 || shard.count > kMostShards) {
+    if (shard.count < 1 || shard.count > kMaxShards) {
         throw ConfigError(fmt::format("{}: {} is not a number of shards from 1 to {}.", option,
-                                      shard.count, kMostShards));
+                                      shard.count, kMaxShards));
     }
     if (shard.number < 1 || shard.number > shard.count) {
         throw ConfigError(fmt::format("{}: there is no shard {} of {}; they count from 1 to {}.",

@@ -15,7 +15,7 @@ struct Shard {
     bool operator==(const Shard&) const = default;
 };
 
-inline constexpr std::uint64_t kMostShards = 1'000'000;
+inline constexpr std::uint64_t kMaxShards = 1'000'000;
 
 // "K/N" with K from 1 to N; throws ConfigError that names `option` for anything else.
 [[nodiscard]] Shard parseShard(const std::string& text, const std::string& option);

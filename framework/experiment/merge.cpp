@@ -92,8 +92,8 @@ Study readStudy(const std::vector<fs::path>& folders) {
                 run.products.push_back(wholeNumber<int>(product));
             study.runs.push_back(std::move(run));
         }
-        const std::uint64_t most = study.runs.empty() ? 1 : kMostRuns / study.runs.size();
-        if (study.repeats < 1 || static_cast<std::uint64_t>(study.repeats) > most) {
+        const std::uint64_t maximum = study.runs.empty() ? 1 : kMaxRuns / study.runs.size();
+        if (study.repeats < 1 || static_cast<std::uint64_t>(study.repeats) > maximum) {
             throw IoError(fmt::format("{} is damaged: {} repeats of {} runs cannot be.",
                                       (folders.front() / kDescription).string(), study.repeats,
                                       study.runs.size()));
@@ -189,7 +189,7 @@ void bring(const Merged& merged, const fs::path& out) {
     if (merged.isDone) {
         const fs::path place = runFolder(out, *merged.run, merged.repeat);
         if (!fs::equivalent(merged.from, out, error)) {
-            const fs::path fresh = unfinishedBeside(place);
+            const fs::path fresh = unfinishedPath(place);
             fs::remove_all(fresh, error);
             fs::copy(runFolder(merged.from, *merged.run, merged.repeat), fresh,
                      fs::copy_options::recursive, error);
@@ -198,7 +198,7 @@ void bring(const Merged& merged, const fs::path& out) {
                 fs::remove_all(fresh, error);
                 throw IoError(fmt::format("{} cannot be written: {}.", place.string(), reason));
             }
-            putInPlace(fresh, place);
+            moveIntoPlace(fresh, place);
         }
         fs::remove(failure, error);
     } else if (!fs::equivalent(merged.from, out, error)) {

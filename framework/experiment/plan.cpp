@@ -9,6 +9,7 @@
 #include "framework/core/error.h"
 #include "framework/experiment/fingerprint.h"
 #include "framework/experiment/resolve.h"
+#include "framework/experiment/run_keys.h"
 
 namespace kaustik::experiment {
 namespace {
@@ -51,7 +52,7 @@ std::vector<Setting> settingsAt(const Product& product, const Indices& indices) 
         second.place, second.key, second.value.dump(), first.value.dump(), first.place));
 }
 
-void requireFewEnough(const Spec& spec) {
+void requireRunLimit(const Spec& spec) {
     double runs = 0.0;
     for (const Product& product : spec.products) {
         double combinations = 1.0;
@@ -59,11 +60,11 @@ void requireFewEnough(const Spec& spec) {
             combinations *= static_cast<double>(axis.values.size());
         runs += combinations;
     }
-    if (runs > static_cast<double>(kMostRuns)) {
+    if (runs > static_cast<double>(kMaxRuns)) {
         throw ConfigError(
             fmt::format("{}: these are {:.0f} runs, and {} is the most; split the "
                         "experiment or permute fewer keys.",
-                        spec.file.string(), runs, kMostRuns));
+                        spec.file.string(), runs, kMaxRuns));
     }
 }
 
@@ -122,10 +123,11 @@ class Planner {
     }
 
     static AxisDescription describe(const std::string& key, const params::ParamSet& params) {
-        if (key == "time") return {key, "s", "Time of the animation", {}};
-        if (key == "time_step") return {key, "s", "Time from frame to frame", {}};
-        if (key == "size") return {key, "px", "Picture size", {}};
-        if (isRunKey(key)) return {key, "", "", {}};
+        for (const RunKey& known : runKeys()) {
+            if (known.name != key) continue;
+            // What is a number is an axis of a figure, which says what it is.
+            return {key, known.unit, *known.unit == '\0' ? "" : known.sentence, {}};
+        }
         for (const params::NamedField& named : params.all()) {
             if (named.fullName == key) return {key, named.field.unit, named.field.sentence, {}};
         }
@@ -140,7 +142,7 @@ class Planner {
 }  // namespace
 
 Plan makePlan(const Spec& spec, const RunDefaults& defaults, const MakeParams& makeParams) {
-    requireFewEnough(spec);
+    requireRunLimit(spec);
     Planner planner(spec, defaults, makeParams);
     for (std::size_t i = 0; i < spec.products.size(); ++i)
         planner.add(spec.products[i], static_cast<int>(i));

@@ -41,7 +41,7 @@ struct Plan {
     std::vector<PlannedRun> runs;
 };
 
-inline constexpr std::size_t kMostRuns = 100000;
+inline constexpr std::size_t kMaxRuns = 100000;
 
 // What the runs have that the experiment does not say. Taken from the program that will run, so
 // that there is one place for a default.

@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "framework/experiment/process.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <poll.h>
 #include <signal.h>
 #include <sys/mman.h>
-#include <sys/prctl.h>
-#include <sys/syscall.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
@@ -17,12 +12,12 @@
 #include <sstream>
 
 #include "framework/core/error.h"
+#include "framework/core/process.h"
 
 namespace kaustik::experiment {
 namespace {
 
-constexpr int kMillisecondsBetweenLooks = 50;
-constexpr int kExitNotStarted = 127;
+constexpr std::chrono::milliseconds kTimeBetweenLooks{50};
 
 // A file descriptor that is closed at the end.
 class Descriptor {
@@ -51,60 +46,37 @@ std::string readAll(int file) {
     }
 }
 
-// In the child: system calls only, since nothing else is safe after a fork.
-[[noreturn]] void become(const char* program, char* const* words, int nowhere, int messages,
-                         StandardOutput output, pid_t parent) {
-    ::setpgid(0, 0);
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    const bool orphaned = ::getppid() != parent;
-    bool ready = ::dup2(nowhere, STDIN_FILENO) == STDIN_FILENO &&
-                 ::dup2(messages, STDERR_FILENO) == STDERR_FILENO;
-    if (output == StandardOutput::dropped) {
-        ready = ready && ::dup2(nowhere, STDOUT_FILENO) == STDOUT_FILENO;
-    }
-    if (ready && !orphaned) ::execv(program, words);
-    ::_exit(kExitNotStarted);
-}
-
 }  // namespace
 
 ProcessOutcome runProcess(const std::filesystem::path& program,
                           const std::vector<std::string>& words, StandardOutput output,
                           const std::function<bool()>& isInterrupted) {
     const Descriptor messages(::memfd_create("messages", MFD_CLOEXEC));
-    const Descriptor nowhere(::open("/dev/null", O_RDWR | O_CLOEXEC));
-    const std::string path = program.string();
-    std::vector<std::string> copies = words;
-    std::vector<char*> pointers;
-    for (std::string& word : copies)
-        pointers.push_back(word.data());
-    pointers.push_back(nullptr);
-
-    const pid_t parent = ::getpid();
-    const pid_t child = messages.value() < 0 || nowhere.value() < 0 ? -1 : ::fork();
-    if (child == 0) {
-        become(path.c_str(), pointers.data(), nowhere.value(), messages.value(), output, parent);
-    }
-    if (child < 0) {
-        throw IoError(fmt::format("{} cannot be started: {}.", path, std::strerror(errno)));
+    const ProcessPlan plan{
+        .program = program,
+        .words = words,
+        .standard = {kNoDescriptor,
+                     output == StandardOutput::dropped ? kNoDescriptor : kSharedDescriptor,
+                     messages.value()},
+        .hasOwnGroup = true,
+        .signalWithParent = SIGKILL};
+    Process process;
+    if (const int problem = messages.value() < 0 ? errno : process.start(plan)) {
+        throw IoError(
+            fmt::format("{} cannot be started: {}.", program.string(), std::strerror(problem)));
     }
     ProcessOutcome outcome;
-    // By its number: glibc 2.36 declares its wrapper for C alone.
-    const Descriptor handle(static_cast<int>(::syscall(SYS_pidfd_open, child, 0)));
-    pollfd ended{handle.value(), POLLIN, 0};
     // Waits in short steps, so that a signal that comes between two of them is not missed.
-    while (::poll(&ended, 1, kMillisecondsBetweenLooks) <= 0) {
+    while (!process.endWithin(kTimeBetweenLooks)) {
         if (!isInterrupted()) continue;
         outcome.interrupted = true;
-        ::kill(child, SIGKILL);
+        process.send(SIGKILL);
         break;
     }
-    int status = 0;
-    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-    }
+    const ProcessEnd end = process.wait();
     outcome.messages = readAll(messages.value());
-    if (WIFEXITED(status)) outcome.exitCode = WEXITSTATUS(status);
-    if (WIFSIGNALED(status)) outcome.signal = ::strsignal(WTERMSIG(status));
+    outcome.exitCode = end.exitCode;
+    if (end.signal != 0) outcome.signal = ::strsignal(end.signal);
     return outcome;
 }
 
@@ -122,8 +94,7 @@ std::string ProcessOutcome::problem() const {
     }
     if (!own.empty()) return own;
     if (!last.empty()) return last;
-    return exitCode == kExitNotStarted ? "It could not be started."
-                                       : fmt::format("It ended with exit code {}.", exitCode);
+    return fmt::format("It ended with exit code {}.", exitCode);
 }
 
 }  // namespace kaustik::experiment

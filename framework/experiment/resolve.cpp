@@ -105,11 +105,7 @@ Resolver::Resolved Resolver::resolve(const std::vector<Setting>& base,
     }
     for (const std::vector<Setting>* settings : {&base, &chosen}) {
         result.fullKeys = fullKeysOf(*settings, result.params);
-        for (std::size_t i = 0; i < settings->size(); ++i) {
-            const Setting& setting = (*settings)[i];
-            if (isRunKey(setting.key)) continue;
-            result.params.set(result.fullKeys[i], textOf(setting), setting.place);
-        }
+        assign(result.params, assignmentsOf(*settings, result.params));
     }
 
     const KnownScene& scene = this->scene(values["scene"]);

@@ -48,7 +48,7 @@ struct Result {
                                                 const PlannedRun& run, int repeat);
 
 // runs.csv and samples.json, in the order given; empty results are left out. People read the
-// repeats of a run beside each other.
+// repeats of a run next to each other.
 void writeRows(const std::filesystem::path& out, const std::vector<const Result*>& results);
 void writeSamples(const std::filesystem::path& out, const std::vector<const Result*>& results);
 

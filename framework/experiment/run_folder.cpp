@@ -52,8 +52,8 @@ void require(bool holds, const fs::path& file, const std::string& what) {
 
 // That the program did what it was asked to, as far as it says.
 void requireReportOf(const json& report, const PlannedRun& run, const fs::path& file) {
-    const auto same = [&](const char* inReport, const json& asked) {
-        require(report.contains(inReport) && report.at(inReport) == asked, file,
+    const auto same = [&](const char* inReport, const json& requested) {
+        require(report.contains(inReport) && report.at(inReport) == requested, file,
                 fmt::format("this is the report of another run: its {} are not those that were "
                             "asked for",
                             inReport));
@@ -99,7 +99,7 @@ FinishedRun readFinishedRun(const fs::path& folder, const PlannedRun& run, int r
     throw IoError(fmt::format("{} is damaged: {}.", (folder / kRecord).string(), error.what()));
 }
 
-void sealRun(const fs::path& folder, const PlannedRun& run, int repeat, double wallSeconds) {
+void finalizeRun(const fs::path& folder, const PlannedRun& run, int repeat, double wallSeconds) {
     requireReportOf(readJson(folder / "report.json"), run, folder / "report.json");
     const json record = {{"schema", "kaustik.run/1"},
                          {"version", versionString()},
@@ -112,7 +112,7 @@ void sealRun(const fs::path& folder, const PlannedRun& run, int repeat, double w
     writeFileWhole(folder / kRecord, jsonText(record, 2) + "\n");
 }
 
-void putInPlace(const fs::path& fresh, const fs::path& folder) {
+void moveIntoPlace(const fs::path& fresh, const fs::path& folder) {
     std::error_code error;
     fs::rename(fresh, folder, error);  // fails where there is one, perhaps since a moment ago
     if (!error) return;

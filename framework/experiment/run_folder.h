@@ -29,11 +29,11 @@ struct FinishedRun {
 
 // Writes run.json for a folder that `kaustik run` has just filled. Throws IoError where the report
 // is not of the run that was asked for.
-void sealRun(const std::filesystem::path& folder, const PlannedRun& run, int repeat,
-             double wallSeconds);
+void finalizeRun(const std::filesystem::path& folder, const PlannedRun& run, int repeat,
+                 double wallSeconds);
 
 // Puts `fresh` in the place of `folder` in one step; what was there is removed. At no moment is
 // there neither.
-void putInPlace(const std::filesystem::path& fresh, const std::filesystem::path& folder);
+void moveIntoPlace(const std::filesystem::path& fresh, const std::filesystem::path& folder);
 
 }  // namespace kaustik::experiment

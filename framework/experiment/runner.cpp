@@ -25,7 +25,7 @@ using nlohmann::json;
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::seconds kTimeBetweenTables{5};
+constexpr std::chrono::seconds kTableInterval{5};
 
 struct Task {
     const PlannedRun* run;
@@ -72,7 +72,7 @@ class Runner {
                 break;
             }
             ++summary_.done;
-            writeRowsNowAndThen();
+            writeRowsPeriodically();
             hooks_.onProgress(summary_.done, static_cast<int>(left.size()));
         }
         writeTables();
@@ -102,7 +102,7 @@ class Runner {
 
     // Gives false when it was interrupted; nothing is left of the run then.
     [[nodiscard]] bool perform(Task& task) {
-        const fs::path fresh = unfinishedBeside(pathOf(task));
+        const fs::path fresh = unfinishedPath(pathOf(task));
         std::vector<std::string> words = {"kaustik", "run"};
         for (const auto* arguments : {&task.run->sceneArguments, &task.run->runArguments})
             words.insert(words.end(), arguments->begin(), arguments->end());
@@ -114,8 +114,8 @@ class Runner {
         std::string problem = outcome.problem();
         if (!outcome.interrupted && problem.empty()) {
             try {
-                sealRun(fresh, *task.run, task.repeat, wallSeconds);
-                putInPlace(fresh, pathOf(task));
+                finalizeRun(fresh, *task.run, task.repeat, wallSeconds);
+                moveIntoPlace(fresh, pathOf(task));
                 gather(task);
             } catch (const IoError& error) {
                 problem = error.what();
@@ -167,8 +167,8 @@ class Runner {
     }
 
     // So that a long study can be looked at while it runs, and after it was killed.
-    void writeRowsNowAndThen() {
-        if (options_.shard || Clock::now() - rowsWritten_ <= kTimeBetweenTables) return;
+    void writeRowsPeriodically() {
+        if (options_.shard || Clock::now() - rowsWritten_ <= kTableInterval) return;
         writeRows(options_.out, inReadingOrder());
         rowsWritten_ = Clock::now();
     }
@@ -185,13 +185,13 @@ class Runner {
 
 void requireDisabledPasses(const Plan& plan, const fs::path& program,
                            const std::function<bool()>& isInterrupted) {
-    std::set<std::string> asked;
+    std::set<std::string> requested;
     for (const PlannedRun& run : plan.runs) {
         const json& settings = run.settings;
         if (settings.at("disable").empty()) continue;
         const json question = {settings.at("scene"), settings.at("technique"),
                                settings.at("disable")};
-        if (!asked.insert(question.dump()).second) continue;
+        if (!requested.insert(question.dump()).second) continue;
         std::vector<std::string> words = {"kaustik", "explain"};
         words.insert(words.end(), run.sceneArguments.begin(), run.sceneArguments.end());
         const ProcessOutcome outcome =

@@ -4,14 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <cstdint>
 #include <map>
 #include <tuple>
 #include <utility>
 
 #include "framework/core/error.h"
 #include "framework/core/names.h"
+#include "framework/experiment/run_keys.h"
 #include "framework/scene/files/scene_file.h"
 
 namespace kaustik::experiment {
@@ -22,83 +21,24 @@ using nlohmann::json;
 using scene::TomlNode;
 using scene::TomlTable;
 
-const std::vector<std::string>& runKeys() {
-    static const std::vector<std::string> keys = {"scene",
-                                                  "technique",
-                                                  "size",
-                                                  "frames",
-                                                  "warmup",
-                                                  "seed",
-                                                  "precise",
-                                                  "time",
-                                                  "time_step",
-                                                  "reference",
-                                                  "reference_photons",
-                                                  "disable"};
-    return keys;
-}
-
-std::string requireText(const Setting& setting) {
-    if (!setting.value.is_string()) {
-        failAt(setting, fmt::format("{} must be text, not {}.", setting.key, setting.value.dump()));
-    }
-    return setting.value.get<std::string>();
-}
-
-long long requireWhole(const Setting& setting, long long minimum, long long maximum) {
-    const bool isWhole = setting.value.is_number_integer();
-    const long long value = isWhole ? setting.value.get<long long>() : 0;
-    if (!isWhole || value < minimum || value > maximum) {
-        failAt(setting, fmt::format("{} must be a whole number from {} to {}, not {}.", setting.key,
-                                    minimum, maximum, setting.value.dump()));
-    }
-    return value;
-}
-
-double requireSeconds(const Setting& setting) {
-    const bool isNumber = setting.value.is_number();
-    if (!isNumber || !std::isfinite(setting.value.get<double>())) {
-        failAt(setting, fmt::format("{} must be a number of seconds, not {}.", setting.key,
-                                    setting.value.dump()));
-    }
-    return setting.value.get<double>();
-}
-
-std::vector<std::string> requireTexts(const Setting& setting) {
-    if (setting.value.is_string()) return {setting.value.get<std::string>()};
-    if (!setting.value.is_array()) {
-        failAt(setting, fmt::format("{} must be a list of texts, not {}.", setting.key,
-                                    setting.value.dump()));
-    }
-    auto texts = setting.value.get<std::vector<std::string>>();
-    std::sort(texts.begin(), texts.end());
-    texts.erase(std::unique(texts.begin(), texts.end()), texts.end());
-    return texts;
-}
-
-std::string requireSize(const Setting& setting) {
-    params::Extent size;
-    const params::Field field{"size", "", "px", &size, 1.0, 16384.0, {}};
-    field.set(textOf(setting), "size", setting.place);
-    return field.text();
-}
-
 // The full name of a parameter; a key that is none is compared with the keys of a run as well.
 std::string parameterName(const params::ParamSet& params, const Setting& setting) {
     try {
         return params.resolve(setting.key, setting.place);
     } catch (const ConfigError&) {
-        std::vector<std::string> names = runKeys();
+        std::vector<std::string> names;
+        for (const RunKey& key : runKeys())
+            names.emplace_back(key.name);
         for (const params::NamedField& named : params.all())
             names.push_back(named.fullName);
         const std::string nearest = nearestName(setting.key, names);
-        if (!isRunKey(nearest)) throw;
+        if (!isRunKey(nearest) || !params.renamedFrom(setting.key).empty()) throw;
         failAt(setting, fmt::format("'{}' is not a key; did you mean '{}'?", setting.key, nearest));
     }
 }
 
-// A file is looked for beside the one that names it, wherever the program is started.
-std::string besides(const fs::path& file, const std::string& name) {
+// A file is looked for next to the one that names it, wherever the program is started.
+std::string siblingPath(const fs::path& file, const std::string& name) {
     return fs::absolute(file.parent_path() / name).string();
 }
 
@@ -109,7 +49,7 @@ TomlNode SettingReader::parse() const {
         return scene::readToml(file_);
     } catch (const ConfigError& error) {
         const std::string what = error.what();
-        // TOML has no table and value of one name: trace = "lines" beside trace.epsilon.
+        // TOML has no table and value of one name: trace = "lines" next to trace.epsilon.
         const bool isBoth = what.find("redefine") != std::string::npos;
         throw ConfigError(
             what + (isBoth ? " Write dotted names in quotes: \"trace.epsilon\" = 0.01." : ""));
@@ -185,24 +125,6 @@ std::vector<Setting> readSettings(const fs::path& file) {
     return reader.settings(document);
 }
 
-bool isRunKey(const std::string& key) {
-    return std::find(runKeys().begin(), runKeys().end(), key) != runKeys().end();
-}
-
-json runValue(const Setting& setting) {
-    const std::string& key = setting.key;
-    if (key == "size") return requireSize(setting);
-    if (key == "frames") return requireWhole(setting, 1, 1000000);
-    if (key == "warmup") return requireWhole(setting, 0, 1000000);
-    if (key == "seed") return requireWhole(setting, INT64_MIN, INT64_MAX);
-    if (key == "reference_photons") return requireWhole(setting, 1, kMostReferencePhotons);
-    if (key == "time" || key == "time_step") return requireSeconds(setting);
-    if (key == "disable") return requireTexts(setting);
-    if (key != "precise") return requireText(setting);
-    if (!setting.value.is_boolean()) failAt(setting, "precise must be true or false.");
-    return setting.value;
-}
-
 std::string textOf(const Setting& setting) {
     if (setting.value.is_array()) {
         failAt(setting, fmt::format("{} takes one value, not a list.", setting.key));
@@ -211,14 +133,14 @@ std::string textOf(const Setting& setting) {
 }
 
 std::string sceneArgument(const Setting& setting, const fs::path& file) {
-    const std::string name = requireText(setting);
-    return scene::isSceneFile(name) ? besides(file, name) : name;
+    const auto name = runValue(setting).get<std::string>();
+    return scene::isSceneFile(name) ? siblingPath(file, name) : name;
 }
 
 std::string referenceArgument(const Setting& setting, const fs::path& file) {
-    const std::string name = requireText(setting);
+    const auto name = runValue(setting).get<std::string>();
     if (name == "none" || name == "auto") return name;
-    const fs::path found = besides(file, name);
+    const fs::path found = siblingPath(file, name);
     if (fs::is_regular_file(found)) return found.string();
     const std::string suggestion = didYouMean(name, {"none", "auto"});
     failAt(setting, fmt::format("reference is none, auto or a file beside this one, and there is "
@@ -240,6 +162,17 @@ std::vector<std::string> fullKeysOf(const std::vector<Setting>& settings,
         }
     }
     return keys;
+}
+
+std::vector<params::Assignment> assignmentsOf(const std::vector<Setting>& settings,
+                                              const params::ParamSet& params) {
+    const std::vector<std::string> fullKeys = fullKeysOf(settings, params);
+    std::vector<params::Assignment> assignments;
+    for (std::size_t i = 0; i < settings.size(); ++i) {
+        if (!isRunKey(settings[i].key))
+            assignments.push_back({fullKeys[i], textOf(settings[i]), settings[i].place});
+    }
+    return assignments;
 }
 
 void failAt(const Setting& setting, const std::string& message) {

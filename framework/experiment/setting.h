@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One setting as a TOML file states it: a parameter by any unique short form of its name, or one
-// of the keys of a run: scene (a name or a file beside the TOML file), technique, size
+// of the keys of a run: scene (a name or a file next to the TOML file), technique, size
 // ("WIDTHxHEIGHT"), frames, warmup, seed, precise, time and time_step (seconds), reference (none,
 // auto or a file beside), reference_photons (of auto, at least), disable (a list of passes).
 #pragma once
@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/params/param_set.h"
+#include "framework/params/assignment.h"
 #include "framework/scene/files/toml_node.h"
 
 namespace kaustik::experiment {
@@ -52,7 +52,7 @@ class SettingReader {
 
 [[nodiscard]] bool isRunKey(const std::string& key);
 
-inline constexpr long long kMostReferencePhotons = 1'000'000'000'000'000;
+inline constexpr long long kMaxReferencePhotons = 1'000'000'000'000'000;
 
 // The value of a key of a run, of its type and in its range: size as "WIDTHxHEIGHT", disable as a
 // sorted list. Throws ConfigError at the setting's place.
@@ -72,6 +72,10 @@ inline constexpr long long kMostReferencePhotons = 1'000'000'000'000'000;
 // same.
 [[nodiscard]] std::vector<std::string> fullKeysOf(const std::vector<Setting>& settings,
                                                   const params::ParamSet& params);
+
+// Those of the settings that are parameters, by full name. Throws as fullKeysOf().
+[[nodiscard]] std::vector<params::Assignment> assignmentsOf(const std::vector<Setting>& settings,
+                                                            const params::ParamSet& params);
 
 // Throws ConfigError with the setting's place.
 [[noreturn]] void failAt(const Setting& setting, const std::string& message);

@@ -3,12 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
-
-#include "framework/core/error.h"
-#include "framework/experiment/value_range.h"
-#include "framework/scene/files/table_reader.h"
+#include "framework/experiment/spec_keys.h"
 
 namespace kaustik::experiment {
 namespace {
@@ -61,26 +56,6 @@ class Reader {
     SettingReader reader_;
 };
 
-void checkName(scene::TableReader& top, const std::string& name) {
-    const bool isPlain = std::all_of(name.begin(), name.end(), [](unsigned char c) {
-        return std::isalnum(c) != 0 || c == '-' || c == '_';
-    });
-    if (!isPlain || name.empty()) {
-        top.fail("name", fmt::format("name must be of letters, digits, '-' and '_', not '{}', "
-                                     "since it names a folder",
-                                     name));
-    }
-}
-
-// A suite says itself what it renders.
-void readSuite(scene::TableReader& top, Spec& spec) {
-    spec.suite = top.choice<std::string>("suite", {{"numerics", "numerics"}});
-    spec.cases = top.texts("cases");
-    spec.casesPlace = top.place("cases");
-    top.finish();
-    checkName(top, spec.name);
-}
-
 }  // namespace
 
 Spec readSpec(const fs::path& file) {
@@ -89,33 +64,29 @@ Spec readSpec(const fs::path& file) {
     scene::TableReader top(document, file, "");
     Spec spec;
     spec.file = file;
-    spec.name = top.text("name");
-    spec.description = top.text("description", "");
     if (top.has("suite")) {
-        readSuite(top, spec);
+        auto keys = top.read<SuiteKeys>();
+        spec.name = std::move(keys.name);
+        spec.description = std::move(keys.description);
+        spec.suite = std::move(keys.suite);
+        spec.cases = std::move(keys.cases);
+        spec.casesPlace = top.place("cases");
         return spec;
     }
-    spec.repeats = static_cast<int>(top.count("repeats", 1, kMostRepeats, 1));
-    static_cast<void>(top.table("base"));
-    const TomlNode* permute = document.find("permute");
-    const bool isList = permute != nullptr && permute->list() != nullptr;
-    if (isList) {
-        static_cast<void>(top.tables("permute"));
-    } else {
-        static_cast<void>(top.table("permute"));
-    }
-    top.finish();
-    checkName(top, spec.name);
+    auto keys = top.read<StudyKeys>();
+    spec.name = std::move(keys.name);
+    spec.description = std::move(keys.description);
+    spec.repeats = keys.repeats;
 
     const Reader reader(file);
     if (const TomlNode* base = document.find("base")) spec.base = settings.settings(*base);
-    if (!isList) {
+    const TomlNode* permute = document.find("permute");
+    if (permute == nullptr || permute->list() == nullptr) {
         spec.products.push_back(permute == nullptr ? Product{} : reader.product(*permute));
         return spec;
     }
     for (const TomlNode& table : *permute->list())
         spec.products.push_back(reader.product(table));
-    if (spec.products.empty()) top.fail("permute", "permute is an empty list");
     return spec;
 }
 

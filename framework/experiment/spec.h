@@ -51,7 +51,7 @@ struct Spec {
     std::vector<Product> products;  // at least one; without axes it is the base alone
 };
 
-inline constexpr int kMostRepeats = 1000;
+inline constexpr int kMaxRepeats = 1000;
 
 // Throws ConfigError "file:line: …" for whatever makes no sense, and IoError for a file that cannot
 // be read.

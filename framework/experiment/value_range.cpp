@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "framework/scene/files/table_reader.h"
+#include "framework/experiment/spec_keys.h"
 
 namespace kaustik::experiment {
 namespace {
@@ -31,8 +31,8 @@ std::vector<double> multiplied(TableReader& reader, double from, double to, doub
                                 from, factor, to));
     }
     const double count = std::floor(std::log(to / from) / std::log(factor) + kRelativeSlack) + 1.0;
-    if (count > kMostValues) {
-        reader.fail("factor", fmt::format("the range has more than {} values", kMostValues));
+    if (count > kMaxValues) {
+        reader.fail("factor", fmt::format("the range has more than {} values", kMaxValues));
     }
     std::vector<double> values;
     for (int i = 0; i < static_cast<int>(count); ++i)
@@ -47,8 +47,8 @@ std::vector<double> added(TableReader& reader, double from, double to, double st
                                         step, from, to));
     }
     const double count = std::floor((to - from) / step + kRelativeSlack) + 1.0;
-    if (count > kMostValues) {
-        reader.fail("step", fmt::format("the range has more than {} values", kMostValues));
+    if (count > kMaxValues) {
+        reader.fail("step", fmt::format("the range has more than {} values", kMaxValues));
     }
     std::vector<double> values;
     for (int i = 0; i < static_cast<int>(count); ++i)
@@ -68,22 +68,14 @@ std::vector<double> divided(double from, double to, unsigned count) {
 std::vector<json> readRange(const scene::TomlNode& table, const std::string& key,
                             const std::filesystem::path& file) {
     TableReader reader(table, file, fmt::format("permute: {}", key));
-    const double from = reader.number("from", scene::kAnyNumber);
-    const double to = reader.number("to", scene::kAnyNumber);
-    const bool multiplies = reader.has("factor");
-    const bool adds = reader.has("step");
-    const bool divides = reader.has("steps");
-    reader.finish();
-    if (int(multiplies) + int(adds) + int(divides) != 1) {
-        reader.fail("from", "a range takes one of factor, step and steps beside from and to");
-    }
+    const auto range = reader.read<RangeKeys>();
     std::vector<double> values;
-    if (multiplies) {
-        values = multiplied(reader, from, to, reader.number("factor", scene::kPositive));
-    } else if (adds) {
-        values = added(reader, from, to, reader.number("step", scene::kAnyNumber));
+    if (range.factor) {
+        values = multiplied(reader, range.from, range.to, *range.factor);
+    } else if (range.step) {
+        values = added(reader, range.from, range.to, *range.step);
     } else {
-        values = divided(from, to, reader.count("steps", 2, kMostValues));
+        values = divided(range.from, range.to, *range.steps);
     }
 
     bool isWhole = true;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One draw or dispatch, put together by name and issued by its last call:
 //
-//     context.fullscreen("techniques/x/halve.frag")
+//     context.fullscreen("maps/halve.frag")
 //         .set("sourceWidth", width)
 //         .target(data.halved)
 //         .draw();

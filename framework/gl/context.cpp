@@ -187,7 +187,7 @@ void prepareEgl() {
         kExitFailed);
 }
 
-bool containsInAnyCase(const std::string& text, const std::string& part) {
+bool containsIgnoringCase(const std::string& text, const std::string& part) {
     const auto same = [](unsigned char a, unsigned char b) {
         return std::tolower(a) == std::tolower(b);
     };
@@ -203,8 +203,8 @@ std::string joined(const std::vector<std::string>& words, const char* between = 
 std::unique_ptr<Context> Context::createOn(const EglDevice& device, bool debugs,
                                            std::string& problem) {
     const std::string platform = platformOf(device);
-    const auto fails = [&](std::string why) {
-        problem = fmt::format("{}: {}", platform, std::move(why));
+    const auto fails = [&](std::string reason) {
+        problem = fmt::format("{}: {}", platform, std::move(reason));
         return std::unique_ptr<Context>();
     };
     if (device.index < 0 && !eglHas("EGL_MESA_platform_surfaceless")) return fails("not offered");
@@ -245,7 +245,7 @@ EglDevice Context::deviceNamed(const std::string& name, const GivenDevices& give
         const std::unique_ptr<Context> context = createOn(device, false, problem);
         if (context == nullptr) continue;
         names.push_back(fmt::format("{} {}", device.index, context->info().renderer));
-        if (!containsInAnyCase(context->info().renderer, name)) continue;
+        if (!containsIgnoringCase(context->info().renderer, name)) continue;
         if (isGiven(device, given).value_or(true)) {
             found.push_back(device);
         } else {
@@ -266,9 +266,9 @@ std::unique_ptr<Context> Context::createHeadless(bool debugs, const std::string&
     const std::string wanted = device.empty() ? environmentText("KAUSTIK_DEVICE") : device;
     std::vector<EglDevice> candidates;
     if (wanted.empty()) {
-        candidates = inOrderOfChoice(listEglDevices(), given);
+        candidates = inPreferenceOrder(listEglDevices(), given);
     } else {
-        candidates = thoseWanted(listEglDevices(), wanted, given);
+        candidates = matchingDevices(listEglDevices(), wanted, given);
         if (candidates.empty()) candidates.push_back(deviceNamed(wanted, given));
         if (candidates.size() > 1) {
             throw ConfigError(

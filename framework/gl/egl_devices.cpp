@@ -101,28 +101,28 @@ GivenDevices givenDevices(const Environment& environment) {
 }
 
 std::optional<bool> isGiven(const EglDevice& device, const GivenDevices& given) {
-    if (!given.saysSo() || device.isSoftware || device.index < 0) return {};
-    bool isTold = given.entries.empty() && device.cuda;
+    if (!given.isExplicit() || device.isSoftware || device.index < 0) return {};
+    bool isReported = given.entries.empty() && device.cuda;
     for (const std::string& entry : given.entries) {
         if (const std::optional<int> number = numberIn(entry)) {
-            isTold = isTold || device.cuda;
+            isReported = isReported || device.cuda;
             if (device.cuda == number) return true;
         } else {
-            isTold = isTold || !device.uuid.empty();
+            isReported = isReported || !device.uuid.empty();
             if (begins(device, uuidIn(entry))) return true;
         }
     }
-    return isTold ? std::optional(false) : std::nullopt;
+    return isReported ? std::optional(false) : std::nullopt;
 }
 
-std::vector<EglDevice> inOrderOfChoice(const std::vector<EglDevice>& devices,
-                                       const GivenDevices& given) {
+std::vector<EglDevice> inPreferenceOrder(const std::vector<EglDevice>& devices,
+                                         const GivenDevices& given) {
     std::vector<EglDevice> processors;
-    std::vector<EglDevice> standIns;
+    std::vector<EglDevice> fallbackDevices;
     int notGiven = 0;
     for (const EglDevice& device : devices) {
         if (device.isSoftware) {
-            standIns.push_back(device);
+            fallbackDevices.push_back(device);
         } else if (isGiven(device, given).value_or(true)) {
             processors.push_back(device);
         } else {
@@ -140,7 +140,7 @@ std::vector<EglDevice> inOrderOfChoice(const std::vector<EglDevice>& devices,
         return isGiven(device, given).value_or(false);
     });
     processors.push_back({});
-    processors.insert(processors.end(), standIns.begin(), standIns.end());
+    processors.insert(processors.end(), fallbackDevices.begin(), fallbackDevices.end());
     return processors;
 }
 
@@ -151,8 +151,8 @@ void requireGiven(const EglDevice& device, const GivenDevices& given) {
         device.name(), given.variable, fmt::join(given.entries, ",")));
 }
 
-std::vector<EglDevice> thoseWanted(const std::vector<EglDevice>& devices, const std::string& wanted,
-                                   const GivenDevices& given) {
+std::vector<EglDevice> matchingDevices(const std::vector<EglDevice>& devices,
+                                       const std::string& wanted, const GivenDevices& given) {
     std::vector<EglDevice> found;
     if (const std::optional<int> number = numberIn(wanted)) {
         const auto device = std::find_if(devices.begin(), devices.end(),

@@ -27,7 +27,7 @@ struct EglDevice {
 struct GivenDevices {
     std::string variable;              // which says so; "" where nothing does
     std::vector<std::string> entries;  // CUDA's numbers, or UUIDs or their beginnings
-    [[nodiscard]] bool saysSo() const { return !variable.empty(); }
+    [[nodiscard]] bool isExplicit() const { return !variable.empty(); }
 };
 
 using Environment = std::function<const char*(const char* name)>;
@@ -41,15 +41,15 @@ using Environment = std::function<const char*(const char* name)>;
 // Where to try to make a context, the best first; EGL's default (index -1) stands before devices
 // that render on the processor. Throws ConfigError where the environment gives only devices that
 // EGL does not list, though it could tell them.
-[[nodiscard]] std::vector<EglDevice> inOrderOfChoice(const std::vector<EglDevice>& devices,
-                                                     const GivenDevices& given);
+[[nodiscard]] std::vector<EglDevice> inPreferenceOrder(const std::vector<EglDevice>& devices,
+                                                       const GivenDevices& given);
 
 // Those that `wanted` may mean: its number, or a UUID or its beginning; no device where it must be
 // a name of a renderer, which only a context tells. Throws ConfigError for a number that there is
 // not and for a device that the job was not given.
-[[nodiscard]] std::vector<EglDevice> thoseWanted(const std::vector<EglDevice>& devices,
-                                                 const std::string& wanted,
-                                                 const GivenDevices& given);
+[[nodiscard]] std::vector<EglDevice> matchingDevices(const std::vector<EglDevice>& devices,
+                                                     const std::string& wanted,
+                                                     const GivenDevices& given);
 
 // Throws ConfigError for a device that the job was not given.
 void requireGiven(const EglDevice& device, const GivenDevices& given);

@@ -24,7 +24,7 @@ class DebugGroup {
 };
 
 // Of a frame's loops: far beyond what any needs.
-constexpr std::size_t kMostRounds = 1U << 20U;
+constexpr std::size_t kMaxRounds = 1U << 20U;
 
 }  // namespace
 
@@ -110,9 +110,9 @@ void Executor::prepare(graph::Compiled compiled) {
     framebuffers_.clear();
     std::vector<Physical> old = std::exchange(slots_, {});
     for (const graph::Slot& slot : compiled_.slots) {
-        const std::string lastingName = slot.lasts ? slot.firstName : "";
+        const std::string persistentName = slot.isPersistent ? slot.firstName : "";
         const auto kept = std::find_if(old.begin(), old.end(), [&](const Physical& p) {
-            return p.desc == slot.desc && p.lastingName == lastingName;
+            return p.desc == slot.desc && p.persistentName == persistentName;
         });
         if (kept != old.end()) {
             slots_.push_back(std::move(*kept));
@@ -122,7 +122,7 @@ void Executor::prepare(graph::Compiled compiled) {
         context_.setScope("while allocating '" + slot.firstName + "'");
         Physical physical;
         physical.desc = slot.desc;
-        physical.lastingName = lastingName;
+        physical.persistentName = persistentName;
         if (const auto* texture = std::get_if<graph::TextureDesc>(&slot.desc)) {
             const DeviceInfo& info = context_.info();
             if (texture->width > info.maxTextureSize || texture->height > info.maxTextureSize ||
@@ -138,8 +138,8 @@ void Executor::prepare(graph::Compiled compiled) {
         } else {
             physical.buffer = Buffer(graph::bytesOf(slot.desc), nullptr, slot.firstName);
         }
-        if (slot.lasts && physical.texture.id() != 0) physical.texture.clear({0, 0, 0, 0});
-        if (slot.lasts && physical.buffer.id() != 0) physical.buffer.clear();
+        if (slot.isPersistent && physical.texture.id() != 0) physical.texture.clear({0, 0, 0, 0});
+        if (slot.isPersistent && physical.buffer.id() != 0) physical.buffer.clear();
         context_.check();
         slots_.push_back(std::move(physical));
     }
@@ -175,9 +175,8 @@ void Executor::clearSlot(std::size_t slot, const graph::ClearValue& value) {
 void Executor::poison(const graph::Step& step, bool isRepeated) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const std::uint32_t ones = ~0u;
-    for (const std::size_t slot : step.births) {
-        if (isRepeated &&
-            std::count(step.carriedBirths.begin(), step.carriedBirths.end(), slot) > 0)
+    for (const std::size_t slot : step.undefinedSlots) {
+        if (isRepeated && std::count(step.carriedSlots.begin(), step.carriedSlots.end(), slot) > 0)
             continue;
         if (const auto* texture = std::get_if<graph::TextureDesc>(&slots_[slot].desc)) {
             const bool isDepth = texture->format == graph::Format::depth32f;
@@ -190,7 +189,7 @@ void Executor::poison(const graph::Step& step, bool isRepeated) {
     }
 }
 
-bool Executor::runsAgain(const graph::Loop& loop) {
+bool Executor::isLoopRepeated(const graph::Loop& loop) {
     order({{loop.slot, Use::updateBuffer}});
     std::uint32_t word = 0;
     glGetNamedBufferSubData(slots_[loop.slot].buffer.id(),
@@ -198,7 +197,7 @@ bool Executor::runsAgain(const graph::Loop& loop) {
     return word != 0;
 }
 
-bool Executor::runFrame(PassTimer& timer, const std::function<bool(std::size_t)>& goesOn) {
+bool Executor::runFrame(PassTimer& timer, const std::function<bool(std::size_t)>& shouldContinue) {
     const bool debugs = context_.info().debugs;
     const std::size_t count = compiled_.steps.size();
     timer.beginFrame(count);
@@ -208,13 +207,14 @@ bool Executor::runFrame(PassTimer& timer, const std::function<bool(std::size_t)>
     std::size_t rounds = 0;
     for (std::size_t i = 0; i < count;) {
         const graph::Step& step = compiled_.steps[i];
-        if (goesOn && !goesOn(i)) return false;  // the timer begins this frame again
+        if (shouldContinue && !shouldContinue(i))
+            return false;  // the timer begins this frame again
         if (!isDone[i]) {
             if (debugs) context_.setScope("in pass '" + step.name + "'");
             PassContext context(*this, step, hasRun[i]);
             const DebugGroup group(i, step.name);
             if (isFresh_ && !hasRun[i]) {
-                for (const std::size_t slot : step.keptBirths)
+                for (const std::size_t slot : step.keptSlots)
                     clearSlot(slot, {});
             }
             if (poison_) poison(step, hasRun[i]);
@@ -229,8 +229,8 @@ bool Executor::runFrame(PassTimer& timer, const std::function<bool(std::size_t)>
         }
         std::size_t next = i + 1;
         for (const graph::Loop& loop : compiled_.loops) {
-            if (loop.last != i || !runsAgain(loop)) continue;
-            if (++rounds > kMostRounds)
+            if (loop.last != i || !isLoopRepeated(loop)) continue;
+            if (++rounds > kMaxRounds)
                 throw GraphError("A loop around pass '" + step.name +
                                  "' does not come to its end.");
             for (std::size_t s = loop.first; s <= loop.last; ++s)

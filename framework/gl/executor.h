@@ -83,10 +83,10 @@ class Executor {
     void poisonTransients(bool poison) { poison_ = poison; }
 
     // Runs all passes once. Throws what a pass throws, and DeviceError for OpenGL errors: after the
-    // pass that made one where the context debugs, else at the frame's end. `goesOn`
+    // pass that made one where the context debugs, else at the frame's end. `shouldContinue`
     // is asked before each pass, by its number; where it says no, the frame ends there and has no
     // time, and the result is false.
-    bool runFrame(PassTimer& timer, const std::function<bool(std::size_t)>& goesOn = {});
+    bool runFrame(PassTimer& timer, const std::function<bool(std::size_t)>& shouldContinue = {});
 
     // What was asked for, as the last frame has left it; GraphError for the rest.
     [[nodiscard]] const Texture& texture(const graph::ResourceRef& handle) const;
@@ -98,11 +98,11 @@ class Executor {
         Texture texture;
         Buffer buffer;
         graph::ResourceDesc desc;
-        std::string lastingName;  // of the resource whose it is from frame to frame
+        std::string persistentName;  // of the resource whose it is from frame to frame
     };
     void clearSlot(std::size_t slot, const graph::ClearValue& value);
     void poison(const graph::Step& step, bool isRepeated);
-    [[nodiscard]] bool runsAgain(const graph::Loop& loop);
+    [[nodiscard]] bool isLoopRepeated(const graph::Loop& loop);
     void order(const std::vector<Access>& accesses);
     GLuint framebuffer(const std::vector<Attachment>& attachments);
 

@@ -28,8 +28,8 @@ ShaderFolders searchedFolders(const ShaderFolders& moreFolders) {
 // As messages name it: what is not the project's with its whole path.
 std::string shownName(const fs::path& file) {
     const fs::path relative = file.lexically_relative(projectRoot());
-    const bool isOurs = !relative.empty() && *relative.begin() != "..";
-    return isOurs ? relative.string() : file.string();
+    const bool isOwn = !relative.empty() && *relative.begin() != "..";
+    return isOwn ? relative.string() : file.string();
 }
 
 class Expander {

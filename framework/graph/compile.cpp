@@ -127,7 +127,7 @@ void Graph::planRequired(Plan& plan) const {
     for (bool found = true; found;) {
         found = false;
         for (const Resource& resource : resources_) {
-            if (!resource.lasts || plan.needed[resource.writers.back()]) continue;
+            if (!resource.isPersistent || plan.needed[resource.writers.back()]) continue;
             const auto isNeeded = [&](std::size_t pass) { return plan.needed[pass]; };
             if (!std::any_of(resource.writers.begin(), resource.writers.end(), isNeeded)) continue;
             plan.needed[resource.writers.back()] = true;
@@ -172,29 +172,29 @@ void Graph::fillRecords(const Plan& plan, Compiled& compiled) const {
             ++record.repeats;
             if (record.state == PassState::culled && plan.needed[p]) {
                 record.state = PassState::ran;
-                record.why = pass.info.why;
+                record.reason = pass.info.reason;
             }
             continue;
         }
-        PassRecord record{pass.info.name, PassState::ran, pass.info.why, 1, bypassText(pass)};
+        PassRecord record{pass.info.name, PassState::ran, pass.info.reason, 1, bypassText(pass)};
         if (pass.isSkipped) {
             record.state = PassState::skipped;
         } else if (plan.bypassed[p]) {
             record.state = PassState::bypassed;
-            record.why = "disabled; " + record.bypass;
+            record.reason = "disabled; " + record.bypass;
         } else if (!plan.needed[p]) {
             record.state = PassState::culled;
             std::vector<std::string> outputs;
             for (const ResourceRef& output : pass.outputs)
                 outputs.push_back(nameOf(output));
-            record.why = fmt::format("nothing asks for {}", joinNames(outputs));
+            record.reason = fmt::format("nothing asks for {}", joinNames(outputs));
         }
         recordOf[pass.info.name] = compiled.records.size();
         compiled.records.push_back(std::move(record));
     }
 }
 
-struct Graph::Life {
+struct Graph::LiveRange {
     std::size_t first = kNoSlot;
     std::size_t last = 0;
     std::size_t made = kNoSlot;  // the step that first writes it
@@ -239,31 +239,31 @@ void Graph::placeLoops(const Plan& plan, const std::vector<std::size_t>& passOfS
 
 // Whatever a loop finds from before, or leaves to what comes after it or to its next run, nobody
 // else's memory may be while it runs.
-void Graph::stretchLives(const Compiled& compiled, std::vector<Life>& lives) {
+void Graph::extendLiveRanges(const Compiled& compiled, std::vector<LiveRange>& liveRanges) {
     for (bool found = true; found;) {
         found = false;
         for (const Loop& loop : compiled.loops) {
-            for (Life& life : lives) {
-                const bool isUsed =
-                    life.first != kNoSlot && life.first <= loop.last && life.last >= loop.first;
-                const bool isWithin = life.first >= loop.first && life.last <= loop.last;
-                const bool isKept = loop.invariant.contains(life.made);
+            for (LiveRange& liveRange : liveRanges) {
+                const bool isUsed = liveRange.first != kNoSlot && liveRange.first <= loop.last &&
+                                    liveRange.last >= loop.first;
+                const bool isWithin = liveRange.first >= loop.first && liveRange.last <= loop.last;
+                const bool isKept = loop.invariant.contains(liveRange.made);
                 if (!isUsed || (isWithin && !isKept)) continue;
-                const Life whole{std::min(life.first, loop.first), std::max(life.last, loop.last),
-                                 life.made};
-                found = found || whole.first != life.first || whole.last != life.last;
-                life = whole;
+                const LiveRange whole{std::min(liveRange.first, loop.first),
+                                      std::max(liveRange.last, loop.last), liveRange.made};
+                found = found || whole.first != liveRange.first || whole.last != liveRange.last;
+                liveRange = whole;
             }
         }
     }
 }
 
 void Graph::assignSlots(const Plan& plan, Compiled& compiled) const {
-    std::vector<Life> lives(resources_.size());
+    std::vector<LiveRange> liveRanges(resources_.size());
     const auto touch = [&](const ResourceRef& handle, std::size_t step) {
-        Life& life = lives[plan.home[handle.index][handle.version]];
-        life.first = std::min(life.first, step);
-        life.last = std::max(life.last, step);
+        LiveRange& liveRange = liveRanges[plan.home[handle.index][handle.version]];
+        liveRange.first = std::min(liveRange.first, step);
+        liveRange.last = std::max(liveRange.last, step);
     };
 
     std::vector<std::size_t> passOfStep;
@@ -290,22 +290,23 @@ void Graph::assignSlots(const Plan& plan, Compiled& compiled) const {
     for (const ResourceRef& handle : requested_)
         touch(handle, passOfStep.size());
     for (std::size_t r = 0; r < resources_.size(); ++r) {
-        if (resources_[r].lasts && lives[r].first != kNoSlot) lives[r].last = passOfStep.size();
+        if (resources_[r].isPersistent && liveRanges[r].first != kNoSlot)
+            liveRanges[r].last = passOfStep.size();
     }
     if (keepAll_) {
-        for (Life& life : lives) {
-            if (life.first != kNoSlot) life.last = passOfStep.size();
+        for (LiveRange& liveRange : liveRanges) {
+            if (liveRange.first != kNoSlot) liveRange.last = passOfStep.size();
         }
     }
 
-    for (Life& life : lives)
-        life.made = life.first;
+    for (LiveRange& liveRange : liveRanges)
+        liveRange.made = liveRange.first;
     placeLoops(plan, passOfStep, compiled);
-    stretchLives(compiled, lives);
-    const auto isCarried = [&](const Life& life) {
+    extendLiveRanges(compiled, liveRanges);
+    const auto isCarried = [&](const LiveRange& liveRange) {
         return std::any_of(compiled.loops.begin(), compiled.loops.end(), [&](const Loop& loop) {
-            return life.first >= loop.first && life.first <= loop.last &&
-                   (life.last >= loop.last || loop.invariant.contains(life.made));
+            return liveRange.first >= loop.first && liveRange.first <= loop.last &&
+                   (liveRange.last >= loop.last || loop.invariant.contains(liveRange.made));
         });
     };
 
@@ -325,28 +326,29 @@ void Graph::assignSlots(const Plan& plan, Compiled& compiled) const {
         }
 
         for (std::size_t r = 0; r < resources_.size(); ++r) {
-            if (lives[r].first > step || lives[r].last < step) continue;
+            if (liveRanges[r].first > step || liveRanges[r].last < step) continue;
             (std::holds_alternative<TextureDesc>(resources_[r].desc)
                  ? compiledStep.liveTextureBytes
                  : compiledStep.liveBufferBytes) += bytesOf(resources_[r].desc);
-            if (lives[r].first != step) continue;
-            const bool lasts = resources_[r].lasts;
+            if (liveRanges[r].first != step) continue;
+            const bool isPersistent = resources_[r].isPersistent;
             std::size_t slot = kNoSlot;
-            for (std::size_t s = 0; s < compiled.slots.size() && slot == kNoSlot && !lasts; ++s) {
+            for (std::size_t s = 0; s < compiled.slots.size() && slot == kNoSlot && !isPersistent;
+                 ++s) {
                 const bool isFree = freeAfter[s] < step;
                 if (isFree && compiled.slots[s].desc == resources_[r].desc) slot = s;
             }
             if (slot == kNoSlot) {
                 slot = compiled.slots.size();
-                compiled.slots.push_back({resources_[r].desc, resources_[r].name, lasts});
+                compiled.slots.push_back({resources_[r].desc, resources_[r].name, isPersistent});
                 freeAfter.push_back(0);
             }
-            freeAfter[slot] = lives[r].last;
+            freeAfter[slot] = liveRanges[r].last;
             compiled.slotOfResource[r] = slot;
-            if (lasts) continue;  // it is born once
-            compiledStep.births.push_back(slot);
-            if (isCarried(lives[r])) compiledStep.carriedBirths.push_back(slot);
-            if (lives[r].last == passOfStep.size()) compiledStep.keptBirths.push_back(slot);
+            if (isPersistent) continue;  // it is born once
+            compiledStep.undefinedSlots.push_back(slot);
+            if (isCarried(liveRanges[r])) compiledStep.carriedSlots.push_back(slot);
+            if (liveRanges[r].last == passOfStep.size()) compiledStep.keptSlots.push_back(slot);
         }
         compiled.peakBytes = std::max(compiled.peakBytes,
                                       compiledStep.liveTextureBytes + compiledStep.liveBufferBytes);
@@ -369,7 +371,8 @@ void Graph::assignSlots(const Plan& plan, Compiled& compiled) const {
                                                         : compiled.bufferBytes) += bytes;
     }
     for (std::uint32_t r = 0; r < resources_.size(); ++r) {
-        const bool aliveAtEnd = lives[r].first != kNoSlot && lives[r].last == passOfStep.size();
+        const bool aliveAtEnd =
+            liveRanges[r].first != kNoSlot && liveRanges[r].last == passOfStep.size();
         compiled.names_.push_back(resources_[r].name);
         compiled.isKept_.push_back(aliveAtEnd);
         if (!aliveAtEnd) continue;

@@ -29,8 +29,8 @@ ResourceRef PassSetup::createResource(const std::string& name, ResourceDesc desc
     return handle;
 }
 
-void PassSetup::makeLasting(const ResourceRef& handle) {
-    graph_.resources_[handle.index].lasts = true;
+void PassSetup::makePersistent(const ResourceRef& handle) {
+    graph_.resources_[handle.index].isPersistent = true;
 }
 
 void PassSetup::readResource(const ResourceRef& handle) {
@@ -165,9 +165,9 @@ void Graph::endLoop(const ResourceRef& again, std::size_t word) {
     loops_.push_back(loop);
 }
 
-void Graph::skip(std::string name, std::string why) {
+void Graph::skip(std::string name, std::string reason) {
     passes_.push_back({});
-    passes_.back().info = {std::move(name), std::move(why)};
+    passes_.back().info = {std::move(name), std::move(reason)};
     passes_.back().isSkipped = true;
 }
 

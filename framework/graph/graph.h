@@ -24,8 +24,8 @@ class ExecuteContext {
 };
 
 struct PassInfo {
-    std::string name;  // "stage.node", unique but for repeats (batches) of one node
-    std::string why;   // why it runs, for `explain`
+    std::string name;    // "stage.node", unique but for repeats (batches) of one node
+    std::string reason;  // why it runs, for `explain`
 };
 
 enum class PassState { ran, bypassed, culled, skipped };
@@ -34,7 +34,7 @@ enum class PassState { ran, bypassed, culled, skipped };
 struct PassRecord {
     std::string name;
     PassState state = PassState::ran;
-    std::string why;
+    std::string reason;
     std::size_t repeats = 1;  // passes of this name
     // What stands in for the pass where it is disabled; "" where nothing does: it is required.
     std::string bypass;
@@ -74,16 +74,17 @@ class PassSetup {
     // and after the graph has been built anew what a resource of the same name and shape had. What
     // is written to it last runs whenever anything of it is read.
     template <class Content>
-    [[nodiscard]] Texture<Content> createLasting(const std::string& name, int width, int height,
-                                                 int layers = 0) {
+    [[nodiscard]] Texture<Content> createPersistent(const std::string& name, int width, int height,
+                                                    int layers = 0) {
         const Texture<Content> handle = create<Content>(name, width, height, layers);
-        makeLasting(handle);
+        makePersistent(handle);
         return handle;
     }
     template <class Content>
-    [[nodiscard]] Buffer<Content> createLastingBuffer(const std::string& name, std::size_t count) {
+    [[nodiscard]] Buffer<Content> createPersistentBuffer(const std::string& name,
+                                                         std::size_t count) {
         const Buffer<Content> handle = createBuffer<Content>(name, count);
-        makeLasting(handle);
+        makePersistent(handle);
         return handle;
     }
     template <class Handle>
@@ -137,7 +138,7 @@ class PassSetup {
     friend class Graph;
     PassSetup(Graph& graph, std::size_t pass) : graph_(graph), pass_(pass) {}
     ResourceRef createResource(const std::string& name, ResourceDesc desc);
-    void makeLasting(const ResourceRef& handle);
+    void makePersistent(const ResourceRef& handle);
     void readResource(const ResourceRef& handle);
     ResourceRef writeResource(const ResourceRef& handle);
     void bypassForward(const ResourceRef& output, const ResourceRef& input);
@@ -151,8 +152,8 @@ class PassSetup {
 // A physical texture or buffer that resources with disjoint lifetimes share.
 struct Slot {
     ResourceDesc desc;
-    std::string firstName;  // of the resource that lives in it first, for debug labels
-    bool lasts = false;     // it is that resource's alone, from frame to frame
+    std::string firstName;      // of the resource that lives in it first, for debug labels
+    bool isPersistent = false;  // it is that resource's alone, from frame to frame
 };
 
 struct Step {
@@ -167,13 +168,13 @@ struct Step {
         std::size_t slot;
         ClearValue value;
     };
-    std::vector<Clear> clears;        // neutral outputs of a bypassed pass
-    std::vector<std::size_t> births;  // slots whose contents are undefined before this step
+    std::vector<Clear> clears;                // neutral outputs of a bypassed pass
+    std::vector<std::size_t> undefinedSlots;  // slots whose contents are undefined before this step
     // Of those the ones that a loop around this step hands on from one run to the next.
-    std::vector<std::size_t> carriedBirths;
+    std::vector<std::size_t> carriedSlots;
     // Of those the ones that live to the end: before the first frame they are zeros, so that what
     // a pass leaves unwritten, the rest of a list's texture, is.
-    std::vector<std::size_t> keptBirths;
+    std::vector<std::size_t> keptSlots;
     std::size_t liveTextureBytes = 0;  // of what has contents that are of use during it
     std::size_t liveBufferBytes = 0;
 };
@@ -259,7 +260,7 @@ class Graph {
     void endLoop(const ResourceRef& again, std::size_t word = 0);
 
     // Records a node that the scene does not need, with the reason, for `explain`.
-    void skip(std::string name, std::string why);
+    void skip(std::string name, std::string reason);
 
     // Asks for a resource: it and all that leads to it runs, and it lives until the end. `what`
     // names it where nobody has made it.
@@ -308,7 +309,7 @@ class Graph {
         std::string name;
         ResourceDesc desc;
         std::vector<std::size_t> writers;  // pass of each version
-        bool lasts = false;
+        bool isPersistent = false;
     };
     struct PassLoop {
         std::size_t first;  // passes
@@ -317,7 +318,7 @@ class Graph {
         std::size_t word;
         [[nodiscard]] bool holds(std::size_t pass) const { return pass >= first && pass < end; }
     };
-    struct Life;
+    struct LiveRange;
     struct Plan;
 
     std::size_t beginPass(PassInfo info);
@@ -332,7 +333,7 @@ class Graph {
     void placeLoops(const Plan& plan, const std::vector<std::size_t>& passOfStep,
                     Compiled& compiled) const;
     [[nodiscard]] std::set<std::size_t> invariantOf(const Plan& plan, const PassLoop& loop) const;
-    static void stretchLives(const Compiled& compiled, std::vector<Life>& lives);
+    static void extendLiveRanges(const Compiled& compiled, std::vector<LiveRange>& liveRanges);
     void planBypasses(Plan& plan) const;
     [[nodiscard]] std::string bypassText(const Pass& pass) const;
     void fillRecords(const Plan& plan, Compiled& compiled) const;

@@ -58,7 +58,7 @@ struct Bench {
     bool wantsRestart = false;     // of the renderer
     bool showsHelp = false;
 
-    void say(std::string text, bool isBad = false) {
+    void notify(std::string text, bool isBad = false) {
         message = std::move(text);
         isMessageBad = isBad;
     }
@@ -72,7 +72,9 @@ struct Bench {
     [[nodiscard]] const VariantResult& editedResult() const {
         return result->variants[editedIndex()];
     }
-    [[nodiscard]] Asked asked() const { return {document, pictureOrder, view, editedIndex()}; }
+    [[nodiscard]] ShownRequest requested() const {
+        return {document, pictureOrder, view, editedIndex()};
+    }
     // As the document has them, which may be newer than what was rendered.
     [[nodiscard]] scene::Camera camera() const {
         if (document.edits.camera) return *document.edits.camera;

@@ -10,7 +10,7 @@ namespace kaustik::gui {
 namespace {
 
 // Closer to the poles the picture would turn about itself.
-constexpr double kSteepest = 1.55;  // rad above the horizon
+constexpr double kMaxPitch = 1.55;  // rad above the horizon
 
 // `direction` turned about `up` by `yaw` and towards it by `pitch`, rad.
 glm::dvec3 turned(glm::dvec3 direction, const glm::dvec3& up, double yaw, double pitch) {
@@ -18,7 +18,7 @@ glm::dvec3 turned(glm::dvec3 direction, const glm::dvec3& up, double yaw, double
     const glm::dvec3 across = glm::cross(direction, up);
     if (glm::length(across) < 1e-9) return direction;
     const double before = std::asin(std::clamp(glm::dot(direction, up), -1.0, 1.0));
-    const double after = std::clamp(before + pitch, -kSteepest, kSteepest);
+    const double after = std::clamp(before + pitch, -kMaxPitch, kMaxPitch);
     return glm::rotate(direction, after - before, glm::normalize(across));
 }
 

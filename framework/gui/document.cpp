@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/core/json_number.h"
+#include "framework/run/settings.h"
 #include "framework/scene/files/scene_file.h"
 
 namespace kaustik::gui {
@@ -117,14 +118,12 @@ SceneEdits editsFrom(const json& j) {
 
 RenderSettings settingsOf(const Variant& variant, const params::Extent& size,
                           const Registry& registry) {
-    RenderSettings settings;
-    settings.technique = registry.findTechnique(variant.technique);
-    settings.params = registry.makeParams(settings.technique);
+    run::SettingsRequest request{
+        .technique = variant.technique, .assignments = {}, .disabledPasses = variant.disabled};
     for (const auto& [name, value] : variant.assignments)
-        settings.params.set(name, value, "workbench");
-    settings.disabledPasses = variant.disabled;
-    settings.width = size.width;
-    settings.height = size.height;
+        request.assignments.push_back({name, value, "workbench"});
+    RenderSettings settings = run::makeSettings(request, registry);
+    run::setSize(settings, size);
     return settings;
 }
 
@@ -152,8 +151,8 @@ Document documentFromJson(const json& j, std::vector<std::string>& problems) {
                          wholeNumber<int>(j.at("size").at(1))};
         document.variant = variantFrom(j.at("variant"));
         if (j.contains("other")) document.other = variantFrom(j.at("other"));
-        const bool isSize = document.size.width >= 1 && document.size.width <= 16384 &&
-                            document.size.height >= 1 && document.size.height <= 16384;
+        const auto isSide = [](int side) { return side >= 1 && side <= params::kMaxPictureSide; };
+        const bool isSize = isSide(document.size.width) && isSide(document.size.height);
         if (isSize) return document;
         problems.push_back(
             fmt::format("a picture of {}x{} cannot be", document.size.width, document.size.height));

@@ -30,7 +30,7 @@ struct Document {
     scene::SceneEdits edits;
     params::Extent size{800, 600};
     Variant variant;               // A
-    std::optional<Variant> other;  // B, beside it
+    std::optional<Variant> other;  // B, next to it
     friend bool operator==(const Document&, const Document&) = default;
 };
 

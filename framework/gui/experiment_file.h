@@ -11,10 +11,10 @@
 
 namespace kaustik::gui {
 
-// Writes NAME.toml into `folder`, and NAME-scene.toml beside it where the scene has been changed by
-// hand; gives the files, the experiment first. With a variant B it has two runs. `name`: letters,
-// digits, '-' and '_'. Throws ConfigError for another name or settings that make no sense, IoError
-// where it cannot be written.
+// Writes NAME.toml into `folder`, and NAME-scene.toml next to it where the scene has been changed
+// by hand; gives the files, the experiment first. With a variant B it has two runs. `name`:
+// letters, digits, '-' and '_'. Throws ConfigError for another name or settings that make no sense,
+// IoError where it cannot be written.
 std::vector<std::filesystem::path> writeExperiment(const Document& document,
                                                    const Registry& registry,
                                                    const std::filesystem::path& folder,

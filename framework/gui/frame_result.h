@@ -41,8 +41,8 @@ struct ViewedTexture {
     Image values;  // all channels, top row first
     // What was asked for and is not there; the picture is shown in the place of another texture,
     // and nothing in the place of a layer.
-    enum class Missing { nothing, texture, layer };
-    Missing missing = Missing::nothing;
+    enum class Missing { none, texture, layer };
+    Missing missing = Missing::none;
     int layers = 1;  // of the texture
     // The texture whose values were looked at: the picture has none but colours, so that it is what
     // the picture is made of.

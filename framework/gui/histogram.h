@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How an image's values are spread: for the range of false colours and the histogram beside them.
+// How an image's values are spread: for the range of false colours and the histogram next to them.
 #pragma once
 
 #include <array>

@@ -9,7 +9,7 @@ namespace kaustik::gui {
 namespace {
 
 // Rays closer to the way straight back point nowhere.
-constexpr double kLeastSine = 1e-3;
+constexpr double kMinSine = 1e-3;
 
 // Where the way from the middle of an area in a direction meets its edge.
 glm::dvec2 edgePoint(const glm::dvec2& low, const glm::dvec2& high, const glm::dvec2& direction) {
@@ -43,7 +43,7 @@ std::optional<LightMarker> markLight(const render::RasterView& view, const glm::
             return marker;
         }
         way = place - 0.5 * (low + high);
-    } else if (glm::length(way) < kLeastSine * glm::length(handleVs)) {
+    } else if (glm::length(way) < kMinSine * glm::length(handleVs)) {
         return std::nullopt;
     }
     marker.direction = glm::normalize(way);

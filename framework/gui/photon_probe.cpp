@@ -82,7 +82,7 @@ PhotonProbe probePhotons(const Renderer& renderer, glm::ivec2 pixel, float radiu
     }
     std::sort(probe.paths.begin(), probe.paths.end(),
               [](const PhotonPath& a, const PhotonPath& b) { return a.pixels < b.pixels; });
-    if (probe.paths.size() > PhotonProbe::kMostPaths) probe.paths.resize(PhotonProbe::kMostPaths);
+    if (probe.paths.size() > PhotonProbe::kMaxPaths) probe.paths.resize(PhotonProbe::kMaxPaths);
     return probe;
 }
 

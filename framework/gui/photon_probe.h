@@ -24,8 +24,8 @@ struct PhotonProbe {
     float radiusPixels = 1.0f;
     std::size_t landed = 0;         // within the radius
     glm::vec3 fluxWatts{0.0f};      // of all of them
-    std::vector<PhotonPath> paths;  // the nearest, kMostPaths at most
-    static constexpr std::size_t kMostPaths = 200;
+    std::vector<PhotonPath> paths;  // the nearest, kMaxPaths at most
+    static constexpr std::size_t kMaxPaths = 200;
 };
 
 // Of the frame that was rendered last; waits for the device.

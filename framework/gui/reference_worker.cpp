@@ -24,8 +24,8 @@ bool ReferenceAim::operator==(const ReferenceAim& other) const {
            paths.interactions == other.paths.interactions && sceneReloads == other.sceneReloads;
 }
 
-ReferenceWorker::ReferenceWorker(std::function<void()> onNews)
-    : onNews_(std::move(onNews)), thread_([this] { run(); }) {}
+ReferenceWorker::ReferenceWorker(std::function<void()> onUpdate)
+    : onUpdate_(std::move(onUpdate)), thread_([this] { run(); }) {}
 
 ReferenceWorker::~ReferenceWorker() {
     {
@@ -100,7 +100,7 @@ void ReferenceWorker::post() {
         const std::lock_guard lock(mutex_);
         state_ = std::make_shared<const ReferenceState>(working_);
     }
-    onNews_();
+    onUpdate_();
 }
 
 bool ReferenceWorker::isSuperseded() const {
@@ -124,7 +124,7 @@ using reference::Reference;
 using reference::ReferenceRequest;
 
 // Between two looks at what else there is to do, and two pictures of the reference.
-constexpr std::uint64_t kPhotonsAtOnce = 1u << 22;
+constexpr std::uint64_t kPhotonsPerBatch = 1u << 22;
 
 // While it lives something is at work.
 class AtWork {
@@ -204,7 +204,7 @@ void ReferenceWorker::run() {
     }
 }
 
-void ReferenceWorker::takeOver(const Loaded& loaded) {
+void ReferenceWorker::useLoaded(const Loaded& loaded) {
     working_.version = ++versions_;
     working_.photons = loaded.whole ? loaded.whole->photons : 0;
     working_.relativeError = loaded.whole ? loaded.whole->relativeError : 0.0;
@@ -225,7 +225,7 @@ void ReferenceWorker::look(Loaded& loaded, const ReferenceAim& aim) {
         loaded.modelled = findCached(loaded.scene, *loaded.modelledRequest, cache());
     working_.aim = aim;
     working_.isLooking = false;
-    takeOver(loaded);
+    useLoaded(loaded);
     post();
 }
 
@@ -249,8 +249,8 @@ void ReferenceWorker::computeMore(Loaded& loaded, std::uint64_t photons) {
         return reference ? reference->photons : std::uint64_t{0};
     };
     const std::uint64_t before = photonsOf(loaded.whole);
-    const std::uint64_t target =
-        std::min(photons, before + std::max(kPhotonsAtOnce / 8, std::min(before, kPhotonsAtOnce)));
+    const std::uint64_t target = std::min(
+        photons, before + std::max(kPhotonsPerBatch / 8, std::min(before, kPhotonsPerBatch)));
     working_.problem.clear();
     reference::RunOptions options;
     options.stop.photons = target;
@@ -278,7 +278,7 @@ void ReferenceWorker::computeMore(Loaded& loaded, std::uint64_t photons) {
     if (loaded.whole && after == 0)
         working_.problem = "No light hits a specular surface: there is no caustic to compare.";
     if (after >= photons || (loaded.whole && after == 0)) stopComputing();
-    takeOver(loaded);
+    useLoaded(loaded);
     for (ReferenceState::Judgement& judgement : working_.judgements)
         judgement.order = 0;  // by a worse reference: frames are to be judged again
     post();

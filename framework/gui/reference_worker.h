@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The ray-traced reference in the background: looked for in the cache, computed when asked for, and
-// what each frame is worth beside it. On a thread of its own at low priority, which nothing waits
+// what each frame is worth next to it. On a thread of its own at low priority, which nothing waits
 // for. Without Embree it says so and does nothing.
 #pragma once
 
@@ -60,8 +60,8 @@ struct ReferenceState {
 
 class ReferenceWorker {
   public:
-    // `onNews` is called on the worker's thread.
-    explicit ReferenceWorker(std::function<void()> onNews);
+    // `onUpdate` is called on the worker's thread.
+    explicit ReferenceWorker(std::function<void()> onUpdate);
     ~ReferenceWorker();  // what has been computed is kept
     ReferenceWorker(const ReferenceWorker&) = delete;
     ReferenceWorker& operator=(const ReferenceWorker&) = delete;
@@ -96,10 +96,10 @@ class ReferenceWorker {
     // `photons` each in the end.
     void beginRun(const Loaded& loaded, std::uint64_t photonsMore, std::uint64_t photons);
     void judgeFrames(Loaded& loaded, const std::array<JudgedFrame, 2>& frames);
-    void takeOver(const Loaded& loaded);
+    void useLoaded(const Loaded& loaded);
     [[nodiscard]] bool isSuperseded() const;
 
-    std::function<void()> onNews_;
+    std::function<void()> onUpdate_;
     mutable std::mutex mutex_;
     std::condition_variable wake_;
     bool stop_ = false;

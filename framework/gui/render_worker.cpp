@@ -29,7 +29,7 @@ void lowerPriority() {
 }
 
 // Makes what can be edited as it is in the file, then as the document says.
-void takeEdits(scene::Scene& scene, const scene::Scene& base, const scene::SceneEdits& edits) {
+void updateScene(scene::Scene& scene, const scene::Scene& base, const scene::SceneEdits& edits) {
     scene.camera = base.camera;
     scene.lights = base.lights;
     scene.medium = base.medium;
@@ -73,8 +73,8 @@ std::vector<std::filesystem::path> shaderFolders(const Registry& registry) {
 RenderWorker::Device::Device(std::unique_ptr<gl::Context> c, const Registry& registry)
     : context(std::move(c)), shaders(shaderFolders(registry)) {}
 
-RenderWorker::RenderWorker(const Registry& registry, std::function<void()> onNews)
-    : registry_(registry), onNews_(std::move(onNews)), thread_([this] { run(); }) {}
+RenderWorker::RenderWorker(const Registry& registry, std::function<void()> onUpdate)
+    : registry_(registry), onUpdate_(std::move(onUpdate)), thread_([this] { run(); }) {}
 
 RenderWorker::~RenderWorker() {
     stop_ = true;
@@ -131,7 +131,7 @@ void RenderWorker::setRecording(Recording state) {
         const std::lock_guard lock(mutex_);
         recording_ = std::move(state);
     }
-    onNews_();
+    onUpdate_();
 }
 
 void RenderWorker::post() {
@@ -139,10 +139,10 @@ void RenderWorker::post() {
         const std::lock_guard lock(mutex_);
         latest_ = std::make_shared<const FrameResult>(working_);
     }
-    onNews_();
+    onUpdate_();
 }
 
-VariantRenderer::GoesOn RenderWorker::watch(const Device& device, const std::string& what) {
+VariantRenderer::ShouldContinue RenderWorker::watch(const Device& device, const std::string& what) {
     const std::lock_guard lock(mutex_);
     frameBegin_ = Clock::now();
     const std::uint64_t number = working_.order;
@@ -251,7 +251,7 @@ bool RenderWorker::loadScene(Device& device) {
         }
         if (device.edits != document.edits) {
             device.edits.reset();  // of the scene as it is until this is whole
-            takeEdits(*device.scene, *device.base, document.edits);
+            updateScene(*device.scene, *device.base, document.edits);
             device.edits = document.edits;
             for (const auto& renderer : device.renderers) {
                 if (renderer) renderer->noteSceneChange();
@@ -285,15 +285,15 @@ void RenderWorker::renderOnce(Device& device) {
     bool hasFailed = true;
     for (std::size_t i = 0; i < device.variants(); ++i) {
         const std::unique_ptr<VariantRenderer>& renderer = device.renderers[i];
-        const VariantRenderer::GoesOn goesOn = watch(device, device.variants() == 1 ? ""
-                                                             : i == 0               ? "A"
-                                                                                    : "B");
+        const VariantRenderer::ShouldContinue shouldContinue =
+            watch(device, device.variants() == 1 ? ""
+                          : i == 0               ? "A"
+                                                 : "B");
         const bool isWhole =
             order.isPreview
-                ? renderer->renderPreview(device.variant(i), order.document.size, goesOn)
-                : renderer->render(
-                      device.variant(i), order.document.size, order.viewing,
-                      order.isPrecise ? gl::TimerMode::finish : gl::TimerMode::timestamps, goesOn);
+                ? renderer->renderPreview(device.variant(i), order.document.size, shouldContinue)
+                : renderer->render(device.variant(i), order.document.size, order.viewing,
+                                   order.isPrecise, shouldContinue);
         if (!isWhole) return;  // there is a newer order
         ++device.rendered;
         working_.variants[i] = renderer->result();

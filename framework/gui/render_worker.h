@@ -40,8 +40,8 @@ struct FrameOrder {
 
 // What to write on the renderer's thread, of the document as it is in the order then.
 struct RecordRequest {
-    enum class What { report, sequence };
-    What what = What::report;
+    enum class RecordingKind { report, sequence };
+    RecordingKind what = RecordingKind::report;
     std::filesystem::path folder;
     int frames = 8;  // timed, or of the sequence
     // Photons at least of the reference that a report is judged by, computed where there is none; 0
@@ -52,8 +52,8 @@ struct RecordRequest {
 
 class RenderWorker {
   public:
-    // `onNews` is called on the worker's thread whenever there is something new to see.
-    RenderWorker(const Registry& registry, std::function<void()> onNews);
+    // `onUpdate` is called on the worker's thread whenever there is something new to see.
+    RenderWorker(const Registry& registry, std::function<void()> onUpdate);
     ~RenderWorker();  // ends the frame at its next pass
     RenderWorker(const RenderWorker&) = delete;
     RenderWorker& operator=(const RenderWorker&) = delete;
@@ -99,10 +99,11 @@ class RenderWorker {
     void writeSequence(Device& device, const RecordRequest& request);
     void post();
     void setRecording(Recording state);
-    [[nodiscard]] VariantRenderer::GoesOn watch(const Device& device, const std::string& what);
+    [[nodiscard]] VariantRenderer::ShouldContinue watch(const Device& device,
+                                                        const std::string& what);
 
     const Registry& registry_;
-    std::function<void()> onNews_;
+    std::function<void()> onUpdate_;
 
     mutable std::mutex mutex_;
     std::condition_variable wake_;

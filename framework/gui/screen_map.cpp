@@ -10,7 +10,7 @@
 
 namespace kaustik::gui {
 namespace {
-constexpr auto kEvery = std::chrono::milliseconds(15);
+constexpr auto kWriteInterval = std::chrono::milliseconds(15);
 }
 
 void ScreenMap::beginFrame() {
@@ -41,7 +41,7 @@ void ScreenMap::area(const std::string& name, float x, float y, float width, flo
 }
 
 void ScreenMap::endFrame() {
-    if (!isOn() || Clock::now() - written_ < kEvery) return;
+    if (!isOn() || Clock::now() - written_ < kWriteInterval) return;
     written_ = Clock::now();
     // Names of files may be no UTF-8.
     writeFileWhole(file_, jsonText(json_, 1));

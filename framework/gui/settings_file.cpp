@@ -42,7 +42,7 @@ Settings readSettings(const fs::path& folder, const Registry& registry) {
     std::vector<std::string>& problems = settings.problems;
     try {
         const json all = parseJson(readFile(file), file.string());
-        settings.kept = keptFromJson(all, problems);
+        settings.kept = savedStateFromJson(all, problems);
         if (all.is_object() && all.contains("document")) {
             settings.document = documentFromJson(all.at("document"), problems);
             requireKnownNames(settings.document, registry, problems);
@@ -53,7 +53,7 @@ Settings readSettings(const fs::path& folder, const Registry& registry) {
     return settings;
 }
 
-PutAside putSettingsAside(const fs::path& folder, const std::vector<std::string>& problems) {
+SettingsBackup setSettingsAside(const fs::path& folder, const std::vector<std::string>& problems) {
     const std::string others =
         problems.size() > 1 ? fmt::format(", and {} more", problems.size() - 1) : "";
     const std::string what = fmt::format("Some settings of the last time were dropped ({}{}).",

@@ -13,7 +13,7 @@
 namespace kaustik::gui {
 
 struct Settings {
-    Kept kept;
+    SavedState kept;
     Document document;
     std::vector<std::string>
         problems;  // with the file; what of it makes sense is used all the same
@@ -22,13 +22,13 @@ struct Settings {
 // workbench.json in the folder, or what there is at the first start.
 [[nodiscard]] Settings readSettings(const std::filesystem::path& folder, const Registry& registry);
 
-struct PutAside {
+struct SettingsBackup {
     std::string notice;   // what was wrong, and what has become of the file
     bool isDone = false;  // if not, nothing may be written
 };
 // Gives a file with such problems a name that no other has.
-[[nodiscard]] PutAside putSettingsAside(const std::filesystem::path& folder,
-                                        const std::vector<std::string>& problems);
+[[nodiscard]] SettingsBackup setSettingsAside(const std::filesystem::path& folder,
+                                              const std::vector<std::string>& problems);
 
 // Throws IoError.
 void writeSettings(const std::filesystem::path& folder, const std::string& text);

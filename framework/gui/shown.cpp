@@ -25,8 +25,8 @@ std::string oneLine(std::string text) {
     return text;
 }
 
-Shown stale(const std::string& why, Shown::Remedy remedy) {
-    return {Shown::Kind::stale, "Not what was asked for: " + oneLine(why), remedy};
+Shown stale(const std::string& reason, Shown::Remedy remedy) {
+    return {Shown::Kind::stale, "Not what was asked for: " + oneLine(reason), remedy};
 }
 
 bool hasSettings(const Document& document) {
@@ -36,28 +36,31 @@ bool hasSettings(const Document& document) {
     return has(document.variant) || (document.other && has(*document.other));
 }
 
-Shown ofProblem(const Asked& asked, const FrameResult& result,
-                const std::optional<Document>& whole) {
+Shown problemStatus(const ShownRequest& requested, const FrameResult& result,
+                    const std::optional<Document>& whole) {
     if (result.isLost) {
         return stale(result.problem + " 'kaustik run' renders without this window.",
                      Shown::Remedy::restart);
     }
-    const std::string& scene = asked.document.scene;
+    const std::string& scene = requested.document.scene;
     if (whole && whole->scene != scene) return stale(result.problem, Shown::Remedy::back);
     const bool isDefault = scene == Document().scene;  // whose mesh may be missing
     return stale(result.problem, isDefault ? Shown::Remedy::none : Shown::Remedy::defaultScene);
 }
 
-Shown ofError(const Asked& asked, const std::string& error, const std::optional<Document>& whole) {
-    if (whole && !(*whole == asked.document)) return stale(error, Shown::Remedy::back);
-    return stale(error, hasSettings(asked.document) ? Shown::Remedy::forget : Shown::Remedy::none);
+Shown ofError(const ShownRequest& requested, const std::string& error,
+              const std::optional<Document>& whole) {
+    if (whole && !(*whole == requested.document)) return stale(error, Shown::Remedy::back);
+    return stale(error,
+                 hasSettings(requested.document) ? Shown::Remedy::forget : Shown::Remedy::none);
 }
 
-Shown ofMissing(const Asked& asked, const ViewedTexture& viewed, const std::string& prefix) {
+Shown missingStatus(const ShownRequest& requested, const ViewedTexture& viewed,
+                    const std::string& prefix) {
     if (viewed.missing == Missing::texture) {
         return stale(fmt::format("{}there is no texture '{}' with these settings; the picture is "
                                  "shown in its place.",
-                                 prefix, asked.view.resource),
+                                 prefix, requested.view.resource),
                      Shown::Remedy::picture);
     }
     return stale(fmt::format("{}'{}' has no layer {}: it has {}, which are 0 to {}.", prefix,
@@ -66,7 +69,7 @@ Shown ofMissing(const Asked& asked, const ViewedTexture& viewed, const std::stri
 }
 
 // What is seen until something newer is rendered.
-Shown ofOlder(const FrameResult& result) {
+Shown staleStatus(const FrameResult& result) {
     const VariantResult& first = result.variants[0];
     if (!first.viewed) return {Shown::Kind::rendering, "The first picture is being rendered.", {}};
     if (first.isPreview) {
@@ -81,20 +84,20 @@ Shown ofOlder(const FrameResult& result) {
 }
 
 // What is asked for to the right of the split and is not there.
-std::string missingBeside(const Asked& asked, const FrameResult& result,
-                          const ReferenceState& reference) {
-    const bool hasReference = reference.photons > 0 && isOfSameView(reference, result.document);
-    const ReferenceState::Judgement& judgement = reference.judgements[asked.seen()];
-    switch (asked.view.beside) {
-        case Beside::reference:
+std::string missingSidePicture(const ShownRequest& requested, const FrameResult& result,
+                               const ReferenceState& reference) {
+    const bool hasReference = reference.photons > 0 && hasSameView(reference, result.document);
+    const ReferenceState::Judgement& judgement = reference.judgements[requested.seen()];
+    switch (requested.view.sidePicture) {
+        case SidePicture::reference:
             return hasReference ? "" : "there is no reference of this view to show beside it yet";
-        case Beside::error:
+        case SidePicture::error:
             if (!hasReference)
                 return "there is no reference of this view to measure its error by yet";
             return judgement.order == result.order ? ""
                                                    : "the error beside it is still being measured";
-        case Beside::other:
-        case Beside::nothing:
+        case SidePicture::other:
+        case SidePicture::none:
             break;
     }
     return "";
@@ -102,26 +105,26 @@ std::string missingBeside(const Asked& asked, const FrameResult& result,
 
 }  // namespace
 
-bool isOfSameView(const ReferenceState& reference, const Document& document) {
+bool hasSameView(const ReferenceState& reference, const Document& document) {
     return reference.aim && reference.aim->scene == document.scene &&
            reference.aim->edits == document.edits && reference.aim->size == document.size;
 }
 
-std::string whyItCannotRun(const Asked& asked, const FrameResult& result) {
+std::string runObstacle(const ShownRequest& requested, const FrameResult& result) {
     if (!result.problem.empty()) return result.problem;
-    for (std::size_t i = 0; i < variantsOf(asked.document); ++i) {
+    for (std::size_t i = 0; i < variantsOf(requested.document); ++i) {
         const VariantResult& variant = result.variants[i];
-        if (variant.order >= asked.order && !variant.error.empty())
-            return prefixOf(asked.document, i) + variant.error;
+        if (variant.order >= requested.order && !variant.error.empty())
+            return prefixOf(requested.document, i) + variant.error;
     }
     return result.shaderProblem;
 }
 
-bool isRendered(const Asked& asked, const FrameResult& result) {
-    if (!result.problem.empty() || !(result.document == asked.document)) return false;
-    for (std::size_t i = 0; i < variantsOf(asked.document); ++i) {
+bool isRendered(const ShownRequest& requested, const FrameResult& result) {
+    if (!result.problem.empty() || !(result.document == requested.document)) return false;
+    for (std::size_t i = 0; i < variantsOf(requested.document); ++i) {
         const VariantResult& variant = result.variants[i];
-        if (variant.order < asked.order || !variant.error.empty() || variant.isPreview ||
+        if (variant.order < requested.order || !variant.error.empty() || variant.isPreview ||
             !variant.absentPasses.empty() || !variant.viewed) {
             return false;
         }
@@ -129,31 +132,32 @@ bool isRendered(const Asked& asked, const FrameResult& result) {
     return true;
 }
 
-Shown shownOf(const Asked& asked, const FrameResult& result, const ReferenceState& reference,
-              const std::optional<Document>& whole) {
-    const Shown rendering = ofOlder(result);
+Shown shownOf(const ShownRequest& requested, const FrameResult& result,
+              const ReferenceState& reference, const std::optional<Document>& whole) {
+    const Shown rendering = staleStatus(result);
     // A lost device answers no order.
-    if (result.order < asked.order && !result.isLost) return rendering;
-    if (!result.problem.empty()) return ofProblem(asked, result, whole);
-    for (std::size_t i = 0; i < variantsOf(asked.document); ++i) {
+    if (result.order < requested.order && !result.isLost) return rendering;
+    if (!result.problem.empty()) return problemStatus(requested, result, whole);
+    for (std::size_t i = 0; i < variantsOf(requested.document); ++i) {
         const VariantResult& variant = result.variants[i];
-        const std::string prefix = prefixOf(asked.document, i);
-        if (variant.order >= asked.order && !variant.error.empty())
-            return ofError(asked, prefix + variant.error, whole);
+        const std::string prefix = prefixOf(requested.document, i);
+        if (variant.order >= requested.order && !variant.error.empty())
+            return ofError(requested, prefix + variant.error, whole);
     }
-    for (std::size_t i = 0; i < variantsOf(asked.document); ++i) {
+    for (std::size_t i = 0; i < variantsOf(requested.document); ++i) {
         const VariantResult& variant = result.variants[i];
-        if (variant.isPreview || variant.order < asked.order || !variant.viewed) return rendering;
-        if (variant.viewed->missing != Missing::nothing)
-            return ofMissing(asked, *variant.viewed, prefixOf(asked.document, i));
+        if (variant.isPreview || variant.order < requested.order || !variant.viewed)
+            return rendering;
+        if (variant.viewed->missing != Missing::none)
+            return missingStatus(requested, *variant.viewed, prefixOf(requested.document, i));
     }
     if (!result.shaderProblem.empty()) {
         return stale(
             "the last good shaders are in use, until this is mended: " + result.shaderProblem,
             Shown::Remedy::none);
     }
-    const std::string missing = missingBeside(asked, result, reference);
-    return {Shown::Kind::asked,
+    const std::string missing = missingSidePicture(requested, result, reference);
+    return {Shown::Kind::requested,
             missing.empty() ? "What is shown is what was asked for."
                             : fmt::format("The picture is what was asked for; {}.", missing),
             Shown::Remedy::none};
@@ -161,7 +165,7 @@ Shown shownOf(const Asked& asked, const FrameResult& result, const ReferenceStat
 
 const char* nameOf(Shown::Kind kind) {
     switch (kind) {
-        case Shown::Kind::asked:
+        case Shown::Kind::requested:
             return "asked";
         case Shown::Kind::rendering:
             return "rendering";

@@ -16,12 +16,12 @@ namespace kaustik::gui {
 
 struct Shown {
     enum class Kind {
-        asked,      // what was asked for
+        requested,  // what was asked for
         rendering,  // something older, until what was asked for is rendered
         preview,    // the same view, quickly made
         stale       // something else, and that will not change by itself
     };
-    Kind kind = Kind::asked;
+    Kind kind = Kind::requested;
     std::string sentence;
 
     // What ends a stale state.
@@ -38,28 +38,30 @@ struct Shown {
 };
 
 // What is to be seen.
-struct Asked {
+struct ShownRequest {
     const Document& document;
     // The order that first asked for it; later ones may want more frames of the same picture.
     std::uint64_t order = 0;
     const ViewState& view;
     std::size_t edited = 0;  // variant: 0 A, 1 B
     // The one that is seen, to the left of the split where there is one.
-    [[nodiscard]] std::size_t seen() const { return view.beside == Beside::other ? 0 : edited; }
+    [[nodiscard]] std::size_t seen() const {
+        return view.sidePicture == SidePicture::other ? 0 : edited;
+    }
 };
 
 // Why the document cannot be rendered; "" where it can be, or where that is not known yet.
-[[nodiscard]] std::string whyItCannotRun(const Asked& asked, const FrameResult& result);
+[[nodiscard]] std::string runObstacle(const ShownRequest& requested, const FrameResult& result);
 
 // Whether every variant of the document has been rendered as it is asked for: then it can be done
 // again elsewhere.
-[[nodiscard]] bool isRendered(const Asked& asked, const FrameResult& result);
+[[nodiscard]] bool isRendered(const ShownRequest& requested, const FrameResult& result);
 
 // Whether the reference is of the document's view.
-[[nodiscard]] bool isOfSameView(const ReferenceState& reference, const Document& document);
+[[nodiscard]] bool hasSameView(const ReferenceState& reference, const Document& document);
 
 // `whole`: the last document that was rendered without an error, where there was one.
-[[nodiscard]] Shown shownOf(const Asked& asked, const FrameResult& result,
+[[nodiscard]] Shown shownOf(const ShownRequest& requested, const FrameResult& result,
                             const ReferenceState& reference, const std::optional<Document>& whole);
 
 // "error", "preview" …: for the screen map.

@@ -69,7 +69,7 @@ class Part {
 
 }  // namespace
 
-json toJson(const Kept& kept) {
+json toJson(const SavedState& kept) {
     const ViewState& view = kept.view;
     const PanelState& panels = kept.panels;
     return {{"view",
@@ -81,7 +81,7 @@ json toJson(const Kept& kept) {
               {"range_automatic", view.isRangeAutomatic},
               {"low", view.low},
               {"high", view.high},
-              {"beside", static_cast<int>(view.beside)},
+              {"beside", static_cast<int>(view.sidePicture)},
               {"split", view.split},
               {"shows_lights", view.showsLights}}},
             {"panels",
@@ -101,11 +101,11 @@ json toJson(const Kept& kept) {
               {"height", kept.window.height},
               {"x", kept.window.x},
               {"y", kept.window.y}}},
-            {"knows_device", kept.knowsDevice}};
+            {"knows_device", kept.isDeviceKnown}};
 }
 
-Kept keptFromJson(const json& j, std::vector<std::string>& problems) {
-    Kept kept;
+SavedState savedStateFromJson(const json& j, std::vector<std::string>& problems) {
+    SavedState kept;
     if (!j.is_object()) {
         problems.emplace_back("it is no object");
         return kept;
@@ -119,7 +119,7 @@ Kept keptFromJson(const json& j, std::vector<std::string>& problems) {
     view.take("range_automatic", kept.view.isRangeAutomatic);
     kept.view.low = view.between("low", 0.0f, -1e9f, 1e9f);
     kept.view.high = view.between("high", 1.0f, -1e9f, 1e9f);
-    kept.view.beside = static_cast<Beside>(view.between("beside", 0, 0, 3));
+    kept.view.sidePicture = static_cast<SidePicture>(view.between("beside", 0, 0, 3));
     kept.view.split = view.between("split", 0.5f, 0.0f, 1.0f);
     view.take("shows_lights", kept.view.showsLights);
     Part panels(j, "panels", problems);
@@ -140,7 +140,7 @@ Kept keptFromJson(const json& j, std::vector<std::string>& problems) {
     kept.window.x = window.between("x", -1, -1, 16384);
     kept.window.y = window.between("y", -1, -1, 16384);
     const auto knows = j.find("knows_device");
-    if (knows != j.end() && knows->is_boolean()) kept.knowsDevice = knows->get<bool>();
+    if (knows != j.end() && knows->is_boolean()) kept.isDeviceKnown = knows->get<bool>();
     return kept;
 }
 

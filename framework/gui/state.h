@@ -15,7 +15,7 @@
 namespace kaustik::gui {
 
 // What is seen to the right of the split.
-enum class Beside : int { nothing, other, reference, error };
+enum class SidePicture : int { none, other, reference, error };
 
 struct ViewState {
     std::string resource;  // "": the picture
@@ -26,7 +26,7 @@ struct ViewState {
     bool isRangeAutomatic = true;
     float low = 0.0f;
     float high = 1.0f;
-    Beside beside = Beside::nothing;
+    SidePicture sidePicture = SidePicture::none;
     float split = 0.5f;      // of the picture's width
     float zoom = 0.0f;       // window pixels a pixel; 0: fits
     glm::vec2 middle{0.5f};  // of the view, in pictures
@@ -52,16 +52,17 @@ struct PanelState {
     float sequenceStep = 1.0f / 30.0f;  // s
 };
 
-struct Kept {
+struct SavedState {
     ViewState view;
     PanelState panels;
     Window::Placement window;
-    bool knowsDevice = false;  // isPrecise was chosen by or for the user
+    bool isDeviceKnown = false;  // isPrecise was chosen by or for the user
 };
 
-[[nodiscard]] nlohmann::json toJson(const Kept& kept);
+[[nodiscard]] nlohmann::json toJson(const SavedState& kept);
 // What is missing is as at the first start; so is what makes no sense, and a sentence says which.
-[[nodiscard]] Kept keptFromJson(const nlohmann::json& json, std::vector<std::string>& problems);
+[[nodiscard]] SavedState savedStateFromJson(const nlohmann::json& json,
+                                            std::vector<std::string>& problems);
 
 // $XDG_CONFIG_HOME/kaustik, else ~/.config/kaustik; made if it is not there. "" where there is no
 // such place, and nothing is kept then.

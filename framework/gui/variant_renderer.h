@@ -4,12 +4,12 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "framework/gui/frame_result.h"
-#include "framework/pipeline/renderer.h"
-#include "framework/report/run_report.h"
+#include "framework/run/session.h"
 
 namespace kaustik::gui {
 
@@ -24,10 +24,10 @@ struct Viewing {
 class VariantRenderer {
   public:
     // Asked before each pass, with its number, how many there are, and its name.
-    using GoesOn = std::function<bool(std::size_t, std::size_t, const std::string&)>;
+    using ShouldContinue = std::function<bool(std::size_t, std::size_t, const std::string&)>;
 
     // All of these outlive the renderer. `versions` counts the textures that were read back.
-    VariantRenderer(gl::Context& context, const Registry& registry, const scene::Scene& scene,
+    VariantRenderer(gl::Context& context, const Registry& registry, scene::Scene& scene,
                     std::uint64_t& versions)
         : context_(context), registry_(registry), scene_(scene), versions_(versions) {}
 
@@ -35,48 +35,41 @@ class VariantRenderer {
     // and the result is the one before. What is wrong with the variant becomes the result's error;
     // only a DeviceError is thrown.
     bool render(const Variant& variant, const params::Extent& size, const Viewing& viewing,
-                gl::TimerMode timer, const GoesOn& goesOn);
+                bool isPrecise, const ShouldContinue& shouldContinue);
     // The same, smaller and without caustics, for a view that is being turned. Not timed.
-    bool renderPreview(const Variant& variant, const params::Extent& size, const GoesOn& goesOn);
+    bool renderPreview(const Variant& variant, const params::Extent& size,
+                       const ShouldContinue& shouldContinue);
     // One more frame of what was rendered last, for the ledger and the limits.
-    bool measure(const GoesOn& goesOn);
+    bool measure(const ShouldContinue& shouldContinue);
     // One more frame for the photons that landed at a pixel.
     [[nodiscard]] std::optional<PhotonProbe> probe(glm::ivec2 pixel, float radius,
-                                                   const GoesOn& goesOn);
+                                                   const ShouldContinue& shouldContinue);
 
     [[nodiscard]] const VariantResult& result() const { return result_; }
     [[nodiscard]] VariantResult& result() { return result_; }
-    // Of what was rendered last; null before.
-    [[nodiscard]] Renderer* renderer() { return renderer_.get(); }
-    // With the newest frames, for report.json.
-    [[nodiscard]] const report::RunRecord& record() const { return record_; }
     // Programs that cannot be compiled any more; the others are replaced.
     [[nodiscard]] std::vector<std::string> reloadShaders();
     // The scene's lights, camera, time … have changed.
-    void noteSceneChange() { isUpToDate_ = false; }
-
-    static constexpr std::size_t kFramesKept = 128;
+    void noteSceneChange() {
+        if (session_) session_->noteSceneChange();
+    }
 
   private:
-    void prepare(const Variant& variant, const params::Extent& size);
-    void restartTimes(gl::TimerMode timer);
+    void select(const Variant& variant, const params::Extent& size);
+    void keep(const Viewing& viewing);
     void readBack(const Viewing& viewing);
     [[nodiscard]] ViewedTexture viewPicture();
     [[nodiscard]] ViewedTexture view(const Viewing& viewing);
     bool guarded(const std::function<bool()>& work);
-    [[nodiscard]] std::function<bool(std::size_t)> stepwise(const GoesOn& goesOn) const;
+    [[nodiscard]] run::ShouldContinue stepwise(const ShouldContinue& shouldContinue) const;
 
     gl::Context& context_;
     const Registry& registry_;
-    const scene::Scene& scene_;
+    scene::Scene& scene_;
     std::uint64_t& versions_;
-    std::unique_ptr<Renderer> renderer_;
     Variant variant_;
     params::Extent size_;
-    bool isUpToDate_ = false;
-    std::string built_;  // what `renderer_` is built for, to build only when that changes
-    std::unique_ptr<gl::PassTimer> timer_;
-    report::RunRecord record_;
+    std::optional<run::Session> session_;  // of these two, once something was to be rendered
     VariantResult result_;
 };
 

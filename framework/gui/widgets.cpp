@@ -102,14 +102,14 @@ void sparkline(const std::vector<double>& values, ImVec2 size) {
     ImGui::Dummy(size);
     if (values.size() < 2) return;
     // One value that is far out, as of a frame that compiles, would leave the others no height.
-    const double most = std::max(
+    const double maximum = std::max(
         std::min(*std::max_element(values.begin(), values.end()), 3.0 * medianOf(values)), 1e-9);
     std::vector<ImVec2> points;
     for (std::size_t i = 0; i < values.size(); ++i) {
         points.emplace_back(
             corner.x + size.x * static_cast<float>(i) / static_cast<float>(values.size() - 1),
             corner.y +
-                size.y * (1.0f - 0.9f * static_cast<float>(std::min(values[i] / most, 1.0))));
+                size.y * (1.0f - 0.9f * static_cast<float>(std::min(values[i] / maximum, 1.0))));
     }
     ImGui::GetWindowDrawList()->AddPolyline(points.data(), static_cast<int>(points.size()),
                                             ImGui::GetColorU32(ImGuiCol_PlotLines), 0, 1.0f);
@@ -192,9 +192,9 @@ bool choose(Bench& bench, const char* label, const std::vector<std::string>& opt
 
 bool isLogarithmic(const params::Field& field) {
     // A range that begins at 0 does so for "none" or "as needed"; 1 is its first step.
-    const double least = field.minimum == 0.0 ? 1.0 : field.minimum;
+    const double minimum = field.minimum == 0.0 ? 1.0 : field.minimum;
     constexpr double kWide = 10.0;
-    return least > 0.0 && field.maximum > kWide * least;
+    return minimum > 0.0 && field.maximum > kWide * minimum;
 }
 
 void chooseVariant(Bench& bench, const std::string& panel) {

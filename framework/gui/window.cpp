@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "framework/core/error.h"
+#include "framework/gui/imgui_keys.h"
 
 namespace kaustik::gui {
 namespace {
@@ -124,7 +125,7 @@ Window::Window(const std::string& title, const Placement& placement, const fs::p
                            auto& self = *static_cast<Window*>(glfwGetWindowUserPointer(window));
                            const int key = self.keyNames_(place, scancode, action);
                            if (key != GLFW_KEY_UNKNOWN)
-                               ImGui_ImplGlfw_KeyCallback(window, key, scancode, action, modifiers);
+                               sendKey(window, key, scancode, action, modifiers);
                        });
     ImGui_ImplOpenGL3_Init("#version 450 core");
 }

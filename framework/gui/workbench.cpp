@@ -25,7 +25,7 @@ constexpr double kSlowFrameMs = 150.0;
 // Frames after a change, for a median; fewer where one takes long.
 constexpr int kFramesUntilSettled = 8;
 constexpr int kSlowFramesUntilSettled = 3;
-constexpr std::size_t kInterfaceFramesKept = 1000;
+constexpr std::size_t kInterfaceFrameHistory = 1000;
 
 }  // namespace
 
@@ -51,16 +51,16 @@ Workbench::Workbench(const Registry& registry, const WorkbenchOptions& options)
              referenceWorker_.state(),
              scene::listScenes()} {
     if (!settings_.problems.empty()) {
-        const PutAside aside = putSettingsAside(folder_, settings_.problems);
-        canKeep_ = aside.isDone;
-        bench_.say(aside.notice, true);
+        const SettingsBackup aside = setSettingsAside(folder_, settings_.problems);
+        canSave_ = aside.isDone;
+        bench_.notify(aside.notice, true);
     }
     if (!options.scene.empty() && options.scene != bench_.document.scene) {
         bench_.document.scene = options.scene;
         bench_.document.edits = {};
     }
-    if (bench_.view.beside == Beside::other && !bench_.document.other)
-        bench_.view.beside = Beside::nothing;
+    if (bench_.view.sidePicture == SidePicture::other && !bench_.document.other)
+        bench_.view.sidePicture = SidePicture::none;
     history_ = {bench_.document};
 }
 
@@ -69,27 +69,27 @@ Workbench::~Workbench() {
 }
 
 void Workbench::keep() {
-    if (folder_.empty() || !canKeep_) return;
-    Kept& kept = settings_.kept;
+    if (folder_.empty() || !canSave_) return;
+    SavedState& kept = settings_.kept;
     kept.view = bench_.view;
     kept.panels = bench_.panels;
     kept.window = window_.placement();
     json all = toJson(kept);
     all["document"] = toJson(bench_.document);
     std::string text = all.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
-    if (text == keptText_) return;
-    keptText_ = std::move(text);
+    if (text == savedText_) return;
+    savedText_ = std::move(text);
     try {
-        writeSettings(folder_, keptText_);
+        writeSettings(folder_, savedText_);
     } catch (const Error& error) {
-        bench_.say(error.what(), true);
+        bench_.notify(error.what(), true);
     }
 }
 
 // A crash or a power cut loses two seconds at most.
-void Workbench::keepNowAndThen() {
-    if (Clock::now() - keptAt_ < std::chrono::seconds(2)) return;
-    keptAt_ = Clock::now();
+void Workbench::saveRegularly() {
+    if (Clock::now() - savedAt_ < std::chrono::seconds(2)) return;
+    savedAt_ = Clock::now();
     keep();
 }
 
@@ -106,13 +106,13 @@ void Workbench::run() {
         // Dear ImGui needs a few frames to answer what it was told.
         if (hasInput) framesToDraw_ = 3;
         if (run::isInterrupted()) window_.close();
-        takeNews();
+        pollWorkers();
         takeDropped();
         bench_.isDragging = false;
         bench_.isTurning = false;
         map_.beginFrame();
         draw();
-        rememberForUndo();
+        pushUndo();
         submitChanges();
         saveExperimentOnceRendered();
         aimReference();
@@ -122,10 +122,10 @@ void Workbench::run() {
         window_.endFrame();
         map_.endFrame();
         finishScreenshot();
-        keepNowAndThen();
+        saveRegularly();
         interfaceMs_.push_back(
             std::chrono::duration<double, std::milli>(Clock::now() - frameBegin_).count());
-        if (interfaceMs_.size() > kInterfaceFramesKept) interfaceMs_.pop_front();
+        if (interfaceMs_.size() > kInterfaceFrameHistory) interfaceMs_.pop_front();
     }
     // The pass at hand may take seconds yet.
     keep();
@@ -143,7 +143,7 @@ double Workbench::patience() const {
                                                                                          : 0.25;
 }
 
-void Workbench::takeNews() {
+void Workbench::pollWorkers() {
     if (bench_.wantsRestart) {
         bench_.wantsRestart = false;
         renderer_.reset();
@@ -154,7 +154,7 @@ void Workbench::takeNews() {
         bench_.order = 0;
         bench_.pictureOrder = 0;
         judgedOrder_ = 0;
-        bench_.say("The renderer was started again.");
+        bench_.notify("The renderer was started again.");
     }
     if (const auto latest = renderer_->latest(); latest && latest != bench_.result) {
         bench_.result = latest;
@@ -162,10 +162,10 @@ void Workbench::takeNews() {
         dropAbsentPasses();
         if (isRendered({latest->document, latest->order, bench_.view}, *latest))
             bench_.whole = latest->document;
-        if (!settings_.kept.knowsDevice && !latest->device.renderer.empty()) {
+        if (!settings_.kept.isDeviceKnown && !latest->device.renderer.empty()) {
             // What times mean on a software rasteriser is known without asking the user.
             bench_.panels.isPrecise = latest->device.isSoftware;
-            settings_.kept.knowsDevice = true;
+            settings_.kept.isDeviceKnown = true;
         }
     }
     if (const auto state = referenceWorker_.state(); state != bench_.reference) {
@@ -200,7 +200,7 @@ void Workbench::dropAbsentPasses() {
     if (dropped.empty()) return;
     // A part of the change that it comes from: else undo would lead to where it comes back.
     if (history_[historyPlace_] == before) history_[historyPlace_] = bench_.document;
-    bench_.say(fmt::format(
+    bench_.notify(fmt::format(
         "Forgot that {} off: with these settings there is no such pass.",
         joinNames({dropped.begin(), dropped.end()}) + (dropped.size() == 1 ? " is" : " are")));
 }
@@ -209,18 +209,18 @@ void Workbench::dropAbsentPasses() {
 void Workbench::saveExperimentOnceRendered() {
     if (!bench_.wantsExperiment) return;
     bench_.isPlaying = false;
-    if (isRendered(bench_.asked(), *bench_.result)) {
+    if (isRendered(bench_.requested(), *bench_.result)) {
         bench_.wantsExperiment = false;
         saveExperiment(bench_);
         return;
     }
     const bool isKnown = bench_.result->order >= bench_.pictureOrder || bench_.result->isLost;
-    const std::string why = isKnown ? whyItCannotRun(bench_.asked(), *bench_.result) : "";
-    if (!why.empty()) {
+    const std::string reason = isKnown ? runObstacle(bench_.requested(), *bench_.result) : "";
+    if (!reason.empty()) {
         bench_.wantsExperiment = false;
-        bench_.say("Not saved, for it would not run: " + why, true);
+        bench_.notify("Not saved, for it would not run: " + reason, true);
     } else {
-        bench_.say("The experiment is saved once it has been rendered.");
+        bench_.notify("The experiment is saved once it has been rendered.");
     }
 }
 
@@ -228,7 +228,7 @@ void Workbench::takeDropped() {
     const std::vector<std::string> dropped = window_.takeDropped();
     if (dropped.empty()) return;
     if (!scene::isSceneFile(dropped.front())) {
-        bench_.say(
+        bench_.notify(
             fmt::format("'{}' is no scene: drop a .toml, .gltf or .glb file.", dropped.front()),
             true);
         return;
@@ -236,7 +236,7 @@ void Workbench::takeDropped() {
     bench_.document.scene = dropped.front();
     bench_.document.edits = {};
     bench_.view.probePixel = glm::ivec2(-1);
-    bench_.say(fmt::format("Opened {}.", dropped.front()));
+    bench_.notify(fmt::format("Opened {}.", dropped.front()));
 }
 
 // Whether the hand is at work, or was a moment ago: wheels and keys have no end of their own.
@@ -249,9 +249,10 @@ bool Workbench::isAtWork() {
 void Workbench::submitChanges() {
     FrameOrder order;
     order.document = bench_.document;
-    order.viewing.resource = bench_.view.beside == Beside::reference && bench_.view.resource.empty()
-                                 ? "caustic.irradiance"
-                                 : bench_.view.resource;
+    order.viewing.resource =
+        bench_.view.sidePicture == SidePicture::reference && bench_.view.resource.empty()
+            ? "caustic.irradiance"
+            : bench_.view.resource;
     order.viewing.layer = bench_.view.layer;
     order.viewing.readsOutputs =
         bench_.reference->photons > 0 || !(bench_.panels.isEndless || bench_.isPlaying);
@@ -314,7 +315,7 @@ void Workbench::aimReference() {
         {JudgedFrame{result.order, first.outputs}, JudgedFrame{result.order, second.outputs}});
 }
 
-void Workbench::rememberForUndo() {
+void Workbench::pushUndo() {
     if (isAtWork() || bench_.isPlaying) return;
     if (bench_.document == history_[historyPlace_]) return;
     history_.resize(historyPlace_ + 1);
@@ -377,7 +378,7 @@ void Workbench::saveScreenshot() {
                 return error.what();
             }
         });
-    bench_.say(fmt::format("Writing {}.", file.string()));
+    bench_.notify(fmt::format("Writing {}.", file.string()));
 }
 
 void Workbench::finishScreenshot() {
@@ -387,9 +388,9 @@ void Workbench::finishScreenshot() {
     }
     const std::string problem = screenshot_.get();
     if (!problem.empty()) {
-        bench_.say(problem, true);
+        bench_.notify(problem, true);
     } else if (bench_.message.starts_with("Writing ")) {
-        bench_.say("Wrote " + bench_.message.substr(8));
+        bench_.notify("Wrote " + bench_.message.substr(8));
     }
     framesToDraw_ = std::max(framesToDraw_, 2);
 }

@@ -34,8 +34,8 @@ class Workbench {
   private:
     using Clock = std::chrono::steady_clock;
     void keep();
-    void keepNowAndThen();
-    void takeNews();
+    void saveRegularly();
+    void pollWorkers();
     void takeDropped();
     void dropAbsentPasses();
     void saveExperimentOnceRendered();
@@ -47,7 +47,7 @@ class Workbench {
     void drawStatusBar();
     void useKeys();
     void useSign(unsigned character);
-    void rememberForUndo();
+    void pushUndo();
     void undo(int direction);
     void describe();
     void saveScreenshot();
@@ -56,7 +56,7 @@ class Workbench {
 
     const Registry& registry_;
     std::filesystem::path folder_;  // of settings; "" where nothing can be kept
-    bool canKeep_ = true;
+    bool canSave_ = true;
     Settings settings_;
     Window window_;
     Canvas canvas_;
@@ -73,8 +73,8 @@ class Workbench {
     std::uint64_t playedFrame_ = 0;
     std::deque<Document> history_;  // what was worked on before, the newest last
     std::size_t historyPlace_ = 0;
-    std::string keptText_;
-    Clock::time_point keptAt_;
+    std::string savedText_;
+    Clock::time_point savedAt_;
     int framesToDraw_ = 3;
     std::future<std::string> screenshot_;  // being written; why it failed, or nothing
     Clock::time_point frameBegin_;

@@ -5,38 +5,32 @@
 #include <GLFW/glfw3.h>
 #include <imgui.h>
 
+#include "framework/gui/imgui_keys.h"
 #include "framework/gui/panels/panels.h"
 #include "framework/gui/workbench.h"
 
 namespace kaustik::gui {
-namespace {
-
-bool isPressed(int key) {
-    return ImGui::IsKeyPressed(key, false);
-}
-
-}  // namespace
 
 void Workbench::useKeys() {
     const ImGuiIO& io = ImGui::GetIO();
-    if (isPressed(GLFW_KEY_F1)) bench_.showsHelp = !bench_.showsHelp;
-    if (isPressed(GLFW_KEY_F5)) ++bench_.sceneReloads;
-    if (isPressed(GLFW_KEY_F12)) bench_.wantsScreenshot = true;
+    if (isKeyPressed(GLFW_KEY_F1)) bench_.showsHelp = !bench_.showsHelp;
+    if (isKeyPressed(GLFW_KEY_F5)) ++bench_.sceneReloads;
+    if (isKeyPressed(GLFW_KEY_F12)) bench_.wantsScreenshot = true;
     // Alt is a part of AltGr on some systems, with which characters are typed.
     if (io.WantTextInput || io.KeyAlt || io.KeySuper) return;
     if (io.KeyCtrl) {
-        if (isPressed(GLFW_KEY_S)) bench_.wantsExperiment = true;
-        if (isPressed(GLFW_KEY_Q)) window_.close();
-        if (isPressed(GLFW_KEY_Z)) undo(io.KeyShift ? 1 : -1);
-        if (isPressed(GLFW_KEY_Y)) undo(1);
+        if (isKeyPressed(GLFW_KEY_S)) bench_.wantsExperiment = true;
+        if (isKeyPressed(GLFW_KEY_Q)) window_.close();
+        if (isKeyPressed(GLFW_KEY_Z)) undo(io.KeyShift ? 1 : -1);
+        if (isKeyPressed(GLFW_KEY_Y)) undo(1);
         return;
     }
-    if (isPressed(GLFW_KEY_SPACE) && !ImGui::IsAnyItemFocused())
+    if (isKeyPressed(GLFW_KEY_SPACE) && !ImGui::IsAnyItemFocused())
         bench_.isPlaying = !bench_.isPlaying;
-    if (isPressed(GLFW_KEY_R)) bench_.document.edits.camera.reset();
-    if (isPressed(GLFW_KEY_L)) bench_.view.showsLights = !bench_.view.showsLights;
-    if (isPressed(GLFW_KEY_F)) bench_.view.isFalseColor = !bench_.view.isFalseColor;
-    if (isPressed(GLFW_KEY_P)) bench_.view.probes = !bench_.view.probes;
+    if (isKeyPressed(GLFW_KEY_R)) bench_.document.edits.camera.reset();
+    if (isKeyPressed(GLFW_KEY_L)) bench_.view.showsLights = !bench_.view.showsLights;
+    if (isKeyPressed(GLFW_KEY_F)) bench_.view.isFalseColor = !bench_.view.isFalseColor;
+    if (isKeyPressed(GLFW_KEY_P)) bench_.view.probes = !bench_.view.probes;
     // Signs and digits are on a key's upper half here and on its lower half there.
     for (const ImWchar character : io.InputQueueCharacters)
         useSign(character);

@@ -24,7 +24,7 @@ namespace {
 
 // The process that reads the images that need OpenImageIO. It is kept, since OpenImageIO takes a
 // quarter of a second to load; images of several threads wait for one another.
-Image readElsewhere(const reading::Request& request) {
+Image readInReader(const reading::Request& request) {
     static std::mutex mutex;
     static reading::ReaderProcess reader;
     const std::lock_guard lock(mutex);
@@ -102,13 +102,13 @@ Image readImage(const fs::path& path) {
     // Looked at first, because OpenImageIO says little about a directory or a missing file.
     std::error_code error;
     if (!fs::is_regular_file(path, error)) (void)readFile(path);
-    return readElsewhere({reading::RequestKind::image, name, path, ""});
+    return readInReader({reading::RequestKind::image, name, path, ""});
 }
 
 Image decodeImage(std::string_view bytes, const std::string& name) {
     if (bytes.starts_with("PF") || bytes.starts_with("Pf")) return decodePfm(bytes, name);
     if (bytes.starts_with("P6")) return decodePpm(bytes, name);
-    return readElsewhere({reading::RequestKind::image, name, "", std::string(bytes)});
+    return readInReader({reading::RequestKind::image, name, "", std::string(bytes)});
 }
 
 void writeImage(const fs::path& path, const Image& image) {

@@ -12,7 +12,7 @@ inline constexpr std::int64_t kLargestImageValues = std::int64_t{1} << 29;  // f
 
 // No format packs more values into a byte: 8 pixels of a bit each in 1 of 1032 bytes, in PNG. Below
 // so many values nobody asks, so that a picture of one colour may be as small as its format allows.
-inline constexpr std::int64_t kMostValuesPerByte = 16384;
+inline constexpr std::int64_t kMaxValuesPerByte = 16384;
 inline constexpr std::int64_t kUnaskedValues = std::int64_t{1} << 26;  // 256 MiB
 
 // "" when an image of that size is allowed, else what is wrong, for the end of a sentence that

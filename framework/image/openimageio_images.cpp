@@ -33,7 +33,7 @@ KaustikImageSink sinkFor(Received& received) {
             auto& target = *static_cast<Received*>(context);
             const std::int64_t values = std::int64_t{width} * height * channels;
             if (values > kUnaskedValues &&
-                static_cast<std::uintmax_t>(values / kMostValuesPerByte) > target.sourceBytes) {
+                static_cast<std::uintmax_t>(values / kMaxValuesPerByte) > target.sourceBytes) {
                 target.problem = fmt::format(
                     "it is damaged or cut off ({} bytes cannot hold the {}x{} pixels that its "
                     "header claims)",

@@ -11,7 +11,7 @@
 namespace kaustik {
 namespace {
 
-constexpr const char* kInstead = "use .pfm for float images and .ppm for pictures instead";
+constexpr const char* kAlternative = "use .pfm for float images and .ppm for pictures instead";
 
 }  // namespace
 
@@ -19,13 +19,13 @@ OpenImageIoModule loadOpenImageIoModule(const std::filesystem::path& file) {
     std::error_code error;
     if (!std::filesystem::exists(file, error)) {
         return {nullptr, fmt::format("this build has no OpenImageIO ({} is not there); {}",
-                                     file.string(), kInstead)};
+                                     file.string(), kAlternative)};
     }
     void* const library = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (library == nullptr) {
         const char* const reason = ::dlerror();
         return {nullptr, fmt::format("OpenImageIO cannot be loaded ({}); {}",
-                                     reason != nullptr ? reason : file.c_str(), kInstead)};
+                                     reason != nullptr ? reason : file.c_str(), kAlternative)};
     }
     const auto entry =
         reinterpret_cast<KaustikOpenImageIoEntry>(::dlsym(library, kKaustikOpenImageIoSymbol));
@@ -34,7 +34,7 @@ OpenImageIoModule loadOpenImageIoModule(const std::filesystem::path& file) {
         ::dlclose(library);
         return {nullptr, fmt::format("{} belongs to another version of the program; build the "
                                      "target kaustik_openimageio again, or {}",
-                                     file.string(), kInstead)};
+                                     file.string(), kAlternative)};
     }
     return {functions, ""};
 }

@@ -19,7 +19,7 @@ struct OpenImageIoModule {
 // module.
 [[nodiscard]] OpenImageIoModule loadOpenImageIoModule(const std::filesystem::path& file);
 
-// The module beside the executable, loaded once.
+// The module next to the executable, loaded once.
 [[nodiscard]] const OpenImageIoModule& openImageIo();
 
 }  // namespace kaustik

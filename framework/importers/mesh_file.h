@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Mesh files by Assimp, in this process: what scene::importMesh has a reader process do.
+// Mesh files, in this process: what scene::importMesh has a reader process do.
 #pragma once
 
 #include <filesystem>

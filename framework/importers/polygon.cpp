@@ -66,7 +66,7 @@ class Cutter {
                 // No corner is an ear, as where the polygon crosses itself.
                 while (isCut_[anyCorner])
                     anyCorner = after_[anyCorner];
-                anyCorner = leastHarm(anyCorner);
+                anyCorner = bestCut(anyCorner);
                 result_.isSimple = result_.isSimple && turn(anyCorner) == 0.0;
                 cut(anyCorner);
                 candidates = {before_[anyCorner], after_[anyCorner]};
@@ -114,7 +114,7 @@ class Cutter {
 
     // The first corner from `start` on that bends outwards or not at all. When much was searched
     // for such corners already, `start` itself: nothing good can be made of that polygon.
-    [[nodiscard]] std::size_t leastHarm(std::size_t start) {
+    [[nodiscard]] std::size_t bestCut(std::size_t start) {
         std::size_t i = start;
         while (searched_ < 8 * points_.size() && turn(i) < 0.0) {
             ++searched_;

@@ -9,10 +9,10 @@
 namespace kaustik::scene {
 
 // Deeper than any scene or study goes, and shallow enough for what recurses over tables.
-inline constexpr int kDeepestToml = 32;
+inline constexpr int kMaxTomlDepth = 32;
 
 // Throws ConfigError "file:line: …" for what is not valid TOML or has tables and lists more than
-// kDeepestToml deep, and IoError for a file that cannot be read.
+// kMaxTomlDepth deep, and IoError for a file that cannot be read.
 [[nodiscard]] TomlNode parseTomlFile(const std::filesystem::path& file);
 
 }  // namespace kaustik::scene

@@ -41,7 +41,7 @@ struct VertexKeyHash {
 };
 
 // The file's normal with length 1, or zero where it has to be made.
-glm::vec3 usableNormal(const glm::vec3& normal) {
+glm::vec3 validNormal(const glm::vec3& normal) {
     const glm::dvec3 wide(normal);
     const double length = glm::length(wide);
     if (!std::isfinite(length) || length == 0.0) return glm::vec3(0.0f);
@@ -77,7 +77,7 @@ Mesh joinedMesh(const TriangleSoup& soup, const std::string& where) {
             if (newIndex[old] == kUnused) {
                 // Adding zero turns -0 into 0, which compare equal but have different bits.
                 const auto position = glm::vec3(soup.positions[old] - mesh.origin) + 0.0f;
-                const glm::vec3 normal = usableNormal(soup.normals[old]) + 0.0f;
+                const glm::vec3 normal = validNormal(soup.normals[old]) + 0.0f;
                 const glm::vec2 uv = soup.uvs[old] + 0.0f;
                 const VertexKey key{
                     {position.x, position.y, position.z, normal.x, normal.y, normal.z, uv.x, uv.y}};

@@ -16,6 +16,17 @@ if(TARGET kaustik_openimageio)
     install(TARGETS kaustik_openimageio LIBRARY DESTINATION lib/kaustik)
 endif()
 
+# What editors are told about files.
+file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/schemas)
+foreach(what scene experiment report)
+    set(schema ${CMAKE_BINARY_DIR}/schemas/${what}.schema.json)
+    add_custom_command(OUTPUT ${schema} COMMAND kaustik schema ${what} > ${schema} DEPENDS kaustik)
+    list(APPEND kaustik_schemas ${schema})
+endforeach()
+add_custom_target(schemas ALL DEPENDS ${kaustik_schemas})
+add_dependencies(installable schemas)
+install(FILES ${kaustik_schemas} DESTINATION share/kaustik/schemas)
+
 # Shaders include the headers that they share with C++.
 install(DIRECTORY shaders DESTINATION share/kaustik)
 install(DIRECTORY framework/transport DESTINATION share/kaustik/framework

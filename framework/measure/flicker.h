@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How much an image changes from one moment to another, beside how much the truth does: a still
+// How much an image changes from one moment to another, next to how much the truth does: a still
 // picture may be right on the whole, and shimmer in motion. With I the image at both moments, R the
 // reference with its standard error σ, and the mean over all counted pixels and their three
 // channels, summed in double:

@@ -14,7 +14,7 @@ namespace kaustik::measure {
 namespace {
 
 constexpr std::size_t kColors = 256;
-constexpr float kLeftOut = 0.5f;  // grey, which is no heat colour
+constexpr float kMaskedGrey = 0.5f;  // grey, which is no heat colour
 
 using Rgb = std::array<double, 3>;
 
@@ -66,7 +66,7 @@ std::array<float, 3> heatColor(double t) {
 Image heatMap(const ImagePair& pair, const Plane<float>& errors, double scale) {
     Image picture(errors.width, errors.height, 3);
     for (std::size_t pixel = 0; pixel < errors.values.size(); ++pixel) {
-        std::array<float, 3> color{kLeftOut, kLeftOut, kLeftOut};
+        std::array<float, 3> color{kMaskedGrey, kMaskedGrey, kMaskedGrey};
         if (pair.counts(pixel)) {
             color = heatColor(static_cast<double>(errors.values[pixel]) / scale);
         }

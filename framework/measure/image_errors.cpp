@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "framework/core/json_schema.h"
 #include "framework/measure/ssim.h"
 
 namespace kaustik::measure {
@@ -18,23 +20,6 @@ constexpr const char* kMean = "mean over counted pixels and RGB channels";
 
 json orNull(const std::optional<double>& value) {
     return value ? json(*value) : json(nullptr);
-}
-
-std::optional<double> radiusRatio(const ImageErrors& errors) {
-    if (!errors.encircledEnergy) return std::nullopt;
-    return errors.encircledEnergy->radiusRatio;
-}
-
-json radiiJson(const EncircledEnergyComparison& radii) {
-    json entry{{"image_px", radii.image.radiusPixels},
-               {"reference_px", radii.reference.radiusPixels},
-               {"image_centre_px", {radii.image.centreX, radii.image.centreY}},
-               {"reference_centre_px", {radii.reference.centreX, radii.reference.centreY}}};
-    if (radii.imageRadiusMeters) {
-        entry["image_m"] = *radii.imageRadiusMeters;
-        entry["reference_m"] = *radii.referenceRadiusMeters;
-    }
-    return entry;
 }
 
 json formulasJson(const ImageErrors& errors) {
@@ -123,7 +108,7 @@ ImageErrors measureErrors(const ImagePair& pair, const MeasureParams& params) {
     return errors;
 }
 
-std::string whyAbsent(const ImageErrors& errors, std::string_view key) {
+std::string absenceReason(const ImageErrors& errors, std::string_view key) {
     const char* const black = "the reference is black, which gives no scale to judge by";
     if (key == "rel_mse" && !errors.relMse) return black;
     if (key == "flip_ldr" && !errors.flipLdr) return black;
@@ -140,33 +125,76 @@ std::string whyAbsent(const ImageErrors& errors, std::string_view key) {
     return "";
 }
 
-json toJson(const ImageErrors& errors) {
-    json result{{"rmse", errors.rmse},
-                {"rel_mse", orNull(errors.relMse)},
-                {"mae", errors.mae},
-                {"ssim", orNull(errors.ssim)},
-                {"flip_ldr", orNull(errors.flipLdr)},
-                {"flip_hdr", orNull(errors.flipHdr)},
-                {"energy_ratio", orNull(errors.energyRatio)},
-                {"encircled_energy_radius_ratio", orNull(radiusRatio(errors))},
-                {"counted_pixels", errors.countedPixels},
-                {"formulas", formulasJson(errors)}};
-    json reasons = json::object();
-    for (const auto& [key, value] : result.items()) {
-        if (value.is_null()) reasons[key] = whyAbsent(errors, key);
-    }
-    if (!reasons.empty()) result["reasons"] = std::move(reasons);
+struct RadiiTable {
+    EncircledEnergyComparison radii;
+};
+template <class F>
+void reflect(F& f, const RadiiTable& table) {
+    const EncircledEnergyComparison& radii = table.radii;
+    f.field("image_px", radii.image.radiusPixels, "The image's radius");
+    f.field("reference_px", radii.reference.radiusPixels, "The reference's radius");
+    f.field("image_centre_px", std::array{radii.image.centreX, radii.image.centreY},
+            "From the upper left corner");
+    f.field("reference_centre_px", std::array{radii.reference.centreX, radii.reference.centreY},
+            "From the upper left corner");
+    f.field("image_m", radii.imageRadiusMeters, "Where the size of a pixel is known");
+    f.field("reference_m", radii.referenceRadiusMeters, "Where the size of a pixel is known");
+}
+
+struct NoiseTable {
+    ReferenceNoise noise;
+    bool hasRelMse = false;
+    bool hasEnergyRatio = false;
+};
+template <class F>
+void reflect(F& f, const NoiseTable& table) {
+    const auto where = [](bool isThere, double value) {
+        return isThere ? std::optional(value) : std::nullopt;
+    };
+    f.field("rmse", table.noise.rmse, "");
+    f.field("mae", table.noise.mae, "");
+    f.fieldOrNull("rel_mse", where(table.hasRelMse, table.noise.relMse), "", "");
+    f.fieldOrNull("energy_ratio", where(table.hasEnergyRatio, table.noise.energyRatio), "",
+                  "One standard deviation");
+}
+
+template <class F>
+void reflect(F& f, const ImageErrors& errors) {
+    const auto orNull = [&](const char* key, const std::optional<double>& value,
+                            const char* sentence) {
+        f.fieldOrNull(key, value, absenceReason(errors, key), sentence);
+    };
+    std::optional<double> radiusRatio;
+    std::optional<RadiiTable> radii;
+    std::optional<NoiseTable> noise;
     if (errors.encircledEnergy) {
-        result["encircled_energy_radius"] = radiiJson(*errors.encircledEnergy);
+        radiusRatio = errors.encircledEnergy->radiusRatio;
+        radii = {*errors.encircledEnergy};
     }
-    if (const auto& noise = errors.referenceNoise) {
-        result["truth_noise"] = {
-            {"rmse", noise->rmse},
-            {"mae", noise->mae},
-            {"rel_mse", errors.relMse ? json(noise->relMse) : json(nullptr)},
-            {"energy_ratio", errors.energyRatio ? json(noise->energyRatio) : json(nullptr)}};
+    if (errors.referenceNoise) {
+        noise = {*errors.referenceNoise, errors.relMse.has_value(), errors.energyRatio.has_value()};
     }
-    return result;
+    f.field("rmse", errors.rmse, "Root mean square error");
+    orNull("rel_mse", errors.relMse, "Mean square error relative to the reference");
+    f.field("mae", errors.mae, "Mean absolute error");
+    orNull("ssim", errors.ssim, "Structural similarity");
+    orNull("flip_ldr", errors.flipLdr, "FLIP of the images as a display shows them");
+    orNull("flip_hdr", errors.flipHdr, "The largest FLIP over exposures");
+    orNull("energy_ratio", errors.energyRatio, "Flux over the reference's");
+    orNull("encircled_energy_radius_ratio", radiusRatio,
+           "Radius that holds a share of the flux, over the reference's");
+    f.field("encircled_energy_radius", radii, "These radii");
+    f.field("truth_noise", noise, "What the reference's own error makes of each measure");
+    f.field("counted_pixels", errors.countedPixels, "That were compared");
+    f.field("formulas", formulasJson(errors), "By measure: its formula and parameters");
+}
+
+json toJson(const ImageErrors& errors) {
+    return jsonOf(errors);
+}
+
+json imageErrorsSchema() {
+    return jsonSchemaOf<ImageErrors>();
 }
 
 double heatMapScale(const ImageErrors& errors, const Plane<float>& absoluteErrors) {

@@ -25,7 +25,8 @@ struct MeasureParams {
     EncircledEnergyParams encircledEnergy;
 };
 
-// A value that does not exist is absent, and `whyAbsent` says why: a black reference has no scale.
+// A value that does not exist is absent, and `absenceReason` says why: a black reference has no
+// scale.
 struct ImageErrors {
     double rmse = 0.0;
     double mae = 0.0;
@@ -52,9 +53,10 @@ struct ImageErrors {
 // (null, with a sentence under `reasons`, where absent); the radii; `truth_noise` where known; and
 // `formulas`, each with its text and the numbers that went into it.
 [[nodiscard]] nlohmann::json toJson(const ImageErrors& errors);
+[[nodiscard]] nlohmann::json imageErrorsSchema();
 
 // Why the value under that key of the JSON is absent, or "" where it is there.
-[[nodiscard]] std::string whyAbsent(const ImageErrors& errors, std::string_view key);
+[[nodiscard]] std::string absenceReason(const ImageErrors& errors, std::string_view key);
 
 // The full scale of a heat map of |I - R| which is the same for all images with this reference:
 // its typical luminance; the largest error where the reference is black. Never 0.

@@ -35,7 +35,7 @@ glm::dvec3 cornerOf(const scene::Mesh& mesh, const scene::Object& object, std::u
 
 std::optional<double> firstCrossing(const scene::Scene& scene, const scene::Object& object,
                                     const glm::dvec3& origin, const glm::dvec3& direction,
-                                    bool leaves, double least) {
+                                    bool leaves, double minimum) {
     const scene::Mesh& mesh = scene.meshes[object.mesh];
     std::optional<double> nearest;
     for (const glm::uvec3& t : mesh.triangles) {
@@ -51,7 +51,7 @@ std::optional<double> firstCrossing(const scene::Scene& scene, const scene::Obje
         const double v = glm::dot(ab, across) / closing;
         const double distance = glm::dot(toA, area) / closing;
         // A ray through the seam of two triangles belongs to both.
-        if (u < -1e-9 || v < -1e-9 || u + v > 1.0 + 1e-9 || distance < least) continue;
+        if (u < -1e-9 || v < -1e-9 || u + v > 1.0 + 1e-9 || distance < minimum) continue;
         if (!nearest || distance < *nearest) nearest = distance;
     }
     return nearest;

@@ -31,11 +31,11 @@ struct SurfacePoint {
                                                     const glm::dvec3& point);
 
 // Distance along a ray to an object's first triangle that it hits from within (it leaves there) or
-// from outside; none where it hits none. Starts count from `least` on, m.
+// from outside; none where it hits none. Starts count from `minimum` on, m.
 [[nodiscard]] std::optional<double> firstCrossing(const scene::Scene& scene,
                                                   const scene::Object& object,
                                                   const glm::dvec3& origin,
                                                   const glm::dvec3& direction, bool leaves,
-                                                  double least);
+                                                  double minimum);
 
 }  // namespace kaustik::numerics

@@ -39,14 +39,14 @@ void Lab::expect(const std::string& subject, const std::string& what, double exp
         {caseId_, subject, what, expected, measured, tolerance.value, tolerance.reason});
 }
 
-void Lab::expectAtLeast(const std::string& subject, const std::string& what, double least,
+void Lab::expectAtLeast(const std::string& subject, const std::string& what, double minimum,
                         double measured, const std::string& reason) {
-    rows_.push_back({caseId_, subject, what, least, measured, 0.0, reason, Bound::atLeast});
+    rows_.push_back({caseId_, subject, what, minimum, measured, 0.0, reason, Bound::atLeast});
 }
 
-void Lab::expectAtMost(const std::string& subject, const std::string& what, double most,
+void Lab::expectAtMost(const std::string& subject, const std::string& what, double maximum,
                        double measured, const std::string& reason) {
-    rows_.push_back({caseId_, subject, what, most, measured, 0.0, reason, Bound::atMost});
+    rows_.push_back({caseId_, subject, what, maximum, measured, 0.0, reason, Bound::atMost});
 }
 
 std::vector<std::string> Lab::nodesOf(const std::string& stage) const {
@@ -64,7 +64,7 @@ Lab::Choice Lab::choose(const std::string& stage, const std::string& node) const
     }
     Choice choice{registry_.techniques().front().name, {{stage, node}}, stage + "." + node};
     if (stage == ReconstructStage::name) {
-        const std::string filter = registry_.findNode(stage, node).description.filter;
+        const std::string filter = registry_.traits<ReconstructStage>(node).filter;
         if (!filter.empty()) choice.settings.emplace_back(FilterStage::name, filter);
     }
     return choice;
@@ -72,18 +72,17 @@ Lab::Choice Lab::choose(const std::string& stage, const std::string& node) const
 
 bool Lab::goesThroughBodies(const Choice& specular) const {
     const std::size_t dot = specular.subject.find('.');
-    return registry_.findNode(SpecularStage::name, specular.subject.substr(dot + 1))
-        .description.throughBodies;
+    return registry_.traits<SpecularStage>(specular.subject.substr(dot + 1)).throughBodies;
 }
 
-Sees Lab::seenBy(const Choice& tracer) const {
+TracerReach Lab::tracerReach(const Choice& tracer) const {
     const std::size_t dot = tracer.subject.find('.');
-    return registry_.findNode(TraceStage::name, tracer.subject.substr(dot + 1)).description.sees;
+    return registry_.traits<TraceStage>(tracer.subject.substr(dot + 1)).reach;
 }
 
-Sees Lab::seenBy(const Technique& technique) const {
+TracerReach Lab::tracerReach(const Technique& technique) const {
     const std::string tracer = registry_.makeParams(technique).choice(TraceStage::name);
-    return registry_.findNode(TraceStage::name, tracer).description.sees;
+    return registry_.traits<TraceStage>(tracer).reach;
 }
 
 Frame Lab::render(const Technique& technique, const scene::Scene& scene, FrameRequest request) {

@@ -17,7 +17,7 @@ struct Tolerance {
     std::string reason;
 };
 inline const Tolerance kExactly{0.0, "a count, or exact in 32 bits"};
-inline constexpr const char* kEnough = "of fewer the case would say little";
+inline constexpr const char* kTooFewReason = "of fewer the case would say little";
 
 class Lab {
   public:
@@ -38,9 +38,9 @@ class Lab {
     }
     // A number that is bounded on one side alone: how many photons a case compares, say. `reason`:
     // why the bound is what it is.
-    void expectAtLeast(const std::string& subject, const std::string& what, double least,
+    void expectAtLeast(const std::string& subject, const std::string& what, double minimum,
                        double measured, const std::string& reason);
-    void expectAtMost(const std::string& subject, const std::string& what, double most,
+    void expectAtMost(const std::string& subject, const std::string& what, double maximum,
                       double measured, const std::string& reason);
 
     // The nodes that answer a stage, and the settings that choose one: those of the first technique
@@ -63,12 +63,13 @@ class Lab {
     }
 
     // What a tracer can find.
-    [[nodiscard]] Sees seenBy(const Choice& tracer) const;
-    [[nodiscard]] Sees seenBy(const Technique& technique) const;
+    [[nodiscard]] TracerReach tracerReach(const Choice& tracer) const;
+    [[nodiscard]] TracerReach tracerReach(const Technique& technique) const;
 
     // Whether it finds no specular surface at all.
-    [[nodiscard]] bool seesReceiversAlone(const Choice& tracer) const {
-        return seenBy(tracer) == Sees::flatReceivers || seenBy(tracer) == Sees::lightFront;
+    [[nodiscard]] bool seesReceiversOnly(const Choice& tracer) const {
+        return tracerReach(tracer) == TracerReach::flatReceivers ||
+               tracerReach(tracer) == TracerReach::lightFront;
     }
     // Whether photons that enter a body go on from where they leave it.
     [[nodiscard]] bool goesThroughBodies(const Choice& specular) const;

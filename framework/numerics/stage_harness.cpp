@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "framework/numerics/bench.h"
+#include "framework/numerics/stage_harness.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,8 +33,8 @@ struct Batch {
 };
 
 // `photonFate` and `hitFate`: what all photons, and the hits that they come with, are.
-Batch makeBatch(const scene::Scene& scene, const std::vector<BenchPhoton>& photons,
-                std::uint32_t photonFate, std::uint32_t hitFate, BenchSize size) {
+Batch makeBatch(const scene::Scene& scene, const std::vector<StagePhoton>& photons,
+                std::uint32_t photonFate, std::uint32_t hitFate, StageSize size) {
     const glm::dmat4 toView =
         render::makeEyeView(scene.camera, size.width, size.height).worldToView;
     const glm::dmat3 rotation(toView);
@@ -45,7 +45,7 @@ Batch makeBatch(const scene::Scene& scene, const std::vector<BenchPhoton>& photo
     batch.photons.resize(static_cast<std::size_t>(batch.width) *
                          static_cast<std::size_t>(batch.height));
     for (std::size_t i = 0; i < photons.size(); ++i) {
-        const BenchPhoton& photon = photons[i];
+        const StagePhoton& photon = photons[i];
         const glm::dvec3 position(toView * glm::dvec4(photon.position, 1.0));
         Injected& injected = batch.photons[i];
         injected.photonPosition = texel(position, photon.footprintMeters);
@@ -82,14 +82,14 @@ Hits inject(FrameBuilder& frame, const Batch& batch) {
 }
 
 // Stands for the stages that the bench leaves out.
-struct Nothing {
+struct NoData {
     IrradianceMap caustic;
     Picture picture;
 };
-Nothing addNothing(FrameBuilder& frame, const Ledger& ledger) {
-    return frame.pass<Nothing>(
+NoData addNothing(FrameBuilder& frame, const Ledger& ledger) {
+    return frame.pass<NoData>(
         "bench.nothing", "stands for the stages that the case leaves out",
-        [&](graph::PassSetup& setup, Nothing& data) {
+        [&](graph::PassSetup& setup, NoData& data) {
             const int w = frame.width();
             const int h = frame.height();
             data.caustic.irradiance = setup.create<IrradianceTexel>("bench.irradiance", w, h);
@@ -97,7 +97,7 @@ Nothing addNothing(FrameBuilder& frame, const Ledger& ledger) {
             data.picture.radiance = setup.create<RadianceTexel>("bench.radiance", w, h);
             data.picture.display = setup.create<DisplayTexel>("display", w, h);
         },
-        [](const Nothing& data, gl::PassContext& context) {
+        [](const NoData& data, gl::PassContext& context) {
             for (const graph::ResourceRef& handle : std::initializer_list<graph::ResourceRef>{
                      data.caustic.irradiance, data.picture.radiance, data.picture.display}) {
                 context.texture(handle).clear({0, 0, 0, 0});
@@ -112,7 +112,7 @@ Photons keepPhotons(FrameBuilder& frame, const Photons& photons) {
 }
 
 Frame renderBench(Lab& lab, const Lab::Choice& choice, const scene::Scene& scene,
-                  const Settings& settings, BenchSize size, BuildFrame build) {
+                  const Settings& settings, StageSize size, BuildFrame build) {
     Technique technique = lab.registry().findTechnique(choice.technique);
     technique.build = std::move(build);
     FrameRequest request;
@@ -125,15 +125,15 @@ Frame renderBench(Lab& lab, const Lab::Choice& choice, const scene::Scene& scene
 
 // The case's photons and what became of them, in its own order; photons that are in no list any
 // more are of fate kFateEnded.
-std::vector<BenchHit> benchHits(const Frame& frame, const Hits& found, std::size_t count) {
+std::vector<StageHit> stageHits(const Frame& frame, const Hits& found, std::size_t count) {
     const std::vector<PhotonTexel> photons = readPhotons(frame.renderer(), found.incoming);
     const std::vector<HitTexel> texels = readHits(frame.renderer(), found);
     const glm::dmat3 back(glm::transpose(glm::dmat3(frame.view().worldToView)));
-    std::vector<BenchHit> hits(count);
+    std::vector<StageHit> hits(count);
     for (std::size_t i = 0; i < photons.size(); ++i) {
         const std::size_t cell = photons[i].origin.cell;
         if (cell >= count) continue;
-        BenchHit& hit = hits[cell];
+        StageHit& hit = hits[cell];
         // Of photons that are there more than once the first one counts.
         if (hit.fate != transport::kFateNone) continue;
         hit.position = frame.toWorld(texels[i].position);
@@ -150,12 +150,12 @@ std::vector<BenchHit> benchHits(const Frame& frame, const Hits& found, std::size
 
 std::size_t Traced::hitCount() const {
     return static_cast<std::size_t>(
-        std::count_if(hits.begin(), hits.end(), [](const BenchHit& hit) { return hit.isHit(); }));
+        std::count_if(hits.begin(), hits.end(), [](const StageHit& hit) { return hit.isHit(); }));
 }
 
 Traced tracePhotons(Lab& lab, const Lab::Choice& tracer, const scene::Scene& scene,
-                    const std::vector<BenchPhoton>& photons, const Settings& settings,
-                    BenchSize size) {
+                    const std::vector<StagePhoton>& photons, const Settings& settings,
+                    StageSize size) {
     const Batch batch =
         makeBatch(scene, photons, transport::kFateInFlight, transport::kFateSpecular, size);
     const Frame frame =
@@ -167,48 +167,48 @@ Traced tracePhotons(Lab& lab, const Lab::Choice& tracer, const scene::Scene& sce
             injected.suffix = "_1";  // the case's own hits have the plain names
             const Hits hits = builder.run<TraceStage>(injected, Surfaces{geometry, eye, layers});
             builder.request(hits);
-            const Nothing nothing =
+            const NoData noData =
                 addNothing(builder, closeBatch(builder, hits, hits.incoming.ledger));
-            return FrameOutputs{nothing.picture,
-                                nothing.caustic,
+            return FrameOutputs{noData.picture,
+                                noData.caustic,
                                 eye,
                                 layers,
                                 hits,
-                                nothing.caustic.ledger,
+                                noData.caustic.ledger,
                                 {},
                                 {},
                                 {},
                                 {}};
         });
-    return {benchHits(frame, frame.renderer().outputs().hits, photons.size()),
+    return {stageHits(frame, frame.renderer().outputs().hits, photons.size()),
             frame.renderer().ledger()};
 }
 
 Traced interactPhotons(Lab& lab, const Lab::Choice& specular, const scene::Scene& scene,
-                       const std::vector<BenchPhoton>& photons,
+                       const std::vector<StagePhoton>& photons,
                        std::vector<std::vector<std::uint32_t>>* media) {
     const Batch batch =
-        makeBatch(scene, photons, transport::kFateInFlight, transport::kFateSpecular, BenchSize{});
+        makeBatch(scene, photons, transport::kFateInFlight, transport::kFateSpecular, StageSize{});
     Photons after;
     const Frame frame = renderBench(lab, specular, scene, {}, {}, [&](FrameBuilder& builder) {
         const Geometry geometry = builder.run<GeometryStage>();
         const EyeBuffer eye = builder.run<EyeStage>(geometry);
         after = keepPhotons(builder, builder.run<SpecularStage>(inject(builder, batch),
                                                                 Surfaces{geometry, eye, {}}));
-        const Nothing nothing = addNothing(builder, after.ledger);
+        const NoData noData = addNothing(builder, after.ledger);
         return FrameOutputs{
-            nothing.picture, nothing.caustic, eye, {}, {}, nothing.caustic.ledger, {}, {}, {}, {}};
+            noData.picture, noData.caustic, eye, {}, {}, noData.caustic.ledger, {}, {}, {}, {}};
     });
     const glm::dmat3 back(glm::transpose(glm::dmat3(frame.view().worldToView)));
     const scene::Dielectrics dielectrics = numberDielectrics(scene);
-    Traced result{std::vector<BenchHit>(photons.size()), frame.renderer().ledger()};
+    Traced result{std::vector<StageHit>(photons.size()), frame.renderer().ledger()};
     std::vector<std::uint32_t> mediaOf(photons.size(), 0);
-    for (BenchHit& hit : result.hits)
+    for (StageHit& hit : result.hits)
         hit.fate = transport::kFateEnded;
     for (const PhotonTexel& photon : readPhotons(frame.renderer(), after)) {
         // The branch that a node follows first; the other branch of a split comes after it.
         if (photon.origin.cell >= photons.size()) continue;
-        BenchHit& hit = result.hits[photon.origin.cell];
+        StageHit& hit = result.hits[photon.origin.cell];
         if (hit.fate != transport::kFateEnded) continue;
         hit.position = frame.toWorld(photon.position);
         hit.distanceMeters = static_cast<double>(photon.footprintMeters);
@@ -239,7 +239,7 @@ Emitted emittedOf(const Frame& frame, const Photons& photons, std::size_t cells)
     for (const PhotonTexel& photon : readPhotons(frame.renderer(), photons)) {
         const std::size_t cell = photon.origin.light * (cells / lights) + photon.origin.cell;
         if (photon.fate == transport::kFateNone) continue;
-        BenchHit& hit = emitted.hits[cell];
+        StageHit& hit = emitted.hits[cell];
         // The branch that a node takes first; the other one of a split comes after it.
         if (hit.fate != transport::kFateNone) continue;
         hit.position = frame.toWorld(photon.position);
@@ -266,9 +266,9 @@ Bent emitAndInteract(Lab& lab, const Lab::Choice& emitter, const scene::Scene& s
             Samples{0, builder.needs().lights, 0, builder.photonsOfALight().height, "", {}});
         before = keepPhotons(builder, hits.incoming);
         after = keepPhotons(builder, builder.run<SpecularStage>(hits, Surfaces{geometry, eye, {}}));
-        const Nothing nothing = addNothing(builder, after.ledger);
+        const NoData noData = addNothing(builder, after.ledger);
         return FrameOutputs{
-            nothing.picture, nothing.caustic, eye, {}, {}, nothing.caustic.ledger, {}, {}, {}, {}};
+            noData.picture, noData.caustic, eye, {}, {}, noData.caustic.ledger, {}, {}, {}, {}};
     });
     const auto cells = static_cast<std::size_t>(before.capacity());
     return {emittedOf(frame, before, cells), emittedOf(frame, after, cells),
@@ -281,8 +281,8 @@ Emitted emitPhotons(Lab& lab, const Lab::Choice& emitter, const scene::Scene& sc
 }
 
 Frame reconstructHits(Lab& lab, const Lab::Choice& reconstruct, const scene::Scene& scene,
-                      const std::vector<BenchPhoton>& photons, const Settings& settings,
-                      BenchSize size) {
+                      const std::vector<StagePhoton>& photons, const Settings& settings,
+                      StageSize size) {
     const Batch batch =
         makeBatch(scene, photons, transport::kFateInFlight, transport::kFateReceiver, size);
     return renderBench(lab, reconstruct, scene, settings, size, [&batch](FrameBuilder& builder) {
@@ -293,9 +293,9 @@ Frame reconstructHits(Lab& lab, const Lab::Choice& reconstruct, const scene::Sce
         const CausticMap map =
             builder.run<FilterStage>(builder.run<ReconstructStage>(hits, surfaces, CausticMap{}));
         const IrradianceMap caustic = builder.run<GatherStage>(map, surfaces);
-        const Nothing nothing = addNothing(builder, caustic.ledger);
-        return FrameOutputs{nothing.picture, caustic, eye, {},  hits,
-                            caustic.ledger,  {},      {},  map, {}};
+        const NoData noData = addNothing(builder, caustic.ledger);
+        return FrameOutputs{noData.picture, caustic, eye, {},  hits,
+                            caustic.ledger, {},      {},  map, {}};
     });
 }
 
@@ -326,8 +326,8 @@ double StoredFlux::in(int x0, int y0, int x1, int y1) const {
 }
 
 Frame scatterPhotons(Lab& lab, const Lab::Choice& media, const scene::Scene& scene,
-                     const std::vector<BenchPhoton>& photons, const Settings& settings,
-                     BenchSize size) {
+                     const std::vector<StagePhoton>& photons, const Settings& settings,
+                     StageSize size) {
     Batch batch =
         makeBatch(scene, photons, transport::kFateInFlight, transport::kFateReceiver, size);
     for (std::size_t i = 0; i < photons.size(); ++i) {
@@ -340,9 +340,9 @@ Frame scatterPhotons(Lab& lab, const Lab::Choice& media, const scene::Scene& sce
         const EyeBuffer eye = builder.run<EyeStage>(geometry);
         const Hits hits = inject(builder, batch);
         const InScattered scattered = builder.run<MediaStage>(hits, eye, InScattered{});
-        const Nothing nothing = addNothing(builder, hits.incoming.ledger);
-        return FrameOutputs{nothing.picture,        nothing.caustic, eye, {}, hits,
-                            nothing.caustic.ledger, scattered,       {},  {}, {}};
+        const NoData noData = addNothing(builder, hits.incoming.ledger);
+        return FrameOutputs{noData.picture,        noData.caustic, eye, {}, hits,
+                            noData.caustic.ledger, scattered,      {},  {}, {}};
     });
 }
 

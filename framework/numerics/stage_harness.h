@@ -13,13 +13,13 @@
 namespace kaustik::numerics {
 
 // A photon on its way, and the specular surface that it leaves, if any.
-struct BenchPhoton {
+struct StagePhoton {
     glm::dvec3 position{0.0};
     glm::dvec3 direction{0.0, 0.0, -1.0};  // unit
     glm::dvec3 fluxWatts{1.0};
     double footprintMeters = 0.01;
     std::vector<std::uint32_t> media = {};  // material index + 1, the innermost first
-    std::uint32_t leftSide = transport::kLeftNothing;
+    std::uint32_t leftSide = transport::kLeftNone;
     glm::dvec3 startNormal{0.0};      // outward
     std::uint32_t startMaterial = 0;  // index + 1; 0: it starts in the open
     std::uint32_t startFate = transport::kFateNone;
@@ -27,7 +27,7 @@ struct BenchPhoton {
 };
 
 // Where one arrived, or what it became.
-struct BenchHit {
+struct StageHit {
     glm::dvec3 position{0.0};
     double distanceMeters = 0.0;
     glm::dvec3 normal{0.0};
@@ -39,34 +39,34 @@ struct BenchHit {
     }
 };
 
-struct BenchSize {
+struct StageSize {
     int width = 128;
     int height = 128;
 };
 
 struct Traced {
-    std::vector<BenchHit> hits;  // by photon
+    std::vector<StageHit> hits;  // by photon
     EnergyLedger ledger;
     [[nodiscard]] std::size_t hitCount() const;
 };
 
 // Traces photons to their first hits.
 [[nodiscard]] Traced tracePhotons(Lab& lab, const Lab::Choice& tracer, const scene::Scene& scene,
-                                  const std::vector<BenchPhoton>& photons,
-                                  const Settings& settings = {}, BenchSize size = {});
+                                  const std::vector<StagePhoton>& photons,
+                                  const Settings& settings = {}, StageSize size = {});
 
 // Photons that have just hit a specular surface, at `startNormal` and `startMaterial`, interact
 // there. A result of fate kFateInFlight goes on; `normal` of it is its direction.
 [[nodiscard]] Traced interactPhotons(Lab& lab, const Lab::Choice& specular,
                                      const scene::Scene& scene,
-                                     const std::vector<BenchPhoton>& photons,
+                                     const std::vector<StagePhoton>& photons,
                                      std::vector<std::vector<std::uint32_t>>* media = nullptr);
 
 // Photons as they leave the lights of the scene: where they first hit a specular surface.
 struct Emitted {
-    std::vector<BenchHit> hits;
+    std::vector<StageHit> hits;
     std::vector<glm::dvec3> directions;
-    std::vector<std::vector<std::uint32_t>> media;  // as BenchPhoton's
+    std::vector<std::vector<std::uint32_t>> media;  // as StagePhoton's
 };
 [[nodiscard]] Emitted emitPhotons(Lab& lab, const Lab::Choice& emitter, const scene::Scene& scene,
                                   const Settings& settings);
@@ -83,8 +83,8 @@ struct Bent {
 // frame has "caustic.irradiance" and "eye.receiver". They are of the scene's first light.
 [[nodiscard]] Frame reconstructHits(Lab& lab, const Lab::Choice& reconstruct,
                                     const scene::Scene& scene,
-                                    const std::vector<BenchPhoton>& photons,
-                                    const Settings& settings = {}, BenchSize size = {});
+                                    const std::vector<StagePhoton>& photons,
+                                    const Settings& settings = {}, StageSize size = {});
 
 // What the first map of such a frame holds, of green light, before any filter: W by texel, lower
 // left first.
@@ -101,7 +101,7 @@ struct StoredFlux {
 // What photons that were on their way scatter towards the eye: outputs().inScattered, invalid where
 // the node leaves it out.
 [[nodiscard]] Frame scatterPhotons(Lab& lab, const Lab::Choice& media, const scene::Scene& scene,
-                                   const std::vector<BenchPhoton>& photons,
-                                   const Settings& settings = {}, BenchSize size = {});
+                                   const std::vector<StagePhoton>& photons,
+                                   const Settings& settings = {}, StageSize size = {});
 
 }  // namespace kaustik::numerics

@@ -99,10 +99,10 @@ std::vector<Case> selectCases(const Suite& suite, const std::vector<std::string>
     }
     std::vector<Case> selected;
     for (const Case& c : suite.cases()) {
-        const bool isWanted =
+        const bool isRequested =
             patterns.empty() || std::any_of(patterns.begin(), patterns.end(),
                                             [&](const std::string& p) { return matches(p, c.id); });
-        if (isWanted) selected.push_back(c);
+        if (isRequested) selected.push_back(c);
     }
     return selected;
 }

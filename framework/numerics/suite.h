@@ -17,7 +17,7 @@ class Lab;
 // that below or above it.
 enum class Bound { near, atLeast, atMost };
 
-// One measured number beside what it must be.
+// One measured number next to what it must be.
 struct Row {
     std::string caseId;
     std::string subject;  // the node or the shader file that was measured

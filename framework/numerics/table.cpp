@@ -32,7 +32,7 @@ std::string shortNumber(double value) {
 }
 
 // With its bound: the columns of numbers hold numbers alone.
-std::string whatOf(const Row& row) {
+std::string quantityOf(const Row& row) {
     if (row.bound == Bound::near) return row.what;
     return row.what + (row.bound == Bound::atLeast ? ", at least" : ", at most");
 }
@@ -57,10 +57,10 @@ std::size_t countFailures(const Table& table) {
 std::string makeCsv(const Table& table) {
     std::string text = "case,subject,what,expected,measured,tolerance,verdict,reason\n";
     for (const Row& row : table.rows) {
-        text +=
-            fmt::format("{},{},{},{},{},{},{},{}\n", row.caseId, quoted(row.subject),
-                        quoted(whatOf(row)), exactNumber(row.expected), exactNumber(row.measured),
-                        exactNumber(row.tolerance), verdict(row), quoted(row.reason));
+        text += fmt::format("{},{},{},{},{},{},{},{}\n", row.caseId, quoted(row.subject),
+                            quoted(quantityOf(row)), exactNumber(row.expected),
+                            exactNumber(row.measured), exactNumber(row.tolerance), verdict(row),
+                            quoted(row.reason));
     }
     return text;
 }
@@ -76,7 +76,7 @@ nlohmann::json makeJson(const Table& table) {
         for (const Row& row : table.rows) {
             if (row.caseId != c.id) continue;
             rows.push_back({{"subject", row.subject},
-                            {"what", whatOf(row)},
+                            {"what", quantityOf(row)},
                             {"expected", jsonNumber(row.expected)},
                             {"measured", jsonNumber(row.measured)},
                             {"tolerance", jsonNumber(row.tolerance)},
@@ -97,9 +97,10 @@ std::string makeMarkdown(const Table& table) {
             "|\n| --- | --- | --- | --- | --- | --- | --- |\n";
         for (const Row& row : table.rows) {
             if (row.caseId != c.id) continue;
-            text += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", row.subject, whatOf(row),
-                                shortNumber(row.expected), shortNumber(row.measured),
-                                shortNumber(row.tolerance), verdict(row), row.reason);
+            text +=
+                fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", row.subject, quantityOf(row),
+                            shortNumber(row.expected), shortNumber(row.measured),
+                            shortNumber(row.tolerance), verdict(row), row.reason);
         }
     }
     return text;
@@ -110,7 +111,7 @@ std::string makeText(const Table& table) {
     std::size_t whatWidth = 4;
     for (const Row& row : table.rows) {
         subjectWidth = std::max(subjectWidth, row.subject.size());
-        whatWidth = std::max(whatWidth, whatOf(row).size());
+        whatWidth = std::max(whatWidth, quantityOf(row).size());
     }
     const auto line = [&](const auto&... cells) {
         return fmt::format("{:<{}}  {:<{}}  {:>13}  {:>13}  {:>10}  {}\n", cells...);
@@ -122,7 +123,7 @@ std::string makeText(const Table& table) {
                             "tolerance", "");
         for (const Row& row : table.rows) {
             if (row.caseId != c.id) continue;
-            text += "  " + line(row.subject, subjectWidth, whatOf(row), whatWidth,
+            text += "  " + line(row.subject, subjectWidth, quantityOf(row), whatWidth,
                                 shortNumber(row.expected), shortNumber(row.measured),
                                 fmt::format("{:.3g}", row.tolerance), verdict(row));
         }

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cassert>
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -91,6 +93,16 @@ nlohmann::json Field::json() const {
                       target);
 }
 
+Field& Field::when(Condition whyNoEffect) {
+    conditions.push_back(std::move(whyNoEffect));
+    return *this;
+}
+
+Field& Field::when(bool hasEffect, const std::string& otherwise) {
+    if (!hasEffect && obstacle.empty()) obstacle = otherwise;
+    return *this;
+}
+
 void Field::set(std::string_view text, std::string_view fullName, std::string_view where) const {
     const std::string numberText = fmt::format("a number from {:g} to {:g}{}{}", minimum, maximum,
                                                unit.empty() ? "" : " ", unit);
@@ -140,52 +152,60 @@ void Field::set(std::string_view text, std::string_view fullName, std::string_vi
         target);
 }
 
-void FieldList::field(float& value, std::string name, std::string sentence, std::string unit,
-                      Range<float> allowed) {
-    fields_.push_back({std::move(name),
-                       std::move(sentence),
-                       std::move(unit),
-                       &value,
-                       allowed.minimum,
-                       allowed.maximum,
-                       {}});
+Field& FieldList::field(float& value, std::string name, std::string sentence, std::string unit,
+                        Range<float> allowed) {
+    return fields_.emplace_back(Field{std::move(name),
+                                      std::move(sentence),
+                                      std::move(unit),
+                                      &value,
+                                      allowed.minimum,
+                                      allowed.maximum,
+                                      {}});
 }
 
-void FieldList::field(int& value, std::string name, std::string sentence, std::string unit,
-                      Range<int> allowed) {
-    fields_.push_back({std::move(name),
-                       std::move(sentence),
-                       std::move(unit),
-                       &value,
-                       static_cast<double>(allowed.minimum),
-                       static_cast<double>(allowed.maximum),
-                       {}});
+Field& FieldList::field(int& value, std::string name, std::string sentence, std::string unit,
+                        Range<int> allowed) {
+    return fields_.emplace_back(Field{std::move(name),
+                                      std::move(sentence),
+                                      std::move(unit),
+                                      &value,
+                                      static_cast<double>(allowed.minimum),
+                                      static_cast<double>(allowed.maximum),
+                                      {}});
 }
 
-void FieldList::field(bool& value, std::string name, std::string sentence) {
-    fields_.push_back({std::move(name), std::move(sentence), "", &value, 0.0, 1.0, {}});
+Field& FieldList::field(bool& value, std::string name, std::string sentence) {
+    return fields_.emplace_back(
+        Field{std::move(name), std::move(sentence), "", &value, 0.0, 1.0, {}});
 }
 
-void FieldList::field(Extent& value, std::string name, std::string sentence, std::string unit,
-                      Range<int> allowedSide) {
-    fields_.push_back({std::move(name),
-                       std::move(sentence),
-                       std::move(unit),
-                       &value,
-                       static_cast<double>(allowedSide.minimum),
-                       static_cast<double>(allowedSide.maximum),
-                       {}});
+Field& FieldList::field(Extent& value, std::string name, std::string sentence, std::string unit,
+                        Range<int> allowedSide) {
+    return fields_.emplace_back(Field{std::move(name),
+                                      std::move(sentence),
+                                      std::move(unit),
+                                      &value,
+                                      static_cast<double>(allowedSide.minimum),
+                                      static_cast<double>(allowedSide.maximum),
+                                      {}});
 }
 
-void FieldList::addChoice(int& index, std::string name, std::string sentence,
-                          std::vector<std::string> names) {
+void FieldList::renamed(std::string_view formerName, std::string_view name) {
+    const auto found = std::find_if(fields_.begin(), fields_.end(),
+                                    [&](const Field& field) { return field.name == name; });
+    assert(found != fields_.end() && "the parameter is declared before its former name");
+    found->formerName = formerName;
+}
+
+Field& FieldList::addChoice(int& index, std::string name, std::string sentence,
+                            std::vector<std::string> names) {
     if (index < 0 || static_cast<std::size_t>(index) >= names.size()) {
         throw ConfigError(
             fmt::format("The default of the choice '{}' is number {} of its {} names.", name, index,
                         names.size()));
     }
-    fields_.push_back(
-        {std::move(name), std::move(sentence), "", ChoiceRef{&index}, 0.0, 0.0, std::move(names)});
+    return fields_.emplace_back(Field{std::move(name), std::move(sentence), "", ChoiceRef{&index},
+                                      0.0, 0.0, std::move(names)});
 }
 
 }  // namespace kaustik::params

@@ -13,6 +13,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <initializer_list>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -21,7 +22,17 @@
 #include <variant>
 #include <vector>
 
+namespace kaustik {
+// What is known of a frame before it is built; whoever builds frames defines it
+// (framework/pipeline/effect.h).
+struct FrameFacts;
+}  // namespace kaustik
+
 namespace kaustik::params {
+
+// Why a parameter has no effect, as the end of a sentence: "with trace.test=crossing", or a clause
+// of its own, "no receiver is glossy". "" where it has an effect, or may have one.
+using Condition = std::function<std::string(const FrameFacts&)>;
 
 // A grid size, written WxH.
 struct Extent {
@@ -55,6 +66,17 @@ struct Field {
     double minimum = 0.0;  // numbers and extents (each side)
     double maximum = 0.0;
     std::vector<std::string> choices;
+    std::string formerName{};  // within its scope; "" where it was never called otherwise
+    std::vector<Condition> conditions = {};
+    std::string obstacle = {};  // as a Condition says it, by other values of the same struct
+
+    // Says when the parameter has an effect, right after its declaration; all that is said must
+    // hold. By the frame's settings and what its scene needs:
+    //     r.field(…).when([](const FrameFacts& facts) { … return ""; });
+    // and by other values of the same struct:
+    //     r.field(…).when(radiusMeters <= 0.0f, "its radius is set");
+    Field& when(Condition whyNoEffect);
+    Field& when(bool hasEffect, const std::string& otherwise);
 
     // "float", "int", "bool", "WxH" or "choice".
     [[nodiscard]] std::string typeName() const;
@@ -67,28 +89,32 @@ struct Field {
     void set(std::string_view text, std::string_view fullName, std::string_view where) const;
 };
 
-// The visitor that `reflect` is called with.
+// The visitor that `reflect` is called with. The field that it gives back is there until the next.
 class FieldList {
   public:
-    void field(float& value, std::string name, std::string sentence, std::string unit,
-               Range<float> allowed);
-    void field(int& value, std::string name, std::string sentence, std::string unit,
-               Range<int> allowed);
-    void field(bool& value, std::string name, std::string sentence);
-    void field(Extent& value, std::string name, std::string sentence, std::string unit,
-               Range<int> allowedSide);
+    Field& field(float& value, std::string name, std::string sentence, std::string unit,
+                 Range<float> allowed);
+    Field& field(int& value, std::string name, std::string sentence, std::string unit,
+                 Range<int> allowed);
+    Field& field(bool& value, std::string name, std::string sentence);
+    Field& field(Extent& value, std::string name, std::string sentence, std::string unit,
+                 Range<int> allowedSide);
     // Enum must be an int-backed enum whose values index `names`; a value that has none is a
     // ConfigError.
     template <class Enum>
-    void choice(Enum& value, std::string name, std::string sentence,
-                std::initializer_list<const char*> names) {
+    Field& choice(Enum& value, std::string name, std::string sentence,
+                  std::initializer_list<const char*> names) {
         static_assert(std::is_enum_v<Enum> && std::is_same_v<std::underlying_type_t<Enum>, int>,
                       "a choice is an enum class with underlying type int");
-        addChoice(reinterpret_cast<int&>(value), std::move(name), std::move(sentence),
-                  {names.begin(), names.end()});
+        return addChoice(reinterpret_cast<int&>(value), std::move(name), std::move(sentence),
+                         {names.begin(), names.end()});
     }
-    void addChoice(int& index, std::string name, std::string sentence,
-                   std::vector<std::string> names);
+    Field& addChoice(int& index, std::string name, std::string sentence,
+                     std::vector<std::string> names);
+
+    // Says that the parameter `name`, which has been declared, was called `formerName` before: who
+    // still uses that name gets an error with the new one.
+    void renamed(std::string_view formerName, std::string_view name);
 
     [[nodiscard]] std::vector<Field>& fields() { return fields_; }
 

@@ -57,7 +57,7 @@ std::string nameOf(const std::type_info& type) {
 }  // namespace
 
 ParamSet::ParamSet(const ParamSet& other)
-    : defaults_(other.defaults_), setByUser_(other.setByUser_) {
+    : defaults_(other.defaults_), formerNames_(other.formerNames_), setByUser_(other.setByUser_) {
     for (const auto& [scope, value] : other.scopes_)
         scopes_[scope] = value->clone();
 }
@@ -78,6 +78,7 @@ void ParamSet::add(const std::string& scope, std::unique_ptr<HeldBase> value) {
         if (!defaults_.emplace(fullName, field.text()).second) {
             throw ConfigError(fmt::format("The parameter '{}' is declared twice.", fullName));
         }
+        if (!field.formerName.empty()) formerNames_[scope + "." + field.formerName] = fullName;
     }
     scopes_[key] = std::move(value);
 }
@@ -126,6 +127,14 @@ Field ParamSet::find(const std::string& fullName) const {
         fmt::format("There is no parameter '{}'{}", fullName, endOfMessage(fullName, names)));
 }
 
+std::vector<std::string> ParamSet::renamedFrom(std::string_view name) const {
+    std::vector<std::string> result;
+    for (const auto& [formerName, fullName] : formerNames_) {
+        if (abbreviates(name, formerName)) result.push_back(fullName);
+    }
+    return result;
+}
+
 std::string ParamSet::resolve(std::string_view name, std::string_view where) const {
     std::vector<std::string> names;
     std::vector<std::string> matches;
@@ -134,7 +143,13 @@ std::string ParamSet::resolve(std::string_view name, std::string_view where) con
         names.push_back(fullName);
         if (abbreviates(name, fullName)) matches.push_back(fullName);
     }
-    if (matches.size() == 1) return matches.front();
+    const std::vector<std::string> renamed = renamedFrom(name);
+    if (matches.size() == 1 && renamed.empty()) return matches.front();
+    if (matches.empty() && !renamed.empty()) {
+        throw ConfigError(fmt::format("{}: there is no parameter '{}'; it is called '{}' now.",
+                                      where, name, fmt::join(renamed, "' or '")));
+    }
+    matches.insert(matches.end(), renamed.begin(), renamed.end());
     if (matches.empty()) {
         throw ConfigError(
             fmt::format("{}: there is no parameter '{}'{} ('kaustik list params' "

@@ -51,10 +51,13 @@ class ParamSet {
         return static_cast<const Held<Params>&>(held(scope, typeid(Params))).value;
     }
     [[nodiscard]] std::string choice(const std::string& name) const;
+    // By its full name, pointing into this set; else throws ConfigError.
+    [[nodiscard]] Field find(const std::string& fullName) const;
 
     // Sets by full name or by a shorter form that is unique: the name's dotted parts must occur in
     // the full name in order, the last one last. Throws ConfigError for an unknown or ambiguous
-    // name (with the nearest that exists), a bad value or one out of range.
+    // name (with the nearest that exists), one that a parameter had before (with its name today), a
+    // bad value or one out of range.
     void set(std::string_view name, std::string_view value, std::string_view where);
     // "name=value", as in --set.
     void setAssignment(std::string_view assignment, std::string_view where);
@@ -62,6 +65,8 @@ class ParamSet {
     void setDefault(std::string_view name, std::string_view value, std::string_view where);
 
     [[nodiscard]] std::string resolve(std::string_view name, std::string_view where) const;
+    // The full names of the parameters that were called `name`, or by a longer form of it, before.
+    [[nodiscard]] std::vector<std::string> renamedFrom(std::string_view name) const;
     [[nodiscard]] bool isSetByUser(const std::string& fullName) const;
     [[nodiscard]] const std::set<std::string>& setByUser() const { return setByUser_; }
 
@@ -98,10 +103,10 @@ class ParamSet {
 
     void add(const std::string& scope, std::unique_ptr<HeldBase> held);
     [[nodiscard]] HeldBase& held(const std::string& scope, const std::type_info& type) const;
-    [[nodiscard]] Field find(const std::string& fullName) const;
 
     std::map<std::string, std::unique_ptr<HeldBase>> scopes_;
-    std::map<std::string, std::string> defaults_;  // full name → text
+    std::map<std::string, std::string> defaults_;     // full name → text
+    std::map<std::string, std::string> formerNames_;  // former full name → full name
     std::set<std::string> setByUser_;
 };
 

@@ -13,31 +13,29 @@
 
 namespace kaustik {
 
+const params::ParamSet& settingsOf(const FrameBuilder& frame) {
+    return frame.inputs().params;
+}
+
 const Registry::Node& FrameBuilder::chosenNode(const std::string& stage) {
     stagesRun_.push_back(stage);
     return inputs_.registry.findNode(stage, inputs_.params.choice(stage));
 }
 
-const NodeDescription& FrameBuilder::chosen(const std::string& stage) const {
-    return inputs_.registry.findNode(stage, inputs_.params.choice(stage)).description;
-}
-
-Sees FrameBuilder::tracerSees() const {
-    return chosen(TraceStage::name).sees;
+TracerReach FrameBuilder::tracerReach() const {
+    return traits<TraceStage>().reach;
 }
 
 bool FrameBuilder::usesBeams() const {
-    const bool areUsed = chosen(ReconstructStage::name).beams ||
-                         (needs().scatteringMedium && chosen(MediaStage::name).beams);
-    return areUsed && chosen(EmitStage::name).beams;
+    return facts().usesBeams();
 }
 
 bool FrameBuilder::joinsCells() const {
-    return chosen(ReconstructStage::name).joinsCells;
+    return traits<ReconstructStage>().joinsCells;
 }
 
 params::Extent FrameBuilder::photonsOfALight() const {
-    const auto& own = chosen(EmitStage::name).photons;
+    const auto& own = traits<EmitStage>().photons;
     return own ? own(*this) : params<EmitParams>("emit").photons;
 }
 
@@ -51,7 +49,7 @@ Hits FrameBuilder::recorded(const TraceStage::Build& build, const Photons& photo
     TraceRecord record;
     record.before = copyLedger(*this, photons.ledger, name + "_before");
     record.hits = build(*this, photons, surfaces);
-    record.sees = tracerSees();
+    record.reach = tracerReach();
     record.after = copyLedger(*this, record.hits.incoming.ledger, name + "_after");
     traces_.push_back(record);
     return record.hits;
@@ -66,12 +64,12 @@ Views FrameBuilder::eyeViews() {
 Views FrameBuilder::makeViews(render::Space space, std::vector<render::RasterView> views) {
     auto made = std::make_shared<render::RasterViews>(space, std::move(views), inputs_.gpuScene,
                                                       inputs_.view);
-    kept_.push_back(made);
+    keptObjects_.push_back(made);
     return made;
 }
 
 void needsEyesView(const std::string& node, const std::string& what, const Views& views) {
-    if (views->isEyes()) return;
+    if (views->isEyeView()) return;
     throw ConfigError(fmt::format("{} works on the screen, but {} it is given {} {}.", node, what,
                                   what.ends_with('s') ? "are" : "is",
                                   render::describe(views->space())));
@@ -105,6 +103,13 @@ void drawOver(gl::Command& command) {
     command.drawArrays(GL_TRIANGLE_STRIP, 4);
 }
 
+void setCells(gl::Command& command, const CellGrid& cells) {
+    command.set("cellGrid", glm::ivec2(cells.width, cells.rows))
+        .set("cellFirstRow", cells.firstRow)
+        .set("cellLights", glm::ivec2(cells.firstLight, cells.lights))
+        .set("cellSplits", cells.splits);
+}
+
 void fillList(gl::PassContext& context, const Photons& photons) {
     const transport::PhotonList list = transport::photonListOf(
         static_cast<unsigned>(photons.capacity()), static_cast<unsigned>(photons.width));
@@ -113,27 +118,17 @@ void fillList(gl::PassContext& context, const Photons& photons) {
 
 namespace {
 
-// Why the frame has no caustic; "" if it may have one.
-std::string whyNoCaustic(const FrameBuilder& frame) {
-    const scene::SceneNeeds& needs = frame.needs();
-    if (frame.skipsCaustic()) return "what the eye sees is judged without it";
-    if (needs.lights == 0) return "the scene has no light";
-    if (needs.specularInterfaces == 0) return "the scene has no specular surface";
-    if (!needs.receivers) return "the scene has no receiver";
-    return "";
-}
-
 // Irradiance of zero and an empty ledger, in place of all that follows photons.
-IrradianceMap skipCaustic(FrameBuilder& frame, const std::string& why) {
+IrradianceMap skipCaustic(FrameBuilder& frame, const std::string& reason) {
     for (const char* stage :
          {DriverStage::name, EmitStage::name, SpecularStage::name, TraceStage::name,
           MediaStage::name, BlurStage::name, ReconstructStage::name, FilterStage::name,
           GatherStage::name, TemporalStage::name}) {
         const std::string node = frame.chosenNode(stage).name;
-        frame.skip(std::string(stage) + "." + node, why);
+        frame.skip(std::string(stage) + "." + node, reason);
     }
     return frame.pass<IrradianceMap>(
-        "reconstruct.nothing", "stands for a caustic that cannot be: " + why,
+        "reconstruct.nothing", "stands for a caustic that cannot be: " + reason,
         [&](graph::PassSetup& setup, IrradianceMap& data) {
             data.irradiance =
                 setup.create<IrradianceTexel>("caustic.irradiance", frame.width(), frame.height());
@@ -153,24 +148,25 @@ FrameOutputs buildFrame(FrameBuilder& frame) {
     const EyeBuffer eye = frame.run<EyeStage>(geometry);
     const LayeredDepth layers = frame.run<LayersStage>(geometry);
     const Shadows shadows = frame.run<ShadowStage>(geometry, eye, layers);
-    const std::string whyNot = whyNoCaustic(frame);
+    const std::string obstacle = frame.skipsCaustic() ? "what the eye sees is judged without it"
+                                                      : noCausticReason(frame.facts());
     const Surfaces surfaces{geometry, eye, layers};
     Caustic caustic;
     IrradianceMap irradiance;
-    if (whyNot.empty()) {
+    if (obstacle.empty()) {
         caustic = frame.run<DriverStage>(surfaces);
         caustic.map = frame.run<FilterStage>(caustic.map);
         irradiance = frame.run<GatherStage>(caustic.map, surfaces);
         irradiance = frame.run<TemporalStage>(irradiance, eye);
     } else {
-        irradiance = skipCaustic(frame, whyNot);
+        irradiance = skipCaustic(frame, obstacle);
     }
     const Picture picture = frame.run<ComposeStage>(
         geometry, eye, layers, LightParts{shadows, irradiance, caustic.inScattered, caustic.map});
     return {picture,
             irradiance,
             eye,
-            whyNot.empty() ? layers : LayeredDepth{},
+            obstacle.empty() ? layers : LayeredDepth{},
             caustic.last,
             irradiance.ledger,
             caustic.inScattered,

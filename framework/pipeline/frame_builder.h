@@ -12,6 +12,7 @@
 
 #include "framework/gl/executor.h"
 #include "framework/graph/graph.h"
+#include "framework/pipeline/effect.h"
 #include "framework/pipeline/limit.h"
 #include "framework/pipeline/registry.h"
 #include "framework/pipeline/trace_record.h"
@@ -33,7 +34,7 @@ struct FrameInputs {
     const std::uint64_t& seed;               // of whatever a node draws at random
 };
 
-// Issues a compute thread a photon of the list: shaders include include/photon_thread.glsl.
+// Issues a compute thread a photon of the list: shaders include include/photons/photon_thread.glsl.
 void dispatchOver(gl::Command& command, const Photons& photons);
 inline void dispatchOver(gl::Command&& command, const Photons& photons) {
     dispatchOver(command, photons);
@@ -41,6 +42,8 @@ inline void dispatchOver(gl::Command&& command, const Photons& photons) {
 // Draws a fragment a photon of the list; the targets are of the list's size. The command starts
 // with framework/photon_rows.vert.
 void drawOver(gl::Command& command);
+// Tells a command which cells a list is of: shaders include include/photons/cells.glsl.
+void setCells(gl::Command& command, const CellGrid& cells);
 // A list that fills its textures, in every texel a photon or nobody.
 void fillList(gl::PassContext& context, const Photons& photons);
 
@@ -74,30 +77,37 @@ class FrameBuilder {
         return build(*this, std::move(in)...);
     }
     [[nodiscard]] const Registry::Node& chosenNode(const std::string& stage);
+    // Of the node that the settings choose for a stage, which is not run thereby.
+    template <class Stage>
+    [[nodiscard]] const typename Stage::Traits& traits() const {
+        return inputs_.registry.traits<Stage>(inputs_.params.choice(Stage::name));
+    }
 
-    // Adds a pass; see graph::Graph::addPass. `why` is what `explain` prints.
+    // Adds a pass; see graph::Graph::addPass. `reason` is what `explain` prints.
     template <class Data, class Setup, class Execute>
-    const Data& pass(const std::string& name, const std::string& why, Setup&& setup,
+    const Data& pass(const std::string& name, const std::string& reason, Setup&& setup,
                      Execute&& execute) {
         return graph_.addPass<Data, gl::PassContext>(
-            {prefix_ + name, why}, std::forward<Setup>(setup), std::forward<Execute>(execute));
+            {prefix_ + name, reason}, std::forward<Setup>(setup), std::forward<Execute>(execute));
     }
-    void skip(const std::string& name, const std::string& why) { graph_.skip(prefix_ + name, why); }
+    void skip(const std::string& name, const std::string& reason) {
+        graph_.skip(prefix_ + name, reason);
+    }
     // See graph::Graph::beginLoop.
     void beginLoop() { graph_.beginLoop(); }
     void endLoop(const graph::ResourceRef& again, std::size_t word) { graph_.endLoop(again, word); }
 
     // While it lives, passes are named "STAGE.…": for a stage that uses nodes of another one, a
     // tracer say. Such tracings are not part of what the photon audit records.
-    class Within {
+    class PassScope {
       public:
-        Within(FrameBuilder& frame, const std::string& stage)
+        PassScope(FrameBuilder& frame, const std::string& stage)
             : frame_(frame), before_(frame.prefix_) {
             frame.prefix_ += stage + ".";
         }
-        ~Within() { frame_.prefix_ = before_; }
-        Within(const Within&) = delete;
-        Within& operator=(const Within&) = delete;
+        ~PassScope() { frame_.prefix_ = before_; }
+        PassScope(const PassScope&) = delete;
+        PassScope& operator=(const PassScope&) = delete;
 
       private:
         FrameBuilder& frame_;
@@ -113,6 +123,9 @@ class FrameBuilder {
     [[nodiscard]] const scene::Scene& scene() const { return inputs_.gpuScene.scene(); }
     [[nodiscard]] const render::GpuScene& gpuScene() const { return inputs_.gpuScene; }
     [[nodiscard]] const scene::SceneNeeds& needs() const { return inputs_.needs; }
+    [[nodiscard]] FrameFacts facts() const {
+        return {inputs_.registry, inputs_.params, &inputs_.needs};
+    }
     [[nodiscard]] const render::RasterView& view() const { return inputs_.view; }
     // The eye's view for what works in any, and others, which live as long as the frame.
     [[nodiscard]] Views eyeViews();
@@ -129,15 +142,15 @@ class FrameBuilder {
         std::shared_ptr<void>& shared = shared_[name];
         if (!shared) {
             shared = make();
-            kept_.push_back(shared);
+            keptObjects_.push_back(shared);
         }
         return std::static_pointer_cast<T>(shared);
     }
     // What the chosen tracer can find.
-    [[nodiscard]] Sees tracerSees() const;
+    [[nodiscard]] TracerReach tracerReach() const;
     // Whether photons have beams: the emitter makes them, and somebody uses them.
     [[nodiscard]] bool usesBeams() const;
-    // Whether a batch is to know the cells beside it too.
+    // Whether a batch is to know the cells next to it too.
     [[nodiscard]] bool joinsCells() const;
     // How many photons each light emits, as rows of so many: what Samples are taken from.
     [[nodiscard]] params::Extent photonsOfALight() const;
@@ -146,10 +159,12 @@ class FrameBuilder {
     const T& keep(T&& object) {
         auto owner = std::make_shared<std::decay_t<T>>(std::forward<T>(object));
         const auto& reference = *owner;
-        kept_.push_back(std::move(owner));
+        keptObjects_.push_back(std::move(owner));
         return reference;
     }
-    [[nodiscard]] std::vector<std::shared_ptr<void>> takeKept() { return std::move(kept_); }
+    [[nodiscard]] std::vector<std::shared_ptr<void>> releaseKeptObjects() {
+        return std::move(keptObjects_);
+    }
     [[nodiscard]] const std::vector<TraceRecord>& traces() const { return traces_; }
     [[nodiscard]] bool skipsCaustic() const { return skipsCaustic_; }
     // Keeps a list, and hits, to the end of the frame for whoever reads them back
@@ -160,10 +175,10 @@ class FrameBuilder {
     void warn(std::string warning) { warnings_.push_back(std::move(warning)); }
     [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
     // Says that the frame depends on FrameInputs::seed.
-    void drawsAtRandom() { isRandom_ = true; }
+    void usesRandomness() { isRandom_ = true; }
     [[nodiscard]] bool isRandom() const { return isRandom_; }
     // Also for the report, where a frame is measured; the pass's name as it was given to pass().
-    void keepsTo(NodeLimit limit) {
+    void reportLimit(NodeLimit limit) {
         limit.pass = prefix_ + limit.pass;
         limits_.push_back(std::move(limit));
     }
@@ -172,13 +187,11 @@ class FrameBuilder {
     [[nodiscard]] int runsOf(const std::string& stage) const;
 
   private:
-    // As chosenNode, of a stage that is not run thereby.
-    [[nodiscard]] const NodeDescription& chosen(const std::string& stage) const;
     Hits recorded(const TraceStage::Build& build, const Photons& photons, const Surfaces& surfaces);
 
     graph::Graph& graph_;
     const FrameInputs& inputs_;
-    std::vector<std::shared_ptr<void>> kept_;
+    std::vector<std::shared_ptr<void>> keptObjects_;
     std::map<std::string, std::shared_ptr<void>> shared_;
     std::vector<std::string> warnings_;
     std::vector<NodeLimit> limits_;
@@ -192,10 +205,5 @@ class FrameBuilder {
 
 // The usual order of the stages, from which a technique differs only if it must.
 [[nodiscard]] FrameOutputs buildFrame(FrameBuilder& frame);
-
-template <class Params>
-const Params& Registry::paramsOf(FrameBuilder& frame, const std::string& scope) {
-    return frame.params<Params>(scope);
-}
 
 }  // namespace kaustik

@@ -38,7 +38,6 @@ const std::vector<std::pair<unsigned, std::string>>& lossCauses() {
         {kAccountInternalReflectionLimit, "internal_reflection_limit"},
         {kAccountBounceLimit, "bounce_limit"},
         {kAccountNestingLimit, "nesting_limit"},
-        {kAccountBatchLimit, "batch_limit"},
         {kAccountOccludedSplat, "occluded"},
         {kAccountOutsideMap, "outside_map"},
         {kAccountHiddenInMap, "hidden_in_map"},

@@ -10,7 +10,7 @@
 
 #include <vector>
 
-#include "framework/transport/stages.h"
+#include "framework/pipeline/stages.h"
 
 namespace kaustik::gl {
 class Executor;

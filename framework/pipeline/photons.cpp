@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "framework/transport/stages.h"
-
-#include "framework/render/raster_views.h"
+#include "framework/pipeline/photons.h"
 
 namespace kaustik {
-
 namespace {
 
 // The shaders of a pass that handles beams are another variant.
@@ -17,7 +14,7 @@ Photons Photons::create(graph::PassSetup& setup, int width, int height, const st
     Photons photons;
     photons.width = width;
     photons.height = height;
-    photons.rowsThatGoOn = height;
+    photons.nextRows = height;
     photons.suffix = suffix;
     photons.position = setup.create<PhotonPosition>("photons.position" + suffix, width, height);
     photons.direction = setup.create<PhotonDirection>("photons.direction" + suffix, width, height);
@@ -122,34 +119,6 @@ std::vector<graph::ResourceRef> Hits::textures() const {
     std::vector<graph::ResourceRef> all{position, surface, flux};
     if (shape.valid()) all.push_back(shape);
     return all;
-}
-
-FluxMap FluxMap::deposit(graph::PassSetup& setup, const FluxMap& before, const ReceiverView& on,
-                         const FluxSets& sets, const std::string& name) {
-    FluxMap map = before;
-    if (before.flux.valid()) {
-        map.flux = setup.write(before.flux);
-        setup.bypass(map.flux, before.flux);
-        if (sets.counts) {
-            map.counts = setup.write(before.counts);
-            setup.bypass(map.counts, before.counts);
-        }
-    } else {
-        map.sets = sets;
-        map.on = on;
-        const Views& views = on.views;
-        map.flux = setup.create<FluxWord>(name, views->width(), views->height(),
-                                          views->layers(map.wordsPerView()));
-        setup.bypass(map.flux, {0, 0, 0, 0});
-        if (sets.counts) {
-            map.counts = setup.create<PhotonCountTexel>(name + "_counts", views->width(),
-                                                        views->height(), views->layers(sets.flux));
-            setup.bypass(map.counts, {0, 0, 0, 0});
-        }
-    }
-    setup.image("fluxSums", map.flux);
-    if (sets.counts) setup.image("photonCounts", map.counts);
-    return map;
 }
 
 }  // namespace kaustik

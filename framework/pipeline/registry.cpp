@@ -16,7 +16,6 @@ void Registry::addNode(Node node) {
         throw ConfigError(
             fmt::format("The node '{}.{}' is registered twice.", node.stage, node.name));
     }
-    addStage({node.stage, node.question});
     nodes_.push_back(std::move(node));
 }
 

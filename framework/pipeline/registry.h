@@ -3,11 +3,22 @@
 // of answers. Built explicitly by techniques/register_all.cpp; a technique of one's own is added
 // the same way, from anywhere:
 //
-//     registry.node<TraceStage>("mine", {"What it does.", "Paper, section"}, &traceMine);
-//     registry.technique({"mine", "What it shows.", "Paper", {{"trace", "mine"}}});
+//     struct MineParams {
+//         float gain = 1.0f;
+//         template <class R>
+//         void reflect(R& r) {
+//             r.field(gain, "gain", "Factor on the flux", "", params::range(0.0f, 10.0f));
+//         }
+//     };
+//     Hits traceMine(FrameBuilder&, const MineParams&, Photons, Surfaces);
 //
-// where `Hits traceMine(FrameBuilder&, const MineParams&, Photons, LayeredDepth, Hits)` declares
-// its passes. MineParams then appear as trace.mine.*.
+//     void registerMine(Registry& registry) {
+//         registry.node<TraceStage>(
+//             "mine", {"What it does.", "Paper, section", "What it cannot do."}, &traceMine);
+//         registry.technique({"mine", "What it shows.", "Paper", {{"trace", "mine"}}});
+//     }
+//
+// where traceMine declares its passes. MineParams then appear as trace.mine.*.
 #pragma once
 
 #include <filesystem>
@@ -20,32 +31,23 @@
 #include <vector>
 
 #include "framework/params/param_set.h"
-#include "framework/transport/stages.h"
+#include "framework/pipeline/stages.h"
 
 namespace kaustik {
 
 class FrameBuilder;
 
+// The settings that a frame is built with.
+[[nodiscard]] const params::ParamSet& settingsOf(const FrameBuilder& frame);
+
+// What people are told of a node: `kaustik list nodes`, `kaustik doc`, the workbench.
 struct NodeDescription {
     std::string sentence;
-    std::string source;           // paper, section, equation; "" for our own
-    Sees sees = Sees::eyeLayers;  // of a tracer
-    // Of an emitter: its photons have beams where anybody uses them. Of a reconstruction or a
-    // medium: it uses them.
-    bool beams = false;
-    // Of a reconstruction: it joins what neighbouring cells bring, across batches too.
-    bool joinsCells = false;
-    // Of a reconstruction: the filter that makes one map of the several that it stores; "" where it
-    // stores one.
-    std::string filter = {};
-    // Of a node of interaction: photons that enter a body go on from where they leave it.
-    bool throughBodies = false;
-    // Of an emitter: it can be given cells one by one (Samples::cells).
-    bool emitsCells = false;
-    // Of a driver: refine.* say which photons there are; without it they have no effect.
-    bool refines = false;
-    // Of an emitter: rows and columns of one light's photons, where emit.photons does not say it.
-    std::function<params::Extent(const FrameBuilder&)> photons = {};
+    std::string source;  // paper, section, equation; "" for our own
+    std::string limits;  // one to three sentences: what it assumes, refuses or cannot do
+    // Parameters that the node reads besides its own and its stage's: full names, or all of a node
+    // or a stage ("layers.lists").
+    std::vector<std::string> reads = {};
 };
 
 // What a technique hands to the report, besides the picture.
@@ -71,7 +73,7 @@ struct Technique {
     // Its answers and other defaults: {"trace", "lines"}, {"emit.photons", "256x256"}.
     std::vector<std::pair<std::string, std::string>> defaults;
     // How its stages are put together; empty: the usual order (buildFrame in frame_builder.h).
-    BuildFrame build;
+    BuildFrame build = {};
 };
 
 class Registry {
@@ -80,7 +82,7 @@ class Registry {
     // comes with its first node.
     template <class Stage>
     void stage() {
-        addStage({Stage::name, Stage::question});
+        addStage({Stage::name, Stage::question, Stage::takes, Stage::gives, Stage::whyIdle});
     }
 
     // Declares the parameters that all nodes of a stage share.
@@ -90,14 +92,24 @@ class Registry {
     }
 
     // Adds a node that answers a stage, a function or a closure. The first one added is the stage's
-    // default.
+    // default. `traits`: what others need to know of it (Stage::Traits).
     template <class Stage, class Params, class... In>
     void node(const std::string& name, NodeDescription description,
               typename Stage::Output (*build)(FrameBuilder&, const Params&, In...)) {
-        node<Stage>(name, std::move(description), std::function(build));
+        node<Stage>(name, std::move(description), typename Stage::Traits{}, std::function(build));
+    }
+    template <class Stage, class Params, class... In>
+    void node(const std::string& name, NodeDescription description, typename Stage::Traits traits,
+              typename Stage::Output (*build)(FrameBuilder&, const Params&, In...)) {
+        node<Stage>(name, std::move(description), std::move(traits), std::function(build));
     }
     template <class Stage, class Params, class... In>
     void node(const std::string& name, NodeDescription description,
+              std::function<typename Stage::Output(FrameBuilder&, const Params&, In...)> build) {
+        node<Stage>(name, std::move(description), typename Stage::Traits{}, std::move(build));
+    }
+    template <class Stage, class Params, class... In>
+    void node(const std::string& name, NodeDescription description, typename Stage::Traits traits,
               std::function<typename Stage::Output(FrameBuilder&, const Params&, In...)> build) {
         using Build = typename Stage::Build;
         static_assert(
@@ -105,16 +117,19 @@ class Registry {
             "a node takes and gives what its stage says");
         const std::string scope = std::string(Stage::name) + "." + name;
         auto bound = std::make_shared<Build>([scope, build](FrameBuilder& frame, In... in) {
-            return build(frame, paramsOf<Params>(frame, scope), std::move(in)...);
+            return build(frame, settingsOf(frame).template get<Params>(scope), std::move(in)...);
         });
-        addNode({Stage::name, Stage::question, name, std::move(description), std::move(bound)});
+        stage<Stage>();
+        addNode({Stage::name, name, std::move(description), std::move(bound),
+                 std::make_shared<typename Stage::Traits>(std::move(traits))});
         declarations_.push_back([scope](params::ParamSet& set) { set.declare<Params>(scope); });
     }
 
     void technique(Technique technique);
 
     // A folder of shaders that are not the project's own, for programs built elsewhere: a node of
-    // theirs names a file in it, which includes the project's as any other ("include/hits.glsl").
+    // theirs names a file in it, which includes the project's as any other
+    // ("include/photons/hits.glsl").
     void shaders(std::filesystem::path folder) { shaderFolders_.push_back(std::move(folder)); }
     [[nodiscard]] const std::vector<std::filesystem::path>& shaderFolders() const {
         return shaderFolders_;
@@ -123,15 +138,18 @@ class Registry {
     struct StageEntry {
         std::string name;
         std::string question;
+        std::string takes;
+        std::string gives;
+        std::string (*whyIdle)(const FrameFacts&) = nullptr;  // as Stage::whyIdle has it
     };
     [[nodiscard]] const std::vector<StageEntry>& stages() const { return stages_; }
 
     struct Node {
         std::string stage;
-        std::string question;
         std::string name;
         NodeDescription description;
-        std::shared_ptr<void> build;  // of the stage's own signature
+        std::shared_ptr<void> build;         // of the stage's own signature
+        std::shared_ptr<const void> traits;  // of the stage's own type
     };
     [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
     [[nodiscard]] const std::vector<Technique>& techniques() const { return techniques_; }
@@ -140,12 +158,17 @@ class Registry {
     [[nodiscard]] const Technique& findTechnique(const std::string& name) const;
     [[nodiscard]] const Node& findNode(const std::string& stage, const std::string& name) const;
 
+    // Throws ConfigError as findNode.
+    template <class Stage>
+    [[nodiscard]] const typename Stage::Traits& traits(const std::string& name) const {
+        return *static_cast<const typename Stage::Traits*>(
+            findNode(Stage::name, name).traits.get());
+    }
+
     // Every parameter with its default, then the technique's own defaults.
     [[nodiscard]] params::ParamSet makeParams(const Technique& technique) const;
 
   private:
-    template <class Params>
-    static const Params& paramsOf(FrameBuilder& frame, const std::string& scope);
     void addStage(StageEntry stage);
     void addNode(Node node);
 
@@ -157,5 +180,3 @@ class Registry {
 };
 
 }  // namespace kaustik
-
-#include "framework/pipeline/frame_builder.h"

@@ -33,8 +33,8 @@ std::vector<std::string> namesOf(const graph::Compiled& compiled) {
 }
 
 // The passes that a user may mean by `name`: its full name, or the ends of some after a dot.
-std::vector<std::string> passesMeant(const std::string& name,
-                                     const std::vector<std::string>& passes) {
+std::vector<std::string> matchingPasses(const std::string& name,
+                                        const std::vector<std::string>& passes) {
     std::vector<std::string> matches;
     for (const std::string& pass : passes) {
         if (pass == name) return {pass};
@@ -46,7 +46,7 @@ std::vector<std::string> passesMeant(const std::string& name,
 // The only one. Throws ConfigError with the nearest name.
 std::string fullPassName(const std::string& name, const std::vector<std::string>& passes,
                          const std::string& disabledBy) {
-    const std::vector<std::string> matches = passesMeant(name, passes);
+    const std::vector<std::string> matches = matchingPasses(name, passes);
     if (matches.size() == 1) return matches.front();
     if (matches.empty()) {
         throw ConfigError(
@@ -113,7 +113,7 @@ Renderer::Renderer(gl::Context& context, const Registry& registry, const scene::
     context_.check();
 }
 
-// By the names of include/view.glsl, surface_data.glsl, lights.glsl, scene_images.glsl and
+// By the names of include/views/view.glsl, surface_data.glsl, lights.glsl, scene_images.glsl and
 // ledger.glsl.
 void Renderer::bindToAll() {
     executor_.bindToAll({{{"View", &viewBlock_}},
@@ -142,7 +142,7 @@ std::vector<std::string> Renderer::forgetAbsentPasses() {
     const std::vector<std::string> passes = namesOf(graph_->compile());
     std::vector<std::string> absent;
     for (const std::string& name : settings_.disabledPasses) {
-        if (passesMeant(name, passes).empty()) absent.push_back(name);
+        if (matchingPasses(name, passes).empty()) absent.push_back(name);
     }
     for (const std::string& name : absent)
         settings_.disabledPasses.erase(name);
@@ -196,10 +196,34 @@ graph::Compiled Renderer::compile(Purpose purpose, const std::vector<std::string
         compiled = keepLimits(compiled, frame.limits());
     buildMilliseconds_ =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
-    kept_ = frame.takeKept();
+    keptObjects_ = frame.releaseKeptObjects();
     warnings_ = frame.warnings();
+    for (const std::string& name : settings_.params.setByUser()) {
+        const std::string reason = whyNoEffect(name, compiled);
+        if (!reason.empty()) warnings_.push_back(sayNoEffect(name, reason));
+    }
     isRandom_ = frame.isRandom();
     return compiled;
+}
+
+std::string Renderer::whyNoEffect(const std::string& name) const {
+    return whyNoEffect(name, compiled());
+}
+
+std::string Renderer::whyNoEffect(const std::string& name, const graph::Compiled& compiled) const {
+    const std::string reason = kaustik::whyNoEffect({registry_, settings_.params, &needs_}, name);
+    const auto dot = name.find('.');
+    const auto nodeEnd = dot == std::string::npos ? dot : name.find('.', dot + 1);
+    if (!reason.empty() || nodeEnd == std::string::npos) return reason;
+    const std::string node = name.substr(0, nodeEnd);
+    if (settings_.params.choice(name.substr(0, dot)) == node.substr(dot + 1)) return "";
+    // One that is not chosen may stand in for one that is: specular.split for specular.auto.
+    const bool hasRun = std::any_of(
+        compiled.records.begin(), compiled.records.end(), [&](const graph::PassRecord& pass) {
+            return pass.state == graph::PassState::ran &&
+                   (pass.name == node || pass.name.ends_with("." + node));
+        });
+    return hasRun ? "" : fmt::format("no pass of this frame is {}'s", node);
 }
 
 // Only of passes that run: to ask for what others make would bring them back.
@@ -222,7 +246,7 @@ graph::Compiled Renderer::keepLimits(const graph::Compiled& compiled,
 void Renderer::requestForMaps() {
     bool isOffScreen = false;
     for (const FluxMap& map : outputs_.map.maps) {
-        if (map.on.views->isEyes()) continue;
+        if (map.on.views->isEyeView()) continue;
         isOffScreen = true;
         if (map.filtered.valid()) graph_->request(map.filtered);
     }
@@ -259,8 +283,9 @@ void Renderer::build(Purpose purpose, const std::vector<std::string>& resources)
     executor_.prepare(compile(purpose, resources));
 }
 
-bool Renderer::renderFrame(gl::PassTimer& timer, const std::function<bool(std::size_t)>& goesOn) {
-    return executor_.runFrame(timer, goesOn);
+bool Renderer::renderFrame(gl::PassTimer& timer,
+                           const std::function<bool(std::size_t)>& shouldContinue) {
+    return executor_.runFrame(timer, shouldContinue);
 }
 
 EnergyLedger Renderer::ledger() const {

@@ -58,15 +58,19 @@ class Renderer {
     // Only declares and compiles: what a frame would take is known before any memory is taken.
     [[nodiscard]] graph::Compiled compile(Purpose purpose,
                                           const std::vector<std::string>& resources = {});
-    // `goesOn` is asked before each pass (its number among compiled().steps); where it says no, the
-    // rest of the frame is skipped and the result is false.
-    bool renderFrame(gl::PassTimer& timer, const std::function<bool(std::size_t)>& goesOn = {});
+    // `shouldContinue` is asked before each pass (its number among compiled().steps); where it says
+    // no, the rest of the frame is skipped and the result is false.
+    bool renderFrame(gl::PassTimer& timer,
+                     const std::function<bool(std::size_t)>& shouldContinue = {});
 
     // Of the last build.
     [[nodiscard]] const graph::Graph& graph() const { return *graph_; }
     [[nodiscard]] const graph::Compiled& compiled() const { return executor_.compiled(); }
     [[nodiscard]] const FrameOutputs& outputs() const { return outputs_; }
     [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
+    // Why a parameter has no effect in this frame (framework/pipeline/effect.h): by what is
+    // declared, and, of nodes that another one chooses from, by which of them have run.
+    [[nodiscard]] std::string whyNoEffect(const std::string& name) const;
     [[nodiscard]] double buildMilliseconds() const { return buildMilliseconds_; }
     // Whether the frame depends on the settings' seed.
     [[nodiscard]] bool isRandom() const { return isRandom_; }
@@ -98,6 +102,8 @@ class Renderer {
   private:
     [[nodiscard]] FrameBuilder declareFrame(bool recordsTraces = false, bool skipsCaustic = false);
 
+    [[nodiscard]] std::string whyNoEffect(const std::string& name,
+                                          const graph::Compiled& compiled) const;
     void bindToAll();
     void requestForMaps();
     void requestForAudit();
@@ -121,7 +127,7 @@ class Renderer {
     gl::Executor executor_;
 
     std::unique_ptr<graph::Graph> graph_;
-    std::vector<std::shared_ptr<void>> kept_;  // what nodes keep alive for their frame
+    std::vector<std::shared_ptr<void>> keptObjects_;  // what nodes keep alive for their frame
     FrameOutputs outputs_;
     Ledger closedLedger_;
     std::vector<TraceRecord> traces_;

@@ -3,7 +3,7 @@
 // space, m, W.
 #pragma once
 
-#include "framework/transport/stages.h"
+#include "framework/pipeline/stages.h"
 
 namespace kaustik {
 
@@ -14,7 +14,7 @@ struct TraceRecord {
     // Right before and after: what the tracer itself has booked lies between.
     Ledger before;
     Ledger after;
-    Sees sees = Sees::eyeLayers;
+    TracerReach reach = TracerReach::eyeLayers;
 };
 
 // Adds a pass, not part of any technique, that copies the ledger as it is at this point.

@@ -124,7 +124,7 @@ void save(const Array& array, const std::filesystem::path& file) {
             "save: this array has {} layers, and a file has one; read(name, layer=0) gives one.",
             array.layers()));
     }
-    waitFor([&](const WorkThread::GoesOn&) {
+    waitFor([&](const WorkThread::ShouldContinue&) {
         writeImage(file, isPicture ? previewOf(array, 0).image : array.layer(0));
     });
 }

@@ -94,7 +94,7 @@ py::tuple compare(const py::object& image, const py::object& reference, const py
     const auto maskInput = Input::optional(mask, "mask");
     const auto errorInput = Input::optional(standardError, "standard error");
     const auto areaInput = Input::optional(area, "area");
-    const Comparison found = waitFor([&](const WorkThread::GoesOn&) {
+    const Comparison found = waitFor([&](const WorkThread::ShouldContinue&) {
         return compareInputs(imageInput, referenceInput, maskInput, errorInput, areaInput,
                              pixelsPerDegree.value_or(measure::kFlipPixelsPerDegree));
     });

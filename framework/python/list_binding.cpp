@@ -13,7 +13,8 @@ namespace py = pybind11;
 
 void bindLists(py::module_& module) {
     module.def("scenes", [] {
-        return toPython(waitFor([](const WorkThread::GoesOn&) { return run::listScenes(); }));
+        return toPython(
+            waitFor([](const WorkThread::ShouldContinue&) { return run::listScenes(); }));
     });
     module.def("techniques", [] { return toPython(run::listTechniques(registry())); });
     module.def(

@@ -14,7 +14,7 @@ namespace {
 // A thread that came back from its work after Python has gone would be ended in the middle of it.
 void endWaits() {
     waits().ending = std::this_thread::get_id();
-    waits().shallEnd = true;
+    waits().isEndRequested = true;
     const pybind11::gil_scoped_release noGil;
     while (waits().count > 0)
         std::this_thread::sleep_for(std::chrono::milliseconds(1));

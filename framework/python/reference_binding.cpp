@@ -77,10 +77,10 @@ std::shared_ptr<Reference> compute(const py::object& scene, const std::string& b
                                    bool transmissionOnly, int interactions, bool causticView,
                                    const py::object& progress) {
     const SceneSource source(scene, base);
-    const params::Extent pixelsWanted = pixels(settingText("size", size));
+    const params::Extent targetPixels = pixels(settingText("size", size));
     const Order order{.estimator = estimator,
-                      .width = pixelsWanted.width,
-                      .height = pixelsWanted.height,
+                      .width = targetPixels.width,
+                      .height = targetPixels.height,
                       .photons = photons,
                       .seconds = seconds,
                       .relativeError = standardError,
@@ -93,20 +93,20 @@ std::shared_ptr<Reference> compute(const py::object& scene, const std::string& b
     const RunOptions options = optionsOf(order, asArgument);
     Progress told(progress);
     try {
-        return waitFor([&](const WorkThread::GoesOn& mayWait) {
+        return waitFor([&](const WorkThread::ShouldContinue& keepWaiting) {
             std::shared_ptr<Reference> found;
             WorkThread thread;
             thread.run(
-                [&](const WorkThread::GoesOn& goesOn) {
+                [&](const WorkThread::ShouldContinue& shouldContinue) {
                     scene::Scene loaded = source.load();
                     if (time) scene::setTime(loaded, *time);
                     const run::Watch watch{
-                        [&] { return goesOn() && !told.hasFailed(); },
+                        [&] { return shouldContinue() && !told.hasFailed(); },
                         [&](double share, const std::string& text) { told.tell(share, text); }};
                     found = std::make_shared<Reference>(
                         run::obtainReference(EmbreeScene(loaded), request, options, watch));
                 },
-                mayWait);
+                keepWaiting);
             return found;
         });
     } catch (const Error&) {
@@ -140,7 +140,7 @@ void save(const Reference& reference, const std::filesystem::path& file) {
     const std::string extension = measure::lowerExtension(file);
     if (extension != ".exr" && extension != ".pfm")
         throw ConfigError(fmt::format("save: {} must end in .exr or .pfm.", file.string()));
-    waitFor([&](const WorkThread::GoesOn&) { writeReference(file, reference); });
+    waitFor([&](const WorkThread::ShouldContinue&) { writeReference(file, reference); });
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "framework/python/session_device.h"
 #include "framework/run/explanation.h"
 #include "framework/run/listing.h"
+#include "framework/run/settings.h"
 #include "techniques/register_all.h"
 
 namespace kaustik::python {
@@ -67,13 +68,13 @@ const Registry& registry() {
 }
 
 Session::Session(const std::function<scene::Scene()>& loadScene, const SessionOptions& options,
-                 const MayWait& mayWait) {
-    const auto open = [&](const GoesOn&) {
+                 const KeepWaiting& keepWaiting) {
+    const auto open = [&](const ShouldContinue&) {
         static_cast<void>(registry().findTechnique(options.technique));  // before long work
         device_ = std::make_unique<Device>(loadScene(), options);
     };
     try {
-        thread_.run(open, mayWait);
+        thread_.run(open, keepWaiting);
     } catch (...) {
         close();
         throw;
@@ -89,215 +90,219 @@ void Session::close() {
     thread_.stopAll();
     try {
         // The context is current there, and nowhere else.
-        thread_.run([&](const GoesOn&) { device_.reset(); }, [] { return true; });
+        thread_.run([&](const ShouldContinue&) { device_.reset(); }, [] { return true; });
     } catch (const DeviceError&) {
         static_cast<void>(device_.release());  // in a process that was forked off: not ours
     }
 }
 
-void Session::run(const std::function<void(Device&, const GoesOn&)>& work, const MayWait& mayWait) {
+void Session::run(const std::function<void(Device&, const ShouldContinue&)>& work,
+                  const KeepWaiting& keepWaiting) {
     const auto requireOpen = [&] {
         if (isClosed_)
             throw ConfigError("This renderer is closed; kaustik.open() makes another one.");
     };
     requireOpen();
     thread_.run(
-        [&](const GoesOn& goesOn) {
+        [&](const ShouldContinue& shouldContinue) {
             requireOpen();
-            work(*device_, goesOn);
+            work(*device_, shouldContinue);
         },
-        mayWait);
+        keepWaiting);
 }
 
-void Session::set(const std::map<std::string, std::string>& settings, const MayWait& mayWait) {
+void Session::set(const std::map<std::string, std::string>& settings,
+                  const KeepWaiting& keepWaiting) {
     run(
-        [&](Device& device, const GoesOn&) {
-            params::ParamSet params = device.settings.params;  // all of them or none
-            for (const auto& [name, value] : settings)
-                params.set(name, value, "set");
-            device.settings.params = std::move(params);
-            device.change();
+        [&](Device& device, const ShouldContinue&) {
+            RenderSettings wanted = device.session->settings();
+            assign(wanted.params, assignmentsOf(settings));
+            device.change(std::move(wanted));
         },
-        mayWait);
+        keepWaiting);
 }
 
-Session::Json Session::param(const std::string& name, const MayWait& mayWait) {
+Session::Json Session::param(const std::string& name, const KeepWaiting& keepWaiting) {
     Json found;
     run(
-        [&](Device& device, const GoesOn&) {
-            const params::ParamSet& params = device.settings.params;
+        [&](Device& device, const ShouldContinue&) {
+            const params::ParamSet& params = device.session->settings().params;
             const std::string fullName = params.resolve(name, "get");
             for (const params::NamedField& named : params.all()) {
                 if (named.fullName == fullName) found = describe(params, named);
             }
         },
-        mayWait);
+        keepWaiting);
     return found;
 }
 
-Session::Json Session::params(const MayWait& mayWait) {
+Session::Json Session::params(const KeepWaiting& keepWaiting) {
     Json all = Json::array();
     run(
-        [&](Device& device, const GoesOn&) {
-            for (const params::NamedField& named : device.settings.params.all())
-                all.push_back(describe(device.settings.params, named));
+        [&](Device& device, const ShouldContinue&) {
+            for (const params::NamedField& named : device.session->settings().params.all())
+                all.push_back(describe(device.session->settings().params, named));
         },
-        mayWait);
+        keepWaiting);
     return all;
 }
 
-void Session::disable(const std::vector<std::string>& passes, const MayWait& mayWait) {
+void Session::disable(const std::vector<std::string>& passes, const KeepWaiting& keepWaiting) {
     run(
-        [&](Device& device, const GoesOn&) {
-            RenderSettings wanted = device.settings;
+        [&](Device& device, const ShouldContinue&) {
+            RenderSettings wanted = device.session->settings();
             wanted.disabledPasses = {passes.begin(), passes.end()};
             device.adopt(std::move(wanted));
         },
-        mayWait);
+        keepWaiting);
 }
 
-void Session::resize(const std::string& size, const MayWait& mayWait) {
+void Session::resize(const std::string& size, const KeepWaiting& keepWaiting) {
     run(
-        [&](Device& device, const GoesOn&) {
-            RenderSettings wanted = device.settings;
-            setSize(wanted, size);
+        [&](Device& device, const ShouldContinue&) {
+            RenderSettings wanted = device.session->settings();
+            run::setSize(wanted, params::parsePictureSize(size, "open"));
             device.adopt(std::move(wanted));
         },
-        mayWait);
+        keepWaiting);
 }
 
-void Session::setSeed(std::uint64_t seed, const MayWait& mayWait) {
+void Session::setSeed(std::uint64_t seed, const KeepWaiting& keepWaiting) {
     run(
-        [&](Device& device, const GoesOn&) {
-            device.settings.seed = seed;
-            device.change();
+        [&](Device& device, const ShouldContinue&) {
+            RenderSettings wanted = device.session->settings();
+            wanted.seed = seed;
+            device.change(std::move(wanted));
         },
-        mayWait);
+        keepWaiting);
 }
 
-void Session::edit(const std::function<scene::SceneEdits()>& read, const MayWait& mayWait) {
+void Session::edit(const std::function<scene::SceneEdits()>& read, const KeepWaiting& keepWaiting) {
     run(
-        [&](Device& device, const GoesOn&) {
+        [&](Device& device, const ShouldContinue&) {
             applyEdits(device.scene, read());
-            device.change();
+            device.noteEdit();
         },
-        mayWait);
+        keepWaiting);
 }
 
-Session::Json Session::step(const StepRequest& request, const MayWait& mayWait) {
+Session::Json Session::step(const StepRequest& request, const KeepWaiting& keepWaiting) {
     Json times;
-    run([&](Device& device, const GoesOn& goesOn) { times = device.step(request, goesOn); },
-        mayWait);
+    run([&](Device& device,
+            const ShouldContinue& shouldContinue) { times = device.step(request, shouldContinue); },
+        keepWaiting);
     return times;
 }
 
 Array Session::read(const std::string& resource, std::optional<std::size_t> layer,
-                    const MayWait& mayWait) {
+                    const KeepWaiting& keepWaiting) {
     Array array;
     run(
-        [&](Device& device, const GoesOn& goesOn) {
-            const graph::ResourceRef handle = device.requireTexture(resource, goesOn);
-            array = arrayOf(device.renderer->texture(handle), layer, resource);
-            array.isForDisplay = handle == device.renderer->outputs().picture.display;
+        [&](Device& device, const ShouldContinue& shouldContinue) {
+            const graph::ResourceRef handle = device.requireTexture(resource, shouldContinue);
+            const Renderer& renderer = device.session->renderer();
+            array = arrayOf(renderer.texture(handle), layer, resource);
+            array.isForDisplay = handle == renderer.outputs().picture.display;
         },
-        mayWait);
+        keepWaiting);
     return array;
 }
 
-Session::Json Session::report(const Judgement& judgement, const MayWait& mayWait) {
+Session::Json Session::report(const Judgement& judgement, const KeepWaiting& keepWaiting) {
     Json report;
-    run([&](Device& device, const GoesOn& goesOn) { report = device.report(judgement, goesOn); },
-        mayWait);
+    run(
+        [&](Device& device, const ShouldContinue& shouldContinue) {
+            report = device.report(judgement, shouldContinue);
+        },
+        keepWaiting);
     return report;
 }
 
 std::vector<fs::path> Session::save(const fs::path& folder,
                                     const std::vector<std::string>& resources,
-                                    const Judgement& judgement, const MayWait& mayWait) {
+                                    const Judgement& judgement, const KeepWaiting& keepWaiting) {
     std::vector<fs::path> files;
-    run([&](Device& device,
-            const GoesOn& goesOn) { files = device.save(folder, resources, judgement, goesOn); },
-        mayWait);
+    run(
+        [&](Device& device, const ShouldContinue& shouldContinue) {
+            files = device.save(folder, resources, judgement, shouldContinue);
+        },
+        keepWaiting);
     return files;
 }
 
-Session::Json Session::passes(const MayWait& mayWait) {
+Session::Json Session::passes(const KeepWaiting& keepWaiting) {
     Json passes;
     run(
-        [&](Device& device, const GoesOn&) {
-            device.prepare();
-            passes = run::listPasses(*device.renderer);
+        [&](Device& device, const ShouldContinue&) {
+            device.session->prepare();
+            passes = run::listPasses(device.session->renderer());
         },
-        mayWait);
+        keepWaiting);
     return passes;
 }
 
-Session::Json Session::resources(const MayWait& mayWait) {
+Session::Json Session::resources(const KeepWaiting& keepWaiting) {
     Json resources;
     run(
-        [&](Device& device, const GoesOn&) {
-            device.prepare();
-            resources = run::listResources(*device.renderer);
+        [&](Device& device, const ShouldContinue&) {
+            device.session->prepare();
+            resources = run::listResources(device.session->renderer());
         },
-        mayWait);
+        keepWaiting);
     return resources;
 }
 
-Session::Json Session::needs(const MayWait& mayWait) {
+Session::Json Session::needs(const KeepWaiting& keepWaiting) {
     Json needs;
     run(
-        [&](Device& device, const GoesOn&) {
-            device.prepare();
-            device.forgetBuild();
-            device.renderer->measureDepthComplexity();
-            const scene::SceneNeeds& found = device.renderer->needs();
+        [&](Device& device, const ShouldContinue&) {
+            device.session->measureDepthComplexity();
+            const scene::SceneNeeds& found = device.session->renderer().needs();
             needs = report::needsJson(found, std::max(found.measuredDepthComplexity, 0));
         },
-        mayWait);
+        keepWaiting);
     return needs;
 }
 
-std::string Session::explain(const MayWait& mayWait) {
+std::string Session::explain(const KeepWaiting& keepWaiting) {
     std::string text;
     run(
-        [&](Device& device, const GoesOn&) {
-            device.prepare();
-            device.forgetBuild();
-            device.renderer->measureDepthComplexity();
-            device.prepare();
-            text = run::explain(*device.renderer);
+        [&](Device& device, const ShouldContinue&) {
+            device.session->measureDepthComplexity();
+            device.session->prepare();
+            text = run::explain(device.session->renderer());
         },
-        mayWait);
+        keepWaiting);
     return text;
 }
 
-Session::Json Session::times(const MayWait& mayWait) {
+Session::Json Session::times(const KeepWaiting& keepWaiting) {
     Json times;
     run(
-        [&](Device& device, const GoesOn&) {
-            times = timesOf(device.record);
-            times["picture"] =
-                device.renderer->graph().nameOf(device.renderer->outputs().picture.display);
+        [&](Device& device, const ShouldContinue&) {
+            const Renderer& renderer = device.session->renderer();
+            times = timesOf(device.session->record());
+            times["picture"] = renderer.graph().nameOf(renderer.outputs().picture.display);
             times["is_stale"] = device.isStale;
         },
-        mayWait);
+        keepWaiting);
     return times;
 }
 
-Session::Json Session::state(const MayWait& mayWait) {
+Session::Json Session::state(const KeepWaiting& keepWaiting) {
     Json state;
     run(
-        [&](Device& device, const GoesOn&) {
-            const RenderSettings& settings = device.settings;
+        [&](Device& device, const ShouldContinue&) {
+            const RenderSettings& settings = device.session->settings();
             state = {{"scene", device.scene.name},
                      {"technique", settings.technique.name},
                      {"size", {settings.width, settings.height}},
                      {"seed", settings.seed},
                      {"time_s", device.scene.timeSeconds},
                      {"device", device.context->info().renderer},
-                     {"disabled", device.renderer->settings().disabledPasses}};
+                     {"disabled", device.session->renderer().settings().disabledPasses}};
         },
-        mayWait);
+        keepWaiting);
     return state;
 }
 

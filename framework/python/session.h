@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A renderer that keeps its state between calls, on a thread and an OpenGL context of its own. It
-// knows no Python. Every method waits for its work; `mayWait` is WorkThread::run's, and where it
-// says no a frame ends before its next pass and the method throws Stopped; the session goes on as
-// if it had not been called, but for the frames that were whole. Errors as the command line's.
+// knows no Python. Every method waits for its work; `keepWaiting` is WorkThread::run's, and where
+// it says no a frame ends before its next pass and the method throws Stopped; the session goes on
+// as if it had not been called, but for the frames that were whole. Errors as the command line's.
 #pragma once
 
 #include <filesystem>
@@ -54,11 +54,11 @@ struct Judgement {
 
 class Session {
   public:
-    using MayWait = WorkThread::GoesOn;
+    using KeepWaiting = WorkThread::ShouldContinue;
     using Json = nlohmann::json;
 
     Session(const std::function<scene::Scene()>& loadScene, const SessionOptions& options,
-            const MayWait& mayWait);
+            const KeepWaiting& keepWaiting);
     ~Session();
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
@@ -69,46 +69,47 @@ class Session {
     [[nodiscard]] bool isClosed() const { return isClosed_; }
 
     // Parameters by any unique short name. What does not go together is told by the next step.
-    void set(const std::map<std::string, std::string>& settings, const MayWait& mayWait);
+    void set(const std::map<std::string, std::string>& settings, const KeepWaiting& keepWaiting);
     // As run::describe(), with `value` ([w, h] of an extent), `default` as text, `is_set`.
-    [[nodiscard]] Json param(const std::string& name, const MayWait& mayWait);
-    [[nodiscard]] Json params(const MayWait& mayWait);
+    [[nodiscard]] Json param(const std::string& name, const KeepWaiting& keepWaiting);
+    [[nodiscard]] Json params(const KeepWaiting& keepWaiting);
     // Switches exactly these passes off, at once: where that cannot be, nothing changes.
-    void disable(const std::vector<std::string>& passes, const MayWait& mayWait);
-    void resize(const std::string& size, const MayWait& mayWait);
-    void setSeed(std::uint64_t seed, const MayWait& mayWait);
+    void disable(const std::vector<std::string>& passes, const KeepWaiting& keepWaiting);
+    void resize(const std::string& size, const KeepWaiting& keepWaiting);
+    void setSeed(std::uint64_t seed, const KeepWaiting& keepWaiting);
     // Camera, lights, waves, medium, time; `read` makes them on the session's thread.
-    void edit(const std::function<scene::SceneEdits()>& read, const MayWait& mayWait);
+    void edit(const std::function<scene::SceneEdits()>& read, const KeepWaiting& keepWaiting);
 
     // Renders frames. Gives their times: {frames, frame_ms, passes}, as in report.json.
-    Json step(const StepRequest& request, const MayWait& mayWait);
+    Json step(const StepRequest& request, const KeepWaiting& keepWaiting);
     // A texture of the frame that was rendered last, all layers or one. One that was not kept is
     // rendered once more with that frame, and kept from then on.
     [[nodiscard]] Array read(const std::string& resource, std::optional<std::size_t> layer,
-                             const MayWait& mayWait);
+                             const KeepWaiting& keepWaiting);
     // report.json, of the frames since anything was changed.
-    [[nodiscard]] Json report(const Judgement& judgement, const MayWait& mayWait);
+    [[nodiscard]] Json report(const Judgement& judgement, const KeepWaiting& keepWaiting);
     // What `kaustik run` writes; gives the files.
     std::vector<std::filesystem::path> save(const std::filesystem::path& folder,
                                             const std::vector<std::string>& resources,
-                                            const Judgement& judgement, const MayWait& mayWait);
+                                            const Judgement& judgement,
+                                            const KeepWaiting& keepWaiting);
 
-    [[nodiscard]] Json passes(const MayWait& mayWait);
-    [[nodiscard]] Json resources(const MayWait& mayWait);
-    [[nodiscard]] Json needs(const MayWait& mayWait);
-    [[nodiscard]] std::string explain(const MayWait& mayWait);
+    [[nodiscard]] Json passes(const KeepWaiting& keepWaiting);
+    [[nodiscard]] Json resources(const KeepWaiting& keepWaiting);
+    [[nodiscard]] Json needs(const KeepWaiting& keepWaiting);
+    [[nodiscard]] std::string explain(const KeepWaiting& keepWaiting);
     // As step() gives them, of all frames since something was changed; also `picture`, the resource
     // that is the picture, and `is_stale`, whether something was changed after the last frame.
-    [[nodiscard]] Json times(const MayWait& mayWait);
+    [[nodiscard]] Json times(const KeepWaiting& keepWaiting);
     // {scene, technique, size, seed, time_s, device, disabled}
-    [[nodiscard]] Json state(const MayWait& mayWait);
+    [[nodiscard]] Json state(const KeepWaiting& keepWaiting);
 
   private:
     struct Device;  // lives on the thread
-    using GoesOn = WorkThread::GoesOn;
+    using ShouldContinue = WorkThread::ShouldContinue;
 
-    void run(const std::function<void(Device& device, const GoesOn& goesOn)>& work,
-             const MayWait& mayWait);
+    void run(const std::function<void(Device& device, const ShouldContinue& shouldContinue)>& work,
+             const KeepWaiting& keepWaiting);
 
     std::unique_ptr<Device> device_;
     std::atomic<bool> isClosed_{false};

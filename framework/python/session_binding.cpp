@@ -18,7 +18,7 @@ namespace {
 
 namespace py = pybind11;
 namespace fs = std::filesystem;
-using MayWait = WorkThread::GoesOn;
+using KeepWaiting = WorkThread::ShouldContinue;
 
 std::uint64_t seedOf(long long seed) {
     if (seed < 0) throw ConfigError("seed: must not be negative.");
@@ -47,44 +47,44 @@ std::unique_ptr<Session> openSession(const py::object& scene, const std::string&
                                  precise,
                                  debug,
                                  device};
-    return waitFor([&](const MayWait& mayWait) {
-        return std::make_unique<Session>([&] { return source.load(); }, options, mayWait);
+    return waitFor([&](const KeepWaiting& keepWaiting) {
+        return std::make_unique<Session>([&] { return source.load(); }, options, keepWaiting);
     });
 }
 
 // A method without arguments whose result is JSON.
-auto asPython(nlohmann::json (Session::*method)(const MayWait&)) {
+auto asPython(nlohmann::json (Session::*method)(const KeepWaiting&)) {
     return [method](Session& session) {
-        return toPython(
-            waitFor([&](const MayWait& mayWait) { return (session.*method)(mayWait); }));
+        return toPython(waitFor(
+            [&](const KeepWaiting& keepWaiting) { return (session.*method)(keepWaiting); }));
     };
 }
 
 py::object step(Session& session, int frames, std::optional<double> time, double timeStep,
                 int warmup) {
     const StepRequest request{frames, warmup, time, timeStep};
-    return toPython(
-        waitFor([&](const MayWait& mayWait) { return session.step(request, mayWait); }));
+    return toPython(waitFor(
+        [&](const KeepWaiting& keepWaiting) { return session.step(request, keepWaiting); }));
 }
 
 std::shared_ptr<Array> read(Session& session, const std::string& name, std::optional<long> layer) {
     if (layer && *layer < 0)
         throw ConfigError(fmt::format("There is no layer {}; they count from 0.", *layer));
-    return waitFor([&](const MayWait& mayWait) {
-        return std::make_shared<Array>(
-            session.read(name, layer ? std::optional<std::size_t>(*layer) : std::nullopt, mayWait));
+    return waitFor([&](const KeepWaiting& keepWaiting) {
+        return std::make_shared<Array>(session.read(
+            name, layer ? std::optional<std::size_t>(*layer) : std::nullopt, keepWaiting));
     });
 }
 
 void edit(Session& session, const py::dict& changes) {
     const scene::TomlNode document = tomlFrom(changes);
-    waitFor([&](const MayWait& mayWait) {
+    waitFor([&](const KeepWaiting& keepWaiting) {
         session.edit(
             [&] {
                 scene::TableReader top(document, "./", "");
                 return readEdits(top);
             },
-            mayWait);
+            keepWaiting);
     });
 }
 
@@ -105,34 +105,38 @@ void bindSession(py::module_& module) {
             "set",
             [](Session& session, const py::dict& settings) {
                 const auto texts = settingTexts(settings);
-                waitFor([&](const MayWait& mayWait) { session.set(texts, mayWait); });
+                waitFor([&](const KeepWaiting& keepWaiting) { session.set(texts, keepWaiting); });
             },
             py::arg("settings"))
         .def(
             "param",
             [](Session& session, const std::string& name) {
-                return toPython(
-                    waitFor([&](const MayWait& mayWait) { return session.param(name, mayWait); }));
+                return toPython(waitFor([&](const KeepWaiting& keepWaiting) {
+                    return session.param(name, keepWaiting);
+                }));
             },
             py::arg("name"))
         .def("params", asPython(&Session::params))
         .def(
             "disable",
             [](Session& session, const std::vector<std::string>& passes) {
-                waitFor([&](const MayWait& mayWait) { session.disable(passes, mayWait); });
+                waitFor(
+                    [&](const KeepWaiting& keepWaiting) { session.disable(passes, keepWaiting); });
             },
             py::arg("passes"))
         .def(
             "resize",
             [](Session& session, const py::object& size) {
                 const std::string text = settingText("size", size);
-                waitFor([&](const MayWait& mayWait) { session.resize(text, mayWait); });
+                waitFor([&](const KeepWaiting& keepWaiting) { session.resize(text, keepWaiting); });
             },
             py::arg("size"))
         .def(
             "set_seed",
             [](Session& session, long long seed) {
-                waitFor([&](const MayWait& mayWait) { session.setSeed(seedOf(seed), mayWait); });
+                waitFor([&](const KeepWaiting& keepWaiting) {
+                    session.setSeed(seedOf(seed), keepWaiting);
+                });
             },
             py::arg("seed"))
         .def("edit", &edit, py::arg("changes"))
@@ -142,8 +146,9 @@ void bindSession(py::module_& module) {
             "report",
             [](Session& session, const std::string& reference, long long photons) {
                 const Judgement judgement = judgementOf(reference, photons);
-                return toPython(waitFor(
-                    [&](const MayWait& mayWait) { return session.report(judgement, mayWait); }));
+                return toPython(waitFor([&](const KeepWaiting& keepWaiting) {
+                    return session.report(judgement, keepWaiting);
+                }));
             },
             py::arg("reference"), py::arg("reference_photons"))
         .def(
@@ -151,8 +156,8 @@ void bindSession(py::module_& module) {
             [](Session& session, const fs::path& folder, const std::vector<std::string>& resources,
                const std::string& reference, long long photons) {
                 const Judgement judgement = judgementOf(reference, photons);
-                return waitFor([&](const MayWait& mayWait) {
-                    return session.save(folder, resources, judgement, mayWait);
+                return waitFor([&](const KeepWaiting& keepWaiting) {
+                    return session.save(folder, resources, judgement, keepWaiting);
                 });
             },
             py::arg("folder"), py::arg("resources"), py::arg("reference"),
@@ -163,7 +168,8 @@ void bindSession(py::module_& module) {
         .def("times", asPython(&Session::times))
         .def("state", asPython(&Session::state))
         .def("explain", [](Session& session) {
-            return waitFor([&](const MayWait& mayWait) { return session.explain(mayWait); });
+            return waitFor(
+                [&](const KeepWaiting& keepWaiting) { return session.explain(keepWaiting); });
         });
 }
 

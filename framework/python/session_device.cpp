@@ -3,18 +3,18 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <system_error>
 #include <utility>
 
 #include "framework/core/error.h"
+#include "framework/core/json_schema.h"
 #include "framework/core/names.h"
 #include "framework/report/statistics.h"
 #include "framework/run/output.h"
-#include "framework/run/run_record.h"
-#include "framework/run/run_reference.h"
+#include "framework/run/settings.h"
 #include "framework/scene/shapes/height_field.h"
 
 namespace kaustik::python {
@@ -22,20 +22,18 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-using Clock = std::chrono::steady_clock;
 
 // Times of so many frames are remembered.
-constexpr std::size_t kMostFrames = 100000;
+constexpr std::size_t kFrameHistory = 100000;
 
 RenderSettings makeSettings(const SessionOptions& options) {
-    RenderSettings settings;
-    settings.technique = registry().findTechnique(options.technique);
-    settings.params = registry().makeParams(settings.technique);
-    for (const auto& [name, value] : options.settings)
-        settings.params.set(name, value, "set");
-    setSize(settings, options.size);
-    settings.disabledPasses.insert(options.disabled.begin(), options.disabled.end());
-    settings.seed = options.seed;
+    RenderSettings settings =
+        run::makeSettings({.technique = options.technique,
+                           .assignments = assignmentsOf(options.settings),
+                           .disabledPasses = {options.disabled.begin(), options.disabled.end()},
+                           .seed = options.seed},
+                          registry());
+    run::setSize(settings, params::parsePictureSize(options.size, "open"));
     return settings;
 }
 
@@ -62,17 +60,13 @@ struct TemporaryFolder {
     fs::path path;
 };
 
-run::Watch watchOf(const WorkThread::GoesOn& goesOn) {
-    return {goesOn, [](double, const std::string&) {}};
-}
-
 }  // namespace
 
-void setSize(RenderSettings& settings, const std::string& text) {
-    params::Extent size;
-    params::Field{"size", "", "px", &size, 1.0, 16384.0, {}}.set(text, "size", "open");
-    settings.width = size.width;
-    settings.height = size.height;
+std::vector<params::Assignment> assignmentsOf(const std::map<std::string, std::string>& settings) {
+    std::vector<params::Assignment> assignments;
+    for (const auto& [name, value] : settings)
+        assignments.push_back({name, value, "set"});
+    return assignments;
 }
 
 json timesOf(const report::RunRecord& record) {
@@ -82,210 +76,132 @@ json timesOf(const report::RunRecord& record) {
     json passes = json::array();
     for (const report::PassTimes& pass : report::timesByPass(record)) {
         passes.push_back({{"name", pass.name},
-                          {"gpu_ms", toJson(report::summarize(pass.gpuMilliseconds))},
-                          {"cpu_ms", toJson(report::summarize(pass.cpuMilliseconds))}});
+                          {"gpu_ms", jsonOf(report::summarize(pass.gpuMilliseconds))},
+                          {"cpu_ms", jsonOf(report::summarize(pass.cpuMilliseconds))}});
     }
     return {{"frames", record.frames.size()},
-            {"frame_ms", toJson(report::summarize(std::move(frames)))},
+            {"frame_ms", jsonOf(report::summarize(std::move(frames)))},
             {"passes", std::move(passes)}};
 }
 
 Session::Device::Device(scene::Scene loaded, const SessionOptions& options)
-    : scene(std::move(loaded)), settings(makeSettings(options)) {
-    const Clock::time_point begin = Clock::now();
+    : scene(std::move(loaded)) {
+    RenderSettings settings = makeSettings(options);
+    const auto begin = std::chrono::steady_clock::now();
     if (options.time) {
         checkTime(*options.time);
         scene::setTime(scene, *options.time);
     }
     context = gl::Context::createHeadless(options.debugs, options.device);
-    renderer = std::make_unique<Renderer>(*context, registry(), scene, settings);
-    timer = std::make_unique<gl::PassTimer>(options.isPrecise ? gl::TimerMode::finish
-                                                              : gl::TimerMode::timestamps);
-    prepare();
-    record.startupMilliseconds =
-        std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+    session.emplace(
+        *context, registry(), scene, std::move(settings),
+        run::SessionOptions{.isPrecise = options.isPrecise, .framesKept = kFrameHistory});
+    session->prepare();
+    session->noteStartup(begin);
 }
 
-void Session::Device::prepare() {
-    if (!isChanged && isBuilt) return;
-    forgetBuild();
-    if (isChanged) {
-        renderer->update(settings);
-        record.frames.clear();
-        record.warmup = 0;
-    }
-    isChanged = true;  // until all is well
-    renderer->build(Purpose::picture);
-    // Other settings may not have what was read before.
-    std::erase_if(kept,
-                  [&](const std::string& name) { return !renderer->graph().find(name).valid(); });
-    if (!kept.empty()) renderer->build(Purpose::picture, {kept.begin(), kept.end()});
-    isChanged = false;
-    isBuilt = true;
-
-    report::RunRecord now = run::startRecord(*renderer, timer->mode());
-    now.startupMilliseconds = record.startupMilliseconds;
-    now.seed = static_cast<long long>(settings.seed);
-    now.timeStepSeconds = record.timeStepSeconds;
-    if (now.stepNames == record.stepNames) {
-        now.frames = std::move(record.frames);
-        now.warmup = record.warmup;
-    }
-    record = std::move(now);
+void Session::Device::change(RenderSettings settings) {
+    session->change(std::move(settings));
+    isStale = true;
 }
 
-void Session::Device::adopt(RenderSettings wanted) {
-    const RenderSettings before = std::exchange(settings, std::move(wanted));
-    const report::RunRecord recordBefore = record;
-    const bool wasChanged = std::exchange(isChanged, true);
-    try {
-        prepare();
-        isStale = true;
-    } catch (const Error&) {
-        settings = before;
-        record = recordBefore;
-        isChanged = wasChanged;
-        if (!wasChanged) renderer->update(settings);
-        forgetBuild();
-        throw;
-    }
+void Session::Device::adopt(RenderSettings settings) {
+    session->adopt(std::move(settings));
+    isStale = true;
 }
 
-void Session::Device::render(const GoesOn& goesOn) {
-    hasFrame = false;
-    if (!renderer->renderFrame(*timer, [&](std::size_t) { return goesOn(); })) throw Stopped();
-    hasFrame = true;
-    hasStepped = true;
-    isStale = false;
+void Session::Device::noteEdit() {
+    session->noteSceneChange();
+    session->forgetTimes();
+    isStale = true;
 }
 
-void Session::Device::requireFrame(const GoesOn& goesOn) {
+void Session::Device::requireFrame(const ShouldContinue& shouldContinue) {
     if (!hasStepped) throw ConfigError("No frame has been rendered yet; step() renders one.");
     if (isStale)
         throw ConfigError("Something was changed after the last frame; step() renders it.");
-    if (hasFrame) return;
-    prepare();
-    gl::PassTimer untimed(gl::TimerMode::finish);
-    if (!renderer->renderFrame(untimed, [&](std::size_t) { return goesOn(); })) throw Stopped();
-    hasFrame = true;
+    if (session->hasFrame()) return;
+    if (!session->renderAgain([&](std::size_t) { return shouldContinue(); })) throw Stopped();
 }
 
-graph::ResourceRef Session::Device::requireTexture(const std::string& name, const GoesOn& goesOn) {
-    requireFrame(goesOn);
-    const graph::Graph& graph = renderer->graph();
+graph::ResourceRef Session::Device::requireTexture(const std::string& name,
+                                                   const ShouldContinue& shouldContinue) {
+    requireFrame(shouldContinue);
+    const Renderer& renderer = session->renderer();
+    const graph::Graph& graph = renderer.graph();
     const graph::ResourceRef handle = graph.find(name);
     if (!handle.valid()) {
         throw ConfigError(fmt::format("There is no resource '{}'{}; resources() lists them all.",
                                       name, didYouMean(name, graph.resourceNames())));
     }
-    if (!std::holds_alternative<graph::TextureDesc>(graph.descOf(handle))) {
+    if (!run::isTexture(renderer, name)) {
         throw ConfigError(fmt::format(
             "'{}' is a buffer, and only textures can be read (resources() says which those are).",
             name));
     }
-    const FrameOutputs& outputs = renderer->outputs();
+    const FrameOutputs& outputs = renderer.outputs();
     for (const graph::ResourceRef& always : std::initializer_list<graph::ResourceRef>{
              outputs.picture.radiance, outputs.picture.display, outputs.caustic.irradiance,
              outputs.caustic.radiance, outputs.inScattered.radiance}) {
         if (handle == always) return handle;
     }
-    if (kept.insert(name).second) {
-        forgetBuild();
-        requireFrame(goesOn);
+    if (read.insert(name).second) {
+        session->keep(read);
+        requireFrame(shouldContinue);
     }
-    return renderer->graph().find(name);
+    return renderer.graph().find(name);
 }
 
-void Session::Device::goToTime(double seconds) {
-    checkTime(seconds);
-    if (seconds == scene.timeSeconds) return;
-    scene::setTime(scene, seconds);
-    forgetBuild();
-    // The frames before are as good as those that follow: they are timed together.
-    if (!isChanged) renderer->update(settings);
-}
-
-json Session::Device::step(const StepRequest& request, const GoesOn& goesOn) {
-    if (request.frames < 1 || request.frames > 1000000)
-        throw ConfigError(fmt::format("n: {} is not from 1 to 1000000.", request.frames));
-    if (request.warmup < 0 || request.warmup > 1000000)
-        throw ConfigError(fmt::format("warmup: {} is not from 0 to 1000000.", request.warmup));
-    if (!(std::abs(request.timeStep) <= 1e6)) {
-        throw ConfigError(fmt::format("time_step: {} is not from -1000000 to 1000000 seconds.",
-                                      request.timeStep));
-    }
-    record.timeStepSeconds = request.timeStep;
-    static_cast<void>(timer->takeFinished(true));  // of a step that was stopped
-    const double first =
-        request.time.value_or(scene.timeSeconds + (hasStepped ? request.timeStep : 0.0));
-    std::vector<gl::FrameTime> times;
-    const auto take = [&](bool wait) {
-        for (gl::FrameTime& frame : timer->takeFinished(wait))
-            times.push_back(std::move(frame));
-    };
-    const auto keepTimes = [&] {
-        take(true);
-        const auto warm = static_cast<std::ptrdiff_t>(
-            std::min(times.size(), static_cast<std::size_t>(request.warmup)));
-        times.erase(times.begin(), times.begin() + warm);
-        record.warmup += static_cast<int>(warm);
-        record.frames.insert(record.frames.end(), times.begin(), times.end());
-        if (record.frames.size() > kMostFrames) {
-            record.frames.erase(record.frames.begin(),
-                                record.frames.end() - static_cast<std::ptrdiff_t>(kMostFrames));
-        }
-    };
-    for (int frame = 0; frame < request.warmup + request.frames; ++frame) {
-        if (request.timeStep != 0.0) take(true);
-        goToTime(first + std::max(frame - request.warmup, 0) * request.timeStep);
-        prepare();
-        try {
-            render(goesOn);
-        } catch (const Stopped&) {
-            keepTimes();
-            throw;
-        }
-        take(timer->mode() == gl::TimerMode::finish || frame % 2 == 1);
-    }
-    keepTimes();
-    report::RunRecord these = record;
-    these.frames = std::move(times);
+json Session::Device::step(const StepRequest& request, const ShouldContinue& shouldContinue) {
+    run::FrameSeries series{request.frames, request.warmup, request.time, request.timeStep};
+    checkSeries(series, {"n", "warmup", "time_step"});
+    if (!series.firstSeconds)
+        series.firstSeconds = scene.timeSeconds + (hasStepped ? request.timeStep : 0.0);
+    checkTime(*series.firstSeconds);
+    checkTime(series.secondsOf(request.frames - 1, scene.timeSeconds));
+    const run::RenderedSeries rendered =
+        session->render(series, {[&](std::size_t) { return shouldContinue(); },
+                                 [&](int) {
+                                     hasStepped = true;
+                                     isStale = false;
+                                 }});
+    if (!rendered.isWhole) throw Stopped();
+    report::RunRecord these = session->record();
+    these.frames = rendered.times;
     return timesOf(these);
 }
 
-json Session::Device::report(const Judgement& judgement, const GoesOn& goesOn) {
-    requireFrame(goesOn);
-    prepare();
-    const run::RunReference reference(judgement.reference, judgement.photons, *renderer,
-                                      watchOf(goesOn));
-    report::RunRecord finished = record;
-    forgetBuild();
-    const bool isWhole = run::measureRun(*renderer, reference, finished, {kept.begin(), kept.end()},
-                                         [&](std::size_t) { return goesOn(); });
-    if (!isWhole) throw Stopped();
+run::RunReference Session::Device::referenceFor(const Judgement& judgement,
+                                                const ShouldContinue& shouldContinue) {
+    return session->referenceFor({}, judgement.reference, judgement.photons,
+                                 {shouldContinue, [](double, const std::string&) {}});
+}
+
+json Session::Device::report(const Judgement& judgement, const ShouldContinue& shouldContinue) {
+    requireFrame(shouldContinue);
+    const run::RunReference reference = referenceFor(judgement, shouldContinue);
+    std::optional<report::RunRecord> record = session->measure(
+        reference, session->keptTextures(), [&](std::size_t) { return shouldContinue(); });
+    if (!record) throw Stopped();
+    Renderer& renderer = session->renderer();
     if (reference.purpose() == Purpose::audit) {
         const TemporaryFolder pictures;
-        static_cast<void>(reference.judge(*renderer, pictures.path, finished));
-        static_cast<void>(reference.judgeView(*renderer, pictures.path, finished));
-    } else {
-        hasFrame = true;  // with all that is kept
+        static_cast<void>(reference.judge(renderer, pictures.path, *record));
+        static_cast<void>(reference.judgeView(renderer, pictures.path, *record));
     }
-    return report::makeReport(finished, *renderer, context->info());
+    return report::makeReport(*record, renderer, context->info());
 }
 
 std::vector<fs::path> Session::Device::save(const fs::path& folder,
                                             const std::vector<std::string>& resources,
-                                            const Judgement& judgement, const GoesOn& goesOn) {
+                                            const Judgement& judgement,
+                                            const ShouldContinue& shouldContinue) {
     for (const std::string& name : resources)
-        static_cast<void>(requireTexture(name, goesOn));
-    requireFrame(goesOn);
-    prepare();
+        static_cast<void>(requireTexture(name, shouldContinue));
+    requireFrame(shouldContinue);
     run::requireWritable(folder, "folder");
-    const run::RunReference reference(judgement.reference, judgement.photons, *renderer,
-                                      watchOf(goesOn));
-    report::RunRecord finished = record;
-    forgetBuild();
-    return run::finishRun(*renderer, reference, finished, folder, resources, context->info());
+    const run::RunReference reference = referenceFor(judgement, shouldContinue);
+    return session->finish(reference, folder, resources).files;
 }
 
 }  // namespace kaustik::python

@@ -16,7 +16,7 @@ using nlohmann::json;
 using scene::TomlNode;
 
 // As deep as scene files may be.
-constexpr int kDeepest = 64;
+constexpr int kMaxDepth = 64;
 
 std::string typeName(py::handle value) {
     return py::str(py::type::handle_of(value).attr("__name__"));
@@ -82,9 +82,9 @@ TomlNode tableFrom(const py::dict& table, const std::string& where, int depth) {
 }
 
 TomlNode nodeFrom(const std::string& key, py::handle value, int depth) {
-    if (depth > kDeepest)
+    if (depth > kMaxDepth)
         throw ConfigError(
-            fmt::format("the scene: '{}' is nested more than {} deep.", key, kDeepest));
+            fmt::format("the scene: '{}' is nested more than {} deep.", key, kMaxDepth));
     if (isTruth(value)) return {PyObject_IsTrue(value.ptr()) == 1};
     if (isText(value)) return {textOf(value)};
     if (py::isinstance<py::dict>(value))

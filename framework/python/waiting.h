@@ -19,10 +19,10 @@ namespace kaustik::python {
 // All calls of waitFor in the process.
 struct Waits {
     std::atomic<int> count{0};
-    std::atomic<bool> shallEnd{false};  // the process is about to, on the thread `ending`
+    std::atomic<bool> isEndRequested{false};  // the process is about to, on the thread `ending`
     std::thread::id ending;
-    [[nodiscard]] bool endWithoutThisThread() const {
-        return shallEnd && std::this_thread::get_id() != ending;
+    [[nodiscard]] bool exitWithoutThread() const {
+        return isEndRequested && std::this_thread::get_id() != ending;
     }
 };
 inline Waits& waits() {
@@ -37,9 +37,9 @@ inline Waits& waits() {
         ::pause();
 }
 
-// Calls `work(mayWait)` without the GIL. Signals that arrive are handled on Python's main thread;
-// what a handler raises, KeyboardInterrupt, comes out of here once the work has stopped, in place
-// of whatever that has thrown.
+// Calls `work(keepWaiting)` without the GIL. Signals that arrive are handled on Python's main
+// thread; what a handler raises, KeyboardInterrupt, comes out of here once the work has stopped, in
+// place of whatever that has thrown.
 template <class Work>
 auto waitFor(Work&& work) {
     std::optional<pybind11::error_already_set> raised;
@@ -48,28 +48,28 @@ auto waitFor(Work&& work) {
         ~Counted() { --waits().count; }
     };
     std::optional<Counted> counted(std::in_place);
-    const WorkThread::GoesOn mayWait = [&raised] {
-        if (waits().shallEnd) return false;
+    const WorkThread::ShouldContinue keepWaiting = [&raised] {
+        if (waits().isEndRequested) return false;
         const pybind11::gil_scoped_acquire gil;
         if (!raised && PyErr_CheckSignals() != 0) raised.emplace();
         return !raised;
     };
-    using Result = std::invoke_result_t<Work, const WorkThread::GoesOn&>;
+    using Result = std::invoke_result_t<Work, const WorkThread::ShouldContinue&>;
     std::conditional_t<std::is_void_v<Result>, bool, std::optional<Result>> result{};
     std::exception_ptr failure;
     {
         const pybind11::gil_scoped_release noGil;
         try {
             if constexpr (std::is_void_v<Result>) {
-                work(mayWait);
+                work(keepWaiting);
             } else {
-                result = work(mayWait);
+                result = work(keepWaiting);
             }
         } catch (...) {
             failure = std::current_exception();
         }
         counted.reset();
-        if (waits().endWithoutThisThread()) rest();
+        if (waits().exitWithoutThread()) rest();
     }
     if (raised) throw pybind11::error_already_set(*raised);
     if (failure) std::rethrow_exception(failure);

@@ -10,7 +10,7 @@
 
 namespace kaustik::python {
 namespace {
-constexpr std::chrono::milliseconds kBetweenLooks{20};
+constexpr std::chrono::milliseconds kPollInterval{20};
 }  // namespace
 
 struct WorkThread::State {
@@ -65,7 +65,7 @@ void WorkThread::loop(State& state) {
     }
 }
 
-void WorkThread::run(const Work& work, const GoesOn& mayWait) {
+void WorkThread::run(const Work& work, const ShouldContinue& keepWaiting) {
     if (isForked()) {
         throw DeviceError(
             "This renderer belongs to the process that opened it, and this one was forked off; "
@@ -73,8 +73,8 @@ void WorkThread::run(const Work& work, const GoesOn& mayWait) {
             kExitFailed);
     }
     std::unique_lock user(users_, std::defer_lock);
-    while (!user.try_lock_for(kBetweenLooks)) {
-        if (!mayWait()) throw Stopped();
+    while (!user.try_lock_for(kPollInterval)) {
+        if (!keepWaiting()) throw Stopped();
     }
     State& state = *state_;
     std::unique_lock lock(state.mutex);
@@ -82,9 +82,9 @@ void WorkThread::run(const Work& work, const GoesOn& mayWait) {
     state.isDone = false;
     state.work = &work;
     state.changed.notify_all();
-    while (!state.changed.wait_for(lock, kBetweenLooks, [&] { return state.isDone; })) {
+    while (!state.changed.wait_for(lock, kPollInterval, [&] { return state.isDone; })) {
         lock.unlock();
-        if (!state.stops && !mayWait()) state.stops = true;
+        if (!state.stops && !keepWaiting()) state.stops = true;
         lock.lock();
     }
     state.work = nullptr;

@@ -22,8 +22,8 @@ struct Stopped {};
 class WorkThread {
   public:
     // Work is handed what to ask, often: false means that it shall throw Stopped.
-    using GoesOn = std::function<bool()>;
-    using Work = std::function<void(const GoesOn& goesOn)>;
+    using ShouldContinue = std::function<bool()>;
+    using Work = std::function<void(const ShouldContinue& shouldContinue)>;
 
     WorkThread();
     // Stops the work at hand and waits for it. In a process that was forked off, where the thread
@@ -33,10 +33,10 @@ class WorkThread {
     WorkThread& operator=(const WorkThread&) = delete;
 
     // Does the work and waits for it; rethrows what it throws. Callers on several threads wait for
-    // each other. `mayWait` is asked about every 20 ms on the caller's thread: once it says no, the
-    // work is told to stop. Throws Stopped where the work has not begun by then, and DeviceError in
-    // a process that was forked off.
-    void run(const Work& work, const GoesOn& mayWait);
+    // each other. `keepWaiting` is asked about every 20 ms on the caller's thread: once it says no,
+    // the work is told to stop. Throws Stopped where the work has not begun by then, and
+    // DeviceError in a process that was forked off.
+    void run(const Work& work, const ShouldContinue& keepWaiting);
 
     // Work at hand and any later is told to stop at once.
     void stopAll() { stopsAll_ = true; }

@@ -20,9 +20,9 @@ Channel::~Channel() {
     ::close(socket_);
 }
 
-void Channel::limit(std::optional<Clock::time_point> deadline, std::uint64_t mostBytes) {
+void Channel::limit(std::optional<Clock::time_point> deadline, std::uint64_t maxBytes) {
     deadline_ = deadline;
-    mostBytes_ = mostBytes;
+    maxBytes_ = maxBytes;
     received_ = 0;
 }
 
@@ -62,7 +62,7 @@ std::size_t Channel::read(char* bytes, std::size_t count) {
         const ssize_t found = ::recv(socket_, bytes, count, MSG_DONTWAIT);
         if (found > 0) {
             received_ += static_cast<std::uint64_t>(found);
-            if (received_ > mostBytes_) throw ChannelEnd::tooMuch;
+            if (received_ > maxBytes_) throw ChannelEnd::tooMuch;
             return static_cast<std::size_t>(found);
         }
         if (found < 0 && (errno == EINTR || errno == EAGAIN)) continue;

@@ -24,8 +24,8 @@ class Channel {
     Channel(const Channel&) = delete;
     Channel& operator=(const Channel&) = delete;
 
-    // From now on: nothing is waited for beyond `deadline`, and no more than `mostBytes` are taken.
-    void limit(std::optional<Clock::time_point> deadline, std::uint64_t mostBytes);
+    // From now on: nothing is waited for beyond `deadline`, and no more than `maxBytes` are taken.
+    void limit(std::optional<Clock::time_point> deadline, std::uint64_t maxBytes);
 
     // All of these throw ChannelEnd.
     void send(const void* bytes, std::size_t count);
@@ -44,7 +44,7 @@ class Channel {
 
     int socket_;
     std::optional<Clock::time_point> deadline_;
-    std::uint64_t mostBytes_ = UINT64_MAX;
+    std::uint64_t maxBytes_ = UINT64_MAX;
     std::uint64_t received_ = 0;
     std::string outgoing_;
     std::string incoming_;

@@ -12,7 +12,7 @@
 namespace kaustik::reading {
 namespace {
 
-constexpr std::uint64_t kMost = 1u << 30;  // in seconds a lifetime, in mebibytes a pebibyte
+constexpr std::uint64_t kMaxLimit = 1u << 30;  // in seconds a lifetime, in mebibytes a pebibyte
 
 void replace(std::uint64_t& value, const char* variable) {
     const char* const found = std::getenv(variable);
@@ -21,9 +21,9 @@ void replace(std::uint64_t& value, const char* variable) {
     std::uint64_t number = 0;
     const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), number);
     if (problem != std::errc() || end != text.data() + text.size() || number < 1 ||
-        number > kMost) {
+        number > kMaxLimit) {
         throw ConfigError(
-            fmt::format("{}: '{}' is not a whole number from 1 to {}.", variable, text, kMost));
+            fmt::format("{}: '{}' is not a whole number from 1 to {}.", variable, text, kMaxLimit));
     }
     value = number;
 }

@@ -3,19 +3,18 @@
 // files crash, hang or eat memory for some of them, and here that costs the reader, not the
 // program: whatever happens is one error that names the file.
 //
-// The reader is a program of its own, kaustik_reader, beside the running one. A fork would be
+// The reader is a program of its own, kaustik_reader, next to the running one. A fork would be
 // cheaper, but is not safe in a process that has threads and an OpenGL context; and the program
 // itself, started once more, would have to be every program that links this library: tests and
 // techniques of others, too. It also keeps those libraries out of the program's own start.
 #pragma once
-
-#include <sys/types.h>
 
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
 
+#include "framework/core/process.h"
 #include "framework/reading/channel.h"
 #include "framework/reading/limits.h"
 #include "framework/reading/request.h"
@@ -41,27 +40,20 @@ class ReaderProcess {
         return result;
     }
 
-    // kaustik_reader beside the running executable.
+    // kaustik_reader next to the running executable.
     [[nodiscard]] static std::filesystem::path defaultProgram();
 
   private:
     void exchange(const Request& request, const std::function<void(Channel&)>& takeResult);
     void start();
     enum class Ending { byItself, killed };
-    int stop(Ending ending);
+    ProcessEnd stop(Ending ending);
     [[noreturn]] void fail(const std::string& name, ChannelEnd end);
 
     std::filesystem::path program_;
     ReadLimits limits_;
     std::unique_ptr<Channel> channel_;  // null: no process
-    pid_t process_ = -1;
+    Process process_;
 };
-
-// One file in a process of its own, which then ends.
-template <class Result>
-[[nodiscard]] Result readInOwnProcess(const Request& request) {
-    ReaderProcess reader;
-    return reader.ask<Result>(request);
-}
 
 }  // namespace kaustik::reading

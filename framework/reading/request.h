@@ -30,8 +30,8 @@ auto partsOf(R& request) {
 enum class Answer : std::uint32_t { done, wrongRequest, damagedFile };
 
 // How a reader process ends by itself.
-inline constexpr int kExitNobodyAsks = 0;
-inline constexpr int kExitNotByHand = 2;
+inline constexpr int kExitNoClient = 0;
+inline constexpr int kExitStartedByHand = 2;
 inline constexpr int kExitOutOfMemory = 77;
 
 }  // namespace kaustik::reading

@@ -16,7 +16,7 @@ namespace {
 
 // A reader whose program does something else for so long is not needed any more; the next request
 // starts another.
-constexpr std::chrono::seconds kPatience{10};
+constexpr std::chrono::seconds kAnswerTimeout{10};
 
 void setLimit(decltype(RLIMIT_AS) resource, rlim_t soft) {
     rlimit limit{};
@@ -63,7 +63,7 @@ int serve(int argc, const char* const* argv,
           const std::function<void(const Request&, Channel&)>& handle) {
     if (argc != 3 || !isSocket(STDIN_FILENO)) {
         std::fputs("kaustik_reader: reads files for kaustik, which starts it.\n", stderr);
-        return kExitNotByHand;
+        return kExitStartedByHand;
     }
     setLimit(RLIMIT_CORE, 0);
     keepMemory();
@@ -72,8 +72,8 @@ int serve(int argc, const char* const* argv,
     Channel channel(STDIN_FILENO);
     try {
         for (;;) {
-            channel.limit(Channel::Clock::now() + kPatience, UINT64_MAX);
-            if (!channel.waitForBytes()) return kExitNobodyAsks;
+            channel.limit(Channel::Clock::now() + kAnswerTimeout, UINT64_MAX);
+            if (!channel.waitForBytes()) return kExitNoClient;
             channel.limit(std::nullopt, UINT64_MAX);
             allowSeconds(seconds);
             Request request;
@@ -83,7 +83,7 @@ int serve(int argc, const char* const* argv,
             ::malloc_trim(0);
         }
     } catch (const ChannelEnd&) {
-        return kExitNobodyAsks;  // in the middle of a request
+        return kExitNoClient;  // in the middle of a request
     }
 }
 

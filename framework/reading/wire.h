@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Values as bytes on a channel, for two processes of one build on one machine. A struct travels
-// through `partsOf`, found beside it, which ties all of its members: written with a structured
+// through `partsOf`, found next to it, which ties all of its members: written with a structured
 // binding, it no longer compiles when a member is added and forgotten there.
 #pragma once
 
@@ -129,8 +129,11 @@ void take(Channel& channel, T& value) {
     } else if constexpr (detail::isOptional<T>) {
         bool isThere = false;
         take(channel, isThere);
-        value.reset();
-        if (isThere) take(channel, value.emplace());
+        if (isThere) {
+            take(channel, value.emplace());
+        } else {
+            value.reset();
+        }
     } else if constexpr (detail::isVariant<T>) {
         std::uint64_t index = 0;
         take(channel, index);

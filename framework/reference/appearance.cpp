@@ -43,7 +43,7 @@ double fraction(double value) {
     return value - std::floor(value);
 }
 
-// The second colour's share; see include/surface.glsl.
+// The second colour's share; see include/surfaces/surface.glsl.
 bool isSecondColor(scene::Pattern pattern, const glm::dvec2& p) {
     if (pattern == scene::Pattern::checker) {
         return (fraction(0.5 * p.x) > 0.5) != (fraction(0.5 * p.y) > 0.5);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Colours of the reference: what receivers reflect and what spots project. The same definitions as
-// shaders/include/surface.glsl and lights.glsl, at points: the device filters patterns and images
-// over a pixel (box, mip levels), resamples images to squares of one size and holds them in 16-bit
-// floats. Images here are bilinear between the centres of their own texels, in double.
+// shaders/include/surfaces/surface.glsl and lights.glsl, at points: the device filters patterns and
+// images over a pixel (box, mip levels), resamples images to squares of one size and holds them in
+// 16-bit floats. Images here are bilinear between the centres of their own texels, in double.
 #pragma once
 
 #include <cstdint>

@@ -41,9 +41,9 @@ class Run {
     [[nodiscard]] std::optional<Job> take() {
         while (next_ < options_.shard.end && sumsHeldAtStart(next_))
             ++next_;
-        const auto& most = options_.stop.batches;
+        const auto& maximum = options_.stop.batches;
         if (stopped_.load() || next_ >= options_.shard.end ||
-            (most && batchesAtStart_ + taken_ >= *most)) {
+            (maximum && batchesAtStart_ + taken_ >= *maximum)) {
             return std::nullopt;
         }
         ++taken_;
@@ -59,7 +59,7 @@ class Run {
     }
 
     // On any thread.
-    [[nodiscard]] bool goesOn(std::uint64_t photonsMore) {
+    [[nodiscard]] bool shouldContinue(std::uint64_t photonsMore) {
         const std::uint64_t photons = traced_ += photonsMore;
         if (options_.pulse && !options_.pulse(photons)) stopped_.store(true);
         return !stopped_.load();
@@ -71,8 +71,8 @@ class Run {
         sums_.add(job.batch, *job.result);
         spare_.push(std::move(job.result));
         const std::uint64_t count = sums_.batchCount();
-        const StopWhen& stop = options_.stop;
-        if (count >= stop.minimumBatches && count % kErrorEvery == 0)
+        const StopCondition& stop = options_.stop;
+        if (count >= stop.minimumBatches && count % kErrorInterval == 0)
             relativeError_ = sums_.relativeStandardError(0);
         bool isDone = stop.relativeError && relativeError_ <= *stop.relativeError;
         // Without light or specular surfaces no batch will ever send out a photon.
@@ -86,9 +86,9 @@ class Run {
         isDone = isDone || (hasError && stop.seconds && secondsSince(start_) >= *stop.seconds);
         if (options_.progress) {
             const Progress progress{.batches = count,
-                                    .batchesWanted = stop.batches.value_or(0),
+                                    .targetBatches = stop.batches.value_or(0),
                                     .photons = sums_.photons(),
-                                    .photonsWanted = stop.photons.value_or(0),
+                                    .targetPhotons = stop.photons.value_or(0),
                                     .seconds = secondsSince(start_),
                                     .relativeError = relativeError_};
             isDone = !options_.progress(progress) || isDone;
@@ -101,7 +101,7 @@ class Run {
     }
 
   private:
-    static constexpr std::uint64_t kErrorEvery = 4;
+    static constexpr std::uint64_t kErrorInterval = 4;
     static constexpr std::uint64_t kBatchesForAnError = 2;
     static constexpr std::uint64_t kBatchesForALitPixel = 64;
 
@@ -129,12 +129,14 @@ class Run {
 
 void runBatches(PixelSums& sums, const RunOptions& options, const ComputeBatch& compute) {
     const bool endsByShard = options.shard.end != UINT64_MAX;
-    const StopWhen& stop = options.stop;
+    const StopCondition& stop = options.stop;
     if (!stop.batches && !stop.photons && !stop.seconds && !stop.relativeError && !endsByShard) {
         throw ConfigError("A reference needs a number of photons, a time or an error to stop at.");
     }
     Run run(sums, options);
-    const TracedMore tracedMore = [&](std::uint64_t photons) { return run.goesOn(photons); };
+    const TracedMore tracedMore = [&](std::uint64_t photons) {
+        return run.shouldContinue(photons);
+    };
     runWithThreads(options.threads, [&] {
         // One more in flight than threads, so that none waits for the sums.
         tbb::parallel_pipeline(static_cast<std::size_t>(threadCount(options.threads)) + 1,

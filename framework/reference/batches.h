@@ -12,7 +12,7 @@
 namespace kaustik::reference {
 
 // When to stop; what is reached first counts. At least one of them must be given.
-struct StopWhen {
+struct StopCondition {
     std::optional<std::uint64_t> batches;  // in all, those of earlier runs included
     std::optional<std::uint64_t> photons;  // in all, rounded up to whole batches, two at least
     std::optional<double> seconds;         // of this run; two batches at least
@@ -24,15 +24,15 @@ struct StopWhen {
 
 struct Progress {
     std::uint64_t batches = 0;        // in the sums
-    std::uint64_t batchesWanted = 0;  // 0: not known
+    std::uint64_t targetBatches = 0;  // 0: not known
     std::uint64_t photons = 0;
-    std::uint64_t photonsWanted = 0;  // 0: not known
+    std::uint64_t targetPhotons = 0;  // 0: not known
     double seconds = 0.0;
     double relativeError = 0.0;  // infinite until known
 };
 
 struct RunOptions {
-    StopWhen stop;
+    StopCondition stop;
     BatchRange shard{0, UINT64_MAX};  // only these batches
     int threads = 0;                  // 0: all
     // Called after each batch, in order; false ends the run with what it has.
@@ -49,7 +49,7 @@ struct RunOptions {
 // What a batch says of itself now and then while it is computed: so many photons more. False: it is
 // not wanted any longer, and may end as it is.
 using TracedMore = std::function<bool(std::uint64_t photons)>;
-inline constexpr std::uint64_t kPhotonsBetweenPulses = 1u << 11;
+inline constexpr std::uint64_t kPhotonsPerPulse = 1u << 11;
 
 // `compute` fills a cleared result for a batch and is called on several threads; batches that the
 // sums hold already are skipped. Throws ConfigError when nothing says where to stop.

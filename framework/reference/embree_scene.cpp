@@ -19,7 +19,7 @@ using scene::MaterialKind;
 
 // Embree hands the context to the filters: what the ray may not hit.
 struct FilterContext {
-    RTCIntersectContext embree;
+    QueryContext embree;
     TriangleId start;
     const MediaStack* media;
     SideRule sides;
@@ -68,11 +68,11 @@ void rejectStart(const RTCFilterFunctionNArguments* arguments) {
 
 FilterContext makeContext(const TriangleId& start, const MediaStack& media, SideRule sides) {
     FilterContext context;
-    rtcInitIntersectContext(&context.embree);
+    initQueryContext(context.embree);
     context.start = start;
     context.media = &media;
     context.sides = sides;
-    context.leftSide = transport::kLeftNothing;
+    context.leftSide = transport::kLeftNone;
     context.reachMeters = 0.0f;
     return context;
 }
@@ -270,7 +270,7 @@ bool EmbreeScene::intersect(const Ray& ray, SurfaceHit& hit) const {
     query.ray.tnear = static_cast<float>(ray.fromMeters);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(everything_, &context.embree, &query);
+    findFirstHit(everything_, context.embree, query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
     refine(ray.origin, ray.direction, query.hit, query.ray.tfar, hit);
     return true;
@@ -278,9 +278,9 @@ bool EmbreeScene::intersect(const Ray& ray, SurfaceHit& hit) const {
 
 bool EmbreeScene::intersectFromLight(const Ray& ray, SurfaceHit& hit) const {
     // More planes than that through one light are no accident of rounding.
-    constexpr int kMostPlanes = 16;
+    constexpr int kMaxPlanes = 16;
     Ray onward = ray;
-    for (int plane = 0; plane < kMostPlanes; ++plane) {
+    for (int plane = 0; plane < kMaxPlanes; ++plane) {
         if (!intersect(onward, hit)) return false;
         const double height = std::abs(glm::dot(hit.position - ray.origin, hit.geometricNormal));
         if (height > roundingMeters_) return true;
@@ -297,7 +297,7 @@ bool EmbreeScene::intersectStraight(const glm::dvec3& origin, const glm::dvec3& 
     setRay(query.ray, origin, direction);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(opaque_, &context.embree, &query);
+    findFirstHit(opaque_, context.embree, query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
     refine(origin, direction, query.hit, query.ray.tfar, hit);
     return true;
@@ -315,7 +315,7 @@ bool EmbreeScene::isVisible(const glm::dvec3& from, const TriangleId& start, con
                             std::max({size.x, size.y, size.z});
     ray.tnear = static_cast<float>(rounding / glm::length(to - from));
     ray.tfar = static_cast<float>(1.0 - ignoredEnd);
-    rtcOccluded1(opaque_, &context.embree, &ray);
+    findAnyHit(opaque_, context.embree, ray);
     return ray.tfar >= 0.0f;
 }
 

@@ -7,12 +7,10 @@
 //
 // No ray needs an epsilon to leave a surface. A ray names the triangle that it starts on, which it
 // cannot hit again, and the dielectric that it is inside of: that one it hits only from within,
-// any other only from outside (shaders/include/hit_test.glsl, `isFacing`), so rounding at the seam
-// to a neighbouring triangle does no harm either. Where dielectrics overlap, one farther out may
-// end inside of the innermost.
+// any other only from outside (shaders/include/views/hit_test.glsl, `isFacing`), so rounding at the
+// seam to a neighbouring triangle does no harm either. Where dielectrics overlap, one farther out
+// may end inside of the innermost.
 #pragma once
-
-#include <embree3/rtcore.h>
 
 #include <array>
 #include <cstdint>
@@ -21,6 +19,7 @@
 #include <vector>
 
 #include "framework/reference/appearance.h"
+#include "framework/reference/embree.h"
 #include "framework/reference/media_stack.h"
 #include "framework/scene/scene.h"
 #include "framework/transport/types.h"
@@ -48,7 +47,7 @@ struct Ray {
     // For rays that know no triangle to start on: the side of an open mirror that they have left
     // (transport::kLeft…), which they cannot hit from that side within this height above it, m;
     // nor within it the end of a dielectric that overlaps the innermost.
-    std::uint32_t leftSide = transport::kLeftNothing;
+    std::uint32_t leftSide = transport::kLeftNone;
     double reachMeters = 0.0;
     double fromMeters = 0.0;  // what is nearer is not hit
 };

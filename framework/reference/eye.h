@@ -38,7 +38,7 @@ class Eye {
         return result;
     }
 
-    // Continuous pixels from the top left corner, on the screen or beside it; infinite for a point
+    // Continuous pixels from the top left corner, on the screen or next to it; infinite for a point
     // that is not before the eye.
     [[nodiscard]] glm::dvec2 pixelOf(const glm::dvec3& position) const {
         const glm::dvec3 offset = position - position_;

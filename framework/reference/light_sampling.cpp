@@ -173,7 +173,7 @@ EmittedPhoton LightSampler::sample(std::uint64_t index, Random& random) const {
     const scene::Light& light = *share.light;
     EmittedPhoton photon;
     if (light.kind == scene::LightKind::directional) {
-        photon.reach.isFromAfar = true;
+        photon.reach.isDistant = true;
         photon.origin = share.corner + u * share.sideA + v * share.sideB;
         photon.direction = share.along;
         photon.fluxWatts = weight * glm::dvec3(light.power);

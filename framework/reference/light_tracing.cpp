@@ -142,8 +142,7 @@ void traceBatch(const EmbreeScene& scene, const Eye& eye, const LightSampler& sa
     const LightTransport transport(scene, settings.filter);
     Camera camera(scene, eye, result);
     for (std::uint64_t i = 0; i < sampler.photonsPerBatch(); ++i) {
-        if (i % kPhotonsBetweenPulses == 0 && !tracedMore(i == 0 ? 0 : kPhotonsBetweenPulses))
-            return;
+        if (i % kPhotonsPerPulse == 0 && !tracedMore(i == 0 ? 0 : kPhotonsPerPulse)) return;
         Random random(settings.seed, batch, i);
         const EmittedPhoton emitted = sampler.sample(i, random);
         ++result.rays;

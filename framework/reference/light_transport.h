@@ -35,7 +35,7 @@ struct LightReach {
     double rangeMeters = std::numeric_limits<double>::infinity();  // beyond it there is none
     // Comes from so far away that it is what the scene file says where it hits that surface, even
     // where it is inside of a dielectric there.
-    bool isFromAfar = false;
+    bool isDistant = false;
 };
 
 struct PhotonState {
@@ -127,7 +127,7 @@ class LightTransport {
         if (material.kind == scene::MaterialKind::dielectric &&
             glm::dot(photon.direction, hit.geometricNormal) > 0.0) {
             photon.media.enter(hit.material + 1);
-            if (!reach.isFromAfar) photon.fluxWatts *= transmittance(material, hit.distance);
+            if (!reach.isDistant) photon.fluxWatts *= transmittance(material, hit.distance);
         }
         photon.origin = hit.position;
         sink.emitted(photon.fluxWatts);

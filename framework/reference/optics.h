@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A smooth dielectric interface in double precision: the laws of shaders/include/fresnel.glsl.
+// A smooth dielectric interface in double precision: the laws of
+// shaders/include/surfaces/fresnel.glsl.
 #pragma once
 
 #include <cmath>

@@ -15,9 +15,10 @@ Estimator estimatorOf(const Order& order, const Spelling& spelled) {
         fmt::format("{}: '{}' is neither light nor sppm.", spelled("estimator"), order.estimator));
 }
 
-void requireWithin(const std::string& name, int value, int least, int most) {
-    if (value < least || value > most)
-        throw ConfigError(fmt::format("{}: {} is not from {} to {}.", name, value, least, most));
+void requireWithin(const std::string& name, int value, int minimum, int maximum) {
+    if (value < minimum || value > maximum)
+        throw ConfigError(
+            fmt::format("{}: {} is not from {} to {}.", name, value, minimum, maximum));
 }
 
 void requireAboveZero(const std::string& name, double value) {

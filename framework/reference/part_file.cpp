@@ -24,9 +24,9 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr const char* kFormat = "kaustik.part/1";
-constexpr std::size_t kMostHeadBytes = 1u << 20;
-constexpr int kFastest = 1;                       // for zlib
-constexpr std::uint64_t kMostCompression = 1100;  // that zlib can reach
+constexpr std::size_t kMaxHeadBytes = 1u << 20;
+constexpr int kFastest = 1;                           // for zlib
+constexpr std::uint64_t kMaxCompressionRatio = 1100;  // that zlib can reach
 
 [[noreturn]] void failDamaged(const fs::path& file, const std::string& what) {
     throw IoError(fmt::format(
@@ -120,11 +120,11 @@ PartHead headFromJson(const json& from) {
     return head;
 }
 
-void requireSense(const PartHead& head, const fs::path& file) {
+void requireConsistent(const PartHead& head, const fs::path& file) {
     const Shard& shard = head.shard;
-    if (shard.count < 1 || shard.count > kMostShards || shard.number < 1 ||
+    if (shard.count < 1 || shard.count > kMaxShards || shard.number < 1 ||
         shard.number > shard.count ||
-        head.sumsBytes > kMostCompression * (head.compressedBytes + 1)) {
+        head.sumsBytes > kMaxCompressionRatio * (head.compressedBytes + 1)) {
         failDamaged(file, "its numbers make no sense");
     }
     const BatchRange own = head.own();
@@ -137,9 +137,9 @@ void requireSense(const PartHead& head, const fs::path& file) {
 }
 
 // A line without its end; leaves the stream behind it.
-std::string takeLine(std::istream& stream, std::size_t most) {
+std::string readLine(std::istream& stream, std::size_t maximum) {
     std::string line;
-    for (int c = stream.get(); c != EOF && c != '\n' && line.size() < most; c = stream.get())
+    for (int c = stream.get(); c != EOF && c != '\n' && line.size() < maximum; c = stream.get())
         line += static_cast<char>(c);
     return line;
 }
@@ -155,15 +155,15 @@ std::ifstream opened(const fs::path& file) {
     return stream;
 }
 
-PartHead takeHead(std::istream& stream, const fs::path& file) {
-    if (takeLine(stream, std::strlen(kFormat) + 1) != kFormat)
+PartHead readHead(std::istream& stream, const fs::path& file) {
+    if (readLine(stream, std::strlen(kFormat) + 1) != kFormat)
         failDamaged(file, "it does not begin like one of this version");
-    const std::string text = takeLine(stream, kMostHeadBytes);
-    if (ContentHash().addBytes(text).hex() != takeLine(stream, 64))
+    const std::string text = readLine(stream, kMaxHeadBytes);
+    if (ContentHash().addBytes(text).hex() != readLine(stream, 64))
         failDamaged(file, "the checksum of its head is wrong");
     try {
         PartHead head = headFromJson(parseJson(text, file.string()));
-        requireSense(head, file);
+        requireConsistent(head, file);
         return head;
     } catch (const json::exception& error) {
         failDamaged(file, error.what());
@@ -199,12 +199,12 @@ void writePart(const fs::path& file, PartHead head, const PixelSums& sums) {
 
 PartHead readPartHead(const fs::path& file) {
     std::ifstream stream = opened(file);
-    return takeHead(stream, file);
+    return readHead(stream, file);
 }
 
 PixelSums readPartSums(const fs::path& file, const PartHead& head) {
     std::ifstream stream = opened(file);
-    if (takeHead(stream, file).fingerprint != head.fingerprint)
+    if (readHead(stream, file).fingerprint != head.fingerprint)
         throw IoError(fmt::format("{} has changed while it was read.", file.string()));
     std::error_code error;
     if (fs::file_size(file, error) !=

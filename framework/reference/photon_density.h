@@ -7,7 +7,7 @@
 namespace kaustik::reference {
 
 // Photons on a surface that is turned further away than this belong to another one.
-inline constexpr double kLeastCosine = 0.7;
+inline constexpr double kMinCosine = 0.7;
 
 // What a photon within the radius adds to the density within it, 1/m².
 [[nodiscard]] inline double densityWithin(double radiusSquared) {

@@ -86,7 +86,7 @@ class Gatherer {
         const double radius = radiusPixels(settings, pass);
         const double nearer = 1.0 - radius * eye.footprintPerMeter();
         reach_ = radius * glm::length(corner) / std::max(nearer, 0.1);
-        within_ = points_.size() * 3 * kWithinRadiusLayer;
+        within_ = points_.size() * 3 * kNearRadiusLayer;
         radiance_ = points_.size() * 3 * kMappedRadianceLayer;
         const int viewLayer = viewedCausticsLayer(scene.scene(), settings);
         if (viewLayer < 0) return;
@@ -139,7 +139,7 @@ class Gatherer {
         const VisiblePoint& point = points_[pixel];
         const glm::dvec3 offset = position - point.position;
         const double distanceSquared = glm::dot(offset, offset);
-        if (distanceSquared > point.radiusSquared || glm::dot(lit, point.normal) < kLeastCosine)
+        if (distanceSquared > point.radiusSquared || glm::dot(lit, point.normal) < kMinCosine)
             return;
         const glm::dvec3 within = photon.fluxWatts * densityWithin(point.radiusSquared);
         const glm::dvec3 atPoint =
@@ -217,8 +217,7 @@ void photonMapping(const EmbreeScene& scene, const PhotonMappingSettings& settin
                [&](std::uint64_t pass, BatchResult& result, const TracedMore& tracedMore) {
                    Gatherer gatherer(scene, eye, settings, pass, result);
                    for (std::uint64_t i = 0; i < sampler.photonsPerBatch(); ++i) {
-                       if (i % kPhotonsBetweenPulses == 0 &&
-                           !tracedMore(i == 0 ? 0 : kPhotonsBetweenPulses))
+                       if (i % kPhotonsPerPulse == 0 && !tracedMore(i == 0 ? 0 : kPhotonsPerPulse))
                            return;
                        Random random(settings.seed, pass, i);
                        const EmittedPhoton emitted = sampler.sample(i, random);

@@ -39,7 +39,7 @@ struct PhotonMappingSettings {
 // none of it. Where the two differ much (folds, edges) so may the extrapolated value from the
 // reference.
 inline constexpr int kExtrapolatedLayer = 0;
-inline constexpr int kWithinRadiusLayer = 1;
+inline constexpr int kNearRadiusLayer = 1;
 // Caustic radiance towards the eye, extrapolated; only where a receiver is glossy.
 inline constexpr int kMappedRadianceLayer = 2;
 

@@ -14,7 +14,7 @@ namespace {
 
 // A value of one batch uses at most this many units: the square of it, summed over 2^22 batches,
 // still fits.
-constexpr double kMostUnits = 0x1.0p52;
+constexpr double kMaxUnits = 0x1.0p52;
 
 double powerOfTwoNear(double value) {
     return std::exp2(std::round(std::log2(value > 0.0 ? value : 1.0)));
@@ -70,7 +70,7 @@ void PixelSums::add(std::uint64_t batch, const BatchResult& result) {
     for (std::size_t i = 0; i < sums_.size(); ++i) {
         if (result.values[i] == 0.0) continue;
         const double units = std::nearbyint(result.values[i] * unitsPerValue);
-        if (!(std::abs(units) <= kMostUnits)) {
+        if (!(std::abs(units) <= kMaxUnits)) {
             ++rejectedValues_;
             continue;
         }

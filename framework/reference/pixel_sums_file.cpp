@@ -14,12 +14,12 @@
 namespace kaustik::reference {
 namespace {
 
-constexpr std::string_view kMagic = "kaustik.sums/2\n";
+constexpr std::string_view kMagic = "kaustik.sums/3\n";
 constexpr std::size_t kHashDigits = 32;
 // Sums of as many fit into 128 bits (framework/reference/pixel_sums.cpp).
-constexpr std::uint64_t kMostBatches = 1u << 22;
-constexpr int kMostBits = 126;
-constexpr int kMostLayers = 16;
+constexpr std::uint64_t kMaxBatches = 1u << 22;
+constexpr int kMaxBits = 126;
+constexpr int kMaxLayers = 16;
 
 class Writer {
   public:
@@ -78,7 +78,7 @@ void requireBatches(const std::vector<BatchRange>& batches, const Reader& reader
     std::uint64_t end = 0;
     for (const BatchRange& range : batches) {
         const bool isNext = count == 0 || range.first > end;
-        if (!isNext || range.end <= range.first || range.end - range.first > kMostBatches - count)
+        if (!isNext || range.end <= range.first || range.end - range.first > kMaxBatches - count)
             reader.fail("its batches make no sense");
         count += range.end - range.first;
         end = range.end;
@@ -130,7 +130,7 @@ PixelSums PixelSums::fromBytes(std::string_view bytes, const std::string& key,
     sums.rays_ = reader.get<std::uint64_t>();
     sums.rejectedValues_ = reader.get<std::uint64_t>();
     const auto rangeCount = reader.get<std::uint64_t>();
-    if (rangeCount > kMostBatches || sums.layers_ < 1 || sums.layers_ > kMostLayers ||
+    if (rangeCount > kMaxBatches || sums.layers_ < 1 || sums.layers_ > kMaxLayers ||
         !imageSizeProblem(sums.width_, sums.height_, 3).empty()) {
         reader.fail("its sizes make no sense");
     }
@@ -149,7 +149,7 @@ PixelSums PixelSums::fromBytes(std::string_view bytes, const std::string& key,
     sums.squares_.resize(values);
     reader.getAll(sums.sums_);
     reader.getAll(sums.squares_);
-    const auto isPossible = [limit = Int128{1} << kMostBits](Int128 sum) {
+    const auto isPossible = [limit = Int128{1} << kMaxBits](Int128 sum) {
         return sum >= -limit && sum <= limit;
     };
     for (const Int128 sum : sums.energy_) {

@@ -85,7 +85,7 @@ struct Subject {
 [[nodiscard]] std::uint64_t batchesFor(const EmbreeScene& scene, const ReferenceRequest& request,
                                        std::uint64_t photons);
 
-// NAME.exr (or .pfm) is the irradiance; beside it NAME.stderr.exr, NAME.caustic_radiance.exr and
+// NAME.exr (or .pfm) is the irradiance; next to it NAME.stderr.exr, NAME.caustic_radiance.exr and
 // NAME.caustic_radiance.stderr.exr where a receiver is glossy, NAME.caustic_view.exr and
 // NAME.caustic_view.stderr.exr where asked for, NAME.in_scattered.exr and
 // NAME.in_scattered.stderr.exr where there is a medium, and NAME.json, which is written last and

@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // What is reached first ends a run; so one that is reached is enough.
-bool isGoodEnough(const Reference& reference, const StopWhen& stop) {
+bool isSufficient(const Reference& reference, const StopCondition& stop) {
     if (reference.photons == 0) return true;  // nothing is sent out: it is exact
     if (stop.batches && reference.batches >= *stop.batches) return true;
     if (stop.photons && reference.photons >= *stop.photons) return true;
@@ -48,7 +48,7 @@ Reference loadOrCompute(const EmbreeScene& scene, const ReferenceRequest& reques
     if (fs::exists(cacheFolder / (key + ".json"), error)) {
         try {
             Reference cached = readReference(path, key);
-            if (isGoodEnough(cached, options.stop)) return cached;
+            if (isSufficient(cached, options.stop)) return cached;
             secondsBefore = cached.seconds;
         } catch (const Error& damage) {
             report(

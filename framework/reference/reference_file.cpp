@@ -141,7 +141,7 @@ Reference readReference(const fs::path& path, const std::string& expectedKey) {
             const fs::path file = partPath(path, part);
             Image& image = reference.*part.image;
             image = readImage(file);
-            if (fingerprint(image) != images.at(part.name).at("fingerprint")) {
+            if (images.at(part.name).at("fingerprint") != fingerprint(image)) {
                 throw IoError(fmt::format("{} does not belong to {}, or it is damaged.",
                                           file.string(), sidecar.string()));
             }

@@ -29,17 +29,17 @@ std::string differenceBetween(const PartHead& one, const PartHead& other) {
     const auto differ = [](const auto& what, const auto& is, const auto& was) {
         return fmt::format("{} {} instead of {}", what, is, was);
     };
-    const ReferenceRequest& asked = one.subject.request;
+    const ReferenceRequest& requested = one.subject.request;
     const ReferenceRequest& found = other.subject.request;
     if (other.version != one.version) return differ("version", other.version, one.version);
     if (other.subject.scene != one.subject.scene)
         return differ("scene", other.subject.scene, one.subject.scene);
-    if (found.width != asked.width || found.height != asked.height) {
-        return fmt::format("size {}x{} instead of {}x{}", found.width, found.height, asked.width,
-                           asked.height);
+    if (found.width != requested.width || found.height != requested.height) {
+        return fmt::format("size {}x{} instead of {}x{}", found.width, found.height,
+                           requested.width, requested.height);
     }
-    if (found.seed != asked.seed) return differ("seed", found.seed, asked.seed);
-    if (found.estimator != asked.estimator) return "another estimator";
+    if (found.seed != requested.seed) return differ("seed", found.seed, requested.seed);
+    if (found.estimator != requested.estimator) return "another estimator";
     if (other.subject.key != one.subject.key)
         return "other contents of the scene, another time or other settings";
     if (other.batchesOfAll != one.batchesOfAll)
@@ -83,24 +83,24 @@ fs::path unfinishedPart(const fs::path& file) {
 }
 
 ShardResult computeShard(const EmbreeScene& scene, const ReferenceRequest& request,
-                         const ShardRequest& asked, const RunOptions& options,
+                         const ShardRequest& requested, const RunOptions& options,
                          const std::function<void(const std::string&)>& report) {
     PartHead head;
     head.subject = subjectOf(scene.scene(), request);
     head.version = versionString();
-    head.shard = asked.shard;
-    head.batchesOfAll = batchesFor(scene, request, asked.photons);
-    if (std::optional<FoundPart> there = findPart(asked.file, report)) {
+    head.shard = requested.shard;
+    head.batchesOfAll = batchesFor(scene, request, requested.photons);
+    if (std::optional<FoundPart> there = findPart(requested.file, report)) {
         const std::string difference = differenceOfShards(head, there->head);
         if (!difference.empty()) {
             throw ConfigError(fmt::format(
                 "--out: {} is a part of something else: it has {}; delete it or name another file.",
-                asked.file.string(), difference));
+                requested.file.string(), difference));
         }
         if (there->head.isWhole()) return {std::move(there->head), true};
     }
     PixelSums sums = makeSums(scene, request);
-    const fs::path unfinished = unfinishedPart(asked.file);
+    const fs::path unfinished = unfinishedPart(requested.file);
     double secondsBefore = 0.0;
     std::optional<FoundPart> there = findPart(unfinished, report);
     if (there && differenceOfShards(head, there->head).empty()) {
@@ -122,7 +122,7 @@ ShardResult computeShard(const EmbreeScene& scene, const ReferenceRequest& reque
     };
     addBatches(scene, request, saving, sums);
     if (headOf(sums).isWhole()) {
-        writePart(asked.file, head, sums);
+        writePart(requested.file, head, sums);
         std::error_code ignored;
         fs::remove(unfinished, ignored);
     }

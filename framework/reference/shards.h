@@ -22,7 +22,7 @@ struct ShardRequest {
 
 struct ShardResult {
     PartHead head;
-    bool wasThere = false;  // nothing was left to compute
+    bool wasComplete = false;  // nothing was left to compute
 };
 
 // Where a shard that is not finished keeps what it has: a part of its own, with fewer batches.
@@ -33,7 +33,7 @@ struct ShardResult {
 // it tells `report` in one sentence, and makes again. Ended by `options`, it leaves the unfinished
 // part, and its head says so. Throws ConfigError where the file holds a part of something else.
 [[nodiscard]] ShardResult computeShard(const EmbreeScene& scene, const ReferenceRequest& request,
-                                       const ShardRequest& asked, const RunOptions& options,
+                                       const ShardRequest& requested, const RunOptions& options,
                                        const std::function<void(const std::string&)>& report);
 
 struct MergeOptions {

@@ -153,7 +153,7 @@ class Tracer {
     }
 
   private:
-    // The eye's axes, from its rays: the middle of the picture and one pixel beside it.
+    // The eye's axes, from its rays: the middle of the picture and one pixel next to it.
     [[nodiscard]] glm::dvec3 backward() const {
         return -eye_.ray(0.5 * request_.width, 0.5 * request_.height);
     }

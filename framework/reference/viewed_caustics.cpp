@@ -90,8 +90,7 @@ void ViewedCaustics::add(const SurfaceHit& hit, const PhotonState& photon, doubl
             if (point.cell != cell) continue;  // another cell of this bucket
             const glm::dvec3 offset = hit.position - point.position;
             const double distanceSquared = glm::dot(offset, offset);
-            if (distanceSquared > point.radiusSquared ||
-                glm::dot(lit, point.normal) < kLeastCosine) {
+            if (distanceSquared > point.radiusSquared || glm::dot(lit, point.normal) < kMinCosine) {
                 continue;
             }
             const glm::dvec3 value =

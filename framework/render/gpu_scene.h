@@ -9,7 +9,7 @@
 #include "framework/gl/executor.h"
 #include "framework/render/view.h"
 #include "framework/scene/scene.h"
-#include "framework/transport/stages.h"
+#include "framework/transport/geometry.h"
 
 namespace kaustik::render {
 
@@ -30,8 +30,8 @@ class GpuScene {
     [[nodiscard]] const scene::Scene& scene() const { return scene_; }
 
     // Issues `command` for the static meshes and the height fields of `set`. The vertex shader
-    // includes include/scene_vertex.glsl. `commands`: other indirect commands than the scene's own,
-    // laid out the same, or null.
+    // includes include/surfaces/scene_vertex.glsl. `commands`: other indirect commands than the
+    // scene's own, laid out the same, or null.
     void draw(gl::Command& command, const gl::PassContext& context, const Geometry& geometry,
               const ViewInstances& view, DrawSet set, const gl::Buffer* commands = nullptr,
               std::size_t firstCommand = 0) const;
@@ -42,8 +42,8 @@ class GpuScene {
                  std::size_t firstCommand = 0) const;
     [[nodiscard]] std::size_t objectOf(std::size_t command) const { return order_[command]; }
 
-    // For shaders that include include/scene_triangle.glsl: the triangles of all objects. The pass
-    // reads `geometry`.
+    // For shaders that include include/surfaces/scene_triangle.glsl: the triangles of all objects.
+    // The pass reads `geometry`.
     void bindTriangles(gl::Command& command, const Geometry& geometry) const;
 
     [[nodiscard]] const gl::Buffer& materials() const { return materials_; }

@@ -35,12 +35,12 @@ RasterViews::RasterViews(Space space, std::vector<RasterView> views, const GpuSc
         block.push_back(viewData(scene.scene(), view, eye));
     }
     // A block has room for all faces; shaders of one view read the first.
-    block.resize(transport::kMostViews);
+    block.resize(transport::kMaxViews);
     block_ = gl::Buffer(block, "views");
 }
 
 gl::Command& RasterViews::bindTo(gl::Command& command) const {
-    if (isEyes()) return command;
+    if (isEyeView()) return command;
     command.offer("View", block_).define("OTHER_VIEW");
     if (views_.front().isOrthographic) command.define("ORTHOGRAPHIC_VIEW");
     if (count() > 1) command.define("MANY_VIEWS").offer("viewCount", count());
@@ -49,7 +49,7 @@ gl::Command& RasterViews::bindTo(gl::Command& command) const {
 
 std::vector<RasterView> makeCube(const glm::dvec3& center, double nearMeters, int side) {
     std::vector<RasterView> faces;
-    for (int face = 0; face < static_cast<int>(transport::kMostViews); ++face) {
+    for (int face = 0; face < static_cast<int>(transport::kMaxViews); ++face) {
         RasterView view = makeCubeFaceView(center, face);
         view.nearMeters = nearMeters;
         faces.push_back(inPixels(view, side, side));

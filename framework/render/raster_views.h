@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Where surfaces are rasterised and light is stored: on the screen, in a light's view, or on the
 // faces of a cube. Passes that draw into views or look things up in them are written once for all:
-// shaders by include/view.glsl, C++ by asking here.
+// shaders by include/views/view.glsl, C++ by asking here.
 #pragma once
 
 #include <vector>
@@ -26,7 +26,7 @@ class RasterViews {
                 const RasterView& eye);
 
     [[nodiscard]] Space space() const { return space_; }
-    [[nodiscard]] bool isEyes() const { return space_ == Space::screen; }
+    [[nodiscard]] bool isEyeView() const { return space_ == Space::screen; }
     [[nodiscard]] int count() const { return static_cast<int>(views_.size()); }
     [[nodiscard]] int width() const { return views_.front().width; }
     [[nodiscard]] int height() const { return views_.front().height; }
@@ -37,7 +37,7 @@ class RasterViews {
         return views_[static_cast<std::size_t>(face)];
     }
     [[nodiscard]] const ViewInstances& instances(int face) const {
-        return isEyes() ? *eyesInstances_ : instances_[static_cast<std::size_t>(face)];
+        return isEyeView() ? *eyesInstances_ : instances_[static_cast<std::size_t>(face)];
     }
 
     // ViewData of all, for a block under another name; not of the eye's.

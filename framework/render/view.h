@@ -29,7 +29,7 @@ struct RasterView {
 };
 
 // Where a point of a perspective view's space is seen, in pixels from the lower left corner, on the
-// screen or beside it; nothing where it is not in front of the eye.
+// screen or next to it; nothing where it is not in front of the eye.
 [[nodiscard]] std::optional<glm::dvec2> pixelOf(const RasterView& view,
                                                 const glm::dvec3& positionVs);
 

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "framework/pipeline/stage_params.h"
 #include "framework/scene/dielectrics.h"
 
@@ -57,20 +55,6 @@ std::vector<ReachedLimit> reachedLimits(const RunRecord& record, const Renderer&
     }
     limits.insert(limits.end(), record.nodeLimits.begin(), record.nodeLimits.end());
     return limits;
-}
-
-nlohmann::json toJson(const std::vector<ReachedLimit>& limits) {
-    nlohmann::json list = nlohmann::json::array();
-    for (const ReachedLimit& limit : limits) {
-        nlohmann::json entry = {{"limit", limit.parameter},
-                                {"unit", limit.unit},
-                                {"value", limit.value},
-                                {"lost", limit.sentence},
-                                {"lost_w", limit.lostWatts}};
-        entry["needed"] = limit.needed > 0.0 ? nlohmann::json(limit.needed) : nlohmann::json();
-        list.push_back(std::move(entry));
-    }
-    return list;
 }
 
 }  // namespace kaustik::report

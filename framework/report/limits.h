@@ -3,7 +3,7 @@
 // their own.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <vector>
 
 #include "framework/report/run_report.h"
@@ -14,7 +14,20 @@ namespace kaustik::report {
 [[nodiscard]] std::vector<ReachedLimit> reachedLimits(const RunRecord& record,
                                                       const Renderer& renderer);
 
-// For report.json: `limits`.
-[[nodiscard]] nlohmann::json toJson(const std::vector<ReachedLimit>& limits);
+// An entry of `limits` in report.json.
+struct LimitTable {
+    ReachedLimit limit;
+};
+template <class F>
+void reflect(F& f, const LimitTable& table) {
+    const ReachedLimit& limit = table.limit;
+    f.field("limit", limit.parameter, "The parameter that sets it");
+    f.field("unit", limit.unit, "Of value and needed");
+    f.field("value", limit.value, "What the parameter allows");
+    f.fieldOrNull("needed", limit.needed > 0.0 ? std::optional(limit.needed) : std::nullopt, "",
+                  "What would have been enough; null where that is not known");
+    f.field("lost", limit.sentence, "What was lost, in words");
+    f.field("lost_w", limit.lostWatts, "Flux that was lost");
+}
 
 }  // namespace kaustik::report

@@ -1,15 +1,74 @@
 // SPDX-License-Identifier: MIT
 #include "framework/report/map_account.h"
 
-#include <nlohmann/json.hpp>
+#include <array>
+#include <optional>
 
+#include "framework/core/json_schema.h"
 #include "framework/render/raster_views.h"
 #include "framework/transport/watts.h"
 
 namespace kaustik::report {
-namespace {
 
 using nlohmann::json;
+
+struct StoredMap {
+    std::optional<int> generator;
+    std::optional<int> light;
+    std::array<int, 2> size{};
+    int views = 0;
+    std::optional<int> cascade;
+};
+template <class F>
+void reflect(F& f, const StoredMap& map) {
+    f.field("generator", map.generator, "The caustic generator that it lies around");
+    f.field("light", map.light, "The light whose view it is in");
+    f.field("size", map.size, "Width and height in texels");
+    f.field("views", map.views, "Pictures that it has, such as a cube's six faces");
+    f.field("cascade", map.cascade, "Of a map of what the eye sees nearer by, which of them it is");
+}
+
+struct MapTable {
+    bool isOfGenerators = false;
+    std::vector<StoredMap> maps;
+    double depositedWatts = 0.0;
+    double arrivedWatts = 0.0;
+    std::optional<double> filteredWatts;  // none without a filter
+    double seenWatts = 0.0;
+};
+template <class F>
+void reflect(F& f, const MapTable& table) {
+    f.choice("space", table.isOfGenerators ? "cube" : "light", {"light", "cube"},
+             "What the maps are views of");
+    f.field("maps", table.maps, "By light or generator");
+    const auto ratio = [&](const char* key, std::optional<double> part, double whole,
+                           const char* sentence) {
+        f.fieldOrNull(key, part && whole > 0.0 ? std::optional(*part / whole) : std::nullopt,
+                      part ? "no light was stored" : "no filter has changed the map", sentence);
+    };
+    ratio("flux_ratio", table.depositedWatts, table.arrivedWatts, "Deposited over arrived flux");
+    ratio("blend_energy_ratio", table.filteredWatts, table.depositedWatts,
+          "What a filter left, over the deposited flux");
+    ratio("seen_ratio", table.seenWatts, table.depositedWatts,
+          "What the picture shows, over the deposited flux");
+}
+
+struct CellTable {
+    transport::CellCounts counts{};
+};
+template <class F>
+void reflect(F& f, const CellTable& table) {
+    const transport::CellCounts& counts = table.counts;
+    f.field("probes", counts.probes, "That were looked at; of `hierarchical` photons that arrived");
+    f.field("photons", counts.emitted, "That were emitted, or stored");
+    f.field("merged", counts.merged, "Of them those that stand for several cells");
+    f.field("discarded", counts.discarded, "Cells that hold nothing specular");
+    f.field("deepest_level", counts.deepest, "Of a photon's cell");
+    f.field("rounds", counts.rounds, "In which cells were split");
+    f.field("batches", counts.batches, "In which photons were followed");
+}
+
+namespace {
 
 constexpr auto kColors = static_cast<std::size_t>(transport::kChannels);
 
@@ -48,48 +107,44 @@ double seenWatts(const Renderer& renderer) {
 
 json mapAccount(const Renderer& renderer) {
     const std::vector<FluxMap>& maps = renderer.outputs().map.maps;
-    if (maps.empty() || maps.front().on.views->isEyes()) return nullptr;
+    if (maps.empty() || maps.front().on.views->isEyeView()) return nullptr;
     const EnergyLedger ledger = renderer.ledger();
-    const double deposited = ledger.watts[transport::kAccountDeposited];
-    const double arrived = ledger.watts[transport::kAccountArrived];
-    const bool isOfGenerators = maps.front().generator >= 0;
-    json account{{"space", isOfGenerators ? "cube" : "light"}, {"maps", json::array()}};
-    double filtered = 0.0;
-    bool isFiltered = true;
+    MapTable table;
+    table.depositedWatts = ledger.watts[transport::kAccountDeposited];
+    table.arrivedWatts = ledger.watts[transport::kAccountArrived];
+    table.isOfGenerators = maps.front().generator >= 0;
+    table.filteredWatts = 0.0;
     for (const FluxMap& map : maps) {
         const render::RasterViews& views = *map.on.views;
-        account["maps"].push_back(
-            {{isOfGenerators ? "generator" : "light", isOfGenerators ? map.generator : map.light},
-             {"size", {views.width(), views.height()}},
-             {"views", views.count()}});
+        StoredMap& stored = table.maps.emplace_back();
+        (table.isOfGenerators ? stored.generator : stored.light) =
+            table.isOfGenerators ? map.generator : map.light;
+        stored.size = {views.width(), views.height()};
+        stored.views = views.count();
         if (map.cascade > 0) {
-            account["maps"].back()["cascade"] = map.cascade;
-            continue;
+            stored.cascade = map.cascade;
+        } else if (!map.filtered.valid()) {
+            table.filteredWatts.reset();
+        } else if (table.filteredWatts) {
+            *table.filteredWatts += filteredWatts(renderer, map);
         }
-        isFiltered = isFiltered && map.filtered.valid();
-        if (isFiltered) filtered += filteredWatts(renderer, map);
     }
-    const auto ratio = [&](const char* key, double part, double whole, bool isThere,
-                           const char* reason) {
-        const bool has = isThere && whole > 0.0;
-        account[key] = has ? json(part / whole) : json();
-        if (!has) account["reasons"][key] = isThere ? "no light was stored" : reason;
-    };
-    ratio("flux_ratio", deposited, arrived, true, "");
-    ratio("blend_energy_ratio", filtered, deposited, isFiltered, "no filter has changed the map");
-    ratio("seen_ratio", seenWatts(renderer), deposited, true, "");
-    return account;
+    table.seenWatts = seenWatts(renderer);
+    return jsonOf(table);
+}
+
+json mapSchema() {
+    return jsonSchemaOf<MapTable>();
 }
 
 json cellAccount(const Renderer& renderer) {
     const graph::Buffer<transport::CellCounts>& cells = renderer.outputs().cells;
     if (!cells.valid()) return nullptr;
-    const transport::CellCounts counts =
-        renderer.buffer(cells).read<transport::CellCounts>().front();
-    return {{"probes", counts.probes},         {"photons", counts.emitted},
-            {"merged", counts.merged},         {"discarded", counts.discarded},
-            {"deepest_level", counts.deepest}, {"rounds", counts.rounds},
-            {"batches", counts.batches}};
+    return jsonOf(CellTable{renderer.buffer(cells).read<transport::CellCounts>().front()});
+}
+
+json cellSchema() {
+    return jsonSchemaOf<CellTable>();
 }
 
 }  // namespace kaustik::report

@@ -1,24 +1,222 @@
 // SPDX-License-Identifier: MIT
+// report.json: each `reflect` writes a table of it, and says what its keys are.
 #include "framework/report/run_report.h"
-
-#include "framework/report/limits.h"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "framework/core/files.h"
+#include "framework/core/json_schema.h"
+#include "framework/report/limits.h"
+#include "framework/report/map_account.h"
 #include "framework/report/statistics.h"
 
 namespace kaustik::report {
-namespace {
 
 using nlohmann::json;
 using namespace transport;
+
+struct DeviceTable {
+    gl::DeviceInfo device;
+    std::string processor;
+    unsigned threads = 0;
+};
+template <class F>
+void reflect(F& f, const DeviceTable& table) {
+    f.field("renderer", table.device.renderer, "The device's name");
+    f.field("vendor", table.device.vendor, "Who made it or its driver");
+    f.field("gl", table.device.version, "The version of OpenGL, and the driver's");
+    f.field("platform", table.device.platform, "The platform of EGL that gave the context");
+    f.field("uuid", table.device.uuid, "As nvidia-smi and Vulkan have it; empty where unknown");
+    f.field("gl_debug", table.device.debugs, "Whether OpenGL checked every pass");
+    f.field("cpu", table.processor, "The processor's name");
+    f.field("threads", table.threads, "That the processor runs at once");
+}
+
+struct NeedsTable {
+    scene::SceneNeeds needs;
+    long long depthComplexity = 0;
+};
+template <class F>
+void reflect(F& f, const NeedsTable& table) {
+    const scene::SceneNeeds& needs = table.needs;
+    f.field("specular_interfaces", needs.specularInterfaces,
+            "That a path can hit when it crosses every dielectric once");
+    f.field("reflectors", needs.reflectors, "Objects that are mirrors");
+    f.field("refractors", needs.refractors, "Objects that are dielectrics");
+    f.field("closed_dielectrics", needs.closedDielectrics, "Whether a dielectric has an inside");
+    f.field("medium", needs.medium, "Whether one scatters or absorbs");
+    f.field("glossy_receivers", needs.glossyReceivers,
+            "Whether a receiver is not Lambertian alone");
+    f.field("animated", needs.animated, "Whether something moves");
+    f.field("lights", needs.lights, "How many there are");
+    f.field("receivers", needs.receivers, "Whether there is a surface that light ends on");
+    f.field("depth_complexity", table.depthComplexity, "Most surfaces along a pixel's ray");
+}
+
+struct SceneTable {
+    std::string name;
+    std::size_t triangles = 0;
+    NeedsTable needs;
+};
+template <class F>
+void reflect(F& f, const SceneTable& table) {
+    f.field("name", table.name, "The scene's name");
+    f.field("triangles", table.triangles, "Of all objects");
+    f.field("needs", table.needs, "What decides which passes run");
+}
+
+struct PassTable {
+    std::string name;
+    bool ran = false;
+    std::string reason;
+    std::optional<std::size_t> repeats;
+    std::optional<Summary> gpuMilliseconds;
+    std::optional<Summary> cpuMilliseconds;
+};
+template <class F>
+void reflect(F& f, const PassTable& table) {
+    f.field("name", table.name, "The pass");
+    f.field("stage", table.name.substr(0, table.name.find('.')), "The stage that it is of");
+    f.field("ran", table.ran, "Whether it did");
+    f.field("why", table.reason, "Why it ran, or not");
+    f.field("repeats", table.repeats, "Passes of this name in a frame");
+    f.field("gpu_ms", table.gpuMilliseconds, "On the device, all repeats together");
+    f.field("cpu_ms", table.cpuMilliseconds, "On the processor, all repeats together");
+}
+
+struct PhotonsTable {
+    EnergyLedger ledger;
+};
+template <class F>
+void reflect(F& f, const PhotonsTable& table) {
+    const auto& events = table.ledger.events;
+    const std::uint64_t emitted = events[kAccountEmitted];
+    const std::uint64_t hit = events[kAccountArrived];
+    const std::uint64_t nan = events[kAccountNotANumber];
+    const std::uint64_t rest = hit + nan + events[kAccountBounceLimit];
+    f.field("emitted", emitted, "That hit a specular surface");
+    f.field("specular", emitted, "The same");
+    f.field("hit", hit, "That arrived at a receiver");
+    f.field("missed", emitted > rest ? emitted - rest : 0, "That arrived nowhere");
+    f.field("nan", nan, "That are no numbers");
+}
+
+struct LayersTable {
+    LayerStatistics statistics{};
+    int allowed = 0;
+};
+template <class F>
+void reflect(F& f, const LayersTable& table) {
+    const LayerStatistics& layers = table.statistics;
+    f.field("allowed", table.allowed, "Layers that the run may peel");
+    f.field("complexity", layers.complexity, "Most surfaces along a pixel's ray");
+    f.field("peeled",
+            std::min<std::uint64_t>(layers.complexity, static_cast<std::uint64_t>(table.allowed)),
+            "Layers that were made");
+    f.field("fragments", layers.fragments, "In all pixels");
+    f.field("fragments_left_out", layers.skipped, "Of them those beyond the last layer");
+    f.field("pixels_left_out", layers.pixelsSkipped, "Pixels that have such fragments");
+}
+
+// Those causes alone that took something.
+struct LossTable {
+    EnergyLedger ledger;
+};
+template <class F>
+void reflect(F& f, const LossTable& table) {
+    for (const auto& [account, name] : lossCauses()) {
+        const double watts = table.ledger.watts[account];
+        f.field(name.c_str(), watts != 0.0 ? std::optional(watts) : std::nullopt, "");
+    }
+}
+
+struct EnergyTable {
+    EnergyLedger ledger;
+};
+template <class F>
+void reflect(F& f, const EnergyTable& table) {
+    const auto& watts = table.ledger.watts;
+    f.field("emitted_w", watts[kAccountEmitted], "Flux at the first specular surface");
+    f.field("deposited_w", watts[kAccountDeposited], "Sum over the map of flux");
+    f.field("absorbed_w", watts[kAccountAbsorbed], "In bodies, in the medium and at mirrors");
+    f.field("left_scene_w", watts[kAccountLeftScene], "That hits nothing");
+    f.field("lost_w", LossTable{table.ledger}, "By cause");
+    f.field("balance", table.ledger.balance(), "What all accounts leave of the emitted, over it");
+}
+
+struct MemoryTable {
+    std::size_t textures = 0;
+    std::size_t buffers = 0;
+    std::size_t scene = 0;
+    std::size_t peak = 0;
+};
+template <class F>
+void reflect(F& f, const MemoryTable& table) {
+    f.field("texture_bytes", table.textures, "Of the graph's textures");
+    f.field("buffer_bytes", table.buffers, "Of the graph's buffers");
+    f.field("scene_bytes", table.scene, "Of the scene");
+    f.field("peak_bytes", table.peak, "Most of the graph's that are in use at once");
+}
+
+struct ReportTable {
+    DeviceTable device;
+    SceneTable scene;
+    std::string technique;
+    json parameters = json::object();
+    std::vector<std::string> disabled;
+    double timeSeconds = 0.0;
+    double timeStepSeconds = 0.0;
+    long long seed = 0;
+    std::array<int, 2> size{};
+    std::size_t frames = 0;
+    int warmup = 0;
+    gl::TimerMode timer = gl::TimerMode::timestamps;
+    Summary frameMilliseconds;
+    Summary bookkeepingMilliseconds;
+    double graphBuildMilliseconds = 0.0;
+    double startupMilliseconds = 0.0;
+    std::vector<PassTable> passes;
+    EnergyLedger ledger;
+    LayersTable layers;
+    MemoryTable memory;
+    std::vector<LimitTable> limits;
+    std::vector<std::string> warnings;
+};
+template <class F>
+void reflect(F& f, const ReportTable& report) {
+    f.choice("schema", "kaustik.report/1", {"kaustik.report/1"}, "The format of this file");
+    f.field("version", versionString(), "Of the program");
+    f.field("device", report.device, "What it ran on");
+    f.field("scene", report.scene, "What was rendered");
+    f.field("technique", report.technique, "A name of 'kaustik list techniques'");
+    f.field("parameters", report.parameters, "By full name");
+    f.field("disabled", report.disabled, "Passes that were not to run");
+    f.field("time_s", report.timeSeconds, "Of the animation in the last frame");
+    f.field("time_step_s", report.timeStepSeconds, "From one timed frame to the next");
+    f.field("seed", report.seed, "Of everything random");
+    f.field("size", report.size, "Width and height of the picture");
+    f.field("frames", report.frames, "Frames that were timed");
+    f.field("warmup", report.warmup, "Frames before them");
+    f.choice("timer", report.timer == gl::TimerMode::timestamps ? "gpu" : "finish",
+             {"gpu", "finish"}, "By the device's timestamps, or with it finished around each pass");
+    f.field("frame_ms", report.frameMilliseconds, "Of whole frames");
+    f.field("bookkeeping_ms", report.bookkeepingMilliseconds,
+            "Of a frame's work beside its passes");
+    f.field("graph_build_ms", report.graphBuildMilliseconds, "Of making the graph");
+    f.field("startup_ms", report.startupMilliseconds, "Until the first frame");
+    f.field("passes", report.passes, "Every pass, in order");
+    f.field("photons", PhotonsTable{report.ledger}, "What became of them");
+    f.field("layers", report.layers, "The layered depth of what the eye sees");
+    f.field("energy", EnergyTable{report.ledger}, "The ledger, W");
+    f.field("memory", report.memory, "On the device");
+    f.field("limits", report.limits, "That were reached");
+    f.field("warnings", report.warnings, "What else to know");
+}
+
+namespace {
 
 std::string processorName() {
     std::ifstream file("/proc/cpuinfo");
@@ -28,378 +226,81 @@ std::string processorName() {
     return "unknown";
 }
 
-json energyJson(const EnergyLedger& ledger) {
-    json lost = json::object();
-    for (const auto& [account, name] : lossCauses()) {
-        if (ledger.watts[account] != 0.0) lost[name] = ledger.watts[account];
-    }
-    return {{"emitted_w", ledger.watts[kAccountEmitted]},
-            {"deposited_w", ledger.watts[kAccountDeposited]},
-            {"absorbed_w", ledger.watts[kAccountAbsorbed]},
-            {"left_scene_w", ledger.watts[kAccountLeftScene]},
-            {"lost_w", lost},
-            {"balance", ledger.balance()}};
-}
-
-json photonsJson(const EnergyLedger& ledger) {
-    const std::uint64_t emitted = ledger.events[kAccountEmitted];
-    const std::uint64_t hit = ledger.events[kAccountArrived];
-    const std::uint64_t nan = ledger.events[kAccountNotANumber];
-    const std::uint64_t stillFlying = ledger.events[kAccountBounceLimit];
-    const std::uint64_t rest = hit + nan + stillFlying;
-    return {{"emitted", emitted},
-            {"specular", emitted},
-            {"hit", hit},
-            {"missed", emitted > rest ? emitted - rest : 0},
-            {"nan", nan}};
-}
-
-json passesJson(const RunRecord& record) {
-    std::map<std::string, const PassTimes*> timesOf;
+std::vector<PassTable> passTables(const RunRecord& record) {
     const std::vector<PassTimes> times = timesByPass(record);
-    for (const PassTimes& pass : times)
-        timesOf[pass.name] = &pass;
-    json passes = json::array();
+    std::vector<PassTable> tables;
     for (const graph::PassRecord& pass : record.passes) {
-        json entry = {{"name", pass.name},
-                      {"stage", pass.name.substr(0, pass.name.find('.'))},
-                      {"ran", pass.state == graph::PassState::ran},
-                      {"why", pass.why}};
-        const auto found = timesOf.find(pass.name);
-        if (pass.state == graph::PassState::ran && found != timesOf.end()) {
-            entry["repeats"] = pass.repeats;
-            entry["gpu_ms"] = toJson(summarize(found->second->gpuMilliseconds));
-            entry["cpu_ms"] = toJson(summarize(found->second->cpuMilliseconds));
-        }
-        passes.push_back(std::move(entry));
+        const auto found = std::find_if(times.begin(), times.end(), [&](const PassTimes& timed) {
+            return timed.name == pass.name;
+        });
+        PassTable& table = tables.emplace_back();
+        table = {pass.name, pass.state == graph::PassState::ran, pass.reason, {}, {}, {}};
+        if (!table.ran || found == times.end()) continue;
+        table.repeats = pass.repeats;
+        table.gpuMilliseconds = summarize(found->gpuMilliseconds);
+        table.cpuMilliseconds = summarize(found->cpuMilliseconds);
     }
-    return passes;
-}
-
-std::vector<double> frameSamples(const RunRecord& record) {
-    std::vector<double> samples;
-    for (const gl::FrameTime& frame : record.frames)
-        samples.push_back(frame.frameMs);
-    return samples;
-}
-
-std::vector<double> bookkeepingSamples(const RunRecord& record) {
-    std::vector<double> samples;
-    for (const gl::FrameTime& frame : record.frames)
-        samples.push_back(frame.bookkeepingMs);
-    return samples;
-}
-
-// How wrong what the eye sees through specular surfaces is; "" where it was not judged.
-std::string viewLine(const json& view) {
-    if (view.is_null()) return "";
-    const auto number = [](const json& value, double factor = 1.0) {
-        return value.is_null() ? std::string("none")
-                               : fmt::format("{:.4g}", factor * value.get<double>());
-    };
-    std::string line = fmt::format("{:<24}", "view");
-    if (view.contains("exit_direction_deg")) {
-        const json& direction = view.at("exit_direction_deg");
-        line += fmt::format(
-            "exit direction median {}°, 95% {}°; position median {} px; interfaces right {}%, lost "
-            "{}%; ",
-            number(direction.at("median")), number(direction.at("p95")),
-            number(view.at("exit_position_px").at("median")),
-            number(view.at("interfaces_right"), 100.0), number(view.at("lost"), 100.0));
-    }
-    if (!view.at("radiance").is_null()) {
-        const json& radiance = view.at("radiance");
-        line += fmt::format("radiance RMSE {} W/m²/sr, relMSE {}, MAE {}, SSIM {}",
-                            number(radiance.at("rmse")), number(radiance.at("rel_mse")),
-                            number(radiance.at("mae")), number(radiance.at("ssim")));
-    }
-    return line + "\n";
-}
-
-// How many receivers lie on the wrong side of a shadow.
-std::string shadowLine(const json& shadow) {
-    if (shadow.at("misclassified").is_null()) return "";
-    const auto percent = [&](const char* key) { return 100.0 * shadow.at(key).get<double>(); };
-    return fmt::format(
-        "{:<24}{:.3g}% of {} pixels misclassified: {:.3g}% lit taken for shadow, {:.3g}% shadow "
-        "taken for lit\n",
-        "shadow", percent("misclassified"), shadow.at("pixels").get<std::uint64_t>(),
-        percent("lit_taken_for_shadow"), percent("shadow_taken_for_lit"));
-}
-
-// How much the caustic changes from frame to frame; "" where that was not judged.
-std::string flickerLine(const json& flicker) {
-    if (flicker.is_null()) return "";
-    const auto number = [&](const char* key) { return flicker.at(key).get<double>(); };
-    const json& times = flicker.at("of_times_s");
-    return fmt::format(
-        "{:<24}RMS change {:.4g} W/m² from {:g} s to {:g} s, the truth's {:.4g} (± {:.2g}), "
-        "difference {:.3g}\n",
-        "flicker", number("rms_w_m2"), times[0].get<double>(), times[1].get<double>(),
-        number("truth_rms_w_m2"), number("truth_stderr_w_m2"), number("difference_w_m2"));
-}
-
-// A line for hits, and one for every output that has an error.
-std::string referenceTable(const RunRecord& record) {
-    std::string table;
-    const auto orNone = [](const json& value, double factor, const char* unit) {
-        return value.is_null() ? std::string("none")
-                               : fmt::format("{:.4g}{}", factor * value.get<double>(), unit);
-    };
-    if (!record.hits.is_null()) {
-        table += fmt::format("{:<24}agreement {}, of visible {}; ", "hits",
-                             orNone(record.hits.at("agreement"), 100.0, "%"),
-                             orNone(record.hits.at("agreement_visible"), 100.0, "%"));
-        for (const char* kind : {"missed", "false_hits"}) {
-            std::string causes;
-            for (const auto& [cause, count] : record.hits.at(kind).items()) {
-                if (count == 0) continue;
-                causes += fmt::format(" {} {},", cause, count.get<std::uint64_t>());
-            }
-            if (!causes.empty()) causes.back() = ';';
-            table += fmt::format("{}{} ", kind, causes.empty() ? " none;" : causes);
-        }
-        table += fmt::format("distance median {}, 99% {}\n",
-                             orNone(record.hits.at("median_px"), 1.0, " px"),
-                             orNone(record.hits.at("p99_px"), 1.0, " px"));
-    }
-    const auto errorLine = [&](const char* name, const json& error, const char* output,
-                               const char* unit) {
-        if (!error.contains(output) || error.at(output).is_null()) return;
-        const json& errors = error.at(output);
-        const auto value = [&](const char* key) { return orNone(errors.at(key), 1.0, ""); };
-        const double noise = errors.contains("truth_noise")
-                                 ? errors.at("truth_noise").at("rmse").get<double>()
-                                 : 0.0;
-        table += fmt::format(
-            "{:<24}RMSE {} {} (the reference's own {:.2g}), relMSE {}, SSIM {}, FLIP {}, energy "
-            "ratio {}\n",
-            name, value("rmse"), unit, noise, value("rel_mse"), value("ssim"), value("flip_ldr"),
-            value("energy_ratio"));
-    };
-    const auto errorLines = [&](const char* caustic, const char* inScattered, const json& error) {
-        errorLine(caustic, error, "caustic_irradiance", "W/m²");
-        errorLine(inScattered, error, "in_scattered", "W/m²/sr");
-    };
-    if (!record.error.is_null()) {
-        errorLines("error", "  in-scattered", record.error);
-        if (record.error.contains("modelled_paths")) {
-            errorLines("  of modelled paths", "    in-scattered",
-                       record.error.at("modelled_paths"));
-        }
-        if (record.error.contains("flicker")) table += flickerLine(record.error.at("flicker"));
-        if (record.error.contains("view")) table += viewLine(record.error.at("view"));
-        if (record.error.contains("shadow")) table += shadowLine(record.error.at("shadow"));
-    }
-    return table;
+    return tables;
 }
 
 }  // namespace
 
 json needsJson(const scene::SceneNeeds& needs, long long depthComplexity) {
-    return {{"specular_interfaces", needs.specularInterfaces},
-            {"reflectors", needs.reflectors},
-            {"refractors", needs.refractors},
-            {"closed_dielectrics", needs.closedDielectrics},
-            {"medium", needs.medium},
-            {"glossy_receivers", needs.glossyReceivers},
-            {"animated", needs.animated},
-            {"lights", needs.lights},
-            {"receivers", needs.receivers},
-            {"depth_complexity", depthComplexity}};
+    return jsonOf(NeedsTable{needs, depthComplexity});
 }
 
-std::vector<PassTimes> timesByPass(const RunRecord& record) {
-    std::vector<PassTimes> times;
-    std::map<std::string, std::size_t> indexOf;
-    for (const std::string& name : record.stepNames) {
-        if (indexOf.emplace(name, times.size()).second) times.push_back({name, {}, {}});
-    }
-    for (const gl::FrameTime& frame : record.frames) {
-        for (PassTimes& pass : times) {
-            pass.gpuMilliseconds.push_back(0.0);
-            pass.cpuMilliseconds.push_back(0.0);
-        }
-        for (std::size_t step = 0; step < frame.passes.size(); ++step) {
-            PassTimes& pass = times[indexOf[record.stepNames[step]]];
-            pass.gpuMilliseconds.back() += frame.passes[step].gpuMs;
-            pass.cpuMilliseconds.back() += frame.passes[step].cpuMs;
-        }
-    }
-    return times;
+json photonsJson(const EnergyLedger& ledger) {
+    return jsonOf(PhotonsTable{ledger});
 }
 
 json makeReport(const RunRecord& record, const Renderer& renderer, const gl::DeviceInfo& device) {
     const RenderSettings& settings = renderer.settings();
-    json report = {
-        {"schema", "kaustik.report/1"},
-        {"version", versionString()},
-        {"device",
-         {{"renderer", device.renderer},
-          {"vendor", device.vendor},
-          {"gl", device.version},
-          {"platform", device.platform},
-          {"uuid", device.uuid},
-          {"gl_debug", device.debugs},
-          {"cpu", processorName()},
-          {"threads", std::thread::hardware_concurrency()}}},
-        {"scene",
-         {{"name", renderer.scene().name},
-          {"triangles", triangleCount(renderer.scene())},
-          {"needs", needsJson(renderer.needs(), record.layers.complexity)}}},
-        {"technique", settings.technique.name},
-        {"parameters", settings.params.json()},
-        {"disabled", settings.disabledPasses},
-        {"time_s", renderer.scene().timeSeconds},
-        {"time_step_s", record.timeStepSeconds},
-        {"seed", record.seed},
-        {"size", {settings.width, settings.height}},
-        {"frames", record.frames.size()},
-        {"warmup", record.warmup},
-        {"timer", record.timer == gl::TimerMode::timestamps ? "gpu" : "finish"},
-        {"frame_ms", toJson(summarize(frameSamples(record)))},
-        {"bookkeeping_ms", toJson(summarize(bookkeepingSamples(record)))},
-        {"graph_build_ms", record.graphBuildMilliseconds},
-        {"startup_ms", record.startupMilliseconds},
-        {"passes", passesJson(record)},
-        {"photons", photonsJson(record.ledger)},
-        {"layers",
-         {{"allowed", record.layersAllowed},
-          {"complexity", record.layers.complexity},
-          {"peeled", std::min<std::uint64_t>(record.layers.complexity,
-                                             static_cast<std::uint64_t>(record.layersAllowed))},
-          {"fragments", record.layers.fragments},
-          {"fragments_left_out", record.layers.skipped},
-          {"pixels_left_out", record.layers.pixelsSkipped}}},
-        {"energy", energyJson(record.ledger)},
-        {"memory",
-         {{"texture_bytes", record.textureBytes},
-          {"buffer_bytes", record.bufferBytes},
-          {"scene_bytes", renderer.gpuScene().bytes()},
-          {"peak_bytes", record.peakBytes}}},
-        {"limits", toJson(reachedLimits(record, renderer))},
-        {"warnings", record.warnings}};
-    if (!record.map.is_null()) report["map"] = record.map;
-    if (!record.cells.is_null()) report["cells"] = record.cells;
-    if (!record.hits.is_null()) report["hits"] = record.hits;
-    if (!record.error.is_null()) report["error"] = record.error;
+    ReportTable table;
+    table.device = {device, processorName(), std::thread::hardware_concurrency()};
+    table.scene = {renderer.scene().name,
+                   triangleCount(renderer.scene()),
+                   {renderer.needs(), record.layers.complexity}};
+    table.technique = settings.technique.name;
+    table.parameters = settings.params.json();
+    table.disabled.assign(settings.disabledPasses.begin(), settings.disabledPasses.end());
+    table.timeSeconds = renderer.scene().timeSeconds;
+    table.timeStepSeconds = record.timeStepSeconds;
+    table.seed = record.seed;
+    table.size = {settings.width, settings.height};
+    table.frames = record.frames.size();
+    table.warmup = record.warmup;
+    table.timer = record.timer;
+    table.frameMilliseconds = summarize(frameSamples(record));
+    table.bookkeepingMilliseconds = summarize(bookkeepingSamples(record));
+    table.graphBuildMilliseconds = record.graphBuildMilliseconds;
+    table.startupMilliseconds = record.startupMilliseconds;
+    table.passes = passTables(record);
+    table.ledger = record.ledger;
+    table.layers = {record.layers, record.layersAllowed};
+    table.memory = {record.textureBytes, record.bufferBytes, renderer.gpuScene().bytes(),
+                    record.peakBytes};
+    for (const ReachedLimit& limit : reachedLimits(record, renderer))
+        table.limits.push_back({limit});
+    table.warnings = record.warnings;
+    json report = jsonOf(table);
+    for (const auto& [key, value] : {std::pair("map", &record.map),
+                                     {"cells", &record.cells},
+                                     {"hits", &record.hits},
+                                     {"error", &record.error}}) {
+        if (!value->is_null()) report[key] = *value;
+    }
     return report;
 }
 
-std::string makeTable(const RunRecord& record) {
-    const double frame = summarize(frameSamples(record)).median;
-    std::string table =
-        fmt::format("{:<24}{:>10}{:>9}{:>10}{:>8}\n", "pass", "ms", "±", "CPU ms", "share");
-    double sum = 0.0;
-    const std::vector<PassTimes> times = timesByPass(record);
-    for (const PassTimes& pass : times) {
-        const Summary gpu = summarize(pass.gpuMilliseconds);
-        sum += gpu.median;
-        table += fmt::format("{:<24}{:>10.3f}{:>9.3f}{:>10.3f}{:>7.1f}%\n", pass.name, gpu.median,
-                             gpu.standardDeviation, summarize(pass.cpuMilliseconds).median,
-                             frame > 0.0 ? 100.0 * gpu.median / frame : 0.0);
-    }
-    table += fmt::format("{:<24}{:>10.3f}\n", "all passes", sum);
-    table += fmt::format("{:<24}{:>10.3f}{:>9.3f}   median of {}, bookkeeping {:.3f} ms\n", "frame",
-                         frame, summarize(frameSamples(record)).standardDeviation,
-                         record.frames.size(), summarize(bookkeepingSamples(record)).median);
-    for (const graph::PassRecord& pass : record.passes) {
-        if (pass.state == graph::PassState::ran) continue;
-        const char* state = pass.state == graph::PassState::bypassed ? "bypassed" : "skipped";
-        table += fmt::format("{:<24}{:>10}   {}\n", pass.name, state, pass.why);
-    }
-    if (!record.cells.is_null()) {
-        const auto count = [&](const char* key) { return record.cells[key].get<unsigned>(); };
-        table += fmt::format(
-            "cells                 {} photons, {} of them for several cells, of {} probes; level "
-            "{}, {} rounds, {} batches\n",
-            count("photons"), count("merged"), count("probes"), count("deepest_level"),
-            count("rounds"), count("batches"));
-    }
-    const EnergyLedger& ledger = record.ledger;
-    const double emitted = ledger.watts[kAccountEmitted];
-    if (emitted > 0.0) {
-        const auto share = [&](double watts) { return 100.0 * watts / emitted; };
-        table += fmt::format(
-            "energy                emitted {:.4g} W: deposited {:.2f}%, absorbed {:.2f}%, "
-            "left_scene "
-            "{:.2f}%",
-            emitted, share(ledger.watts[kAccountDeposited]), share(ledger.watts[kAccountAbsorbed]),
-            share(ledger.watts[kAccountLeftScene]));
-        for (const auto& [account, name] : lossCauses()) {
-            if (ledger.watts[account] != 0.0) {
-                table += fmt::format(", {} {:.2f}%", name, share(ledger.watts[account]));
-            }
-        }
-        table += fmt::format("; balance {:.1e}\n", ledger.balance());
-    }
-    table += referenceTable(record);
-    return table;
-}
-
-json makeSamples(const RunRecord& record) {
-    json passes = json::array();
-    for (const PassTimes& pass : timesByPass(record)) {
-        passes.push_back({{"name", pass.name},
-                          {"gpu_ms", pass.gpuMilliseconds},
-                          {"cpu_ms", pass.cpuMilliseconds}});
-    }
-    return {{"schema", "kaustik.samples/1"},
-            {"frame_samples_ms", frameSamples(record)},
-            {"bookkeeping_samples_ms", bookkeepingSamples(record)},
-            {"passes", passes}};
-}
-
-namespace {
-
-// A counter's events, one for each change; viewers draw a track for every value.
-class Counter {
-  public:
-    Counter(json& events, std::string name) : events_(events), name_(std::move(name)) {}
-    void set(double timeMs, json values) {
-        if (values == last_) return;
-        events_.push_back(
-            {{"name", name_}, {"ph", "C"}, {"pid", 1}, {"ts", timeMs * 1e3}, {"args", values}});
-        last_ = std::move(values);
-    }
-
-  private:
-    json& events_;
-    std::string name_;
-    json last_;
-};
-
-}  // namespace
-
-json makeChromeTrace(const RunRecord& record) {
-    json events = json::array();
-    Counter frameTimes(events, "time");
-    Counter memory(events, "memory");
-    Counter photons(events, "photons");
-    double frameBegin = 0.0;
-    const auto add = [&](const std::string& name, double startMs, double durationMs, int thread) {
-        events.push_back({{"name", name},
-                          {"ph", "X"},
-                          {"pid", 1},
-                          {"tid", thread},
-                          {"ts", startMs * 1e3},
-                          {"dur", durationMs * 1e3}});
-    };
-    for (const gl::FrameTime& frame : record.frames) {
-        add(fmt::format("frame {}", frame.frame), frameBegin, frame.frameMs, 0);
-        frameTimes.set(frameBegin,
-                       {{"device_ms", frame.frameMs}, {"bookkeeping_ms", frame.bookkeepingMs}});
-        // They are counted in a frame of their own, which repeats the last one.
-        if (&frame == &record.frames.back()) photons.set(frameBegin, photonsJson(record.ledger));
-        for (std::size_t step = 0; step < frame.passes.size(); ++step) {
-            const double begin = frameBegin + frame.passes[step].startMs;
-            add(record.stepNames[step], begin, frame.passes[step].gpuMs, 1);
-            const auto& [textures, buffers] = record.stepBytes[step];
-            memory.set(begin, {{"texture_bytes", textures}, {"buffer_bytes", buffers}});
-        }
-        frameBegin += frame.frameMs;
-    }
-    return {{"traceEvents", events}, {"displayTimeUnit", "ms"}};
+json reportSchema(const std::map<std::string, json>& judgements) {
+    json schema = jsonSchemaOf<ReportTable>();
+    json& properties = schema["properties"];
+    properties["$schema"] = jsonSchemaOf<std::string>();
+    properties["map"] = mapSchema();
+    properties["cells"] = cellSchema();
+    for (const auto& [key, part] : judgements)
+        properties[key] = part;
+    return schemaDocument("report", "A report of 'kaustik run'", std::move(schema));
 }
 
 }  // namespace kaustik::report

@@ -3,6 +3,7 @@
 // report"), as a table for people, and as Chrome trace events.
 #pragma once
 
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -48,11 +49,22 @@ struct PassTimes {
 };
 [[nodiscard]] std::vector<PassTimes> timesByPass(const RunRecord& record);
 
+// Milliseconds, by frame.
+[[nodiscard]] std::vector<double> frameSamples(const RunRecord& record);
+[[nodiscard]] std::vector<double> bookkeepingSamples(const RunRecord& record);
+
 // scene.needs of the report. `depthComplexity`: surfaces along a pixel's ray, at most.
 [[nodiscard]] nlohmann::json needsJson(const scene::SceneNeeds& needs, long long depthComplexity);
 
+// `photons` of the report.
+[[nodiscard]] nlohmann::json photonsJson(const EnergyLedger& ledger);
+
 [[nodiscard]] nlohmann::json makeReport(const RunRecord& record, const Renderer& renderer,
                                         const gl::DeviceInfo& device);
+
+// The JSON Schema of makeReport's. `judgements`: of `hits` and `error`, which whoever compares a
+// run with a reference writes.
+[[nodiscard]] nlohmann::json reportSchema(const std::map<std::string, nlohmann::json>& judgements);
 
 // Median per pass, share of the frame, what was skipped and why, and the ledger.
 [[nodiscard]] std::string makeTable(const RunRecord& record);

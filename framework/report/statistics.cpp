@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <numeric>
+
+#include "framework/core/json_schema.h"
 
 namespace kaustik::report {
 
@@ -33,9 +34,7 @@ Summary summarize(std::vector<double> samples) {
 }
 
 nlohmann::json toJson(const Summary& summary) {
-    return {{"median", summary.median},    {"mean", summary.mean},
-            {"min", summary.minimum},      {"max", summary.maximum},
-            {"p95", summary.percentile95}, {"stdev", summary.standardDeviation}};
+    return jsonOf(summary);
 }
 
 }  // namespace kaustik::report

@@ -18,7 +18,15 @@ struct Summary {
 
 [[nodiscard]] Summary summarize(std::vector<double> samples);
 
-// {median, mean, min, max, p95, stdev}
 [[nodiscard]] nlohmann::json toJson(const Summary& summary);
+template <class F>
+void reflect(F& f, const Summary& summary) {
+    f.field("median", summary.median, "The middle one, or the mean of both");
+    f.field("mean", summary.mean, "");
+    f.field("min", summary.minimum, "");
+    f.field("max", summary.maximum, "");
+    f.field("p95", summary.percentile95, "95th percentile, by the nearest rank");
+    f.field("stdev", summary.standardDeviation, "Standard deviation of the sample");
+}
 
 }  // namespace kaustik::report

@@ -5,10 +5,15 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 
+#include "framework/audit/shadow_audit.h"
+#include "framework/audit/view_audit.h"
 #include "framework/core/error.h"
+#include "framework/core/json_schema.h"
 #include "framework/measure/flicker.h"
 #include "framework/measure/heat_map.h"
 #include "framework/measure/image_errors.h"
@@ -63,6 +68,38 @@ measure::ImagePair pairOf(const Outputs& outputs, const Output& output,
                                .imageName = output.name});
 }
 
+// What the errors are against.
+struct ReferenceTable {
+    bool isLightTracing = true;
+    std::uint64_t photons = 0;
+    std::string key;
+    std::optional<double> relativeError;
+};
+template <class F>
+void reflect(F& f, const ReferenceTable& table) {
+    f.choice("reference_estimator", table.isLightTracing ? "light" : "sppm", {"light", "sppm"},
+             "By which the reference was computed");
+    f.field("reference_photons", table.photons, "That it was computed with");
+    f.field("reference_key", table.key, "Made of all that it depends on");
+    f.fieldOrNull("reference_relative_stderr", table.relativeError,
+                  "no pixel of the reference is lit", "Its standard error over a lit pixel's mean");
+}
+
+struct FlickerTable {
+    measure::Flicker flicker;
+    std::array<double, 2> times{};
+};
+template <class F>
+void reflect(F& f, const FlickerTable& table) {
+    const measure::Flicker& flicker = table.flicker;
+    f.field("rms_w_m2", flicker.rms, "Root mean square of the change of caustic irradiance");
+    f.field("truth_rms_w_m2", flicker.truthRms, "The same of the reference");
+    f.field("difference_w_m2", flicker.difference(), "The first less the second");
+    f.field("truth_stderr_w_m2", flicker.truthStandardError, "Standard deviation of the second");
+    f.field("counted_pixels", flicker.countedPixels, "That were compared");
+    f.field("of_times_s", table.times, "Between which it changed");
+}
+
 json flickerBetween(const Outputs& outputs, const Moment& earlier, const Moment& later,
                     const Reference& earlierReference, const Reference& laterReference,
                     std::string& reason) {
@@ -81,12 +118,7 @@ json flickerBetween(const Outputs& outputs, const Moment& earlier, const Moment&
     try {
         const measure::Flicker flicker = measure::measureFlicker(pairAt(earlier, earlierReference),
                                                                  pairAt(later, laterReference));
-        return {{"rms_w_m2", flicker.rms},
-                {"truth_rms_w_m2", flicker.truthRms},
-                {"difference_w_m2", flicker.difference()},
-                {"truth_stderr_w_m2", flicker.truthStandardError},
-                {"counted_pixels", flicker.countedPixels},
-                {"of_times_s", {earlier.seconds, later.seconds}}};
+        return jsonOf(FlickerTable{flicker, {earlier.seconds, later.seconds}});
     } catch (const IoError& error) {
         reason = error.what();
         return nullptr;
@@ -94,16 +126,11 @@ json flickerBetween(const Outputs& outputs, const Moment& earlier, const Moment&
 }
 
 json errorsAgainst(const Outputs& outputs, const Reference& reference) {
-    json result = {{"reference_estimator",
-                    reference.request.estimator == reference::Estimator::light ? "light" : "sppm"},
-                   {"reference_photons", reference.photons},
-                   {"reference_key", reference.key}};
-    if (std::isfinite(reference.relativeError)) {
-        result["reference_relative_stderr"] = reference.relativeError;
-    } else {
-        result["reference_relative_stderr"] = nullptr;
-        result["reasons"]["reference_relative_stderr"] = "no pixel of the reference is lit";
-    }
+    json result = jsonOf(ReferenceTable{reference.request.estimator == reference::Estimator::light,
+                                        reference.photons, reference.key,
+                                        std::isfinite(reference.relativeError)
+                                            ? std::optional<double>(reference.relativeError)
+                                            : std::nullopt});
     for (const Output& output : outputs.images) {
         if ((reference.*output.groundTruth).values.empty()) continue;
         if (output.isOfReceivers && !outputs.seesReceivers) {
@@ -123,6 +150,40 @@ json errorsAgainst(const Outputs& outputs, const Reference& reference) {
         }
     }
     return result;
+}
+
+json errorsSchema() {
+    const auto against = [] {
+        JsonFieldsSchema fields;
+        reflect(fields, ReferenceTable());
+        const json errors = JsonFieldsSchema::orNull(measure::imageErrorsSchema());
+        fields.add("caustic_irradiance", errors,
+                   "Of light that arrives by way of specular surfaces", false);
+        fields.add("caustic_radiance", errors, "Of the same light towards the eye", false);
+        fields.add("in_scattered", errors, "Of caustic light that a medium scatters", false);
+        fields.add("reference_stderr", jsonSchemaOf<double>(),
+                   "Root mean square of the reference's standard error, W/m²", false);
+        return fields;
+    };
+    JsonFieldsSchema modelled = against();
+    modelled.field("transmission_only", false, "Whether only refracted branches count");
+    modelled.field("maximum_interactions", 0, "Most specular interactions of a photon");
+    json view = audit::viewSchema();
+    // Of a node that follows no rays only the picture is judged.
+    view["required"] = {"radiance"};
+    view["properties"]["radiance"] = JsonFieldsSchema::orNull(measure::imageErrorsSchema());
+    view["properties"]["reasons"] = jsonSchemaOf<std::map<std::string, std::string>>();
+
+    JsonFieldsSchema error = against();
+    error.field("reference", std::string(), "auto, or a file");
+    error.add("modelled_paths", modelled.take(),
+              "Against the reference of the paths that the technique follows", false);
+    error.add("flicker", JsonFieldsSchema::orNull(jsonSchemaOf<FlickerTable>()),
+              "How much the caustic changes from frame to frame", false);
+    error.add("shadow", audit::shadowSchema(), "Receivers on the wrong side of a shadow", false);
+    error.add("view", JsonFieldsSchema::orNull(std::move(view)),
+              "What the eye sees in and through specular surfaces", false);
+    return error.take();
 }
 
 Image errorPicture(const measure::ImagePair& pair) {

@@ -14,7 +14,7 @@
 
 namespace kaustik::run {
 
-// An output of the frame beside the same of a reference.
+// An output of the frame next to the same of a reference.
 struct Output {
     const char* name;  // in the report
     Image image;
@@ -43,6 +43,9 @@ struct Outputs {
 // holds values that are no numbers has no errors, but a reason.
 [[nodiscard]] nlohmann::json errorsAgainst(const Outputs& outputs,
                                            const reference::Reference& reference);
+
+// The JSON Schema of a report's `error`: of these errors, and of what RunReference adds to them.
+[[nodiscard]] nlohmann::json errorsSchema();
 
 // The caustic irradiance of a frame, and when that was.
 struct Moment {

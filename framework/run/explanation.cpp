@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "framework/gl/objects.h"
@@ -53,6 +54,28 @@ std::string describe(const graph::ResourceDesc& desc) {
     return fmt::format("{} bytes", graph::bytesOf(desc));
 }
 
+// Parameters of nodes that the frame has, by what keeps them from having an effect.
+std::string effectText(const Renderer& renderer) {
+    const params::ParamSet& params = renderer.settings().params;
+    std::map<std::string, std::vector<std::string>> byReason;
+    for (const params::NamedField& named : params.all()) {
+        const std::string& name = named.fullName;
+        const auto dot = name.find('.');
+        const auto nodeEnd = dot == std::string::npos ? dot : name.find('.', dot + 1);
+        const bool isChosen =
+            nodeEnd == std::string::npos ||
+            params.choice(name.substr(0, dot)) == name.substr(dot + 1, nodeEnd - dot - 1);
+        if (!isChosen) continue;
+        const std::string reason = renderer.whyNoEffect(name);
+        if (!reason.empty()) byReason[reason].push_back(name);
+    }
+    if (byReason.empty()) return "";
+    std::string text = "parameters without effect\n";
+    for (const auto& [reason, names] : byReason)
+        text += fmt::format("  {}: {}\n", reason, fmt::join(names, ", "));
+    return text;
+}
+
 }  // namespace
 
 std::string explain(const Renderer& renderer) {
@@ -64,7 +87,7 @@ std::string explain(const Renderer& renderer) {
         longest = std::max(longest, pass.name.size());
     for (const graph::PassRecord& pass : passes) {
         text += fmt::format("  {:<{}}  {:<10}{}\n", pass.name, longest, stateName(pass.state),
-                            pass.why);
+                            pass.reason);
     }
     text += "resources (--save takes the textures)\n";
     const std::vector<std::string> resources = renderer.graph().resourceNames();
@@ -75,6 +98,7 @@ std::string explain(const Renderer& renderer) {
         text += fmt::format("  {:<{}}  {}\n", name, longest,
                             describe(renderer.graph().descOf(renderer.graph().find(name))));
     }
+    text += effectText(renderer);
     for (const std::string& warning : renderer.warnings())
         text += fmt::format("warning: {}\n", warning);
     return text;
@@ -86,7 +110,7 @@ json listPasses(const Renderer& renderer) {
         passes.push_back({{"name", pass.name},
                           {"stage", pass.name.substr(0, pass.name.find('.'))},
                           {"state", stateName(pass.state)},
-                          {"why", pass.why}});
+                          {"why", pass.reason}});
     }
     return passes;
 }

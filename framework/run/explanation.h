@@ -12,7 +12,8 @@ namespace kaustik::run {
 // What the scene needs, every pass with the reason that it runs or not, every resource, warnings.
 [[nodiscard]] std::string explain(const Renderer& renderer);
 
-// A list of objects with `name`, `stage`, `state` ("runs", "bypassed", "culled", "skipped"), `why`.
+// A list of objects with `name`, `stage`, `state` ("runs", "bypassed", "culled", "skipped"),
+// `reason`.
 [[nodiscard]] nlohmann::json listPasses(const Renderer& renderer);
 
 // Of textures `name`, `kind` "texture", `width`, `height`, `channels`, `layers` (0: not an array of

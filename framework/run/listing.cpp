@@ -59,7 +59,8 @@ json listNodes(const Registry& registry, const std::string& techniqueName) {
         entries.push_back({{"name", node.stage + "." + node.name},
                            {"stage", node.stage},
                            {"description", node.description.sentence},
-                           {"source", node.description.source}});
+                           {"source", node.description.source},
+                           {"limits", node.description.limits}});
     }
     return entries;
 }

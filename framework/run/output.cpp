@@ -16,8 +16,8 @@ namespace kaustik::run {
 namespace fs = std::filesystem;
 namespace {
 
-// PFM holds one or three channels; what does not fit is written beside it.
-std::vector<fs::path> writeAnyChannels(const fs::path& path, const Image& image) {
+// PFM holds one or three channels; what does not fit is written next to it.
+std::vector<fs::path> writeAllChannels(const fs::path& path, const Image& image) {
     if (path.extension() != ".pfm" || image.channels == 1 || image.channels == 3) {
         writeImage(path, image);
         return {path};
@@ -37,38 +37,35 @@ std::vector<fs::path> writeAnyChannels(const fs::path& path, const Image& image)
     return files;
 }
 
-// A node may stand for another one: specular.auto for specular.split, say.
-bool hasRun(const Renderer& renderer, const std::string& pass) {
-    const std::vector<graph::PassRecord>& passes = renderer.compiled().records;
-    return std::any_of(passes.begin(), passes.end(), [&](const graph::PassRecord& record) {
-        return record.name == pass && record.state == graph::PassState::ran;
-    });
-}
-
 }  // namespace
 
-void requireWritable(const fs::path& folder, const std::string& askedBy) {
+void requireWritable(const fs::path& folder, const std::string& requester) {
     std::error_code error;
     fs::create_directories(folder, error);
     if (error) {
-        throw IoError(fmt::format("{}: the folder {} cannot be made: {}.", askedBy, folder.string(),
-                                  error.message()));
+        throw IoError(fmt::format("{}: the folder {} cannot be made: {}.", requester,
+                                  folder.string(), error.message()));
     }
     // Only a file that is made proves it: permissions say nothing of a full or odd file system.
     std::string probe = (folder / ".kaustik-XXXXXX").string();
     const int descriptor = ::mkstemp(probe.data());
     if (descriptor < 0) {
-        throw IoError(fmt::format("{}: nothing can be written into {}: {}.", askedBy,
+        throw IoError(fmt::format("{}: nothing can be written into {}: {}.", requester,
                                   folder.string(), std::strerror(errno)));
     }
     ::close(descriptor);
     ::unlink(probe.c_str());
 }
 
+bool isTexture(const Renderer& renderer, const std::string& name) {
+    const graph::ResourceRef handle = renderer.graph().find(name);
+    return handle.valid() &&
+           std::holds_alternative<graph::TextureDesc>(renderer.graph().descOf(handle));
+}
+
 void requireTextures(const Renderer& renderer, const std::vector<std::string>& saved) {
     for (const std::string& name : saved) {
-        const graph::ResourceDesc& desc = renderer.graph().descOf(renderer.graph().find(name));
-        if (!std::holds_alternative<graph::TextureDesc>(desc)) {
+        if (!isTexture(renderer, name)) {
             throw ConfigError(
                 fmt::format("--save: '{}' is a buffer, and only textures can be saved "
                             "('kaustik explain' prints which those are).",
@@ -101,7 +98,7 @@ std::vector<fs::path> writePictures(const fs::path& folder, const Renderer& rend
     std::vector<fs::path> files;
     const auto write = [&](const std::string& name, const std::string& extension,
                            const Image& image) {
-        for (const fs::path& file : writeAnyChannels(folder / (name + extension), image)) {
+        for (const fs::path& file : writeAllChannels(folder / (name + extension), image)) {
             files.push_back(file);
         }
     };
@@ -131,21 +128,6 @@ std::vector<fs::path> writePictures(const fs::path& folder, const Renderer& rend
         }
     }
     return files;
-}
-
-std::vector<std::string> unusedSettings(const Renderer& renderer) {
-    std::vector<std::string> unused;
-    const params::ParamSet& params = renderer.settings().params;
-    for (const std::string& name : params.setByUser()) {
-        const auto dot = name.find('.');
-        const auto secondDot = name.find('.', dot + 1);
-        if (dot == std::string::npos || secondDot == std::string::npos) continue;
-        const std::string node = name.substr(dot + 1, secondDot - dot - 1);
-        const std::string pass = name.substr(0, secondDot);
-        if (params.choice(name.substr(0, dot)) != node && !hasRun(renderer, pass))
-            unused.push_back(name);
-    }
-    return unused;
 }
 
 }  // namespace kaustik::run

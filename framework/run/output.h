@@ -13,7 +13,10 @@ namespace kaustik::run {
 
 // Makes the folder and throws IoError if nothing can be written there, before the long work. The
 // message begins with who wants it: an option, say.
-void requireWritable(const std::filesystem::path& folder, const std::string& askedBy);
+void requireWritable(const std::filesystem::path& folder, const std::string& requester);
+
+// Whether the renderer's graph has a texture of that name.
+[[nodiscard]] bool isTexture(const Renderer& renderer, const std::string& name);
 
 // Throws ConfigError for a resource that is not a texture and hence no picture.
 void requireTextures(const Renderer& renderer, const std::vector<std::string>& saved);
@@ -26,8 +29,5 @@ void requireTextures(const Renderer& renderer, const std::vector<std::string>& s
 std::vector<std::filesystem::path> writePictures(const std::filesystem::path& folder,
                                                  const Renderer& renderer,
                                                  const std::vector<std::string>& saved);
-
-// Parameters that the user has set and that belong to nodes which the run did not choose.
-[[nodiscard]] std::vector<std::string> unusedSettings(const Renderer& renderer);
 
 }  // namespace kaustik::run

@@ -13,7 +13,7 @@ namespace kaustik::run {
 namespace {
 volatile std::sig_atomic_t interrupted = 0;
 
-constexpr double kSecondsBetweenPlainLines = 5.0;
+constexpr double kPlainLineIntervalSeconds = 5.0;
 }  // namespace
 
 Progress::Progress(std::string what, int total)
@@ -40,7 +40,7 @@ void Progress::print(double share, const std::string& reached) {
     const Clock::time_point now = Clock::now();
     const double elapsed = std::chrono::duration<double>(now - begin_).count();
     const double sinceLast = std::chrono::duration<double>(now - last_).count();
-    if (!isTerminal_ && (sinceLast < kSecondsBetweenPlainLines || share >= 1.0)) return;
+    if (!isTerminal_ && (sinceLast < kPlainLineIntervalSeconds || share >= 1.0)) return;
     std::string text = fmt::format("{} {}", what_, reached);
     if (share > 0.0) text += fmt::format(", about {:.0f} s left", elapsed / share * (1.0 - share));
     if (isTerminal_) {

@@ -34,7 +34,7 @@ class Progress {
 
 // Who watches long work instead of a terminal, and may end it.
 struct Watch {
-    std::function<bool()> goesOn;  // asked on any thread, often
+    std::function<bool()> shouldContinue;  // asked on any thread, often
     std::function<void(double share, const std::string& reached)> tell;  // one call at a time
 };
 

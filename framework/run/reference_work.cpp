@@ -19,7 +19,7 @@ using namespace reference;
 
 // How much of the work is done: the furthest of what may stop it. The error falls with the root of
 // the work.
-double shareOf(const reference::Progress& progress, const StopWhen& stop) {
+double shareOf(const reference::Progress& progress, const StopCondition& stop) {
     double share = 0.0;
     const auto count = [&](double done, double wanted) {
         if (wanted > 0.0) share = std::max(share, done / wanted);
@@ -37,7 +37,7 @@ double shareOf(const reference::Progress& progress, const StopWhen& stop) {
     return std::min(share, 1.0);
 }
 
-std::string reachedBy(const reference::Progress& progress) {
+std::string progressText(const reference::Progress& progress) {
     std::string text =
         fmt::format("{:.1f} million photons", static_cast<double>(progress.photons) * 1e-6);
     if (std::isfinite(progress.relativeError)) {
@@ -46,7 +46,7 @@ std::string reachedBy(const reference::Progress& progress) {
     return text;
 }
 
-void tellDamage(const std::string& damage) {
+void reportDamage(const std::string& damage) {
     fmt::print(stderr, "{}\n", damage);
 }
 
@@ -86,16 +86,16 @@ Reference obtainReference(const EmbreeScene& scene, const ReferenceRequest& requ
     std::uint64_t photons = 0;
     options.progress = [&](const reference::Progress& now) {
         photons = now.photons;
-        watch.tell(shareOf(now, options.stop), reachedBy(now));
-        return watch.goesOn();
+        watch.tell(shareOf(now, options.stop), progressText(now));
+        return watch.shouldContinue();
     };
-    options.pulse = [&](std::uint64_t) { return watch.goesOn(); };
+    options.pulse = [&](std::uint64_t) { return watch.shouldContinue(); };
     const auto failIfInterrupted = [&] {
-        if (!watch.goesOn()) failInterrupted(photons);
+        if (!watch.shouldContinue()) failInterrupted(photons);
     };
     try {
         const Reference reference =
-            loadOrCompute(scene, request, cacheFolder() / "references", options, tellDamage);
+            loadOrCompute(scene, request, cacheFolder() / "references", options, reportDamage);
         failIfInterrupted();
         return reference;
     } catch (const ConfigError&) {
@@ -105,19 +105,20 @@ Reference obtainReference(const EmbreeScene& scene, const ReferenceRequest& requ
 }
 
 ShardResult obtainShard(const EmbreeScene& scene, const ReferenceRequest& request,
-                        const ShardRequest& asked, RunOptions options) {
+                        const ShardRequest& requested, RunOptions options) {
     catchInterrupts();
-    Progress progress(fmt::format("shard {}/{}:", asked.shard.number, asked.shard.count));
-    const auto [first, end] = rangeOf(asked.shard, batchesFor(scene, request, asked.photons));
+    Progress progress(fmt::format("shard {}/{}:", requested.shard.number, requested.shard.count));
+    const auto [first, end] =
+        rangeOf(requested.shard, batchesFor(scene, request, requested.photons));
     const double wanted = static_cast<double>(end - first);
     std::uint64_t photons = 0;
     options.progress = [&](const reference::Progress& now) {
         photons = now.photons;
-        progress.updateShare(static_cast<double>(now.batches) / wanted, reachedBy(now));
+        progress.updateShare(static_cast<double>(now.batches) / wanted, progressText(now));
         return !isInterrupted();
     };
     options.pulse = [](std::uint64_t) { return !isInterrupted(); };
-    ShardResult result = computeShard(scene, request, asked, options, tellDamage);
+    ShardResult result = computeShard(scene, request, requested, options, reportDamage);
     if (!result.head.isWhole()) failInterrupted(photons);
     return result;
 }
@@ -125,7 +126,7 @@ ShardResult obtainShard(const EmbreeScene& scene, const ReferenceRequest& reques
 Reference mergeShards(const std::vector<fs::path>& files, bool incomplete) {
     Progress progress("part", static_cast<int>(files.size()));
     return mergeParts(files,
-                      {incomplete, [&](int done, int) { progress.update(done); }, tellDamage});
+                      {incomplete, [&](int done, int) { progress.update(done); }, reportDamage});
 }
 
 }  // namespace kaustik::run

@@ -30,7 +30,7 @@ namespace kaustik::run {
 // goes on from there.
 [[nodiscard]] reference::ShardResult obtainShard(const reference::EmbreeScene& scene,
                                                  const reference::ReferenceRequest& request,
-                                                 const reference::ShardRequest& asked,
+                                                 const reference::ShardRequest& requested,
                                                  reference::RunOptions options);
 // The reference of all parts, with the progress of reading them.
 [[nodiscard]] reference::Reference mergeShards(const std::vector<std::filesystem::path>& files,

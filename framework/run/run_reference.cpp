@@ -25,9 +25,6 @@ namespace fs = std::filesystem;
 #ifndef KAUSTIK_HAS_EMBREE
 
 struct RunReference::Loaded {};
-RunReference::RunReference(const std::string& wanted, std::uint64_t photons,
-                           const Renderer& renderer)
-    : RunReference(wanted, photons, renderer, {}) {}
 RunReference::RunReference(const std::string& wanted, std::uint64_t, const Renderer&,
                            const Watch&) {
     if (wanted != "none") {
@@ -35,12 +32,11 @@ RunReference::RunReference(const std::string& wanted, std::uint64_t, const Rende
             "--reference: this program was built without Embree and knows no reference.");
     }
 }
-RunReference::~RunReference() = default;
 Purpose RunReference::purpose() const {
     return Purpose::measurement;
 }
 void RunReference::watchFlicker(std::optional<double>, const Renderer&) {}
-void RunReference::keepMoment(const Renderer&) {}
+void RunReference::recordMoment(const Renderer&) {}
 std::vector<fs::path> RunReference::judge(const Renderer&, const fs::path&,
                                           report::RunRecord&) const {
     return {};
@@ -58,7 +54,7 @@ using nlohmann::json;
 using reference::Reference;
 using reference::ReferenceRequest;
 
-Reference readFor(const std::string& file, const Renderer& renderer) {
+Reference readMatching(const std::string& file, const Renderer& renderer) {
     Reference found = reference::readReference(file);
     const ReferenceRequest& request = found.request;
     const RenderSettings& settings = renderer.settings();
@@ -101,8 +97,8 @@ ReferenceRequest requestFor(const Renderer& renderer) {
 struct RunReference::Loaded {
     // What the flicker is told by.
     struct Flicker {
-        std::string whyNot;  // "" where it can be told
-        Reference earlier;   // `whole` is the later one
+        std::string obstacle;  // "" where it can be told
+        Reference earlier;     // `whole` is the later one
         std::vector<Moment> moments;
     };
     explicit Loaded(const scene::Scene& of) : scene(of) {}
@@ -117,20 +113,16 @@ struct RunReference::Loaded {
 
     [[nodiscard]] Reference obtain(const reference::EmbreeScene& of,
                                    const ReferenceRequest& request) const {
-        return watch.goesOn ? obtainReference(of, request, options, watch)
-                            : obtainReference(of, request, options);
+        return watch.shouldContinue ? obtainReference(of, request, options, watch)
+                                    : obtainReference(of, request, options);
     }
 };
-
-RunReference::RunReference(const std::string& wanted, std::uint64_t photons,
-                           const Renderer& renderer)
-    : RunReference(wanted, photons, renderer, {}) {}
 
 RunReference::RunReference(const std::string& wanted, std::uint64_t photons,
                            const Renderer& renderer, const Watch& watch) {
     if (wanted == "none") return;
     std::optional<Reference> fromFile;
-    if (wanted != "auto") fromFile = readFor(wanted, renderer);
+    if (wanted != "auto") fromFile = readMatching(wanted, renderer);
     loaded_ = std::make_unique<Loaded>(renderer.scene());
     loaded_->name = wanted;
     loaded_->options.stop.photons = photons;
@@ -148,8 +140,6 @@ RunReference::RunReference(const std::string& wanted, std::uint64_t photons,
     loaded_->modelled = loaded_->obtain(loaded_->scene, request);
 }
 
-RunReference::~RunReference() = default;
-
 Purpose RunReference::purpose() const {
     return loaded_ ? Purpose::audit : Purpose::measurement;
 }
@@ -158,11 +148,11 @@ void RunReference::watchFlicker(std::optional<double> earlierSeconds, const Rend
     if (!loaded_) return;
     Loaded::Flicker& flicker = loaded_->flicker.emplace();
     if (!earlierSeconds) {
-        flicker.whyNot = "all frames are of one time; --frames 2 or more have two";
+        flicker.obstacle = "all frames are of one time; --frames 2 or more have two";
         return;
     }
     if (loaded_->name != "auto") {
-        flicker.whyNot =
+        flicker.obstacle =
             "a reference from a file is of one time; --reference auto makes those of both";
         return;
     }
@@ -175,8 +165,8 @@ void RunReference::watchFlicker(std::optional<double> earlierSeconds, const Rend
     flicker.earlier = loaded_->obtain(reference::EmbreeScene(scene), request);
 }
 
-void RunReference::keepMoment(const Renderer& renderer) {
-    if (!loaded_ || !loaded_->flicker || !loaded_->flicker->whyNot.empty()) return;
+void RunReference::recordMoment(const Renderer& renderer) {
+    if (!loaded_ || !loaded_->flicker || !loaded_->flicker->obstacle.empty()) return;
     std::vector<Moment>& moments = loaded_->flicker->moments;
     if (moments.size() == 2) moments.erase(moments.begin());
     moments.push_back({renderer.scene().timeSeconds,
@@ -215,12 +205,12 @@ std::vector<fs::path> RunReference::judge(const Renderer& renderer, const fs::pa
     }
     if (loaded_->flicker) {
         const Loaded::Flicker& flicker = *loaded_->flicker;
-        std::string whyNot = flicker.whyNot;
+        std::string obstacle = flicker.obstacle;
         record.error["flicker"] =
-            whyNot.empty() ? flickerBetween(outputs, flicker.moments.at(0), flicker.moments.at(1),
-                                            flicker.earlier, loaded_->whole, whyNot)
-                           : json(nullptr);
-        if (!whyNot.empty()) record.error["reasons"]["flicker"] = whyNot;
+            obstacle.empty() ? flickerBetween(outputs, flicker.moments.at(0), flicker.moments.at(1),
+                                              flicker.earlier, loaded_->whole, obstacle)
+                             : json(nullptr);
+        if (!obstacle.empty()) record.error["reasons"]["flicker"] = obstacle;
     }
     if (loaded_->modelled) {
         json modelled = errorsAgainst(outputs, *loaded_->modelled);
@@ -294,5 +284,9 @@ std::vector<fs::path> RunReference::judgeView(Renderer& renderer, const fs::path
 }
 
 #endif
+
+RunReference::~RunReference() = default;
+RunReference::RunReference(RunReference&&) noexcept = default;
+RunReference& RunReference::operator=(RunReference&&) noexcept = default;
 
 }  // namespace kaustik::run

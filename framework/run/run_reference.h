@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The ray-traced reference of a run (`--reference`): where it comes from, and what a rendered frame
-// is found to be worth beside it. `none` needs no Embree; the rest is a ConfigError without it.
+// is found to be worth next to it. `none` needs no Embree; the rest is a ConfigError without it.
 #pragma once
 
 #include <filesystem>
@@ -20,14 +20,13 @@ class RunReference {
     // `wanted`: none, auto (of at least so many photons) or the file of a reference. Reads or
     // computes what there is to compare with, for the renderer's scene and size, as of its last
     // build. Throws ConfigError for a reference of another scene or size, IoError for a damaged
-    // one.
-    RunReference(const std::string& wanted, std::uint64_t photons, const Renderer& renderer);
-    // The same for who watches in another way how it is computed.
+    // one. `watch` is told how far a computation has come and may end it; without one, standard
+    // error shows it and Ctrl-C ends it.
     RunReference(const std::string& wanted, std::uint64_t photons, const Renderer& renderer,
-                 const Watch& watch);
+                 const Watch& watch = {});
     ~RunReference();
-    RunReference(const RunReference&) = delete;
-    RunReference& operator=(const RunReference&) = delete;
+    RunReference(RunReference&&) noexcept;
+    RunReference& operator=(RunReference&&) noexcept;
 
     // What the frame must be built for.
     [[nodiscard]] Purpose purpose() const;
@@ -38,7 +37,7 @@ class RunReference {
     // `earlierSeconds` is none where there is no such frame.
     void watchFlicker(std::optional<double> earlierSeconds, const Renderer& renderer);
     // Keeps the caustic of the frame that was rendered last, for that. Waits for the device.
-    void keepMoment(const Renderer& renderer);
+    void recordMoment(const Renderer& renderer);
 
     // Judges the frame that was rendered for purpose(): fills the record's hits and error, and the
     // causes in its ledger. Writes pictures into `folder` and gives their names.

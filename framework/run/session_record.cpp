@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "framework/run/run_record.h"
-
+// What a session's frames leave behind: the record that reports are made of, and files.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "framework/core/error.h"
 #include "framework/core/files.h"
@@ -11,72 +11,63 @@
 #include "framework/report/map_account.h"
 #include "framework/run/output.h"
 #include "framework/run/progress.h"
+#include "framework/run/session.h"
 
 namespace kaustik::run {
 namespace fs = std::filesystem;
 
-report::RunRecord startRecord(const Renderer& renderer, gl::TimerMode timer) {
-    report::RunRecord record;
-    record.timer = timer;
-    record.graphBuildMilliseconds = renderer.buildMilliseconds();
-    record.passes = renderer.compiled().records;
-    record.textureBytes = renderer.compiled().textureBytes;
-    record.bufferBytes = renderer.compiled().bufferBytes;
-    record.peakBytes = renderer.compiled().peakBytes;
-    for (const graph::Step& step : renderer.compiled().steps) {
-        record.stepNames.push_back(step.name);
-        record.stepBytes.emplace_back(step.liveTextureBytes, step.liveBufferBytes);
-    }
+report::RunRecord Session::measured() const {
+    report::RunRecord record = record_;
+    record.ledger = renderer_.ledger();
+    record.layers = renderer_.layerStatistics();
+    record.layersAllowed = renderer_.outputs().layers.layers;
+    record.nodeLimits = renderer_.reachedLimits();
     return record;
 }
 
-bool measureRun(Renderer& renderer, const RunReference& reference, report::RunRecord& record,
-                const std::vector<std::string>& saved,
-                const std::function<bool(std::size_t)>& goesOn) {
-    renderer.build(reference.purpose(), saved);
-    gl::PassTimer untimed(gl::TimerMode::finish);
-    if (!renderer.renderFrame(untimed, goesOn)) return false;
-    record.ledger = renderer.ledger();
-    record.layers = renderer.layerStatistics();
-    record.layersAllowed = renderer.outputs().layers.layers;
-    record.nodeLimits = renderer.reachedLimits();
-    record.map = report::mapAccount(renderer);
-    record.cells = report::cellAccount(renderer);
-    record.photonsEnd = renderer.outputs().hits.incoming.paths.end;
-    const std::vector<std::string>& ofScene = renderer.scene().warnings;
-    record.warnings.insert(record.warnings.end(), ofScene.begin(), ofScene.end());
-    record.warnings.insert(record.warnings.end(), renderer.warnings().begin(),
-                           renderer.warnings().end());
-    if (!renderer.isRandom() && record.seed != report::RunRecord{}.seed) {
+std::optional<report::RunRecord> Session::measure(const RunReference& reference,
+                                                  const std::vector<std::string>& saved,
+                                                  const ShouldContinue& shouldContinue) {
+    bringUpToDate();
+    forgetBuild();
+    renderer_.build(reference.purpose(), saved);
+    if (!renderUntimed(shouldContinue)) return std::nullopt;
+    // What judges the frame may render another one, and what is kept may not be in this one.
+    hasFrame_ = reference.purpose() == Purpose::measurement && saved == keptTextures();
+    report::RunRecord record = measured();
+    record.map = report::mapAccount(renderer_);
+    record.cells = report::cellAccount(renderer_);
+    record.photonsEnd = renderer_.outputs().hits.incoming.paths.end;
+    for (const auto* warnings : {&renderer_.scene().warnings, &renderer_.warnings()})
+        record.warnings.insert(record.warnings.end(), warnings->begin(), warnings->end());
+    if (!renderer_.isRandom() && record.seed != report::RunRecord{}.seed) {
         record.warnings.push_back(fmt::format(
             "--seed {} has no effect: nothing in this frame is drawn at random.", record.seed));
     }
-    if (record.timeStepSeconds != 0.0 && !renderer.needs().animated) {
+    if (record.timeStepSeconds != 0.0 && !renderer_.needs().animated) {
         record.warnings.push_back(
             fmt::format("--time-step {:g} has no effect: nothing moves in this scene.",
                         record.timeStepSeconds));
     }
-    for (const std::string& name : unusedSettings(renderer)) {
-        record.warnings.push_back(
-            fmt::format("{} was set, but no node of this run uses it.", name));
-    }
-    return true;
+    return record;
 }
 
-std::vector<fs::path> finishRun(Renderer& renderer, const RunReference& reference,
-                                report::RunRecord& record, const fs::path& folder,
-                                const std::vector<std::string>& saved,
-                                const gl::DeviceInfo& device) {
-    measureRun(renderer, reference, record, saved);
+FinishedRun Session::finish(const RunReference& reference, const fs::path& folder,
+                            const std::vector<std::string>& saved,
+                            const std::vector<std::string>& warnings) {
+    FinishedRun finished{measure(reference, saved).value(), {}};
+    report::RunRecord& record = finished.record;
+    record.warnings.insert(record.warnings.begin(), warnings.begin(), warnings.end());
     throwIfInterrupted();
-    // A report beside the pictures of another run would be worse than none.
+    // A report next to the pictures of another run would be worse than none.
     FilesTogether together(folder);
     try {
         const fs::path& work = together.workFolder();
-        std::vector<fs::path> files = writePictures(work, renderer, saved);
-        const std::vector<fs::path> judged = reference.judge(renderer, work, record);
+        std::vector<fs::path>& files = finished.files;
+        files = writePictures(work, renderer_, saved);
+        const std::vector<fs::path> judged = reference.judge(renderer_, work, record);
         files.insert(files.end(), judged.begin(), judged.end());
-        const std::vector<fs::path> seen = reference.judgeView(renderer, work, record);
+        const std::vector<fs::path> seen = reference.judgeView(renderer_, work, record);
         files.insert(files.end(), seen.begin(), seen.end());
         const auto write = [&](const char* name, const std::string& text) {
             files.push_back(work / name);
@@ -84,11 +75,12 @@ std::vector<fs::path> finishRun(Renderer& renderer, const RunReference& referenc
         };
         write("trace.json", jsonText(report::makeChromeTrace(record)));
         write("samples.json", jsonText(report::makeSamples(record)));
-        write("report.json", jsonText(report::makeReport(record, renderer, device), 2) + "\n");
+        write("report.json",
+              jsonText(report::makeReport(record, renderer_, context_.info()), 2) + "\n");
         together.publish("report.json");
         for (fs::path& file : files)
             file = together.placeOf(file);
-        return files;
+        return finished;
     } catch (const IoError& error) {
         throw IoError(together.withPlaces(error.what()));
     }

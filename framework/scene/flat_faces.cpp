@@ -13,7 +13,7 @@
 namespace kaustik::scene {
 namespace {
 
-// How far a face's corners may lie beside its plane, in the mesh's sizes: a float's rounding.
+// How far a face's corners may lie next to its plane, in the mesh's sizes: a float's rounding.
 constexpr double kFlat = 1e-6;
 
 struct Triangle {
@@ -111,8 +111,9 @@ Sets joinCoplanar(const Mesh& mesh, const std::vector<Triangle>& triangles, doub
 // lie between others are none (Andrew's monotone chain).
 std::vector<glm::dvec3> hullOf(const std::vector<glm::dvec3>& points, const glm::dvec3& normal,
                                double size) {
-    const glm::dvec3 beside = std::abs(normal.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-    const glm::dvec3 u = glm::normalize(glm::cross(beside, normal));
+    const glm::dvec3 neighbour =
+        std::abs(normal.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    const glm::dvec3 u = glm::normalize(glm::cross(neighbour, normal));
     const glm::dvec3 v = glm::cross(normal, u);
     struct Flat {
         glm::dvec2 at;

@@ -12,7 +12,7 @@
 namespace kaustik::scene {
 namespace {
 
-// How far a plane's corners may lie beside it, in its sizes: a float's rounding.
+// How far a plane's corners may lie next to it, in its sizes: a float's rounding.
 constexpr double kFlat = 1e-6;
 
 double angleBetween(const glm::dvec3& a, const glm::dvec3& b) {
@@ -107,7 +107,7 @@ double reflectance(double cosine, double index) {
 }
 
 // Whether a box that moves along `direction` comes upon another one, which it does not touch yet.
-bool comesUpon(const Bounds& moving, const Bounds& there, const glm::dvec3& direction) {
+bool canReach(const Bounds& moving, const Bounds& there, const glm::dvec3& direction) {
     double first = 0.0;
     double last = std::numeric_limits<double>::infinity();
     for (int axis = 0; axis < 3; ++axis) {
@@ -170,7 +170,7 @@ bool isOpen(const Scene& scene, std::size_t material) {
     });
 }
 
-HitsAgain hitsAgain(const Scene& scene) {
+RepeatedHits repeatedHits(const Scene& scene) {
     const Object* sheet = nullptr;
     for (const Object& object : scene.objects) {
         const MaterialKind kind = scene.materials[object.material].kind;
@@ -190,26 +190,25 @@ HitsAgain hitsAgain(const Scene& scene) {
     const double steepest = slopes->steepestRadians;
     const double right = glm::half_pi<double>();
     const bool isDielectric = scene.materials[sheet->material].kind == MaterialKind::dielectric;
-    HitsAgain again;
+    RepeatedHits again;
     for (const Light& light : scene.lights) {
         const double incidence = largestIncidence(scene, *sheet, slopes->up, light);
         // Light that enters is bent towards the normal: it goes on between its old direction and
         // the normal's. From within, it is bent away, or reflected. A reflected direction is turned
         // by twice the slope.
-        const bool comesFromWithin = incidence + steepest >= right;
+        const bool isFromInside = incidence + steepest >= right;
         const double onward = std::max(incidence, steepest);
         const double back = incidence + 2.0 * steepest;
-        const bool reflected = comesFromWithin || back + steepest >= right;
+        const bool reflected = isFromInside || back + steepest >= right;
         again.reflected = again.reflected || reflected;
-        again.transmitted =
-            again.transmitted ||
-            (isDielectric ? comesFromWithin || onward + steepest >= right : reflected);
+        again.transmitted = again.transmitted ||
+                            (isDielectric ? isFromInside || onward + steepest >= right : reflected);
     }
     return again;
 }
 
 std::optional<ReflectedLight> reflectedLight(const Scene& scene) {
-    constexpr double kLeastShare = 0.04;
+    constexpr double kMinShare = 0.04;
     std::optional<ReflectedLight> largest;
     for (const Object& sheet : scene.objects) {
         const Material& material = scene.materials[sheet.material];
@@ -226,12 +225,12 @@ std::optional<ReflectedLight> reflectedLight(const Scene& scene) {
             const double cosine = -glm::dot(direction, up);
             if (!(cosine > 0.0)) continue;  // from within: what is reflected stays there
             const double share = reflectance(cosine, static_cast<double>(material.ior));
-            if (share <= std::max(kLeastShare, largest ? largest->share : 0.0)) continue;
+            if (share <= std::max(kMinShare, largest ? largest->share : 0.0)) continue;
             const glm::dvec3 reflected = direction + 2.0 * cosine * up;
             for (const Object& receiver : scene.objects) {
                 if (!isReceiver(scene.materials[receiver.material].kind)) continue;
                 const Bounds to = objectBounds(scene, receiver);
-                if (to.empty || !comesUpon(from, to, reflected)) continue;
+                if (to.empty || !canReach(from, to, reflected)) continue;
                 largest = ReflectedLight{sheet.name, receiver.name, share};
                 break;
             }

@@ -19,7 +19,7 @@ namespace kaustik::scene {
 [[nodiscard]] bool isOpen(const Scene& scene, std::size_t material);
 
 // Whether light that has hit a specular surface can hit one again.
-struct HitsAgain {
+struct RepeatedHits {
     bool transmitted =
         false;               // where no branch is followed but the refracted one (or the only one)
     bool reflected = false;  // where the reflected one is, too
@@ -28,7 +28,7 @@ struct HitsAgain {
 // above and which is too flat to come into its path: a ray that leaves a surface more steeply than
 // the surface is anywhere does not come back to it. Both, where nothing forbids it. Waves count
 // with the sum of their slopes, so that this holds at every time.
-[[nodiscard]] HitsAgain hitsAgain(const Scene& scene);
+[[nodiscard]] RepeatedHits repeatedHits(const Scene& scene);
 
 // Light that a dielectric sheet, water say, sends back to a receiver.
 struct ReflectedLight {

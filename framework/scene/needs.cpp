@@ -63,7 +63,7 @@ SceneNeeds sceneNeeds(const Scene& scene) {
                 break;
         }
     }
-    needs.hitsAgain = hitsAgain(scene);
+    needs.repeatedHits = repeatedHits(scene);
     needs.reflectedLight = reflectedLight(scene);
     needs.concaveBody = concaveBody(scene);
     needs.nestedBodies = needs.closedDielectrics && hasNestedBodies(scene);

@@ -14,7 +14,7 @@ struct SceneNeeds {
     // together 1. Repeated reflections, between mirrors or inside a dielectric, are not counted;
     // a technique's own bounce limit says how many it follows.
     int specularInterfaces = 0;
-    HitsAgain hitsAgain;  // whether there are such repeated ones at all
+    RepeatedHits repeatedHits;  // whether there are such repeated ones at all
     // Which says that the reflected branch at dielectrics is seen; nothing: the other one is
     // enough.
     std::optional<ReflectedLight> reflectedLight;

@@ -17,8 +17,8 @@ KAUSTIK_INLINE PhotonList photonListOf(uint count, uint rowLength) {
     list.count = count;
     list.rowLength = rowLength;
     uint groups = (count + kPhotonGroup - 1u) / kPhotonGroup;
-    list.groupsX = groups < kMostGroupsX ? groups : kMostGroupsX;
-    list.groupsY = (groups + kMostGroupsX - 1u) / kMostGroupsX;
+    list.groupsX = groups < kMaxGroupsX ? groups : kMaxGroupsX;
+    list.groupsY = (groups + kMaxGroupsX - 1u) / kMaxGroupsX;
     list.groupsZ = 1u;
     list.vertices = 4u;
     list.instances = count;

@@ -34,22 +34,23 @@ struct ViewData {
     vec4 environment;       // x: image layer of the environment, -1 none; y: its turn, rad
 };
 
-const uint kMostViews = 6u;  // of a block: the faces of a cube, a light's further maps
+const uint kMaxViews = 6u;  // of a block: the faces of a cube, a light's further maps
 
-// Along each side of such a map, of the side: what has arrived beside it is missing there, so that
-// the eye's receivers are looked up in the map before (caustic_map/project.frag).
+// Along each side of such a map, of the side: what has arrived next to it is missing there, so that
+// the eye's receivers are looked up in the map before (maps/projection.frag).
 const float kBorderOfPart = 0.0625f;
 
 // The caustic generators of a scene, in a uniform block (std140): by them photons find the surfaces
-// that lie around what they have left last, and the map that stores them (include/generators.glsl).
-const uint kMostGenerators = 32u;
+// that lie around what they have left last, and the map that stores them
+// (include/surfaces/generators.glsl).
+const uint kMaxGenerators = 32u;
 struct GeneratorsData {
     mat4 eyeToWorld;  // rotation only
     uvec4 count;      // x
     // Boxes along the world's axes, from the eye, m.
-    vec4 centers[kMostGenerators];
-    vec4 halfExtents[kMostGenerators];
-    vec4 references[kMostGenerators];  // points, the same way
+    vec4 centers[kMaxGenerators];
+    vec4 halfExtents[kMaxGenerators];
+    vec4 references[kMaxGenerators];  // points, the same way
 };
 
 // One placed mesh, for one view (std430).
@@ -58,7 +59,7 @@ struct InstanceData {
     mat4 normalToView;  // inverse transpose, upper 3x3
     // x: index into the materials; y: the number of its first triangle, of all in the order in
     // which the scene is drawn; z: its first index; w: 2 * its first vertex, + 1 where that is one
-    // of the height fields' (include/scene_triangle.glsl).
+    // of the height fields' (include/surfaces/scene_triangle.glsl).
     uvec4 material;
 };
 
@@ -111,12 +112,12 @@ const uint kFateEnded = 4u;     // its flux is in the ledger
 
 // What a stack of dielectrics takes of a number that a float holds exactly; kLeft… takes the rest.
 const uint kMediaRoom = 4194304u;
-const uint kLeftNothing = 0u;  // or what it cannot hit again from the same side: see hit_test.glsl
+const uint kLeftNone = 0u;  // or what it cannot hit again from the same side: see hit_test.glsl
 const uint kLeftOutside = 1u;
 const uint kLeftInside = 2u;
 // A ray that asks whether anything is in its way: it hits every surface from either side, but for
 // the one that it starts on.
-const uint kLeftForAll = 3u;
+const uint kLeftBothSides = 3u;
 
 // How many photons there are. They are texels 0, 1, ... of their textures, row by row from the
 // bottom; what lies beyond is of nobody. The last seven are the arguments of an indirect dispatch
@@ -133,7 +134,7 @@ struct PhotonList {
     uint firstInstance;
 };
 const uint kPhotonGroup = 64u;
-const uint kMostGroupsX = 32768u;
+const uint kMaxGroupsX = 32768u;
 
 // A cell of a light's view, of 2^level by 2^level, from the lower left (std430): what adaptive
 // photons are emitted by (WN09, section 3.2).
@@ -145,7 +146,7 @@ struct LightCell {
     // none of them: it carries the whole cell's. From bit 8 on: the light.
     uint lightAndQuarters;
 };
-const uint kMostCellLevel = 19u;
+const uint kMaxCellLevel = 19u;
 
 // What has become of an adaptive traversal, on the device.
 struct CellCounts {
@@ -202,22 +203,22 @@ struct Hit {
     vec3 positionVs;
     float distanceMeters;  // travelled since the last interaction
     vec3 normalVs;         // outward: the shading normal, or the triangle's where the shading
-                           // normal would send light to the wrong side (include/specular.glsl)
-    uint material;         // index + 1; 0: no surface
-    vec3 fluxWatts;        // that arrives
+                    // normal would send light to the wrong side (include/surfaces/specular.glsl)
+    uint material;   // index + 1; 0: no surface
+    vec3 fluxWatts;  // that arrives
     uint fate;
-    vec3 shape;  // how the normal turns, 1/m (include/beam.glsl); where photons have beams
+    vec3 shape;  // how the normal turns, 1/m (include/photons/beam.glsl); where photons have beams
 };
 
 // How the eye's path through specular surfaces has ended; above 0 it has come out.
-const float kPathCameOut = 1.0f;
+const float kPathExited = 1.0f;
 const float kPathLost = 0.0f;
 // Beyond a cap: totally reflected too often; refracted as often as may be, but still inside of a
 // closed object, out of which it is taken to have come as it was.
-const float kPathReflectedTooOften = -1.0f;
-const float kPathMirroredTooOften = -2.0f;  // by mirrors; it is taken to see the environment
-const float kPathNestedTooDeep = -3.0f;     // in more dielectrics at once than a stack holds
-const float kPathStoppedInside = 2.0f;
+const float kPathReflectionLimit = -1.0f;
+const float kPathMirrorLimit = -2.0f;   // by mirrors; it is taken to see the environment
+const float kPathNestingLimit = -3.0f;  // in more dielectrics at once than a stack holds
+const float kPathEndedInside = 2.0f;
 
 // Accounts of the energy ledger (framework/README.md, "The energy ledger"). The device sums the
 // three channels; reports say their mean (transport/watts.h).
@@ -234,7 +235,8 @@ const uint kAccountEdgeOn = 9u;
 const uint kAccountMissedByTracer = 10u;
 const uint kAccountInternalReflectionLimit = 11u;
 const uint kAccountBounceLimit = 12u;
-const uint kAccountBatchLimit = 13u;
+// Between photons that cannot be joined to triangles, where nothing else covers it.
+const uint kAccountDiscardedTriangle = 13u;
 const uint kAccountOccludedSplat = 14u;
 const uint kAccountNotANumber = 15u;
 const uint kAccountUnresolved = 16u;
@@ -242,12 +244,10 @@ const uint kAccountUnresolved = 16u;
 const uint kAccountArrived = 17u;
 // A dielectric inside of more others than a stack holds.
 const uint kAccountNestingLimit = 18u;
-// Stored in another view than the eye's: what arrived beside it, and behind what it sees.
+// Stored in another view than the eye's: what arrived next to it, and behind what it sees.
 const uint kAccountOutsideMap = 19u;
 const uint kAccountHiddenInMap = 20u;
-// Between photons that cannot be joined to triangles, where nothing else covers it.
-const uint kAccountDiscardedTriangle = 21u;
-const uint kAccountCount = 22u;
+const uint kAccountCount = 21u;
 
 // A sum of watts in 64-bit fixed point, so that it neither drifts nor depends on the order:
 // watts = (high * 2^32 + low) * quantum. `events` counts the additions.

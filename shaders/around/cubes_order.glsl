@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // What surfaces of a cube's layers are told apart by when they are put into slots: which way they
 // face on which material, and how many of these the texel has had before.
-#include "include/octahedral.glsl"
-#include "include/view.glsl"
+#include "include/views/octahedral.glsl"
+#include "include/views/view.glsl"
 
 uniform sampler2DArray layerDepths;
 uniform int layerCount;
 
 const uint kKinds = 256u;
-const int kMostLayers = 8;
+const int kMaxLayers = 8;
 const uint kNoSlot = 15u;
 
 ivec3 layerTexel(ivec2 texel, int layer) {
@@ -16,11 +16,11 @@ ivec3 layerTexel(ivec2 texel, int layer) {
 }
 
 // The kinds of a texel's layers; how many there are.
-int kindsAt(ivec2 texel, out uint kinds[kMostLayers]) {
+int kindsAt(ivec2 texel, out uint kinds[kMaxLayers]) {
     int count = 0;
     vec3 ray = viewRay(vec2(texel) + 0.5);
-    uint sides[kMostLayers];
-    for (int layer = 0; layer < kMostLayers; ++layer) {
+    uint sides[kMaxLayers];
+    for (int layer = 0; layer < kMaxLayers; ++layer) {
         kinds[layer] = 0u;
         sides[layer] = 0u;
         if (layer >= layerCount || layer > count) continue;
@@ -31,7 +31,7 @@ int kindsAt(ivec2 texel, out uint kinds[kMostLayers]) {
         uint before = 0u;
         for (int i = 0; i < layer; ++i) before += sides[i] == side ? 1u : 0u;
         sides[layer] = side;
-        kinds[layer] = (side * uint(kMostLayers) + before) % kKinds;
+        kinds[layer] = (side * uint(kMaxLayers) + before) % kKinds;
         ++count;
     }
     return count;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // around.order: which kinds of surfaces are ever seen behind one another. One thread a texel.
-#include "caustic_triangles/order.glsl"
+#include "around/cubes_order.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -11,7 +11,7 @@ layout(std430) buffer KindConflicts {
 void main() {
     ivec2 texel;
     if (!texelOfThread(gl_GlobalInvocationID.xy, texel)) return;
-    uint kinds[kMostLayers];
+    uint kinds[kMaxLayers];
     int count = kindsAt(texel, kinds);
     for (int i = 0; i < count; ++i) {
         for (int j = 0; j < count; ++j) {

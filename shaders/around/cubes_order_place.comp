@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // around.order: each texel's layers into their slots; those whose kind has none, or whose slot is
 // taken, into what is free. One thread a texel.
-#include "caustic_triangles/order.glsl"
+#include "around/cubes_order.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -14,7 +14,7 @@ uniform int isSmooth;
 void main() {
     ivec2 texel;
     if (!texelOfThread(gl_GlobalInvocationID.xy, texel)) return;
-    uint kinds[kMostLayers];
+    uint kinds[kMaxLayers];
     int count = kindsAt(texel, kinds);
     uint order = 0xffffffffu;
     uint taken = 0u;

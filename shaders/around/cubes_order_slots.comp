@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // around.order: a slot for every kind, another than those of all that it is seen with, as long as
 // there are any. One thread.
-#include "caustic_triangles/order.glsl"
+#include "around/cubes_order.glsl"
 
 layout(local_size_x = 1) in;
 

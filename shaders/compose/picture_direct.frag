@@ -2,11 +2,11 @@
 // Direct irradiance of one light at the receivers, W/m². Every specular object blocks it wholly:
 // what passes through arrives as caustic light (framework/README.md, "Outputs"). Where a receiver
 // is glossy, also what of it goes to the eye, W/m²/sr.
-#include "include/lights.glsl"
-#include "include/surface_data.glsl"
-#include "include/view.glsl"
+#include "include/photons/lights.glsl"
+#include "include/surfaces/surface_data.glsl"
+#include "include/views/view.glsl"
 #ifdef GLOSSY_RECEIVERS
-#include "include/receiver_brdf.glsl"
+#include "include/surfaces/receiver_brdf.glsl"
 #endif
 
 layout(location = 0) out vec4 irradiance;

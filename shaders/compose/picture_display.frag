@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Radiance as a picture: exposure, a shoulder above which highlights are compressed (luminance
 // only, so that hues stay), sRGB.
-#include "include/srgb.glsl"
+#include "include/maps/srgb.glsl"
 
 layout(location = 0) out vec4 display;
 

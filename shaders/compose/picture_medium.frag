@@ -2,7 +2,7 @@
 // The medium before what a pixel sees: its transmittance along the straight eye ray, to the
 // receiver or mirror there, or else to the end of the scene, where the medium ends for a ray that
 // hits nothing; and, with SCATTERS, the light that it scatters towards the eye. Radiance, W/m²/sr.
-#include "include/medium.glsl"
+#include "include/photons/medium.glsl"
 
 layout(location = 0) out vec4 radiance;
 

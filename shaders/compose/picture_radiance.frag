@@ -3,9 +3,9 @@
 // fill light; the environment where there is no receiver. GLOSSY_RECEIVERS: direct light
 // has gone through the BRDF already; CAUSTIC_RADIANCE: so has the caustic. All else is reflected
 // diffusely.
-#include "include/environment.glsl"
+#include "include/surfaces/environment.glsl"
 #ifdef GLOSSY_RECEIVERS
-#include "include/surface_data.glsl"
+#include "include/surfaces/surface_data.glsl"
 #endif
 
 layout(location = 0) out vec4 radiance;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Fronts and backs of several bodies in one view (techniques/adaptive_caustic_map/body_buffers.h),
+// Fronts and backs of several bodies in one view (techniques/deferred_buffers/body_buffers.h),
 // and which of them a ray meets.
-#include "include/faces.glsl"
-#include "techniques/adaptive_caustic_map/body_data.h"
+#include "include/views/faces.glsl"
+#include "techniques/deferred_buffers/body_data.h"
 #ifdef SEVERAL_BODIES
-#include "include/plane_search.glsl"
+#include "include/views/plane_search.glsl"
 #endif
 
 // A front and a back a body, in layers 2i and 2i + 1, and, where there are SEVERAL_BODIES, the
@@ -20,35 +20,35 @@ uniform int bodyCount;
 #else
 const int bodyCount = 1;
 #endif
-int bodyAsked = 0;  // the one whose faces are asked for
+int bodyIndex = 0;  // the one whose faces are asked for
 
 float faceDepth(ivec2 texel, int face) {
-    return texelFetch(bodyDepth, ivec3(texel, 2 * bodyAsked + face), 0).x;
+    return texelFetch(bodyDepth, ivec3(texel, 2 * bodyIndex + face), 0).x;
 }
 vec3 faceNormal(ivec2 texel, int face) {
-    return texelFetch(bodySurface, ivec3(texel, 2 * bodyAsked + face), 0).xyz;
+    return texelFetch(bodySurface, ivec3(texel, 2 * bodyIndex + face), 0).xyz;
 }
 uint frontMaterial(ivec2 texel) {
-    return uint(texelFetch(bodySurface, ivec3(texel, 2 * bodyAsked), 0).w);
+    return uint(texelFetch(bodySurface, ivec3(texel, 2 * bodyIndex), 0).w);
 }
 #ifdef PHOTON_BEAMS
 uniform sampler2DArray bodyShape;
 
 vec3 faceShape(ivec2 texel, int face) {
-    return texelFetch(bodyShape, ivec3(texel, 2 * bodyAsked + face), 0).xyz;
+    return texelFetch(bodyShape, ivec3(texel, 2 * bodyIndex + face), 0).xyz;
 }
 #endif
 
 // On whose surface a point lies; -1: on that of none that is kept.
 int bodyAround(vec3 positionVs) {
     int nearest = -1;
-    float least = 0.0;
+    float minimum = 0.0;
     for (int i = 0; i < boxCount; ++i) {
         vec3 offset = mat3(view.viewToWorld) * (positionVs - boxes[i].centerVs.xyz);
         vec3 beyond = abs(offset) - boxes[i].halfExtent.xyz;
         float farthest = max(beyond.x, max(beyond.y, beyond.z));
-        if (farthest <= 0.0 && farthest < least) {
-            least = farthest;
+        if (farthest <= 0.0 && farthest < minimum) {
+            minimum = farthest;
             nearest = int(boxes[i].centerVs.w);
         }
     }
@@ -83,7 +83,7 @@ RaySegment clipToBox(vec3 origin, vec3 direction, BodyBox box) {
 }
 
 // Where a ray meets a body next; body -1: it meets none.
-struct Meeting {
+struct BodyHit {
     int body;
     float t;       // m along the ray
     ivec2 texel;   // of the front that it meets
@@ -91,16 +91,16 @@ struct Meeting {
     uint material; // + 1
 };
 
-// The nearest of the bodies that are not among those of `met`, a bit each, by the fronts that are
+// The nearest of the bodies that are not among those of `visited`, a bit each, by the fronts that are
 // seen of them.
-Meeting nextBody(vec3 origin, vec3 direction, uint met, PlaneSearch how) {
-    Meeting nearest = Meeting(-1, 3.0e38, ivec2(0), vec3(0.0), 0u);
+BodyHit nextBody(vec3 origin, vec3 direction, uint visited, PlaneSearch how) {
+    BodyHit nearest = BodyHit(-1, 3.0e38, ivec2(0), vec3(0.0), 0u);
     for (int i = 0; i < boxCount; ++i) {
         int body = int(boxes[i].centerVs.w);
-        if (((met >> uint(body)) & 1u) != 0u) continue;
+        if (((visited >> uint(body)) & 1u) != 0u) continue;
         RaySegment segment = clipToBox(origin, direction, boxes[i]);
         if (!segment.visible || segment.nearT >= nearest.t) continue;
-        bodyAsked = body;
+        bodyIndex = body;
         Found found = iterate(origin, direction, segment.nearT, segment, how);
         bool endsBehind;
         Found before = search(origin, direction, segment, found.isHit ? found.t : 3.0e38, how,
@@ -110,7 +110,7 @@ Meeting nextBody(vec3 origin, vec3 direction, uint met, PlaneSearch how) {
         vec3 normal = normalAround(origin + found.t * direction, found.texel, kFrontFace);
         // At the rim the next texels' fronts may look away from the ray: it passes by.
         if (!(dot(normal, direction) < 0.0)) continue;
-        nearest = Meeting(body, found.t, found.texel, normal, frontMaterial(found.texel));
+        nearest = BodyHit(body, found.t, found.texel, normal, frontMaterial(found.texel));
     }
     return nearest;
 }

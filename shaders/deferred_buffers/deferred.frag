@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Of a front or a back: its depth, its normal, with SHAPES how that turns, and with TRIANGLES which
 // triangle it is; all in the view's space.
-#include "include/scene_fragment.glsl"
-#include "include/surface.glsl"
+#include "include/surfaces/scene_fragment.glsl"
+#include "include/surfaces/surface.glsl"
 #ifdef SHAPES
-#include "include/beam.glsl"
+#include "include/photons/beam.glsl"
 #endif
 
 layout(location = 0) out vec4 seenDepth;

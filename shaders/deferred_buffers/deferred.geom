@@ -2,7 +2,7 @@
 // Parts a triangle to the first surfaces or to the backs of bodies, so that all is drawn once
 // (WN09, section 3.1), from layer `firstLayer` on. BACKS_FIRST: the light may be within a body, and
 // see its backs first.
-#include "include/surface_data.glsl"
+#include "include/surfaces/surface_data.glsl"
 
 layout(triangles) in;
 layout(triangle_strip, max_vertices = 6) out;

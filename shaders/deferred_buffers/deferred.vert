@@ -7,7 +7,7 @@
 #define material vertexMaterial
 #define objectSeen vertexObjectSeen
 #endif
-#include "include/scene_vertex.glsl"
+#include "include/surfaces/scene_vertex.glsl"
 
 flat out uint objectSeen;
 uniform mat4 projection;

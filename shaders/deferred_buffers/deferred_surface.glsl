@@ -2,9 +2,9 @@
 // What a light's ray meets at any place of its view, from what the light sees by texels (WN09,
 // section 3.2): on the triangles that the texels around it see, or, where these are too small to be
 // in them, between four texels. The view is the light's.
-#include "include/light_triangle.glsl"
-#include "include/surface_data.glsl"
-#include "include/view.glsl"
+#include "include/photons/light_triangle.glsl"
+#include "include/surfaces/surface_data.glsl"
+#include "include/views/view.glsl"
 
 uniform usampler2DArray deferredTriangle;
 uniform sampler2DArray deferredDepth;
@@ -54,7 +54,7 @@ vec3 texelNormal(ivec2 texel) {
 }
 
 // How the surface goes on from a texel, to those on either side that see the same object.
-void addWays(ivec2 texel, uint object, inout DeferredPoint point) {
+void addPaths(ivec2 texel, uint object, inout DeferredPoint point) {
     for (int axis = 0; axis < 2; ++axis) {
         ivec2 step = axis == 0 ? ivec2(1, 0) : ivec2(0, 1);
         ivec2 before = triangleAt(texel - step).x == object ? texel - step : texel;
@@ -88,7 +88,7 @@ DeferredPoint interpolatedAt(vec2 ndc, uvec2 nearest) {
     vec3 toEye = directionToEye(normal / size);
     DeferredPoint point = DeferredPoint(pointToEye(there), toEye, toEye, materialOf(nearest),
                                         mat2x3(0.0), mat2x3(0.0));
-    addWays(ivec2(floor(texelPlace(ndc))), nearest.x, point);
+    addPaths(ivec2(floor(texelPlace(ndc))), nearest.x, point);
     return point;
 }
 
@@ -106,8 +106,8 @@ DeferredPoint pointAt(vec2 ndc, bool onTriangles) {
     uvec2 foundTriangle = uvec2(0u);
     float passedBy = -3.0e38;  // the nearest texel's triangle
     bool isAlone = true;
-    for (int beside = 0; beside < 9; ++beside)
-        isAlone = isAlone && triangleAt(texel + ivec2(beside % 3 - 1, beside / 3 - 1)).x == nearest.x;
+    for (int neighbour = 0; neighbour < 9; ++neighbour)
+        isAlone = isAlone && triangleAt(texel + ivec2(neighbour % 3 - 1, neighbour / 3 - 1)).x == nearest.x;
     for (int i = 0; i < 9; ++i) {
         // The middle first; where all around see the same object, what it meets is what there is.
         int at = i == 0 ? 4 : i <= 4 ? i - 1 : i;
@@ -115,10 +115,10 @@ DeferredPoint pointAt(vec2 ndc, bool onTriangles) {
         bool isKnown = seen.x == 0u || seen == before || seen == foundTriangle;
         if (isKnown || (isAlone && found.material != 0u)) continue;
         before = seen;
-        float least;
-        PointOnTriangle point = pointOnTriangle(seen, placeOf(ndc), kIsParallel, least);
-        if (i == 0) passedBy = least;
-        if (least < -1e-5) continue;
+        float minimum;
+        PointOnTriangle point = pointOnTriangle(seen, placeOf(ndc), kIsParallel, minimum);
+        if (i == 0) passedBy = minimum;
+        if (minimum < -1e-5) continue;
         float depth = -pointFromEye(point.position).z;
         if (!(depth < foundDepth)) continue;
         foundDepth = depth;
@@ -127,7 +127,7 @@ DeferredPoint pointAt(vec2 ndc, bool onTriangles) {
         found = DeferredPoint(point.position, shadingNormal(point.normal, point.geometric),
                               point.geometric, materialOf(seen), point.places, point.turns / size);
     }
-    // At the border of what is seen the ray meets what lies behind, or nothing, beside a triangle that
+    // At the border of what is seen the ray meets what lies behind, or nothing, next to a triangle that
     // texels resolve. Of smaller ones those that it meets may be in no texel: what the nearest one sees
     // counts.
     bool isResolved = nearest.x == 0u || passedBy > kResolved;

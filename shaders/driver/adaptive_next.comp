@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // After a batch's photons have been followed: there is room again. One thread.
-#include "adaptive_caustic_map/cells.glsl"
+#include "light_cells/cell_lists.glsl"
 
 layout(local_size_x = 1) in;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Moves the cells that a round takes out of the way of those that it leaves, and lists their
 // quarters. One thread a cell.
-#include "adaptive_caustic_map/cells.glsl"
+#include "light_cells/cell_lists.glsl"
 
 layout(local_size_x = 64) in;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // How many cells a round takes: no more than a round may, and than there is room for photons of, four
 // each. One thread.
-#include "adaptive_caustic_map/cells.glsl"
+#include "light_cells/cell_lists.glsl"
 
 layout(local_size_x = 1) in;
 
@@ -11,14 +11,14 @@ layout(std430) writeonly buffer TakenList {
 layout(std430) writeonly buffer ProbeList {
     PhotonList probeList;
 };
-uniform uint mostTaken;
-uniform uint mostPhotons;
+uniform uint maxTaken;
+uniform uint maxPhotons;
 uniform uint takenRow;
 uniform uint probeRow;
 
 void main() {
-    uint room = (mostPhotons - min(counting.photons, mostPhotons)) / 4u;
-    uint taken = min(counting.waiting, min(mostTaken, room));
+    uint room = (maxPhotons - min(counting.photons, maxPhotons)) / 4u;
+    uint taken = min(counting.waiting, min(maxTaken, room));
     counting.taken = taken;
     counting.waiting -= taken;
     counting.probes += 4u * taken;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Which photon of a list that arrives stands for each cell. One thread a photon.
-#include "include/cells.glsl"
-#include "include/hits.glsl"
-#include "include/photon_thread.glsl"
+#include "include/photons/cells.glsl"
+#include "include/photons/hits.glsl"
+#include "include/photons/photon_thread.glsl"
 
 layout(std430) writeonly buffer CellPhotons {
     uint cellPhotons[];  // + 1

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A level of squares of cells from the four below each. One thread a square. FROM_PHOTONS: from the
 // cells' own photons.
-#include "adaptive_caustic_map/hierarchy.glsl"
+#include "driver/hierarchical.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -11,7 +11,7 @@ uniform int first;   // node of the level
 uniform int grids;   // lights and branches
 #ifdef FROM_PHOTONS
 #include "framework/transport/photon_list.h"
-#include "include/hits.glsl"
+#include "include/photons/hits.glsl"
 layout(std430) readonly buffer CellPhotons {
     uint cellPhotons[];
 };

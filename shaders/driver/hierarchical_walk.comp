@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // From the coarsest squares of cells that one photon will do for: the middle photon of each carries
 // all of its flux, as wide as the square, the others none. One thread a photon.
-#include "adaptive_caustic_map/cells.glsl"
-#include "adaptive_caustic_map/hierarchy.glsl"
-#include "include/cells.glsl"
-#include "include/hits.glsl"
-#include "include/photon_thread.glsl"
+#include "light_cells/cell_lists.glsl"
+#include "driver/hierarchical.glsl"
+#include "include/photons/cells.glsl"
+#include "include/photons/hits.glsl"
+#include "include/photons/photon_thread.glsl"
 
 layout(rgba32f) writeonly uniform image2D mergedFlux;
 #ifdef PHOTON_BEAMS

@@ -2,12 +2,12 @@
 // emit.deferred: a photon a cell, where the light's ray through its middle first meets something
 // specular, with the flux that the light sends through the cell (WN09, section 3.2). One thread a
 // photon of one light.
-#include "include/photon_thread_of_next.glsl"
-#include "adaptive_caustic_map/emit_cell.glsl"
-#include "include/beside_batch.glsl"
-#include "include/specular.glsl"
+#include "include/photons/next_photon_thread.glsl"
+#include "emit/deferred_cell.glsl"
+#include "include/photons/neighbour_batch.glsl"
+#include "include/surfaces/specular.glsl"
 #define HITS_WITHOUT_SHAPE
-#include "include/store_hits.glsl"
+#include "include/photons/store_hits.glsl"
 
 uniform ivec2 ownRows;
 
@@ -42,7 +42,7 @@ void main() {
     CellOfLight cell = cellOfPhoton(index % perLight);
 #else
     CellOfLight cell = cellOfPhoton(index);
-    if (!cell.isOurs) return;
+    if (!cell.isOwn) return;
 #endif
     Photon photon = Photon(vec3(0.0), 0.0, vec3(0.0), kFateNone, vec3(0.0), 0u);
     DeferredPoint point = pointOfCell(cell, emit_deferred_lookup == emit_deferred_lookup_triangle);
@@ -69,7 +69,7 @@ void main() {
     flux *= left;
 #ifndef CELL_LIST
     int row = int((index % perLight) / uint(gridSize.x)) + firstRow;
-    if (row < ownRows.x || row >= ownRows.y) flux *= kNextToNothing;
+    if (row < ownRows.x || row >= ownRows.y) flux *= kNegligible;
 #endif
     if (!(flux.r + flux.g + flux.b > 0.0)) {
         store(index, texel, cell, photon, vec3(0.0), 0u);

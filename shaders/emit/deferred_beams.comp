@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The beams of photons of emit.deferred, as wide as their cells, and how the surface that they hit
 // turns there. One thread a photon of one light.
-#include "include/beam.glsl"
-#include "include/photon_thread.glsl"
-#include "adaptive_caustic_map/emit_cell.glsl"
+#include "include/photons/beam.glsl"
+#include "include/photons/photon_thread.glsl"
+#include "emit/deferred_cell.glsl"
 
 layout(rgba32f) writeonly uniform image2D nextBeamPlace;
 layout(rgba32f) writeonly uniform image2D nextBeamTurn;
@@ -35,7 +35,7 @@ void main() {
     CellOfLight cell = cellOfPhoton(index % perLight);
 #else
     CellOfLight cell = cellOfPhoton(index);
-    if (!cell.isOurs) return;
+    if (!cell.isOwn) return;
 #endif
     Photon photon = photonAt(texel);
     Beam beam = Beam(mat2(0.0), mat2(0.0));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The cells that photons of emit.deferred are of: those of a list, or all of a grid's rows.
-#include "include/lights.glsl"
-#include "adaptive_caustic_map/deferred_surface.glsl"
+#include "include/photons/lights.glsl"
+#include "deferred_buffers/deferred_surface.glsl"
 
 #ifdef CELL_LIST
 layout(std430) readonly buffer LightCells {
@@ -19,7 +19,7 @@ struct CellOfLight {
     vec2 middle;    // from -1 to 1 across the view
     vec2 size;      // the same
     uint quarters;  // LightCell's; 0: all of it
-    bool isOurs;    // of this light
+    bool isOwn;    // of this light
     uint number;    // PhotonOrigin::cell
 };
 
@@ -30,7 +30,7 @@ CellOfLight cellOfPhoton(uint index) {
     cell.size = vec2(2.0 / float(1u << listed.level));
     cell.middle = (vec2(listed.x, listed.y) + 0.5) * cell.size - 1.0;
     cell.quarters = listed.lightAndQuarters & 15u;
-    cell.isOurs = int(listed.lightAndQuarters >> 8u) == lightIndex;
+    cell.isOwn = int(listed.lightAndQuarters >> 8u) == lightIndex;
     // Whatever draws at random by it draws the same in every batch.
     cell.number = (listed.y << 13u ^ listed.x) * 2654435761u + listed.level;
 #ifdef PROBES
@@ -42,7 +42,7 @@ CellOfLight cellOfPhoton(uint index) {
     cell.size = 2.0 / vec2(gridSize);
     cell.middle = (vec2(at) + 0.5) * cell.size - 1.0;
     cell.quarters = 0u;
-    cell.isOurs = true;
+    cell.isOwn = true;
     cell.number = uint(at.y) * uint(gridSize.x) + uint(at.x);
 #endif
     return cell;

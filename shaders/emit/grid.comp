@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 // One photon a cell of the light's grid, where the first surface that the light sees through the
 // cell's middle is specular: its flux is what the light sends through what it stands for
-// (include/cell_extent.glsl), by its area (directional) or its solid angle (cos³; hard case 34a). An
+// (include/photons/cell_extent.glsl), by its area (directional) or its solid angle (cos³; hard case 34a). An
 // opaque surface nearer to the light leaves the cell empty. One thread a cell.
-#include "include/beside_batch.glsl"
-#include "include/cell_extent.glsl"
-#include "include/light_grid.glsl"
-#include "include/specular.glsl"
-#include "include/store_photons.glsl"
+#include "include/photons/neighbour_batch.glsl"
+#include "include/photons/cell_extent.glsl"
+#include "include/photons/light_grid.glsl"
+#include "include/surfaces/specular.glsl"
+#include "include/photons/store_photons.glsl"
 // OpenGL grants a shader no more than eight images.
 #define HITS_WITHOUT_SHAPE
-#include "include/store_hits.glsl"
+#include "include/photons/store_hits.glsl"
 
 #ifdef CELL_EXTENTS
 layout(rg32ui) writeonly uniform uimage2D nextExtents;
@@ -18,10 +18,10 @@ layout(rg32ui) writeonly uniform uimage2D nextExtents;
 
 uniform ivec2 ownRows;  // of the grid, from and before
 
-// Sub-cells in a row from `start` on in which the light sees the object, no more than `most`.
-int countFrom(ivec2 cell, ivec2 start, ivec2 step, uint object, int most) {
+// Sub-cells in a row from `start` on in which the light sees the object, no more than `maximum`.
+int countFrom(ivec2 cell, ivec2 start, ivec2 step, uint object, int maximum) {
     int count = 0;
-    while (count < most && seenAt(cell, start + count * step).x == object) ++count;
+    while (count < maximum && seenAt(cell, start + count * step).x == object) ++count;
     return count;
 }
 
@@ -30,12 +30,12 @@ int countFrom(ivec2 cell, ivec2 start, ivec2 step, uint object, int most) {
 float reachFrom(ivec2 cell, ivec2 start, ivec2 step, uint object) {
     int sum = max(countFrom(cell, start, step, object, subcells), 1);
     int rows = 1;
-    ivec2 beside = ivec2(-step.y, step.x);
-    int most = subcells + subcells / 2;
+    ivec2 neighbourOffset = ivec2(-step.y, step.x);
+    int maximum = subcells + subcells / 2;
     for (int i = 1; i <= subcells / 2; ++i) {
-        int left = countFrom(cell, start + i * beside, step, object, most);
-        int right = countFrom(cell, start - i * beside, step, object, most);
-        if (min(left, right) == 0 || max(left, right) == most) break;
+        int left = countFrom(cell, start + i * neighbourOffset, step, object, maximum);
+        int right = countFrom(cell, start - i * neighbourOffset, step, object, maximum);
+        if (min(left, right) == 0 || max(left, right) == maximum) break;
         sum += left + right;
         rows += 2;
     }
@@ -48,27 +48,27 @@ vec2 reachAcross(ivec2 cell, ivec2 side, vec2 corner, uint object) {
     float share = 0.5 / float(steps);
     for (int i = 1; i <= steps; ++i) {
         float at = (float(i) - 0.5) / float(steps);
-        ivec2 beside = side * ivec2(floor(at * corner * float(subcells) + 0.5));
-        if (seenAt(cell, beside).x != object) break;
+        ivec2 neighbourOffset = side * ivec2(floor(at * corner * float(subcells) + 0.5));
+        if (seenAt(cell, neighbourOffset).x != object) break;
         share = float(i) / float(steps);
     }
     return share * corner;
 }
 
 CellQuarter quarterAround(ivec2 cell, ivec2 side, uint object) {
-    bool isBeside = seenAt(cell, side * ivec2(subcells, 0)).x == object;
+    bool isNeighbour = seenAt(cell, side * ivec2(subcells, 0)).x == object;
     bool isAbove = seenAt(cell, side * ivec2(0, subcells)).x == object;
     bool isAcross = seenAt(cell, side * subcells).x == object;
-    if (isBeside && isAbove && isAcross) return kWholeQuarter;
+    if (isNeighbour && isAbove && isAcross) return kWholeQuarter;
     ivec2 middle = side * (subcells / 2);
     CellQuarter quarter = kWholeQuarter;
-    if (!isBeside) quarter.along = reachFrom(cell, ivec2(0), side * ivec2(1, 0), object);
+    if (!isNeighbour) quarter.along = reachFrom(cell, ivec2(0), side * ivec2(1, 0), object);
     if (!isAbove) quarter.up = reachFrom(cell, ivec2(0), side * ivec2(0, 1), object);
     // Of three cells that meet where the fourth is dark, each goes up to where the one across sees the
     // border on the diagonal.
-    if (isBeside && isAbove) {
+    if (isNeighbour && isAbove) {
         quarter.across = vec2(reachFrom(cell, ivec2(0), side, object));
-    } else if (isBeside && isAcross) {
+    } else if (isNeighbour && isAcross) {
         float there =
             reachFrom(cell, side * ivec2(subcells, 0), side * ivec2(-1, 1), object);
         quarter.across = vec2(1.0 - there, there);
@@ -76,7 +76,7 @@ CellQuarter quarterAround(ivec2 cell, ivec2 side, uint object) {
         float there =
             reachFrom(cell, side * ivec2(0, subcells), side * ivec2(1, -1), object);
         quarter.across = vec2(there, 1.0 - there);
-    } else if (isBeside) {
+    } else if (isNeighbour) {
         quarter.across.y = reachFrom(cell, ivec2(middle.x, 0), side * ivec2(0, 1), object);
     } else if (isAbove) {
         quarter.across.x = reachFrom(cell, ivec2(0, middle.y), side * ivec2(1, 0), object);
@@ -118,13 +118,13 @@ void store(ivec2 cell, ivec2 texel, Emitted emitted) {
 #endif
 }
 
-const Emitted kNobody =
+const Emitted kNotEmitted =
     Emitted(Photon(vec3(0.0), 0.0, vec3(0.0), kFateNone, vec3(0.0), 0u), vec3(0.0), 0u, uvec2(0u));
 
 Emitted emittedFrom(ivec2 cell) {
     uvec2 seen = seenAt(cell, ivec2(0));
     uint material = seen.x == 0u ? 0u : instances[seen.x - 1u].material.x;
-    if (seen.x == 0u || isReceiver(materialKind(material))) return kNobody;
+    if (seen.x == 0u || isReceiver(materialKind(material))) return kNotEmitted;
     LightData light = lights[lightIndex];
     bool isParallel = uint(light.positionVs.w) == kLightDirectional;
     vec2 place = placeOfCell(cell);
@@ -149,13 +149,13 @@ Emitted emittedFrom(ivec2 cell) {
                mediumTransmittance(innerMedium(media), distance);
         footprint = sqrt(solidAngle) * distance;
     }
-    if (!(flux.r + flux.g + flux.b > 0.0)) return kNobody;
+    if (!(flux.r + flux.g + flux.b > 0.0)) return kNotEmitted;
     uvec2 extent = uvec2(0u);
 #ifdef CELL_EXTENTS
     extent = extentOf(cell, seen.x);
 #endif
     flux *= areaOfExtent(extent);
-    if (cell.y < ownRows.x || cell.y >= ownRows.y) flux *= kNextToNothing;
+    if (cell.y < ownRows.x || cell.y >= ownRows.y) flux *= kNegligible;
     vec3 normal = bendingNormal(direction, shadingNormal(point.normal, geometric), geometric,
                                 material + 1u, media);
     Photon photon = Photon(point.position, footprint, direction, kFateSpecular, flux, media);

@@ -2,9 +2,9 @@
 // The beams of photons of one light's grid, where they have hit their first surface: parallel light
 // is as wide as a cell, light from a point spreads; and how that surface turns there. One thread a
 // cell.
-#include "include/beam.glsl"
-#include "include/light_grid.glsl"
-#include "include/photons.glsl"
+#include "include/photons/beam.glsl"
+#include "include/photons/light_grid.glsl"
+#include "include/photons/photons.glsl"
 
 layout(rgba32f) writeonly uniform image2D nextBeamPlace;
 layout(rgba32f) writeonly uniform image2D nextBeamTurn;

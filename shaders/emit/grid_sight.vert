@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The scene as a light sees it, and of which triangle each fragment is; `instances` are the light's.
-#include "include/scene_vertex.glsl"
+#include "include/surfaces/scene_vertex.glsl"
 
 flat out uint object;
 uniform mat4 projection;

@@ -3,13 +3,13 @@
 // see first is nobody. ONLY_BEAMS: their beams and extents instead, since OpenGL grants a shader no
 // more than eight images. VERTEX_GRID: the mesh is a grid, whose vertices stand for quarters of its
 // cells.
-#include "include/beside_batch.glsl"
-#include "include/cell_extent.glsl"
-#include "include/light_depth.glsl"
-#include "include/lights.glsl"
-#include "include/specular.glsl"
-#include "include/store_hits.glsl"
-#include "include/store_photons.glsl"
+#include "include/photons/neighbour_batch.glsl"
+#include "include/photons/cell_extent.glsl"
+#include "include/views/light_depth.glsl"
+#include "include/photons/lights.glsl"
+#include "include/surfaces/specular.glsl"
+#include "include/photons/store_hits.glsl"
+#include "include/photons/store_photons.glsl"
 
 layout(local_size_x = 64) in;
 
@@ -50,7 +50,7 @@ layout(rg32ui) writeonly uniform uimage2D nextExtents;
 #endif
 
 const int kFromOutside = 1;
-const int kFromWithin = 2;
+const int kFromInside = 2;
 
 // What of the triangles around a vertex the light hits from one side.
 struct LitArea {
@@ -83,7 +83,7 @@ LitArea litAround(uint vertex, vec3 direction, out bool isWithin) {
             addTriangle(within, across, area);
         }
     }
-    isWithin = sides == kFromWithin || (sides != kFromOutside && within.across > outside.across);
+    isWithin = sides == kFromInside || (sides != kFromOutside && within.across > outside.across);
     return isWithin ? within : outside;
 }
 
@@ -187,8 +187,8 @@ bool isSeen(vec3 positionVs, vec3 normalVs) {
         ivec2 texel = clamp(first + step, ivec2(0), size - 1);
         vec2 axis = mix(1.0 - f, f, vec2(step));
         vec4 nearest = texelFetch(lightDepths, ivec3(texel, lightIndex), 0);
-        vec2 beside = at - (vec2(texel) + 0.5);
-        bool reaches = reachesLight(nearest, beside, texelMeters, -positionLs.z, normalLs);
+        vec2 neighbourOffset = at - (vec2(texel) + 0.5);
+        bool reaches = reachesLight(nearest, neighbourOffset, texelMeters, -positionLs.z, normalLs);
         seen += reaches ? axis.x * axis.y : 0.0;
     }
     return seen >= 0.5;
@@ -227,7 +227,7 @@ void main() {
                mediumTransmittance(innerMedium(media), distance);
     }
     if (!isFinite(flux) || !(flux.r + flux.g + flux.b > 0.0)) return;
-    if (int(cell) < ownCells.x || int(cell) >= ownCells.y) flux *= kNextToNothing;
+    if (int(cell) < ownCells.x || int(cell) >= ownCells.y) flux *= kNegligible;
     vec3 shading = mat3(instance.normalToView) * data.normal;
     float length2 = dot(shading, shading);
     shading = length2 > 1e-24 ? shading * inversesqrt(length2) : geometric;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The first specular surface of each pixel, where it lies in front of the receiver.
-#include "include/scene_fragment.glsl"
-#include "include/surface.glsl"
+#include "include/surfaces/scene_fragment.glsl"
+#include "include/surfaces/surface.glsl"
 
 layout(location = 0) out vec4 interfaceDepth;
 layout(location = 1) out vec4 interfaceSurface;

@@ -2,9 +2,9 @@
 // The receiver of each pixel of a view: depth, the area seen, normal, material, reflectance. A
 // mirror is none but hides what is beyond it: its depth is negative, and the normal and the
 // material are its own.
-#include "include/scene_fragment.glsl"
-#include "include/surface.glsl"
-#include "include/view.glsl"
+#include "include/surfaces/scene_fragment.glsl"
+#include "include/surfaces/surface.glsl"
+#include "include/views/view.glsl"
 
 layout(location = 0) out vec4 receiver;
 layout(location = 1) out vec4 receiverSurface;

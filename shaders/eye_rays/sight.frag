@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The first surface that rays beside the pixels' middles see (SightTexel): of a receiver, where
+// The first surface that rays next to the pixels' middles see (SightTexel): of a receiver, where
 // nothing specular lies before it, the depth is negative.
-#include "include/octahedral.glsl"
-#include "include/scene_fragment.glsl"
-#include "include/surface.glsl"
+#include "include/views/octahedral.glsl"
+#include "include/surfaces/scene_fragment.glsl"
+#include "include/surfaces/surface.glsl"
 
 layout(location = 0) out vec4 sight;
 layout(location = 1) out vec4 sightSurface;

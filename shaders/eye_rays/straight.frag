@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the eye sees where its ray meets no specular surface first. These pixels are marked by 1 in a
 // depth buffer of zeros: shaders that look into specular surfaces do not run for them.
-#include "include/view_sample.glsl"
+#include "include/views/view_sample.glsl"
 
 layout(location = 0) out vec4 radiance;
 layout(location = 1) out vec4 exitPosition;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // filter.blend: of splats of four sizes, the smallest that enough photons lie on (WD08, section
 // 4.1), and what lies between enough and too few.
-#include "caustic_map/filtered.glsl"
+#include "maps/filtered.glsl"
 
 uniform usampler2DArray photonCounts;
 
-// How much a size is to be trusted: 0 up to `least` photons, 1 from `most` on.
-float trustOf(uint photons) {
-    float t = clamp((float(photons) - float(filter_blend_least)) /
-                        max(float(filter_blend_most) - float(filter_blend_least), 1e-6),
+// How much a size is to be trusted: 0 up to `minimum` photons, 1 from `maximum` on.
+float sizeWeight(uint photons) {
+    float t = clamp((float(photons) - float(filter_blend_min_photons)) /
+                        max(float(filter_blend_max_photons) - float(filter_blend_min_photons), 1e-6),
                     0.0, 1.0);
     // The paper does not give the degree of its Bernstein interpolant: the cubic one is level at
     // both ends.
@@ -23,18 +23,18 @@ vec3 blended(vec3 flux[4], uint counts[4]) {
     // The smallest size of which there are enough, else the largest.
     int whole = 3;
     for (int i = 3; i >= 0; --i) {
-        if (counts[i] >= uint(filter_blend_most)) whole = i;
+        if (counts[i] >= uint(filter_blend_max_photons)) whole = i;
     }
     if (filter_blend_interpolant == filter_blend_interpolant_linear) {
         if (whole == 0) return flux[0];
-        return mix(flux[whole], flux[whole - 1], trustOf(counts[whole - 1]));
+        return mix(flux[whole], flux[whole - 1], sizeWeight(counts[whole - 1]));
     }
     // Smaller ones join where they are brighter: up to three sizes together.
     vec3 sum = flux[whole];
     float weights = 1.0;
     for (int i = whole - 1; i >= max(whole - 2, 0); --i) {
         if (brightness(flux[i]) <= brightness(flux[whole])) continue;
-        float weight = trustOf(counts[i]);
+        float weight = sizeWeight(counts[i]);
         sum += weight * flux[i];
         weights += weight;
     }

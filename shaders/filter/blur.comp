@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // filter.blur: a Gaussian over the map's texels, along x and then along y (WD06). What would fall
-// beside the map stays in it: each texel's weights are normalised over those that are there, so that
+// next to the map stays in it: each texel's weights are normalised over those that are there, so that
 // no flux is lost, and a splat of the same Gaussian gives the same.
-#include "caustic_map/filtered.glsl"
+#include "maps/filtered.glsl"
 
 layout(rgba32f) uniform image2DArray blurred;  // units, along x alone
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // filter.level_sum: what all levels of a multi-resolution map hold of each texel, bilinear between
 // the coarser ones' (WN09, section 3.2.2).
-#include "caustic_map/filtered.glsl"
-#include "caustic_map/sample_level.glsl"
+#include "maps/filtered.glsl"
+#include "maps/sample_level.glsl"
 
 uniform int levels;
 

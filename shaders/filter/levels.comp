@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // filter.levels: of each texel the finest level on whose texel enough photons lie (WD08, section
 // 4), bilinear between that level's texels.
-#include "caustic_map/filtered.glsl"
-#include "caustic_map/sample_level.glsl"
+#include "maps/filtered.glsl"
+#include "maps/sample_level.glsl"
 
 uniform usampler2DArray photonCounts;
 uniform int levels;
@@ -18,7 +18,7 @@ void main() {
     for (int view = 0; view < views; ++view) {
         int chosen = levels - 1;
         for (int level = levels - 1; level >= 0; --level) {
-            if (countAt(texel >> level, level, view) >= uint(filter_levels_enough)) chosen = level;
+            if (countAt(texel >> level, level, view) >= uint(filter_levels_min_photons)) chosen = level;
         }
         storeFiltered(texel, view, 0, sampleLevel(texel, chosen, view));
     }

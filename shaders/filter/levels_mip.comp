@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // filter.levels: one level of the map's mip chain from the one before, flux and counts: what four
 // texels hold together. One thread a texel of the level.
-#include "caustic_map/levels.glsl"
+#include "maps/levels.glsl"
 #include "framework/transport/types.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;

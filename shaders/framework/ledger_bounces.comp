@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Photons that were still on their way when the bounces ended. A thread a photon of the last list.
-#include "include/hits.glsl"
-#include "include/ledger.glsl"
-#include "include/photon_thread.glsl"
+#include "include/photons/hits.glsl"
+#include "include/photons/ledger.glsl"
+#include "include/photons/photon_thread.glsl"
 
 void main() {
     uint index = photonOfThread();

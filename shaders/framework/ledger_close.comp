@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Closes the ledger of a frame: sums what the maps of flux hold, one a view. A thread a texel.
-#include "include/flux_sum_read.glsl"
-#include "include/ledger.glsl"
+#include "include/maps/flux_sum_read.glsl"
+#include "include/photons/ledger.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 

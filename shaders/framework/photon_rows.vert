@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A fragment a photon of a list: a rectangle over the rows that hold it. A strip of four vertices.
-#include "include/photons.glsl"
+#include "include/photons/photons.glsl"
 
 void main() {
     vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);

@@ -3,7 +3,7 @@
 #ifdef IS_FILTERED
 uniform sampler2DArray filteredFlux;
 #else
-#include "include/flux_sum_read.glsl"
+#include "include/maps/flux_sum_read.glsl"
 #endif
 
 uniform sampler2D receiver;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Values of any range as colours for the window: exposure and sRGB, or false colours; NaN is
 // magenta, infinity cyan. Row 0 is the top of the image on both sides.
-#include "include/srgb.glsl"
+#include "include/maps/srgb.glsl"
 
 uniform sampler2D values;
 uniform sampler2D palette;

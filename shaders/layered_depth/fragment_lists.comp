@@ -2,7 +2,7 @@
 // The nearest fragments of each pixel's list, sorted, become its layers, unless lists do not hold
 // all fragments of the view. At equal depth the triangle drawn first stays alone, as in peeling
 // (hard case 12). One thread a pixel.
-#include "screen_space_photons/lists_fit.glsl"
+#include "layered_depth/fragment_lists_fit.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -21,7 +21,7 @@ layout(std430) readonly buffer FragmentTriangles {
 
 // So many layers are sorted at once, in registers, all indices being constant: a list is walked once
 // for each eight.
-const int kAtOnce = 8;
+const int kChunkSize = 8;
 const float kNoDepth = 3.0e38;
 
 void store(ivec2 pixel, int layer, uint place) {
@@ -39,10 +39,10 @@ void main() {
     float reached = -kNoDepth;  // the depth of the last layer that is stored
     int layer = 0;
     while (layer < layerCount && reached < kNoDepth) {
-        float depths[kAtOnce];
-        uint places[kAtOnce];
-        uint triangles[kAtOnce];
-        for (int i = 0; i < kAtOnce; ++i) depths[i] = kNoDepth;
+        float depths[kChunkSize];
+        uint places[kChunkSize];
+        uint triangles[kChunkSize];
+        for (int i = 0; i < kChunkSize; ++i) depths[i] = kNoDepth;
         uint next = imageLoad(heads, pixel).x;
         while (next != 0u) {
             uint place = next - 1u;
@@ -51,7 +51,7 @@ void main() {
             uint triangle = fragmentTriangles[place];
             if (depth <= reached) depth = kNoDepth;
             // Whatever it is nearer than moves on by a layer, the last one out.
-            for (int i = 0; i < kAtOnce; ++i) {
+            for (int i = 0; i < kChunkSize; ++i) {
                 float depthThere = depths[i];
                 bool isTwice = depth == depthThere;
                 if (depth < depthThere || (isTwice && triangle < triangles[i])) {
@@ -68,14 +68,14 @@ void main() {
                 if (isTwice) depth = kNoDepth;
             }
         }
-        reached = depths[kAtOnce - 1];
-        for (int left = kAtOnce; left > 0 && layer < layerCount && depths[0] < kNoDepth; --left) {
+        reached = depths[kChunkSize - 1];
+        for (int left = kChunkSize; left > 0 && layer < layerCount && depths[0] < kNoDepth; --left) {
             store(pixel, layer++, places[0]);
-            for (int i = 1; i < kAtOnce; ++i) {
+            for (int i = 1; i < kChunkSize; ++i) {
                 depths[i - 1] = depths[i];
                 places[i - 1] = places[i];
             }
-            depths[kAtOnce - 1] = kNoDepth;
+            depths[kChunkSize - 1] = kNoDepth;
         }
     }
 }

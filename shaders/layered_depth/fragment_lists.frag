@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Adds a fragment to the list of its pixel (Yang et al. 2010) and to its count: what peel.frag
 // writes, as bits, and the number of its triangle.
-#include "include/octahedral.glsl"
-#include "include/scene_fragment.glsl"
-#include "include/surface.glsl"
-#include "screen_space_photons/lists.glsl"
+#include "include/views/octahedral.glsl"
+#include "include/surfaces/scene_fragment.glsl"
+#include "include/surfaces/surface.glsl"
+#include "layered_depth/fragment_lists.glsl"
 
 layout(location = 0) out float count;
 
@@ -25,7 +25,7 @@ void main() {
     vec3 shading = shadingNormal(normalVs, geometric);
     count = 1.0;
     uint place = atomicAdd(fragmentCounts[face], 1u);
-    if (place >= room) return;
+    if (place >= capacity) return;
     uint next = imageAtomicExchange(heads, ivec2(gl_FragCoord.xy), place + 1u);
     fragmentDepths[place] =
         uvec4(floatBitsToUint(vec3(-positionVs.z, packUnitVector(geometric))), next);

@@ -5,4 +5,4 @@ layout(std430) buffer FragmentCounts {
     uint fragmentCounts[];  // by view; what did not fit is counted too
 };
 uniform int face;
-uniform uint room;
+uniform uint capacity;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The scene as the eye sees it (shared/eye.vert), with the number of each object's first triangle.
-#include "include/scene_vertex.glsl"
+// The scene as the eye sees it (raster_views/eye.vert), with the number of each object's first triangle.
+#include "include/surfaces/scene_vertex.glsl"
 
 invariant gl_Position;
 uniform mat4 projection;

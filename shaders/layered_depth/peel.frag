@@ -2,9 +2,9 @@
 // One depth layer: the nearest surface beyond the previous layer (Everitt 2001). The depth buffer
 // holds view depth itself, scaled by a power of two and so without rounding: layers are told apart
 // down to what 32-bit view depth can (hard cases 12, 13).
-#include "include/octahedral.glsl"
-#include "include/scene_fragment.glsl"
-#include "include/surface.glsl"
+#include "include/views/octahedral.glsl"
+#include "include/surfaces/scene_fragment.glsl"
+#include "include/surfaces/surface.glsl"
 
 layout(location = 0) out vec4 layerDepth;
 layout(location = 1) out vec4 layerSurface;

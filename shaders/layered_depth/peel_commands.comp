@@ -4,7 +4,7 @@
 // measurement. AFTER_LISTS: where lists hold all fragments none is drawn.
 #include "framework/transport/types.h"
 #ifdef AFTER_LISTS
-#include "screen_space_photons/lists_fit.glsl"
+#include "layered_depth/fragment_lists_fit.glsl"
 #endif
 
 layout(local_size_x = 64) in;

@@ -2,9 +2,9 @@
 // One level of the layers' pyramid (pyramid_layout.glsl): for each square and layer a plane in
 // nearness, which is linear on the screen where a surface is flat, and how far what a ray may hit
 // there lies from it. One thread a square.
-#include "include/octahedral.glsl"
-#include "include/view.glsl"
-#include "screen_space_photons/pyramid_layout.glsl"
+#include "include/views/octahedral.glsl"
+#include "include/views/view.glsl"
+#include "layered_depth/pyramid_layout.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -65,11 +65,11 @@ void main() {
             vec4 part = parts[i];
             if (part.x <= 0.0) continue;
             vec2 middle = (vec2(i & 3, i >> 2) - 1.5) * side;
-            float beside = part.x - dot(slope, middle);
+            float intercept = part.x - dot(slope, middle);
             // Its own plane turns from this one towards its corners.
             vec2 turn = abs(part.yz - slope) * 0.5 * side;
             float reach = part.w + (level == 1 ? 0.0 : turn.x + turn.y);
-            bounds = vec2(min(bounds.x, beside - reach), max(bounds.y, beside + reach));
+            bounds = vec2(min(bounds.x, intercept - reach), max(bounds.y, intercept + reach));
         }
         float reach = 0.5 * (bounds.y - bounds.x);
         // The ray's pixel position is up to half a pixel from the middle that was measured.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The layers' pyramid: where its levels lie in its texture, level 1 at the left, the others right
 // of it, one above the other. A texel of level k covers a square of 4^k pixels; x: nearness in its
-// middle (include/view.glsl; 0: the layer is empty there), yz: by how much it grows a pixel, w: how
+// middle (include/views/view.glsl; 0: the layer is empty there), yz: by how much it grows a pixel, w: how
 // far from that plane a ray may be and still hit the layer.
 const int kPyramidLevels = 3;
 

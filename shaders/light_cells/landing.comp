@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Where the light of probes arrives in the view that a metric looks from, and what they have met.
 // One thread a hit; PhotonOrigin::cell is the number of its probe. BY_PHOTON: an entry a photon.
-#include "include/arriving.glsl"
-#include "include/surface_data.glsl"
-#include "screen_space_photons/seen_receiver.glsl"
+#include "include/photons/arriving.glsl"
+#include "include/surfaces/surface_data.glsl"
+#include "include/views/seen_receiver.glsl"
 #ifdef PATHS
-#include "include/ray_segment.glsl"
+#include "include/views/ray_segment.glsl"
 #endif
 
 layout(std430) buffer Landings {
@@ -14,7 +14,7 @@ layout(std430) buffer Landings {
 uniform int isFirst;     // of the views that these hits are looked at from
 uniform int viewNumber;  // of the first of them
 uniform int needsSight;  // 1: what the view does not see has not landed
-uniform int isPart;      // 1: of a view that has been looked from; beside this one that holds
+uniform int isPart;      // 1: of a view that has been looked from; next to this one that holds
 #ifndef BY_PHOTON
 uniform int splits;
 uniform int branches;    // entries of a probe
@@ -35,7 +35,7 @@ uint entryOf(PhotonOrigin origin, uint index) {
 uniform float farthest;  // that a path goes, m
 
 // Both ends of the part of a path that the eye sees, as the screen has them.
-void landPath(uint entry, ivec2 texel, uint fate) {
+void storePathLanding(uint entry, ivec2 texel, uint fate) {
     vec3 begin = texelFetch(photonPosition, texel, 0).xyz;
     vec3 along = texelFetch(photonDirection, texel, 0).xyz;
     bool isHit = fate == kFateReceiver || fate == kFateSpecular;
@@ -51,7 +51,7 @@ void landPath(uint entry, ivec2 texel, uint fate) {
 }
 #endif
 
-// Beside what the view holds too: neighbours there are told apart as well.
+// Next to what the view holds too: neighbours there are told apart as well.
 bool isInFront(vec3 point) { return point.z < -view.frustum.z; }
 
 void main() {
@@ -63,14 +63,14 @@ void main() {
     uint entry = entryOf(origin, index);
     vec4 surface = texelFetch(hitSurface, texel, 0);
     if (isFirst == 1 && fate != kFateNone) {
-        uint met = landings[entry].signature * 31u + uint(surface.w) * 7u + origin.path;
-        landings[entry].signature = met;
+        uint visited = landings[entry].signature * 31u + uint(surface.w) * 7u + origin.path;
+        landings[entry].signature = visited;
     }
 #ifdef PATHS
-    if (uint(texelFetch(photonDirection, texel, 0).w) == kFateInFlight) landPath(entry, texel, fate);
+    if (uint(texelFetch(photonDirection, texel, 0).w) == kFateInFlight) storePathLanding(entry, texel, fate);
     return;
 #endif
-    if (!arrivesHere(texel)) return;
+    if (!hasArrived(texel)) return;
     vec3 positionVs = texelFetch(hitPosition, texel, 0).xyz;
     vec3 directionVs = texelFetch(photonDirection, texel, 0).xyz;
     for (int face = 0; face < viewCount; ++face) {

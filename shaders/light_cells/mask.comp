@@ -2,8 +2,8 @@
 // A level of the mask: the finest from what a light's texels see, the others from the four cells
 // below. A cell that touches a specular texel has something specular; one that touches another texel
 // has something else. One thread a cell.
-#include "adaptive_caustic_map/mask.glsl"
-#include "include/surface_data.glsl"
+#include "light_cells/mask.glsl"
+#include "include/surfaces/surface_data.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -26,7 +26,7 @@ void main() {
     vec2 size = vec2(textureSize(deferredSurface, 0).xy);
     vec2 low = (0.5 + (vec2(cell) / float(side) - 0.5) * cellsOfView) * size;
     vec2 high = (0.5 + (vec2(cell + 1u) / float(side) - 0.5) * cellsOfView) * size;
-    // What the middle of a texel does not see may still reach a photon beside it.
+    // What the middle of a texel does not see may still reach a photon next to it.
     uvec2 begin = uvec2(max(floor(low) - 1.0, vec2(0.0)));
     uvec2 end = uvec2(min(ceil(high) + 1.0, size));
     bool isSomewhere = false;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The end of a round of an adaptive traversal.
-#include "adaptive_caustic_map/cells.glsl"
+#include "light_cells/cell_lists.glsl"
 
 layout(std430) writeonly buffer PhotonCellList {
     PhotonList photonCellList;
 };
-uniform uint mostTaken;
-uniform uint mostPhotons;
+uniform uint maxTaken;
+uniform uint maxPhotons;
 uniform uint photonRow;
 
 // With so many cells that wait, and photons.
@@ -16,6 +16,6 @@ void closeRound(uint waiting, uint photons) {
     counting.photons = photons;
     photonCellList = photonListOf(photons, photonRow);
     // A round that would have to stop short waits for the next batch.
-    uint wanted = min(waiting, mostTaken);
-    counting.moreCells = (mostPhotons - photons) / 4u >= wanted ? wanted : 0u;
+    uint wanted = min(waiting, maxTaken);
+    counting.moreCells = (maxPhotons - photons) / 4u >= wanted ? wanted : 0u;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What becomes of a cell of a light's view, by its four probes (WN09, sections 3.2.1 and 3.2.2).
-#include "adaptive_caustic_map/cells.glsl"
-#include "adaptive_caustic_map/mask.glsl"
+#include "light_cells/cell_lists.glsl"
+#include "light_cells/mask.glsl"
 
 layout(std430) readonly buffer TakenCells {
     LightCell takenCells[];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A map of flux to read, and what a filter makes of it to write. One thread a texel.
-#include "include/flux_sum_read.glsl"
+#include "include/maps/flux_sum_read.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 

@@ -2,25 +2,25 @@
 // gather.project, gather.cube: what the caustic map of a light or of a generator holds where the eye's
 // receivers lie. A pixel that spans several texels is the mean of several places of it.
 //   MAP_HAS_PARTS  parts of it are in finer maps, of what the eye sees nearer by
-#include "include/view.glsl"
+#include "include/views/view.glsl"
 #ifdef GLOSSY_RECEIVERS
 #define MEAN_INCIDENCE
-#include "include/receiver_brdf.glsl"
+#include "include/surfaces/receiver_brdf.glsl"
 #endif
-#include "include/map_lookup.glsl"
+#include "include/maps/map_lookup.glsl"
 
 uniform sampler2D receiver;
 uniform sampler2D receiverSurface;
-uniform int mostPlaces;  // along a side of a pixel
+uniform int maxSamples;  // along a side of a pixel
 #ifdef MAP_HAS_PARTS
 layout(std140) uniform MapParts {
-    ViewData mapParts[kMostViews];
+    ViewData mapParts[kMaxViews];
 };
 uniform int partCount;
 uniform int part;  // that this map is, 0: the whole
 #endif
 #ifdef GLOSSY_RECEIVERS
-uniform int comesFromCentre;  // all light from where the map is seen from, not its mean direction
+uniform int isFromCentre;  // all light from where the map is seen from, not its mean direction
 #endif
 
 layout(location = 0) out vec4 irradiance;
@@ -28,8 +28,8 @@ layout(location = 0) out vec4 irradiance;
 layout(location = 1) out vec4 radiance;
 #endif
 
-// What is seen of the receiver's plane so many pixels beside the middle.
-vec3 besideMiddle(vec2 offset, vec3 positionVs, vec3 normalVs) {
+// What is seen of the receiver's plane so many pixels next to the middle.
+vec3 sampleOnPlane(vec2 offset, vec3 positionVs, vec3 normalVs) {
     vec3 ray = viewRay(gl_FragCoord.xy + offset);
     float facing = dot(normalVs, ray);
     // Edge-on there is no telling.
@@ -44,17 +44,17 @@ int placesAcross(vec3 positionVs, vec3 normalVs) {
     float texels = 0.0;
     for (int axis = 0; axis < 2; ++axis) {
         vec2 offset = 0.5 * vec2(1 - axis, axis);
-        MapPlace edge = placeOf(besideMiddle(offset, positionVs, normalVs), normalVs);
+        MapPlace edge = placeOf(sampleOnPlane(offset, positionVs, normalVs), normalVs);
         if (edge.face == middle.face)
             texels = max(texels, 2.0 * distance(edge.pixel, middle.pixel));
     }
-    return clamp(int(ceil(texels - 0.25)), 1, mostPlaces);
+    return clamp(int(ceil(texels - 0.25)), 1, maxSamples);
 }
 
 #ifdef MAP_HAS_PARTS
 // Whether a part is looked up at a place: not in its border, where light is missing that has arrived
-// beside it and reaches in.
-bool isLookedUpIn(ViewData map, vec3 positionVs) {
+// next to it and reaches in.
+bool isCoveredBy(ViewData map, vec3 positionVs) {
     vec3 point = (map.fromEye * vec4(positionVs, 1.0)).xyz;
     if (-point.z <= map.frustum.z) return false;
     vec2 at = mapPixelOf(map, point) * map.sizePixels.zw;
@@ -63,13 +63,13 @@ bool isLookedUpIn(ViewData map, vec3 positionVs) {
 }
 
 // Of all maps one is looked up in a pixel: the finest that has its middle, with all before it.
-bool isOurs(vec3 positionVs) {
+bool isOwn(vec3 positionVs) {
     int finest = 0;
-    while (finest < partCount && isLookedUpIn(mapParts[finest], positionVs)) ++finest;
+    while (finest < partCount && isCoveredBy(mapParts[finest], positionVs)) ++finest;
     return finest == part;
 }
 #else
-bool isOurs(vec3 positionVs) { return true; }
+bool isOwn(vec3 positionVs) { return true; }
 #endif
 
 void main() {
@@ -82,13 +82,13 @@ void main() {
     if (depth <= 0.0) return;
     vec4 surface = texelFetch(receiverSurface, pixel, 0);
     vec3 positionVs = viewRay(gl_FragCoord.xy) * depth;
-    if (!isOurs(positionVs)) return;
+    if (!isOwn(positionVs)) return;
     int places = placesAcross(positionVs, surface.xyz);
     Gathered sum = Gathered(vec3(0.0), vec3(0.0));
     for (int i = 0; i < places * places; ++i) {
         vec2 offset = (vec2(i % places, i / places) + 0.5) / float(places) - 0.5;
         vec3 there =
-            places == 1 ? positionVs : besideMiddle(offset, positionVs, surface.xyz);
+            places == 1 ? positionVs : sampleOnPlane(offset, positionVs, surface.xyz);
         Gathered one = gatherAt(there, surface.xyz, there);
         sum.irradiance += one.irradiance;
         sum.direction += one.direction;
@@ -99,7 +99,7 @@ void main() {
     float all = sum.irradiance.r + sum.irradiance.g + sum.irradiance.b;
     if (all <= 0.0) return;
     vec3 direction = sum.direction / all - 1.0;
-    if (comesFromCentre == 1)
+    if (isFromCentre == 1)
         direction = mat3(transpose(mapViews[0].fromEye)) *
                     (mapViews[0].fromEye * vec4(positionVs, 1.0)).xyz;
     float size = length(direction);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A level of a map at a texel of the map's own resolution, bilinear.
-#include "caustic_map/levels.glsl"
+#include "maps/levels.glsl"
 
 // What the texel gets of one of a level that is 4^level times as large.
 vec3 sampleLevel(ivec2 texel, int level, int view) {

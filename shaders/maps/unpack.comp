@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A map as it was stored, in floats, so that whoever looks it up reads a texel once.
-#include "caustic_map/filtered.glsl"
+#include "maps/filtered.glsl"
 
 void main() {
     ivec2 texel;

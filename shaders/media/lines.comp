@@ -8,10 +8,10 @@
 // nothing is singular for a path towards the eye, and a column of pixels gets its share of the line
 // exactly (hard case 36), whatever a device's rules for lines are (hard case 6). Across the line the
 // shares of a column's pixels add up to 1. One thread a photon, for so many of its columns.
-#include "include/flux_sum.glsl"
-#include "include/hits.glsl"
-#include "include/photon_thread.glsl"
-#include "screen_space_photons/god_rays.glsl"
+#include "include/maps/flux_sum.glsl"
+#include "include/photons/hits.glsl"
+#include "include/photons/photon_thread.glsl"
+#include "media/lines.glsl"
 
 layout(std430) buffer NarrowedLines {
     Narrowed narrowed;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The path of a photon through the medium as a line on the screen: a RaySegment whose ends are the
-// photon's, in pixels that may lie a little beside the screen, so that a wide line is whole there.
-#include "include/medium.glsl"
-#include "include/ray_segment.glsl"
+// photon's, in pixels that may lie a little next to the screen, so that a wide line is whole there.
+#include "include/photons/medium.glsl"
+#include "include/views/ray_segment.glsl"
 
 // The path up to `end` m, as far as it is inside of the medium, beyond the near plane and within so
 // many pixels of the screen.

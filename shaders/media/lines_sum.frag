@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What all lines so far add up to, W/m²/sr.
-#include "include/flux_sum_read.glsl"
+#include "include/maps/flux_sum_read.glsl"
 
 uniform float radianceScale;
 

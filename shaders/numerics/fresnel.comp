@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // interactAt for a list of cases: direction and index before, normal and index after.
-#include "include/fresnel.glsl"
+#include "include/surfaces/fresnel.glsl"
 
 layout(local_size_x = 64) in;
 layout(std430) readonly buffer Inputs {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Photons and hits from a list, as texels of the transfer map.
-#include "include/store_hits.glsl"
-#include "include/store_photons.glsl"
+#include "include/photons/store_hits.glsl"
+#include "include/photons/store_photons.glsl"
 
 layout(local_size_x = 64) in;
 

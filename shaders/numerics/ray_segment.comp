@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // clipRay for a list of rays, and the depth and parameter at an index along each.
-#include "include/ray_segment.glsl"
+#include "include/views/ray_segment.glsl"
 
 layout(local_size_x = 64) in;
 layout(std430) readonly buffer Inputs {

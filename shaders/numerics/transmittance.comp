@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // mediumTransmittance for a list of cases: medium, metres.
-#include "include/surface_data.glsl"
+#include "include/surfaces/surface_data.glsl"
 
 layout(local_size_x = 64) in;
 layout(std430) readonly buffer Inputs {

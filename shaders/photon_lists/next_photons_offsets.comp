@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Makes of each workgroup's number of photons the place of its first one in the next list, so that
 // the order is kept, and says how long that list is. One workgroup.
-#include "include/photons.glsl"
+#include "include/photons/photons.glsl"
 
 const uint kThreads = 256u;
 layout(local_size_x = 256) in;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The back faces of the transmitting objects, the farthest of each pixel (W05).
-#include "include/scene_fragment.glsl"
-#include "include/surface.glsl"
+#include "include/surfaces/scene_fragment.glsl"
+#include "include/surfaces/surface.glsl"
 #ifdef SHAPES
-#include "include/beam.glsl"
+#include "include/photons/beam.glsl"
 #endif
 
 layout(location = 0) out vec4 backDepth;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The scene as the eye sees it.
-#include "include/scene_vertex.glsl"
+#include "include/surfaces/scene_vertex.glsl"
 
 invariant gl_Position;
 uniform mat4 projection;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // reconstruct.triangles: a patch's flux onto the pixels that it covers, on every face that sees a
 // part of it. One thread a patch; those that cover many pixels go to a list of their own.
-#include "screen_space_photons/patch.glsl"
-#include "screen_space_photons/patch_deposit.glsl"
+#include "reconstruct/triangles_patch.glsl"
+#include "reconstruct/triangles_patch_deposit.glsl"
 
 layout(std430) buffer Patches {
     uint patchList[];
@@ -10,7 +10,7 @@ layout(std430) buffer Patches {
 uniform int firstWide;  // where those of a workgroup begin
 
 // Pixels of the rectangles around a patch for one thread.
-const int kMostOfThread = 400;
+const int kMaxPixelsPerThread = 400;
 
 void cover(uint item) {
     Patch whole = patchOf(item);
@@ -36,7 +36,7 @@ void cover(uint item) {
         ivec2 size = max(onto.high - onto.low + 1, ivec2(0));
         pixels += size.x * size.y;
     }
-    if (pixels > kMostOfThread) {
+    if (pixels > kMaxPixelsPerThread) {
         patchList[uint(firstWide) + atomicAdd(widePatches.count, 1u)] = item;
         return;
     }

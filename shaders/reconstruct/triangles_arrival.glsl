@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Where a photon arrives, and by its beam where its neighbours would.
-#include "include/beside_batch.glsl"
-#include "include/cell_extent.glsl"
-#include "include/cells.glsl"
-#include "include/hits.glsl"
-#include "include/ledger_unit.glsl"
-#include "include/photon_thread.glsl"
-#include "include/view.glsl"
+#include "include/photons/neighbour_batch.glsl"
+#include "include/photons/cell_extent.glsl"
+#include "include/photons/cells.glsl"
+#include "include/photons/hits.glsl"
+#include "include/photons/ledger_unit.glsl"
+#include "include/photons/photon_thread.glsl"
+#include "include/views/view.glsl"
 
 // A beam that grazes is taken as if it came at this sine at least, which bounds what it covers.
-const float kLeastArrivalSlant = 0.01;
+const float kMinArrivalSlant = 0.01;
 
 #ifdef CELL_EXTENTS
 uniform usampler2D cellExtents;
@@ -19,14 +19,14 @@ struct Arrival {
     vec3 position;  // of the view, m
     vec3 normal;    // unit, outward
     vec3 direction;
-    mat2x3 beside;  // to where the next cells' light arrives, along u and v, m
+    mat2x3 spacing;  // to where the next cells' light arrives, along u and v, m
     vec2 farther;   // than this light flies, m
     float distance;
     vec3 flux;      // W
     float density;  // the flux by what it stands for covers, W/m²
     uint material;  // index + 1
     uint path;
-    uvec2 extent;   // include/cell_extent.glsl
+    uvec2 extent;   // include/photons/cell_extent.glsl
 };
 
 // What the photon stands for besides its cell; 0: its cell.
@@ -44,32 +44,32 @@ mat2x3 fromEye(mat2x3 offsets) {
 }
 
 // Whether another batch of emission brings a photon as well, and here it is only to be joined with.
-bool isOfOtherBatch(vec3 flux) {
+bool isFromOtherBatch(vec3 flux) {
     return (flux.r + flux.g + flux.b) * ledgerUnitsPerWatt < 0.25;
 }
 
 // Of all channels, in whichever batch it is.
 float wholeFlux(vec3 flux) {
-    return (flux.r + flux.g + flux.b) * (isOfOtherBatch(flux) ? 1.0 / kNextToNothing : 1.0);
+    return (flux.r + flux.g + flux.b) * (isFromOtherBatch(flux) ? 1.0 / kNegligible : 1.0);
 }
 
 Arrival arrivalOf(ivec2 texel) {
     Hit hit = hitAt(texel);
     Photon photon = photonAt(texel);
     vec2 farther;
-    mat2x3 beside = beamOnPlane(beamAt(texel), photon.directionVs, hit.distanceMeters, hit.normalVs,
-                                kLeastArrivalSlant, farther);
+    mat2x3 spacing = beamOnPlane(beamAt(texel), photon.directionVs, hit.distanceMeters, hit.normalVs,
+                                kMinArrivalSlant, farther);
     PhotonOrigin origin = originAt(texel);
     uvec2 extent = extentOf(origin);
-    float area = length(cross(beside[0], beside[1])) * areaOfExtent(extent);
+    float area = length(cross(spacing[0], spacing[1])) * areaOfExtent(extent);
     return Arrival(pointFromEye(hit.positionVs), directionFromEye(hit.normalVs),
-                   directionFromEye(photon.directionVs), fromEye(beside), farther,
+                   directionFromEye(photon.directionVs), fromEye(spacing), farther,
                    hit.distanceMeters, hit.fluxWatts, wholeFlux(hit.fluxWatts) / max(area, 1e-30),
                    hit.material, origin.path, extent);
 }
 
 // How far a beam goes on towards a corner of its cell, as shares of the way along u and v, before it
-// would arrive where it has come from: light that enters water beside a wall lights none of the wall
+// would arrive where it has come from: light that enters water next to a wall lights none of the wall
 // above it.
 vec2 reachTowards(Arrival at, vec2 corner) {
     vec2 less = max(-at.farther * corner, 0.0);
@@ -113,13 +113,13 @@ QuarterCorners cornersOf(Arrival at, uint quarter) {
 
 // Whether two neighbours, `step` cells from one to the other, arrive on one surface where their
 // beams, on the average, say of one another.
-bool belongTogether(Arrival a, Arrival b, vec2 step) {
+bool areNeighbours(Arrival a, Arrival b, vec2 step) {
     if (a.path != b.path || a.material != b.material) return false;
     if (dot(a.normal, b.normal) < 0.5) return false;
-    vec3 besideA = a.beside * step;
-    vec3 besideB = b.beside * step;
+    vec3 spacingA = a.spacing * step;
+    vec3 spacingB = b.spacing * step;
     vec3 between = b.position - a.position;
-    vec3 off = between - 0.5 * (besideA + besideB);
-    float most = max(length(between), max(length(besideA), length(besideB)));
-    return length(off) <= reconstruct_triangles_tolerance * most;
+    vec3 off = between - 0.5 * (spacingA + spacingB);
+    float maximum = max(length(between), max(length(spacingA), length(spacingB)));
+    return length(off) <= reconstruct_triangles_tolerance * maximum;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The workgroups for so many patches: of 64 threads one each, or one each.
 #include "framework/transport/types.h"
-#include "screen_space_photons/patch_list.glsl"
+#include "reconstruct/triangles_patch_list.glsl"
 
 layout(local_size_x = 1) in;
 
@@ -13,7 +13,7 @@ uniform int isWide;
 
 void main() {
     uint groups = isWide == 1 ? widePatches.count : (patches.count + 63u) / 64u;
-    uvec3 size = uvec3(min(groups, kMostGroupsX), (groups + kMostGroupsX - 1u) / kMostGroupsX, 1u);
+    uvec3 size = uvec3(min(groups, kMaxGroupsX), (groups + kMaxGroupsX - 1u) / kMaxGroupsX, 1u);
     if (isWide == 1) {
         widePatches.groupsX = size.x;
         widePatches.groupsY = size.y;

@@ -2,7 +2,7 @@
 // reconstruct.triangles: whether a photon and its neighbours to the right, above and between are
 // joined: light of one path that arrives on one surface, each where the others' beams say, so that
 // what lies between them arrives in between. One thread a photon.
-#include "screen_space_photons/neighbours.glsl"
+#include "reconstruct/triangles_neighbours.glsl"
 
 layout(std430) writeonly buffer CellJoins {
     uint cellJoins[];  // by the photon at the lower left: 1 joined
@@ -23,16 +23,16 @@ bool isJoined(uint index) {
         if (!(length(off) <= 2.0 * sin(0.5 * widest))) return false;
     }
 #else
-    vec2 least = vec2(1e30);
-    vec2 most = vec2(-1e30);
+    vec2 minimum = vec2(1e30);
+    vec2 maximum = vec2(-1e30);
     for (uint i = 0u; i < 4u; ++i) {
         vec3 position = around.corners[i].position;
         if (!(-position.z > view.frustum.z)) return false;
         vec2 pixel = pixelOf(position);
-        least = min(least, pixel);
-        most = max(most, pixel);
+        minimum = min(minimum, pixel);
+        maximum = max(maximum, pixel);
     }
-    vec2 size = most - least;
+    vec2 size = maximum - minimum;
     if (!(max(size.x, size.y) <= float(reconstruct_triangles_maximum))) return false;
 #endif
     return areTogether(around, 0u, 1u) && areTogether(around, 2u, 3u) &&

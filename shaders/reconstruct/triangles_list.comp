@@ -2,10 +2,10 @@
 // reconstruct.triangles: what there is to cover. A photon stands for a quarter of each of the four
 // quadrilaterals around it; those that are not joined it covers by its own beam, as far as light
 // comes that way. One thread a photon.
-#include "include/arriving.glsl"
-#include "include/ledger.glsl"
-#include "screen_space_photons/crease.glsl"
-#include "screen_space_photons/patch_list.glsl"
+#include "include/photons/arriving.glsl"
+#include "include/photons/ledger.glsl"
+#include "reconstruct/triangles_crease.glsl"
+#include "reconstruct/triangles_patch_list.glsl"
 
 layout(std430) readonly buffer CellJoins {
     uint cellJoins[];
@@ -71,9 +71,9 @@ void main() {
     if (index >= photons.count) return;
     ivec2 texel = ivec2(photonTexel(photons, index));
     vec4 flux = texelFetch(hitFlux, texel, 0);
-    if (!arrivesHere(texel)) return;
+    if (!hasArrived(texel)) return;
     PhotonOrigin origin = originAt(texel);
-    bool isOther = isOfOtherBatch(flux.rgb);
+    bool isOther = isFromOtherBatch(flux.rgb);
     Arrival own;
     // By the corner: those that are joined, and what is listed of the rest. What four photons share
     // out is listed in every batch that has one of them.

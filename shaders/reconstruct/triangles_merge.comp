@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // reconstruct.triangles: small cells are merged, their power added (U08, section 5, its future
 // work): four squares of joined cells that together cover no more than so many texels are one. Step
-// 0 makes squares of single cells, steps 1 to kMostMerges merge, the last one lists what is left.
+// 0 makes squares of single cells, steps 1 to kMaxMerges merge, the last one lists what is left.
 // One thread a photon.
-#include "screen_space_photons/patch.glsl"
+#include "reconstruct/triangles_patch.glsl"
 
 layout(std430) readonly buffer CellJoins {
     uint cellJoins[];
@@ -72,7 +72,7 @@ void main() {
     if (index >= photons.count) return;
     if (mergeStep == 0) {
         blocks[index] = blockOfCell(index);
-    } else if (mergeStep <= int(kMostMerges)) {
+    } else if (mergeStep <= int(kMaxMerges)) {
         if (blocks[index].flux.w >= 0.0) merge(index);
     } else if (blocks[index].flux.w >= 0.0) {
         uint merges = uint(blocks[index].flux.w);

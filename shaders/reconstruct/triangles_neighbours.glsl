@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Photons of four neighbouring cells, and where they arrive.
-#include "screen_space_photons/arrival.glsl"
+#include "reconstruct/triangles_arrival.glsl"
 
 layout(std430) readonly buffer CellPhotons {
     uint cellPhotons[];
@@ -36,5 +36,5 @@ vec2 stepBetween(uint from, uint to) {
 }
 
 bool areTogether(ArrivalsAround around, uint a, uint b) {
-    return belongTogether(around.corners[a], around.corners[b], stepBetween(a, b));
+    return areNeighbours(around.corners[a], around.corners[b], stepBetween(a, b));
 }

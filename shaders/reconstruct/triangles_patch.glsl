@@ -3,12 +3,12 @@
 // triangles with half of the flux each, evenly spread over each as it lies in space, or by the
 // densities at their corners. Whatever their shape, size and slant, the shares of all pixels add up
 // to one.
-#include "include/coverage.glsl"
-#include "include/ledger.glsl"
-#include "include/surface_data.glsl"
-#include "screen_space_photons/crease.glsl"
-#include "screen_space_photons/patch_list.glsl"
-#include "screen_space_photons/seen_receiver.glsl"
+#include "include/maps/coverage.glsl"
+#include "include/photons/ledger.glsl"
+#include "include/surfaces/surface_data.glsl"
+#include "reconstruct/triangles_crease.glsl"
+#include "reconstruct/triangles_patch_list.glsl"
+#include "include/views/seen_receiver.glsl"
 
 layout(std430) buffer PatchCounts {
     PatchCount patches;
@@ -25,13 +25,13 @@ struct Patch {
     vec3 normal;
     vec3 direction;
     vec3 flux;
-    float tolerance;  // of the depths that pixels see, m, beside their own footprint
+    float tolerance;  // of the depths that pixels see, m, next to their own footprint
 };
 
 // What a beam covers between four places, in cells from its own and none farther than `farthest`
 // along either axis.
 Patch patchOfBeam(Arrival at, vec2 ends[4], float farthest) {
-    vec3 extent = farthest * (abs(at.beside[0]) + abs(at.beside[1]));
+    vec3 extent = farthest * (abs(at.spacing[0]) + abs(at.spacing[1]));
     // In front of the view, and of bounded size on the screen.
     float scale = 1.0;
 #ifdef MANY_VIEWS
@@ -51,9 +51,9 @@ Patch patchOfBeam(Arrival at, vec2 ends[4], float farthest) {
         atomicAdd(narrowed.count, 1u);
         atomicMax(narrowed.widestBits, floatBitsToUint(min(widest, 1e30)));
     }
-    mat2x3 beside = at.beside * scale;
+    mat2x3 spacing = at.spacing * scale;
     Patch made;
-    for (int i = 0; i < 4; ++i) made.corners[i] = at.position + beside * ends[i];
+    for (int i = 0; i < 4; ++i) made.corners[i] = at.position + spacing * ends[i];
     made.densities = float[4](1.0, 1.0, 1.0, 1.0);
     made.first = 0.5;
     made.normal = at.normal;
@@ -116,8 +116,8 @@ Patch patchBetween(Arrival a, Arrival b, Arrival c, Arrival d) {
     return made;
 }
 
-uint neighbourOf(PhotonOrigin origin, ivec2 beside) {
-    return cellPhotons[cellPlace(origin, beside)] - 1u;
+uint neighbourOf(PhotonOrigin origin, ivec2 neighbourOffset) {
+    return cellPhotons[cellPlace(origin, neighbourOffset)] - 1u;
 }
 
 // With the flux of a quarter of its cell.
@@ -240,10 +240,10 @@ PatchTriangle patchTriangle(Patch whole, vec3 a, vec3 b, vec3 c, vec3 densities,
     made.perArea = part / max(isFlat ? max(0.5 * size, 0.25 * covered) : covered, 1e-30);
     // Where the densities differ too much, they are those of a fold and say nothing of its middle.
     float mean = (densities.x + densities.y + densities.z) / 3.0;
-    float least = min(densities.x, min(densities.y, densities.z));
-    float most = max(densities.x, max(densities.y, densities.z));
+    float minimum = min(densities.x, min(densities.y, densities.z));
+    float maximum = max(densities.x, max(densities.y, densities.z));
     bool isSmooth = reconstruct_triangles_shading == reconstruct_triangles_shading_smooth
-                        ? most <= 4.0 * least
+                        ? maximum <= 4.0 * minimum
                         : reconstruct_triangles_shading == reconstruct_triangles_shading_vertices;
     made.densities = isSmooth && mean > 0.0 ? densities / mean : vec3(1.0);
     return made;
@@ -255,7 +255,7 @@ struct PatchOnScreen {
     ivec2 base;  // pixel that the triangles' corners count from
     ivec2 low;   // the rectangle of pixels that may be covered, within the view
     ivec2 high;
-    bool isWhole;  // none of it is beside the view
+    bool isWhole;  // none of it is next to the view
     float tolerance;
     vec3 normal;
 };
@@ -265,11 +265,11 @@ PatchOnScreen onScreen(Patch whole) {
     vec2 b = pixelOf(whole.corners[1]);
     vec2 c = pixelOf(whole.corners[2]);
     vec2 d = pixelOf(whole.corners[3]);
-    vec2 least = min(min(a, b), min(c, d)) - 2.0 * kLeastHeight;
-    vec2 most = max(max(a, b), max(c, d)) + 2.0 * kLeastHeight;
+    vec2 minimum = min(min(a, b), min(c, d)) - 2.0 * kMinHeight;
+    vec2 maximum = max(max(a, b), max(c, d)) + 2.0 * kMinHeight;
     PatchOnScreen made;
-    made.base = ivec2(floor(least));
-    ivec2 end = ivec2(floor(most));
+    made.base = ivec2(floor(minimum));
+    ivec2 end = ivec2(floor(maximum));
     made.low = max(made.base, ivec2(0));
     made.high = min(end, ivec2(view.sizePixels.xy) - 1);
     made.isWhole = made.low == made.base && made.high == end;
@@ -330,7 +330,7 @@ PatchPixel patchAt(PatchOnScreen onto, ivec2 pixel) {
     float first = partOf(onto.first, corner);
     float second = partOf(onto.second, corner);
     float covered = first + second;
-    if (covered <= 0.0) return PatchPixel(0.0, kSeenBeside);
+    if (covered <= 0.0) return PatchPixel(0.0, kSeenOutside);
     bool isFirst = first >= second;
     float area;
     int where = seenOnPlane(pixel, isFirst ? onto.first.plane : onto.second.plane,
@@ -342,13 +342,13 @@ PatchPixel patchAt(PatchOnScreen onto, ivec2 pixel) {
 struct PatchParts {
     float on;
     float occluded;
-    float beside;  // but within the view
+    float outside;  // but within the view
 };
 
 void addPart(inout PatchParts parts, PatchPixel pixel) {
     if (pixel.where == kSeenOn) parts.on += pixel.share;
     if (pixel.where == kSeenOccluded) parts.occluded += pixel.share;
-    if (pixel.where == kSeenBeside) parts.beside += pixel.share;
+    if (pixel.where == kSeenOutside) parts.outside += pixel.share;
 }
 
 bool isBeforeView(Patch whole) {

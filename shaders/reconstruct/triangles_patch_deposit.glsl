@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT
 // What becomes of a patch's flux once it is known what the pixels show of it.
-#include "include/deposit.glsl"
+#include "include/maps/deposit.glsl"
 
 void deposit(Patch whole, ivec2 pixel, float share) {
     depositFlux(pixel, whole.flux * share, directionToEye(whole.direction));
 }
 
-// What shares are divided by; 0 where no pixel shows any of it. Books what is hidden or beside the
+// What shares are divided by; 0 where no pixel shows any of it. Books what is hidden or next to the
 // view.
 float account(Patch whole, bool isWhole, PatchParts parts) {
     float within = parts.on + parts.occluded;
     // All pixels' shares add up to 1 but for their rounding and the bend of perspective within one;
-    // what is missing lies beside the view.
-    float outside = isWhole ? 0.0 : max(1.0 - within - parts.beside, 0.0);
+    // what is missing lies next to the view.
+    float outside = isWhole ? 0.0 : max(1.0 - within - parts.outside, 0.0);
     float total = within + outside;
     if (total <= 0.0) return 0.0;
     if (parts.occluded > 0.0) ledgerAdd(kAccountHidden, whole.flux * (parts.occluded / total));
-    if (outside > 0.0) ledgerAdd(kAccountBeside, whole.flux * (outside / total));
+    if (outside > 0.0) ledgerAdd(kAccountOutside, whole.flux * (outside / total));
     return total;
 }
 
@@ -47,7 +47,7 @@ void depositNear(Patch whole) {
     vec2 at = pixelOf(middle);
     ivec2 size = ivec2(view.sizePixels.xy);
     if (any(lessThan(at, vec2(0.0))) || any(greaterThanEqual(at, vec2(size)))) {
-        ledgerAdd(kAccountBeside, whole.flux);
+        ledgerAdd(kAccountOutside, whole.flux);
         return;
     }
     float nearness[9];

@@ -9,12 +9,12 @@ struct PatchCount {
     uint groupsZ;
 };
 
-const uint kPatchQuarter = 0u;  // 0 to 3: of its beam, by the cell beside it: right, up: bits
+const uint kPatchQuarter = 0u;  // 0 to 3: of its beam, by the cell next to it: right, up: bits
 const uint kPatchBeam = 4u;     // all of its beam
 const uint kPatchJoined = 5u;   // what it is the lower left corner of
 const uint kPatchCrease = 8u;   // 8 to 11: the same of where light comes down on several surfaces
 const uint kPatchMerged = 12u;  // 12 to 15: 2, 4, 8 and 16 such cells along each side, as one
-const uint kMostMerges = 4u;
+const uint kMaxMerges = 4u;
 const uint kPatchParts = 16u;
 
 // What a photon's flux is shared out by.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // reconstruct.triangles: a wide patch's flux onto the pixels that it covers. A workgroup a patch.
-#include "screen_space_photons/patch.glsl"
-#include "screen_space_photons/patch_deposit.glsl"
+#include "reconstruct/triangles_patch.glsl"
+#include "reconstruct/triangles_patch_deposit.glsl"
 
 layout(std430) readonly buffer Patches {
     uint patchList[];
@@ -35,7 +35,7 @@ void main() {
         for (int i = 1; i < 64; ++i) {
             parts.on += partsOfThreads[i].on;
             parts.occluded += partsOfThreads[i].occluded;
-            parts.beside += partsOfThreads[i].beside;
+            parts.outside += partsOfThreads[i].outside;
         }
         float total = 0.0;
         if (isHere) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Decides on every cell that was taken, and counts what that leaves by workgroups, so that lists keep
 // their order. One thread a cell.
-#include "adaptive_caustic_map/refine.glsl"
+#include "light_cells/refine.glsl"
 
 layout(local_size_x = 64) in;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Where each workgroup's cells and photons go, and whether there is to be another round. One
 // workgroup.
-#include "adaptive_caustic_map/next_round.glsl"
+#include "light_cells/next_round.glsl"
 
 const uint kThreads = 256u;
 layout(local_size_x = 256) in;

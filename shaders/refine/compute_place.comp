@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Puts quarters on the list of cells that wait, and photons on the list of those. One thread a cell.
-#include "adaptive_caustic_map/cells.glsl"
+#include "light_cells/cell_lists.glsl"
 
 layout(local_size_x = 64) in;
 

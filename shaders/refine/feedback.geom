@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Decides on a cell and sends what comes of it to two streams that transform feedback captures: cells
 // that wait, and photons (WN09, section 4).
-#include "adaptive_caustic_map/refine.glsl"
+#include "light_cells/refine.glsl"
 
 layout(points) in;
 layout(points, max_vertices = 8) out;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Appends what transform feedback has captured to the lists. One thread a captured cell, or photon.
-#include "adaptive_caustic_map/cells.glsl"
+#include "light_cells/cell_lists.glsl"
 
 layout(local_size_x = 64) in;
 

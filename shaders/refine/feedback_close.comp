@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Counts what has been appended, and whether there is to be another round. One thread.
-#include "adaptive_caustic_map/next_round.glsl"
+#include "light_cells/next_round.glsl"
 
 layout(local_size_x = 1) in;
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Share of one light that reaches each receiver past the surfaces of its shadow map. A texel of the
 // map stands for the plane of its triangle, so that a surface seen edge-on from the light neither
-// shadows itself nor lets light pass beside it. Comparisons are filtered, never depths
+// shadows itself nor lets light pass next to it. Comparisons are filtered, never depths
 // (percentage-closer filtering, Reeves et al. 1987), by a square as wide as three texels, or over the
 // pixel where that is more than twice as wide on the map.
-#include "include/light_depth.glsl"
-#include "include/view.glsl"
+#include "include/views/light_depth.glsl"
+#include "include/views/view.glsl"
 
 layout(location = 0) out vec4 visibility;
 
@@ -20,11 +20,11 @@ uniform mat4 projection;
 // Side of the square that one look at the map averages over, texels.
 const float kFilterWidth = 3.0;
 // Most looks along each side of a pixel.
-const int kMostLooks = 3;
+const int kMaxSamples = 3;
 
 // A point on the map of a light.
 struct MapPoint {
-    int face;  // -1: beside the map
+    int face;  // -1: next to the map
     vec2 at;   // texels
     vec2 texelMeters;  // what a texel covers there
     float depth;       // from the light, m
@@ -51,7 +51,7 @@ float visibleShare(MapPoint point, vec3 normalVs) {
     vec3 normalLs = mat3(eyeToLight[point.face]) * normalVs;
     vec2 corner = point.at - 0.5 * kFilterWidth;
     ivec2 first = ivec2(floor(corner));
-    vec2 beside = corner - vec2(first);
+    vec2 neighbour = corner - vec2(first);
     const int kTexels = int(kFilterWidth) + 1;
     float lit = 0.0;
     float dark = 0.0;
@@ -60,8 +60,8 @@ float visibleShare(MapPoint point, vec3 normalVs) {
             ivec2 texel = clamp(first + ivec2(x, y), ivec2(0), size - 1);
             vec4 nearest = texelFetch(shadowMap, ivec3(texel, firstLayer + point.face), 0);
             vec2 fromTexel = point.at - (vec2(texel) + 0.5);
-            vec2 part = vec2(x == 0 ? 1.0 - beside.x : x == kTexels - 1 ? beside.x : 1.0,
-                             y == 0 ? 1.0 - beside.y : y == kTexels - 1 ? beside.y : 1.0);
+            vec2 part = vec2(x == 0 ? 1.0 - neighbour.x : x == kTexels - 1 ? neighbour.x : 1.0,
+                             y == 0 ? 1.0 - neighbour.y : y == kTexels - 1 ? neighbour.y : 1.0);
             if (reachesLight(nearest, fromTexel, point.texelMeters, point.depth, normalLs)) {
                 lit += part.x * part.y;
             } else {
@@ -73,22 +73,22 @@ float visibleShare(MapPoint point, vec3 normalVs) {
     return lit / (lit + dark);
 }
 
-// Whether the receiver is a plane as far as the pixels beside this one. At edges and where it is
+// Whether the receiver is a plane as far as the pixels next to this one. At edges and where it is
 // curved, points on its tangent plane would lie off it, in light or in shadow of their own.
 bool isPlane(ivec2 pixel, vec3 positionVs, vec3 normalVs) {
-    float most = 0.05 * pixelFootprint(-positionVs.z);
+    float maximum = 0.05 * pixelFootprint(-positionVs.z);
     for (int i = 0; i < 4; ++i) {
         ivec2 step = (i & 1) == 0 ? ivec2(i - 1, 0) : ivec2(0, i - 2);
         ivec2 other = clamp(pixel + step, ivec2(0), ivec2(view.sizePixels.xy) - 1);
-        vec3 beside = viewRay(vec2(other) + 0.5) * texelFetch(receiver, other, 0).x;
-        if (abs(dot(normalVs, beside - positionVs)) > most) return false;
+        vec3 neighbour = viewRay(vec2(other) + 0.5) * texelFetch(receiver, other, 0).x;
+        if (abs(dot(normalVs, neighbour - positionVs)) > maximum) return false;
     }
     return true;
 }
 
-// What is seen of the receiver's plane `offset` pixels beside this one's middle; the eye sees the
+// What is seen of the receiver's plane `offset` pixels next to this one's middle; the eye sees the
 // pixels around of it too, so that it is not edge-on.
-vec3 besideMiddle(vec2 offset, vec3 positionVs, vec3 normalVs) {
+vec3 sampleOnPlane(vec2 offset, vec3 positionVs, vec3 normalVs) {
     vec3 ray = viewRay(gl_FragCoord.xy + offset);
     return ray * (dot(normalVs, positionVs) / dot(normalVs, ray));
 }
@@ -98,12 +98,12 @@ vec3 besideMiddle(vec2 offset, vec3 positionVs, vec3 normalVs) {
 int looksAcross(MapPoint middle, vec3 positionVs, vec3 normalVs) {
     float texels = 0.0;
     for (int axis = 0; axis < 2; ++axis) {
-        MapPoint edge = mapPoint(besideMiddle(0.5 * vec2(1 - axis, axis), positionVs, normalVs));
+        MapPoint edge = mapPoint(sampleOnPlane(0.5 * vec2(1 - axis, axis), positionVs, normalVs));
         // On another face: as on this one, for all that the number of looks depends on.
         if (edge.face == middle.face) texels = max(texels, 2.0 * distance(edge.at, middle.at));
     }
     if (texels < 2.0 * kFilterWidth) return 1;
-    return min(int(ceil(texels / kFilterWidth)), kMostLooks);
+    return min(int(ceil(texels / kFilterWidth)), kMaxSamples);
 }
 
 void main() {
@@ -119,7 +119,7 @@ void main() {
     for (int i = 0; i < looks * looks; ++i) {
         vec2 offset = (vec2(i % looks, i / looks) + 0.5) / float(looks) - 0.5;
         sum += visibleShare(
-            looks == 1 ? middle : mapPoint(besideMiddle(offset, positionVs, normal)), normal);
+            looks == 1 ? middle : mapPoint(sampleOnPlane(offset, positionVs, normal)), normal);
     }
     visibility = vec4(sum / float(looks * looks));
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Whether a ray to a light hit nothing before it.
-#include "include/hits.glsl"
-#include "include/lights.glsl"
-#include "include/photons.glsl"
+#include "include/photons/hits.glsl"
+#include "include/photons/lights.glsl"
+#include "include/photons/photons.glsl"
 
 layout(location = 0) out vec4 visibility;
 
@@ -10,7 +10,7 @@ uniform int lightIndex;
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    bool isAsked = texelFetch(photonFlux, pixel, 0).r > 0.0;
+    bool isQueried = texelFetch(photonFlux, pixel, 0).r > 0.0;
     uint fate = uint(texelFetch(hitFlux, pixel, 0).w);
     bool isHit = fate == kFateReceiver || fate == kFateSpecular;
     LightData light = lights[lightIndex];
@@ -18,5 +18,5 @@ void main() {
         float toLight = distance(light.positionVs.xyz, texelFetch(photonPosition, pixel, 0).xyz);
         isHit = texelFetch(hitPosition, pixel, 0).w < toLight;
     }
-    visibility = vec4(isAsked && !isHit ? 1.0 : 0.0);
+    visibility = vec4(isQueried && !isHit ? 1.0 : 0.0);
 }

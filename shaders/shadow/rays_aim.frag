@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // A ray from each receiver that faces the light, back to it. It carries a flux, so that a tracer
 // takes it for a photon; where no light can arrive there is none.
-#include "include/lights.glsl"
-#include "include/surface_data.glsl"
-#include "include/transfer_map.glsl"
-#include "include/view.glsl"
+#include "include/photons/lights.glsl"
+#include "include/surfaces/surface_data.glsl"
+#include "include/photons/transfer_map.glsl"
+#include "include/views/view.glsl"
 
 layout(location = 0) out vec4 rayPosition;
 layout(location = 1) out vec4 rayDirection;
@@ -28,7 +28,7 @@ void main() {
         if (cosine > 0.0) {
             ray.fate = kFateInFlight;
             ray.fluxWatts = vec3(1.0);
-            ray.media = withLeftSide(0u, kLeftForAll);
+            ray.media = withLeftSide(0u, kLeftBothSides);
         }
     }
     rayPosition = photonPositionTexel(ray);

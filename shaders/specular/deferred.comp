@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // specular.deferred: a photon goes through one body after the other, of each by the fronts and
 // backs that its light sees of it (WN09, section 3.1.1). One thread a photon of one light.
-#include "include/first_interaction.glsl"
-#include "include/lights.glsl"
+#include "include/photons/first_interaction.glsl"
+#include "include/photons/lights.glsl"
 #ifdef BODIES
-#include "adaptive_caustic_map/bodies.glsl"
-#include "include/deliver.glsl"
-#include "include/through_body.glsl"
+#include "deferred_buffers/bodies.glsl"
+#include "include/photons/deliver.glsl"
+#include "include/photons/through_body.glsl"
 
 // A photon on its way to or out of a body.
 struct Traveller {
@@ -31,39 +31,39 @@ struct Entrance {
     int body;
     Photon before;  // as it came
     Hit hit;
-    bool isUnbent;  // as light that was never bent
+    bool isUnrefracted;  // as light that was never bent
     Photon inside;  // as it goes on
 };
 
 #ifdef SEVERAL_BODIES
-// From where it has left a body to the next one that is not among those of `met`. False: it goes on
+// From where it has left a body to the next one that is not among those of `visited`. False: it goes on
 // as `at` says, past all of them or reflected at the last.
-bool meetsNext(inout Traveller at, inout Entrance entrance, uint met) {
-    PlaneSearch how = PlaneSearch(specular_deferred_iterations, false, specular_deferred_looks,
+bool findNextBody(inout Traveller at, inout Entrance entrance, uint visited) {
+    PlaneSearch how = PlaneSearch(specular_deferred_iterations, false, specular_deferred_search_steps,
                                   specular_deferred_refinements);
-    Meeting next = nextBody(pointFromEye(at.photon.positionVs),
-                            directionFromEye(at.photon.directionVs), met, how);
+    BodyHit next = nextBody(pointFromEye(at.photon.positionVs),
+                            directionFromEye(at.photon.directionVs), visited, how);
     if (next.body < 0) return false;
-    bodyAsked = next.body;
+    bodyIndex = next.body;
     vec3 normal = directionToEye(next.normal);
     Photon arriving = at.photon;
     Hit hit = deliverTo(arriving, next.t, normal, normal, next.material);
     // "The refractor is treated as if viewed from" the light, where that sees what was met.
     vec3 unbent = lightDirection(lights[lightIndex], hit.positionVs);
-    bool isUnbent = specular_deferred_incidence == specular_deferred_incidence_light &&
+    bool isUnrefracted = specular_deferred_incidence == specular_deferred_incidence_light &&
                     dot(unbent, hit.normalVs) < 0.0;
-    if (isUnbent) arriving.directionVs = unbent;
+    if (isUnrefracted) arriving.directionVs = unbent;
 #ifdef PHOTON_BEAMS
     hit.shape = faceShapeToEye(next.texel, kFrontFace, hit.normalVs);
-    if (isUnbent) {
+    if (isUnrefracted) {
         at.beam.place += next.t * at.beam.turn;
         at.beam = seenAlong(at.beam, at.photon.directionVs, arriving.directionVs);
         hit.distanceMeters = 0.0;
     }
 #endif
-    TakenBranch taken = branchTaken(arriving, hit, false);
+    ChosenBranch taken = chosenBranch(arriving, hit, false);
     at.path = (at.path << 1) | uint(taken.isReflected);
-    entrance = Entrance(next.body, arriving, hit, isUnbent, taken.photon);
+    entrance = Entrance(next.body, arriving, hit, isUnrefracted, taken.photon);
     if (!taken.isReflected) return true;
 #ifdef PHOTON_BEAMS
     at.beam = beamOfBranch(at.beam, arriving, hit, taken.photon.directionVs, true);
@@ -76,13 +76,13 @@ bool meetsNext(inout Traveller at, inout Entrance entrance, uint met) {
 
 // From body to body, the first of which it has just entered.
 Traveller goThrough(Traveller at, Entrance entrance) {
-    uint met = 0u;
+    uint visited = 0u;
     for (int i = 0; i < bodyCount; ++i) {
-        met |= 1u << uint(entrance.body);
-        bodyAsked = entrance.body;
+        visited |= 1u << uint(entrance.body);
+        bodyIndex = entrance.body;
         Passage passage =
             throughBody(entrance.before, entrance.hit, entrance.inside, specular_deferred_steps,
-                        specular_deferred_distance, entrance.isUnbent);
+                        specular_deferred_distance, entrance.isUnrefracted);
         at.path <<= 1;
         at.isEnded = !passage.isOut;
         at.photon = passage.photon;
@@ -91,7 +91,7 @@ Traveller goThrough(Traveller at, Entrance entrance) {
             at.beam = beamThrough(at.beam, entrance.before, entrance.hit, passage);
 #endif
 #ifdef SEVERAL_BODIES
-        if (at.isEnded || i + 1 == bodyCount || !meetsNext(at, entrance, met)) break;
+        if (at.isEnded || i + 1 == bodyCount || !findNextBody(at, entrance, visited)) break;
 #endif
     }
     return at;
@@ -101,11 +101,11 @@ Traveller goThrough(Traveller at, Entrance entrance) {
 void main() {
     Arrival arrival;
     if (!arrivalOfThread(arrival)) return;
-    TakenBranch taken = branchTaken(arrival.photon, arrival.hit, false);
-    PhotonOrigin origin = originOfNext(arrival.origin, arrival.index, taken.isReflected);
+    ChosenBranch taken = chosenBranch(arrival.photon, arrival.hit, false);
+    PhotonOrigin origin = nextPhotonOrigin(arrival.origin, arrival.index, taken.isReflected);
     if (taken.photon.fate != kFateInFlight) {
         sendNothing(arrival.slot, taken.photon,
-                    originOfNext(arrival.origin, arrival.index, false));
+                    nextPhotonOrigin(arrival.origin, arrival.index, false));
         return;
     }
 #ifdef BODIES
@@ -137,5 +137,5 @@ void main() {
         return;
     }
 #endif
-    sendOn(arrival.slot, arrival.texel, arrival.photon, arrival.hit, taken.photon, origin);
+    emitNext(arrival.slot, arrival.texel, arrival.photon, arrival.hit, taken.photon, origin);
 }

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // What photons do where they have hit a specular surface: one thread a photon.
-#include "include/next_photons.glsl"
+#include "include/photons/next_photons.glsl"
 
 void main() {
     uint index = photonOfThread();
     ivec2 texel = ivec2(photonTexel(photons, index));
-    bool goesOn = index < photons.count &&
+    bool continues = index < photons.count &&
                   uint(texelFetch(hitFlux, texel, 0).w) == kFateSpecular;
-    uint slot = nextSlot(goesOn);
-    if (!goesOn) return;
+    uint slot = nextSlot(continues);
+    if (!continues) return;
     Hit hit = hitAt(texel);
     PhotonOrigin origin = originAt(texel);
     if (origin.path == kEmittedPath) ledgerAdd(kAccountEmitted, hit.fluxWatts);
@@ -18,8 +18,8 @@ void main() {
     if (goesThrough && branches.reflected.fate == kFateInFlight)
         ledgerAdd(kAccountUntracedBranch, branches.reflected.fluxWatts);
     if (goesThrough) {
-        sendOn(slot, texel, photon, hit, branches.transmitted, originOfNext(origin, index, false));
+        emitNext(slot, texel, photon, hit, branches.transmitted, nextPhotonOrigin(origin, index, false));
     } else {
-        sendOn(slot, texel, photon, hit, branches.reflected, originOfNext(origin, index, true));
+        emitNext(slot, texel, photon, hit, branches.reflected, nextPhotonOrigin(origin, index, true));
     }
 }

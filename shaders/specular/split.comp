@@ -2,7 +2,7 @@
 // Both Fresnel branches of photons that have hit a specular surface: one thread a photon. The first
 // half of the next list are the transmitted branches, or the only ones, the second half the
 // reflected ones. Without room for both, one is drawn by its share, and carries all of the flux.
-#include "include/next_photons.glsl"
+#include "include/photons/next_photons.glsl"
 
 uniform int splits;  // the list has a second half
 uniform uint seedLow;
@@ -27,10 +27,10 @@ float uniformOf(PhotonOrigin origin) {
 void main() {
     uint index = photonOfThread();
     ivec2 texel = ivec2(photonTexel(photons, index));
-    bool goesOn = index < photons.count &&
+    bool continues = index < photons.count &&
                   uint(texelFetch(hitFlux, texel, 0).w) == kFateSpecular;
-    uint slot = nextSlot(goesOn);
-    if (!goesOn) return;
+    uint slot = nextSlot(continues);
+    if (!continues) return;
     Hit hit = hitAt(texel);
     PhotonOrigin origin = originAt(texel);
     if (origin.path == kEmittedPath) ledgerAdd(kAccountEmitted, hit.fluxWatts);
@@ -49,13 +49,13 @@ void main() {
         branches.transmitted.fluxWatts = whole;
         photon = branches.transmitted;
     }
-    sendOn(slot, texel, before, hit, isReflected ? branches.reflected : photon,
-           originOfNext(origin, index, isReflected));
+    emitNext(slot, texel, before, hit, isReflected ? branches.reflected : photon,
+           nextPhotonOrigin(origin, index, isReflected));
     if (splits == 0) return;
     // Without a second branch the place is of nobody; its numbers are the only branch's, so that
     // they are numbers.
     Photon second = areBoth ? branches.reflected
                             : Photon(vec3(0.0), 0.0, vec3(0.0), kFateNone, vec3(0.0), 0u);
-    sendOn(nextPhotons.count / 2u + slot, texel, before, hit, second,
-           originOfNext(origin, index, true));
+    emitNext(nextPhotons.count / 2u + slot, texel, before, hit, second,
+           nextPhotonOrigin(origin, index, true));
 }

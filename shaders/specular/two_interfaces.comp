@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // specular.two_interfaces: a photon that has entered a body leaves it where the light's view of its
-// back faces says (include/two_interfaces.glsl). One thread a photon of one light.
-#include "include/first_interaction.glsl"
-#include "include/lights.glsl"
+// back faces says (include/views/two_interfaces.glsl). One thread a photon of one light.
+#include "include/photons/first_interaction.glsl"
+#include "include/photons/lights.glsl"
 #ifdef BODIES
-#include "include/back_faces.glsl"
-#include "include/through_body.glsl"
+#include "include/views/back_faces.glsl"
+#include "include/photons/through_body.glsl"
 #endif
 
 #ifdef PHOTON_BEAMS
@@ -32,7 +32,7 @@ RoundBeam roundBeamAt(Beam beam, Photon photon, Hit hit) {
     return RoundBeam(width, width * vergence);
 }
 
-RoundBeam flown(RoundBeam round, float distance) {
+RoundBeam propagated(RoundBeam round, float distance) {
     return RoundBeam(round.width + distance * round.growth, round.growth);
 }
 
@@ -47,17 +47,17 @@ RoundBeam refracted(RoundBeam round, float convex, float before, float beyond) {
 RoundBeam throughLens(RoundBeam round, float front, float back, float thickness, float outside,
                       float inside) {
     if (specular_two_interfaces_lens == specular_two_interfaces_lens_thin) {
-        RoundBeam middle = flown(round, 0.5 * thickness);
+        RoundBeam middle = propagated(round, 0.5 * thickness);
         float power = (inside - outside) / outside * (front + back);
         middle.growth -= power * middle.width;
-        return flown(middle, 0.5 * thickness);
+        return propagated(middle, 0.5 * thickness);
     }
-    RoundBeam within = flown(refracted(round, front, outside, inside), thickness);
+    RoundBeam within = propagated(refracted(round, front, outside, inside), thickness);
     return refracted(within, -back, inside, outside);
 }
 
 // After one interaction alone: at a mirror, a sheet, or where all is reflected.
-Beam beamAfterOne(ivec2 texel, Photon before, Hit hit, vec3 direction, bool isReflected) {
+Beam beamAfterInteraction(ivec2 texel, Photon before, Hit hit, vec3 direction, bool isReflected) {
     Beam beam = beamAt(texel);
     if (specular_two_interfaces_lens == specular_two_interfaces_lens_beam)
         return beamOfBranch(beam, before, hit, direction, isReflected);
@@ -71,11 +71,11 @@ Beam beamAfterOne(ivec2 texel, Photon before, Hit hit, vec3 direction, bool isRe
 }
 #endif
 
-void sendOnAfterOne(Arrival arrival, Photon branch, PhotonOrigin origin) {
+void emitNextAfterOne(Arrival arrival, Photon branch, PhotonOrigin origin) {
     storeNext(arrival.slot, branch, origin);
 #ifdef PHOTON_BEAMS
     bool isReflected = (origin.path & 1u) == 1u;
-    storeNextBeam(arrival.slot, beamAfterOne(arrival.texel, arrival.photon, arrival.hit,
+    storeNextBeam(arrival.slot, beamAfterInteraction(arrival.texel, arrival.photon, arrival.hit,
                                              branch.directionVs, isReflected));
 #endif
 }
@@ -110,13 +110,13 @@ void goThrough(Arrival arrival, Photon inside, PhotonOrigin origin) {
 void main() {
     Arrival arrival;
     if (!arrivalOfThread(arrival)) return;
-    TakenBranch taken = branchTaken(
+    ChosenBranch taken = chosenBranch(
         arrival.photon, arrival.hit,
         specular_two_interfaces_branch == specular_two_interfaces_branch_reflected);
-    PhotonOrigin origin = originOfNext(arrival.origin, arrival.index, taken.isReflected);
+    PhotonOrigin origin = nextPhotonOrigin(arrival.origin, arrival.index, taken.isReflected);
     if (taken.photon.fate != kFateInFlight) {
         sendNothing(arrival.slot, taken.photon,
-                    originOfNext(arrival.origin, arrival.index, false));
+                    nextPhotonOrigin(arrival.origin, arrival.index, false));
         return;
     }
 #ifdef BODIES
@@ -125,5 +125,5 @@ void main() {
         return;
     }
 #endif
-    sendOnAfterOne(arrival, taken.photon, origin);
+    emitNextAfterOne(arrival, taken.photon, origin);
 }

@@ -22,11 +22,11 @@ Sprite splatOf(ivec2 texel, out float wanted, out float largest) {
     sprite.center = pointFromEye(hit.positionVs);
     sprite.normal = directionFromEye(hit.normalVs);
     sprite.direction = directionFromEye(photon.directionVs);
-    mat2x3 beside = beamOnPlane(beamAt(texel), photon.directionVs, hit.distanceMeters, hit.normalVs,
-                                kLeastSlant);
+    mat2x3 spacing = beamOnPlane(beamAt(texel), photon.directionVs, hit.distanceMeters, hit.normalVs,
+                                kMinSlant);
     sprite.tangents = basisAcross(sprite.normal);
     mat2 reach = transpose(sprite.tangents) *
-                 mat2x3(directionFromEye(beside[0]), directionFromEye(beside[1]));
+                 mat2x3(directionFromEye(spacing[0]), directionFromEye(spacing[1]));
     if (isRound == 1) reach = mat2(sqrt(abs(determinant(reach))));
     reach *= reconstruct_sprites_footprints;
     wanted = max(length(reach[0]), length(reach[1]));

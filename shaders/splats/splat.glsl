@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The splat of a photon of a list, as both passes over its pixels make it.
-#include "include/hits.glsl"
-#include "include/photon_thread.glsl"
-#include "screen_space_photons/sprite.glsl"
+#include "include/photons/hits.glsl"
+#include "include/photons/photon_thread.glsl"
+#include "splats/sprite.glsl"
 
 // Metres that a pixel covers where a splat lies; the same in all faces of a cube, as in its own.
 float splatFootprint(vec3 center) {
@@ -15,7 +15,7 @@ float splatFootprint(vec3 center) {
 }
 
 #ifdef BEAM_SPLATS
-#include "screen_space_photons/beam_splat.glsl"
+#include "splats/beam_splat.glsl"
 #else
 // Where a photon has arrived; `wanted`: the radius that it asks for, m, and `largest` the one that
 // it may have.

@@ -2,7 +2,7 @@
 // A photon's splat in the receiver's tangent plane, seen through each pixel (K06, section 3.1,
 // Eq. 1 with D = N·C). The weight falls with the distance: from the centre, as in the paper, or
 // from the photon's path, so that light that grazes a wall leaves no gaps between its splats.
-#include "screen_space_photons/seen_receiver.glsl"
+#include "include/views/seen_receiver.glsl"
 
 struct Sprite {
     vec3 center;
@@ -17,16 +17,16 @@ struct Sprite {
 };
 
 // A beam that grazes is taken as if it came at this sine at least, which bounds its splat.
-const float kLeastSlant = 0.1;
+const float kMinSlant = 0.1;
 
 // The photon's direction, turned away from the surface where it would graze too much.
 vec3 boundedDirection(vec3 direction, vec3 normal) {
     float slant = dot(direction, normal);
-    if (abs(slant) >= kLeastSlant) return direction;
+    if (abs(slant) >= kMinSlant) return direction;
     vec3 along = direction - slant * normal;
     float size = max(length(along), 1e-12);
-    return (slant < 0.0 ? -1.0 : 1.0) * kLeastSlant * normal +
-           along * (sqrt(1.0 - kLeastSlant * kLeastSlant) / size);
+    return (slant < 0.0 ? -1.0 : 1.0) * kMinSlant * normal +
+           along * (sqrt(1.0 - kMinSlant * kMinSlant) / size);
 }
 
 // Weight at a share of the radius, [0, 1); normalised elsewhere, by its sum over the pixels.
@@ -58,7 +58,7 @@ float splatDistance(Sprite sprite, vec3 offset) {
 // The farthest that the splat reaches from its centre, m.
 float splatExtent(Sprite sprite) {
     if (reconstruct_sprites_shape != reconstruct_sprites_shape_beam) return sprite.radius;
-    return sprite.radius / max(abs(dot(sprite.direction, sprite.normal)), kLeastSlant);
+    return sprite.radius / max(abs(dot(sprite.direction, sprite.normal)), kMinSlant);
 }
 
 struct SpritePixel {
@@ -68,7 +68,7 @@ struct SpritePixel {
 };
 
 SpritePixel spriteAt(Sprite sprite, ivec2 pixel) {
-    SpritePixel result = SpritePixel(0.0, 0.0, kSeenBeside);
+    SpritePixel result = SpritePixel(0.0, 0.0, kSeenOutside);
     vec3 ray = viewRay(vec2(pixel) + 0.5);
     float facing = dot(sprite.normal, ray);
     if (abs(facing) < 1e-5) return result;
@@ -136,12 +136,12 @@ vec2 wholeReach(Sprite sprite) {
     return ceil((extent.xy + shift) / pixelFootprint(depth)) + 1.0;
 }
 
-uniform int mostReach;  // px
+uniform int maxReach;  // px
 
 // A splat ends there however far perspective or grazing light stretch it: its cost is bounded. The
 // weights are summed and drawn over the same pixels, so that no flux is lost.
 ivec2 spriteReach(Sprite sprite) {
-    return ivec2(min(wholeReach(sprite), vec2(mostReach)));
+    return ivec2(min(wholeReach(sprite), vec2(maxReach)));
 }
 
 // Whether any pixel of the view may see the splat: a photon may arrive where none is near.
@@ -150,6 +150,6 @@ bool isBeforeView(Sprite sprite) {
 }
 bool isNearView(Sprite sprite) {
     if (!isBeforeView(sprite)) return false;
-    vec2 beside = max(-pixelOf(sprite.center), pixelOf(sprite.center) - view.sizePixels.xy);
-    return all(lessThanEqual(beside, vec2(spriteReach(sprite)) + 1.0));
+    vec2 outside = max(-pixelOf(sprite.center), pixelOf(sprite.center) - view.sizePixels.xy);
+    return all(lessThanEqual(outside, vec2(spriteReach(sprite)) + 1.0));
 }

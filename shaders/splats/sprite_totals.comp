@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // What each splat's weights sum to over the pixels' areas. The part that is hidden from the view, or
-// beside it, goes to the ledger; the part that hangs off the surface's edge is redistributed on it.
+// next to it, goes to the ledger; the part that hangs off the surface's edge is redistributed on it.
 // One thread a photon.
-#include "include/arriving.glsl"
-#include "include/ledger.glsl"
-#include "include/surface_data.glsl"
-#include "screen_space_photons/splat.glsl"
+#include "include/photons/arriving.glsl"
+#include "include/photons/ledger.glsl"
+#include "include/surfaces/surface_data.glsl"
+#include "splats/splat.glsl"
 
 layout(std430) writeonly buffer SplatTotals {
     float splatTotals[];  // m²; 0: nothing is to be deposited
@@ -24,7 +24,7 @@ bool seesFront(Sprite sprite) {
 struct Parts {
     float on;
     float occluded;
-    float beside;
+    float outside;
 };
 
 void addParts(Sprite sprite, inout Parts parts) {
@@ -33,7 +33,7 @@ void addParts(Sprite sprite, inout Parts parts) {
     ivec2 first = middle - reach;
     ivec2 last = middle + reach;
 #ifdef MANY_VIEWS
-    // What lies beside a cube's face is in another.
+    // What lies next to a cube's face is in another.
     first = max(first, ivec2(0));
     last = min(last, ivec2(view.sizePixels.xy) - 1);
 #endif
@@ -43,14 +43,14 @@ void addParts(Sprite sprite, inout Parts parts) {
             float amount = part.weight * part.area;
             if (part.where == kSeenOn) parts.on += amount;
             if (part.where == kSeenOccluded) parts.occluded += amount;
-            if (part.where == kSeenOffScreen) parts.beside += amount;
+            if (part.where == kSeenOffScreen) parts.outside += amount;
         }
     }
 }
 
 float totalOf(ivec2 texel) {
     vec4 flux = texelFetch(hitFlux, texel, 0);
-    if (!arrivesHere(texel)) return 0.0;
+    if (!hasArrived(texel)) return 0.0;
     float wanted;
     float largest;
     Sprite sprite = splatOf(texel, wanted, largest);
@@ -71,17 +71,17 @@ float totalOf(ivec2 texel) {
         farther = max(farther, max(reach.x, reach.y));
         sprite = inFace;
     }
-    parts.beside = 0.0;  // of one face is in another
+    parts.outside = 0.0;  // of one face is in another
 #else
     if (!isNearView(sprite)) {
-        ledgerAdd(isBeforeView(sprite) ? kAccountBeside : kAccountBehind, flux.rgb);
+        ledgerAdd(isBeforeView(sprite) ? kAccountOutside : kAccountBehind, flux.rgb);
         return 0.0;
     }
     addParts(sprite, parts);
     vec2 reach = wholeReach(sprite);
     farther = max(reach.x, reach.y);
 #endif
-    float total = parts.on + parts.occluded + parts.beside;
+    float total = parts.on + parts.occluded + parts.outside;
     if (total <= 0.0) {
         // No pixel shows the surface where the light arrives: it is turned away and hidden by its
         // own object, or it is edge-on or below a pixel.
@@ -93,12 +93,12 @@ float totalOf(ivec2 texel) {
         atomicMax(shrunk.widestBits,
                   floatBitsToUint(wanted / splatFootprint(sprite.center)));
     }
-    if (farther > float(mostReach)) {
+    if (farther > float(maxReach)) {
         atomicAdd(cutOff.count, 1u);
         atomicMax(cutOff.widestBits, floatBitsToUint(farther));
     }
     if (parts.occluded > 0.0) ledgerAdd(kAccountHidden, flux.rgb * (parts.occluded / total));
-    if (parts.beside > 0.0) ledgerAdd(kAccountBeside, flux.rgb * (parts.beside / total));
+    if (parts.outside > 0.0) ledgerAdd(kAccountOutside, flux.rgb * (parts.outside / total));
     return parts.on > 0.0 ? total : 0.0;
 }
 

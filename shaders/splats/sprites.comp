@@ -2,9 +2,9 @@
 // Each pixel's share of a splat, so that exactly the photon's flux is deposited at every
 // orientation, size and distance (sampled at pixel centres a kernel of few pixels does not sum to
 // 1). One thread a photon.
-#include "include/surface_data.glsl"
-#include "screen_space_photons/splat.glsl"
-#include "include/deposit.glsl"
+#include "include/surfaces/surface_data.glsl"
+#include "splats/splat.glsl"
+#include "include/maps/deposit.glsl"
 
 layout(std430) readonly buffer SplatTotals {
     float splatTotals[];

@@ -4,16 +4,16 @@
 // the texels first, so that exactly the photon's flux is deposited, or counted where something
 // nearer hides it or the map ends (hard cases 31, 32); what hangs off the surface's edge is
 // redistributed on it. One thread a photon.
-//   FOUR_RADII    a set of the map a size, and counts of photons beside them
+//   FOUR_RADII    a set of the map a size, and counts of photons next to them
 //   BEAM_WIDTHS   as wide as the photon's beam is where it arrives
 //   ONE_LEVEL     only photons whose beams are as wide as the level's texels
 //   LEVELS        the map holds coarser ones of itself; `level` is this draw's
-#include "include/arriving.glsl"
-#include "include/ledger.glsl"
-#include "include/surface_data.glsl"
-#include "caustic_map/levels.glsl"
-#include "screen_space_photons/seen_receiver.glsl"
-#include "include/deposit.glsl"
+#include "include/photons/arriving.glsl"
+#include "include/photons/ledger.glsl"
+#include "include/surfaces/surface_data.glsl"
+#include "maps/levels.glsl"
+#include "include/views/seen_receiver.glsl"
+#include "include/maps/deposit.glsl"
 
 uniform int mapsPerView;
 uniform int countsPerView;
@@ -23,8 +23,8 @@ uniform int atTexels;     // 1: centred on the texel that the photon falls into
 uniform int level;
 #ifdef BEAM_WIDTHS
 uniform float widths;     // of a beam that a splat's diameter is
-uniform float least;      // texels
-uniform float most;
+uniform float minimum;      // texels
+uniform float maximum;
 layout(std430) buffer CutSplats {
     Narrowed narrowed;
 };
@@ -76,19 +76,19 @@ WEIGHT weightAt(Splat splat, ivec2 texel) {
 // How a texel of the map's own resolution sees the photon's surface.
 int lookAt(Splat splat, ivec2 texel) {
     float facing = dot(splat.normal, viewRay(vec2(texel) + 0.5));
-    if (abs(facing) < 1e-5) return kSeenBeside;
+    if (abs(facing) < 1e-5) return kSeenOutside;
     float depth = depthOnPlane(texel, splat.normal, splat.position, facing);
-    if (!(depth > view.frustum.z)) return kSeenBeside;
+    if (!(depth > view.frustum.z)) return kSeenOutside;
     float tolerance = (0.5 * splat.radius + 1.0) * pixelFootprint(depth);
     float area;
     return seenAt(texel, depth, splat.normal, tolerance, area);
 }
 
-// What becomes of the part of a splat that lies on a texel; kSeenBeside: the others have it.
+// What becomes of the part of a splat that lies on a texel; kSeenOutside: the others have it.
 int fateOfPart(Splat splat, ivec2 texel) {
     if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, sizeOfLevel(level)))) {
 #ifdef MANY_VIEWS
-        return kSeenBeside;  // the next face has it
+        return kSeenOutside;  // the next face has it
 #else
         return kSeenOffScreen;
 #endif
@@ -186,7 +186,7 @@ void countLost(Parts parts, vec3 flux) {
 #endif
     vec3 ofWeight = flux / (deposited + hidden + clipped);
     if (hidden > 0.0) ledgerAdd(kAccountHidden, ofWeight * hidden);
-    if (clipped > 0.0) ledgerAdd(kAccountBeside, ofWeight * clipped);
+    if (clipped > 0.0) ledgerAdd(kAccountOutside, ofWeight * clipped);
 }
 
 // `parts`: of the splat in all views.
@@ -218,11 +218,11 @@ float radiusOf(ivec2 texel, vec3 position) {
     float width = sqrt(abs(determinant(beam.place +
                                        texelFetch(hitPosition, texel, 0).w * beam.turn)));
     float wanted = widths * width / pixelFootprint(-position.z);
-    if (wanted > most) {
+    if (wanted > maximum) {
         atomicAdd(narrowed.count, 1u);
         atomicMax(narrowed.widestBits, floatBitsToUint(wanted));
     }
-    return 0.5 * clamp(wanted, least, most);
+    return 0.5 * clamp(wanted, minimum, maximum);
 #else
     return 0.5 * diameter;
 #endif
@@ -237,8 +237,8 @@ bool splatOf(ivec2 texel, vec3 positionVs, vec3 normalVs, out Splat splat) {
     splat.radius = radiusOf(texel, splat.position);
     splat.center = pixelOf(splat.position) / float(1 << level);
     if (atTexels == 1) splat.center = floor(splat.center) + 0.5;
-    vec2 beside = max(-splat.center, splat.center - vec2(sizeOfLevel(level)));
-    return all(lessThan(beside, vec2(reachOf(splat))));
+    vec2 outside = max(-splat.center, splat.center - vec2(sizeOfLevel(level)));
+    return all(lessThan(outside, vec2(reachOf(splat))));
 }
 
 // Whether the ledger counts what this level does not take.
@@ -273,22 +273,22 @@ void main() {
     uint index = photonOfThread();
     if (index >= photons.count) return;
     ivec2 texel = ivec2(photonTexel(photons, index));
-    if (!arrivesHere(texel)) return;
+    if (!hasArrived(texel)) return;
     vec3 flux = texelFetch(hitFlux, texel, 0).rgb;
     vec3 positionVs = texelFetch(hitPosition, texel, 0).xyz;
     vec4 surface = texelFetch(hitSurface, texel, 0);
     vec3 direction = texelFetch(photonDirection, texel, 0).xyz;
     Parts parts = Parts(WEIGHT(0.0), WEIGHT(0.0), WEIGHT(0.0));
-    uint account = kAccountBeside;  // of a photon that finds no texel
+    uint account = kAccountOutside;  // of a photon that finds no texel
     Splat splat;
-    bool isOurs = false;
+    bool isOwn = false;
     bool isLit = true;
     for (int face = 0; face < viewCount; ++face) {
 #ifdef MANY_VIEWS
         viewIndex = face;
 #endif
         if (!splatOf(texel, positionVs, surface.xyz, splat)) continue;
-        if (isInView(splat)) isOurs = isOfLevel(texel, positionVs);
+        if (isInView(splat)) isOwn = isOfLevel(texel, positionVs);
         if (isInView(splat)) {
             isLit = !isOpen(uint(surface.w) - 1u) ||
                          seesLitSide(splat.position, splat.normal, directionFromEye(direction));
@@ -304,13 +304,13 @@ void main() {
     bool finds = parts.deposited > 0.0;
 #endif
 #ifdef ONE_LEVEL
-    // Beside all views it is the finest level's to say.
-    if (account == kAccountBeside) isOurs = level == 0;
-    if (!isOurs) return;
+    // Next to all views it is the finest level's to say.
+    if (account == kAccountOutside) isOwn = level == 0;
+    if (!isOwn) return;
 #endif
-    // Where it arrives beside all views, or on the far side of what they see, what of it reaches into
+    // Where it arrives next to all views, or on the far side of what they see, what of it reaches into
     // one is not all of it.
-    if (account == kAccountBeside || !isLit) finds = false;
+    if (account == kAccountOutside || !isLit) finds = false;
     // Of coarser levels nothing is seen; what the map's own texel does not see is not in them.
     if (level > 0 && keepsEdges == 1 && account == kAccountHidden) finds = false;
     if (!finds) {

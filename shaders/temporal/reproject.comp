@@ -2,9 +2,9 @@
 // Blends each pixel's irradiance with what the frame before had where it saw the same place of the
 // same receiver. Histories are arrays of two layers, of which one is read and the other written in
 // turn. One thread a pixel.
-#include "include/octahedral.glsl"
-#include "include/view.glsl"
-#include "techniques/shared/past_views.h"
+#include "include/views/octahedral.glsl"
+#include "include/views/view.glsl"
+#include "techniques/temporal/reproject_views.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -47,7 +47,7 @@ vec3 placeBefore(vec3 placeNow) {
 }
 
 // Bilinear over those of the four nearest pixels of the frame before that saw this place's surface.
-// Where some did not, the mean of the rest is that of a place beside this one: it stands for so many
+// Where some did not, the mean of the rest is that of a place next to this one: it stands for so many
 // frames less, else it would be dragged along outlines.
 History historyOf(vec3 placeNow, vec3 normalNow) {
     History history = History(vec3(0.0), vec3(0.0), 0.0);
@@ -112,12 +112,12 @@ void main() {
     vec3 irradianceNow = imageLoad(irradiance, pixel).rgb;
 #ifdef HAS_RADIANCE
     vec3 radianceNow = imageLoad(radiance, pixel).rgb;
-    bool canBeKept = isFinite(irradianceNow) && isFinite(radianceNow);
+    bool isHistoryValid = isFinite(irradianceNow) && isFinite(radianceNow);
 #else
-    bool canBeKept = isFinite(irradianceNow);
+    bool isHistoryValid = isFinite(irradianceNow);
 #endif
     // What is no number is seen as it is, and in no later frame.
-    if (depth <= 0.0 || !canBeKept) {
+    if (depth <= 0.0 || !isHistoryValid) {
         imageStore(seenHistory, next, vec4(0.0));
         return;
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What was this frame's view becomes the one before. One thread.
-#include "include/view.glsl"
-#include "techniques/shared/past_views.h"
+#include "include/views/view.glsl"
+#include "techniques/temporal/reproject_views.h"
 
 layout(local_size_x = 1) in;
 

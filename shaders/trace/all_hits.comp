@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // trace.all_hits: one thread a photon, for one slot; slot 0 holds the first hit, the others the
 // receivers that the ray would hit beyond it.
-#include "include/photon_thread.glsl"
-#include "include/store_hits.glsl"
-#include "include/store_photons.glsl"
-#include "include/traced_photon.glsl"
+#include "include/photons/photon_thread.glsl"
+#include "include/photons/store_hits.glsl"
+#include "include/photons/store_photons.glsl"
+#include "include/photons/traced_photon.glsl"
 
 uniform int slot;
 
@@ -50,7 +50,7 @@ void main() {
     if (index >= photons.count) return;
     ivec2 texel = ivec2(photonTexel(photons, index));
     Photon photon = photonAt(texel);
-    Hit hit = nothingHit();
+    Hit hit = emptyHit();
     if (photon.fate == kFateInFlight) {
         FirstHit found = hitNumber(photon, slot);
         if (slot == 0 || found.hit.layer >= 0) hit = deliver(photon, found);

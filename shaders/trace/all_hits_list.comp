@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The length of a list that holds every photon of another one `slots` times. One thread.
-#include "include/photons.glsl"
+#include "include/photons/photons.glsl"
 
 layout(local_size_x = 1) in;
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // trace.background: where a photon's ray meets what its light sees, by iteration in the light's
 // depths (WD08, section 3; SP05). One thread a photon of one light.
-#include "include/deliver.glsl"
-#include "include/photon_thread.glsl"
-#include "include/plane_search.glsl"
-#include "include/store_hits.glsl"
-#include "screen_space_photons/seen_receiver.glsl"
+#include "include/photons/deliver.glsl"
+#include "include/photons/photon_thread.glsl"
+#include "include/views/plane_search.glsl"
+#include "include/photons/store_hits.glsl"
+#include "include/views/seen_receiver.glsl"
 
 uniform int lightIndex;
 
@@ -48,12 +48,12 @@ Found findInView(vec3 origin, vec3 direction, out uint cause) {
 Hit traced(Photon photon) {
     if (!isNumber(photon)) {
         ledgerAdd(kAccountNotANumber, vec3(0.0));
-        return nothingHit();
+        return emptyHit();
     }
     // The far side of a body is nothing that the light's view of receivers shows.
     if (isInBody(photon.media)) {
         ledgerAdd(kAccountMissedByTracer, photon.fluxWatts);
-        return nothingHit();
+        return emptyHit();
     }
     Found nearest = Found(false, 0.0, ivec2(0));
     int faceOfNearest = 0;
@@ -73,7 +73,7 @@ Hit traced(Photon photon) {
     }
     if (!nearest.isHit) {
         ledgerAdd(causeOfMiss, photon.fluxWatts);
-        return nothingHit();
+        return emptyHit();
     }
 #ifdef MANY_VIEWS
     viewIndex = faceOfNearest;
@@ -89,7 +89,7 @@ void main() {
     ivec2 texel = ivec2(photonTexel(photons, index));
     if (int(originAt(texel).light) != lightIndex) return;
     Photon photon = photonAt(texel);
-    Hit hit = nothingHit();
+    Hit hit = emptyHit();
     if (photon.fate == kFateInFlight) hit = traced(photon);
     storeHit(texel, hit);
 }

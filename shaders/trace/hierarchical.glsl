@@ -3,8 +3,8 @@
 // over squares of 64, 16 and 4 pixels planes through the layers, with how far these stray from
 // them, say so. What is left is asked step by step, by the test of all tracers, so that the hits
 // are those of a march over every step.
-#include "include/traced_photon.glsl"
-#include "screen_space_photons/pyramid_layout.glsl"
+#include "include/photons/traced_photon.glsl"
+#include "layered_depth/pyramid_layout.glsl"
 
 uniform sampler2DArray layerPyramid;
 
@@ -51,7 +51,7 @@ uvec2 bitOf(int layer) {
     return layer < 32 ? uvec2(1u << layer, 0u) : uvec2(0u, 1u << (layer - 32));
 }
 // Takes the lowest layer out of a set that is not empty.
-int takeLowest(inout uvec2 layers) {
+int popLowest(inout uvec2 layers) {
     if (layers.x != 0u) {
         int layer = findLSB(layers.x);
         layers.x &= layers.x - 1u;
@@ -63,7 +63,7 @@ int takeLowest(inout uvec2 layers) {
 }
 
 // Steps [first, end) of a ray, and the layers, a bit each, that it may hit there.
-struct Asked {
+struct StepQuery {
     int first;
     int end;
     uvec2 layers;
@@ -71,10 +71,10 @@ struct Asked {
 
 // Which of the steps [first, end) may hit a layer of the square. Along the ray nearness is linear,
 // as on the squares' planes, and so is the ray's distance from one.
-Asked stepsThatMayHit(ScreenRay screenRay, ivec2 square, int level, int first, int end) {
+StepQuery candidateSteps(ScreenRay screenRay, ivec2 square, int level, int first, int end) {
     vec2 start = screenRay.start - (vec2(square) + 0.5) * float(1 << (2 * level));
     ivec2 texel = pyramidOffset(ivec2(view.sizePixels.xy), level) + square;
-    Asked asked = Asked(end, first, uvec2(0u));
+    StepQuery query = StepQuery(end, first, uvec2(0u));
 #ifdef IN_OUT_TEST
     bool wasBehind = false;  // the layer before, at some step
 #endif
@@ -88,7 +88,7 @@ Asked stepsThatMayHit(ScreenRay screenRay, ivec2 square, int level, int first, i
 #ifdef IN_OUT_TEST
         vec2 ends = away + awayPerStep * vec2(first, end);
         if (wasBehind && max(ends.x, ends.y) >= -reach)
-            asked = Asked(first, end, asked.layers | bitOf(layer) | bitOf(layer - 1));
+            query = StepQuery(first, end, query.layers | bitOf(layer) | bitOf(layer - 1));
         wasBehind = min(ends.x, ends.y) <= reach;
 #endif
         // Where |away + awayPerStep i| <= reach.
@@ -98,11 +98,11 @@ Asked stepsThatMayHit(ScreenRay screenRay, ivec2 square, int level, int first, i
         vec2 hits = vec2(middle - extent, middle + extent);
         if (hits.y < float(first) || hits.x > float(end)) continue;
         hits = clamp(hits, vec2(first), vec2(end));
-        asked.first = min(asked.first, max(int(ceil(hits.x)) - 1, first));
-        asked.end = max(asked.end, min(int(floor(hits.y)) + 1, end));
-        asked.layers |= bitOf(layer);
+        query.first = min(query.first, max(int(ceil(hits.x)) - 1, first));
+        query.end = max(query.end, min(int(floor(hits.y)) + 1, end));
+        query.layers |= bitOf(layer);
     }
-    return asked;
+    return query;
 }
 
 // Three loops in one: squares until steps are found that may hit something, their layers until the
@@ -123,13 +123,13 @@ FirstHit traverseView(Photon photon, int minimumSteps, int maximumSteps) {
     int end = steps;
     int firstStep = -1;  // that of `first`
     int i = 0;
-    Asked asked = Asked(0, 0, uvec2(0u));
+    StepQuery query = StepQuery(0, 0, uvec2(0u));
     uvec2 layers = uvec2(0u);  // that step i is still to be asked about
     while (i < end) {
-        while (i < end && i >= asked.end) {
+        while (i < end && i >= query.end) {
             ivec2 square = texelOfStep(segment, i, steps) >> (2 * level);
             int beyond = stepBeyond(screenRay, square, level, i, steps);
-            Asked found = stepsThatMayHit(screenRay, square, level, i, beyond);
+            StepQuery found = candidateSteps(screenRay, square, level, i, beyond);
 #ifdef CLOSED_DIELECTRICS
             // What is inside at the square's last step came out nowhere in it, nor in.
             if (mayComeOut) {
@@ -141,7 +141,7 @@ FirstHit traverseView(Photon photon, int minimumSteps, int maximumSteps) {
                 isElsewhere = isElsewhere || bodyAround(ray, last, 0.5 * (zLast + zEnd)).layer >= 0;
 #endif
                 if (isElsewhere || found.layers != uvec2(0u))
-                    found = Asked(i, beyond, found.layers);
+                    found = StepQuery(i, beyond, found.layers);
             }
 #endif
             if (found.first >= found.end) {
@@ -154,18 +154,18 @@ FirstHit traverseView(Photon photon, int minimumSteps, int maximumSteps) {
                 --level;
                 continue;
             }
-            asked = found;
-            layers = asked.layers;
+            query = found;
+            layers = query.layers;
             level = 2;
         }
         float t = 0.0;
         int layer = -1;
         LayerSurface surface;
         int step = i;
-        while (i < min(asked.end, end) && t <= 0.0) {
+        while (i < min(query.end, end) && t <= 0.0) {
             step = i;
             if (layers != uvec2(0u)) {
-                layer = takeLowest(layers);
+                layer = popLowest(layers);
                 RayStep at = rayStep(segment, i, steps);
                 surface = layerAt(at.texel, layer);
                 t = hitLayer(ray, at, layer, surface);
@@ -188,12 +188,12 @@ FirstHit traverseView(Photon photon, int minimumSteps, int maximumSteps) {
                     }
                 }
                 ++i;
-                layers = asked.layers;
+                layers = query.layers;
             }
 #else
             if (layers == uvec2(0u)) {
                 ++i;
-                layers = asked.layers;
+                layers = query.layers;
             }
 #endif
         }

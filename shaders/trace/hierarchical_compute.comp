@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // trace.hierarchical_compute: one thread a photon.
-#include "include/photon_thread.glsl"
-#include "include/store_hits.glsl"
-#include "screen_space_photons/hierarchical.glsl"
+#include "include/photons/photon_thread.glsl"
+#include "include/photons/store_hits.glsl"
+#include "trace/hierarchical.glsl"
 
 void main() {
     uint index = photonOfThread();
     if (index >= photons.count) return;
     ivec2 texel = ivec2(photonTexel(photons, index));
     Photon photon = photonAt(texel);
-    Hit hit = nothingHit();
+    Hit hit = emptyHit();
     if (photon.fate == kFateInFlight) {
         hit = deliver(photon, traverse(photon, trace_hierarchical_compute_minimum,
                                        trace_hierarchical_compute_steps));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // One step of a photon's ray: looks the layers up at its pixel and keeps a hit's place on the ray.
-#include "include/exit_test.glsl"
-#include "include/photons.glsl"
-#include "screen_space_photons/row_texel.glsl"
+#include "include/views/exit_test.glsl"
+#include "include/photons/photons.glsl"
+#include "trace/lines_row_texel.glsl"
 
 flat in vec4 endPixels;
 flat in vec4 ends;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Line source `geometry`: makes each photon's line from one representative (K06, section 6, future
 // work).
-#include "screen_space_photons/lines.glsl"
+#include "trace/lines.glsl"
 
 layout(points) in;
 layout(line_strip, max_vertices = 2) out;

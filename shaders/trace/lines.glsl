@@ -3,9 +3,9 @@
 // photon's row, one fragment a step. The line is drawn half a texel longer at both ends and the
 // fragments are told apart by their own position, so that the result does not depend on how a
 // device rasterises the ends of lines (hard case 6).
-#include "include/photons.glsl"
-#include "include/ray_segment.glsl"
-#include "screen_space_photons/row_extent.glsl"
+#include "include/photons/photons.glsl"
+#include "include/views/ray_segment.glsl"
+#include "trace/lines_row_extent.glsl"
 
 uniform int firstPhoton;
 uniform ivec2 rowsSize;

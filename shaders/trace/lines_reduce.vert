@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A rectangle over the columns that one halving of the rows leaves in use.
-#include "screen_space_photons/row_extent.glsl"
+#include "trace/lines_row_extent.glsl"
 
 uniform ivec2 targetSize;
 uniform int halvings;  // done once this one is

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The last part of the reduce: the column of first hits becomes hits in the transfer map, or, for a
 // photon that hit nothing, an entry in the ledger. One thread a row.
-#include "include/photons.glsl"
-#include "include/store_hits.glsl"
-#include "include/traced_photon.glsl"
-#include "screen_space_photons/row_extent.glsl"
-#include "screen_space_photons/row_texel.glsl"
+#include "include/photons/photons.glsl"
+#include "include/photons/store_hits.glsl"
+#include "include/photons/traced_photon.glsl"
+#include "trace/lines_row_extent.glsl"
+#include "trace/lines_row_texel.glsl"
 
 layout(local_size_x = 64) in;
 
@@ -20,7 +20,7 @@ void main() {
     ivec2 texel = ivec2(photonTexel(photons, index));
     Photon photon = photonAt(texel);
     if (photon.fate != kFateInFlight) {
-        storeHit(texel, nothingHit());
+        storeHit(texel, emptyHit());
         return;
     }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // trace.march: one fragment a photon, drawn over the transfer map.
-#include "include/photon_fragment.glsl"
-#include "screen_space_photons/march.glsl"
+#include "include/photons/photon_fragment.glsl"
+#include "trace/march.glsl"
 
 layout(location = 0) out vec4 hitPosition;
 layout(location = 1) out vec4 hitSurface;
@@ -13,7 +13,7 @@ layout(location = 3) out vec4 hitShape;
 void main() {
     if (!isPhotonHere()) discard;
     Photon photon = photonAt(ivec2(gl_FragCoord.xy));
-    Hit hit = nothingHit();
+    Hit hit = emptyHit();
     if (photon.fate == kFateInFlight)
         hit = deliver(photon, march(photon, trace_march_minimum, trace_march_steps));
     hitPosition = hitPositionTexel(hit);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Follows one photon's ray over the screen, a pixel a step, to its first hit (K06, section 2.1:
 // what the lines are compared with).
-#include "include/traced_photon.glsl"
+#include "include/photons/traced_photon.glsl"
 
 FirstHit marchView(Photon photon, int minimumSteps, int maximumSteps) {
     if (!isNumber(photon)) return noHit();

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // trace.march_compute: one thread a photon.
-#include "include/photon_thread.glsl"
-#include "include/store_hits.glsl"
-#include "screen_space_photons/march.glsl"
+#include "include/photons/photon_thread.glsl"
+#include "include/photons/store_hits.glsl"
+#include "trace/march.glsl"
 
 void main() {
     uint index = photonOfThread();
     if (index >= photons.count) return;
     ivec2 texel = ivec2(photonTexel(photons, index));
     Photon photon = photonAt(texel);
-    Hit hit = nothingHit();
+    Hit hit = emptyHit();
     if (photon.fate == kFateInFlight) {
         hit = deliver(photon, march(photon, trace_march_compute_minimum,
                                        trace_march_compute_steps));

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // trace.plane: the nearest flat receiver on each photon's ray. One thread a photon.
-#include "include/deliver.glsl"
-#include "include/photon_thread.glsl"
-#include "include/store_hits.glsl"
-#include "techniques/planar/flat_face.h"
+#include "include/photons/deliver.glsl"
+#include "include/photons/photon_thread.glsl"
+#include "include/photons/store_hits.glsl"
+#include "techniques/trace/plane_face.h"
 
 layout(std430) readonly buffer FlatFaces {
     FlatFace flatFaces[];
@@ -17,7 +17,7 @@ const float kRounding = 5e-7;
 const float kParallel = 1e-6;
 
 // Where the ray hits a face, m; below 0: nowhere.
-float meetFace(FlatFace face, vec3 origin, vec3 direction) {
+float intersectFace(FlatFace face, vec3 origin, vec3 direction) {
     const float nowhere = -1.0;
     float closing = dot(face.normal.xyz, direction);
     if (!(abs(closing) > kParallel)) return nowhere;
@@ -42,23 +42,23 @@ float meetFace(FlatFace face, vec3 origin, vec3 direction) {
 Hit traceToPlanes(Photon photon) {
     if (!isNumber(photon)) {
         ledgerAdd(kAccountNotANumber, vec3(0.0));
-        return nothingHit();
+        return emptyHit();
     }
     if (isInBody(photon.media)) {
         ledgerAdd(kAccountMissedByTracer, photon.fluxWatts);
-        return nothingHit();
+        return emptyHit();
     }
     int nearest = -1;
     float nearestT = 0.0;
     for (int i = 0; i < faceCount; ++i) {
-        float t = meetFace(flatFaces[i], photon.positionVs, photon.directionVs);
+        float t = intersectFace(flatFaces[i], photon.positionVs, photon.directionVs);
         if (t < 0.0 || (nearest >= 0 && t >= nearestT)) continue;
         nearest = i;
         nearestT = t;
     }
     if (nearest < 0) {
         ledgerAdd(missAccount, photon.fluxWatts);
-        return nothingHit();
+        return emptyHit();
     }
     vec4 normal = flatFaces[nearest].normal;
     return deliverTo(photon, nearestT, normal.xyz, normal.xyz, uint(normal.w));
@@ -69,7 +69,7 @@ void main() {
     if (index >= photons.count) return;
     ivec2 texel = ivec2(photonTexel(photons, index));
     Photon photon = photonAt(texel);
-    Hit hit = nothingHit();
+    Hit hit = emptyHit();
     if (photon.fate == kFateInFlight) hit = traceToPlanes(photon);
     storeHit(texel, hit);
 }

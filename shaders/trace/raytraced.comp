@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // trace.raytraced: makes hits of what the processor has found. One thread a photon.
-#include "include/deliver.glsl"
-#include "include/photon_thread.glsl"
-#include "include/store_hits.glsl"
+#include "include/photons/deliver.glsl"
+#include "include/photons/photon_thread.glsl"
+#include "include/photons/store_hits.glsl"
 
 uniform sampler2D foundShading;    // xyz: unit, outward; w: material + 1, 0 nothing
 uniform sampler2D foundGeometric;  // xyz: the same of the triangle; w: distance, m
@@ -15,7 +15,7 @@ void main() {
     if (index >= photons.count) return;
     ivec2 texel = ivec2(photonTexel(photons, index));
     Photon photon = photonAt(texel);
-    Hit hit = nothingHit();
+    Hit hit = emptyHit();
     if (photon.fate == kFateInFlight) {
         vec4 shading = texelFetch(foundShading, texel, 0);
         vec4 geometric = texelFetch(foundGeometric, texel, 0);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // trace.secant: one thread a photon of one generator.
-#include "include/photon_thread.glsl"
-#include "include/generators.glsl"
-#include "include/store_hits.glsl"
-#include "caustic_triangles/secant.glsl"
+#include "include/photons/photon_thread.glsl"
+#include "include/surfaces/generators.glsl"
+#include "include/photons/store_hits.glsl"
+#include "tracing/secant.glsl"
 
 uniform int generatorIndex;
 
@@ -13,10 +13,10 @@ void main() {
     ivec2 texel = ivec2(photonTexel(photons, index));
     Photon photon = photonAt(texel);
     if (generators.count.x > 1u && generatorOf(photon.positionVs) != generatorIndex) return;
-    Hit hit = nothingHit();
+    Hit hit = emptyHit();
     if (photon.fate == kFateInFlight) {
         bool isCut;
-        FirstHit first = searchAround(photon, trace_secant_stride, trace_secant_most,
+        FirstHit first = searchAround(photon, trace_secant_stride, trace_secant_max_steps,
                                       trace_secant_refinements, isCut);
         if (first.hit.layer < 0 && isCut && isNumber(photon)) {
             ledgerAdd(kAccountBeyondLastLayer, photon.fluxWatts);

@@ -3,14 +3,14 @@
 // search for a change from in front of a slot's surface to beyond it or back, then secants within
 // that bracket, bounded. A texel stands for the plane of its triangle. What the bracket ends with
 // is a hit if it lies on that surface by what a texel resolves, the residual.
-#include "include/traced_photon.glsl"
+#include "include/photons/traced_photon.glsl"
 
 uniform usampler2DArray layerOrder;
 
-const int kMostSlots = 8;
+const int kMaxSlots = 8;
 const uint kNoLayer = 15u;
 // What a slot has none of is taken to be infinitely far.
-const float kNothing = 1.0e30;
+const float kNoDistance = 1.0e30;
 
 // A ray in the world's axes from the reference point, m.
 struct AroundRay {
@@ -55,7 +55,7 @@ int layerOfSlot(AroundPlace place, int slot) {
 // undershooting.
 float beyondSlot(AroundPlace place, int slot) {
     int layer = layerOfSlot(place, slot);
-    if (layer < 0) return -kNothing;
+    if (layer < 0) return -kNoDistance;
     vec4 data = texelFetch(layerDepths, layerTexel(place.texel, layer), 0);
     vec3 normal = unpackUnitVector(data.yz);
     float depth = -place.point.z;
@@ -76,7 +76,7 @@ struct AngularSteps {
     int count;
 };
 
-AngularSteps angularSteps(AroundRay ray, float stride, int most) {
+AngularSteps angularSteps(AroundRay ray, float stride, int maximum) {
     AngularSteps steps;
     steps.middle = -dot(ray.origin, ray.direction);
     steps.distance =
@@ -85,7 +85,7 @@ AngularSteps angularSteps(AroundRay ray, float stride, int most) {
     steps.last = atan(ray.far - steps.middle, steps.distance);
     float texel = 2.0 * view.sizePixels.z;  // rad, in the middle of a face
     float wanted = ceil((steps.last - steps.first) / (stride * texel));
-    steps.count = int(clamp(wanted, 2.0, float(most)));
+    steps.count = int(clamp(wanted, 2.0, float(maximum)));
     return steps;
 }
 
@@ -124,18 +124,18 @@ bool arrivesAt(FirstHit found) {
 }
 
 // Where the ray meets the slot's surface within the bracket, and by which texel and layer; layer < 0
-// where no place that was looked at lies on it. Never more than `most` looks (hard case 35).
-FirstHit secantIn(AroundRay ray, TracedRay photon, Bracket bracket, int most) {
+// where no place that was looked at lies on it. Never more than `maximum` looks (hard case 35).
+FirstHit secantIn(AroundRay ray, TracedRay photon, Bracket bracket, int maximum) {
     FirstHit found = noHit();
     float low = bracket.low;
     float high = bracket.high;
     float beyondLow = bracket.beyondLow;
     float beyondHigh = bracket.beyondHigh;
-    float nearest = kNothing;
+    float nearest = kNoDistance;
     int side = 0;
-    for (int i = 0; i < most; ++i) {
+    for (int i = 0; i < maximum; ++i) {
         float difference = beyondHigh - beyondLow;
-        bool isSecant = abs(difference) < 0.5 * kNothing && difference != 0.0;
+        bool isSecant = abs(difference) < 0.5 * kNoDistance && difference != 0.0;
         float share = isSecant ? -beyondLow / difference : 0.5;
         float t = mix(low, high, clamp(share, 0.0, 1.0));
         AroundPlace place = placeAt(ray.origin + t * ray.direction);
@@ -187,7 +187,7 @@ FirstHit secantIn(AroundRay ray, TracedRay photon, Bracket bracket, int most) {
 }
 
 // `isCut`: it ends beyond more surfaces than there are slots.
-FirstHit searchAround(Photon photon, float stride, int most, int refinements, out bool isCut) {
+FirstHit searchAround(Photon photon, float stride, int maximum, int refinements, out bool isCut) {
     FirstHit first = noHit();
     isCut = false;
     if (!isNumber(photon)) return first;
@@ -200,12 +200,12 @@ FirstHit searchAround(Photon photon, float stride, int most, int refinements, ou
     if (low > high) return first;
     AroundRay ray = AroundRay(toWorld(origin), toWorld(direction), high);
     TracedRay traced = tracedRay(origin, direction, photon.media);
-    AngularSteps steps = angularSteps(ray, stride, most);
+    AngularSteps steps = angularSteps(ray, stride, maximum);
     float before = 0.0;
-    float beyondBefore[kMostSlots];
+    float beyondBefore[kMaxSlots];
     AroundPlace place = placeAt(ray.origin);
-    for (int slot = 0; slot < kMostSlots; ++slot)
-        beyondBefore[slot] = slot < layerCount ? beyondSlot(place, slot) : -kNothing;
+    for (int slot = 0; slot < kMaxSlots; ++slot)
+        beyondBefore[slot] = slot < layerCount ? beyondSlot(place, slot) : -kNoDistance;
     for (int i = 1; i <= steps.count && first.hit.layer < 0; ++i) {
         float t = max(parameterOf(steps, ray, i), before);
         place = placeAt(ray.origin + t * ray.direction);

@@ -7,17 +7,17 @@
 // (hard case 28a), and is absorbed on the way. Fragments of other generators are left out.
 //   LIGHT_IS_STORED    there is a map of it
 //   GLOSSY_RECEIVERS   which knows where it comes from
-#include "caustic_triangles/secant.glsl"
+#include "tracing/secant.glsl"
 #include "framework/transport/brdf.h"
-#include "include/environment.glsl"
-#include "include/first_surface.glsl"
-#include "include/generators.glsl"
-#include "include/lights.glsl"
+#include "include/surfaces/environment.glsl"
+#include "include/views/first_surface.glsl"
+#include "include/surfaces/generators.glsl"
+#include "include/photons/lights.glsl"
 #define MAP_IS_CUBE
 #ifdef GLOSSY_RECEIVERS
 #define MEAN_INCIDENCE
 #endif
-#include "include/map_lookup.glsl"
+#include "include/maps/map_lookup.glsl"
 
 uniform sampler2DArray mapAlbedo;
 uniform int generatorIndex;
@@ -32,7 +32,7 @@ layout(location = 2) out vec4 exitDirection;
 FirstHit firstAround(vec3 origin, vec3 direction, uint media) {
     bool isCut;
     return searchAround(Photon(origin, 0.0, direction, kFateInFlight, vec3(0.0), media),
-                        view_around_stride, view_around_most, view_around_refinements, isCut);
+                        view_around_stride, view_around_max_steps, view_around_refinements, isCut);
 }
 
 // The map of a generator.
@@ -68,7 +68,7 @@ vec3 radianceOf(vec3 positionVs, vec3 direction, vec3 normal, uint material) {
         float cosine = dot(normal, toLight);
         vec3 irradiance = cosine > 0.0 ? lightIrradiance(lights[i], positionVs) : vec3(0.0);
         if (irradiance == vec3(0.0)) continue;
-        FirstHit blocker = firstAround(positionVs, toLight, withLeftSide(0u, kLeftForAll));
+        FirstHit blocker = firstAround(positionVs, toLight, withLeftSide(0u, kLeftBothSides));
         bool isSun = uint(lights[i].positionVs.w) == kLightDirectional;
         float reach = isSun ? 3.0e38 : length(lights[i].positionVs.xyz - positionVs);
         if (blocker.hit.layer >= 0 && blocker.hit.t < reach) continue;
@@ -114,7 +114,7 @@ float turn(inout AroundPath path, vec3 positionVs, vec3 normal, uint material,
     bool enters = dot(path.direction, normal) < 0.0;
     path.origin = positionVs;
     ++path.hits;
-    path.media = withLeftSide(path.media, kLeftNothing);
+    path.media = withLeftSide(path.media, kLeftNone);
     reflectedDirection = normalize(reflect(path.direction, normal));
     if (materialKind(material - 1u) == kMaterialMirror) {
         path.share *= materials[material - 1u].albedo.rgb;
@@ -133,7 +133,7 @@ float turn(inout AroundPath path, vec3 positionVs, vec3 normal, uint material,
     path.direction = interaction.refracted;
     path.share *= 1.0 - interaction.reflectance;
     if (enters && !canEnter(path.media, material)) {
-        path.ending = kPathNestedTooDeep;
+        path.ending = kPathNestingLimit;
     } else {
         path.media = enters ? enterMedium(path.media, material)
                             : leaveMedium(path.media, material);
@@ -170,7 +170,7 @@ vec3 follow(inout AroundPath path) {
         vec3 unused;
         turn(path, there, normal, material, unused);
     }
-    if (path.ending > kPathLost) path.ending = kPathStoppedInside;
+    if (path.ending > kPathLost) path.ending = kPathEndedInside;
     viewIndex = 0;
     return path.share * environmentRadiance(directionFromEye(path.direction));
 }
@@ -198,7 +198,7 @@ void main() {
     uint mediaAtEye = isEyeInside ? enterMedium(0u, material) : 0u;
     AroundPath path =
         AroundPath(vec3(0.0), direction, mediumTransmittance(innerMedium(mediaAtEye), length(entry)),
-                   mediaAtEye, 0, kPathCameOut);
+                   mediaAtEye, 0, kPathExited);
     vec3 reached = path.share;
     vec3 normal = bendingNormal(direction, surface.xyz, surface.xyz, material, mediaAtEye);
     vec3 reflectedDirection;
@@ -209,7 +209,7 @@ void main() {
     seen *= solidAngles(mediaAtEye, path.media);
     if (reflectance > 0.0) {
         AroundPath reflected = AroundPath(entry, reflectedDirection, reached * reflectance,
-                                          withLeftSide(mediaAtEye, kLeftNothing), 1, kPathCameOut);
+                                          withLeftSide(mediaAtEye, kLeftNone), 1, kPathExited);
         vec3 also = follow(reflected);
         seen += also * solidAngles(mediaAtEye, reflected.media);
     }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // view.deferred: what the eye sees through one body after the other, of each by its fronts and
 // backs in the eye's view (WN09, section 3.1.1), in one pass over the screen.
-#include "include/eye_path.glsl"
+#include "include/views/eye_path.glsl"
 
 #ifdef DIELECTRICS
 #ifdef BODIES
-#include "adaptive_caustic_map/bodies.glsl"
-#include "include/two_interfaces.glsl"
+#include "deferred_buffers/bodies.glsl"
+#include "include/views/two_interfaces.glsl"
 
 void goThroughBodies(inout EyePath path, ivec2 pixel, vec3 viewing, float depth, vec4 surface) {
     if (isOpen(uint(surface.w) - 1u)) return;
@@ -19,26 +19,26 @@ void goThroughBodies(inout EyePath path, ivec2 pixel, vec3 viewing, float depth,
         return;
     }
 #ifdef SEVERAL_BODIES
-    PlaneSearch how = PlaneSearch(view_deferred_iterations, false, view_deferred_looks,
+    PlaneSearch how = PlaneSearch(view_deferred_iterations, false, view_deferred_search_steps,
                                   view_deferred_refinements);
 #endif
     vec3 along = normalize(viewing);
     vec3 normal = surface.xyz;
     uint material = uint(surface.w);
-    bool isUnbent = true;
-    uint met = 0u;
+    bool isUnrefracted = true;
+    uint visited = 0u;
     for (int i = 0; i < bodyCount; ++i) {
-        met |= 1u << uint(body);
-        bodyAsked = body;
+        visited |= 1u << uint(body);
+        bodyIndex = body;
         ivec2 there = texelAt(entry);
-        float through = (backAt(there) + entry.z) * length(viewRay(pixelOf(entry)));
+        float through = (backDepthAt(there) + entry.z) * length(viewRay(pixelOf(entry)));
         path.origin = entry;
-        if (backAt(there) > 0.0 && through > 0.0) {
+        if (backDepthAt(there) > 0.0 && through > 0.0) {
             float index = mediumIndex(material);
-            if (!isUnbent && view_deferred_steps > 0 &&
+            if (!isUnrefracted && view_deferred_steps > 0 &&
                 view_deferred_distance == view_deferred_distance_estimates)
                 through = distanceInside(entry, along, through, view_deferred_steps);
-            WayInside way = wayInside(entry, along, path.direction, normal, through, index,
+            InnerPath way = innerPath(entry, along, path.direction, normal, through, index,
                                       view_deferred_steps, view_deferred_distance);
             path.throughput *= mediumTransmittance(material, way.length);
             path.origin = way.exit;
@@ -56,15 +56,15 @@ void goThroughBodies(inout EyePath path, ivec2 pixel, vec3 viewing, float depth,
         }
 #ifdef SEVERAL_BODIES
         if (i + 1 == bodyCount) break;
-        Meeting next = nextBody(path.origin, path.direction, met, how);
+        BodyHit next = nextBody(path.origin, path.direction, visited, how);
         if (next.body < 0) break;
         body = next.body;
         entry = path.origin + next.t * path.direction;
         normal = next.normal;
         material = next.material;
-        isUnbent = view_deferred_incidence == view_deferred_incidence_eye &&
+        isUnrefracted = view_deferred_incidence == view_deferred_incidence_eye &&
                    dot(entry, normal) < 0.0;
-        along = isUnbent ? normalize(entry) : path.direction;
+        along = isUnrefracted ? normalize(entry) : path.direction;
         Interface first = interactAt(along, normal, 1.0, mediumIndex(material));
         path.interfaces += 1.0;
         path.origin = entry;

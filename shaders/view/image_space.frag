@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// What the eye sees through two interfaces, in image space (W05): include/two_interfaces.glsl.
-#include "include/eye_path.glsl"
+// What the eye sees through two interfaces, in image space (W05): include/views/two_interfaces.glsl.
+#include "include/views/eye_path.glsl"
 
 #ifdef DIELECTRICS
-#include "include/back_faces.glsl"
-#include "include/two_interfaces.glsl"
+#include "include/views/back_faces.glsl"
+#include "include/views/two_interfaces.glsl"
 
 void goThroughBodies(inout EyePath path, ivec2 pixel, vec3 viewing, float depth, vec4 surface) {
     float back = faceDepth(pixel, kBackFace);
@@ -12,7 +12,7 @@ void goThroughBodies(inout EyePath path, ivec2 pixel, vec3 viewing, float depth,
     uint material = uint(surface.w);
     float index = mediumIndex(material);
     float through = (back - depth) * length(viewing);
-    WayInside way = wayInside(viewing * depth, normalize(viewing), path.direction, surface.xyz,
+    InnerPath way = innerPath(viewing * depth, normalize(viewing), path.direction, surface.xyz,
                               through, index, view_image_space_steps, view_image_space_distance);
     path.throughput *= mediumTransmittance(material, way.length);
     path.origin = way.exit;

@@ -4,7 +4,7 @@
 // picture shows there is looked up; the reflected one sees the environment. Radiance
 // changes by T/n² where it leaves the medium that the receiver lies in (hard case 28a). A mirror
 // shows the scene.
-#include "include/scene_look.glsl"
+#include "include/views/scene_look.glsl"
 
 layout(location = 0) out vec4 radiance;
 layout(location = 1) out vec4 exitPosition;
@@ -67,7 +67,7 @@ void look(ivec2 pixel) {
     vec3 onward = goesThrough ? interaction.refracted : interaction.reflected;
     exitPosition = vec4(entry, 1.0);
     exitDirection =
-        vec4(goesThrough && !view_interface_refract ? direction : onward, kPathCameOut);
+        vec4(goesThrough && !view_interface_refract ? direction : onward, kPathExited);
     radiance =
         vec4(through + interaction.reflectance * environmentRadiance(interaction.reflected), 1.0);
 }

@@ -3,9 +3,9 @@
 // interface and then traced on the screen through the layers of the transmitting objects, and from
 // mirror to mirror. Radiance changes by T at every interface and by 1/n² where what is seen lies in
 // a medium of index n (hard case 28a), and is absorbed on the way.
-#include "include/scene_look.glsl"
+#include "include/views/scene_look.glsl"
 #ifdef DIELECTRICS
-#include "screen_space_photons/next_interface.glsl"
+#include "view/refraction_next_interface.glsl"
 #endif
 
 layout(location = 0) out vec4 radiance;
@@ -54,7 +54,7 @@ Interface bend(inout EyePath path, vec3 normal, uint material, int layer) {
     vec2 indices = indicesAt(material, path.at.media, enters);
     Interface interaction = interactAt(path.at.direction, normal, indices.x, indices.y);
     ++path.interfaces;
-    path.at.media = withLeftSide(path.at.media, kLeftNothing);
+    path.at.media = withLeftSide(path.at.media, kLeftNone);
     if (interaction.reflectance >= 1.0) {
         ++path.reflections;
         path.at.direction = interaction.reflected;
@@ -64,7 +64,7 @@ Interface bend(inout EyePath path, vec3 normal, uint material, int layer) {
     path.at.direction = interaction.refracted;
     path.at.share *= 1.0 - interaction.reflectance;
     if (enters && !canEnter(path.at.media, material)) {
-        path.ending = kPathNestedTooDeep;
+        path.ending = kPathNestingLimit;
     } else {
         path.at.media = enters ? enterMedium(path.at.media, material)
                                : leaveMedium(path.at.media, material);
@@ -81,8 +81,8 @@ bool advance(inout EyePath path, float reach) {
     if (!segment.visible) return false;
     TracedRay ray = tracedRay(path.at.origin, path.at.direction, path.at.media);
     int steps = stepCount(segment, 4, 16384);
-    bool asksAll = view_refraction_search == view_refraction_search_all || path.at.mirrors > 0;
-    FirstHit found = asksAll ? firstHitOfSteps(segment, ray, steps)
+    bool searchesAll = view_refraction_search == view_refraction_search_all || path.at.mirrors > 0;
+    FirstHit found = searchesAll ? firstHitOfSteps(segment, ray, steps)
                              : searchBetweenLayers(segment, ray, path.passed, steps);
     if (found.hit.layer < 0) return false;
     vec4 surface = texelFetch(layerSurfaces, ivec3(found.pixel, found.hit.layer), 0);
@@ -105,26 +105,26 @@ SceneHit follow(inout EyePath path) {
         bool isInside = isInsideClosed(path.at.media);
         bool isReflected = path.reflections > view_refraction_reflections;
         bool isLast = isReflected || path.refractions >= view_refraction_interfaces;
-        seen = nothingThere();
+        seen = noSceneHit();
 #ifndef SCENE_INSIDE
         if (!isInside)
 #endif
             seen = lookThrough(path.at.origin, path.at.direction, path.at.media);
         bool isFound = seen.material != 0u;
-        if (isReflected) path.ending = kPathReflectedTooOften;
+        if (isReflected) path.ending = kPathReflectionLimit;
         if (path.ending <= kPathLost) return seen;
         if (!isLast && advance(path, isFound ? seen.t : kFar)) continue;
         if (isFound && seen.isMirror) {
             if (path.at.mirrors >= lookMirrors) {
-                path.ending = kPathMirroredTooOften;
-                return nothingThere();
+                path.ending = kPathMirrorLimit;
+                return noSceneHit();
             }
             path.at.share *= mediumTransmittance(innerMedium(path.at.media), seen.t);
             reflectAt(path.at, path.at.origin + seen.t * path.at.direction, seen.normal,
                       seen.material);
             continue;
         }
-        if (isInside && !isFound) path.ending = isLast ? kPathStoppedInside : kPathLost;
+        if (isInside && !isFound) path.ending = isLast ? kPathEndedInside : kPathLost;
         return seen;
     }
 }
@@ -145,7 +145,7 @@ void look(ivec2 pixel) {
     vec3 direction = normalize(viewing);
     vec4 mirror = firstSurface(pixel);
     EyePath path = EyePath(MirrorPath(vec3(0.0), direction, vec3(1.0), 0u, 0), 0, 0, 0, -1,
-                           kPathCameOut);
+                           kPathExited);
     uint mediaAtEye = 0u;
     vec3 reflected = vec3(0.0);
     if (materialKind(uint(mirror.w) - 1u) == kMaterialMirror) {

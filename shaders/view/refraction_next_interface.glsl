@@ -3,7 +3,7 @@
 // depth (K06, section 4). The monotonic search keeps to two layers, the one that the ray has
 // passed and the next one: a ray that has hit n interfaces is looked for between the layers n and
 // n + 1. The search of all layers is the tracers' (exit_test.glsl).
-#include "include/exit_test.glsl"
+#include "include/views/exit_test.glsl"
 
 uniform vec3 dielectricsCenterVs;     // the box around all dielectrics, along the world's axes, m
 uniform vec3 dielectricsHalfExtent;

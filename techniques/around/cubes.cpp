@@ -6,7 +6,6 @@
 // same slot everywhere, unless there are more of these at once than layers. Slots are colours of
 // the graph of what is ever seen behind one another. Out: by generator, depth in m, normals and
 // materials by layer, and the slots.
-#include "techniques/caustic_triangles/around.h"
 
 #include <fmt/format.h>
 
@@ -14,15 +13,15 @@
 #include <cstdint>
 
 #include "framework/pipeline/frame_builder.h"
-#include "techniques/caustic_triangles/nodes.h"
-#include "techniques/screen_space_photons/lists.h"
-#include "techniques/shared/generators.h"
+#include "techniques/generators/around_stage.h"
+#include "techniques/generators/generators.h"
+#include "techniques/layered_depth/fragment_lists.h"
 
 namespace kaustik {
 namespace {
 
 // A texel of slots has four bits for each.
-constexpr int kMostLayers = 8;
+constexpr int kMaxLayers = 8;
 
 enum class LayerOrder : int { smooth, depth };
 
@@ -36,7 +35,7 @@ struct CubesParams {
         r.field(size, "size", "Side of a face of the cube around a generator", "texels",
                 params::range(16, 4096));
         r.field(layers, "layers", "Most surfaces that are kept in a direction, nearest first", "",
-                params::range(1, kMostLayers));
+                params::range(1, kMaxLayers));
         r.choice(order, "order",
                  "smooth: what faces the same way on the same material is one layer; depth: the "
                  "nearest is the first",
@@ -53,9 +52,9 @@ constexpr double kBytesPerTexel = 32.0;
 
 int sideOfFaces(FrameBuilder& frame, const CubesParams& params, std::size_t generators) {
     int side = params.size;
-    const double most = static_cast<double>(params.memoryMebibytes) * 1048576.0;
-    const double faces = static_cast<double>(transport::kMostViews * generators) * params.layers;
-    while (side > 16 && kBytesPerTexel * side * side * faces > most)
+    const double maximum = static_cast<double>(params.memoryMebibytes) * 1048576.0;
+    const double faces = static_cast<double>(transport::kMaxViews * generators) * params.layers;
+    while (side > 16 && kBytesPerTexel * side * side * faces > maximum)
         side /= 2;
     if (side < params.size) {
         frame.warn(
@@ -66,7 +65,7 @@ int sideOfFaces(FrameBuilder& frame, const CubesParams& params, std::size_t gene
     return side;
 }
 
-// As shaders/caustic_triangles/order.glsl has it.
+// As shaders/around/cubes_order.glsl has it.
 constexpr std::size_t kKinds = 256;
 struct KindConflicts {  // bits: the kinds that are seen behind or before it; its own: it is seen
     std::uint32_t words[kKinds / 32];
@@ -98,8 +97,7 @@ graph::Texture<LayerOrderTexel> orderLayers(FrameBuilder& frame, const LayeredDe
             },
             [layers, isSmooth](const Data& data, gl::PassContext& context) {
                 const auto shader = [&](const char* name) {
-                    gl::Command command =
-                        context.compute(fmt::format("caustic_triangles/{}.comp", name));
+                    gl::Command command = context.compute(name);
                     layers.views->bindTo(command)
                         .offer("layerCount", layers.layers)
                         .offer("isSmooth", isSmooth ? 1 : 0);
@@ -109,10 +107,10 @@ graph::Texture<LayerOrderTexel> orderLayers(FrameBuilder& frame, const LayeredDe
                 const int rows = layers.views->height() * layers.views->count();
                 context.buffer(data.conflicts).clear();
                 if (isSmooth) {
-                    shader("order_kinds").dispatchOver(width, 8, rows, 8);
-                    shader("order_slots").dispatch(1);
+                    shader("around/cubes_order_kinds.comp").dispatchOver(width, 8, rows, 8);
+                    shader("around/cubes_order_slots.comp").dispatch(1);
                 }
-                shader("order_place").dispatchOver(width, 8, rows, 8);
+                shader("around/cubes_order_place.comp").dispatchOver(width, 8, rows, 8);
             })
         .order;
 }
@@ -126,7 +124,7 @@ std::vector<SurfacesAround> sampleAround(FrameBuilder& frame, const CubesParams&
         const std::string suffix = suffixOfGenerator(i);
         SurfacesAround around;
         {
-            const FrameBuilder::Within within(frame, "around");
+            const FrameBuilder::PassScope within(frame, "around");
             around.layers = makeLayers(
                 frame, geometry,
                 {.name = "around" + suffix,
@@ -134,7 +132,7 @@ std::vector<SurfacesAround> sampleAround(FrameBuilder& frame, const CubesParams&
                  .reader = fmt::format("rays that leave '{}' need", generators[i].name),
                  .views = frame.makeViews(render::Space::cube, facesAround(generators[i], side))});
         }
-        frame.keepsTo(
+        frame.reportLimit(
             {"around.order",
              {around.layers.statistics},
              [=, statistics = around.layers.statistics, name = generators[i].name](
@@ -161,19 +159,17 @@ std::vector<SurfacesAround> sampleAround(FrameBuilder& frame, const CubesParams&
 
 }  // namespace
 
-const std::vector<SurfacesAround>& surfacesAround(FrameBuilder& frame, const Geometry& geometry) {
-    return *frame.once<std::vector<SurfacesAround>>("around", [&] {
-        return std::make_shared<std::vector<SurfacesAround>>(frame.run<AroundStage>(geometry));
-    });
-}
-
-void registerAround(Registry& registry) {
+void registerAroundCubes(Registry& registry) {
     registry.sharedParams<AroundStage, GeneratorParams>();
     registry.node<AroundStage>(
         "cubes",
         {"Layers of distance, normal and material on the faces of a cube around each specular "
          "object.",
-         "U08, section 3"},
+         "U08, section 3",
+         "It samples what each generator's reference point sees, in no more than "
+         "around.cubes.layers layers and no finer than a texel of a face. Larger faces than "
+         "around.cubes.memory allows are halved, and a warning says so.",
+         {"layers.lists"}},
         &sampleAround);
 }
 

@@ -10,7 +10,6 @@
 #include <cmath>
 
 #include "framework/pipeline/frame_builder.h"
-#include "techniques/screen_space_photons/nodes.h"
 
 namespace kaustik {
 namespace {
@@ -34,7 +33,7 @@ InScattered blurAlong(FrameBuilder& frame, const GaussianBlurParams& params, InS
             setup.bypass(out.radiance, sharp.radiance);
         },
         [sigma = params.sigma, step](const InScattered& out, gl::PassContext& context) {
-            context.fullscreen("screen_space_photons/gaussian_blur.frag")
+            context.fullscreen("blur/gaussian.frag")
                 .set("sigma", sigma)
                 .set("reach", static_cast<int>(std::ceil(3.0f * sigma)))
                 .set("along", step)
@@ -54,12 +53,15 @@ InScattered blurGaussian(FrameBuilder& frame, const GaussianBlurParams& params, 
 
 }  // namespace
 
-void registerGaussianBlur(Registry& registry) {
-    registry.node<BlurStage>("gaussian",
-                             {"Smooths in-scattered light with a Gaussian of constant size on the "
-                              "screen.",
-                              "K06, section 3.2"},
-                             &blurGaussian);
+void registerBlurGaussian(Registry& registry) {
+    registry.node<BlurStage>(
+        "gaussian",
+        {"Smooths in-scattered light with a Gaussian of constant size on the "
+         "screen.",
+         "K06, section 3.2",
+         "It does not know the scene: it carries light over the outlines of objects. It keeps the "
+         "sum over the picture, not the light of each object."},
+        &blurGaussian);
 }
 
 }  // namespace kaustik

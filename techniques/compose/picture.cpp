@@ -9,7 +9,6 @@
 #include <glm/gtc/constants.hpp>
 
 #include "framework/pipeline/frame_builder.h"
-#include "techniques/shared/nodes.h"
 
 namespace kaustik {
 namespace {
@@ -34,7 +33,7 @@ double typicalIrradiance(const scene::Light& light, const scene::Bounds& bounds)
     if (light.kind == scene::LightKind::directional) return power;
     const glm::dvec3 extent = bounds.maximum - bounds.minimum;
     // Nearer than a part of the box there is hardly anything of it.
-    const double least = std::max(1e-3 * glm::dot(extent, extent), 1e-6);
+    const double minimum = std::max(1e-3 * glm::dot(extent, extent), 1e-6);
     const bool isWithin = light.kind == scene::LightKind::point &&
                           glm::all(glm::lessThan(bounds.minimum, light.position)) &&
                           glm::all(glm::lessThan(light.position, bounds.maximum));
@@ -44,7 +43,7 @@ double typicalIrradiance(const scene::Light& light, const scene::Bounds& bounds)
         const glm::dvec3 cell(i % cells, i / cells % cells, i / (cells * cells));
         const glm::dvec3 offset =
             bounds.minimum + extent * (cell + 0.5) / static_cast<double>(cells) - light.position;
-        logarithms += std::log(std::max(glm::dot(offset, offset), least));
+        logarithms += std::log(std::max(glm::dot(offset, offset), minimum));
     }
     return power / std::exp(logarithms / (cells * cells * cells));
 }
@@ -97,7 +96,7 @@ DirectLight lightDirectly(FrameBuilder& frame, const Shadows& shadows, EyeBuffer
             context.texture(direct.irradiance).clear({0, 0, 0, 0});
             if (direct.radiance.valid()) context.texture(direct.radiance).clear({0, 0, 0, 0});
             for (int light = 0; light < lights; ++light) {
-                gl::Command command = context.fullscreen("shared/direct.frag");
+                gl::Command command = context.fullscreen("compose/picture_direct.frag");
                 command.set("lightIndex", light).target(direct.irradiance);
                 if (direct.radiance.valid())
                     command.define("GLOSSY_RECEIVERS").target(direct.radiance);
@@ -130,7 +129,7 @@ Radiance shadeReceivers(FrameBuilder& frame, EyeBuffer eye, const DirectLight& d
                                                        frame.height());
         },
         [isGlossy, isCausticGlossy](const Radiance& out, gl::PassContext& context) {
-            gl::Command command = context.fullscreen("shared/radiance.frag");
+            gl::Command command = context.fullscreen("compose/picture_radiance.frag");
             if (isGlossy) command.define("GLOSSY_RECEIVERS");
             if (isCausticGlossy) command.define("CAUSTIC_RADIANCE");
             command.target(out.radiance).draw();
@@ -158,7 +157,7 @@ Radiance lookThroughMedium(FrameBuilder& frame, EyeBuffer eye, Radiance seen,
             setup.bypass(out.radiance, seen.radiance);
         },
         [scatters](const Radiance& out, gl::PassContext& context) {
-            gl::Command command = context.fullscreen("shared/medium.frag");
+            gl::Command command = context.fullscreen("compose/picture_medium.frag");
             if (scatters) command.define("SCATTERS");
             command.target(out.radiance).draw();
         });
@@ -181,7 +180,7 @@ Picture composePicture(FrameBuilder& frame, const PictureParams& params, Geometr
             data.display = setup.create<DisplayTexel>("display", frame.width(), frame.height());
         },
         [exposure](const Picture& data, gl::PassContext& context) {
-            context.fullscreen("shared/display.frag")
+            context.fullscreen("compose/picture_display.frag")
                 .set("exposure", exposure)
                 .target(data.display)
                 .draw();
@@ -190,12 +189,15 @@ Picture composePicture(FrameBuilder& frame, const PictureParams& params, Geometr
 
 }  // namespace
 
-void registerPicture(Registry& registry) {
-    registry.node<ComposeStage>("picture",
-                                {"Direct light with its shadows, the caustic, and what the eye "
-                                 "sees through specular surfaces.",
-                                 ""},
-                                &composePicture);
+void registerComposePicture(Registry& registry) {
+    registry.node<ComposeStage>(
+        "picture",
+        {"Direct light with its shadows, the caustic, and what the eye "
+         "sees through specular surfaces.",
+         "",
+         "The display image is for looking at: it is exposed and tone-mapped by one rule for the "
+         "scene. Errors are measured on the outputs before it."},
+        &composePicture);
 }
 
 }  // namespace kaustik

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "techniques/adaptive_caustic_map/body_buffers.h"
+#include "techniques/deferred_buffers/body_buffers.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "framework/scene/light_paths.h"
-#include "techniques/adaptive_caustic_map/body_data.h"
+#include "techniques/deferred_buffers/body_data.h"
 
 namespace kaustik {
 namespace {
@@ -18,8 +18,9 @@ namespace {
 // By more than rounding: boxes may touch.
 bool overlap(const scene::Bounds& a, const scene::Bounds& b) {
     const glm::dvec3 shared = glm::min(a.maximum, b.maximum) - glm::max(a.minimum, b.minimum);
-    const double most = 1e-6 * glm::length(glm::min(a.maximum - a.minimum, b.maximum - b.minimum));
-    return glm::all(glm::greaterThan(shared, glm::dvec3(most)));
+    const double maximum =
+        1e-6 * glm::length(glm::min(a.maximum - a.minimum, b.maximum - b.minimum));
+    return glm::all(glm::greaterThan(shared, glm::dvec3(maximum)));
 }
 
 bool overlap(const Body& a, const Body& b) {
@@ -51,26 +52,27 @@ double distanceFrom(const glm::dvec3& point, const scene::Bounds& box) {
 
 // Of the corner that comes first.
 double distanceAlong(const glm::dvec3& direction, const scene::Bounds& box) {
-    double least = 0.0;
+    double minimum = 0.0;
     for (int axis = 0; axis < 3; ++axis)
-        least += std::min(direction[axis] * box.minimum[axis], direction[axis] * box.maximum[axis]);
-    return least;
+        minimum +=
+            std::min(direction[axis] * box.minimum[axis], direction[axis] * box.maximum[axis]);
+    return minimum;
 }
 
 template <class Distance>
 std::vector<Body> sortedBy(std::vector<Body> bodies, const Distance& distance) {
     const auto nearestOf = [&](const Body& body) {
-        double least = std::numeric_limits<double>::infinity();
+        double minimum = std::numeric_limits<double>::infinity();
         for (const scene::Bounds& box : body.boxes)
-            least = std::min(least, distance(box));
-        return least;
+            minimum = std::min(minimum, distance(box));
+        return minimum;
     };
     std::stable_sort(bodies.begin(), bodies.end(),
                      [&](const Body& a, const Body& b) { return nearestOf(a) < nearestOf(b); });
     return bodies;
 }
 
-// For rounding, and as far as a texel's front may lie beside the surface.
+// For rounding, and as far as a texel's front may lie next to the surface.
 double marginAround(const scene::Bounds& box, const render::RasterView& view) {
     double farthest = 1.0;
     if (!view.isOrthographic) {
@@ -106,9 +108,9 @@ struct Drawing {
 // Into a layer, or all of them.
 gl::Command commandFor(gl::PassContext& context, const Drawing& data, bool isOnce, int layer) {
     const BodyBuffers& buffers = data.buffers;
-    std::vector<std::string> shaders = {"adaptive_caustic_map/deferred.vert",
-                                        "adaptive_caustic_map/deferred.frag"};
-    if (isOnce) shaders.insert(shaders.begin() + 1, "adaptive_caustic_map/deferred.geom");
+    std::vector<std::string> shaders = {"deferred_buffers/deferred.vert",
+                                        "deferred_buffers/deferred.frag"};
+    if (isOnce) shaders.insert(shaders.begin() + 1, "deferred_buffers/deferred.geom");
     gl::Command command = context.shaders(std::move(shaders));
     if (isOnce) command.define("ONCE");
     buffers.views->bindTo(command).set("projection", buffers.views->view(0).projection());
@@ -182,16 +184,16 @@ std::string quoted(const std::vector<std::string>& names) {
     return names.empty() ? "" : fmt::format("'{}'", fmt::join(names, "', '"));
 }
 
-std::string namesBeyond(const std::vector<Body>& bodies, int most) {
+std::string omittedNames(const std::vector<Body>& bodies, int maximum) {
     std::vector<std::string> names;
-    for (auto i = static_cast<std::size_t>(most); i < bodies.size(); ++i)
+    for (auto i = static_cast<std::size_t>(maximum); i < bodies.size(); ++i)
         names.insert(names.end(), bodies[i].names.begin(), bodies[i].names.end());
     return quoted(names);
 }
 
-void keepFirst(std::vector<Body>& bodies, int most) {
-    if (bodies.size() > static_cast<std::size_t>(most))
-        bodies.erase(bodies.begin() + most, bodies.end());
+void truncateBodies(std::vector<Body>& bodies, int maximum) {
+    if (bodies.size() > static_cast<std::size_t>(maximum))
+        bodies.erase(bodies.begin() + maximum, bodies.end());
 }
 
 void BodyBuffers::sample(graph::PassSetup& setup) const {
@@ -217,7 +219,7 @@ BodyBuffers drawBodies(FrameBuilder& frame, const Geometry& geometry, const View
                        const std::vector<Body>& bodies, const BodyBuffersPass& pass) {
     return frame
         .pass<Drawing>(
-            pass.name, pass.why,
+            pass.name, pass.reason,
             [&](graph::PassSetup& setup, Drawing& data) {
                 data.geometry = geometry;
                 if (geometry.heightFields.valid()) setup.read(geometry.heightFields);

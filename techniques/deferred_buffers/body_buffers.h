@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "techniques/adaptive_caustic_map/deferred_buffers.h"
+#include "techniques/deferred_buffers/deferred_buffers.h"
 
 namespace kaustik {
 
@@ -26,8 +26,8 @@ struct Body {
 // "'a', 'b'"
 [[nodiscard]] std::string quoted(const std::vector<std::string>& names);
 // Of what is left of them beyond the first so many; "" where nothing is.
-[[nodiscard]] std::string namesBeyond(const std::vector<Body>& bodies, int most);
-void keepFirst(std::vector<Body>& bodies, int most);
+[[nodiscard]] std::string omittedNames(const std::vector<Body>& bodies, int maximum);
+void truncateBodies(std::vector<Body>& bodies, int maximum);
 
 // Arrays: the front and the back of body i are layers 2i and 2i + 1, and after those of all the
 // first surface that is no dielectric.
@@ -39,24 +39,25 @@ struct BodyBuffers {
     int bodies = 0;
     int boxes = 0;
     const gl::Buffer* boxData = nullptr;  // of deferred::BodyBox; lives as long as the frame
-    // For adaptive_caustic_map/bodies.glsl: "bodyDepth", "bodySurface", "bodyShape"; shaders are
+    // For deferred_buffers/bodies.glsl: "bodyDepth", "bodySurface", "bodyShape"; shaders are
     // compiled as BODIES, and of more than one as SEVERAL_BODIES.
     void sample(graph::PassSetup& setup) const;
     // The block "BodyBoxes", "boxCount" and "bodyCount".
     void bindTo(gl::Command& command) const;
 };
 
-// How rays that have left a body look for the next one (include/plane_search.glsl).
+// How rays that have left a body look for the next one (include/views/plane_search.glsl).
 struct BodySearchParams {
-    int looks = 48;
+    int searchSteps = 48;
     int iterations = 4;
     int refinements = 6;
     template <class R>
     void reflect(R& r) {
-        r.field(looks, "looks",
+        r.field(searchSteps, "search_steps",
                 "Even steps through a body's box in which its front is searched before what "
                 "iteration has found, or where it has found nothing",
                 "", params::range(0, 1024));
+        r.renamed("looks", "search_steps");
         r.field(iterations, "iterations",
                 "Looks at the front that a ray may meet before the residual's test", "",
                 params::range(1, 64));
@@ -72,7 +73,7 @@ void setBoxes(FrameBuilder& frame, const std::vector<Body>& bodies, const std::s
 // What the pass is called, and the names of its textures begin with.
 struct BodyBuffersPass {
     std::string name;
-    std::string why;
+    std::string reason;
     std::string prefix;
     bool hasShape = false;
     DeferredGeometry geometry = DeferredGeometry::once;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "techniques/adaptive_caustic_map/deferred_buffers.h"
+#include "techniques/deferred_buffers/deferred_buffers.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "techniques/adaptive_caustic_map/body_buffers.h"
-#include "techniques/shared/light_sight.h"
+#include "techniques/deferred_buffers/body_buffers.h"
+#include "techniques/raster_views/light_sight.h"
 
 namespace kaustik {
 namespace {
@@ -34,11 +34,11 @@ void draw(const FrameInputs& inputs, gl::PassContext& context, const Drawing& da
           int layer, bool seesBacksFirst) {
     const DeferredBuffers& buffers = data.buffers;
     const render::RasterViews& views = *buffers.views;
-    gl::Command command = isOnce ? context.shaders({"adaptive_caustic_map/deferred.vert",
-                                                    "adaptive_caustic_map/deferred.geom",
-                                                    "adaptive_caustic_map/deferred.frag"})
-                                 : context.shaders({"adaptive_caustic_map/deferred.vert",
-                                                    "adaptive_caustic_map/deferred.frag"});
+    gl::Command command =
+        isOnce
+            ? context.shaders({"deferred_buffers/deferred.vert", "deferred_buffers/deferred.geom",
+                               "deferred_buffers/deferred.frag"})
+            : context.shaders({"deferred_buffers/deferred.vert", "deferred_buffers/deferred.frag"});
     command.define("TRIANGLES");
     if (isOnce) {
         command.define("ONCE").set("firstLayer", 0);
@@ -66,19 +66,19 @@ glm::ivec2 texelsOf(const render::RasterView& view, int size) {
 
 DeferredBuffers drawBuffers(FrameBuilder& frame, const Geometry& geometry,
                             const DeferredParams& params, const scene::Light& light,
-                            const render::RasterView& view, bool hasBacks,
+                            const render::RasterView& view, bool hasBackFaces,
                             const std::string& suffix) {
     const glm::ivec2 size = texelsOf(view, params.size);
     const Views views =
         frame.makeViews(render::Space::light, {render::inPixels(view, size.x, size.y)});
-    const int layers = hasBacks ? 2 : 1;
+    const int layers = hasBackFaces ? 2 : 1;
     const bool seesBacksFirst = mayBeInside(frame.scene(), light);
     return frame
         .pass<Drawing>(
             "emit.deferred_buffers",
             fmt::format("{} as light '{}' sees them{}",
-                        hasBacks ? "first surfaces and backs" : "first surfaces", light.name,
-                        !hasBacks                                   ? ""
+                        hasBackFaces ? "first surfaces and backs" : "first surfaces", light.name,
+                        !hasBackFaces                               ? ""
                         : params.geometry == DeferredGeometry::once ? ", in one drawing"
                                                                     : ", in two drawings"),
             [&](graph::PassSetup& setup, Drawing& data) {
@@ -86,7 +86,7 @@ DeferredBuffers drawBuffers(FrameBuilder& frame, const Geometry& geometry,
                 if (geometry.heightFields.valid()) setup.read(geometry.heightFields);
                 DeferredBuffers& made = data.buffers;
                 made.views = views;
-                made.hasBacks = hasBacks;
+                made.hasBackFaces = hasBackFaces;
                 made.cells = view.halfExtent / views->view(0).halfExtent;
                 made.triangle = setup.create<TriangleTexel>("deferred.triangle" + suffix, size.x,
                                                             size.y, layers);
@@ -94,7 +94,7 @@ DeferredBuffers drawBuffers(FrameBuilder& frame, const Geometry& geometry,
                     setup.create<ViewDepth>("deferred.depth" + suffix, size.x, size.y, layers);
                 made.surface =
                     setup.create<SurfaceTexel>("deferred.surface" + suffix, size.x, size.y, layers);
-                if (hasBacks && frame.usesBeams()) {
+                if (hasBackFaces && frame.usesBeams()) {
                     made.shape =
                         setup.create<HitShape>("deferred.shape" + suffix, size.x, size.y, layers);
                 }
@@ -103,7 +103,7 @@ DeferredBuffers drawBuffers(FrameBuilder& frame, const Geometry& geometry,
             },
             [&inputs = frame.inputs(), params, seesBacksFirst](const Drawing& data,
                                                                gl::PassContext& context) {
-                const bool drawsBacks = data.buffers.hasBacks;
+                const bool drawsBacks = data.buffers.hasBackFaces;
                 if (drawsBacks && params.geometry == DeferredGeometry::once) {
                     draw(inputs, context, data, true, gl::Command::kAllLayers, seesBacksFirst);
                     return;
@@ -119,14 +119,14 @@ std::vector<DeferredBuffers> drawAll(FrameBuilder& frame, const Geometry& geomet
     const auto& params = frame.params<DeferredParams>("emit.deferred");
     const std::vector<scene::Light>& lights = frame.scene().lights;
     const std::vector<LightSight> sights = sightsOfSpecular(frame);
-    const bool hasBacks = sharesBacks(frame);
+    const bool hasBackFaces = sharesBackFaces(frame);
     std::vector<DeferredBuffers> buffers;
     for (std::size_t i = 0; i < sights.size(); ++i) {
         const scene::Bounds whole = sceneBounds(frame.scene());
         const render::RasterView view = params.frame == DeferredFrame::tight
                                             ? sights[i].view
                                             : render::makeLightView(lights[i], whole, whole);
-        buffers.push_back(drawBuffers(frame, geometry, params, lights[i], view, hasBacks,
+        buffers.push_back(drawBuffers(frame, geometry, params, lights[i], view, hasBackFaces,
                                       i == 0 ? "" : fmt::format(".{}", i + 1)));
     }
     return buffers;
@@ -148,7 +148,7 @@ void DeferredBuffers::bindTo(gl::Command& command) const {
         .offer("cellsOfView", glm::vec2(cells));
 }
 
-bool sharesBacks(const FrameBuilder& frame) {
+bool sharesBackFaces(const FrameBuilder& frame) {
     const params::ParamSet& params = frame.inputs().params;
     return params.choice(EmitStage::name) == "deferred" &&
            params.choice(SpecularStage::name) == "deferred" && bodiesOf(frame.scene()).size() == 1;

@@ -23,7 +23,7 @@ struct DeferredBuffers {
     graph::Texture<SurfaceTexel> surface;  // normals in the light's view space
     graph::Texture<HitShape> shape;        // the same; of backs that are shared, for beams
     Views views;                           // one
-    bool hasBacks = false;
+    bool hasBackFaces = false;
     glm::dvec2 cells{1.0};  // the part of the view that cells share out, as emit.grid's do
     // "deferredTriangle", "deferredDepth", "deferredSurface", "cellsOfView".
     void bindTo(gl::Command& command) const;
@@ -31,7 +31,7 @@ struct DeferredBuffers {
 };
 
 // Whether specular.deferred takes the backs of these buffers: of a scene's only body.
-[[nodiscard]] bool sharesBacks(const FrameBuilder& frame);
+[[nodiscard]] bool sharesBackFaces(const FrameBuilder& frame);
 
 // By light, drawn once a frame by the first who asks.
 [[nodiscard]] const std::vector<DeferredBuffers>& deferredBuffers(FrameBuilder& frame,

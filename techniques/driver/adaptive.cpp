@@ -20,10 +20,10 @@
 #include "framework/core/error.h"
 #include "framework/pipeline/frame_builder.h"
 #include "framework/pipeline/stage_params.h"
-#include "techniques/adaptive_caustic_map/cell_lists.h"
-#include "techniques/adaptive_caustic_map/landing.h"
-#include "techniques/adaptive_caustic_map/nodes.h"
-#include "techniques/shared/photon_paths.h"
+#include "techniques/light_cells/cell_lists.h"
+#include "techniques/light_cells/landing.h"
+#include "techniques/light_cells/refine_stage.h"
+#include "techniques/photon_lists/photon_paths.h"
 
 namespace kaustik {
 namespace {
@@ -46,14 +46,14 @@ int levelOf(int cells) {
 struct Purpose {
     std::string suffix;  // of its resources
     RefineMetric metric = RefineMetric::map;
-    LandingOf landing = LandingOf::probe;
+    LandingSource landing = LandingSource::probe;
     float tolerance = 1.0f;
     TraversalSizes sizes;
     PhotonUse use;
 };
 
 LightCells makeList(graph::PassSetup& setup, const std::string& name, const std::string& listName,
-                    const ListRoom& room) {
+                    const ListCapacity& room) {
     LightCells list;
     list.width = room.width;
     list.height = room.height;
@@ -105,7 +105,7 @@ Start start(FrameBuilder& frame, const Purpose& purpose) {
             counts.waiting = static_cast<unsigned>(cells);
             counts.moreCells = 1;
             context.buffer(data.traversal.counts).upload(0, sizeof(counts), &counts);
-            context.compute("adaptive_caustic_map/start.comp")
+            context.compute("driver/adaptive_start.comp")
                 .storage("WaitingCells", data.traversal.waiting)
                 .set("side", side)
                 .set("level", static_cast<unsigned>(level))
@@ -132,13 +132,13 @@ CellTraversal take(FrameBuilder& frame, const CellTraversal& before, const Trave
             setup.storage("ProbeList", data.probes.list);
         },
         [sizes](const CellTraversal& data, gl::PassContext& context) {
-            context.compute("adaptive_caustic_map/take_count.comp")
-                .set("mostTaken", static_cast<unsigned>(sizes.round.capacity()))
-                .set("mostPhotons", static_cast<unsigned>(sizes.photons.capacity()))
+            context.compute("driver/adaptive_take_count.comp")
+                .set("maxTaken", static_cast<unsigned>(sizes.round.capacity()))
+                .set("maxPhotons", static_cast<unsigned>(sizes.photons.capacity()))
                 .set("takenRow", static_cast<unsigned>(sizes.round.width))
                 .set("probeRow", static_cast<unsigned>(sizes.probes.width))
                 .dispatch(1);
-            context.compute("adaptive_caustic_map/take.comp")
+            context.compute("driver/adaptive_take.comp")
                 .dispatchIndirect(data.taken.list, offsetof(transport::PhotonList, groupsX));
         });
 }
@@ -146,7 +146,7 @@ CellTraversal take(FrameBuilder& frame, const CellTraversal& before, const Trave
 // Follows the probes to where they arrive.
 CellTraversal probe(FrameBuilder& frame, CellTraversal traversal, const Surfaces& surfaces,
                     Ledger& scratch, const Purpose& purpose) {
-    const FrameBuilder::Within within(frame, RefineStage::name);
+    const FrameBuilder::PassScope within(frame, RefineStage::name);
     Samples samples;
     samples.suffix = purpose.suffix + ".probes";
     samples.cells = traversal.probes;
@@ -161,7 +161,7 @@ CellTraversal probe(FrameBuilder& frame, CellTraversal traversal, const Surfaces
         const Photons photons = frame.run<SpecularStage>(hits, surfaces);
         interactions = interactionCount(frame, photons.paths);
         if (i == 0) {
-            traversal.branches = photons.cells.splits > 0 ? kMostBranches : 1;
+            traversal.branches = photons.cells.splits > 0 ? kMaxBranches : 1;
             const CellTraversal before = traversal;
             traversal = frame.pass<CellTraversal>(
                 "landings", "nothing has landed yet",
@@ -177,8 +177,8 @@ CellTraversal probe(FrameBuilder& frame, CellTraversal traversal, const Surfaces
         }
         hits = frame.run<TraceStage>(photons, surfaces);
         scratch = hits.incoming.ledger;
-        traversal.landings = land(frame, "land", traversal.landings, hits, surfaces, purpose.metric,
-                                  purpose.landing, traversal.branches);
+        traversal.landings = findLandings(frame, "land", traversal.landings, hits, surfaces,
+                                          purpose.metric, purpose.landing, traversal.branches);
     }
     return traversal;
 }
@@ -192,7 +192,7 @@ CellTraversal nextBatch(FrameBuilder& frame, const CellTraversal& before) {
             data.counts = setup.storage("CellCounting", setup.write(before.counts));
         },
         [](const CellTraversal&, gl::PassContext& context) {
-            context.compute("adaptive_caustic_map/next.comp").dispatch(1);
+            context.compute("driver/adaptive_next.comp").dispatch(1);
         });
 }
 
@@ -219,41 +219,29 @@ void traverse(FrameBuilder& frame, const Surfaces& surfaces, const Purpose& purp
     if (purpose.use.stores) caustic.cells = traversal.counts;
 }
 
-void sayWhatHasNoEffect(FrameBuilder& frame) {
-    for (const char* name : {"emit.photons", "emit.batch"}) {
-        if (!frame.inputs().params.isSetByUser(name)) continue;
-        frame.warn(fmt::format(
-            "{} has no effect with driver=adaptive; refine.finest and refine.memory have.", name));
-    }
-}
-
-Caustic followAdaptively(FrameBuilder& frame, const params::NoParams&, Surfaces surfaces) {
+Caustic driveAdaptive(FrameBuilder& frame, const params::NoParams&, Surfaces surfaces) {
     const FrameInputs& inputs = frame.inputs();
-    const Registry::Node& emitter =
-        inputs.registry.findNode(EmitStage::name, inputs.params.choice(EmitStage::name));
-    if (!emitter.description.emitsCells) {
+    if (!frame.traits<EmitStage>().emitsCells) {
         throw ConfigError(fmt::format(
             "driver.adaptive asks for photons one by one, which emit.{} does not make; take "
             "emit=deferred.",
-            emitter.name));
+            inputs.params.choice(EmitStage::name)));
     }
     const auto& params = frame.params<RefineParams>("refine");
-    sayWhatHasNoEffect(frame);
-    Purpose map{"", params.metric, LandingOf::probe, params.tolerance, sizesOf(frame, params), {}};
+    Purpose map{"", params.metric, LandingSource::probe, params.tolerance, sizesOf(frame, params),
+                {}};
     const bool scatters = frame.needs().scatteringMedium;
     const bool isApart =
         scatters && params.medium > 0.0f && params.metric != RefineMetric::traversal;
     map.use.scatters = !isApart;
-    if (!isApart && frame.inputs().params.isSetByUser("refine.medium") && params.medium > 0.0f)
-        frame.warn("refine.medium has no effect: the medium has no photons of its own here.");
     Caustic caustic;
     traverse(frame, surfaces, map, caustic);
     if (isApart) {
         // Paths of light vary much less over the picture than where it arrives.
-        Purpose medium{".medium",     RefineMetric::eye, LandingOf::path,
+        Purpose medium{".medium",     RefineMetric::eye, LandingSource::path,
                        params.medium, map.sizes,         {false, true, {}}};
         medium.sizes.checkLevel = medium.sizes.startLevel + 1;
-        const FrameBuilder::Within within(frame, MediaStage::name);
+        const FrameBuilder::PassScope within(frame, MediaStage::name);
         traverse(frame, surfaces, medium, caustic);
     }
     finishMedia(frame, caustic);
@@ -270,28 +258,29 @@ TraversalSizes sizesOf(const FrameBuilder& frame, const RefineParams& params) {
     sizes.checkLevel = levelOf(powerOfTwo("check", params.check));
     // Two lists of photons and their hits at a time, of probes and of photons; cells, landings.
     const double each = 2.0 * (frame.usesBeams() ? 160.0 : 112.0) * 2.0 + 3.0 * sizeof(LightCell) +
-                        kMostBranches * sizeof(transport::Landing);
-    const double most = static_cast<double>(params.memoryMebibytes) * 1048576.0 / each;
+                        kMaxBranches * sizeof(transport::Landing);
+    const double maximum = static_cast<double>(params.memoryMebibytes) * 1048576.0 / each;
     // There are no more than there are finest cells; more at once would be no faster, and textures
     // have an end.
     const double cells = frame.needs().lights * std::exp2(2.0 * sizes.finestLevel);
     const double end = std::clamp(std::ceil(cells / 4096.0) * 4096.0, 4096.0, 16777216.0);
-    const int photons = static_cast<int>(std::clamp(most, 4096.0, end)) / 4096 * 4096;
+    const int photons = static_cast<int>(std::clamp(maximum, 4096.0, end)) / 4096 * 4096;
     sizes.photons = {2048, std::max(photons / 2048, 2)};
     sizes.probes = sizes.photons;
     sizes.round = {1024, sizes.probes.capacity() / 4 / 1024};
     return sizes;
 }
 
-void registerAdaptiveDriver(Registry& registry) {
+void registerDriverAdaptive(Registry& registry) {
     registry.node<DriverStage>(
         "adaptive",
-        {.sentence =
-             "Photons of the cells of each light's view that the stage refine has found, in "
-             "batches that fit into refine.memory.",
-         .source = "WN09, sections 3.2 and 4.3",
-         .refines = true},
-        &followAdaptively);
+        {"Photons of the cells of each light's view that the stage refine has found, in "
+         "batches that fit into refine.memory.",
+         "WN09, sections 3.2 and 4.3",
+         "It needs an emitter that makes photons cell by cell, emit=deferred, and refuses every "
+         "other; emit.photons and emit.batch have no effect. What is thinner than a texel of "
+         "emit.deferred.size is not found."},
+        {.refines = true}, &driveAdaptive);
 }
 
 }  // namespace kaustik

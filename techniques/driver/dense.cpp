@@ -3,14 +3,12 @@
 // interaction to interaction: what arrives is stored at once, and what reaches another specular
 // surface is the next list. In: surfaces; out: the map of flux, W, and in-scattered light.
 #include "framework/pipeline/frame_builder.h"
-#include "techniques/shared/nodes.h"
-#include "techniques/shared/photon_paths.h"
+#include "techniques/photon_lists/photon_paths.h"
 
 namespace kaustik {
 namespace {
 
-Caustic followAllPhotons(FrameBuilder& frame, const params::NoParams&, Surfaces surfaces) {
-    warnOfRefinement(frame, "dense");
+Caustic driveDense(FrameBuilder& frame, const params::NoParams&, Surfaces surfaces) {
     Caustic caustic;
     for (const Samples& samples : batchesOfGrids(frame))
         followPhotons(frame, surfaces, samples, caustic);
@@ -20,11 +18,14 @@ Caustic followAllPhotons(FrameBuilder& frame, const params::NoParams&, Surfaces 
 
 }  // namespace
 
-void registerDenseDriver(Registry& registry) {
+void registerDriverDense(Registry& registry) {
     registry.node<DriverStage>(
         "dense",
-        {"Every photon of every light, from interaction to interaction.", "K06, section 2.3"},
-        &followAllPhotons);
+        {"Every photon of every light, from interaction to interaction.", "K06, section 2.3",
+         "It follows as many photons as the emitter makes, wherever their light goes: no more "
+         "where "
+         "it converges, and no fewer where the eye sees nothing of it."},
+        &driveDense);
 }
 
 }  // namespace kaustik

@@ -10,9 +10,9 @@
 #include "framework/core/error.h"
 #include "framework/pipeline/frame_builder.h"
 #include "framework/pipeline/stage_params.h"
-#include "techniques/adaptive_caustic_map/landing.h"
-#include "techniques/adaptive_caustic_map/nodes.h"
-#include "techniques/shared/photon_paths.h"
+#include "techniques/light_cells/landing.h"
+#include "techniques/light_cells/refine_stage.h"
+#include "techniques/photon_lists/photon_paths.h"
 
 namespace kaustik {
 namespace {
@@ -20,7 +20,7 @@ namespace {
 // Squares of up to 64 cells a side are one photon.
 constexpr int kLevels = 6;
 
-// As shaders/adaptive_caustic_map/hierarchy.glsl has it.
+// As shaders/driver/hierarchical.glsl has it.
 struct HierarchyNode {
     glm::vec2 low, high;
     glm::vec4 flux;
@@ -46,13 +46,6 @@ struct HierarchyLayout {
     }
 };
 
-void setCells(gl::Command& command, const CellGrid& cells) {
-    command.set("cellGrid", glm::ivec2(cells.width, cells.rows))
-        .set("cellFirstRow", cells.firstRow)
-        .set("cellLights", glm::ivec2(cells.firstLight, cells.lights))
-        .set("cellSplits", cells.splits);
-}
-
 struct Merged {
     Hits hits;
     graph::Buffer<transport::CellCounts> counts;
@@ -75,9 +68,10 @@ Merged mergeArriving(FrameBuilder& frame, const Hits& hits, const Surfaces& surf
                 static_cast<std::size_t>(photons.capacity()));
         },
         [](const Landings& data, gl::PassContext& context) { context.buffer(data).clear(); });
-    landings = land(frame, "driver.land", landings, hits, surfaces,
-                    params.metric == RefineMetric::eye ? RefineMetric::eye : RefineMetric::map,
-                    LandingOf::photon, 1);
+    landings =
+        findLandings(frame, "driver.land", landings, hits, surfaces,
+                     params.metric == RefineMetric::eye ? RefineMetric::eye : RefineMetric::map,
+                     LandingSource::photon, 1);
     const HierarchyLayout layout(photons.cells);
     struct Data {
         Merged merged;
@@ -122,12 +116,12 @@ Merged mergeArriving(FrameBuilder& frame, const Hits& hits, const Surfaces& surf
             },
             [params, layout, list = photons](const Data& data, gl::PassContext& context) {
                 context.buffer(data.photonOfCell).clear();
-                gl::Command cells = context.compute("adaptive_caustic_map/hierarchy_cells.comp");
+                gl::Command cells = context.compute("driver/hierarchical_cells.comp");
                 setCells(cells, list.cells);
                 dispatchOver(cells, list);
                 for (int level = 1; level <= kLevels; ++level) {
                     const auto l = static_cast<std::size_t>(level);
-                    gl::Command mip = context.compute("adaptive_caustic_map/hierarchy_mip.comp");
+                    gl::Command mip = context.compute("driver/hierarchical_mip.comp");
                     if (level == 1) mip.define("FROM_PHOTONS");
                     mip.set("sizeBelow", layout.sizes[l - 1])
                         .set("size", layout.sizes[l])
@@ -136,7 +130,7 @@ Merged mergeArriving(FrameBuilder& frame, const Hits& hits, const Surfaces& surf
                     if (level > 1) mip.set("firstBelow", layout.firsts[l - 1]);
                     mip.dispatchOver(layout.sizes[l].x, 8, layout.sizes[l].y * layout.grids, 8);
                 }
-                gl::Command walk = context.compute("adaptive_caustic_map/hierarchy_walk.comp");
+                gl::Command walk = context.compute("driver/hierarchical_walk.comp");
                 setCells(walk, list.cells);
                 walk.set("levels", kLevels).set("tolerance", params.tolerance);
                 dispatchOver(walk, list);
@@ -144,9 +138,8 @@ Merged mergeArriving(FrameBuilder& frame, const Hits& hits, const Surfaces& surf
         .merged;
 }
 
-Caustic followHierarchically(FrameBuilder& frame, const params::NoParams&, Surfaces surfaces) {
+Caustic driveHierarchical(FrameBuilder& frame, const params::NoParams&, Surfaces surfaces) {
     const auto& params = frame.params<RefineParams>("refine");
-    warnOfRefinement(frame, "hierarchical", {"refine.tolerance", "refine.metric"});
     frame.skip("refine." + frame.inputs().params.choice(RefineStage::name),
                "every cell has its photon already");
     using Counts = graph::Buffer<transport::CellCounts>;
@@ -173,13 +166,16 @@ Caustic followHierarchically(FrameBuilder& frame, const params::NoParams&, Surfa
 
 }  // namespace
 
-void registerHierarchicalDriver(Registry& registry) {
+void registerDriverHierarchical(Registry& registry) {
     registry.node<DriverStage>(
         "hierarchical",
-        {.sentence = "Every photon of every light; those that arrive together are stored as one.",
-         .source = "W08, as WN09 describe it",
-         .refines = true},
-        &followHierarchically);
+        {"Every photon of every light; those that arrive together are stored as one.",
+         "W08, as WN09 describe it",
+         "It needs photons of neighbouring cells, as emit=grid and emit=deferred make them, and "
+         "refuses those that have none. Every photon is emitted and traced all the same: storing "
+         "alone is saved.",
+         {"refine.tolerance", "refine.metric"}},
+        &driveHierarchical);
 }
 
 }  // namespace kaustik

@@ -8,8 +8,8 @@
 
 #include "framework/pipeline/frame_builder.h"
 #include "framework/pipeline/stage_params.h"
-#include "techniques/adaptive_caustic_map/deferred_buffers.h"
-#include "techniques/adaptive_caustic_map/nodes.h"
+#include "techniques/deferred_buffers/deferred_buffers.h"
+#include "techniques/photon_lists/emitted.h"
 
 namespace kaustik {
 namespace {
@@ -33,8 +33,7 @@ void dispatchOverLights(const FrameInputs& inputs, gl::PassContext& context, con
     for (int light = first; light < end; ++light) {
         const DeferredBuffers& seen = buffers[static_cast<std::size_t>(light)];
         gl::Command command =
-            context.compute(onlyBeams ? "adaptive_caustic_map/emit_deferred_beams.comp"
-                                      : "adaptive_caustic_map/emit_deferred.comp");
+            context.compute(onlyBeams ? "emit/deferred_beams.comp" : "emit/deferred.comp");
         if (isList) {
             command.define("CELL_LIST").storage("LightCells", samples.cells.cells);
             if (samples.isProbe) command.define("PROBES");
@@ -72,10 +71,10 @@ Hits emitDeferred(FrameBuilder& frame, const DeferredParams& params, Surfaces su
     const std::vector<DeferredBuffers>& buffers = deferredBuffers(frame, surfaces.geometry);
     const bool isList = samples.cells.valid();
     const params::Extent grid = frame.params<EmitParams>("emit").photons;
-    // Cells beside a batch are known to it where they are to be joined with.
-    const int beside = frame.joinsCells() ? 1 : 0;
-    DeferredRows rows{grid, std::max(samples.firstRow - beside, 0), 0};
-    rows.count = std::min(samples.firstRow + samples.rows + beside, grid.height) - rows.first;
+    // Cells next to a batch are known to it where they are to be joined with.
+    const int borderRows = frame.joinsCells() ? 1 : 0;
+    DeferredRows rows{grid, std::max(samples.firstRow - borderRows, 0), 0};
+    rows.count = std::min(samples.firstRow + samples.rows + borderRows, grid.height) - rows.first;
     struct Data {
         Hits hits;
         Geometry geometry;
@@ -99,24 +98,16 @@ Hits emitDeferred(FrameBuilder& frame, const DeferredParams& params, Surfaces su
                 const int height = isList ? samples.cells.height : rows.count * samples.lights;
                 Photons photons = Photons::create(setup, width, height, samples.suffix,
                                                   frame.usesBeams(), samples.cells);
-                photons.batch = samples.suffix;
                 if (!isList) {
                     photons.cells = {grid.width,         rows.first,     rows.count,
                                      samples.firstLight, samples.lights, 0};
                 }
-                photons.ledger = samples.ledger.valid()
-                                     ? setup.write(samples.ledger)
-                                     : setup.createBuffer<transport::LedgerEntry>(
-                                           "ledger", transport::kAccountCount);
-                photons.store(setup);
-                data.hits = Hits::create(setup, photons);
-                data.hits.store(setup);
+                data.hits = storeEmitted(setup, photons, samples);
             },
             [&inputs = frame.inputs(), params, buffers, samples, rows](const Data& data,
                                                                        gl::PassContext& context) {
                 const Photons& photons = data.hits.incoming;
-                if (!samples.ledger.valid()) context.buffer(photons.ledger).clear();
-                if (!samples.cells.valid()) fillList(context, photons);
+                beginEmission(context, photons, samples);
                 for (const bool onlyBeams : {false, true}) {
                     if (onlyBeams && !photons.hasBeams()) continue;
                     dispatchOverLights(inputs, context, data.hits, data.geometry, buffers, params,
@@ -128,15 +119,15 @@ Hits emitDeferred(FrameBuilder& frame, const DeferredParams& params, Surfaces su
 
 }  // namespace
 
-void registerDeferredEmission(Registry& registry) {
+void registerEmitDeferred(Registry& registry) {
     registry.node<EmitStage>(
         "deferred",
-        {.sentence =
-             "Makes photons at any place of a light's view from fronts that are drawn once.",
-         .source = "WN09, sections 3.1 and 3.2",
-         .beams = true,
-         .emitsCells = true},
-        &emitDeferred);
+        {"Makes photons at any place of a light's view from fronts that are drawn once.",
+         "WN09, sections 3.1 and 3.2",
+         "What is thinner than a texel of emit.deferred.size is not found, which the ledger calls "
+         "emission_sampling. A light that would have to see wider than 160 degrees emits nothing "
+         "beyond that, and a warning says so."},
+        {.beams = true, .emitsCells = true}, &emitDeferred);
 }
 
 }  // namespace kaustik

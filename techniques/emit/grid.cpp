@@ -13,8 +13,8 @@
 
 #include "framework/pipeline/frame_builder.h"
 #include "framework/pipeline/stage_params.h"
-#include "techniques/shared/light_sight.h"
-#include "techniques/shared/nodes.h"
+#include "techniques/photon_lists/emitted.h"
+#include "techniques/raster_views/light_sight.h"
 
 namespace kaustik {
 namespace {
@@ -33,11 +33,11 @@ struct GridEmissionParams {
 };
 
 // Most parts along a side of a light's view.
-constexpr int kMostParts = 4096;
+constexpr int kMaxParts = 4096;
 
 int subcellsOf(const GridEmissionParams& params, params::Extent grid) {
-    const int most = std::min(params.subcells, kMostParts / std::max(grid.width, grid.height));
-    return std::max(most - (most + 1) % 2, 1);
+    const int maximum = std::min(params.subcells, kMaxParts / std::max(grid.width, grid.height));
+    return std::max(maximum - (maximum + 1) % 2, 1);
 }
 
 // What a light sees first through each sub-cell. x: object's index + 1, 0 none; y: the triangle.
@@ -45,7 +45,7 @@ struct SightOfLight {
     static constexpr Format format = Format::rg32ui;
 };
 
-// Cells of a batch: rows of the grids, with those beside it that its own are to be joined with.
+// Cells of a batch: rows of the grids, with those next to it that its own are to be joined with.
 struct GridRows {
     params::Extent grid;
     int first = 0;
@@ -65,7 +65,7 @@ struct GridEmission {
 
 void drawSight(const FrameInputs& inputs, gl::PassContext& context, const GridEmission& data,
                const LightSight& seen, const GridRows& rows) {
-    gl::Command command = context.shaders({"shared/emit_sight.vert", "shared/emit_sight.frag"});
+    gl::Command command = context.shaders({"emit/grid_sight.vert", "emit/grid_sight.frag"});
     command.target(data.sight).clear();
     command.depth(data.depth, gl::DepthTest::nearerReversed).clear();
     const int width = rows.grid.width * rows.subcells;
@@ -76,7 +76,7 @@ void drawSight(const FrameInputs& inputs, gl::PassContext& context, const GridEm
     inputs.gpuScene.draw(command, context, data.geometry, *seen.instances, render::DrawSet::all);
 }
 
-// Of the cells of a light: shaders that include include/light_grid.glsl.
+// Of the cells of a light: shaders that include include/photons/light_grid.glsl.
 void dispatchOverCells(const FrameInputs& inputs, gl::Command command, const GridEmission& data,
                        const LightSight& seen, const GridRows& rows, int light, int firstOfLight) {
     command.texture("sight", data.sight)
@@ -99,13 +99,13 @@ void emitFrom(const FrameInputs& inputs, gl::PassContext& context, const GridEmi
     const Photons& photons = data.hits.incoming;
     const int firstOfLight = (light - samples.firstLight) * rows.count;
     drawSight(inputs, context, data, seen, rows);
-    gl::Command emission = context.compute("shared/emit_grid.comp");
+    gl::Command emission = context.compute("emit/grid.comp");
     emission.set("ownRows", glm::ivec2(samples.firstRow, samples.firstRow + samples.rows));
     if (photons.extents.valid())
         emission.define("CELL_EXTENTS").image("nextExtents", photons.extents);
     dispatchOverCells(inputs, std::move(emission), data, seen, rows, light, firstOfLight);
     if (!photons.hasBeams()) return;
-    gl::Command beams = context.compute("shared/emit_beams.comp");
+    gl::Command beams = context.compute("emit/grid_beams.comp");
     beams.texture("photonPosition", photons.position)
         .texture("photonDirection", photons.direction)
         .texture("photonFlux", photons.flux)
@@ -125,41 +125,34 @@ Hits emitGrid(FrameBuilder& frame, const GridEmissionParams& params, Surfaces su
             frame.warn(
                 fmt::format("emit.grid.subcells = {} is taken as {}: an odd number, and no "
                             "more than {} parts along a side of a light's view.",
-                            params.subcells, subcells, kMostParts));
+                            params.subcells, subcells, kMaxParts));
         }
         return std::make_shared<std::vector<LightSight>>(sightsOfSpecular(frame));
     });
-    // Cells beside a batch are known to it where they are to be joined with.
-    const int beside = frame.joinsCells() ? 1 : 0;
-    GridRows rows{grid, std::max(samples.firstRow - beside, 0), 0, subcells};
-    rows.count = std::min(samples.firstRow + samples.rows + beside, grid.height) - rows.first;
-    const std::string why =
+    // Cells next to a batch are known to it where they are to be joined with.
+    const int borderRows = frame.joinsCells() ? 1 : 0;
+    GridRows rows{grid, std::max(samples.firstRow - borderRows, 0), 0, subcells};
+    rows.count = std::min(samples.firstRow + samples.rows + borderRows, grid.height) - rows.first;
+    const std::string reason =
         grids->empty() ? "keeps the transfer map empty: no light, or nothing specular"
                        : fmt::format("{} photons a light, {} light{}", grid.width * grid.height,
                                      grids->size(), grids->size() == 1 ? "" : "s");
     return frame
         .pass<GridEmission>(
-            "emit.grid", why,
+            "emit.grid", reason,
             [&](graph::PassSetup& setup, GridEmission& data) {
                 data.geometry = surfaces.geometry;
                 if (data.geometry.heightFields.valid()) setup.read(data.geometry.heightFields);
                 const int height = rows.count * samples.lights;
                 Photons photons =
                     Photons::create(setup, grid.width, height, samples.suffix, frame.usesBeams());
-                photons.batch = samples.suffix;
                 photons.cells = {grid.width,         rows.first,     rows.count,
                                  samples.firstLight, samples.lights, 0};
                 if (rows.subcells > 1) {
                     photons.extents = setup.create<CellExtentTexel>(
                         "photons.extents" + samples.suffix, grid.width, height);
                 }
-                photons.ledger = samples.ledger.valid()
-                                     ? setup.write(samples.ledger)
-                                     : setup.createBuffer<transport::LedgerEntry>(
-                                           "ledger", transport::kAccountCount);
-                photons.store(setup);
-                data.hits = Hits::create(setup, photons);
-                data.hits.store(setup);
+                data.hits = storeEmitted(setup, photons, samples);
                 data.sight = setup.create<SightOfLight>("emit.sight" + samples.suffix,
                                                         grid.width * rows.subcells,
                                                         rows.seen() * rows.subcells);
@@ -170,33 +163,30 @@ Hits emitGrid(FrameBuilder& frame, const GridEmissionParams& params, Surfaces su
             [&inputs = frame.inputs(), grids, samples, rows](const GridEmission& data,
                                                              gl::PassContext& context) {
                 const Photons& photons = data.hits.incoming;
-                if (!samples.ledger.valid()) context.buffer(photons.ledger).clear();
-                fillList(context, photons);
+                beginEmission(context, photons, samples);
                 const int end =
                     std::min(samples.firstLight + samples.lights, static_cast<int>(grids->size()));
                 for (int light = samples.firstLight; light < end; ++light) {
                     emitFrom(inputs, context, data, (*grids)[static_cast<std::size_t>(light)], rows,
                              samples, light);
                 }
-                if (!grids->empty()) return;
-                for (const std::vector<graph::ResourceRef>& textures :
-                     {photons.textures(), data.hits.textures()}) {
-                    for (const graph::ResourceRef& texture : textures)
-                        context.texture(texture).clear({0, 0, 0, 0});
-                }
+                if (grids->empty()) clearEmitted(context, data.hits);
             })
         .hits;
 }
 
 }  // namespace
 
-void registerGridEmission(Registry& registry) {
-    registry.node<EmitStage>("grid",
-                             {.sentence = "Rasterises the scene from each light, one photon a "
-                                          "cell where a specular surface is first.",
-                              .source = "K06, section 1.1",
-                              .beams = true},
-                             &emitGrid);
+void registerEmitGrid(Registry& registry) {
+    registry.node<EmitStage>(
+        "grid",
+        {"Rasterises the scene from each light, one photon a "
+         "cell where a specular surface is first.",
+         "K06, section 1.1",
+         "A specular object smaller than a part of a cell may be missed, which the ledger calls "
+         "emission_sampling. A light that would have to see wider than 160 degrees emits nothing "
+         "beyond that, and a warning says so."},
+        {.beams = true}, &emitGrid);
 }
 
 }  // namespace kaustik

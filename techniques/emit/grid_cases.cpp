@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Hard cases of the shared nodes alone.
-#include "techniques/shared/hard_cases.h"
+#include "techniques/register_hard_cases.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "framework/numerics/bench.h"
 #include "framework/numerics/cases/scene_text.h"
+#include "framework/numerics/stage_harness.h"
 
 namespace kaustik {
 namespace {
@@ -32,7 +32,7 @@ void solidAngleOfATexel(Lab& lab) {
         emitPhotons(lab, grid, scene, {{"emit.photons", fmt::format("{0}x{0}", kTexels)}});
     double worst = 0.0;
     std::size_t photons = 0;
-    for (const BenchHit& hit : emitted.hits) {
+    for (const StageHit& hit : emitted.hits) {
         if (hit.fate != transport::kFateSpecular) continue;
         ++photons;
         const double side = 2.0 * tangent / kTexels;
@@ -49,7 +49,7 @@ void solidAngleOfATexel(Lab& lab) {
 
 }  // namespace
 
-void addSharedCases(Suite& suite) {
+void addGridCases(Suite& suite) {
     suite.add("D34a", "", solidAngleOfATexel);
 }
 

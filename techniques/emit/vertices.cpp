@@ -7,10 +7,10 @@
 // every corner, and the list is that grid: cells, beams and extents go along the mesh, so that
 // reconstructions can join what neighbouring vertices bring. Both sides of a sheet count; a body is
 // hit from within only by a light that is inside of it. Which vertices the light sees first is
-// decided by a depth image from the light, by the planes of its texels (include/light_depth.glsl).
-// A mesh too coarse for its shadows loses or gains light by them: the sampling error of the
-// reference's report. Out: photons that arrive (flux in W) and the hits that they make; eye view
-// space, m; cells number the vertices of the specular objects.
+// decided by a depth image from the light, by the planes of its texels
+// (include/views/light_depth.glsl). A mesh too coarse for its shadows loses or gains light by them:
+// the sampling error of the reference's report. Out: photons that arrive (flux in W) and the hits
+// that they make; eye view space, m; cells number the vertices of the specular objects.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,9 +23,9 @@
 #include "framework/core/names.h"
 #include "framework/pipeline/frame_builder.h"
 #include "framework/scene/light_paths.h"
-#include "techniques/shared/light_sight.h"
-#include "techniques/shared/nodes.h"
-#include "techniques/shared/vertex_grid.h"
+#include "techniques/emit/vertices_grid.h"
+#include "techniques/photon_lists/emitted.h"
+#include "techniques/raster_views/light_sight.h"
 
 namespace kaustik {
 namespace {
@@ -42,9 +42,9 @@ struct VertexEmissionParams {
 
 constexpr int kRowLength = 1024;
 
-// From which side of its triangles light hits an object, as shared/emit_vertices.comp has it.
+// From which side of its triangles light hits an object, as emit/vertices.comp has it.
 constexpr int kFromOutside = 1;
-constexpr int kFromWithin = 2;
+constexpr int kFromInside = 2;
 
 struct EmittingObject {
     std::uint32_t object = 0;
@@ -87,12 +87,12 @@ bool isInside(const scene::Mesh& mesh, const glm::dvec3& point) {
 }
 
 int sidesOf(const scene::Scene& scene, const scene::Object& object, const scene::Light& light) {
-    if (isOpen(scene, object.material)) return kFromOutside | kFromWithin;
+    if (isOpen(scene, object.material)) return kFromOutside | kFromInside;
     const bool isDielectric =
         scene.materials[object.material].kind == scene::MaterialKind::dielectric;
     if (!isDielectric || light.kind == scene::LightKind::directional) return kFromOutside;
     const glm::dvec3 position(glm::inverse(object.toWorld) * glm::dvec4(light.position, 1.0));
-    return isInside(scene.meshes[object.mesh], position) ? kFromWithin : kFromOutside;
+    return isInside(scene.meshes[object.mesh], position) ? kFromInside : kFromOutside;
 }
 
 // The triangles around each vertex, after those of other meshes.
@@ -223,8 +223,6 @@ std::shared_ptr<Emission> makeEmission(FrameBuilder& frame, const VertexEmission
              "emit.light_depths", "emit.light_depth_buffer"},
             emission->lights, params.size, geometry)
             .map;
-    if (frame.inputs().params.isSetByUser("emit.photons"))
-        frame.warn("emit.photons has no effect: emit=vertices takes one photon a vertex.");
     return emission;
 }
 
@@ -241,7 +239,7 @@ params::Extent verticesOfALight(const FrameBuilder& frame) {
     return {width, (photons + width - 1) / width};
 }
 
-// Photons of a batch: rows of each light's, with those beside its own that they are to be joined
+// Photons of a batch: rows of each light's, with those next to its own that they are to be joined
 // with.
 struct VertexRows {
     int width = 0;
@@ -254,14 +252,14 @@ struct VertexEmission {
     Geometry geometry;
 };
 
-// `part`: which outputs are written, as shared/emit_vertices.comp has it.
+// `part`: which outputs are written, as emit/vertices.comp has it.
 void emitObject(const FrameInputs& inputs, gl::PassContext& context, const VertexEmission& data,
                 const Emission& emission, const VertexRows& rows, const Samples& samples, int light,
                 const EmittingObject& emitting, const std::string& part) {
     const auto number = static_cast<std::size_t>(light);
     const LightSight& sight = emission.lights[number];
     const Photons& photons = data.hits.incoming;
-    gl::Command command = context.compute("shared/emit_vertices.comp");
+    gl::Command command = context.compute("emit/vertices.comp");
     if (!part.empty()) command.define(part);
     if (emission.grid) {
         command.define("VERTEX_GRID")
@@ -299,10 +297,10 @@ Hits emitVertices(FrameBuilder& frame, const VertexEmissionParams& params, Surfa
     const auto emission = frame.once<Emission>(
         "emit.vertices", [&] { return makeEmission(frame, params, surfaces.geometry); });
     const bool isGrid = emission->grid.has_value();
-    // Rows beside a batch are known to it where they are to be joined with.
-    const int beside = isGrid && frame.joinsCells() ? 1 : 0;
-    VertexRows rows{all.width, std::max(samples.firstRow - beside, 0), 0};
-    rows.count = std::min(samples.firstRow + samples.rows + beside, all.height) - rows.first;
+    // Rows next to a batch are known to it where they are to be joined with.
+    const int borderRows = isGrid && frame.joinsCells() ? 1 : 0;
+    VertexRows rows{all.width, std::max(samples.firstRow - borderRows, 0), 0};
+    rows.count = std::min(samples.firstRow + samples.rows + borderRows, all.height) - rows.first;
     std::size_t vertices = 0;
     for (const EmittingObject& emitting : emission->objects)
         vertices += emitting.vertices;
@@ -319,7 +317,6 @@ Hits emitVertices(FrameBuilder& frame, const VertexEmissionParams& params, Surfa
                 const int height = rows.count * samples.lights;
                 Photons photons =
                     Photons::create(setup, rows.width, height, samples.suffix, frame.usesBeams());
-                photons.batch = samples.suffix;
                 if (isGrid) {
                     photons.cells = {rows.width,         rows.first,     rows.count,
                                      samples.firstLight, samples.lights, 0};
@@ -328,26 +325,15 @@ Hits emitVertices(FrameBuilder& frame, const VertexEmissionParams& params, Surfa
                     photons.extents = setup.create<CellExtentTexel>(
                         "photons.extents" + samples.suffix, rows.width, height);
                 }
-                photons.ledger = samples.ledger.valid()
-                                     ? setup.write(samples.ledger)
-                                     : setup.createBuffer<transport::LedgerEntry>(
-                                           "ledger", transport::kAccountCount);
-                photons.store(setup);
-                data.hits = Hits::create(setup, photons);
-                data.hits.store(setup);
+                data.hits = storeEmitted(setup, photons, samples);
             },
             [&inputs = frame.inputs(), emission, rows, samples](const VertexEmission& data,
                                                                 gl::PassContext& context) {
                 const Photons& photons = data.hits.incoming;
-                if (!samples.ledger.valid()) context.buffer(photons.ledger).clear();
-                fillList(context, photons);
+                beginEmission(context, photons, samples);
                 if (photons.extents.valid()) context.texture(photons.extents).clear({0, 0, 0, 0});
                 // Vertices that the light does not see are nobody.
-                for (const std::vector<graph::ResourceRef>& textures :
-                     {photons.textures(), data.hits.textures()}) {
-                    for (const graph::ResourceRef& texture : textures)
-                        context.texture(texture).clear({0, 0, 0, 0});
-                }
+                clearEmitted(context, data.hits);
                 const int end = std::min(samples.firstLight + samples.lights,
                                          static_cast<int>(emission->lights.size()));
                 for (int light = samples.firstLight; light < end; ++light) {
@@ -365,14 +351,17 @@ Hits emitVertices(FrameBuilder& frame, const VertexEmissionParams& params, Surfa
 
 }  // namespace
 
-void registerVertexEmission(Registry& registry) {
-    registry.node<EmitStage>("vertices",
-                             {.sentence = "One photon a vertex of the specular surfaces, with the "
-                                          "light that falls on the area around it.",
-                              .source = "Shah, Konttinen, Pattanaik (SP05)",
-                              .beams = true,
-                              .photons = &verticesOfALight},
-                             &emitVertices);
+void registerEmitVertices(Registry& registry) {
+    registry.node<EmitStage>(
+        "vertices",
+        {"One photon a vertex of the specular surfaces, with the "
+         "light that falls on the area around it.",
+         "Shah, Konttinen, Pattanaik (SP05)",
+         "Light is as fine as the mesh: a vertex is lit or not, so that shadows end between "
+         "vertices. Photons have neighbours only where a sheet with a grid of vertices is the only "
+         "specular object."},
+        {.beams = true, .photons = &verticesOfALight, .takes = "takes one photon a vertex"},
+        &emitVertices);
 }
 
 }  // namespace kaustik

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "techniques/shared/vertex_grid.h"
+#include "techniques/emit/vertices_grid.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -5,15 +5,15 @@
 // that it holds (B16: geometry drawn twice has the same depth). View space, m; receiver areas in
 // m².
 #include "framework/pipeline/frame_builder.h"
-#include "techniques/shared/nodes.h"
-#include "techniques/shared/receivers.h"
+#include "techniques/raster_views/receivers.h"
 
 namespace kaustik {
 
-SeenReceivers seeReceivers(FrameBuilder& frame, Geometry geometry, const Views& views,
-                           const std::string& name, const std::string& why, render::DrawSet drawn) {
+SeenReceivers renderReceivers(FrameBuilder& frame, Geometry geometry, const Views& views,
+                              const std::string& name, const std::string& reason,
+                              render::DrawSet drawn) {
     return frame.pass<SeenReceivers>(
-        name + ".receivers", why,
+        name + ".receivers", reason,
         [&](graph::PassSetup& setup, SeenReceivers& data) {
             data.geometry = geometry;
             if (geometry.heightFields.valid()) setup.read(geometry.heightFields);
@@ -33,7 +33,7 @@ SeenReceivers seeReceivers(FrameBuilder& frame, Geometry geometry, const Views& 
             const ReceiverView& seen = data.receivers;
             for (int face = 0; face < seen.views->count(); ++face) {
                 gl::Command command =
-                    context.shaders({"shared/eye.vert", "shared/eye_receiver.frag"});
+                    context.shaders({"raster_views/eye.vert", "eye/surfaces_receiver.frag"});
                 seen.views->bindTo(command).set("projection", seen.views->view(face).projection());
                 if (seen.views->count() > 1) command.set("face", face);
                 command.target(seen.receiver, face).clear();
@@ -56,8 +56,8 @@ EyeBuffer renderEye(FrameBuilder& frame, const params::NoParams&, Geometry geome
     };
     const glm::mat4 projection = frame.view().projection();
     const SeenReceivers seen =
-        seeReceivers(frame, geometry, frame.eyeViews(), "eye",
-                     "caustics are measured at the receivers that the eye sees");
+        renderReceivers(frame, geometry, frame.eyeViews(), "eye",
+                        "caustics are measured at the receivers that the eye sees");
     EyeBuffer receivers;
     static_cast<ReceiverView&>(receivers) = seen.receivers;
     if (frame.needs().specularInterfaces == 0) {
@@ -83,7 +83,7 @@ EyeBuffer renderEye(FrameBuilder& frame, const params::NoParams&, Geometry geome
             },
             [&inputs = frame.inputs(), projection](const Data& data, gl::PassContext& context) {
                 gl::Command command =
-                    context.shaders({"shared/eye.vert", "shared/eye_interface.frag"});
+                    context.shaders({"raster_views/eye.vert", "eye/surfaces_interface.frag"});
                 command.set("projection", projection);
                 command.target(data.eye.interface).clear();
                 command.target(data.eye.interfaceSurface).clear();
@@ -92,7 +92,7 @@ EyeBuffer renderEye(FrameBuilder& frame, const params::NoParams&, Geometry geome
                                      render::DrawSet::dielectrics);
                 if (inputs.needs.reflectors == 0) return;
                 gl::Command mirrors =
-                    context.shaders({"shared/eye.vert", "shared/eye_interface.frag"});
+                    context.shaders({"raster_views/eye.vert", "eye/surfaces_interface.frag"});
                 mirrors.set("projection", projection)
                     .target(data.eye.interface)
                     .target(data.eye.interfaceSurface)
@@ -106,11 +106,15 @@ EyeBuffer renderEye(FrameBuilder& frame, const params::NoParams&, Geometry geome
 }  // namespace
 
 void registerEyeSurfaces(Registry& registry) {
-    registry.node<EyeStage>("surfaces",
-                            {"Rasterises the first receiver and the first specular surface of "
-                             "every pixel.",
-                             ""},
-                            &renderEye);
+    registry.node<EyeStage>(
+        "surfaces",
+        {"Rasterises the first receiver and the first specular surface of "
+         "every pixel.",
+         "",
+         "A pixel knows one receiver and one specular surface, those on the ray through its "
+         "middle: what is thinner than a pixel may be missed. What lies behind the first specular "
+         "surface is for the stages layers and view to find."},
+        &renderEye);
 }
 
 }  // namespace kaustik

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "techniques/shared/view_passes.h"
+#include "techniques/eye_rays/view_passes.h"
 
 #include <fmt/format.h>
 
@@ -41,10 +41,10 @@ int deepestNesting(std::vector<scene::Bounds> boxes) {
     return boxes.empty() ? 0 : *std::max_element(depths.begin(), depths.end());
 }
 
-// Sets what include/scene_look.glsl is told besides what the pass has bound.
+// Sets what include/views/scene_look.glsl is told besides what the pass has bound.
 void setLook(const FrameInputs& inputs, gl::Command& command, const ViewPass& pass,
              const SceneLookParams& look) {
-    command.set("looksIntoScene", look.scene ? 1 : 0)
+    command.set("searchesScene", look.scene ? 1 : 0)
         .set("reflectsScene", look.scene && look.reflection ? 1 : 0)
         .set("lookMirrors", look.mirrors);
     if (inputs.needs.refractors > 0) command.define("DIELECTRICS");
@@ -54,14 +54,14 @@ void setLook(const FrameInputs& inputs, gl::Command& command, const ViewPass& pa
     if (looksInLayers) {
         command.define("LOOK_IN_LAYERS").set("sceneLayers", pass.sceneLayers);
     } else {
-        command.set("lookStride", look.stride);
+        command.set("searchStride", look.stride);
     }
 }
 
-// The first surface of every pixel, as rays see it that go by `offset`, px, beside the middles.
+// The first surface of every pixel, as rays see it that go by `offset`, px, next to the middles.
 void drawSights(const FrameInputs& inputs, gl::PassContext& context, const ViewSamples& samples,
                 const glm::vec2& offset) {
-    gl::Command command = context.shaders({"shared/eye.vert", "shared/view_sight.frag"});
+    gl::Command command = context.shaders({"raster_views/eye.vert", "eye_rays/sight.frag"});
     // What lies there comes to lie on the middle; clip.w is -z.
     glm::mat4 projection = inputs.view.projection();
     projection[2][0] += 2.0f * offset.x / static_cast<float>(inputs.view.width);
@@ -96,17 +96,15 @@ std::vector<glm::vec2> samplesOfPixel(int count) {
     return offsets;
 }
 
-View seeReceiversAlone(FrameBuilder& frame, const std::string& pass, const Radiance& receivers) {
-    frame.skip(pass, "the scene has no specular surface");
-    if (frame.params<ViewParams>("view").samples > 1)
-        frame.warn("view.samples has no effect: the scene has no specular surface.");
+View renderReceiversOnly(FrameBuilder& frame, const std::string& pass, const Radiance& receivers) {
+    frame.skip(pass, whyNothingSeenThrough(frame.facts()));
     return {receivers.radiance, {}, {}};
 }
 
-std::string whyLook(const FrameBuilder& frame) {
+std::string lookReason(const FrameBuilder& frame) {
     const int samples = frame.params<ViewParams>("view").samples;
-    const std::string why = "the eye looks at specular surfaces";
-    return samples > 1 ? fmt::format("{}, by {} rays a pixel", why, samples) : why;
+    const std::string reason = "the eye looks at specular surfaces";
+    return samples > 1 ? fmt::format("{}, by {} rays a pixel", reason, samples) : reason;
 }
 
 DielectricsBox boxOfDielectrics(const FrameBuilder& frame) {
@@ -194,14 +192,14 @@ void drawSpecular(const FrameInputs& inputs, gl::PassContext& context, const Vie
     const float share = 1.0f / static_cast<float>(samples.count);
     // First pixels that need no look, then the others, by the marks that the first have left.
     const auto drawSample = [&](float shareOfRay, const glm::vec2& offset) {
-        const bool isBeside = offset != glm::vec2(0.0f);
+        const bool isOffset = offset != glm::vec2(0.0f);
         for (std::size_t draw = 0; draw <= tells.size(); ++draw) {
             const bool looks = draw > 0;
-            gl::Command command = context.fullscreen(looks ? shader : "shared/view_straight.frag");
+            gl::Command command = context.fullscreen(looks ? shader : "eye_rays/straight.frag");
             if (looks) tells[draw - 1](command);
             if (samples.count > 1) command.define("MORE_SAMPLES").set("sampleShare", shareOfRay);
             command.target(pass.seen.radiance);
-            if (isBeside) {
+            if (isOffset) {
                 command.define("BESIDE_MIDDLE")
                     .set("sampleOffset", offset)
                     .texture("sight", samples.sight)
@@ -217,10 +215,10 @@ void drawSpecular(const FrameInputs& inputs, gl::PassContext& context, const Vie
             command.draw();
         }
     };
-    std::vector<glm::vec2> beside = samplesOfPixel(samples.count);
-    const bool isMiddleOne = std::erase(beside, glm::vec2(0.0f)) > 0;
+    std::vector<glm::vec2> sampleOffsets = samplesOfPixel(samples.count);
+    const bool isMiddleOne = std::erase(sampleOffsets, glm::vec2(0.0f)) > 0;
     drawSample(isMiddleOne ? share : 0.0f, glm::vec2(0.0f));
-    for (const glm::vec2& offset : beside) {
+    for (const glm::vec2& offset : sampleOffsets) {
         drawSights(inputs, context, samples, offset);
         drawSample(share, offset);
     }
@@ -242,30 +240,30 @@ std::size_t countExits(const gl::Texture& exitDirection, float ending) {
     return count;
 }
 
-void keepToExitLimit(FrameBuilder& frame, const std::string& pass, const View& seen,
+void reportExitLimit(FrameBuilder& frame, const std::string& pass, const View& seen,
                      const std::string& parameter, const std::string& unit, int value, float ending,
                      const std::string& fate) {
-    frame.keepsTo({pass,
-                   {seen.exitDirection},
-                   [=, exits = seen.exitDirection](
-                       const gl::Executor& executor) -> std::optional<ReachedLimit> {
-                       const std::size_t rays = countExits(executor.texture(exits), ending);
-                       if (rays == 0) return {};
-                       return ReachedLimit{
-                           parameter,
-                           unit,
-                           static_cast<double>(value),
-                           0.0,
-                           fmt::format("the eye's rays of {} pixels {}", rays, fate),
-                           0.0};
-                   }});
+    frame.reportLimit({pass,
+                       {seen.exitDirection},
+                       [=, exits = seen.exitDirection](
+                           const gl::Executor& executor) -> std::optional<ReachedLimit> {
+                           const std::size_t rays = countExits(executor.texture(exits), ending);
+                           if (rays == 0) return {};
+                           return ReachedLimit{
+                               parameter,
+                               unit,
+                               static_cast<double>(value),
+                               0.0,
+                               fmt::format("the eye's rays of {} pixels {}", rays, fate),
+                               0.0};
+                       }});
 }
 
-void keepToMirrors(FrameBuilder& frame, const std::string& pass, const View& seen,
-                   const SceneLookParams& look) {
+void reportMirrorLimit(FrameBuilder& frame, const std::string& pass, const View& seen,
+                       const SceneLookParams& look) {
     if (frame.needs().reflectors == 0) return;
-    keepToExitLimit(frame, pass, seen, pass + ".mirrors", "mirrors", look.mirrors,
-                    transport::kPathMirroredTooOften,
+    reportExitLimit(frame, pass, seen, pass + ".mirrors", "mirrors", look.mirrors,
+                    transport::kPathMirrorLimit,
                     "hit one more mirror, in which they see the environment");
 }
 

@@ -37,13 +37,15 @@ struct SceneLookParams {
         r.field(stride, "stride",
                 "Pixels between two looks of a ray at the receivers; thinner ones may be missed. "
                 "Layers are looked at in every pixel",
-                "px", params::range(1, 64));
+                "px", params::range(1, 64))
+            .when(scene, "with scene=false")
+            .when(surfaces == LookSurfaces::receivers, "with surfaces=layers");
         r.field(mirrors, "mirrors", "Most mirrors that a ray hits one after the other", "",
                 params::range(1, 64));
     }
 };
 
-// What a ray beside a pixel's middle sees first. x: view depth in m, of a receiver negative, 0
+// What a ray next to a pixel's middle sees first. x: view depth in m, of a receiver negative, 0
 // none; yz: the triangle's outward unit normal, octahedral; w: material + 1.
 struct SightTexel {
     static constexpr Format format = Format::rgba32f;
@@ -65,7 +67,7 @@ struct DielectricsBox {
 // middle, which is one of them where the count is odd; of 4 the rotated grid.
 [[nodiscard]] std::vector<glm::vec2> samplesOfPixel(int count);
 
-// The first surfaces that rays beside the pixels' middles see, drawn anew for each sample.
+// The first surfaces that rays next to the pixels' middles see, drawn anew for each sample.
 struct ViewSamples {
     int count = 1;  // of one, the middle, nothing is drawn
     graph::Texture<SightTexel> sight;
@@ -85,13 +87,13 @@ struct ViewPass {
 
 // A scene without specular surfaces: the pass `pass` is skipped, and the receivers are what is
 // seen.
-[[nodiscard]] View seeReceiversAlone(FrameBuilder& frame, const std::string& pass,
-                                     const Radiance& receivers);
+[[nodiscard]] View renderReceiversOnly(FrameBuilder& frame, const std::string& pass,
+                                       const Radiance& receivers);
 // Why such a pass runs, for pass().
-[[nodiscard]] std::string whyLook(const FrameBuilder& frame);
+[[nodiscard]] std::string lookReason(const FrameBuilder& frame);
 
-// Declares what such a pass reads, by the names of include/scene_look.glsl, and the outputs of its
-// View. A pass that is disabled shows the receivers and no exits.
+// Declares what such a pass reads, by the names of include/views/scene_look.glsl, and the outputs
+// of its View. A pass that is disabled shows the receivers and no exits.
 [[nodiscard]] ViewPass declareLook(const FrameBuilder& frame, graph::PassSetup& setup,
                                    const SceneLookParams& look, const Geometry& geometry,
                                    const EyeBuffer& eye, const LayeredDepth& sceneLayers,
@@ -100,11 +102,11 @@ struct ViewPass {
 // Tells a shader what it asks for.
 using Tell = std::function<void(gl::Command&)>;
 // Draws all that such a pass gives: `shader` once for each sample of a pixel that meets a specular
-// surface first (shared/view_straight.frag draws the others), as often as there are `tells`. Exits
+// surface first (eye_rays/straight.frag draws the others), as often as there are `tells`. Exits
 // are those of the middle, whose ray is followed for them where it is not one of the samples.
 void drawSpecular(const FrameInputs& inputs, gl::PassContext& context, const ViewPass& pass,
                   const std::string& shader, const std::vector<Tell>& tells);
-// The same once, of a shader that is told besides what include/scene_look.glsl is.
+// The same once, of a shader that is told besides what include/views/scene_look.glsl is.
 void drawLook(const FrameInputs& inputs, gl::PassContext& context, const ViewPass& pass,
               const SceneLookParams& look, const std::string& shader, const Tell& tell);
 
@@ -112,11 +114,11 @@ void drawLook(const FrameInputs& inputs, gl::PassContext& context, const ViewPas
 [[nodiscard]] std::size_t countExits(const gl::Texture& exitDirection, float ending);
 
 // What pixels whose rays end at a cap of a view node are told by. `fate`: what becomes of them.
-void keepToExitLimit(FrameBuilder& frame, const std::string& pass, const View& seen,
+void reportExitLimit(FrameBuilder& frame, const std::string& pass, const View& seen,
                      const std::string& parameter, const std::string& unit, int value, float ending,
                      const std::string& fate);
 // The cap on mirrors, of the node `pass`; nothing where the scene has none.
-void keepToMirrors(FrameBuilder& frame, const std::string& pass, const View& seen,
-                   const SceneLookParams& look);
+void reportMirrorLimit(FrameBuilder& frame, const std::string& pass, const View& seen,
+                       const SceneLookParams& look);
 
 }  // namespace kaustik

@@ -6,8 +6,7 @@
 #include <utility>
 
 #include "framework/core/error.h"
-#include "techniques/caustic_map/projection.h"
-#include "techniques/caustic_triangles/nodes.h"
+#include "techniques/maps/projection.h"
 
 namespace kaustik {
 namespace {
@@ -15,17 +14,22 @@ namespace {
 enum class Incidence : int { mean, centre };
 
 struct CubeParams {
-    int places = 4;
+    int maxSamples = 4;
     Incidence incidence = Incidence::mean;
     template <class R>
     void reflect(R& r) {
-        r.field(places, "places",
+        r.field(maxSamples, "max_samples",
                 "Most looks at a cube along each side of a pixel that spans several of its texels",
                 "", params::range(1, 16));
+        r.renamed("places", "max_samples");
         r.choice(incidence, "incidence",
                  "Where light comes from that a glossy receiver reflects. mean: the mean of what "
                  "has arrived in a texel; centre: the reference point",
-                 {"mean", "centre"});
+                 {"mean", "centre"})
+            .when([](const FrameFacts& facts) {
+                const bool mayBeGlossy = facts.needs == nullptr || facts.needs->glossyReceivers;
+                return mayBeGlossy ? "" : "no receiver is glossy";
+            });
     }
 };
 
@@ -36,24 +40,25 @@ IrradianceMap gatherCubes(FrameBuilder& frame, const CubeParams& params, Caustic
             "gather.cube looks light up around caustic generators, but it is stored elsewhere; "
             "take reconstruct.space=cube, or gather=screen or gather=project.");
     }
-    if (params.incidence == Incidence::centre && !frame.needs().glossyReceivers)
-        frame.warn("gather.cube.incidence has no effect: no receiver is glossy.");
     return projectMaps(frame,
                        {"gather.cube",
                         "the light around each generator is looked up where the "
                         "eye's receivers lie",
-                        params.places, params.incidence == Incidence::centre},
+                        params.maxSamples, params.incidence == Incidence::centre},
                        std::move(map), surfaces);
 }
 
 }  // namespace
 
-void registerCubeGather(Registry& registry) {
+void registerGatherCube(Registry& registry) {
     registry.node<GatherStage>(
         "cube",
         {"Looks each generator's light cube map up at the eye's receivers, by direction and "
          "distance.",
-         "U08, section 4.3"},
+         "U08, section 4.3",
+         "It takes maps around caustic generators and refuses light that is stored elsewhere. "
+         "Receivers that the reference point does not see get nothing; where a receiver is glossy "
+         "all light of a texel counts as coming from one direction."},
         &gatherCubes);
 }
 

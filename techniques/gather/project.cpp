@@ -5,19 +5,19 @@
 #include <utility>
 
 #include "framework/core/error.h"
-#include "techniques/caustic_map/nodes.h"
-#include "techniques/caustic_map/projection.h"
+#include "techniques/maps/projection.h"
 
 namespace kaustik {
 namespace {
 
 struct ProjectParams {
-    int places = 4;
+    int maxSamples = 4;
     template <class R>
     void reflect(R& r) {
-        r.field(places, "places",
+        r.field(maxSamples, "max_samples",
                 "Most looks at a map along each side of a pixel that spans several of its texels",
                 "", params::range(1, 16));
+        r.renamed("places", "max_samples");
     }
 };
 
@@ -32,16 +32,18 @@ IrradianceMap projectLightMaps(FrameBuilder& frame, const ProjectParams& params,
                        {"gather.project",
                         "each light's map is looked up where the eye's "
                         "receivers lie",
-                        params.places, false},
+                        params.maxSamples, false},
                        std::move(map), surfaces);
 }
 
 }  // namespace
 
-void registerProject(Registry& registry) {
+void registerGatherProject(Registry& registry) {
     registry.node<GatherStage>(
         "project",
-        {"Looks each light's caustic map up at the eye's receivers, like a shadow map.", "WD06"},
+        {"Looks each light's caustic map up at the eye's receivers, like a shadow map.", "WD06",
+         "It takes maps of lights and refuses light that is stored elsewhere. All light of a texel "
+         "counts as coming from its mean direction where a receiver is glossy."},
         &projectLightMaps);
 }
 

@@ -5,7 +5,6 @@
 
 #include "framework/core/error.h"
 #include "framework/pipeline/frame_builder.h"
-#include "techniques/shared/nodes.h"
 
 namespace kaustik {
 namespace {
@@ -13,7 +12,7 @@ namespace {
 IrradianceMap gatherOnScreen(FrameBuilder& frame, const params::NoParams&, CausticMap map,
                              Surfaces surfaces) {
     const FluxMap& stored = map.maps.front();
-    if (!stored.on.views->isEyes())
+    if (!stored.on.views->isEyeView())
         throw ConfigError(
             fmt::format("gather.screen works on the screen, but the map of flux it is given is "
                         "{}; take gather={}, or reconstruct.space=screen.",
@@ -43,7 +42,7 @@ IrradianceMap gatherOnScreen(FrameBuilder& frame, const params::NoParams&, Caust
             setup.bypass(data.radiance, {0, 0, 0, 0});
         },
         [](const IrradianceMap& data, gl::PassContext& context) {
-            gl::Command command = context.fullscreen("shared/gather_screen.frag");
+            gl::Command command = context.fullscreen("gather/screen.frag");
             command.target(data.irradiance);
             if (data.radiance.valid()) command.define("HAS_INTENSITY").target(data.radiance);
             command.draw();
@@ -52,10 +51,12 @@ IrradianceMap gatherOnScreen(FrameBuilder& frame, const params::NoParams&, Caust
 
 }  // namespace
 
-void registerScreenGather(Registry& registry) {
+void registerGatherScreen(Registry& registry) {
     registry.node<GatherStage>(
         "screen",
-        {"Flux that was stored by the eye's pixels, over what they see.", "K06, section 3.1"},
+        {"Flux that was stored by the eye's pixels, over what they see.", "K06, section 3.1",
+         "It takes light that is stored by the eye's pixels and refuses maps of lights and cubes. "
+         "Nothing off the screen can be looked up."},
         &gatherOnScreen);
 }
 

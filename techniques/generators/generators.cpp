@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "techniques/shared/generators.h"
+#include "techniques/generators/generators.h"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "framework/pipeline/stage_params.h"
-#include "techniques/shared/light_maps.h"
-#include "techniques/shared/receivers.h"
+#include "techniques/raster_views/light_maps.h"
+#include "techniques/raster_views/receivers.h"
 
 namespace kaustik {
 namespace {
@@ -45,8 +45,8 @@ void unite(Generator& one, const Generator& other) {
     one.bounds.include(other.bounds.maximum);
 }
 
-// Joins the two nearest until none overlap and there are no more than `most`.
-void uniteNearest(std::vector<Generator>& all, std::size_t most) {
+// Joins the two nearest until none overlap and there are no more than `maximum`.
+void uniteNearest(std::vector<Generator>& all, std::size_t maximum) {
     while (all.size() > 1) {
         double nearest = std::numeric_limits<double>::infinity();
         std::pair<std::size_t, std::size_t> pair{0, 0};
@@ -58,7 +58,7 @@ void uniteNearest(std::vector<Generator>& all, std::size_t most) {
                 pair = {i, j};
             }
         }
-        if (nearest > 0.0 && all.size() <= most) return;
+        if (nearest > 0.0 && all.size() <= maximum) return;
         unite(all[pair.first], all[pair.second]);
         all.erase(all.begin() + static_cast<std::ptrdiff_t>(pair.second));
     }
@@ -148,7 +148,8 @@ glm::dvec3 referenceOf(const scene::Scene& scene, const scene::Bounds& bounds) {
 }
 
 // A generator much wider than its receivers are far is seen from one point at grazing angles.
-void sayWhichAreLarge(FrameBuilder& frame, const std::vector<Generator>& generators, int points) {
+void warnLargeGenerators(FrameBuilder& frame, const std::vector<Generator>& generators,
+                         int points) {
     for (const Generator& generator : generators) {
         const double distance = distanceToReceivers(frame.scene(), generator.reference);
         const double radius = radiusOf(generator.bounds);
@@ -186,20 +187,20 @@ std::vector<Generator> findGenerators(FrameBuilder& frame, const GeneratorParams
     }
     if (lit.empty()) lit = all;
     if (lit.empty()) lit.push_back(eyeOf(scene));
-    uniteNearest(lit, static_cast<std::size_t>(params.most));
+    uniteNearest(lit, static_cast<std::size_t>(params.maxGenerators));
     std::vector<Generator> generators;
     for (const Generator& whole : lit) {
-        const std::size_t room = transport::kMostGenerators - generators.size();
+        const std::size_t room = transport::kMaxGenerators - generators.size();
         for (Generator& part :
              split(whole, std::clamp<std::size_t>(static_cast<std::size_t>(params.points), 1,
                                                   std::max<std::size_t>(room, 1)))) {
-            if (generators.size() < transport::kMostGenerators)
+            if (generators.size() < transport::kMaxGenerators)
                 generators.push_back(std::move(part));
         }
     }
     for (Generator& generator : generators)
         generator.reference = referenceOf(scene, generator.bounds);
-    sayWhichAreLarge(frame, generators, params.points);
+    warnLargeGenerators(frame, generators, params.points);
     return generators;
 }
 
@@ -210,10 +211,10 @@ std::vector<ReceiverView> drawReceivers(FrameBuilder& frame, const Geometry& geo
     for (std::size_t i = 0; i < generators.size(); ++i) {
         const Views views = frame.makeViews(render::Space::cube, facesAround(generators[i], side));
         receivers.push_back(
-            seeReceivers(frame, geometry, views, "generator" + suffixOfGenerator(i),
-                         fmt::format("generator '{}' stores caustics where it sees receivers",
-                                     generators[i].name),
-                         render::DrawSet::receivers)
+            renderReceivers(frame, geometry, views, "generator" + suffixOfGenerator(i),
+                            fmt::format("generator '{}' stores caustics where it sees receivers",
+                                        generators[i].name),
+                            render::DrawSet::receivers)
                 .receivers);
     }
     return receivers;

@@ -12,14 +12,15 @@ namespace kaustik {
 
 // Which specular objects share a reference point; shared by all that asks for generators.
 struct GeneratorParams {
-    int most = 8;
+    int maxGenerators = 8;
     int points = 1;
     template <class R>
     void reflect(R& r) {
-        r.field(most, "most",
+        r.field(maxGenerators, "max_generators",
                 "Caustic generators: of more specular objects those nearest to one another share "
                 "one",
-                "", params::range(1, static_cast<int>(transport::kMostGenerators)));
+                "", params::range(1, static_cast<int>(transport::kMaxGenerators)));
+        r.renamed("most", "max_generators");
         r.field(
             points, "points",
             "Reference points of a generator, each in a part of its box; more for one too large "
@@ -46,7 +47,7 @@ struct Generator {
 [[nodiscard]] const std::vector<ReceiverView>& generatorReceivers(FrameBuilder& frame,
                                                                   const Geometry& geometry);
 
-// The block "Generators" of include/generators.glsl, as long as the frame lives.
+// The block "Generators" of include/surfaces/generators.glsl, as long as the frame lives.
 [[nodiscard]] const gl::Buffer& generatorsBlock(FrameBuilder& frame);
 
 // "" of the first, for the names of a generator's resources.

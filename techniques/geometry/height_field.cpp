@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 // geometry.height_field: makes the vertices of wavy water on the GPU, each frame. Model space, m;
-// the same sum of waves as scene/height_field.h evaluates on the CPU.
+// the same sum of waves as scene/shapes/height_field.h evaluates on the CPU.
 #include <cmath>
 
 #include "framework/pipeline/frame_builder.h"
 #include "framework/scene/shapes/height_field.h"
-#include "techniques/shared/nodes.h"
 
 namespace kaustik {
 namespace {
@@ -52,7 +51,7 @@ Geometry makeHeightFields(FrameBuilder& frame, const params::NoParams&) {
         },
         [fields, &waveBuffer](const Geometry& data, gl::PassContext& context) {
             for (const FieldData& field : fields) {
-                context.compute("shared/height_field.comp")
+                context.compute("geometry/height_field.comp")
                     .storage("Vertices", data.heightFields)
                     .storage("Waves", waveBuffer)
                     .set("cells", field.cells)
@@ -67,9 +66,14 @@ Geometry makeHeightFields(FrameBuilder& frame, const params::NoParams&) {
 
 }  // namespace
 
-void registerHeightField(Registry& registry) {
+void registerGeometryHeightField(Registry& registry) {
     registry.node<GeometryStage>(
-        "height_field", {"Makes the vertices of wavy water on the GPU.", ""}, &makeHeightFields);
+        "height_field",
+        {"Makes the vertices of wavy water on the GPU.", "",
+         "Water is a height over a rectangle, a sum of waves that are given: it does not break, "
+         "and nothing that floats or falls in disturbs it. Its waves are known at the vertices of "
+         "the mesh, and taken as flat between them."},
+        &makeHeightFields);
 }
 
 }  // namespace kaustik

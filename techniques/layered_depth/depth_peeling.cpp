@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// layers.peel: a layered depth image by depth peeling (K06, section 2.2). `layers.complexity`
+// A layered depth image by depth peeling (K06, section 2.2). `layers.complexity`
 // counts the fragments of every pixel; `layers.peel` then draws as many layers as the fullest pixel
 // needs, `layers.count` at most; what lies deeper is counted. Out: arrays of view depth (m) with
 // the triangles' normals, and of outward shading normals with materials, front to back.
@@ -8,11 +8,7 @@
 #include <utility>
 
 #include "framework/pipeline/frame_builder.h"
-#include "framework/pipeline/stage_params.h"
-#include "techniques/screen_space_photons/nodes.h"
-#include "techniques/screen_space_photons/peel.h"
-#include "techniques/screen_space_photons/peel_resources.h"
-#include "techniques/screen_space_photons/pyramid.h"
+#include "techniques/layered_depth/peel_resources.h"
 
 namespace kaustik {
 namespace {
@@ -43,7 +39,7 @@ void reduceCounts(const Complexity& data, gl::PassContext& context, int layers, 
     for (bool isFirst = true; isFirst || w > 1 || h > 1; isFirst = false) {
         w = halved(w);
         h = halved(h);
-        context.fullscreen("screen_space_photons/counts_reduce.frag")
+        context.fullscreen("layered_depth/counts_reduce.frag")
             .texture("source", source)
             .set("layerCount", layers)
             .set("isFirst", isFirst ? 1 : 0)
@@ -54,7 +50,7 @@ void reduceCounts(const Complexity& data, gl::PassContext& context, int layers, 
         source = target;
         std::swap(target, spare);
     }
-    context.compute("screen_space_photons/counts_store.comp")
+    context.compute("layered_depth/counts_store.comp")
         .texture("reduced", source)
         .storage("Statistics", data.statistics)
         .dispatch(1);
@@ -89,8 +85,8 @@ graph::Buffer<transport::LayerStatistics> measureComplexity(FrameBuilder& frame,
                 const int h = data.views->height();
                 if (!request.reducesCounts) context.buffer(data.statistics).clear();
                 for (int face = 0; face < data.views->count(); ++face) {
-                    gl::Command count = context.shaders(
-                        {"shared/eye.vert", "screen_space_photons/peel_count.frag"});
+                    gl::Command count =
+                        context.shaders({"raster_views/eye.vert", "layered_depth/peel_count.frag"});
                     count.set("projection", data.views->view(face).projection())
                         .target(data.counts)
                         .clear()
@@ -101,7 +97,7 @@ graph::Buffer<transport::LayerStatistics> measureComplexity(FrameBuilder& frame,
                         reduceCounts(data, context, request.layers, w, h);
                         continue;
                     }
-                    context.compute("screen_space_photons/peel_statistics.comp")
+                    context.compute("layered_depth/peel_statistics.comp")
                         .texture("counts", data.counts)
                         .storage("Statistics", data.statistics)
                         .set("layerCount", request.layers)
@@ -138,8 +134,7 @@ void peelView(const FrameInputs& inputs, const Peeling& peeling, gl::PassContext
         const int index = face * request.layers + layer;
         // The layer before is read from the array that this one is written to.
         glTextureBarrier();
-        gl::Command command =
-            context.shaders({"shared/eye.vert", "screen_space_photons/peel.frag"});
+        gl::Command command = context.shaders({"raster_views/eye.vert", "layered_depth/peel.frag"});
         views.bindTo(command)
             .set("projection", views.view(face).projection())
             .set("layer", layer)
@@ -168,7 +163,7 @@ LayeredDepth peel(FrameBuilder& frame, Geometry geometry, const LayersRequest& r
             },
             [&inputs = frame.inputs(), request](const Peeling& data, gl::PassContext& context) {
                 const auto commandCount = static_cast<int>(inputs.gpuScene.commandCount());
-                context.compute("screen_space_photons/peel_commands.comp")
+                context.compute("layered_depth/peel_commands.comp")
                     .storage("SceneCommands", inputs.gpuScene.commands())
                     .storage("LayerCommands", data.commands)
                     .storage("Statistics", data.layers.statistics)
@@ -179,39 +174,6 @@ LayeredDepth peel(FrameBuilder& frame, Geometry geometry, const LayersRequest& r
                     peelView(inputs, data, context, request, face);
             })
         .layers;
-}
-
-namespace {
-
-// How the fragments of all pixels become their maximum and sums (K06, section 2.2).
-enum class Counting : int { atomics, reduce };
-
-struct PeelParams {
-    Counting counting = Counting::atomics;
-    template <class R>
-    void reflect(R& r) {
-        r.choice(counting, "counting",
-                 "atomics: each pixel adds to shared numbers; reduce: the paper's texture reduce, "
-                 "exact to 16 million fragments",
-                 {"atomics", "reduce"});
-    }
-};
-
-LayeredDepth peelLayers(FrameBuilder& frame, const PeelParams& params, Geometry geometry) {
-    const int layers = frame.params<LayersParams>("layers").count;
-    return addPyramid(
-        frame, peel(frame, geometry,
-                    {"layers", render::DrawSet::all, layers, params.counting == Counting::reduce}));
-}
-
-}  // namespace
-
-void registerPeel(Registry& registry) {
-    registry.node<LayersStage>("peel",
-                               {"Depth peeling into a layered depth image, no deeper than the "
-                                "picture's measured depth complexity.",
-                                "K06, section 2.2"},
-                               &peelLayers);
 }
 
 }  // namespace kaustik

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// layers.lists: a layered depth image from one drawing of the surfaces. Every fragment joins the
+// A layered depth image from one drawing of the surfaces. Every fragment joins the
 // linked list of its pixel (Yang, Hensley, Grün, Thibieroz 2010, "Real-Time Concurrent Linked List
 // Construction on the GPU"), whose nearest `layers.count` a thread a pixel then sorts. Of fragments
 // at equal depth the one drawn first stays, as in peeling: each knows its triangle's number, so
 // that the order in which threads ran leaves no trace. A view whose fragments do not fit is peeled
 // (K06, section 2.2): slower, and the same picture. Out: bit for bit what layers.peel gives.
-#include "techniques/screen_space_photons/lists.h"
+#include "techniques/layered_depth/fragment_lists.h"
 
 #include <fmt/format.h>
 
@@ -14,14 +14,12 @@
 
 #include "framework/pipeline/frame_builder.h"
 #include "framework/pipeline/stage_params.h"
-#include "techniques/screen_space_photons/nodes.h"
-#include "techniques/screen_space_photons/peel_resources.h"
-#include "techniques/screen_space_photons/pyramid.h"
+#include "techniques/layered_depth/peel_resources.h"
 
 namespace kaustik {
 namespace {
 
-// Words of a fragment as lists.frag stores them.
+// Words of a fragment as fragment_lists.frag stores them.
 struct FragmentDepth {  // view depth, octahedral normal of the triangle, next of the list
     GLuint words[4];
 };
@@ -41,30 +39,30 @@ struct FragmentCount {  // of a view
 };
 
 // What every device of OpenGL 4.5 has in a storage block.
-constexpr std::size_t kMostFragments = (std::size_t{1} << 27) / sizeof(FragmentDepth);
+constexpr std::size_t kMaxFragments = (std::size_t{1} << 27) / sizeof(FragmentDepth);
 // A few pixels may all be full.
-constexpr std::size_t kLeastFragments = 65536;
+constexpr std::size_t kMinFragments = 65536;
 
 // Mesa's software rasteriser ends all loops of a thread after 65,535 turns together; a fragment
 // takes one turn a layer and two of its own.
-constexpr std::uint32_t kMostTurns = 65000;
+constexpr std::uint32_t kMaxIterations = 65000;
 
 // So few are peeled in less time than lists take (the dielectrics of `pool`, one layer: 0.6 of it;
 // of `cornell-bunny`, four: the same).
 constexpr int kFewLayers = 3;
 
-struct Room {
+struct FragmentCapacity {
     std::size_t fragments;
-    bool isByMemory;  // else by layers.lists.room
+    bool isMemoryLimited;  // else by layers.lists.fragments_per_pixel
 };
 
-Room roomFor(const render::RasterViews& views, const ListsParams& params) {
+FragmentCapacity fragmentCapacity(const render::RasterViews& views, const ListsParams& params) {
     const std::size_t affordable = std::min(
-        (static_cast<std::size_t>(params.memoryMebibytes) << 20) / kFragmentBytes, kMostFragments);
+        (static_cast<std::size_t>(params.memoryMebibytes) << 20) / kFragmentBytes, kMaxFragments);
     const std::size_t pixels =
         static_cast<std::size_t>(views.width()) * static_cast<std::size_t>(views.height());
     const std::size_t wanted =
-        std::max(pixels * static_cast<std::size_t>(params.room), kLeastFragments);
+        std::max(pixels * static_cast<std::size_t>(params.fragmentsPerPixel), kMinFragments);
     return {std::min(affordable, wanted), affordable < wanted};
 }
 
@@ -75,26 +73,26 @@ struct Lists {
     graph::Buffer<FragmentCount> fragmentCounts;  // by view
 };
 
-void keepToLimits(FrameBuilder& frame, const Lists& lists, const LayersRequest& request,
-                  const ListsParams& params, const Room& room) {
+void reportLimits(FrameBuilder& frame, const Lists& lists, const LayersRequest& request,
+                  const ListsParams& params, const FragmentCapacity& capacity) {
     const LayeredDepth& layers = lists.peeling.layers;
-    frame.keepsTo(
+    frame.reportLimit(
         {"layers.lists",
          {lists.fragmentCounts},
          [=, counts = lists.fragmentCounts,
           pixels = static_cast<double>(layers.views->width()) *
                    static_cast<double>(layers.views->height())](
              const gl::Executor& executor) -> std::optional<ReachedLimit> {
-             std::size_t most = 0;
+             std::size_t maximum = 0;
              for (const FragmentCount& view : executor.buffer(counts).read<FragmentCount>())
-                 most = std::max(most, static_cast<std::size_t>(view.count));
-             if (most <= room.fragments) return {};
+                 maximum = std::max(maximum, static_cast<std::size_t>(view.count));
+             if (maximum <= capacity.fragments) return {};
              const std::string sentence = fmt::format(
                  "{} of the {} fragments of a view of {} do not fit: it is peeled instead, which "
                  "takes longer; no layer is lost to it",
-                 most - room.fragments, most, request.name);
-             const auto needed = static_cast<double>(most);
-             if (room.isByMemory) {
+                 maximum - capacity.fragments, maximum, request.name);
+             const auto needed = static_cast<double>(maximum);
+             if (capacity.isMemoryLimited) {
                  return ReachedLimit{"layers.lists.memory",
                                      "MiB",
                                      static_cast<double>(params.memoryMebibytes),
@@ -102,25 +100,26 @@ void keepToLimits(FrameBuilder& frame, const Lists& lists, const LayersRequest& 
                                      sentence,
                                      0.0};
              }
-             return ReachedLimit{"layers.lists.room",
+             return ReachedLimit{"layers.lists.fragments_per_pixel",
                                  "fragments a pixel",
-                                 static_cast<double>(params.room),
+                                 static_cast<double>(params.fragmentsPerPixel),
                                  std::ceil(needed / pixels),
                                  sentence,
                                  0.0};
          }});
-    frame.keepsTo(
+    frame.reportLimit(
         {"layers.lists",
          {layers.statistics},
          [=, statistics =
                  layers.statistics](const gl::Executor& executor) -> std::optional<ReachedLimit> {
              const std::uint32_t longest =
                  executor.buffer(statistics).read<transport::LayerStatistics>().front().complexity;
-             const std::uint32_t most = kMostTurns / static_cast<std::uint32_t>(request.layers + 2);
-             if (longest <= most) return {};
+             const std::uint32_t maximum =
+                 kMaxIterations / static_cast<std::uint32_t>(request.layers + 2);
+             if (longest <= maximum) return {};
              return ReachedLimit{"layers.lists.longest",
                                  "fragments",
-                                 static_cast<double>(most),
+                                 static_cast<double>(maximum),
                                  static_cast<double>(longest),
                                  fmt::format("a pixel of {} has more: its view is peeled instead, "
                                              "which takes longer; no layer is lost to it",
@@ -130,38 +129,39 @@ void keepToLimits(FrameBuilder& frame, const Lists& lists, const LayersRequest& 
 }
 
 // Both commands ask alike whether the lists hold all of the view.
-void tellWhatFits(gl::Command& command, const Lists& lists, const Room& room, int face) {
+void setListCapacity(gl::Command& command, const Lists& lists, const FragmentCapacity& capacity,
+                     int face) {
     command.storage("Statistics", lists.peeling.layers.statistics)
         .set("face", face)
-        .set("room", static_cast<unsigned>(room.fragments))
-        .set("mostTurns", kMostTurns)
+        .set("capacity", static_cast<unsigned>(capacity.fragments))
+        .set("maxIterations", kMaxIterations)
         .set("layerCount", lists.peeling.layers.layers);
 }
 
 void listView(const FrameInputs& inputs, const Lists& data, gl::PassContext& context,
-              const LayersRequest& request, const Room& room, int face) {
+              const LayersRequest& request, const FragmentCapacity& capacity, int face) {
     const Peeling& peeling = data.peeling;
     const render::RasterViews& views = *peeling.layers.views;
     context.texture(data.heads).clear({0, 0, 0, 0});
     gl::Command list =
-        context.shaders({"screen_space_photons/lists.vert", "screen_space_photons/lists.frag"});
+        context.shaders({"layered_depth/fragment_lists.vert", "layered_depth/fragment_lists.frag"});
     views.bindTo(list)
         .set("projection", views.view(face).projection())
         .set("face", face)
-        .set("room", static_cast<unsigned>(room.fragments))
+        .set("capacity", static_cast<unsigned>(capacity.fragments))
         .target(data.counts)
         .clear()
         .blend(gl::Blend::add);
     inputs.gpuScene.draw(list, context, peeling.geometry, views.instances(face), request.set);
-    context.compute("screen_space_photons/peel_statistics.comp")
+    context.compute("layered_depth/peel_statistics.comp")
         .texture("counts", data.counts)
         .storage("Statistics", peeling.layers.statistics)
         .set("layerCount", request.layers)
         .dispatchOver(views.width(), 8, views.height(), 8);
 
     const auto commandCount = static_cast<int>(inputs.gpuScene.commandCount());
-    gl::Command commands = context.compute("screen_space_photons/peel_commands.comp");
-    tellWhatFits(commands, data, room, face);
+    gl::Command commands = context.compute("layered_depth/peel_commands.comp");
+    setListCapacity(commands, data, capacity, face);
     commands.define("AFTER_LISTS")
         .storage("SceneCommands", inputs.gpuScene.commands())
         .storage("LayerCommands", peeling.commands)
@@ -169,28 +169,23 @@ void listView(const FrameInputs& inputs, const Lists& data, gl::PassContext& con
         .dispatchOver(commandCount * request.layers, 64);
     peelView(inputs, peeling, context, request, face);
 
-    gl::Command sort = context.compute("screen_space_photons/lists.comp");
-    tellWhatFits(sort, data, room, face);
+    gl::Command sort = context.compute("layered_depth/fragment_lists.comp");
+    setListCapacity(sort, data, capacity, face);
     sort.image("layerDepths", peeling.layers.depth)
         .image("layerSurfaces", peeling.layers.surface)
         .dispatchOver(views.width(), 8, views.height(), 8);
-}
-
-LayeredDepth listLayers(FrameBuilder& frame, const ListsParams& params, Geometry geometry) {
-    const int layers = frame.params<LayersParams>("layers").count;
-    return addPyramid(frame,
-                      listFragments(frame, geometry, {.name = "layers", .layers = layers}, params));
 }
 
 }  // namespace
 
 LayeredDepth listFragments(FrameBuilder& frame, Geometry geometry, const LayersRequest& request,
                            const ListsParams& params) {
-    const Room room = roomFor(request.views ? *request.views : *frame.eyeViews(), params);
+    const FragmentCapacity capacity =
+        fragmentCapacity(request.views ? *request.views : *frame.eyeViews(), params);
     const Lists& lists = frame.pass<Lists>(
         "layers.lists",
         fmt::format("{} hidden surfaces; at most {} layer{} of {} fragments", request.reader,
-                    request.layers, request.layers == 1 ? "" : "s", room.fragments),
+                    request.layers, request.layers == 1 ? "" : "s", capacity.fragments),
         [&](graph::PassSetup& setup, Lists& data) {
             data.peeling = Peeling::create(frame, setup, geometry, request);
             const render::RasterViews& views = *data.peeling.layers.views;
@@ -205,26 +200,24 @@ LayeredDepth listFragments(FrameBuilder& frame, Geometry geometry, const LayersR
                 setup.createBuffer<FragmentCount>(name + ".fragment_counts",
                                                   static_cast<std::size_t>(views.count())));
             setup.storage("FragmentDepths", setup.createBuffer<FragmentDepth>(
-                                                name + ".fragment_depths", room.fragments));
+                                                name + ".fragment_depths", capacity.fragments));
             setup.storage("FragmentSurfaces", setup.createBuffer<FragmentSurface>(
-                                                  name + ".fragment_surfaces", room.fragments));
-            setup.storage("FragmentTriangles", setup.createBuffer<FragmentTriangle>(
-                                                   name + ".fragment_triangles", room.fragments));
+                                                  name + ".fragment_surfaces", capacity.fragments));
+            setup.storage("FragmentTriangles",
+                          setup.createBuffer<FragmentTriangle>(name + ".fragment_triangles",
+                                                               capacity.fragments));
         },
-        [&inputs = frame.inputs(), request, room](const Lists& data, gl::PassContext& context) {
+        [&inputs = frame.inputs(), request, capacity](const Lists& data, gl::PassContext& context) {
             context.buffer(data.fragmentCounts).clear();
             context.buffer(data.peeling.layers.statistics).clear();
             for (int face = 0; face < data.peeling.layers.views->count(); ++face)
-                listView(inputs, data, context, request, room, face);
+                listView(inputs, data, context, request, capacity, face);
         });
-    keepToLimits(frame, lists, request, params, room);
+    reportLimits(frame, lists, request, params, capacity);
     return lists.peeling.layers;
 }
 
-namespace {
-
-// Triangles of the surfaces that a request draws.
-std::size_t trianglesOf(const scene::Scene& scene, render::DrawSet set) {
+std::size_t triangleCount(const scene::Scene& scene, render::DrawSet set) {
     std::size_t triangles = 0;
     for (const scene::Object& object : scene.objects) {
         const bool isDielectric =
@@ -235,51 +228,21 @@ std::size_t trianglesOf(const scene::Scene& scene, render::DrawSet set) {
     return triangles;
 }
 
-// Peeling draws every triangle again for each layer, lists sort every pixel: on the devices
-// measured (results/README.md, "Layers in one pass") they are even where there are as many of the
-// one as of the other.
-bool areListsFaster(FrameBuilder& frame, const LayersRequest& request) {
+bool prefersLists(FrameBuilder& frame, const LayersRequest& request) {
     const render::RasterViews& views = request.views ? *request.views : *frame.eyeViews();
     const auto pixels =
         static_cast<std::size_t>(views.width()) * static_cast<std::size_t>(views.height());
     return request.layers > kFewLayers &&
-           trianglesOf(frame.scene(), request.set) * static_cast<std::size_t>(request.layers) >=
+           triangleCount(frame.scene(), request.set) * static_cast<std::size_t>(request.layers) >=
                pixels;
 }
-
-LayeredDepth chooseLayers(FrameBuilder& frame, const params::NoParams&, Geometry geometry) {
-    const LayersRequest request{.name = "layers",
-                                .layers = frame.params<LayersParams>("layers").count};
-    const bool lists = areListsFaster(frame, request);
-    frame.skip(lists ? "layers.peel" : "layers.lists",
-               fmt::format("{} triangles for each of {} layers are {} than {} pixels",
-                           trianglesOf(frame.scene(), request.set), request.layers,
-                           lists ? "more" : "fewer", frame.width() * frame.height()));
-    return addPyramid(frame, makeLayers(frame, geometry, request));
-}
-
-}  // namespace
 
 LayeredDepth makeLayers(FrameBuilder& frame, Geometry geometry, const LayersRequest& request) {
     const std::string node = frame.inputs().params.choice(LayersStage::name);
     const bool lists = node == "lists" ? request.layers > kFewLayers
-                                       : node == "auto" && areListsFaster(frame, request);
+                                       : node == "auto" && prefersLists(frame, request);
     if (!lists) return peel(frame, geometry, request);
     return listFragments(frame, geometry, request, frame.params<ListsParams>("layers.lists"));
-}
-
-void registerLists(Registry& registry) {
-    registry.node<LayersStage>(
-        "auto",
-        {"Lists of fragments where geometry is much to draw again for each layer, else peeling: "
-         "the same layers, whichever is faster.",
-         ""},
-        &chooseLayers);
-    registry.node<LayersStage>("lists",
-                               {"A layered depth image from lists of every pixel's fragments, in "
-                                "one drawing; what does not fit into their memory is peeled.",
-                                "Yang et al. 2010"},
-                               &listLayers);
 }
 
 }  // namespace kaustik

@@ -3,23 +3,24 @@
 // scene's surfaces.
 #pragma once
 
-#include "techniques/screen_space_photons/peel.h"
+#include "techniques/layered_depth/depth_peeling.h"
 
 namespace kaustik {
 
 struct ListsParams {
     int memoryMebibytes = 256;
-    int room = 8;
+    int fragmentsPerPixel = 8;
     template <class R>
     void reflect(R& r) {
         r.field(memoryMebibytes, "memory",
                 "Most memory for fragments, 36 bytes each; a view that has more is peeled. No more "
                 "than the storage blocks hold that every device has",
                 "MiB", params::range(1, 288));
-        r.field(room, "room",
+        r.field(fragmentsPerPixel, "fragments_per_pixel",
                 "Fragments that there is room for, a pixel of the view on average, within that "
                 "memory; a view that has more is peeled",
                 "", params::range(1, 1024));
+        r.renamed("room", "fragments_per_pixel");
     }
 };
 
@@ -27,6 +28,14 @@ struct ListsParams {
 // drawing of the surfaces.
 [[nodiscard]] LayeredDepth listFragments(FrameBuilder& frame, Geometry geometry,
                                          const LayersRequest& request, const ListsParams& params);
+
+// How many triangles the surfaces have that are drawn.
+[[nodiscard]] std::size_t triangleCount(const scene::Scene& scene, render::DrawSet set);
+
+// Peeling draws every triangle again for each layer, lists sort every pixel: on the devices
+// measured (results/README.md, "Layers in one pass") they are even where there are as many of the
+// one as of the other.
+[[nodiscard]] bool prefersLists(FrameBuilder& frame, const LayersRequest& request);
 
 // For some of the scene's surfaces: by lists where `layers` is set to them, or to auto and they are
 // faster, and more than a few layers are asked for; else peeled.

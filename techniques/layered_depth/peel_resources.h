@@ -4,7 +4,7 @@
 
 #include "framework/gl/objects.h"
 #include "framework/pipeline/frame_builder.h"
-#include "techniques/screen_space_photons/peel.h"
+#include "techniques/layered_depth/depth_peeling.h"
 
 namespace kaustik {
 

@@ -3,11 +3,11 @@
 // from it a ray may hit the layer; 1/z (of parallel rays: z) is linear on the screen where a
 // surface is flat, so that the plane of a floor is exact at any size. Skipped where no tracer
 // reads it. In: layered depth; out: planes, 1/m, the levels side by side in one array texture
-// (shaders/screen_space_photons/pyramid_layout.glsl).
+// (shaders/layered_depth/pyramid_layout.glsl).
 #include <algorithm>
 
 #include "framework/pipeline/frame_builder.h"
-#include "techniques/screen_space_photons/pyramid.h"
+#include "techniques/layered_depth/pyramid.h"
 
 namespace kaustik {
 namespace {
@@ -36,11 +36,11 @@ LayeredDepth addPyramid(FrameBuilder& frame, const LayeredDepth& layers, const s
                                           layers.views->layers(layers.layers)));
         },
         [w, h](const LayeredDepth& data, gl::PassContext& context) {
-            // Empty: a square's layers behind its last, and the corners beside the levels.
+            // Empty: a square's layers behind its last, and the corners next to the levels.
             context.texture(data.pyramid).clear({0, 0, 0, 0});
             for (int level = 1; level <= kLevels; ++level) {
                 for (int face = 0; face < data.views->count(); ++face) {
-                    gl::Command command = context.compute("screen_space_photons/pyramid.comp");
+                    gl::Command command = context.compute("layered_depth/pyramid.comp");
                     data.views->bindTo(command).set("layerCount", data.layers).set("level", level);
                     if (data.views->count() > 1) command.set("face", face);
                     command.dispatchOver(squares(w, level), 8, squares(h, level), 8);

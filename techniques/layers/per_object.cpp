@@ -10,10 +10,9 @@
 
 #include "framework/pipeline/frame_builder.h"
 #include "framework/pipeline/stage_params.h"
-#include "techniques/screen_space_photons/nodes.h"
-#include "techniques/screen_space_photons/peel.h"
-#include "techniques/screen_space_photons/peel_resources.h"
-#include "techniques/screen_space_photons/pyramid.h"
+#include "techniques/layered_depth/depth_peeling.h"
+#include "techniques/layered_depth/peel_resources.h"
+#include "techniques/layered_depth/pyramid.h"
 
 namespace kaustik {
 namespace {
@@ -23,7 +22,7 @@ struct ObjectComplexity {
 };
 
 // No pixel shows more layers of an object than it has triangles.
-int mostLayers(const scene::Scene& scene, std::size_t object, int allowed) {
+int maxLayers(const scene::Scene& scene, std::size_t object, int allowed) {
     const std::size_t triangles = scene.meshes[scene.objects[object].mesh].triangles.size();
     return static_cast<int>(std::min(triangles, static_cast<std::size_t>(allowed)));
 }
@@ -81,20 +80,20 @@ LayeredDepth peelObjects(FrameBuilder& frame, const params::NoParams&, Geometry 
                     }
                     for (std::size_t object = 0; object < commandCount; ++object) {
                         gl::Command count = context.shaders(
-                            {"shared/eye.vert", "screen_space_photons/peel_count.frag"});
+                            {"raster_views/eye.vert", "layered_depth/peel_count.frag"});
                         count.set("projection", projection)
                             .target(data.counts)
                             .clear()
                             .blend(gl::Blend::add);
                         inputs.gpuScene.drawOne(count, context, data.geometry, inputs.instances,
                                                 object);
-                        context.compute("screen_space_photons/object_complexity.comp")
+                        context.compute("layers/per_object_complexity.comp")
                             .texture("counts", data.counts)
                             .storage("Complexities", data.complexities)
                             .set("object", static_cast<int>(object))
                             .dispatchOver(inputs.view.width, 8, inputs.view.height, 8);
                     }
-                    context.compute("screen_space_photons/peel_commands.comp")
+                    context.compute("layered_depth/peel_commands.comp")
                         .define("PER_OBJECT")
                         .storage("SceneCommands", inputs.gpuScene.commands())
                         .storage("LayerCommands", data.commands)
@@ -103,12 +102,12 @@ LayeredDepth peelObjects(FrameBuilder& frame, const params::NoParams&, Geometry 
                         .set("layerCount", layers)
                         .dispatchOver(static_cast<int>(commandCount) * layers, 64);
                     for (std::size_t object = 0; object < commandCount; ++object) {
-                        const int most = mostLayers(inputs.gpuScene.scene(),
-                                                    inputs.gpuScene.objectOf(object), layers);
-                        for (int layer = 0; layer < most; ++layer) {
+                        const int maximum = maxLayers(inputs.gpuScene.scene(),
+                                                      inputs.gpuScene.objectOf(object), layers);
+                        for (int layer = 0; layer < maximum; ++layer) {
                             glTextureBarrier();
                             gl::Command command = context.shaders(
-                                {"shared/eye.vert", "screen_space_photons/peel.frag"});
+                                {"raster_views/eye.vert", "layered_depth/peel.frag"});
                             command.set("projection", projection)
                                 .set("layer", layer)
                                 .set("before", (layer + 1) % 2)
@@ -120,7 +119,7 @@ LayeredDepth peelObjects(FrameBuilder& frame, const params::NoParams&, Geometry 
                                 command, context, data.geometry, inputs.instances, object,
                                 &context.buffer(data.commands, gl::Use::drawCommands),
                                 static_cast<std::size_t>(layer) * commandCount);
-                            context.compute("screen_space_photons/merge_layer.comp")
+                            context.compute("layers/per_object_merge.comp")
                                 .texture("objectDepths", data.objectDepth)
                                 .texture("objectSurface", data.objectSurface)
                                 .storage("Complexities", data.complexities)
@@ -139,12 +138,15 @@ LayeredDepth peelObjects(FrameBuilder& frame, const params::NoParams&, Geometry 
 
 }  // namespace
 
-void registerPeelObjects(Registry& registry) {
-    registry.node<LayersStage>("per_object",
-                               {"Peels every object by itself, no deeper than it is, and merges "
-                                "them: less geometry where many objects overlap.",
-                                "K06, section 2.2"},
-                               &peelObjects);
+void registerLayersPerObject(Registry& registry) {
+    registry.node<LayersStage>(
+        "per_object",
+        {"Peels every object by itself, no deeper than it is, and merges "
+         "them: less geometry where many objects overlap.",
+         "K06, section 2.2",
+         "It shows the same surfaces as layers.peel and shares its limits. It saves geometry but "
+         "no memory, since the layers of all objects are merged into one image."},
+        &peelObjects);
 }
 
 }  // namespace kaustik

@@ -4,11 +4,12 @@
 
 #include "framework/pipeline/frame_builder.h"
 #include "framework/pipeline/stage_params.h"
+#include "techniques/light_cells/refine_stage.h"
 
 namespace kaustik {
 
 // Room for photons, probes or cells, in rows.
-struct ListRoom {
+struct ListCapacity {
     int width = 0;
     int height = 0;
     [[nodiscard]] int capacity() const { return width * height; }
@@ -18,9 +19,9 @@ struct TraversalSizes {
     int startLevel = 5;    // of the cells that wait at the start
     int checkLevel = 9;    // of the first probes of which a metric is asked
     int finestLevel = 12;  // of the last
-    ListRoom photons;
-    ListRoom probes;
-    ListRoom round;  // cells that are taken at once: a quarter of the probes
+    ListCapacity photons;
+    ListCapacity probes;
+    ListCapacity round;  // cells that are taken at once: a quarter of the probes
 };
 
 // ConfigError where a number of cells is no power of two.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A map with coarser levels of itself: shaders/caustic_map/levels.glsl says where they lie.
+// A map with coarser levels of itself: shaders/maps/levels.glsl says where they lie.
 #pragma once
 
 #include <algorithm>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "techniques/caustic_map/projection.h"
+#include "techniques/maps/projection.h"
 
 #include <utility>
 
 #include "framework/core/error.h"
-#include "techniques/caustic_map/map_filters.h"
+#include "techniques/maps/map_filters.h"
 
 namespace kaustik {
 namespace {
@@ -35,7 +35,7 @@ IrradianceMap projectMaps(FrameBuilder& frame, const Projection& projection, Cau
         const FluxMap& stored = map.maps[i];
         if (stored.cascade == 0) parts = partsOf(frame, map.maps, stored.light);
         result = frame.pass<IrradianceMap>(
-            projection.node, projection.why,
+            projection.node, projection.reason,
             [&](graph::PassSetup& setup, IrradianceMap& data) {
                 setup.sample("filteredFlux", stored.filtered);
                 setup.sample("mapReceiver", stored.on.receiver);
@@ -65,9 +65,9 @@ IrradianceMap projectMaps(FrameBuilder& frame, const Projection& projection, Cau
             [projection, stored, parts, isFirst = i == 0](const IrradianceMap& data,
                                                           gl::PassContext& context) {
                 const Views& views = stored.on.views;
-                gl::Command command = context.fullscreen("caustic_map/project.frag");
+                gl::Command command = context.fullscreen("maps/projection.frag");
                 command.uniforms("MapViews", views->block())
-                    .set("mostPlaces", projection.places)
+                    .set("maxSamples", projection.maxSamples)
                     .set("mapCount", views->count())
                     .set("setsPerView", stored.filteredPerView());
                 if (views->count() > 1) command.define("MAP_IS_CUBE");
@@ -82,7 +82,7 @@ IrradianceMap projectMaps(FrameBuilder& frame, const Projection& projection, Cau
                 if (isFirst) command.clear();
                 if (stored.sets.hasDirection) {
                     command.define("GLOSSY_RECEIVERS").target(data.radiance);
-                    command.set("comesFromCentre", projection.comesFromCentre ? 1 : 0);
+                    command.set("isFromCentre", projection.isFromCentre ? 1 : 0);
                     if (isFirst) command.clear();
                 }
                 command.blend(gl::Blend::add).draw();

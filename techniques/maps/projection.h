@@ -10,10 +10,10 @@ namespace kaustik {
 
 struct Projection {
     std::string node;  // for pass and messages
-    std::string why;
-    int places = 4;                // most looks along each side of a pixel
-    bool comesFromCentre = false;  // where a receiver is glossy: light comes from where the map is
-                                   // seen from; else from the mean direction of a texel's
+    std::string reason;
+    int maxSamples = 4;         // most looks along each side of a pixel
+    bool isFromCentre = false;  // where a receiver is glossy: light comes from where the map is
+                                // seen from; else from the mean direction of a texel's
 };
 // In: flux a texel of each map, W, in one set; out: the sum of all, irradiance in W/m² and, where a
 // receiver is glossy, radiance in W/m²/sr. ConfigError where there are several sets.

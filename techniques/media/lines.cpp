@@ -19,8 +19,7 @@
 #include <cmath>
 
 #include "framework/pipeline/frame_builder.h"
-#include "techniques/screen_space_photons/nodes.h"
-#include "techniques/shared/narrowed.h"
+#include "techniques/splats/narrowed.h"
 
 namespace kaustik {
 namespace {
@@ -37,7 +36,8 @@ struct GodRayParams {
                 "px", params::range(0.0f, 64.0f));
         r.field(footprints, "footprints",
                 "Width of a line in widths of its photon's beam, when no width is set", "",
-                params::range(0.1f, 100.0f));
+                params::range(0.1f, 100.0f))
+            .when(width <= 0.0f, "media.lines.width is set");
         r.field(maximum, "maximum", "Largest width on the screen; lines shrink to it", "px",
                 params::range(1, 256));
     }
@@ -104,7 +104,7 @@ InScattered drawGodRays(FrameBuilder& frame, const GodRayParams& params, Hits hi
             }
             const int columns = columnsOf(params);
             for (int column = 0; column < std::max(w, h); column += columns) {
-                dispatchOver(context.compute("screen_space_photons/god_rays.comp")
+                dispatchOver(context.compute("media/lines.comp")
                                  .params("media.lines", params)
                                  .set("radianceScale", scale)
                                  .set("firstColumn", column)
@@ -112,8 +112,8 @@ InScattered drawGodRays(FrameBuilder& frame, const GodRayParams& params, Hits hi
                              list);
             }
         });
-    keepToWidth(frame, "media.lines", drawn.narrowed, 0, "maximum", params.maximum,
-                "lines are narrower than they were to be");
+    reportWidthLimit(frame, "media.lines", drawn.narrowed, 0, "maximum", params.maximum,
+                     "lines are narrower than they were to be");
     InScattered out = drawn.out;
     out.radiance = frame.pass<graph::Texture<RadianceTexel>>(
         "media.sum", "what photons scatter becomes radiance",
@@ -125,7 +125,7 @@ InScattered drawGodRays(FrameBuilder& frame, const GodRayParams& params, Hits hi
         },
         [scale = radianceScaleOf(frame)](const graph::Texture<RadianceTexel>& radiance,
                                          gl::PassContext& context) {
-            context.fullscreen("screen_space_photons/god_rays_sum.frag")
+            context.fullscreen("media/lines_sum.frag")
                 .set("radianceScale", scale)
                 .target(radiance)
                 .draw();
@@ -135,14 +135,16 @@ InScattered drawGodRays(FrameBuilder& frame, const GodRayParams& params, Hits hi
 
 }  // namespace
 
-void registerGodRays(Registry& registry) {
+void registerMediaLines(Registry& registry) {
     registry.node<MediaStage>(
         "lines",
-        {.sentence = "Draws each photon's path through the medium as a line of the light that is "
-                     "scattered towards the eye, as wide as its beam.",
-         .source = "K06, section 3.2",
-         .beams = true},
-        &drawGodRays);
+        {"Draws each photon's path through the medium as a line of the light that is "
+         "scattered towards the eye, as wide as its beam.",
+         "K06, section 3.2",
+         "Light is scattered once, towards the eye, by a homogeneous medium; lines are no wider "
+         "than media.lines.maximum allows. It works on the screen: what light does beside it is "
+         "not seen."},
+        {.beams = true}, &drawGodRays);
 }
 
 }  // namespace kaustik

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "techniques/shared/next_photons.h"
+#include "techniques/photon_lists/next_photons.h"
 
 #include <fmt/format.h>
 
 namespace kaustik {
 
-NextPhotons makeRoom(FrameBuilder& frame, const Hits& hits, int branches) {
+NextPhotons allocateNext(FrameBuilder& frame, const Hits& hits, int branches) {
     return frame.pass<NextPhotons>(
         "specular.list", "photons that end leave no gaps",
         [&](graph::PassSetup& setup, NextPhotons& data) {
@@ -14,7 +14,7 @@ NextPhotons makeRoom(FrameBuilder& frame, const Hits& hits, int branches) {
             before.sample(setup);
             ModelledPaths paths = before.paths;
             ++paths.interactions;
-            data.photons = Photons::create(setup, before.width, before.rowsThatGoOn * branches,
+            data.photons = Photons::create(setup, before.width, before.nextRows * branches,
                                            fmt::format("{}_{}", before.batch, paths.interactions),
                                            before.hasBeams());
             data.photons.batch = before.batch;
@@ -31,15 +31,15 @@ NextPhotons makeRoom(FrameBuilder& frame, const Hits& hits, int branches) {
                 setup.createBuffer<std::uint32_t>("photons.firsts" + data.photons.suffix, groups));
         },
         [list = hits.incoming, branches](const NextPhotons& data, gl::PassContext& context) {
-            dispatchOver(context.compute("shared/photon_blocks.comp"), list);
-            context.compute("shared/photon_offsets.comp")
+            dispatchOver(context.compute("photon_lists/next_photons_blocks.comp"), list);
+            context.compute("photon_lists/next_photons_offsets.comp")
                 .set("branches", branches)
                 .set("nextRowLength", data.photons.width)
                 .dispatch(1);
         });
 }
 
-Photons sendOn(graph::PassSetup& setup, const Hits& hits, const NextPhotons& next) {
+Photons bindNextPhotons(graph::PassSetup& setup, const Hits& hits, const NextPhotons& next) {
     hits.sample(setup);
     hits.incoming.sample(setup);
     setup.storage("NextFirsts", next.firsts);

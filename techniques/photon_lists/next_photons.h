@@ -13,10 +13,11 @@ struct NextPhotons {
 };
 
 // Adds the pass "specular.list", which makes room for `branches` photons of each that goes on.
-[[nodiscard]] NextPhotons makeRoom(FrameBuilder& frame, const Hits& hits, int branches);
+[[nodiscard]] NextPhotons allocateNext(FrameBuilder& frame, const Hits& hits, int branches);
 
-// Declares that a pass sends photons on: what include/next_photons.glsl reads and writes. Its
-// commands have a thread a photon of `hits.incoming`.
-[[nodiscard]] Photons sendOn(graph::PassSetup& setup, const Hits& hits, const NextPhotons& next);
+// Declares that a pass sends photons on: what include/photons/next_photons.glsl reads and writes.
+// Its commands have a thread a photon of `hits.incoming`.
+[[nodiscard]] Photons bindNextPhotons(graph::PassSetup& setup, const Hits& hits,
+                                      const NextPhotons& next);
 
 }  // namespace kaustik

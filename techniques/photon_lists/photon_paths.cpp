@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "techniques/shared/photon_paths.h"
+#include "techniques/photon_lists/photon_paths.h"
 
 #include <fmt/format.h>
 
@@ -13,18 +13,18 @@ namespace kaustik {
 
 int interactionCount(const FrameBuilder& frame, const ModelledPaths& paths) {
     if (paths.end) return 1;
-    const scene::HitsAgain& again = frame.needs().hitsAgain;
+    const scene::RepeatedHits& again = frame.needs().repeatedHits;
     const bool canRepeat = paths.transmissionOnly ? again.transmitted : again.reflected;
     return canRepeat ? frame.params<SpecularParams>("specular").bounces : 1;
 }
 
 std::vector<Samples> batchesOfGrids(const FrameBuilder& frame, int together) {
-    const int most = frame.params<EmitParams>("emit").batch;
+    const int maximum = frame.params<EmitParams>("emit").batch;
     const params::Extent photons = frame.photonsOfALight();
     const int lights = std::max(frame.needs().lights, 1);
     const std::int64_t all = std::int64_t{photons.width} * photons.height * lights;
-    if (all <= most) return {{0, lights, 0, photons.height, "", {}}};
-    int rows = std::clamp(most / photons.width, 1, photons.height);
+    if (all <= maximum) return {{0, lights, 0, photons.height, "", {}}};
+    int rows = std::clamp(maximum / photons.width, 1, photons.height);
     if (rows > together) rows -= rows % together;
     std::vector<Samples> batches;
     for (int light = 0; light < lights; ++light) {
@@ -61,23 +61,14 @@ void followPhotons(FrameBuilder& frame, const Surfaces& surfaces, Samples sample
     caustic.last = hits;
 }
 
-void warnOfRefinement(FrameBuilder& frame, const std::string& driver,
-                      const std::set<std::string>& read) {
-    for (const std::string& name : frame.inputs().params.setByUser()) {
-        if (!name.starts_with(RefineStage::name) || read.contains(name)) continue;
-        frame.warn(
-            fmt::format("{} has no effect with driver={}; take driver=adaptive.", name, driver));
-    }
-}
-
 void finishMedia(FrameBuilder& frame, Caustic& caustic) {
-    if (frame.needs().scatteringMedium) {
+    const std::string obstacle = whyNoScattering(frame.facts());
+    if (obstacle.empty()) {
         caustic.inScattered = frame.run<BlurStage>(caustic.inScattered);
         return;
     }
     for (const char* stage : {MediaStage::name, BlurStage::name}) {
-        frame.skip(std::string(stage) + "." + frame.chosenNode(stage).name,
-                   "the scene has no medium that scatters");
+        frame.skip(std::string(stage) + "." + frame.chosenNode(stage).name, obstacle);
     }
 }
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <functional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -32,11 +31,6 @@ struct PhotonUse {
 // map, others that of the samples, which nobody reads.
 void followPhotons(FrameBuilder& frame, const Surfaces& surfaces, Samples samples, Caustic& caustic,
                    const PhotonUse& use = {});
-
-// Warns of settings of the stage refine that are set and that this driver does not read; those of
-// `read` it does.
-void warnOfRefinement(FrameBuilder& frame, const std::string& driver,
-                      const std::set<std::string>& read = {});
 
 // After the last photons: smooths what a medium scatters, or says why there is none.
 void finishMedia(FrameBuilder& frame, Caustic& caustic);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "techniques/shared/back_faces.h"
+#include "techniques/raster_views/back_faces.h"
 
 namespace kaustik {
 
@@ -18,7 +18,7 @@ BackFaces drawBackFaces(FrameBuilder& frame, const Geometry& geometry, const Vie
     };
     return frame
         .pass<Data>(
-            pass.name, pass.why,
+            pass.name, pass.reason,
             [&](graph::PassSetup& setup, Data& data) {
                 data.geometry = geometry;
                 if (geometry.heightFields.valid()) setup.read(geometry.heightFields);
@@ -35,7 +35,7 @@ BackFaces drawBackFaces(FrameBuilder& frame, const Geometry& geometry, const Vie
             [&inputs = frame.inputs()](const Data& data, gl::PassContext& context) {
                 const render::RasterViews& drawn = *data.faces.views;
                 gl::Command command =
-                    context.shaders({"shared/eye.vert", "shared/back_faces.frag"});
+                    context.shaders({"raster_views/eye.vert", "raster_views/back_faces.frag"});
                 drawn.bindTo(command).set("projection", drawn.view(0).projection());
                 command.target(data.faces.depth).clear();
                 command.target(data.faces.surface).clear();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The farthest back faces of the transmitting objects in some view, for whoever asks where a ray
-// leaves them (include/two_interfaces.glsl; W05).
+// leaves them (include/views/two_interfaces.glsl; W05).
 #pragma once
 
 #include <string>
@@ -18,7 +18,13 @@ struct BackFaces {
     void sample(graph::PassSetup& setup) const;
 };
 
-// How far a refracted ray goes inside, as include/two_interfaces.glsl has it.
+// Why there are no back faces to be drawn, for a condition.
+[[nodiscard]] inline std::string whyNoBodies(const FrameFacts& facts) {
+    const bool mayHaveBodies = facts.needs == nullptr || facts.needs->closedDielectrics;
+    return mayHaveBodies ? "" : "no dielectric of the scene has an inside";
+}
+
+// How far a refracted ray goes inside, as include/views/two_interfaces.glsl has it.
 enum class DistanceInside : int { estimates, search };
 template <class R>
 void reflectDistance(R& r, DistanceInside& distance, int& steps) {
@@ -36,7 +42,7 @@ void reflectDistance(R& r, DistanceInside& distance, int& steps) {
 // What the pass is called, and the names of its textures begin with.
 struct BackFacesPass {
     std::string name;
-    std::string why;
+    std::string reason;
     std::string prefix;
     bool hasShape = false;  // how their normals turn
 };

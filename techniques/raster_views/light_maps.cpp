@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "techniques/shared/light_maps.h"
+#include "techniques/raster_views/light_maps.h"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "framework/pipeline/stage_params.h"
-#include "techniques/shared/receivers.h"
-#include "techniques/shared/seen_part.h"
+#include "techniques/raster_views/receivers.h"
+#include "techniques/raster_views/seen_part.h"
 
 namespace kaustik {
 namespace {
@@ -46,7 +46,7 @@ scene::Bounds coveredBounds(const FrameBuilder& frame, MapCover covers) {
     if (covers == MapCover::scene || all.empty) return all;
     scene::Bounds seen = seenPartOf(all, frame.view()).bounds;
     if (seen.empty) return all;
-    // Splats of what lies just beside the picture reach into it.
+    // Splats of what lies just next to the picture reach into it.
     seen = widened(
         seen, 0.02 * (seen.maximum - seen.minimum) + 1e-6 * glm::length(all.maximum - all.minimum));
     seen.minimum = glm::max(seen.minimum, all.minimum);
@@ -96,11 +96,11 @@ std::vector<scene::Bounds> nearerBounds(const FrameBuilder& frame, int cascades)
 }
 
 // A perspective view wider than this wastes most of its texels on its rim.
-constexpr double kWidestTangent = 2.0;
+constexpr double kMaxTangent = 2.0;
 
 bool needsCube(const render::RasterView& view) {
     return !view.isOrthographic &&
-           (view.isClipped || std::max(view.halfExtent.x, view.halfExtent.y) > kWidestTangent);
+           (view.isClipped || std::max(view.halfExtent.x, view.halfExtent.y) > kMaxTangent);
 }
 
 // Six faces of half a map's side.
@@ -112,8 +112,8 @@ constexpr double kBytesPerTexel = 4.0 * 6.0 * 5.0 + 4.0 * 4.0 + 8.0 + 16.0 + 8.0
 // As asked for, or halved until all maps fit into the memory that they may take.
 int sideOfMaps(FrameBuilder& frame, const ReconstructParams& params, int views) {
     int side = params.mapSize;
-    const double most = static_cast<double>(params.memoryMebibytes) * 1048576.0;
-    while (side > 16 && kBytesPerTexel * side * side * views > most)
+    const double maximum = static_cast<double>(params.memoryMebibytes) * 1048576.0;
+    while (side > 16 && kBytesPerTexel * side * side * views > maximum)
         side /= 2;
     if (side < params.mapSize) {
         frame.warn(
@@ -155,12 +155,12 @@ std::vector<render::RasterView> finerViews(FrameBuilder& frame, const scene::Lig
         before = texelArea(view);
         views.push_back(view);
     }
-    const auto asked = static_cast<std::size_t>(cascades - 1);
-    if (views.size() < asked) {
+    const auto requested = static_cast<std::size_t>(cascades - 1);
+    if (views.size() < requested) {
         frame.warn(fmt::format(
             "reconstruct.map_cascades = {}: {} of the further maps of light '{}' would be hardly "
             "finer than those before, or none; they are left out.",
-            cascades, asked - views.size(), light.name));
+            cascades, requested - views.size(), light.name));
     }
     return views;
 }
@@ -170,12 +170,12 @@ const PlannedMaps& plannedMaps(FrameBuilder& frame) {
         const auto& params = frame.params<ReconstructParams>("reconstruct");
         const scene::Bounds target = coveredBounds(frame, params.covers);
         auto planned = std::make_shared<PlannedMaps>();
+        const int cascades = params.space == StoreSpace::light ? params.cascades : 1;
         double maps = 0.0;  // in sides of the size asked for
         for (const scene::Light& light : frame.scene().lights) {
             planned->whole.push_back(
                 render::makeLightView(light, target, sceneBounds(frame.scene())));
-            planned->nearer.push_back(
-                finerViews(frame, light, planned->whole.back(), params.cascades));
+            planned->nearer.push_back(finerViews(frame, light, planned->whole.back(), cascades));
             maps += needsCube(planned->whole.back()) ? kMapsOfCube : 1.0;
             maps += static_cast<double>(planned->nearer.back().size());
         }
@@ -187,10 +187,10 @@ const PlannedMaps& plannedMaps(FrameBuilder& frame) {
 ReceiverView drawReceivers(FrameBuilder& frame, const Geometry& geometry, std::size_t light,
                            const Views& views, const std::string& suffix) {
     const std::string name = (light == 0 ? "light" : fmt::format("light.{}", light + 1)) + suffix;
-    return seeReceivers(frame, geometry, views, name,
-                        fmt::format("light '{}' stores caustics where it sees receivers",
-                                    frame.scene().lights[light].name),
-                        render::DrawSet::receivers)
+    return renderReceivers(frame, geometry, views, name,
+                           fmt::format("light '{}' stores caustics where it sees receivers",
+                                       frame.scene().lights[light].name),
+                           render::DrawSet::receivers)
         .receivers;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "techniques/shared/light_sight.h"
+#include "techniques/raster_views/light_sight.h"
 
 #include <fmt/format.h>
 
@@ -43,7 +43,7 @@ LightDepths drawLightDepths(FrameBuilder& frame, const LightDepthsPass& pass,
                             const std::vector<LightSight>& sights, int side,
                             const Geometry& geometry) {
     return frame.pass<LightDepths>(
-        pass.name, pass.why,
+        pass.name, pass.reason,
         [&](graph::PassSetup& setup, LightDepths& data) {
             data.geometry = geometry;
             if (geometry.heightFields.valid()) setup.read(geometry.heightFields);
@@ -55,7 +55,8 @@ LightDepths drawLightDepths(FrameBuilder& frame, const LightDepthsPass& pass,
         },
         [&inputs = frame.inputs(), sights](const LightDepths& data, gl::PassContext& context) {
             for (std::size_t layer = 0; layer < sights.size(); ++layer) {
-                gl::Command command = context.shaders({"shared/eye.vert", "shared/shadow.frag"});
+                gl::Command command =
+                    context.shaders({"raster_views/eye.vert", "raster_views/light_sight.frag"});
                 command.set("projection", sights[layer].view.projection())
                     .target(data.map, static_cast<int>(layer))
                     .clear()

@@ -17,8 +17,8 @@ struct LightSight {
 // of lights that would have to see wider than a view can.
 [[nodiscard]] std::vector<LightSight> sightsOfSpecular(FrameBuilder& frame);
 
-// Nearest surfaces as shared/shadow.frag draws them. x: planar depth from the light, m, 0 none; yz:
-// its growth a texel, as a share of it.
+// Nearest surfaces as raster_views/light_sight.frag draws them. x: planar depth from the light, m,
+// 0 none; yz: its growth a texel, as a share of it.
 struct LightDepth {
     static constexpr Format format = Format::rgba32f;
 };
@@ -30,7 +30,7 @@ struct LightDepths {
 // What the pass that draws them is called, and says; and the names of its textures.
 struct LightDepthsPass {
     std::string name;
-    std::string why;
+    std::string reason;
     std::string map;
     std::string depthBuffer;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "techniques/shared/seen_part.h"
+#include "techniques/raster_views/seen_part.h"
 
 #include <algorithm>
 #include <array>

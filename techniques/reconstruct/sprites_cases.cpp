@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Hard cases of these nodes alone; those that all tracers share are in framework/numerics/cases.
-#include "techniques/screen_space_photons/hard_cases.h"
+#include "techniques/register_hard_cases.h"
 
 #include <fmt/format.h>
 
@@ -26,7 +26,7 @@ void everyKernel(Lab& lab) {
 
 }  // namespace
 
-void addScreenSpacePhotonCases(Suite& suite) {
+void addSpritesCases(Suite& suite) {
     // What the reduce leaves right of the longest line is memory that nothing reads.
     suite.allowUnwritten("trace.rows_");
     suite.add("D31", "", everyKernel);

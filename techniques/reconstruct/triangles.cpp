@@ -15,9 +15,8 @@
 
 #include "framework/core/error.h"
 #include "framework/pipeline/frame_builder.h"
-#include "techniques/screen_space_photons/nodes.h"
-#include "techniques/shared/narrowed.h"
-#include "techniques/shared/stores.h"
+#include "techniques/splats/narrowed.h"
+#include "techniques/stores/stores.h"
 
 namespace kaustik {
 namespace {
@@ -59,7 +58,7 @@ struct TrianglesParams {
     }
 };
 
-// As shaders/screen_space_photons/patch_list.glsl has it.
+// As shaders/reconstruct/triangles_patch_list.glsl has it.
 struct PatchCount {
     std::uint32_t count, groupsX, groupsY, groupsZ;
 };
@@ -69,24 +68,17 @@ struct VertexShares {
 struct PatchBlock {
     glm::vec4 flux, low, high;
 };
-constexpr int kMostMerges = 4;
-
-void setCells(gl::Command& command, const CellGrid& cells) {
-    command.set("cellGrid", glm::ivec2(cells.width, cells.rows))
-        .set("cellFirstRow", cells.firstRow)
-        .set("cellLights", glm::ivec2(cells.firstLight, cells.lights))
-        .set("cellSplits", cells.splits);
-}
+constexpr int kMaxMerges = 4;
 
 // On the faces of a cube nothing wider than this, rad, is one triangle: whichever face sees its
 // middle has nearly always all of it before it; what little another sees then is shared among the
 // rest.
-constexpr float kWidestOnCube = 1.2f;
+constexpr float kMaxWidthOnCube = 1.2f;
 
 TrianglesParams forViews(TrianglesParams params, const render::RasterViews& views) {
     if (views.count() == 1) return params;
-    const float most = kWidestOnCube * 0.5f * static_cast<float>(views.width());
-    params.maximum = std::clamp(static_cast<int>(most), 1, params.maximum);
+    const float maximum = kMaxWidthOnCube * 0.5f * static_cast<float>(views.width());
+    params.maximum = std::clamp(static_cast<int>(maximum), 1, params.maximum);
     return params;
 }
 
@@ -105,12 +97,13 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Hits& h
         graph::Buffer<PatchCount> counts;
         graph::Buffer<transport::Narrowed> narrowed;
     };
-    const std::string why = hits.incoming.cells.width > 0
-                                ? "what neighbours bring is spread between them"
-                                : "no photon has neighbours: each is covered by its own beam";
+    const std::string reason = hits.incoming.cells.width > 0
+                                   ? "what neighbours bring is spread between them"
+                                   : "no photon has neighbours: each is covered by its own beam";
     const Data& covered = frame.pass<Data>(
         "reconstruct.triangles",
-        isGlossy ? why + ", and, since some receivers are glossy, how it goes to the eye" : why,
+        isGlossy ? reason + ", and, since some receivers are glossy, how it goes to the eye"
+                 : reason,
         [&](graph::PassSetup& setup, Data& data) {
             data.stored = depositIn(setup, store, hits, before, sets);
             if (hits.incoming.extents.valid()) {
@@ -144,29 +137,31 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Hits& h
             context.buffer(data.counts).clear();
             if (!context.isRepeated()) context.buffer(data.narrowed).clear();
             const auto shader = [&](const char* name) {
-                gl::Command command =
-                    context.compute(fmt::format("screen_space_photons/{}.comp", name));
+                gl::Command command = context.compute(name);
                 bindStore(command, store).params("reconstruct.triangles", params);
                 setCells(command, list.cells);
                 return command;
             };
             const auto countGroups = [&](int isWide) {
-                context.compute("screen_space_photons/patch_groups.comp")
+                context.compute("reconstruct/triangles_groups.comp")
                     .set("isWide", isWide)
                     .dispatch(1);
             };
-            for (const char* name : {"triangles_cells", "triangles_join", "triangles_list"}) {
+            for (const char* name :
+                 {"reconstruct/triangles_cells.comp", "reconstruct/triangles_join.comp",
+                  "reconstruct/triangles_list.comp"}) {
                 gl::Command command = shader(name);
                 dispatchOver(command, list);
             }
-            for (int step = 0; params.merge > 0.0f && step <= kMostMerges + 1; ++step) {
-                gl::Command command = shader("triangles_merge");
+            for (int step = 0; params.merge > 0.0f && step <= kMaxMerges + 1; ++step) {
+                gl::Command command = shader("reconstruct/triangles_merge.comp");
                 command.set("mergeStep", step);
                 dispatchOver(command, list);
             }
             for (int isWide = 0; isWide < 2; ++isWide) {
                 countGroups(isWide);
-                gl::Command command = shader(isWide == 1 ? "triangles_wide" : "triangles");
+                gl::Command command = shader(isWide == 1 ? "reconstruct/triangles_wide.comp"
+                                                         : "reconstruct/triangles.comp");
                 setDeposit(command, sets);
                 command.set("firstWide", 4 * list.capacity());
                 command.dispatchIndirect(data.counts,
@@ -174,8 +169,8 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Hits& h
                                              offsetof(PatchCount, groupsX));
             }
         });
-    keepToWidth(frame, "reconstruct.triangles", covered.narrowed, 0, "maximum", params.maximum,
-                "beams are narrower than they were to be");
+    reportWidthLimit(frame, "reconstruct.triangles", covered.narrowed, 0, "maximum", params.maximum,
+                     "beams are narrower than they were to be");
     return covered.stored;
 }
 
@@ -190,16 +185,17 @@ CausticMap coverTriangles(FrameBuilder& frame, const TrianglesParams& params, Hi
 
 }  // namespace
 
-void registerTriangles(Registry& registry) {
+void registerReconstructTriangles(Registry& registry) {
     registry.node<ReconstructStage>(
         "triangles",
-        {.sentence = "Joins neighbouring photons of one path and spreads their flux over what the "
-                     "triangles between them cover of each pixel; what cannot be joined is covered "
-                     "by its own beam.",
-         .source = "U08, section 4.2, on the screen",
-         .beams = true,
-         .joinsCells = true},
-        &coverTriangles);
+        {"Joins neighbouring photons of one path and spreads their flux over what the "
+         "triangles between them cover of each pixel; what cannot be joined is covered "
+         "by its own beam.",
+         "U08, section 4.2, on the screen",
+         "It joins photons of neighbouring cells: an emitter without neighbours leaves each photon "
+         "its own beam. Cells wider than reconstruct.triangles.maximum are not joined, and what "
+         "lies between four photons is taken to change evenly."},
+        {.beams = true, .joinsCells = true}, &coverTriangles);
 }
 
 }  // namespace kaustik

@@ -5,8 +5,7 @@
 #include <fmt/format.h>
 
 #include "framework/pipeline/frame_builder.h"
-#include "techniques/shared/light_sight.h"
-#include "techniques/shared/nodes.h"
+#include "techniques/raster_views/light_sight.h"
 
 namespace kaustik {
 namespace {
@@ -71,7 +70,7 @@ Shadows lookUpShadowMaps(FrameBuilder& frame, const ShadowMapParams& params, Geo
             int firstLayer = 0;
             int layer = 0;  // of the visibility
             for (const std::vector<LightSight>& faces : byLight) {
-                gl::Command command = context.fullscreen("shared/shadow_lookup.frag");
+                gl::Command command = context.fullscreen("shadow/map.frag");
                 command.set("firstLayer", firstLayer)
                     .set("faceCount", static_cast<int>(faces.size()))
                     .set("projection", faces.front().view.projection());
@@ -89,7 +88,11 @@ Shadows lookUpShadowMaps(FrameBuilder& frame, const ShadowMapParams& params, Geo
 
 void registerShadowMap(Registry& registry) {
     registry.node<ShadowStage>(
-        "map", {"Draws the scene from each light and compares distances.", ""}, &lookUpShadowMaps);
+        "map",
+        {"Draws the scene from each light and compares distances.", "",
+         "Lights have no size, so shadows are hard but for the width of the map's filter, and "
+         "edges are as fine as its texels. Specular objects block direct light fully."},
+        &lookUpShadowMaps);
 }
 
 }  // namespace kaustik

@@ -6,8 +6,7 @@
 #include <fmt/format.h>
 
 #include "framework/core/error.h"
-#include "techniques/screen_space_photons/hit_testing.h"
-#include "techniques/screen_space_photons/nodes.h"
+#include "techniques/tracing/hit_testing.h"
 
 namespace kaustik {
 namespace {
@@ -27,7 +26,7 @@ Photons aimAtLight(FrameBuilder& frame, const EyeBuffer& eye, int light) {
         [light](const Photons& rays, gl::PassContext& context) {
             context.buffer(rays.ledger).clear();
             fillList(context, rays);
-            context.fullscreen("screen_space_photons/shadow_aim.frag")
+            context.fullscreen("shadow/rays_aim.frag")
                 .set("lightIndex", light)
                 .target(rays.position)
                 .target(rays.direction)
@@ -44,12 +43,12 @@ Shadows traceShadowRays(FrameBuilder& frame, const params::NoParams&, Geometry g
         frame.skip("shadow.rays", "the scene has no light");
         return {};
     }
-    if (frame.tracerSees() != Sees::eyeLayers) {
+    if (frame.tracerReach() != TracerReach::eyeLayers) {
         throw ConfigError(
             "shadow.rays looks through the layers that the eye sees, and the chosen tracer does "
             "not: take shadow=map, or a tracer of the layers, trace=hierarchical say.");
     }
-    const FrameBuilder::Within within(frame, "shadow");
+    const FrameBuilder::PassScope within(frame, "shadow");
     Shadows shadows;
     for (int light = 0; light < lights; ++light) {
         const Hits hits =
@@ -69,7 +68,7 @@ Shadows traceShadowRays(FrameBuilder& frame, const params::NoParams&, Geometry g
                 }
             },
             [light](const Shadows& data, gl::PassContext& context) {
-                context.fullscreen("screen_space_photons/shadow_rays.frag")
+                context.fullscreen("shadow/rays.frag")
                     .set("lightIndex", light)
                     .target(data.visibility, light)
                     .draw();
@@ -83,7 +82,9 @@ Shadows traceShadowRays(FrameBuilder& frame, const params::NoParams&, Geometry g
 void registerShadowRays(Registry& registry) {
     registry.node<ShadowStage>(
         "rays",
-        {"Traces a ray from every receiver to the light through the layers.", "K06, section 5"},
+        {"Traces a ray from every receiver to the light through the layers.", "K06, section 5",
+         "What is off the screen or beyond the last layer throws no shadow, and a shadow is there "
+         "or not, once a pixel. It takes a tracer of the eye's layers and refuses every other."},
         &traceShadowRays);
 }
 

@@ -7,34 +7,18 @@
 #include <string>
 
 #include "framework/pipeline/frame_builder.h"
-#include "techniques/shared/nodes.h"
-#include "techniques/shared/specular.h"
+#include "techniques/specular/interface.h"
+#include "techniques/specular/split.h"
 
 namespace kaustik {
 namespace {
 
 // Why both branches are followed; "" where one is enough.
-std::string whyBoth(const scene::SceneNeeds& needs) {
-    if (needs.reflectedLight) {
-        return fmt::format("{:.0f}% of the light on '{}' is reflected, and '{}' lies in its path",
-                           100.0 * needs.reflectedLight->share, needs.reflectedLight->sheet,
-                           needs.reflectedLight->receiver);
-    }
-    if (needs.concaveBody) {
-        return fmt::format(
-            "'{}' is not convex, and each of its faces that light within comes to "
-            "reflects a share",
-            *needs.concaveBody);
-    }
-    return "";
-}
-
-Photons interactAsNeeded(FrameBuilder& frame, const params::NoParams&, Hits hits,
-                         Surfaces surfaces) {
-    const std::string why = whyBoth(frame.needs());
+Photons interactAuto(FrameBuilder& frame, const params::NoParams&, Hits hits, Surfaces surfaces) {
+    const std::string reason = whyBothBranches(frame.needs());
     const bool isFirst = frame.runsOf(SpecularStage::name) == 1;
-    if (!why.empty()) {
-        if (isFirst) frame.skip("specular.interface", why + ": both branches are followed");
+    if (!reason.empty()) {
+        if (isFirst) frame.skip("specular.interface", reason + ": both branches are followed");
         return splitAtInterface(frame, frame.params<SplitParams>("specular.split"), hits, surfaces);
     }
     if (isFirst) {
@@ -48,11 +32,15 @@ Photons interactAsNeeded(FrameBuilder& frame, const params::NoParams&, Hits hits
 }  // namespace
 
 void registerSpecularAuto(Registry& registry) {
-    registry.node<SpecularStage>("auto",
-                                 {"Follows both Fresnel branches where water or a pane reflects "
-                                  "much light to a receiver, else the refracted one.",
-                                  ""},
-                                 &interactAsNeeded);
+    registry.node<SpecularStage>(
+        "auto",
+        {"Follows both Fresnel branches where water or a pane reflects "
+         "much light to a receiver, else the refracted one.",
+         "",
+         "It decides once for the whole scene, by its sheets' reflectance and by whether bodies "
+         "are convex. What it then leaves out is in the ledger as untraced_branch.",
+         {"specular.split"}},
+        &interactAuto);
 }
 
 }  // namespace kaustik

@@ -17,11 +17,10 @@
 #include <vector>
 
 #include "framework/pipeline/frame_builder.h"
-#include "techniques/adaptive_caustic_map/body_buffers.h"
-#include "techniques/adaptive_caustic_map/nodes.h"
-#include "techniques/shared/back_faces.h"
-#include "techniques/shared/light_sight.h"
-#include "techniques/shared/next_photons.h"
+#include "techniques/deferred_buffers/body_buffers.h"
+#include "techniques/photon_lists/next_photons.h"
+#include "techniques/raster_views/back_faces.h"
+#include "techniques/raster_views/light_sight.h"
 
 namespace kaustik {
 namespace {
@@ -52,20 +51,21 @@ struct DeferredSpecularParams {
         r.field(size, "size",
                 "Side of each light's view of the fronts and backs of bodies; of a scene's only "
                 "body, with emit=deferred, emit.deferred.size counts",
-                "texels", params::range(16, 8192));
+                "texels", params::range(16, 8192))
+            .when(&whyNoBodies);
         reflectGeometry(r, geometry);
     }
 };
 
-std::vector<Body> bodiesKept(const FrameBuilder& frame, const DeferredSpecularParams& params,
-                             const scene::Light& light) {
+std::vector<Body> nearestBodies(const FrameBuilder& frame, const DeferredSpecularParams& params,
+                                const scene::Light& light) {
     std::vector<Body> bodies = nearestFirst(bodiesOf(frame.scene()), light);
-    keepFirst(bodies, params.layers);
+    truncateBodies(bodies, params.layers);
     return bodies;
 }
 
 // Paths that the scene has and this cannot form, in a sentence; "" where it has none.
-std::string whatIsNotFollowed(const FrameBuilder& frame) {
+std::string omittedPathsMessage(const FrameBuilder& frame) {
     const scene::SceneNeeds& needs = frame.needs();
     std::vector<std::string> paths;
     if (needs.reflectedLight) {
@@ -84,22 +84,22 @@ std::string whatIsNotFollowed(const FrameBuilder& frame) {
                 fmt::format("from one to another of {}, whose boxes overlap", quoted(body.names)));
         }
     }
-    if (needs.reflectors > 0 && needs.hitsAgain.reflected)
+    if (needs.reflectors > 0 && needs.repeatedHits.reflected)
         paths.emplace_back("from a mirror to another specular object, or to itself");
     if (needs.refractors > closed && needs.refractors + needs.reflectors > 1 &&
-        needs.hitsAgain.transmitted)
+        needs.repeatedHits.transmitted)
         paths.emplace_back("from a sheet to another specular object");
     if (paths.empty()) return "";
     return fmt::format("specular=deferred: this technique cannot form paths {}.",
                        fmt::join(paths, "; nor "));
 }
 
-void sayWhatIsLeftOut(FrameBuilder& frame, const DeferredSpecularParams& params) {
-    const std::string sentence = whatIsNotFollowed(frame);
+void warnOmittedPaths(FrameBuilder& frame, const DeferredSpecularParams& params) {
+    const std::string sentence = omittedPathsMessage(frame);
     if (!sentence.empty()) frame.warn(sentence);
     for (const scene::Light& light : frame.scene().lights) {
         const std::vector<Body> bodies = nearestFirst(bodiesOf(frame.scene()), light);
-        const std::string names = namesBeyond(bodies, params.layers);
+        const std::string names = omittedNames(bodies, params.layers);
         if (names.empty()) continue;
         frame.warn(fmt::format(
             "specular=deferred keeps {} of the {} bodies that light '{}' sees, the nearest ones: "
@@ -114,7 +114,7 @@ BodyBuffers bodiesSeenFrom(FrameBuilder& frame, const DeferredSpecularParams& pa
                            bool hasShape) {
     const std::string suffix = light == 0 ? "" : fmt::format("_{}", light + 1);
     return *frame.once<BodyBuffers>("specular.body_buffers" + suffix, [&] {
-        if (sharesBacks(frame)) {
+        if (sharesBackFaces(frame)) {
             const DeferredBuffers& shared = deferredBuffers(frame, surfaces.geometry)[light];
             auto own = std::make_shared<BodyBuffers>();
             *own = {shared.depth, shared.surface, shared.shape, shared.views, 1};
@@ -123,7 +123,7 @@ BodyBuffers bodiesSeenFrom(FrameBuilder& frame, const DeferredSpecularParams& pa
         }
         const Views views = frame.makeViews(
             render::Space::light, {render::inPixels(sight.view, params.size, params.size)});
-        const std::vector<Body> bodies = bodiesKept(frame, params, frame.scene().lights[light]);
+        const std::vector<Body> bodies = nearestBodies(frame, params, frame.scene().lights[light]);
         return std::make_shared<BodyBuffers>(drawBodies(
             frame, surfaces.geometry, views, bodies,
             {"specular.body_buffers",
@@ -138,8 +138,8 @@ Photons interactDeferred(FrameBuilder& frame, const DeferredSpecularParams& para
     const std::vector<LightSight> sights = *frame.once<std::vector<LightSight>>(
         "specular.sights",
         [&] { return std::make_shared<std::vector<LightSight>>(sightsOfSpecular(frame)); });
-    if (frame.runsOf(SpecularStage::name) == 1) sayWhatIsLeftOut(frame, params);
-    const NextPhotons next = makeRoom(frame, hits, 1);
+    if (frame.runsOf(SpecularStage::name) == 1) warnOmittedPaths(frame, params);
+    const NextPhotons next = allocateNext(frame, hits, 1);
     Photons photons = next.photons;
     photons.ledger = hits.incoming.ledger;
     const int bodies = std::min(static_cast<int>(bodiesOf(frame.scene()).size()), params.layers);
@@ -158,15 +158,14 @@ Photons interactDeferred(FrameBuilder& frame, const DeferredSpecularParams& para
                 chained.photons = photons;
                 Hits accounted = hits;
                 accounted.incoming.ledger = photons.ledger;
-                data = sendOn(setup, accounted, chained);
+                data = bindNextPhotons(setup, accounted, chained);
                 data.paths.interactions =
                     hits.incoming.paths.interactions + 2 * std::max(bodies, 1);
                 data.paths.transmissionOnly = true;
                 data.paths.end = true;
             },
             [params, light, list = hits.incoming, seen](const Photons&, gl::PassContext& context) {
-                gl::Command command =
-                    context.compute("adaptive_caustic_map/specular_deferred.comp");
+                gl::Command command = context.compute("specular/deferred.comp");
                 if (seen.views) {
                     seen.views->bindTo(command);
                     seen.bindTo(command);
@@ -181,14 +180,17 @@ Photons interactDeferred(FrameBuilder& frame, const DeferredSpecularParams& para
 
 }  // namespace
 
-void registerDeferredSpecular(Registry& registry) {
+void registerSpecularDeferred(Registry& registry) {
     registry.node<SpecularStage>(
         "deferred",
-        {.sentence = "Refracts photons through several bodies in turn, of each by the fronts and "
-                     "backs that the light sees; reflects them at mirrors.",
-         .source = "WN09, section 3.1.1; W05",
-         .throughBodies = true},
-        &interactDeferred);
+        {"Refracts photons through several bodies in turn, of each by the fronts and "
+         "backs that the light sees; reflects them at mirrors.",
+         "WN09, section 3.1.1; W05",
+         "It knows of each body the front and the back that the light sees, of no more than "
+         "specular.deferred.layers bodies; objects whose boxes overlap count as one. Total "
+         "reflection inside is not followed, and what a medium scatters between two bodies is "
+         "taken as absorbed. A warning names the paths of the scene that it cannot form."},
+        {.throughBodies = true}, &interactDeferred);
 }
 
 }  // namespace kaustik

@@ -18,10 +18,9 @@
 #include <vector>
 
 #include "framework/pipeline/frame_builder.h"
-#include "techniques/caustic_map/nodes.h"
-#include "techniques/shared/back_faces.h"
-#include "techniques/shared/light_sight.h"
-#include "techniques/shared/next_photons.h"
+#include "techniques/photon_lists/next_photons.h"
+#include "techniques/raster_views/back_faces.h"
+#include "techniques/raster_views/light_sight.h"
 
 namespace kaustik {
 namespace {
@@ -39,13 +38,17 @@ struct TwoInterfacesParams {
     void reflect(R& r) {
         reflectDistance(r, distance, steps);
         r.field(size, "size", "Side of each light's view of the back faces", "texels",
-                params::range(16, 8192));
+                params::range(16, 8192))
+            .when(&whyNoBodies);
         r.choice(
-            lens, "lens",
-            "What makes of a photon's beam what it is beyond, where splats follow beams. beam: "
-            "ray differentials; thin, thick: a lens of the surfaces' mean curvatures, "
-            "half-way through, or both surfaces and the way between them",
-            {"beam", "thin", "thick"});
+             lens, "lens",
+             "What makes of a photon's beam what it is beyond, where splats follow beams. beam: "
+             "ray differentials; thin, thick: a lens of the surfaces' mean curvatures, "
+             "half-way through, or both surfaces and the way between them",
+             {"beam", "thin", "thick"})
+            .when([](const FrameFacts& facts) {
+                return facts.usesBeams() ? "" : "photons have no beams here";
+            });
         r.choice(branch, "branch",
                  "Which photons of a dielectric's first interface go on; the others are in the "
                  "ledger's untraced_branch",
@@ -54,7 +57,7 @@ struct TwoInterfacesParams {
 };
 
 // Paths that the scene has and this cannot form, in a sentence; "" where it has none.
-std::string whatIsNotFollowed(const FrameBuilder& frame, const TwoInterfacesParams& params) {
+std::string omittedPathsMessage(const FrameBuilder& frame, const TwoInterfacesParams& params) {
     const scene::SceneNeeds& needs = frame.needs();
     std::vector<std::string> paths;
     if (needs.reflectedLight && params.branch == FollowedBranch::refracted) {
@@ -65,9 +68,9 @@ std::string whatIsNotFollowed(const FrameBuilder& frame, const TwoInterfacesPara
         paths.push_back(fmt::format("through more than two interfaces of '{}', which is not convex",
                                     *needs.concaveBody));
     }
-    if (needs.reflectors > 0 && needs.hitsAgain.reflected)
+    if (needs.reflectors > 0 && needs.repeatedHits.reflected)
         paths.emplace_back("from one mirror to another, or to itself");
-    if (needs.reflectors + needs.refractors > 1 && needs.hitsAgain.transmitted)
+    if (needs.reflectors + needs.refractors > 1 && needs.repeatedHits.transmitted)
         paths.emplace_back("from one specular object to another");
     if (paths.empty()) return "";
     return fmt::format("specular=two_interfaces: this technique cannot form paths {}.",
@@ -89,16 +92,16 @@ BackFaces facesSeenFrom(FrameBuilder& frame, const TwoInterfacesParams& params,
     });
 }
 
-Photons interactTwice(FrameBuilder& frame, const TwoInterfacesParams& params, Hits hits,
-                      Surfaces surfaces) {
+Photons interactTwoInterfaces(FrameBuilder& frame, const TwoInterfacesParams& params, Hits hits,
+                              Surfaces surfaces) {
     const std::vector<LightSight> sights = *frame.once<std::vector<LightSight>>(
         "specular.sights",
         [&] { return std::make_shared<std::vector<LightSight>>(sightsOfSpecular(frame)); });
     if (frame.runsOf(SpecularStage::name) == 1) {
-        const std::string sentence = whatIsNotFollowed(frame, params);
+        const std::string sentence = omittedPathsMessage(frame, params);
         if (!sentence.empty()) frame.warn(sentence);
     }
-    const NextPhotons next = makeRoom(frame, hits, 1);
+    const NextPhotons next = allocateNext(frame, hits, 1);
     Photons photons = next.photons;
     photons.ledger = hits.incoming.ledger;
     const bool hasBodies = frame.needs().closedDielectrics;
@@ -119,14 +122,14 @@ Photons interactTwice(FrameBuilder& frame, const TwoInterfacesParams& params, Hi
                 chained.photons = photons;
                 Hits accounted = hits;
                 accounted.incoming.ledger = photons.ledger;
-                data = sendOn(setup, accounted, chained);
+                data = bindNextPhotons(setup, accounted, chained);
                 data.paths.interactions = hits.incoming.paths.interactions + 2;
                 data.paths.transmissionOnly = true;
                 data.paths.end = true;
             },
             [params, light, list = hits.incoming, views = faces.views](const Photons&,
                                                                        gl::PassContext& context) {
-                gl::Command command = context.compute("caustic_map/two_interfaces.comp");
+                gl::Command command = context.compute("specular/two_interfaces.comp");
                 if (views) views->bindTo(command);
                 command.params("specular.two_interfaces", params)
                     .set("lightIndex", static_cast<int>(light));
@@ -138,14 +141,17 @@ Photons interactTwice(FrameBuilder& frame, const TwoInterfacesParams& params, Hi
 
 }  // namespace
 
-void registerTwoInterfaces(Registry& registry) {
+void registerSpecularTwoInterfaces(Registry& registry) {
     registry.node<SpecularStage>(
         "two_interfaces",
-        {.sentence = "Refracts photons into a body and out of its back faces as the light sees "
-                     "them; reflects them at mirrors.",
-         .source = "Wyman 2005 (W05), as WD08 describes it",
-         .throughBodies = true},
-        &interactTwice);
+        {"Refracts photons into a body and out of its back faces as the light sees "
+         "them; reflects them at mirrors.",
+         "Wyman 2005 (W05), as WD08 describes it",
+         "It assumes bodies with one front and one back that the light sees. Total reflection "
+         "inside, further interfaces, and light that has been bent before are not followed: they "
+         "are in the ledger as internal_reflection_limit and bounce_limit, and a warning names the "
+         "paths of the scene that it cannot form."},
+        {.throughBodies = true}, &interactTwoInterfaces);
 }
 
 }  // namespace kaustik

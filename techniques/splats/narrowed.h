@@ -13,10 +13,11 @@ namespace kaustik {
 
 // Entry `which` of `narrowed`, written by the pass of the node. `parameter`: of the node, with this
 // value, px; `sentence`: what follows on the number of those that are narrower. No flux is lost.
-inline void keepToWidth(FrameBuilder& frame, const std::string& node,
-                        const graph::Buffer<transport::Narrowed>& narrowed, std::size_t which,
-                        const std::string& parameter, int pixels, const std::string& sentence) {
-    frame.keepsTo(
+inline void reportWidthLimit(FrameBuilder& frame, const std::string& node,
+                             const graph::Buffer<transport::Narrowed>& narrowed, std::size_t which,
+                             const std::string& parameter, int pixels,
+                             const std::string& sentence) {
+    frame.reportLimit(
         {node, {narrowed}, [=](const gl::Executor& executor) -> std::optional<ReachedLimit> {
              const transport::Narrowed found =
                  executor.buffer(narrowed).read<transport::Narrowed>()[which];

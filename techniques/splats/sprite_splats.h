@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Ray-cast sprites (K06, section 3.1) for whoever stores light in some views: see sprites.cpp.
+// Ray-cast splats in the receivers' tangent planes (K06, section 3.1), of reconstruct.sprites and
+// reconstruct.beams. Weights are first summed over the receivers that the pixels see, so that the
+// flux deposited is the photon's flux; a compute thread a photon does one and then the other.
 #pragma once
 
 #include <string>
 
 #include "framework/pipeline/frame_builder.h"
-#include "techniques/shared/stores.h"
+#include "techniques/stores/stores.h"
 
 namespace kaustik {
 
@@ -39,7 +41,8 @@ struct SpritesParams {
                 params::range(0.0f, 1e6f));
         r.field(footprints, "footprints",
                 "Radius of a splat in widths of its photon's beam, when no radius is set", "",
-                params::range(0.1f, 100.0f));
+                params::range(0.1f, 100.0f))
+            .when(radiusMeters <= 0.0f, "its radius is set");
         r.field(maximumPixels, "maximum", "Largest radius on the screen; splats shrink to it", "px",
                 params::range(1, 100));
         // Mesa's software rasteriser silently ends a shader's loops after 65,535 turns, and a
@@ -63,5 +66,8 @@ struct Splatting {
 // to a new map.
 [[nodiscard]] Stored splatInto(FrameBuilder& frame, const Splatting& splatting, const Hits& hits,
                                const Store& store, const FluxMap& before);
+// The same wherever light is stored.
+[[nodiscard]] CausticMap splat(FrameBuilder& frame, const Splatting& splatting, const Hits& hits,
+                               const Surfaces& surfaces, const CausticMap& before);
 
 }  // namespace kaustik

@@ -1,30 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "techniques/shared/stores.h"
+#include "techniques/stores/stores.h"
 
 #include <fmt/format.h>
 
 #include "framework/pipeline/stage_params.h"
-#include "techniques/shared/generators.h"
-#include "techniques/shared/light_maps.h"
+#include "techniques/generators/generators.h"
+#include "techniques/raster_views/light_maps.h"
 
 namespace kaustik {
-namespace {
-
-void sayThatCascadesAreOfLights(FrameBuilder& frame) {
-    const char* const name = "reconstruct.map_cascades";
-    if (!frame.inputs().params.isSetByUser(name)) return;
-    static_cast<void>(frame.once<std::string>(name, [&] {
-        frame.warn(fmt::format("{} has no effect: reconstruct.space is not light.", name));
-        return std::make_shared<std::string>();
-    }));
-}
-
-}  // namespace
-
 std::vector<Store> storesOf(FrameBuilder& frame, const Surfaces& surfaces) {
     const StoreSpace space = frame.params<ReconstructParams>("reconstruct").space;
     std::vector<Store> stores;
-    if (space != StoreSpace::light) sayThatCascadesAreOfLights(frame);
     if (space == StoreSpace::screen) {
         stores.emplace_back().receivers = surfaces.eye;
         return stores;
@@ -73,8 +59,8 @@ CausticMap storeEverywhere(FrameBuilder& frame, const Surfaces& surfaces, Hits h
 FluxSets setsIn(const FrameBuilder& frame, const Store& store) {
     FluxSets sets;
     // What goes to the eye only the eye's pixels know.
-    sets.hasIntensity = store.isEyes() && frame.needs().glossyReceivers;
-    sets.hasDirection = !store.isEyes() && frame.needs().glossyReceivers;
+    sets.hasIntensity = store.isEyeView() && frame.needs().glossyReceivers;
+    sets.hasDirection = !store.isEyeView() && frame.needs().glossyReceivers;
     return sets;
 }
 

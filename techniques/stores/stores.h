@@ -20,7 +20,7 @@ struct Store {
     // Which of its light's maps (reconstruct.map_cascades); those after the first hold again what
     // that holds, and nothing of them is in the ledger.
     int cascade = 0;
-    [[nodiscard]] bool isEyes() const { return receivers.views->isEyes(); }
+    [[nodiscard]] bool isEyeView() const { return receivers.views->isEyeView(); }
 };
 
 // The eye's receivers, or those that each light or each caustic generator sees.
@@ -48,7 +48,8 @@ using Deposit = std::function<Stored(const Store&, const Hits&, const FluxMap& b
 // The first thing that such a pass does: a new map is empty.
 void clearIfFirst(gl::PassContext& context, const Stored& stored);
 // Makes the shaders of its command see the store's views and take its light, or what comes from its
-// generator (include/arriving.glsl); of those that include include/deposit.glsl the second.
+// generator (include/photons/arriving.glsl); of those that include include/maps/deposit.glsl the
+// second.
 gl::Command& bindStore(gl::Command& command, const Store& store);
 void setDeposit(gl::Command& command, const FluxSets& sets);
 

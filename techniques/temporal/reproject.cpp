@@ -4,8 +4,7 @@
 // the same receiver. The camera may move, receivers stand still. In and out: the same textures, so
 // that all later stages see the mean; "temporal.unfiltered" is what came in.
 #include "framework/pipeline/frame_builder.h"
-#include "techniques/shared/nodes.h"
-#include "techniques/shared/past_views.h"
+#include "techniques/temporal/reproject_views.h"
 
 namespace kaustik {
 namespace {
@@ -23,12 +22,12 @@ struct ReprojectParams {
     }
 };
 
-// What the frame before saw (temporal_reproject.comp, seenHistory).
+// What the frame before saw (reproject.comp, seenHistory).
 struct SeenTexel {
     static constexpr Format format = Format::rgba32f;
 };
 
-graph::Buffer<PastViews> keepViews(FrameBuilder& frame) {
+graph::Buffer<PastViews> storePastViews(FrameBuilder& frame) {
     struct Data {
         graph::Buffer<PastViews> views;
     };
@@ -37,14 +36,14 @@ graph::Buffer<PastViews> keepViews(FrameBuilder& frame) {
             "temporal.views", "the frame before is looked up where it saw the same receivers",
             [&](graph::PassSetup& setup, Data& data) {
                 data.views = setup.storage(
-                    "Views", setup.createLastingBuffer<PastViews>("temporal.views", 1));
+                    "Views", setup.createPersistentBuffer<PastViews>("temporal.views", 1));
             },
             [&inputs = frame.inputs()](const Data&, gl::PassContext& context) {
                 const glm::dmat4& worldToView = inputs.view.worldToView;
                 const glm::dvec3 eye =
                     -(glm::transpose(glm::dmat3(worldToView)) * glm::dvec3(worldToView[3]));
                 const glm::dvec3 wholeMeters = glm::floor(eye);
-                context.compute("shared/temporal_views.comp")
+                context.compute("temporal/reproject_views.comp")
                     .set("eyeWholeMeters", glm::vec3(wholeMeters))
                     .set("eyeRest", glm::vec3(eye - wholeMeters))
                     .dispatch(1);
@@ -53,7 +52,7 @@ graph::Buffer<PastViews> keepViews(FrameBuilder& frame) {
 }
 
 // For whoever asks for it by its name.
-void keepUnfiltered(FrameBuilder& frame, const graph::Texture<IrradianceTexel>& irradiance) {
+void storeUnfiltered(FrameBuilder& frame, const graph::Texture<IrradianceTexel>& irradiance) {
     struct Data {
         graph::Texture<IrradianceTexel> from;
         graph::Texture<IrradianceTexel> to;
@@ -78,8 +77,8 @@ IrradianceMap reproject(FrameBuilder& frame, const ReprojectParams& params,
     }
     const int width = frame.width();
     const int height = frame.height();
-    keepUnfiltered(frame, irradiance.irradiance);
-    const graph::Buffer<PastViews> views = keepViews(frame);
+    storeUnfiltered(frame, irradiance.irradiance);
+    const graph::Buffer<PastViews> views = storePastViews(frame);
     return frame.pass<IrradianceMap>(
         "temporal.reproject", "irradiance is a mean over frames",
         [&](graph::PassSetup& setup, IrradianceMap& data) {
@@ -98,18 +97,18 @@ IrradianceMap reproject(FrameBuilder& frame, const ReprojectParams& params,
                 return filtered;
             };
             remember("seenHistory",
-                     setup.createLasting<SeenTexel>("temporal.seen", width, height, 2));
-            remember("irradianceHistory",
-                     setup.createLasting<IrradianceTexel>("temporal.irradiance", width, height, 2));
+                     setup.createPersistent<SeenTexel>("temporal.seen", width, height, 2));
+            remember("irradianceHistory", setup.createPersistent<IrradianceTexel>(
+                                              "temporal.irradiance", width, height, 2));
             data.irradiance = filter("irradiance", irradiance.irradiance);
             if (!irradiance.radiance.valid()) return;
             setup.define("HAS_RADIANCE");
             remember("radianceHistory",
-                     setup.createLasting<RadianceTexel>("temporal.radiance", width, height, 2));
+                     setup.createPersistent<RadianceTexel>("temporal.radiance", width, height, 2));
             data.radiance = filter("radiance", irradiance.radiance);
         },
         [params, width, height](const IrradianceMap&, gl::PassContext& context) {
-            context.compute("shared/temporal_reproject.comp")
+            context.compute("temporal/reproject.comp")
                 .params("temporal.reproject", params)
                 .dispatchOver(width, 8, height, 8);
         });
@@ -117,11 +116,14 @@ IrradianceMap reproject(FrameBuilder& frame, const ReprojectParams& params,
 
 }  // namespace
 
-void registerTemporalReprojection(Registry& registry) {
+void registerTemporalReproject(Registry& registry) {
     registry.node<TemporalStage>(
         "reproject",
         {"A running mean over frames, looked up where each receiver was seen before.",
-         "WD06; WD08, section 5"},
+         "WD06; WD08, section 5",
+         "The camera may move, but receivers are taken to stand still: where light moves faster "
+         "than the mean forgets, it is blurred and late. Each lookup between pixels blurs a "
+         "little."},
         &reproject);
 }
 

@@ -7,9 +7,8 @@
 
 #include <algorithm>
 
-#include "techniques/screen_space_photons/hit_testing.h"
-#include "techniques/screen_space_photons/march_params.h"
-#include "techniques/screen_space_photons/nodes.h"
+#include "techniques/tracing/hit_testing.h"
+#include "techniques/tracing/ray_march.h"
 
 namespace kaustik {
 namespace {
@@ -25,8 +24,8 @@ struct AllHitsParams {
 };
 
 // Which rays may have hit more receivers than they could keep.
-void keepToSlots(FrameBuilder& frame, const AllHitsParams& params, const Hits& hits) {
-    frame.keepsTo(
+void reportSlotLimit(FrameBuilder& frame, const AllHitsParams& params, const Hits& hits) {
+    frame.reportLimit(
         {"trace.all_hits",
          {hits.flux, hits.incoming.list},
          [slots = params.slots, hits](const gl::Executor& executor) -> std::optional<ReachedLimit> {
@@ -50,8 +49,8 @@ Hits traceAllHits(FrameBuilder& frame, const AllHitsParams& params, Photons phot
     needsEyesView("trace.all_hits", "the layers", surfaces.layers.views);
     AllHitsParams marching = params;
     if (marching.march.steps == 0) marching.march.steps = std::max(frame.width(), frame.height());
-    keepToSteps(frame, "trace.all_hits", "trace.all_hits.steps", marching.march.steps,
-                surfaces.layers);
+    reportStepLimit(frame, "trace.all_hits", "trace.all_hits.steps", marching.march.steps,
+                    surfaces.layers);
     const Hits traced = frame.pass<Hits>(
         "trace.all_hits", "every receiver on a ray is lit, for comparison",
         [&](graph::PassSetup& setup, Hits& hits) {
@@ -60,7 +59,7 @@ Hits traceAllHits(FrameBuilder& frame, const AllHitsParams& params, Photons phot
             Photons every = Photons::create(setup, photons.width, photons.height * params.slots,
                                             photons.suffix + "_all", photons.hasBeams());
             every.paths = photons.paths;
-            every.rowsThatGoOn = photons.rowsThatGoOn;
+            every.nextRows = photons.nextRows;
             every.batch = photons.batch;
             every.ledger = photons.ledger;
             every.store(setup);
@@ -70,30 +69,34 @@ Hits traceAllHits(FrameBuilder& frame, const AllHitsParams& params, Photons phot
         },
         [testing = hitTesting(frame), marching, photons, layers = surfaces.layers](
             const Hits& hits, gl::PassContext& context) {
-            context.compute("screen_space_photons/all_hits_list.comp")
+            context.compute("trace/all_hits_list.comp")
                 .set("slots", marching.slots)
                 .set("nextRowLength", hits.incoming.width)
                 .dispatch(1);
             for (int slot = 0; slot < marching.slots; ++slot) {
-                gl::Command command = context.compute("screen_space_photons/all_hits.comp");
+                gl::Command command = context.compute("trace/all_hits.comp");
                 setHitTesting(command, testing, layers)
                     .params("trace.all_hits", marching)
                     .set("slot", slot);
                 dispatchOver(command, photons);
             }
         });
-    if (photons.batch.empty()) keepToSlots(frame, params, traced);
+    if (photons.batch.empty()) reportSlotLimit(frame, params, traced);
     return traced;
 }
 
 }  // namespace
 
-void registerAllHits(Registry& registry) {
-    registry.node<TraceStage>("all_hits",
-                              {"Lights every receiver on a photon's ray instead of the first: the "
-                               "wrong picture, for comparison.",
-                               "K06, section 2, Fig. 3"},
-                              &traceAllHits);
+void registerTraceAllHits(Registry& registry) {
+    registry.node<TraceStage>(
+        "all_hits",
+        {"Lights every receiver on a photon's ray instead of the first: the "
+         "wrong picture, for comparison.",
+         "K06, section 2, Fig. 3",
+         "It is wrong on purpose: light is made from nothing, as the ledger's balance says. No "
+         "more than trace.all_hits.slots hits of a ray are kept. It works on the screen alone, and "
+         "refuses layers of another view."},
+        &traceAllHits);
 }
 
 }  // namespace kaustik

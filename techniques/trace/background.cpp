@@ -9,8 +9,7 @@
 #include <fmt/format.h>
 
 #include "framework/pipeline/frame_builder.h"
-#include "techniques/caustic_map/nodes.h"
-#include "techniques/shared/light_maps.h"
+#include "techniques/raster_views/light_maps.h"
 
 namespace kaustik {
 namespace {
@@ -36,7 +35,8 @@ struct BackgroundParams {
             "it has found nothing, is searched; 0: none, as published",
             "", params::range(0, 1024));
         r.field(refinements, "refinements", "Bisections of the step that the search has found", "",
-                params::range(0, 32));
+                params::range(0, 32))
+            .when(steps > 0, "with trace.background.steps=0");
     }
 };
 
@@ -68,7 +68,7 @@ std::vector<std::string> turnedAway(const scene::Scene& scene, const scene::Ligh
     return names;
 }
 
-void sayWhatIsHidden(FrameBuilder& frame) {
+void warnHiddenReceivers(FrameBuilder& frame) {
     const auto said =
         frame.once<bool>("trace.background.said", [] { return std::make_shared<bool>(false); });
     if (*said) return;
@@ -88,7 +88,7 @@ void sayWhatIsHidden(FrameBuilder& frame) {
 
 Hits traceBackground(FrameBuilder& frame, const BackgroundParams& params, Photons photons,
                      Surfaces surfaces) {
-    sayWhatIsHidden(frame);
+    warnHiddenReceivers(frame);
     const std::vector<ReceiverView>& lights = lightReceivers(frame, surfaces.geometry);
     Hits hits;
     for (std::size_t light = 0; light < lights.size(); ++light) {
@@ -109,7 +109,7 @@ Hits traceBackground(FrameBuilder& frame, const BackgroundParams& params, Photon
                 data.store(setup);
             },
             [params, light, views = seen.views](const Hits& data, gl::PassContext& context) {
-                gl::Command command = context.compute("caustic_map/background.comp");
+                gl::Command command = context.compute("trace/background.comp");
                 views->bindTo(command)
                     .params("trace.background", params)
                     .set("lightIndex", static_cast<int>(light));
@@ -121,12 +121,18 @@ Hits traceBackground(FrameBuilder& frame, const BackgroundParams& params, Photon
 
 }  // namespace
 
-void registerBackground(Registry& registry) {
-    registry.node<TraceStage>("background",
-                              {"Looks iteratively in the depths of each photon's light for the "
-                               "surface that it reaches.",
-                               "SP05; WD08, section 3", Sees::lightFront},
-                              &traceBackground);
+void registerTraceBackground(Registry& registry) {
+    registry.node<TraceStage>(
+        "background",
+        {"Looks iteratively in the depths of each photon's light for the "
+         "surface that it reaches.",
+         "SP05; WD08, section 3",
+         "It finds the first receiver that each photon's light sees, to a texel: sides that are "
+         "turned away, what another receiver hides and what lies outside of the light's map are "
+         "missed, as hidden_in_map and outside_map. Iteration may jump over thin surfaces between "
+         "its even steps.",
+         {"reconstruct.map_size", "reconstruct.map_covers", "reconstruct.map_memory"}},
+        {TracerReach::lightFront}, &traceBackground);
 }
 
 }  // namespace kaustik

@@ -11,8 +11,7 @@
 #include <cmath>
 
 #include "framework/pipeline/frame_builder.h"
-#include "techniques/screen_space_photons/hit_testing.h"
-#include "techniques/screen_space_photons/nodes.h"
+#include "techniques/tracing/hit_testing.h"
 
 namespace kaustik {
 namespace {
@@ -74,18 +73,18 @@ struct Layout {
     ReachedLimit limit;  // what makes more than one batch
 };
 
-constexpr int kMostRows = 16384;  // of a texture, on every device of OpenGL 4.5
+constexpr int kMaxRows = 16384;  // of a texture, on every device of OpenGL 4.5
 
 Layout makeLayout(const FrameBuilder& frame, const LinesParams& params, int photonCount) {
     const int width = params.width > 0 ? params.width
                                        : std::clamp(std::max(frame.width(), frame.height()),
-                                                    params.minimum, kMostRows);
+                                                    params.minimum, kMaxRows);
     const auto bytesPerRow =
         static_cast<std::size_t>(width + halved(width) + halved(halved(width))) *
         graph::bytesPerTexel(RowTexel::format);
     const std::size_t memory = static_cast<std::size_t>(params.memoryMebibytes) << 20;
     const auto affordable =
-        static_cast<int>(std::clamp<std::size_t>(memory / bytesPerRow, 1, kMostRows));
+        static_cast<int>(std::clamp<std::size_t>(memory / bytesPerRow, 1, kMaxRows));
     const int wanted = params.rows > 0 ? params.rows : photonCount;
     const int rows = std::clamp(std::min(wanted, photonCount), 1, affordable);
     const int batches = (photonCount + rows - 1) / rows;
@@ -99,7 +98,7 @@ Layout makeLayout(const FrameBuilder& frame, const LinesParams& params, int phot
     const ReachedLimit byMemory{
         "trace.lines.memory", "MiB", static_cast<double>(params.memoryMebibytes),
         std::ceil(mebibytes), lost,  0.0};
-    const bool isByRows = rows == wanted || rows == kMostRows;
+    const bool isByRows = rows == wanted || rows == kMaxRows;
     return {width, rows, batches, isByRows ? byRows : byMemory};
 }
 
@@ -140,11 +139,9 @@ RowTextures rasterizeLines(FrameBuilder& frame, const LinesParams& params, const
                                                  gl::PassContext& context) {
             if (batch == 0) context.buffer(data.extents).clear();
             const bool isMade = params.source == LineSource::geometry;
-            std::vector<std::string> shaders{"screen_space_photons/lines.vert"};
-            if (isMade)
-                shaders = {"screen_space_photons/lines_point.vert",
-                           "screen_space_photons/lines.geom"};
-            shaders.push_back("screen_space_photons/lines.frag");
+            std::vector<std::string> shaders{"trace/lines.vert"};
+            if (isMade) shaders = {"trace/lines_point.vert", "trace/lines.geom"};
+            shaders.push_back("trace/lines.frag");
             gl::Command command = context.shaders(shaders);
             setHitTesting(command, testing, layers)
                 .params("trace.lines", params)
@@ -190,9 +187,7 @@ Reduced reduceRows(FrameBuilder& frame, const LinesParams& params, const Layered
             int halvings = 0;
             for (int width = layout.width; width > 1; width = halved(width)) {
                 ++halvings;
-                context
-                    .shaders(
-                        {"screen_space_photons/reduce.vert", "screen_space_photons/reduce.frag"})
+                context.shaders({"trace/lines_reduce.vert", "trace/lines_reduce.frag"})
                     .texture("source", source)
                     .set("batch", batch)
                     .set("halvings", halvings)
@@ -203,7 +198,7 @@ Reduced reduceRows(FrameBuilder& frame, const LinesParams& params, const Layered
                 source = target;
                 std::swap(target, spare);
             }
-            gl::Command command = context.compute("screen_space_photons/resolve.comp");
+            gl::Command command = context.compute("trace/lines_resolve.comp");
             setHitTesting(command, testing, layers)
                 .params("trace.lines", params)
                 .set("batch", batch)
@@ -220,9 +215,9 @@ Hits traceLines(FrameBuilder& frame, const LinesParams& params, Photons photons,
     needsEyesView("trace.lines", "the layers", layers.views);
     // The device alone knows how many there are: rows for as many as there may be.
     const Layout layout = makeLayout(frame, params, photons.capacity());
-    keepToSteps(frame, "trace.lines", "trace.lines.width", layout.width, layers);
+    reportStepLimit(frame, "trace.lines", "trace.lines.width", layout.width, layers);
     if (layout.batches > 1)
-        frame.keepsTo({"trace.lines", {}, [=](const gl::Executor&) { return layout.limit; }});
+        frame.reportLimit({"trace.lines", {}, [=](const gl::Executor&) { return layout.limit; }});
     RowTextures textures;
     Hits hits;
     hits.incoming = photons;
@@ -238,12 +233,16 @@ Hits traceLines(FrameBuilder& frame, const LinesParams& params, Photons photons,
 
 }  // namespace
 
-void registerLines(Registry& registry) {
-    registry.node<TraceStage>("lines",
-                              {"Rasterises each photon's ray as a line into a row of a texture and "
-                               "reduces the row to its first hit.",
-                               "K06, section 2.1"},
-                              &traceLines);
+void registerTraceLines(Registry& registry) {
+    registry.node<TraceStage>(
+        "lines",
+        {"Rasterises each photon's ray as a line into a row of a texture and "
+         "reduces the row to its first hit.",
+         "K06, section 2.1",
+         "It finds what the eye's layers hold and nothing else: not what is off the screen, "
+         "edge-on, smaller than a pixel or beyond the last layer. It works on the screen alone, "
+         "and refuses layers of another view."},
+        &traceLines);
 }
 
 }  // namespace kaustik

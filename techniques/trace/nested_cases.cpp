@@ -14,7 +14,7 @@
 #include "framework/numerics/lab.h"
 #include "framework/pipeline/photon_texels.h"
 #include "framework/scene/dielectrics.h"
-#include "techniques/screen_space_photons/hard_cases.h"
+#include "techniques/register_hard_cases.h"
 
 namespace kaustik {
 namespace {
@@ -105,7 +105,7 @@ void photonsThrough(Lab& lab, int shells) {
                               {"specular.bounces", "12"}}};
         request.recordsTraces = true;
         const Frame frame = lab.render(tracer, scene, request);
-        if (lab.seesReceiversAlone(tracer)) {
+        if (lab.seesReceiversOnly(tracer)) {
             // A ball reflects less than a tenth of what falls on it.
             const EnergyLedger ledger = frame.renderer().ledger();
             lab.expect(tracer.subject,
@@ -121,7 +121,7 @@ void photonsThrough(Lab& lab, int shells) {
         }
         const std::vector<TraceRecord>& traces = frame.renderer().traces();
         const glm::dmat3 back(glm::transpose(glm::dmat3(frame.view().worldToView)));
-        int asked = 0;
+        int tested = 0;
         int right = 0;
         for (std::size_t trace = 0; trace < traces.size(); ++trace) {
             const Hits& found = traces[trace].hits;
@@ -137,7 +137,7 @@ void photonsThrough(Lab& lab, int shells) {
                 const Path exact = pathThrough(shells, impact);
                 const std::optional<double> allowed = differenceOverAPixel(shells, impact);
                 if (!allowed) continue;
-                ++asked;
+                ++tested;
                 const double turned =
                     std::atan2(glm::length(glm::cross(light, out)), glm::dot(light, out));
                 const double error = std::abs(turned - std::abs(exact.turnRadians));
@@ -148,13 +148,13 @@ void photonsThrough(Lab& lab, int shells) {
             tracer.subject,
             fmt::format("share of photons within a degree of the exact path through {} balls",
                         shells),
-            1.0, static_cast<double>(right) / std::max(asked, 1),
+            1.0, static_cast<double>(right) / std::max(tested, 1),
             {0.02,
              "at silhouettes of balls of 25 to 60 pixels a pixel holds one of several "
              "triangles: 2 in a hundred"});
         lab.expectAtLeast(tracer.subject,
                           fmt::format("photons through {} balls that are compared", shells), 1000,
-                          asked, kEnough);
+                          tested, kTooFewReason);
     }
 }
 
@@ -170,7 +170,7 @@ void raysThrough(Lab& lab, int shells) {
     const Texels direction = frame.read(seen.exitDirection);
     const glm::dmat3 back(glm::transpose(glm::dmat3(frame.view().worldToView)));
     const glm::dvec3 eye = frame.toWorld(glm::dvec3(0.0));
-    int asked = 0;
+    int tested = 0;
     int counted = 0;
     int right = 0;
     for (int y = 0; y < position.height; ++y) {
@@ -182,20 +182,20 @@ void raysThrough(Lab& lab, int shells) {
             const Path exact = pathThrough(shells, impact);
             const std::optional<double> allowed = differenceOverAPixel(shells, impact);
             if (exact.interfaces == 0 || !allowed) continue;
-            ++asked;
+            ++tested;
             const bool isCounted = static_cast<int>(position.at(x, y, 3)) == exact.interfaces;
             counted += isCounted ? 1 : 0;
             const glm::dvec3 expected = std::cos(exact.turnRadians) * ray +
                                         std::sin(exact.turnRadians) * glm::normalize(across);
             const bool isNear =
                 glm::length(back * direction.rgb(x, y) - expected) < kDegree + *allowed;
-            right += isNear && direction.at(x, y, 3) == kPathCameOut ? 1 : 0;
+            right += isNear && direction.at(x, y, 3) == kPathExited ? 1 : 0;
         }
     }
     const Tolerance silhouettes{0.05,
                                 "beside silhouettes, where a ray turns back between two pixels "
                                 "and one of them holds no layer of what it hits"};
-    const auto share = [&](int part) { return static_cast<double>(part) / std::max(asked, 1); };
+    const auto share = [&](int part) { return static_cast<double>(part) / std::max(tested, 1); };
     lab.expect(node.subject,
                fmt::format("share of rays with as many interfaces in {} balls", shells), 1.0,
                share(counted), silhouettes);
@@ -204,7 +204,7 @@ void raysThrough(Lab& lab, int shells) {
         fmt::format("share of rays within a degree of the exact path through {} balls", shells),
         1.0, share(right), silhouettes);
     lab.expectAtLeast(node.subject, fmt::format("rays through {} balls that are compared", shells),
-                      5000, asked, kEnough);
+                      5000, tested, kTooFewReason);
 }
 
 // Fifty materials more leave room for a stack of three: what enters the fourth ball is counted.
@@ -222,11 +222,11 @@ void deeperThanTheStack(Lab& lab) {
                                      {"view.refraction.interfaces", "8"},
                                      {"view.refraction.layers", "12"}}});
     const EnergyLedger ledger = frame.renderer().ledger();
-    lab.expectAtLeast("include/interaction.glsl",
+    lab.expectAtLeast("include/photons/interaction.glsl",
                       "share of the flux that goes deeper than the stack", 0.1,
                       ledger.watts[kAccountNestingLimit] / ledger.watts[kAccountEmitted],
                       "the fourth ball's cross-section is a sixth of the first one's");
-    lab.expect("include/interaction.glsl", "balance of the ledger", 0.0, ledger.balance(),
+    lab.expect("include/photons/interaction.glsl", "balance of the ledger", 0.0, ledger.balance(),
                {1e-5, "sums of 32-bit fluxes and areas in fixed point"});
     const std::vector<ReachedLimit> limits = frame.renderer().reachedLimits();
     const auto found = std::find_if(limits.begin(), limits.end(), [](const ReachedLimit& limit) {

@@ -14,8 +14,7 @@
 #include "framework/pipeline/frame_builder.h"
 #include "framework/scene/flat_faces.h"
 #include "framework/scene/light_paths.h"
-#include "techniques/planar/flat_face.h"
-#include "techniques/planar/nodes.h"
+#include "techniques/trace/plane_face.h"
 
 namespace kaustik {
 namespace {
@@ -53,9 +52,10 @@ std::string quoted(const std::vector<std::string>& names) {
 
 // What of the scene the tracer does not see, in a sentence; "" where that is nothing that a photon
 // can hit.
-std::string whatIsNotSeen(const FrameBuilder& frame, const std::vector<std::string>& curved) {
+std::string unseenSurfacesMessage(const FrameBuilder& frame,
+                                  const std::vector<std::string>& curved) {
     const scene::Scene& scene = frame.scene();
-    const scene::HitsAgain& again = frame.needs().hitsAgain;
+    const scene::RepeatedHits& again = frame.needs().repeatedHits;
     std::vector<std::string> bodies;
     std::vector<std::string> sheets;
     for (const scene::Object& object : scene.objects) {
@@ -95,15 +95,13 @@ std::shared_ptr<Planes> makePlanes(FrameBuilder& frame) {
     planes->count = static_cast<int>(faces.size());
     faces.push_back({});  // a block is never empty
     planes->faces = gl::Buffer(faces, "flat receivers");
-    const std::string notSeen = whatIsNotSeen(frame, flat.others);
+    const std::string notSeen = unseenSurfacesMessage(frame, flat.others);
     if (!notSeen.empty()) {
         frame.warn(notSeen);
         planes->missAccount = transport::kAccountUnresolved;
     }
     return planes;
 }
-
-}  // namespace
 
 Hits tracePlane(FrameBuilder& frame, const params::NoParams&, Photons photons,
                 Surfaces /*surfaces*/) {
@@ -119,12 +117,26 @@ Hits tracePlane(FrameBuilder& frame, const params::NoParams&, Photons photons,
             hits.store(setup);
         },
         [planes](const Hits& hits, gl::PassContext& context) {
-            dispatchOver(context.compute("planar/trace.comp")
+            dispatchOver(context.compute("trace/plane.comp")
                              .storage("FlatFaces", planes->faces)
                              .set("faceCount", planes->count)
                              .set("missAccount", planes->missAccount),
                          hits.incoming);
         });
+}
+
+}  // namespace
+
+void registerTracePlane(Registry& registry) {
+    registry.node<TraceStage>(
+        "plane",
+        {"Hits each photon's ray with the planes of flat receivers; no other "
+         "surface is seen.",
+         "K06, section 1.1, Fig. 2",
+         "It finds planes and the faces of boxes and nothing else: light passes curved receivers, "
+         "what would hit a specular surface a second time does not, and what has entered a body is "
+         "lost as tracer. A warning names them."},
+        {TracerReach::flatReceivers}, &tracePlane);
 }
 
 }  // namespace kaustik

@@ -8,7 +8,6 @@
 
 #include "framework/pipeline/frame_builder.h"
 #include "framework/reference/photon_audit.h"
-#include "techniques/raytraced/nodes.h"
 
 namespace kaustik {
 namespace {
@@ -98,7 +97,7 @@ Hits traceRaytraced(FrameBuilder& frame, const params::NoParams&, Photons photon
             },
             [&inputs = frame.inputs(), scene](const Found& data, gl::PassContext& context) {
                 findHits(inputs, *scene, data, context);
-                gl::Command command = context.compute("raytraced/deliver.comp");
+                gl::Command command = context.compute("trace/raytraced.comp");
                 command.texture("foundShading", data.shading)
                     .texture("foundGeometric", data.geometric);
                 if (data.turning.valid()) command.texture("foundTurning", data.turning);
@@ -109,11 +108,13 @@ Hits traceRaytraced(FrameBuilder& frame, const params::NoParams&, Photons photon
 
 }  // namespace
 
-void registerExactTracing(Registry& registry) {
+void registerTraceRaytraced(Registry& registry) {
     registry.node<TraceStage>(
         "raytraced",
-        {"Exact first hits by ray tracing on the processor (Embree).", "", Sees::everything},
-        &traceRaytraced);
+        {"Exact first hits by ray tracing on the processor (Embree).", "",
+         "It runs on the processor and reads the list of photons back for it, so that the device "
+         "waits. It is there only in builds with Embree."},
+        {TracerReach::everything}, &traceRaytraced);
 }
 
 }  // namespace kaustik

@@ -8,17 +8,16 @@
 #include <fmt/format.h>
 
 #include "framework/pipeline/frame_builder.h"
-#include "techniques/caustic_triangles/around.h"
-#include "techniques/caustic_triangles/nodes.h"
-#include "techniques/screen_space_photons/hit_testing.h"
-#include "techniques/shared/generators.h"
+#include "techniques/generators/around_stage.h"
+#include "techniques/generators/generators.h"
+#include "techniques/tracing/hit_testing.h"
 
 namespace kaustik {
 namespace {
 
 struct SecantParams {
     float stride = 4.0f;
-    int most = 256;
+    int maxSteps = 256;
     int refinements = 8;
     template <class R>
     void reflect(R& r) {
@@ -26,32 +25,34 @@ struct SecantParams {
                 "Texels that a step of the linear search spans, as the reference point sees it: "
                 "thinner surfaces may be missed",
                 "texels", params::range(0.1f, 64.0f));
-        r.field(most, "most", "Steps of a ray at most, each the wider", "", params::range(2, 4096));
+        r.field(maxSteps, "max_steps", "Steps of a ray at most, each the wider", "",
+                params::range(2, 4096));
+        r.renamed("most", "max_steps");
         r.field(refinements, "refinements", "Looks within the step that the surface is in", "",
                 params::range(1, 32));
     }
 };
 
 // A ray that sees half of all directions takes so many steps.
-void keepToSteps(FrameBuilder& frame, const SecantParams& params, const LayeredDepth& layers) {
+void reportStepLimit(FrameBuilder& frame, const SecantParams& params, const LayeredDepth& layers) {
     const float wanted = 2.0f * static_cast<float>(layers.views->width()) / params.stride;
-    if (static_cast<float>(params.most) >= wanted) return;
+    if (static_cast<float>(params.maxSteps) >= wanted) return;
     const ReachedLimit limit{
-        "trace.secant.most",
+        "trace.secant.max_steps",
         "steps",
-        static_cast<double>(params.most),
+        static_cast<double>(params.maxSteps),
         static_cast<double>(wanted),
         fmt::format("rays across half of all directions take steps of more than {:.3g} texels",
                     params.stride),
         0.0};
-    frame.keepsTo({"trace.secant", {}, [limit](const gl::Executor&) { return limit; }});
+    frame.reportLimit({"trace.secant", {}, [limit](const gl::Executor&) { return limit; }});
 }
 
 Hits traceSecant(FrameBuilder& frame, const SecantParams& params, Photons photons,
                  Surfaces surfaces) {
     const std::vector<Generator>& generators = causticGenerators(frame);
     const std::vector<SurfacesAround>& around = surfacesAround(frame, surfaces.geometry);
-    keepToSteps(frame, params, around.front().layers);
+    reportStepLimit(frame, params, around.front().layers);
     Hits hits;
     for (std::size_t i = 0; i < around.size(); ++i) {
         const LayeredDepth& layers = around[i].layers;
@@ -73,7 +74,7 @@ Hits traceSecant(FrameBuilder& frame, const SecantParams& params, Photons photon
             },
             [params, i, layers, testing = hitTesting(frame), &block = generatorsBlock(frame)](
                 const Hits& data, gl::PassContext& context) {
-                gl::Command command = context.compute("caustic_triangles/secant.comp");
+                gl::Command command = context.compute("trace/secant.comp");
                 setHitTesting(command, testing, layers)
                     .params("trace.secant", params)
                     .uniforms("Generators", block)
@@ -86,12 +87,17 @@ Hits traceSecant(FrameBuilder& frame, const SecantParams& params, Photons photon
 
 }  // namespace
 
-void registerSecant(Registry& registry) {
-    registry.node<TraceStage>("secant",
-                              {"Searches the layers around the generator that a photon has left, "
-                               "linearly and by secants.",
-                               "U08, section 3", Sees::around},
-                              &traceSecant);
+void registerTraceSecant(Registry& registry) {
+    registry.node<TraceStage>(
+        "secant",
+        {"Searches the layers around the generator that a photon has left, "
+         "linearly and by secants.",
+         "U08, section 3",
+         "It finds what the layers around a generator hold: nothing that its reference point does "
+         "not see, and no more surfaces in a direction than there are layers. A surface thinner "
+         "than a step of the linear search may be missed.",
+         {"around"}},
+        {TracerReach::around}, &traceSecant);
 }
 
 }  // namespace kaustik

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "techniques/screen_space_photons/hit_testing.h"
+#include "techniques/tracing/hit_testing.h"
 
 #include <fmt/format.h>
 
@@ -12,8 +12,8 @@ HitTesting hitTesting(const FrameBuilder& frame) {
             frame.needs().nestedBodies};
 }
 
-void keepToSteps(FrameBuilder& frame, const std::string& pass, const std::string& parameter,
-                 int steps, const LayeredDepth& layers) {
+void reportStepLimit(FrameBuilder& frame, const std::string& pass, const std::string& parameter,
+                     int steps, const LayeredDepth& layers) {
     const int longerSide = std::max(layers.views->width(), layers.views->height());
     if (steps >= longerSide) return;
     const ReachedLimit limit{
@@ -25,7 +25,7 @@ void keepToSteps(FrameBuilder& frame, const std::string& pass, const std::string
                     "seen there alone is missed",
                     steps),
         0.0};
-    frame.keepsTo({pass, {}, [limit](const gl::Executor&) { return limit; }});
+    frame.reportLimit({pass, {}, [limit](const gl::Executor&) { return limit; }});
 }
 
 void readLayers(graph::PassSetup& setup, const LayeredDepth& layers) {

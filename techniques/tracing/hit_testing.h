@@ -16,11 +16,11 @@ struct HitTesting {
 
 // Says that the pass `pass` asks a ray in so many steps at most, its parameter `parameter`, where
 // that is fewer than the picture's longer side has pixels.
-void keepToSteps(FrameBuilder& frame, const std::string& pass, const std::string& parameter,
-                 int steps, const LayeredDepth& layers);
+void reportStepLimit(FrameBuilder& frame, const std::string& pass, const std::string& parameter,
+                     int steps, const LayeredDepth& layers);
 
-// Declares that a pass looks these layers up, under the names of include/hit_test.glsl, and tells
-// its command how.
+// Declares that a pass looks these layers up, under the names of include/views/hit_test.glsl, and
+// tells its command how.
 void readLayers(graph::PassSetup& setup, const LayeredDepth& layers);
 gl::Command& setHitTesting(gl::Command& command, const HitTesting& testing,
                            const LayeredDepth& layers);

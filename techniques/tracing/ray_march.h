@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: MIT
-// The parameters of the tracers that follow a ray a pixel a step.
+// Tracers that follow each photon's ray over the screen a pixel a step until the first hit (K06,
+// section 2.1: what the paper compares its lines with), or skip squares of pixels whose layers it
+// cannot hit. One fragment or one compute thread a photon; all give the same hits as trace.lines,
+// whose steps and hit test they share. In: photons and layered depth in eye view space, m; out:
+// hits, W that arrive after absorption.
 #pragma once
 
-#include "framework/params/param_set.h"
+#include <string>
+
+#include "framework/pipeline/frame_builder.h"
 
 namespace kaustik {
 
@@ -20,5 +26,15 @@ struct MarchParams {
                 params::range(1, 64));
     }
 };
+
+// A node of stage `trace` that marches: "march", say, and its shader, which is one of fragments or
+// one of threads.
+struct RayMarch {
+    std::string node;
+    std::string shader;
+    bool skipsSquares = false;  // by the pyramid of the layers
+};
+[[nodiscard]] Hits marchRays(FrameBuilder& frame, const RayMarch& march, const MarchParams& params,
+                             const Photons& photons, const LayeredDepth& layers);
 
 }  // namespace kaustik

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: MIT
 // view.around: what the eye sees in and through specular surfaces, by rays that are searched in the
-// layers around the generator that they meet first: wherever they end, on the screen or beside it,
+// layers around the generator that they meet first: wherever they end, on the screen or next to it,
 // receivers are lit there, by the light that is stored around the generator too, so that caustics
 // are seen in mirrors and through glass (U08, section 6). In: the eye's first surfaces, layers and
 // maps around generators; out: radiance, W/m²/sr, and exits in eye view space, m.
 #include <utility>
 
 #include "framework/pipeline/frame_builder.h"
-#include "techniques/caustic_map/map_filters.h"
-#include "techniques/caustic_triangles/around.h"
-#include "techniques/caustic_triangles/nodes.h"
-#include "techniques/screen_space_photons/hit_testing.h"
-#include "techniques/shared/generators.h"
-#include "techniques/shared/view_passes.h"
+#include "techniques/eye_rays/view_passes.h"
+#include "techniques/generators/around_stage.h"
+#include "techniques/generators/generators.h"
+#include "techniques/maps/map_filters.h"
+#include "techniques/tracing/hit_testing.h"
 
 namespace kaustik {
 namespace {
@@ -21,7 +20,7 @@ struct AroundViewParams {
     int interfaces = 8;
     bool caustics = true;
     float stride = 4.0f;
-    int most = 256;
+    int maxSteps = 256;
     int refinements = 8;
     template <class R>
     void reflect(R& r) {
@@ -30,7 +29,8 @@ struct AroundViewParams {
                 params::range(1, 16));
         r.field(caustics, "caustics", "Light what rays end at by what is stored around generators");
         r.field(stride, "stride", "As trace.secant.stride", "texels", params::range(0.1f, 64.0f));
-        r.field(most, "most", "As trace.secant.most", "", params::range(2, 4096));
+        r.field(maxSteps, "max_steps", "As trace.secant.max_steps", "", params::range(2, 4096));
+        r.renamed("most", "max_steps");
         r.field(refinements, "refinements", "As trace.secant.refinements", "",
                 params::range(1, 32));
     }
@@ -84,7 +84,7 @@ Collected collect(FrameBuilder& frame, const std::vector<ReceiverView>& seen,
         [seen, stored](const Collected& data, gl::PassContext& context) {
             const int sets = stored[0].filteredPerView();
             for (std::size_t i = 0; i < seen.size(); ++i) {
-                context.compute("caustic_triangles/collect.comp")
+                context.compute("view/around_collect.comp")
                     .texture("mapReceiver", seen[i].receiver)
                     .texture("mapSurface", seen[i].receiverSurface)
                     .texture("mapFlux", stored[i].filtered)
@@ -99,7 +99,7 @@ Collected collect(FrameBuilder& frame, const std::vector<ReceiverView>& seen,
 View lookAround(FrameBuilder& frame, const AroundViewParams& params, Geometry geometry,
                 EyeBuffer eye, LayeredDepth sceneLayers, Radiance receivers, Shadows shadows,
                 CausticMap map) {
-    if (!eye.interface.valid()) return seeReceiversAlone(frame, "view.around", receivers);
+    if (!eye.interface.valid()) return renderReceiversOnly(frame, "view.around", receivers);
     const std::vector<SurfacesAround>& around = surfacesAround(frame, geometry);
     const std::vector<ReceiverView>& seen = generatorReceivers(frame, geometry);
     const std::vector<FluxMap> stored = storedAround(frame, params, map);
@@ -107,7 +107,7 @@ View lookAround(FrameBuilder& frame, const AroundViewParams& params, Geometry ge
     const View view =
         frame
             .pass<ViewPass>(
-                "view.around", whyLook(frame),
+                "view.around", lookReason(frame),
                 [&](graph::PassSetup& setup, ViewPass& look) {
                     if (!stored.empty()) {
                         setup.read(maps.receiver);
@@ -160,24 +160,29 @@ View lookAround(FrameBuilder& frame, const AroundViewParams& params, Geometry ge
                             if (stored[i].sets.hasDirection) command.define("GLOSSY_RECEIVERS");
                         });
                     }
-                    drawSpecular(inputs, context, look, "caustic_triangles/view_around.frag",
-                                 tells);
+                    drawSpecular(inputs, context, look, "view/around.frag", tells);
                 })
             .seen;
-    keepToExitLimit(frame, "view.around", view, "view.around.interfaces", "interfaces",
-                    params.interfaces, transport::kPathStoppedInside,
+    reportExitLimit(frame, "view.around", view, "view.around.interfaces", "interfaces",
+                    params.interfaces, transport::kPathEndedInside,
                     "end at one more and are taken to see the environment");
     return view;
 }
 
 }  // namespace
 
-void registerAroundView(Registry& registry) {
-    registry.node<ViewStage>("around",
-                             {"Searches the eye's rays in the layers around the specular object "
-                              "that they meet, and lights what they find, by caustics too.",
-                              "U08, sections 3 and 6"},
-                             &lookAround);
+void registerViewAround(Registry& registry) {
+    registry.node<ViewStage>(
+        "around",
+        {"Searches the eye's rays in the layers around the specular object "
+         "that they meet, and lights what they find, by caustics too.",
+         "U08, sections 3 and 6",
+         "It finds what the layers around a generator hold, and lights it by caustics only where "
+         "light is stored on cubes (reconstruct.space=cube). Rays are followed to no more than "
+         "view.around.interfaces specular surfaces after the first.",
+         {"trace.test", "trace.epsilon", "around", "reconstruct.map_size",
+          "reconstruct.map_memory"}},
+        &lookAround);
 }
 
 }  // namespace kaustik

@@ -14,10 +14,9 @@
 #include <vector>
 
 #include "framework/pipeline/frame_builder.h"
-#include "techniques/adaptive_caustic_map/body_buffers.h"
-#include "techniques/adaptive_caustic_map/nodes.h"
-#include "techniques/shared/back_faces.h"
-#include "techniques/shared/view_passes.h"
+#include "techniques/deferred_buffers/body_buffers.h"
+#include "techniques/eye_rays/view_passes.h"
+#include "techniques/raster_views/back_faces.h"
 
 namespace kaustik {
 namespace {
@@ -55,14 +54,14 @@ BodyBuffers bodiesSeenByEye(FrameBuilder& frame, const DeferredViewParams& param
         frame.skip("view.body_buffers", "no dielectric of the scene has an inside");
         return {};
     }
-    const std::string names = namesBeyond(bodies, params.layers);
+    const std::string names = omittedNames(bodies, params.layers);
     if (!names.empty()) {
         frame.warn(fmt::format(
             "view=deferred keeps {} of the {} bodies, those nearest to the eye: it looks straight "
             "through {} (view.deferred.layers).",
             params.layers, bodies.size(), names));
     }
-    keepFirst(bodies, params.layers);
+    truncateBodies(bodies, params.layers);
     return drawBodies(frame, geometry, frame.eyeViews(), bodies,
                       {"view.body_buffers",
                        fmt::format("the eye's rays go through {} bod{}", bodies.size(),
@@ -73,38 +72,40 @@ BodyBuffers bodiesSeenByEye(FrameBuilder& frame, const DeferredViewParams& param
 View refractDeferred(FrameBuilder& frame, const DeferredViewParams& params, Geometry geometry,
                      EyeBuffer eye, LayeredDepth layers, Radiance receivers, Shadows shadows,
                      CausticMap /*map*/) {
-    if (!eye.interface.valid()) return seeReceiversAlone(frame, "view.deferred", receivers);
+    if (!eye.interface.valid()) return renderReceiversOnly(frame, "view.deferred", receivers);
     const BodyBuffers bodies = bodiesSeenByEye(frame, params, geometry);
-    const View view =
-        frame
-            .pass<ViewPass>(
-                "view.deferred", whyLook(frame),
-                [&](graph::PassSetup& setup, ViewPass& look) {
-                    if (bodies.bodies > 0) bodies.sample(setup);
-                    look = declareLook(frame, setup, params.look, geometry, eye, layers, receivers,
-                                       shadows);
-                },
-                [&inputs = frame.inputs(), params, bodies](const ViewPass& look,
-                                                           gl::PassContext& context) {
-                    drawLook(inputs, context, look, params.look,
-                             "adaptive_caustic_map/view_deferred.frag", [&](gl::Command& command) {
-                                 if (bodies.bodies > 0) bodies.bindTo(command);
-                                 command.params("view.deferred", params);
-                             });
-                })
-            .seen;
-    keepToMirrors(frame, "view.deferred", view, params.look);
+    const View view = frame
+                          .pass<ViewPass>(
+                              "view.deferred", lookReason(frame),
+                              [&](graph::PassSetup& setup, ViewPass& look) {
+                                  if (bodies.bodies > 0) bodies.sample(setup);
+                                  look = declareLook(frame, setup, params.look, geometry, eye,
+                                                     layers, receivers, shadows);
+                              },
+                              [&inputs = frame.inputs(), params, bodies](const ViewPass& look,
+                                                                         gl::PassContext& context) {
+                                  drawLook(inputs, context, look, params.look, "view/deferred.frag",
+                                           [&](gl::Command& command) {
+                                               if (bodies.bodies > 0) bodies.bindTo(command);
+                                               command.params("view.deferred", params);
+                                           });
+                              })
+                          .seen;
+    reportMirrorLimit(frame, "view.deferred", view, params.look);
     return view;
 }
 
 }  // namespace
 
-void registerDeferredView(Registry& registry) {
+void registerViewDeferred(Registry& registry) {
     registry.node<ViewStage>(
         "deferred",
         {"Refracts the eye's rays through several bodies in turn, of each by fronts and backs that "
          "are drawn once.",
-         "WN09, sections 3.1 and 3.1.1; W05"},
+         "WN09, sections 3.1 and 3.1.1; W05",
+         "It knows of each body its front and its back, of no more than view.deferred.layers "
+         "bodies. What is totally reflected inside goes on unbent, and bodies behind the first one "
+         "reflect nothing."},
         &refractDeferred);
 }
 

@@ -6,13 +6,12 @@
 // out: radiance, W/m²/sr, and where each ray left, view space, m.
 //
 // W05's weights and its precomputed distance along the inverse normal are in neither paper that
-// describes it (techniques/README.md): the weight here is the ratio of the angles of refraction and
+// describes it (techniques/papers.md): the weight here is the ratio of the angles of refraction and
 // incidence, and the distance is searched among the back faces, `steps` looks and four bisections.
 // What is totally reflected at the second interface is told apart and goes on unbent.
 #include "framework/pipeline/frame_builder.h"
-#include "techniques/screen_space_photons/nodes.h"
-#include "techniques/shared/back_faces.h"
-#include "techniques/shared/view_passes.h"
+#include "techniques/eye_rays/view_passes.h"
+#include "techniques/raster_views/back_faces.h"
 
 namespace kaustik {
 namespace {
@@ -32,7 +31,7 @@ View refractInImageSpace(FrameBuilder& frame, const ImageSpaceViewParams& params
                          EyeBuffer eye, LayeredDepth layers, Radiance receivers, Shadows shadows,
                          CausticMap /*map*/) {
     if (!eye.interface.valid()) {
-        return seeReceiversAlone(frame, "view.image_space", receivers);
+        return renderReceiversOnly(frame, "view.image_space", receivers);
     }
     BackFaces faces;
     if (frame.needs().refractors > 0) {
@@ -46,7 +45,7 @@ View refractInImageSpace(FrameBuilder& frame, const ImageSpaceViewParams& params
     const View view =
         frame
             .pass<ViewPass>(
-                "view.image_space", whyLook(frame),
+                "view.image_space", lookReason(frame),
                 [&](graph::PassSetup& setup, ViewPass& look) {
                     if (faces.depth.valid()) faces.sample(setup);
                     look = declareLook(frame, setup, params.look, geometry, eye, layers, receivers,
@@ -54,22 +53,26 @@ View refractInImageSpace(FrameBuilder& frame, const ImageSpaceViewParams& params
                 },
                 [&inputs = frame.inputs(), params](const ViewPass& look, gl::PassContext& context) {
                     drawLook(
-                        inputs, context, look, params.look, "screen_space_photons/image_space.frag",
+                        inputs, context, look, params.look, "view/image_space.frag",
                         [&](gl::Command& command) { command.params("view.image_space", params); });
                 })
             .seen;
-    keepToMirrors(frame, "view.image_space", view, params.look);
+    reportMirrorLimit(frame, "view.image_space", view, params.look);
     return view;
 }
 
 }  // namespace
 
-void registerImageSpace(Registry& registry) {
-    registry.node<ViewStage>("image_space",
-                             {"Refracts the eye's rays at two interfaces, with the distance inside "
-                              "estimated from the back faces.",
-                              "Wyman 2005 (W05), K06's comparison"},
-                             &refractInImageSpace);
+void registerViewImageSpace(Registry& registry) {
+    registry.node<ViewStage>(
+        "image_space",
+        {"Refracts the eye's rays at two interfaces, with the distance inside "
+         "estimated from the back faces.",
+         "Wyman 2005 (W05), K06's comparison",
+         "It bends a ray at two interfaces, the front and the farthest back face; what is between "
+         "them is not seen. What is totally reflected at the second goes on unbent, and beyond it "
+         "only what the screen shows is found."},
+        &refractInImageSpace);
 }
 
 }  // namespace kaustik

@@ -4,8 +4,7 @@
 // see the background only, mirrors the scene. In: eye buffer and radiance of the receivers; out:
 // radiance, W/m²/sr, and the refracted ray, view space, m.
 #include "framework/pipeline/frame_builder.h"
-#include "techniques/shared/nodes.h"
-#include "techniques/shared/view_passes.h"
+#include "techniques/eye_rays/view_passes.h"
 
 namespace kaustik {
 namespace {
@@ -25,33 +24,36 @@ View viewThroughInterface(FrameBuilder& frame, const InterfaceViewParams& params
                           EyeBuffer eye, LayeredDepth layers, Radiance receivers, Shadows shadows,
                           CausticMap /*map*/) {
     if (!eye.interface.valid()) {
-        return seeReceiversAlone(frame, "view.interface", receivers);
+        return renderReceiversOnly(frame, "view.interface", receivers);
     }
     const View view =
         frame
             .pass<ViewPass>(
-                "view.interface", whyLook(frame),
+                "view.interface", lookReason(frame),
                 [&](graph::PassSetup& setup, ViewPass& data) {
                     data = declareLook(frame, setup, params.look, geometry, eye, layers, receivers,
                                        shadows);
                 },
                 [&inputs = frame.inputs(), params](const ViewPass& data, gl::PassContext& context) {
                     drawLook(
-                        inputs, context, data, params.look, "shared/view_interface.frag",
+                        inputs, context, data, params.look, "view/interface.frag",
                         [&](gl::Command& command) { command.params("view.interface", params); });
                 })
             .seen;
-    keepToMirrors(frame, "view.interface", view, params.look);
+    reportMirrorLimit(frame, "view.interface", view, params.look);
     return view;
 }
 
 }  // namespace
 
-void registerInterfaceView(Registry& registry) {
+void registerViewInterface(Registry& registry) {
     registry.node<ViewStage>("interface",
                              {"Looks through the first specular surface with one refraction, at "
                               "the distance of the receiver straight beyond it.",
-                              ""},
+                              "",
+                              "It bends a ray once and takes the receiver at the distance that it "
+                              "has straight beyond: what lies beside is seen at the wrong place. "
+                              "Reflections at dielectrics see the background alone."},
                              &viewThroughInterface);
 }
 

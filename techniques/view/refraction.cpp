@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // view.refraction: screen-space refraction tracing (K06, section 4). The passes "view.layers.…"
-// make layers of the transmitting objects alone (lists.h);
+// make layers of the transmitting objects alone (fragment_lists.h);
 // "view.refraction" follows the eye's transmitted ray of every pixel through them, and from mirror
-// to mirror, and looks up what it sees: the refracted scene (Fig. 10; include/scene_look.glsl),
-// else the environment. The reflection at the first interface is looked up the same way; later
-// partial reflections are not followed. In: eye buffer, layers, radiance of the receivers; out:
-// radiance, W/m²/sr, and where each ray left for good, view space, m.
+// to mirror, and looks up what it sees: the refracted scene (Fig. 10;
+// include/views/scene_look.glsl), else the environment. The reflection at the first interface is
+// looked up the same way; later partial reflections are not followed. In: eye buffer, layers,
+// radiance of the receivers; out: radiance, W/m²/sr, and where each ray left for good, view space,
+// m.
 //
 // The paper does not say what happens at total internal reflection (here the ray goes on, between
 // the same two layers), nor when a ray leaves through the layer that it has entered by (here it is
@@ -16,10 +17,9 @@
 
 #include "framework/pipeline/frame_builder.h"
 #include "framework/scene/dielectrics.h"
-#include "techniques/screen_space_photons/hit_testing.h"
-#include "techniques/screen_space_photons/lists.h"
-#include "techniques/screen_space_photons/nodes.h"
-#include "techniques/shared/view_passes.h"
+#include "techniques/eye_rays/view_passes.h"
+#include "techniques/layered_depth/fragment_lists.h"
+#include "techniques/tracing/hit_testing.h"
 
 namespace kaustik {
 namespace {
@@ -49,7 +49,8 @@ struct RefractionViewParams {
                  "than the one passed; crossing: it must cross that layer's plane nearby too, so "
                  "that one which passes behind another part of the object goes on. For the "
                  "monotonic search",
-                 {"crossing", "depth"});
+                 {"crossing", "depth"})
+            .when(search != RefractionSearch::all, "with view.refraction.search=all");
         r.field(interfaces, "interfaces",
                 "Most refractions of an eye ray; the paper's table has 2, and 1 is its Fig. 9, "
                 "left. 0: "
@@ -83,26 +84,26 @@ RefractionViewParams forScene(const scene::Scene& scene, int nested, RefractionV
 }
 
 // A layer more is of use to the monotonic search up to as many as it may hit interfaces.
-int usefulLayers(const RefractionViewParams& params) {
+int neededLayers(const RefractionViewParams& params) {
     const bool isMonotonic = params.search == RefractionSearch::monotonic;
     return isMonotonic ? std::min(params.layers, params.interfaces) : params.layers;
 }
 
-void keepToLimits(FrameBuilder& frame, const RefractionViewParams& params,
+void reportLimits(FrameBuilder& frame, const RefractionViewParams& params,
                   const LayeredDepth& layers, const View& seen) {
-    keepToExitLimit(frame, "view.refraction", seen, "view.refraction.interfaces", "refractions",
-                    params.interfaces, transport::kPathStoppedInside,
+    reportExitLimit(frame, "view.refraction", seen, "view.refraction.interfaces", "refractions",
+                    params.interfaces, transport::kPathEndedInside,
                     "end inside of an object and are taken to see what they would outside");
-    keepToExitLimit(frame, "view.refraction", seen, "view.refraction.reflections", "reflections",
-                    params.reflections, transport::kPathReflectedTooOften,
+    reportExitLimit(frame, "view.refraction", seen, "view.refraction.reflections", "reflections",
+                    params.reflections, transport::kPathReflectionLimit,
                     "are lost between total reflections");
-    keepToExitLimit(frame, "view.refraction", seen, "view.refraction.nesting", "dielectrics",
-                    numberDielectrics(frame.scene()).depth, transport::kPathNestedTooDeep,
+    reportExitLimit(frame, "view.refraction", seen, "view.refraction.nesting", "dielectrics",
+                    numberDielectrics(frame.scene()).depth, transport::kPathNestingLimit,
                     "are lost in a dielectric inside of more others");
     // Fewer layers than there are interfaces to be hit in them.
     const bool isMonotonic = params.search == RefractionSearch::monotonic;
     if (isMonotonic && params.layers >= params.interfaces) return;
-    frame.keepsTo(
+    frame.reportLimit(
         {"view.refraction",
          {layers.statistics},
          [=](const gl::Executor& executor) -> std::optional<ReachedLimit> {
@@ -126,25 +127,25 @@ View traceRefraction(FrameBuilder& frame, const RefractionViewParams& wanted, Ge
                      EyeBuffer eye, LayeredDepth sceneLayers, Radiance receivers, Shadows shadows,
                      CausticMap /*map*/) {
     if (!eye.interface.valid()) {
-        return seeReceiversAlone(frame, "view.refraction", receivers);
+        return renderReceiversOnly(frame, "view.refraction", receivers);
     }
     const DielectricsBox box = boxOfDielectrics(frame);
     const RefractionViewParams params = forScene(frame.scene(), box.nested, wanted);
     LayeredDepth dielectrics;
     if (frame.needs().refractors > 0) {
-        const FrameBuilder::Within within(frame, "view");
+        const FrameBuilder::PassScope within(frame, "view");
         // The n-th interface is looked for in the n-th layer, and no deeper.
         dielectrics = makeLayers(frame, geometry,
                                  {.name = "view.layers",
                                   .set = render::DrawSet::dielectrics,
-                                  .layers = usefulLayers(params),
+                                  .layers = neededLayers(params),
                                   .reader = "the eye's rays need"});
     } else {
         frame.skip("view.layers", "the scene has no dielectric");
     }
-    std::string why = whyLook(frame);
+    std::string reason = lookReason(frame);
     if (wanted.search == RefractionSearch::automatic && params.search == RefractionSearch::all)
-        why += "; of dielectrics in one another it asks all layers";
+        reason += "; of dielectrics in one another it asks all layers";
     struct Data {
         ViewPass look;
         LayeredDepth dielectrics;
@@ -152,7 +153,7 @@ View traceRefraction(FrameBuilder& frame, const RefractionViewParams& wanted, Ge
     const View view =
         frame
             .pass<Data>(
-                "view.refraction", why,
+                "view.refraction", reason,
                 [&](graph::PassSetup& setup, Data& data) {
                     data.dielectrics = dielectrics;
                     if (dielectrics.depth.valid()) readLayers(setup, dielectrics);
@@ -161,8 +162,8 @@ View traceRefraction(FrameBuilder& frame, const RefractionViewParams& wanted, Ge
                 },
                 [&inputs = frame.inputs(), params, box, testing = hitTesting(frame)](
                     const Data& data, gl::PassContext& context) {
-                    drawLook(inputs, context, data.look, params.look,
-                             "screen_space_photons/refraction.frag", [&](gl::Command& command) {
+                    drawLook(inputs, context, data.look, params.look, "view/refraction.frag",
+                             [&](gl::Command& command) {
                                  command.params("view.refraction", params);
                                  if (!data.dielectrics.depth.valid()) return;
                                  if (box.holdsScene) command.define("SCENE_INSIDE");
@@ -172,19 +173,25 @@ View traceRefraction(FrameBuilder& frame, const RefractionViewParams& wanted, Ge
                              });
                 })
             .look.seen;
-    keepToMirrors(frame, "view.refraction", view, params.look);
-    if (dielectrics.depth.valid()) keepToLimits(frame, params, dielectrics, view);
+    reportMirrorLimit(frame, "view.refraction", view, params.look);
+    if (dielectrics.depth.valid()) reportLimits(frame, params, dielectrics, view);
     return view;
 }
 
 }  // namespace
 
-void registerRefraction(Registry& registry) {
-    registry.node<ViewStage>("refraction",
-                             {"Traces the eye's refracted rays on the screen through the layers of "
-                              "the transmitting objects, and on into the scene.",
-                              "K06, section 4"},
-                             &traceRefraction);
+void registerViewRefraction(Registry& registry) {
+    registry.node<ViewStage>(
+        "refraction",
+        {"Traces the eye's refracted rays on the screen through the layers of "
+         "the transmitting objects, and on into the scene.",
+         "K06, section 4",
+         "It finds what the eye sees of the transmitting objects, in no more than "
+         "view.refraction.layers layers, and of the scene what the screen shows. Partial "
+         "reflections after the first interface are not followed; interfaces and reflections bound "
+         "the rest, and the report says what is lost.",
+         {"trace.test", "trace.epsilon", "layers.lists"}},
+        &traceRefraction);
 }
 
 }  // namespace kaustik

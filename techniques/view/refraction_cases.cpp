@@ -12,7 +12,7 @@
 #include "framework/numerics/cases/scene_text.h"
 #include "framework/numerics/exact.h"
 #include "framework/numerics/lab.h"
-#include "techniques/screen_space_photons/hard_cases.h"
+#include "techniques/register_hard_cases.h"
 
 namespace kaustik {
 namespace {
@@ -36,7 +36,7 @@ std::vector<Tested> refractions(const Lab& lab) {
     return tested;
 }
 
-std::vector<Tested> allThatFollowRays(const Lab& lab) {
+std::vector<Tested> rayFollowingViews(const Lab& lab) {
     std::vector<Tested> tested = refractions(lab);
     const Lab::Choice other = lab.choose(ViewStage::name, "image_space");
     tested.push_back({other, other.subject});
@@ -121,7 +121,7 @@ void slab(Lab& lab) {
         }
         return ExactExit{exit, ray, 2};
     };
-    for (const Tested& tested : allThatFollowRays(lab)) {
+    for (const Tested& tested : rayFollowingViews(lab)) {
         const Frame frame = lab.render(tested.choice, scene, kRequest);
         const Deviation found = compare(frame, exitsOf(frame), exact);
         lab.expect(tested.subject, "pixels that see through a slab", 160 * 120, found.pixels,
@@ -167,7 +167,7 @@ void ball(Lab& lab) {
         exits.push_back(exitsOf(frame));
         const Deviation found = compare(frame, exits.back(), throughBall);
         lab.expectAtLeast(tested.subject, "pixels of a ball that are compared", 5000, found.pixels,
-                          kEnough);
+                          kTooFewReason);
         lab.expect(tested.subject, "of these: lost, or not of two interfaces", 0.0, found.wrong,
                    kExactly);
         lab.expectDeviation(tested.subject, "exit direction of a ball", found.direction,
@@ -205,7 +205,7 @@ void invisible(Lab& lab) {
         if (square > 0.3) return std::nullopt;
         return ExactExit{eye + (along + std::sqrt(0.36 - square)) * ray, ray, 2};
     };
-    for (const Tested& tested : allThatFollowRays(lab)) {
+    for (const Tested& tested : rayFollowingViews(lab)) {
         const Frame frame = lab.render(tested.choice, scene, kRequest);
         const Exits exits = exitsOf(frame);
         const Deviation found = compare(frame, exits, straight);
@@ -235,27 +235,27 @@ void snellsWindow(Lab& lab) {
     const scene::Scene scene = makeScene({{0.0, -1.0, 0.0}, {0.0, 0.0, -0.3}, 110.0, 0.01},
                                          floorPlane("water", "water", 60, {0, 0, 0}));
     const glm::dvec3 down(0.0, -1.0, 0.0);
-    const auto isAsked = [](const glm::dvec3& ray) {
+    const auto isQueried = [](const glm::dvec3& ray) {
         // The water's edge, and what rounding decides.
         const double sine = std::sqrt(1.0 - ray.y * ray.y);
         return ray.y > 0.06 && std::abs(sine * kWaterIndex - 1.0) > 1e-5;
     };
-    for (const Tested& tested : allThatFollowRays(lab)) {
+    for (const Tested& tested : rayFollowingViews(lab)) {
         const Frame frame = lab.render(tested.choice, scene, kRequest);
         const Exits exits = exitsOf(frame);
         int inside = 0;
         const Deviation found = compare(
             frame, exits,
             [&](const glm::dvec3& eye, const glm::dvec3& ray) -> std::optional<ExactExit> {
-                if (!isAsked(ray)) return std::nullopt;
+                if (!isQueried(ray)) return std::nullopt;
                 const ExactInterface at = exactInterface(ray, down, kWaterIndex, 1.0);
                 const bool isTotal = at.refracted == glm::dvec3(0.0);
                 inside += isTotal ? 0 : 1;
                 return ExactExit{eye + ray / ray.y, isTotal ? at.reflected : at.refracted, 1};
             });
-        lab.expectAtLeast(tested.subject, "pixels in Snell's window", 1000, inside, kEnough);
+        lab.expectAtLeast(tested.subject, "pixels in Snell's window", 1000, inside, kTooFewReason);
         lab.expectAtLeast(tested.subject, "pixels outside of Snell's window", 1000,
-                          found.pixels - inside, kEnough);
+                          found.pixels - inside, kTooFewReason);
         lab.expect(tested.subject, "lost at the surface from below", 0.0, found.wrong, kExactly);
         lab.expectDeviation(
             tested.subject, "direction through the surface from below, or reflected",
@@ -267,7 +267,7 @@ void snellsWindow(Lab& lab) {
         for (int y = 0; y < 120; ++y) {
             for (int x = 0; x < 160; ++x) {
                 const glm::dvec3 ray = glm::normalize(frame.worldAt(x, y, 1.0) - eye);
-                if (!isAsked(ray)) continue;
+                if (!isQueried(ray)) continue;
                 const ExactInterface at = exactInterface(ray, down, kWaterIndex, 1.0);
                 const double share =
                     at.reflectance + (1.0 - at.reflectance) * kWaterIndex * kWaterIndex;
@@ -285,7 +285,7 @@ void snellsWindow(Lab& lab) {
 
 }  // namespace
 
-void addViewCases(Suite& suite) {
+void addRefractionCases(Suite& suite) {
     suite.add("C25", "", slab);
     suite.add("C19", "", invisible);
     suite.add("C22", "", snellsWindow);

@@ -31,10 +31,10 @@ double arrival(double x) {
 
 // The fold of the crest at x = 0 that lies at negative x: the least arrival from its right side.
 double foldPosition() {
-    double least = 1.0;
+    double minimum = 1.0;
     for (double x = 0.05; x < 0.25; x += 1e-5)
-        least = std::min(least, arrival(x));
-    return least;
+        minimum = std::min(minimum, arrival(x));
+    return minimum;
 }
 
 constexpr std::size_t kBins = 8;

@@ -165,7 +165,7 @@ TEST(Lens, PrismDeviatesLeastWhereItsFormulaSays) {
     const EmbreeScene embree(scene);
     const double apex = shape.apexDegrees * kPi / 180.0;
     const double base = shape.height * std::tan(0.5 * apex);
-    double least = kPi;
+    double minimum = kPi;
     for (double incidence = 0.70; incidence < 1.0; incidence += 1e-4) {
         // Aim at a third from the apex of the left face, from `incidence` below its normal.
         const glm::dvec3 target(-base / 3.0, shape.height / 2.0 - shape.height / 3.0, 0.0);
@@ -173,10 +173,10 @@ TEST(Lens, PrismDeviatesLeastWhereItsFormulaSays) {
         const double from = normalAngle + incidence;
         const glm::dvec3 direction(-std::cos(from), -std::sin(from), 0.0);
         const PathSegment segment = segmentAfter(embree, 2, target - direction, direction);
-        least = std::min(least, std::acos(glm::dot(segment.direction, direction)));
+        minimum = std::min(minimum, std::acos(glm::dot(segment.direction, direction)));
     }
     // The deviation is flat at its minimum: steps of 1e-4 rad miss it by 1e-8; floats give 1e-7.
-    EXPECT_NEAR(std::sin(0.5 * (apex + least)) / std::sin(0.5 * apex), kIndex, 1e-6);
+    EXPECT_NEAR(std::sin(0.5 * (apex + minimum)) / std::sin(0.5 * apex), kIndex, 1e-6);
 }
 
 TEST(Lens, PrimaryRainbowTurnsLeastWhereItsFormulaSays) {
@@ -197,22 +197,22 @@ TEST(Lens, PrimaryRainbowTurnsLeastWhereItsFormulaSays) {
         ADD_FAILURE();
         return 0.0;
     };
-    double least = 2.0 * kPi;
-    double leastHeight = 0.0;
+    double minimum = 2.0 * kPi;
+    double minHeight = 0.0;
     for (double b = 0.80; b < 0.92; b += 2e-4) {
         const double turn = std::min(turnAt(b), 2.0 * kPi - turnAt(b));
-        if (turn < least) {
-            least = turn;
-            leastHeight = b;
+        if (turn < minimum) {
+            minimum = turn;
+            minHeight = b;
         }
     }
     const double incidence = std::acos(std::sqrt((index * index - 1.0) / 3.0));
     const double refraction = std::asin(std::sin(incidence) / index);
     const double expected = kPi + 2.0 * incidence - 4.0 * refraction;
     // Three normals, each off by up to 4.7e-6, and a step of b that the minimum hardly feels.
-    EXPECT_NEAR(least, expected, 6e-5);
+    EXPECT_NEAR(minimum, expected, 6e-5);
     // The minimum is flat: an error of 2e-5 rad in the angle moves it by some 3e-3.
-    EXPECT_NEAR(leastHeight, std::sin(incidence), 6e-3);
+    EXPECT_NEAR(minHeight, std::sin(incidence), 6e-3);
 }
 
 }  // namespace

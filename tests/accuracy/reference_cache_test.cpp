@@ -106,23 +106,23 @@ TEST_F(ReferenceCache, MoreBatchesGoOnFromTheOnesThatAreThere) {
 }
 
 TEST_F(ReferenceCache, AnEndInTheMiddleOfABatchKeepsTheWholeOnes) {
-    request_.photonsPerBatch = 8 * kPhotonsBetweenPulses;
+    request_.photonsPerBatch = 8 * kPhotonsPerPulse;
     options_.stop.batches = 3;
     options_.threads = 1;
     const Reference three = load();
     options_.stop.batches = 1000;
-    std::atomic<std::uint64_t> most = 0;
+    std::atomic<std::uint64_t> maximum = 0;
     std::atomic<int> calls = 0;
     // A batch of a thousand is ended after a quarter of it.
     options_.pulse = [&](std::uint64_t photons) {
-        most = std::max(most.load(), photons);
+        maximum = std::max(maximum.load(), photons);
         ++calls;
-        return photons < 2 * kPhotonsBetweenPulses;
+        return photons < 2 * kPhotonsPerPulse;
     };
     const Reference ended = load();
     EXPECT_EQ(ended.irradiance.values, three.irradiance.values);
     EXPECT_EQ(ended.batches, 3u);
-    EXPECT_EQ(most, 2 * kPhotonsBetweenPulses);
+    EXPECT_EQ(maximum, 2 * kPhotonsPerPulse);
     EXPECT_LT(calls, 10);
 }
 
@@ -176,7 +176,7 @@ TEST(SumsInAFile, ThatNoRunMakesAreRefused) {
         return test::messageOf<IoError>(
             [&] { static_cast<void>(PixelSums::fromBytes(bytes, "key", "a.sums")); });
     };
-    // After 15 bytes of "kaustik.sums/2", 8 of a size and the 3 of the key.
+    // After 15 bytes of "kaustik.sums/3", 8 of a size and the 3 of the key.
     const std::size_t width = 26, layers = 34, unit = 38, ranges = 78, first = 86, end = 94;
     const std::size_t sum = content.size() - 2 * 6 * sizeof(Int128);
     EXPECT_EQ(problemWith(width, 2), "") << "as it was";

@@ -78,13 +78,13 @@ TEST_F(ViewReferenceOf, ASlabHasExitsParallelToTheEntryAndShiftedByTheClosedForm
 TEST_F(ViewReferenceOf, ABallHasItsExitsWhereTheClosedFormSays) {
     addObject(scene_, scene::makeSphere({1.0, 1024}), glass(1.5));
     const ViewReference reference = trace();
-    int asked = 0;
+    int requested = 0;
     forEachRay([&](int column, int row, const glm::dvec3& ray) {
         const glm::dvec3 center(0.0, 0.0, -4.0);
         const double along = glm::dot(center, ray);
         const double square = glm::dot(center, center) - along * along;
         if (square > 0.81) return;
-        ++asked;
+        ++requested;
         const glm::dvec3 entry = (along - std::sqrt(1.0 - square)) * ray;
         const Interface in = interactAt(ray, entry - center, 1.0, 1.5);
         const glm::dvec3 exit = entry - 2.0 * glm::dot(in.refracted, entry - center) * in.refracted;
@@ -95,7 +95,7 @@ TEST_F(ViewReferenceOf, ABallHasItsExitsWhereTheClosedFormSays) {
                   2e-4);
         EXPECT_EQ(reference.exitPosition.at(column, row, 3), 2.0f);
     });
-    EXPECT_GT(asked, 100);
+    EXPECT_GT(requested, 100);
 }
 
 TEST_F(ViewReferenceOf, AFurnaceShowsNoGlassAtAll) {
@@ -202,7 +202,7 @@ TEST_F(ViewReferenceOf, AMirrorShowsWhatIsBehindTheEye) {
         const glm::dvec3 exit = ray * (4.0 / -ray.z);
         EXPECT_LT(glm::distance(vectorAt(reference.exitPosition, column, row), exit),
                   4.0 * kRounding);
-        // Pixels at its edge see some of what is beside it.
+        // Pixels at its edge see some of what is next to it.
         if (std::abs(exit.x) < 1.3 && std::abs(exit.y) < 1.0) {
             EXPECT_NEAR(reference.radiance.at(column, row, 1), 1.0 / std::numbers::pi, 1e-5);
         }

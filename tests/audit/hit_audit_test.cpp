@@ -50,7 +50,8 @@ class Audited {
   public:
     explicit Audited(const scene::Scene& scene, const Frame::Settings& settings = {})
         : registry_(registerAll()), embree_(scene) {
-        registry_.node<TraceStage>("spoiled", {"Errs on purpose.", "a test"}, &traceSpoiled);
+        registry_.node<TraceStage>("spoiled", {"Errs on purpose.", "a test", "For this test."},
+                                   &traceSpoiled);
         RenderSettings render;
         render.technique = registry_.findTechnique("screen_space_photons");
         render.params = registry_.makeParams(render.technique);

@@ -10,7 +10,7 @@ namespace kaustik::test {
 namespace {
 
 // A glass ball over a floor that catches its light, and between them a square plane, in which, or
-// beside which in the same plane, the lamp lies.
+// next to which in the same plane, the lamp lies.
 scene::Scene ballOverPlaneOf(const std::string& material, double side) {
     return sceneFromText(fmt::format(R"(
 [camera]

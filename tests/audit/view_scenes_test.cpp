@@ -36,7 +36,7 @@ Bounds boundsOf(const std::string& scene) {
     return {};
 }
 
-std::vector<std::string> scenesToLookInto() {
+std::vector<std::string> scenesWithViews() {
     std::vector<std::string> names = shippedScenes();
     // The reference of the view knows no medium.
     names.erase(std::remove(names.begin(), names.end(), "god-rays"), names.end());
@@ -79,7 +79,7 @@ TEST_P(ShippedView, ShowsWhatTheReferenceShows) {
     EXPECT_NEAR(found / expected, 1.0, bounds.energy);
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, ShippedView, testing::ValuesIn(scenesToLookInto()), nameOfScene);
+INSTANTIATE_TEST_SUITE_P(Every, ShippedView, testing::ValuesIn(scenesWithViews()), nameOfScene);
 
 }  // namespace
 }  // namespace kaustik::test

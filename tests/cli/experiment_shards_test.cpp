@@ -125,7 +125,7 @@ TEST_F(ExperimentShards, ThatFailedInOnePlaceAndAreDoneInAnotherAreDone) {
     expectFailure(merged, 1, {"2 of 4 runs failed", "merged/runs.csv"});
     EXPECT_EQ(column("status", "merged"),
               (std::vector<std::string>{"failed", "failed", "done", "done"}));
-    // The record of a failure beside the run itself, as two tasks may leave them.
+    // The record of a failure next to the run itself, as two tasks may leave them.
     const std::string done = runs("a")[0];
     fs::create_directory(folder / "b");
     fs::copy_file(folder / "a/experiment.json", folder / "b/experiment.json");
@@ -139,9 +139,9 @@ TEST_F(ExperimentShards, OfDifferentStudiesAreRefused) {
     doShard("1/2", "a");
     doShard("2/2", "b");
     json described = json::parse(contents("b/experiment.json"));
-    const auto expectRefusal = [&](const json& other, const std::string& why) {
+    const auto expectRefusal = [&](const json& other, const std::string& reason) {
         static_cast<void>(folder.file("b/experiment.json", other.dump()));
-        expectFailure(merge({"a", "b"}), 2, {"a and b", "not of one study", why});
+        expectFailure(merge({"a", "b"}), 2, {"a and b", "not of one study", reason});
     };
     json other = described;
     other["version"] = "0.0.9";

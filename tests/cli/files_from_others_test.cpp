@@ -25,7 +25,7 @@ constexpr const char* kPly =
     "property float z\nelement face 1\nproperty list int int vertex_indices\nend_header\n"
     "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
 
-// The program beside a reader that does what the name of a file tells it.
+// The program next to a reader that does what the name of a file tells it.
 class MisledReader : public CommandLine {
   protected:
     MisledReader() {

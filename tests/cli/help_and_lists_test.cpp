@@ -36,7 +36,7 @@ TEST_F(Help, NamesEverySubcommand) {
     const Outcome outcome = run({"--help"});
     EXPECT_EQ(outcome.exitCode, 0);
     EXPECT_EQ(outcome.err, "");
-    expectAllIn(outcome.out, {"run", "list", "explain", "reference", "compare", "experiment",
+    expectAllIn(outcome.out, {"run", "list", "doc", "explain", "reference", "compare", "experiment",
                               "check", "--version"});
 }
 
@@ -103,7 +103,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Kind{"scenes", {"name", "description", "file"}, "pool"},
         Kind{"techniques", {"name", "description", "source", "defaults"}, "screen_space_photons"},
-        Kind{"nodes", {"name", "stage", "description", "source"}, "trace.lines"},
+        Kind{"nodes", {"name", "stage", "description", "source", "limits"}, "trace.lines"},
         Kind{"params",
              {"name", "type", "default", "unit", "range", "description"},
              "trace.epsilon"}),

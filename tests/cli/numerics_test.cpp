@@ -44,7 +44,7 @@ TEST_F(NumericsStudy, ThatFailsSaysWhichRowAndKeepsTheTable) {
     fs::create_directories(root / "framework");
     fs::copy(projectRoot() / "shaders", root / "shaders", fs::copy_options::recursive);
     fs::copy(projectRoot() / "framework/transport", root / "framework/transport");
-    const fs::path file = root / "shaders/include/fresnel.glsl";
+    const fs::path file = root / "shaders/include/surfaces/fresnel.glsl";
     std::string text = readFile(file);
     const std::string line = "result.reflectance = clamp(0.5 *";
     ASSERT_NE(text.find(line), std::string::npos);
@@ -54,7 +54,7 @@ TEST_F(NumericsStudy, ThatFailsSaysWhichRowAndKeepsTheTable) {
     conditions.environment["KAUSTIK_ROOT"] = root.string();
     const Outcome outcome = run(study("cases = [\"C20\"]\n"), conditions);
     EXPECT_EQ(outcome.exitCode, 1);
-    EXPECT_NE(outcome.err.find("2 of 2 rows fail, the first is C20, include/fresnel.glsl"),
+    EXPECT_NE(outcome.err.find("2 of 2 rows fail, the first is C20, include/surfaces/fresnel.glsl"),
               std::string::npos)
         << outcome.err;
     EXPECT_NE(contents("out/numerics.csv").find(",FAIL,"), std::string::npos);

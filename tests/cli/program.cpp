@@ -3,14 +3,12 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
+#include <cstring>
 #include <fstream>
 #include <sstream>
-#include <string_view>
 #include <thread>
 
 namespace kaustik::test {
@@ -24,69 +22,50 @@ std::string contentsOf(const fs::path& file) {
 }
 
 std::vector<std::string> environmentWith(const std::map<std::string, std::string>& added) {
-    std::vector<std::string> entries;
-    for (char** entry = environ; *entry != nullptr; ++entry) {
-        const std::string_view text = *entry;
-        if (!added.contains(std::string(text.substr(0, text.find('='))))) {
-            entries.emplace_back(text);
-        }
-    }
+    std::vector<std::string> entries = processEnvironment();
+    std::erase_if(entries, [&](const std::string& entry) {
+        return added.contains(entry.substr(0, entry.find('=')));
+    });
     for (const auto& [name, value] : added)
         entries.push_back(name + "=" + value);
     return entries;
 }
 
-std::vector<char*> pointersTo(std::vector<std::string>& texts) {
-    std::vector<char*> pointers;
-    for (std::string& text : texts)
-        pointers.push_back(text.data());
-    pointers.push_back(nullptr);
-    return pointers;
-}
+// A file that is written from its beginning, closed in the end.
+class OpenFile {
+  public:
+    explicit OpenFile(const fs::path& file)
+        : descriptor_(::open(file.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600)) {}
+    ~OpenFile() { ::close(descriptor_); }
+    OpenFile(const OpenFile&) = delete;
+    OpenFile& operator=(const OpenFile&) = delete;
+    [[nodiscard]] int descriptor() const { return descriptor_; }
 
-bool redirect(int descriptor, const char* file) {
-    const int opened = ::open(file, O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
-    return opened >= 0 && ::dup2(opened, descriptor) == descriptor;
-}
+  private:
+    int descriptor_;
+};
 
 }  // namespace
 
 Program::Program(const std::vector<std::string>& arguments, const Conditions& conditions) {
-    // All memory is had before the fork: the child may only make system calls.
-    std::vector<std::string> words = {conditions.program.empty() ? KAUSTIK_BINARY
-                                                                 : conditions.program.string()};
+    const fs::path program = conditions.program.empty() ? KAUSTIK_BINARY : conditions.program;
+    std::vector<std::string> words = {program.string()};
     words.insert(words.end(), arguments.begin(), arguments.end());
-    std::vector<std::string> environment = environmentWith(conditions.environment);
-    const std::vector<char*> wordPointers = pointersTo(words);
-    const std::vector<char*> environmentPointers = pointersTo(environment);
-    const std::string folder = conditions.folder.string();
-    const std::string out =
-        (conditions.standardOutput.empty() ? captured_ / "out" : conditions.standardOutput)
-            .string();
-    const std::string err = (captured_ / "err").string();
-
-    process_ = ::fork();
-    if (process_ == 0) {
-        bool ready = ::chdir(folder.c_str()) == 0 && redirect(STDOUT_FILENO, out.c_str()) &&
-                     redirect(STDERR_FILENO, err.c_str());
-        if (conditions.largestFileBytes) {
-            const rlimit limit{*conditions.largestFileBytes, *conditions.largestFileBytes};
-            ready = ready && ::setrlimit(RLIMIT_FSIZE, &limit) == 0;
-        }
-        if (ready) ::execve(wordPointers[0], wordPointers.data(), environmentPointers.data());
-        ::_exit(127);
-    }
-    EXPECT_GT(process_, 0) << "the program cannot be started";
-}
-
-Program::~Program() {
-    if (process_ <= 0) return;
-    ::kill(process_, SIGKILL);
-    ::waitpid(process_, nullptr, 0);
+    const OpenFile out(conditions.standardOutput.empty() ? captured_ / "out"
+                                                         : conditions.standardOutput);
+    const OpenFile err(captured_ / "err");
+    const int problem =
+        process_.start({.program = program,
+                        .words = words,
+                        .standard = {kSharedDescriptor, out.descriptor(), err.descriptor()},
+                        .environment = environmentWith(conditions.environment),
+                        .folder = conditions.folder,
+                        .maxFileBytes = conditions.largestFileBytes});
+    EXPECT_EQ(problem, 0) << program << " cannot be started: " << std::strerror(problem);
 }
 
 void Program::waitUntilItHandles(int signal) const {
-    const fs::path status = fs::path("/proc") / std::to_string(process_) / "status";
+    const fs::path status = fs::path("/proc") / std::to_string(process_.id()) / "status";
     for (;;) {
         if (!isRunning()) return;
         std::ifstream lines(status);
@@ -100,23 +79,19 @@ void Program::waitUntilItHandles(int signal) const {
 }
 
 void Program::send(int signal) const {
-    ::kill(process_, signal);
+    process_.send(signal);
 }
 
 bool Program::isRunning() const {
-    if (process_ <= 0) return false;
-    siginfo_t ended{};
-    ::waitid(P_PID, static_cast<id_t>(process_), &ended, WEXITED | WNOHANG | WNOWAIT);
-    return ended.si_pid != process_;
+    return process_.hasStarted() && !process_.endWithin(std::chrono::milliseconds(0));
 }
 
 std::string Program::ending() const {
-    siginfo_t ended{};
-    if (process_ <= 0) return "";
-    ::waitid(P_PID, static_cast<id_t>(process_), &ended, WEXITED | WNOHANG | WNOWAIT);
-    if (ended.si_pid != process_) return "";
-    return (ended.si_code == CLD_EXITED ? "exit code " : "signal ") +
-           std::to_string(ended.si_status);
+    if (!process_.hasStarted()) return "";
+    const std::optional<ProcessEnd> end = process_.endWithin(std::chrono::milliseconds(0));
+    if (!end) return "";
+    return end->signal != 0 ? "signal " + std::to_string(end->signal)
+                            : "exit code " + std::to_string(end->exitCode);
 }
 
 std::string Program::messages() const {
@@ -124,11 +99,9 @@ std::string Program::messages() const {
 }
 
 Outcome Program::wait() {
-    int status = 0;
-    EXPECT_EQ(::waitpid(process_, &status, 0), process_);
-    process_ = -1;
-    const int exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
-    return {exitCode, contentsOf(captured_ / "out"), contentsOf(captured_ / "err")};
+    const ProcessEnd end = process_.hasStarted() ? process_.wait() : ProcessEnd();
+    return {end.signal != 0 ? -end.signal : end.exitCode, contentsOf(captured_ / "out"),
+            contentsOf(captured_ / "err")};
 }
 
 Outcome runKaustik(const std::vector<std::string>& arguments, const Conditions& conditions) {

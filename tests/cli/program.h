@@ -2,15 +2,13 @@
 // Runs the program as a user does, in a process of its own, and keeps what it prints.
 #pragma once
 
-#include <sys/resource.h>
-#include <sys/types.h>
-
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "framework/core/process.h"
 #include "tests/unit/temporary_folder.h"
 
 namespace kaustik::test {
@@ -29,13 +27,11 @@ struct Conditions {
     std::filesystem::path program;                   // a copy of it; "" for the one that was built
 };
 
+// It is ended with this, if it still runs.
 class Program {
   public:
     // Starts `kaustik arguments…`.
     explicit Program(const std::vector<std::string>& arguments, const Conditions& conditions = {});
-    ~Program();  // ends it if it still runs
-    Program(const Program&) = delete;
-    Program& operator=(const Program&) = delete;
 
     // Returns once it handles `signal` by itself, or has ended.
     void waitUntilItHandles(int signal) const;
@@ -49,7 +45,7 @@ class Program {
 
   private:
     TemporaryFolder captured_;
-    pid_t process_ = -1;
+    Process process_;
 };
 
 // Runs to the end.

@@ -120,7 +120,7 @@ TEST_F(RunCommand, TraceCountsTimeMemoryAndPhotonsAsTheReportDoes) {
     const json report = this->report();
     std::vector<double> frameTimes;
     std::vector<double> frameBegins;
-    double mostBytes = 0.0;
+    double maxBytes = 0.0;
     std::set<double> bytes;
     json photons;
     for (const json& event : trace.at("traceEvents")) {
@@ -135,7 +135,7 @@ TEST_F(RunCommand, TraceCountsTimeMemoryAndPhotonsAsTheReportDoes) {
         } else if (name == "memory") {
             bytes.insert(values.at("texture_bytes").get<double>() +
                          values.at("buffer_bytes").get<double>());
-            mostBytes = *bytes.rbegin();
+            maxBytes = *bytes.rbegin();
         } else {
             EXPECT_EQ(name, "photons");
             EXPECT_EQ(event.at("ts"), frameBegins.back());
@@ -145,7 +145,7 @@ TEST_F(RunCommand, TraceCountsTimeMemoryAndPhotonsAsTheReportDoes) {
     EXPECT_EQ(frameTimes, samples.at("frame_samples_ms").get<std::vector<double>>());
     EXPECT_EQ(photons, report.at("photons"));
     EXPECT_GT(photons.at("hit"), 0);
-    EXPECT_EQ(mostBytes, report.at("memory").at("peak_bytes"));
+    EXPECT_EQ(maxBytes, report.at("memory").at("peak_bytes"));
     EXPECT_GT(bytes.size(), 3u);  // it goes up and down
 }
 

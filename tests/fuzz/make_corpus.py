@@ -198,7 +198,8 @@ def scenes():
         text = re.sub(r'(\[environment\]\n)pattern = ".*"', r'\1image = "input.toml"', text)
         yield re.sub(r"((?:segments|sides) = )\d+", r"\g<1>8",
                      re.sub(r"(cells = )(\[.*\]|\d+)", r"\g<1>4", text))
-    yield "a." * 40 + "a = 1\n"
+    for depth in (40, 40000):
+        yield "a." * depth + "a = 1\n"
 
 
 def experiments():
@@ -241,8 +242,8 @@ SEEDS = {
 # Whose texts a target's reader compares with.
 SOURCES = {
     "scene": ["scene/files/*.cpp"], "experiment": ["experiment/*.cpp", "scene/files/*.cpp"],
-    "gltf": ["importers/gltf_*.cpp"], "obj": ["importers/mesh_file_obj.cpp"],
-    "ply": ["importers/mesh_file_ply.cpp"], "3ds": [], "gzip": [], "pfm": [], "image": [],
+    "gltf": ["importers/gltf_*.cpp"], "obj": ["importers/obj.cpp"],
+    "ply": ["importers/ply.cpp"], "3ds": [], "gzip": [], "pfm": [], "image": [],
     "settings": ["gui/document.cpp", "gui/state.cpp"], "reference": ["reference/*_file.cpp"],
     "cache": [], "part": ["reference/part_file.cpp", "reference/request_json.cpp"],
     "study": ["experiment/merge.cpp", "experiment/run_folder.cpp", "experiment/results.cpp"],

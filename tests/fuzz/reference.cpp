@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// References: the sidecar is the fuzzer's, beside images that are whole.
+// References: the sidecar is the fuzzer's, next to images that are whole.
 #include "framework/reference/reference.h"
 #include "tests/fuzz/seeds.h"
 #include "tests/fuzz/target.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the workbench keeps over a restart. A problem is a sentence beside the settings, no error.
+// What the workbench keeps over a restart. A problem is a sentence next to the settings, no error.
 #include "framework/gui/settings_file.h"
 #include "tests/fuzz/params.h"
 #include "tests/fuzz/target.h"

@@ -45,7 +45,7 @@ int main(int argc, char** argv) {
     for (const char* name : {"pfm/seed.pfm", "pfm/seed.ppm", "image/seed.exr", "image/seed.png"})
         writeImage(folder / name, picture);
 
-    nlohmann::json all = toJson(gui::Kept());
+    nlohmann::json all = toJson(gui::SavedState());
     gui::Document document;
     document.variant.assignments = {{"trace.epsilon", "0.25"}};
     document.other = gui::Variant{"wyman2008", {{"trace", "lines"}}, {"filter.gaussian"}};

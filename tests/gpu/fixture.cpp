@@ -24,7 +24,7 @@ gl::Context& context() {
     return *instance;
 }
 
-bool isWithoutExactTracer() {
+bool lacksExactTracer() {
     const std::vector<Technique>& techniques = registry().techniques();
     return std::none_of(techniques.begin(), techniques.end(),
                         [](const Technique& t) { return t.name == "raytraced"; });

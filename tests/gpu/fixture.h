@@ -22,7 +22,7 @@ namespace kaustik::test {
 [[nodiscard]] gl::Context& context();
 
 // Whether trace.raytraced is missing, for want of Embree.
-[[nodiscard]] bool isWithoutExactTracer();
+[[nodiscard]] bool lacksExactTracer();
 
 using numerics::sceneFromText;
 using numerics::Settings;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The panel Error: the reference in the background, and how wrong the frame is beside it.
+// The panel Error: the reference in the background, and how wrong the frame is next to it.
 #include <fmt/format.h>
 
 #include <set>
@@ -16,7 +16,7 @@ using nlohmann::json;
 class ErrorPanel : public WorkbenchTest {
   protected:
     static json withPhotons(double photons) {
-        json kept = keptWith(smallDocument());
+        json kept = savedStateWith(smallDocument());
         kept["panels"]["truth_photons"] = photons;
         return kept;
     }
@@ -99,16 +99,16 @@ TEST_F(ErrorPanel, TheProgressOfAReferenceNeverGoesBack) {
     start(withPhotons(3e6));
     open("Error");
     bench->click("error.compute");
-    double most = 0.0;
+    double maximum = 0.0;
     std::set<double> seen;
     bench->waitFor("the end of the work", [&](const json& screen) {
         const json& controls = screen.at("controls");
         if (!controls.contains("error.progress")) return true;
         const double share =
             std::stod(controls.at("error.progress").at("value").get<std::string>());
-        EXPECT_GE(share, most);
+        EXPECT_GE(share, maximum);
         EXPECT_LE(share, 1.0);
-        most = share;
+        maximum = share;
         seen.insert(share);
         return false;
     });
@@ -196,12 +196,13 @@ TEST_F(ErrorPanel, TheHeatMapAndTheReferenceAreSeenBesideThePicture) {
     bench->click("error.heat_map");
     untilSettled();
     ASSERT_TRUE(bench->has("picture.split"));
-    const Image beside = seenPicture();
+    const Image sidePicture = seenPicture();
     bench->keepScreenshot("error-heat-map");
     const int middle = before.width / 2;
-    EXPECT_EQ(largestDifference(columns(beside, 0, middle - 4), columns(before, 0, middle - 4)),
-              0.0);
-    EXPECT_GT(largestDifference(columns(beside, middle + 4, before.width),
+    EXPECT_EQ(
+        largestDifference(columns(sidePicture, 0, middle - 4), columns(before, 0, middle - 4)),
+        0.0);
+    EXPECT_GT(largestDifference(columns(sidePicture, middle + 4, before.width),
                                 columns(before, middle + 4, before.width)),
               0.2);
     bench->click("error.heat_map");

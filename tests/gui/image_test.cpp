@@ -20,7 +20,7 @@ using nlohmann::json;
 class ImagePanel : public WorkbenchTest {
   protected:
     static json showing(const std::string& resource, int layer = 0) {
-        json kept = keptWith(smallDocument());
+        json kept = savedStateWith(smallDocument());
         kept["view"]["resource"] = resource;
         kept["view"]["layer"] = layer;
         return kept;
@@ -108,7 +108,7 @@ TEST_F(ImagePanel, ATextureThatIsNoLongerThereIsSaidToBeGone) {
 }
 
 TEST_F(ImagePanel, ATextureThatNothingNeedsIsMadeToBeSeen) {
-    json kept = keptWith(smallDocument());
+    json kept = savedStateWith(smallDocument());
     kept["document"]["variant"]["disable"] = {"compose.direct"};
     start(kept);
     EXPECT_EQ(bench->value("passes.name.shadow.map"), "culled");
@@ -225,7 +225,7 @@ class EditedShaders : public ImagePanel {
         "    return;\n"
         "}";
 
-    static constexpr const char* kShader = "shared/radiance.frag";
+    static constexpr const char* kShader = "compose/picture_radiance.frag";
     ShaderCopies shaders{folder / "root"};
     std::string original = shaders.read(kShader);
 };
@@ -259,7 +259,7 @@ TEST_F(EditedShaders, ABrokenShaderIsExplainedAndTheLastGoodOneStaysInUse) {
     const Image before = seenPicture();
     edit("radiance = noSuchThing;");
     untilShaderIs(true);
-    EXPECT_TRUE(says("status.shader", "shaders/shared/radiance.frag"));
+    EXPECT_TRUE(says("status.shader", "shaders/compose/picture_radiance.frag"));
     EXPECT_TRUE(says("status.shader", fmt::format(":{}:", lineOfEdit())))
         << bench->value("status.shader");
     EXPECT_TRUE(says("status.shader", "noSuchThing"));

@@ -18,7 +18,7 @@ struct Key {
     bool isShifted = false;
 };
 
-std::optional<Key> keyThatSays(Display* display, KeySym symbol) {
+std::optional<Key> keyOfSymbol(Display* display, KeySym symbol) {
     int first = 0;
     int last = 0;
     XDisplayKeycodes(display, &first, &last);
@@ -64,9 +64,9 @@ std::vector<unsigned> keyCodesOf(_XDisplay* display, const std::string& chord) {
     for (const std::string& name : namesIn(chord)) {
         const KeySym symbol = symbolNamed(name);
         const std::optional<Key> key =
-            symbol == NoSymbol ? std::nullopt : keyThatSays(display, symbol);
+            symbol == NoSymbol ? std::nullopt : keyOfSymbol(display, symbol);
         if (!key) throw std::runtime_error("There is no key '" + name + "' for '" + chord + "'.");
-        if (key->isShifted) add(keyThatSays(display, XK_Shift_L).value().code);
+        if (key->isShifted) add(keyOfSymbol(display, XK_Shift_L).value().code);
         add(key->code);
     }
     return codes;

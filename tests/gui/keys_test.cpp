@@ -41,7 +41,7 @@ TEST_P(Keyboards, UndoAndRedoAreZAndY) {
 }
 
 TEST_P(Keyboards, SignsAndDigitsAreWhereverTheyArePrinted) {
-    json kept = keptWith(smallDocument());
+    json kept = savedStateWith(smallDocument());
     kept["view"]["resource"] = "caustic.irradiance";
     kept["panels"]["sequence_step"] = 0.25;
     start(kept);

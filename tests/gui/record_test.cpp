@@ -60,7 +60,7 @@ class RecordPanel : public WorkbenchTest {
 };
 
 TEST_F(RecordPanel, ASequenceHasAWholePictureForEachMoment) {
-    json kept = keptWith(smallDocument());
+    json kept = savedStateWith(smallDocument());
     kept["panels"]["sequence_frames"] = 3;
     kept["panels"]["sequence_step"] = 0.25;
     start(kept);
@@ -82,7 +82,7 @@ TEST_F(RecordPanel, ASequenceHasAWholePictureForEachMoment) {
 }
 
 TEST_F(RecordPanel, ASequenceThatIsCancelledLeavesWholePictures) {
-    json kept = keptWith(smallDocument());
+    json kept = savedStateWith(smallDocument());
     kept["panels"]["sequence_frames"] = 100000;
     start(kept);
     open("Record");
@@ -141,7 +141,7 @@ TEST_F(RecordPanel, AReportHasErrorAndHitsAsARunHas) {
 }
 
 TEST_F(RecordPanel, AReportIsCancelledWhileItsReferenceIsComputed) {
-    json kept = keptWith(smallDocument());
+    json kept = savedStateWith(smallDocument());
     kept["panels"]["judged_reports"] = true;
     kept["panels"]["truth_photons"] = 1e11;  // for days
     start(kept);
@@ -187,7 +187,7 @@ TEST_F(RecordPanel, AScreenshotIsOfTheWholeWindow) {
 }
 
 TEST_F(RecordPanel, ASavedExperimentGivesTheSameImagesToTheBit) {
-    json kept = keptWith(smallDocument());
+    json kept = savedStateWith(smallDocument());
     kept["view"]["shows_lights"] = true;
     start(kept);
     bench->drag("light.sun", -40, 5);
@@ -221,7 +221,7 @@ TEST_F(RecordPanel, TwoVariantsAreTwoRunsOfAnExperiment) {
     small["other"]["set"]["emit.photons"] = "16x16";
     small["other"]["set"]["reconstruct.triangles.shading"] = "flat";
     small["other"]["disable"] = {"compose.direct"};
-    start(keptWith(small));
+    start(savedStateWith(small));
     open("Record");
     bench->click("record.experiment");
     const std::vector<fs::path> runs = runExperiment();

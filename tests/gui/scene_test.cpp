@@ -24,7 +24,7 @@ class ScenePanel : public WorkbenchTest {
     [[nodiscard]] glm::dvec3 position() { return vectorIn(edits().at("camera").at("position")); }
     [[nodiscard]] glm::dvec3 target() { return vectorIn(edits().at("camera").at("target")); }
     static json withLightHandles(const std::string& scene) {
-        json kept = keptWith(smallDocument(scene));
+        json kept = savedStateWith(smallDocument(scene));
         kept["view"]["shows_lights"] = true;
         return kept;
     }
@@ -105,7 +105,7 @@ TEST_F(ScenePanel, KeysFly) {
     Json slow = smallDocument();
     slow["size"] = {320, 240};
     slow["variant"]["set"]["emit.photons"] = "256x256";
-    start(keptWith(slow));
+    start(savedStateWith(slow));
     bench->hover("picture");
     bench->key("w");
     const glm::dvec3 forward = position() - kPosition;
@@ -182,7 +182,7 @@ TEST_F(ScenePanel, HandlesAreShownAndHiddenWithL) {
 TEST_F(ScenePanel, ALightCanBeMadeBrighter) {
     json small = smallDocument();
     small["variant"]["set"]["compose.picture.exposure"] = "0.002";  // else it follows the light
-    start(keptWith(small));
+    start(savedStateWith(small));
     open("Scene");
     const Image before = seenPicture();
     bench->typeInto("scene.power.sun", "3", Entry::controlClick, "Return", {0.2, 0.5});
@@ -192,7 +192,7 @@ TEST_F(ScenePanel, ALightCanBeMadeBrighter) {
 }
 
 TEST_F(ScenePanel, TimeGoesOnByStepsWhileItPlays) {
-    json kept = keptWith(smallDocument());
+    json kept = savedStateWith(smallDocument());
     kept["panels"]["sequence_step"] = 0.25;
     start(kept);
     const Image before = seenPicture();

@@ -55,7 +55,7 @@ TEST_F(ShownLine, ChangesThatAreBeingRenderedAreSaidSo) {
     json slow = smallDocument();
     slow["size"] = {240, 180};
     slow["variant"]["set"]["emit.photons"] = "384x384";
-    start(keptWith(slow));
+    start(savedStateWith(slow));
     EXPECT_EQ(bench->value("shown"), "asked");
     bench->typeInto("parameter.emit.photons", "383", Entry::click, "Return", {0.2, 0.5});
     EXPECT_EQ(bench->value("shown"), "rendering");
@@ -75,8 +75,8 @@ TEST_F(ShownLine, ChangesThatAreBeingRenderedAreSaidSo) {
 class ABrokenNode : public ShownLine {
   protected:
     void startWith(json document) {
-        shaders.write("screen_space_photons/march.frag", "no shader");
-        WorkbenchTest::start(keptWith(document), shaders.environment());
+        shaders.write("trace/march.frag", "no shader");
+        WorkbenchTest::start(savedStateWith(document), shaders.environment());
     }
     ShaderCopies shaders{folder / "root"};
 };

@@ -17,7 +17,7 @@ class TechniquePanel : public WorkbenchTest {
   protected:
     [[nodiscard]] double split() { return std::stod(bench->value("picture.split")); }
     // The columns of the seen picture left (or right) of the split, without the line itself.
-    [[nodiscard]] Image besideSplit(bool isLeft) {
+    [[nodiscard]] Image imageOfSide(bool isLeft) {
         const Image all = seenPicture();
         const int at = static_cast<int>(split() * all.width);
         return isLeft ? columns(all, 0, at - 4) : columns(all, at + 60, all.width);
@@ -92,7 +92,7 @@ TEST_F(TechniquePanel, TheVariantThatIsEditedIsNamedWhereverItIs) {
     json both = smallDocument();
     both["other"] = both["variant"];
     both["other"]["set"]["trace.epsilon"] = "0.25";
-    start(keptWith(both));
+    start(savedStateWith(both));
     EXPECT_EQ(bench->value("picture.caption"), "A ");
     EXPECT_EQ(bench->value("parameters.edit_a"), "on");
     EXPECT_EQ(bench->value("parameter.trace.epsilon"), "0.01");
@@ -126,9 +126,9 @@ TEST_F(TechniquePanel, TwoVariantsAreSeenSideBySide) {
     EXPECT_EQ(document().at("other").at("disable"), json::array());
     bench->keepScreenshot("technique-side-by-side");
     // B is as it was; A, left of the split, has lost its light.
-    const Image right = besideSplit(false);
+    const Image right = imageOfSide(false);
     EXPECT_EQ(largestDifference(right, columns(lit, lit.width - right.width, lit.width)), 0.0);
-    const Image left = besideSplit(true);
+    const Image left = imageOfSide(true);
     EXPECT_LT(meanOf(left), 0.5 * meanOf(columns(lit, 0, left.width)));
     EXPECT_GT(std::stod(bench->value("variant.table")), 0.0);
 
@@ -136,7 +136,7 @@ TEST_F(TechniquePanel, TwoVariantsAreSeenSideBySide) {
     const double pixels = bench->control("picture.image").w;
     bench->drag("picture.split", -100, 0, kLeftButton, {0.5, 0.9});
     EXPECT_NEAR(split(), before - 100.0 / pixels, 2.0 / pixels);
-    const Image wider = besideSplit(false);
+    const Image wider = imageOfSide(false);
     EXPECT_NEAR(wider.width, right.width + 100, 2);
     EXPECT_EQ(largestDifference(wider, columns(lit, lit.width - wider.width, lit.width)), 0.0);
     EXPECT_FALSE(document().at("edits").contains("camera")) << "the hand held the split";
@@ -144,7 +144,7 @@ TEST_F(TechniquePanel, TwoVariantsAreSeenSideBySide) {
     bench->click("variant.swap");
     untilSettled();
     EXPECT_EQ(document().at("variant").at("disable"), json::array());
-    const Image swapped = besideSplit(true);
+    const Image swapped = imageOfSide(true);
     EXPECT_EQ(largestDifference(swapped, columns(lit, 0, swapped.width)), 0.0);
 
     bench->click("variant.edit_b");

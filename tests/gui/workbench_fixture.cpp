@@ -26,7 +26,7 @@ Json WorkbenchTest::smallDocument(const std::string& scene) {
               {"disable", Json::array()}}}};
 }
 
-Json WorkbenchTest::keptWith(const Json& document) {
+Json WorkbenchTest::savedStateWith(const Json& document) {
     return {{"document", document},
             {"view", {{"shows_lights", false}}},
             {"panels",
@@ -37,18 +37,18 @@ Json WorkbenchTest::keptWith(const Json& document) {
             {"knows_device", true}};
 }
 
-void WorkbenchTest::writeKept(const Json& kept) const {
+void WorkbenchTest::writeSavedState(const Json& kept) const {
     const fs::path file = folder / "config/kaustik/workbench.json";
     fs::create_directories(file.parent_path());
     writeFileWhole(file, kept.dump(1));
 }
 
-Json WorkbenchTest::readKept() const {
+Json WorkbenchTest::readSavedState() const {
     return readJson("config/kaustik/workbench.json");
 }
 
 void WorkbenchTest::start(const Json& kept, const std::map<std::string, std::string>& environment) {
-    writeKept(kept);
+    writeSavedState(kept);
     startAgain(environment);
 }
 

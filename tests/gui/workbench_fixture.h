@@ -29,12 +29,12 @@ class WorkbenchTest : public testing::Test {
     [[nodiscard]] static Json smallDocument(const std::string& scene = "wavy.toml");
     // What the workbench keeps, with that document: without handles of lights on the picture, and
     // recordings go to the folder "out", reports without a reference.
-    [[nodiscard]] static Json keptWith(const Json& document);
-    void writeKept(const Json& kept) const;
-    [[nodiscard]] Json readKept() const;
+    [[nodiscard]] static Json savedStateWith(const Json& document);
+    void writeSavedState(const Json& kept) const;
+    [[nodiscard]] Json readSavedState() const;
 
     // Starts it with what was written, and waits until the first picture is settled.
-    void start(const Json& kept = keptWith(smallDocument()),
+    void start(const Json& kept = savedStateWith(smallDocument()),
                const std::map<std::string, std::string>& environment = {});
     // The same, with what it kept itself.
     void startAgain(const std::map<std::string, std::string>& environment = {});

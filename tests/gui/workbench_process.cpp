@@ -21,7 +21,7 @@ using Clock = std::chrono::steady_clock;
 // Not a measure of speed: on a software rasteriser that shares its cores a scene may take minutes,
 // and a workbench that never gets there fails the test only then.
 constexpr auto kLimit = std::chrono::seconds(300);
-constexpr auto kPollEvery = std::chrono::milliseconds(5);
+constexpr auto kPollInterval = std::chrono::milliseconds(5);
 
 constexpr const char* kDescription = "screen.json";
 
@@ -301,7 +301,7 @@ bool WorkbenchProcess::poll(const std::string& what, const std::function<bool()>
             fail("The workbench never showed " + what + " in " + std::to_string(kLimit.count()) +
                  " seconds.");
         }
-        std::this_thread::sleep_for(kPollEvery);
+        std::this_thread::sleep_for(kPollInterval);
     }
     return true;
 }

@@ -22,7 +22,7 @@ class Workbench : public WorkbenchTest {
         return slow;
     }
     void startWithoutWaiting(const json& kept) {
-        writeKept(kept);
+        writeSavedState(kept);
         bench.emplace(desktop, folder / "");
     }
     [[nodiscard]] static json documentIn(const json& screen) {
@@ -47,7 +47,7 @@ TEST_F(Workbench, TheFirstStartShowsAPicture) {
 }
 
 TEST_F(Workbench, WhereNothingIsSeenYetAQuickPictureComesFirst) {
-    startWithoutWaiting(keptWith(slowDocument()));
+    startWithoutWaiting(savedStateWith(slowDocument()));
     bench->waitFor("a first picture", [](const json& screen) {
         return screen.at("controls").contains("picture.image");
     });
@@ -66,21 +66,21 @@ TEST_F(Workbench, TheProgressOfAnOrderNeverGoesBack) {
     json document = smallDocument();
     document["size"] = {240, 180};
     document["variant"]["set"]["emit.photons"] = "256x256";
-    startWithoutWaiting(keptWith(document));
+    startWithoutWaiting(savedStateWith(document));
     json order;
-    double most = 0.0;
+    double maximum = 0.0;
     std::set<double> seen;
     bench->waitFor("a settled picture", [&](const json& screen) {
         const json& status = screen.at("status");
-        if (status.at("order") != order) most = 0.0;
+        if (status.at("order") != order) maximum = 0.0;
         order = status.at("order");
         const json& controls = screen.at("controls");
         if (controls.contains("toolbar.progress")) {
             const double share =
                 std::stod(controls.at("toolbar.progress").at("value").get<std::string>());
-            EXPECT_GE(share, most);
+            EXPECT_GE(share, maximum);
             EXPECT_LE(share, 1.0);
-            most = share;
+            maximum = share;
             seen.insert(share);
         }
         return status.at("settled") == true && status.at("rendered_order") == order;
@@ -122,7 +122,7 @@ TEST_F(Workbench, WhatWasKeptBeforeACrashIsThereAgain) {
     const json changed = document();
     // Nothing more is touched: it keeps by itself.
     bench->waitFor("a file with the change",
-                   [&](const json&) { return readKept().at("document") == changed; });
+                   [&](const json&) { return readSavedState().at("document") == changed; });
     bench->kill();
     startAgain();
     EXPECT_EQ(document(), changed);
@@ -146,9 +146,9 @@ TEST_F(Workbench, SettingsThatMakeNoSenseAreNoReasonNotToStart) {
     EXPECT_EQ(readFile(aside), damaged);
     bench->keepScreenshot("workbench-damaged-settings");
     endByClosing();
-    EXPECT_EQ(readKept().at("document").at("scene"), "wavy.toml");
+    EXPECT_EQ(readSavedState().at("document").at("scene"), "wavy.toml");
 
-    json kept = keptWith(smallDocument());
+    json kept = savedStateWith(smallDocument());
     kept["document"]["variant"]["set"]["no.such.parameter"] = "1";
     start(kept);
     EXPECT_TRUE(says("status.message", "no.such.parameter"));
@@ -157,19 +157,19 @@ TEST_F(Workbench, SettingsThatMakeNoSenseAreNoReasonNotToStart) {
 }
 
 TEST_F(Workbench, TheInterfaceGoesOnWhileAFrameIsRendered) {
-    startWithoutWaiting(keptWith(slowDocument()));
+    startWithoutWaiting(savedStateWith(slowDocument()));
     bench->waitFor("a first picture", [](const json& screen) {
         return screen.at("controls").contains("picture.image");
     });
     bench->click("passes.endless");
     json first;
-    int most = 0;
+    int maximum = 0;
     bench->waitFor("five frames of the interface during one of the picture", [&](const json& now) {
         const bool isSameFrame = !first.is_null() && now.at("status").at("busy") == true &&
                                  now.at("status").at("frame") == first.at("status").at("frame");
         if (!isSameFrame) first = now;
-        most = std::max(most, now.at("frame").get<int>() - first.at("frame").get<int>());
-        return most >= 5;
+        maximum = std::max(maximum, now.at("frame").get<int>() - first.at("frame").get<int>());
+        return maximum >= 5;
     });
     // An order in the middle of a frame is taken at once.
     bench->click("passes.endless");
@@ -178,7 +178,7 @@ TEST_F(Workbench, TheInterfaceGoesOnWhileAFrameIsRendered) {
 }
 
 TEST_F(Workbench, ClosingInTheMiddleOfAFrameLosesNothing) {
-    startWithoutWaiting(keptWith(slowDocument()));
+    startWithoutWaiting(savedStateWith(slowDocument()));
     bench->waitFor("a frame that is being rendered", [](const json& screen) {
         return screen.at("status").at("busy") == true &&
                screen.at("controls").contains("picture.image");
@@ -187,11 +187,11 @@ TEST_F(Workbench, ClosingInTheMiddleOfAFrameLosesNothing) {
     const json changed = document();
     ASSERT_TRUE(changed.at("edits").contains("camera"));
     endByClosing();
-    EXPECT_EQ(readKept().at("document"), changed);
+    EXPECT_EQ(readSavedState().at("document"), changed);
 }
 
 TEST_F(Workbench, ClosingInTheMiddleOfARecordingEndsWell) {
-    json kept = keptWith(smallDocument());
+    json kept = savedStateWith(smallDocument());
     kept["panels"]["sequence_frames"] = 100000;
     start(kept);
     open("Record");
@@ -288,7 +288,7 @@ TEST_F(Workbench, TooMuchMemoryIsExplainedAndAfterwardsItGoesOn) {
 }
 
 TEST_F(Workbench, ASmallWindowKeepsAPicture) {
-    json kept = keptWith(smallDocument());
+    json kept = savedStateWith(smallDocument());
     kept["window"] = {{"width", 640}, {"height", 400}, {"x", 20}, {"y", 30}};
     start(kept);
     bench->keepScreenshot("workbench-small");

@@ -2,10 +2,9 @@
 // An X server without a screen (Xvfb) of the test's own: it ends with the test, however that ends.
 #pragma once
 
-#include <sys/types.h>
-
 #include <string>
 
+#include "framework/core/process.h"
 #include "tests/unit/temporary_folder.h"
 
 namespace kaustik::test {
@@ -24,7 +23,7 @@ class XServer {
 
   private:
     TemporaryFolder messages_;
-    pid_t process_ = -1;
+    Process process_;
     std::string display_;
 };
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Installs a build into a prefix of its own, uses it, moves it, and builds the README's technique
-# outside of the tree with it. The programs run elsewhere, without the environment of the test;
-# where the optimised build names the source tree nowhere, they cannot read it.
+# Installs a build into a prefix of its own, uses it, moves it, and builds the example technique of
+# CONTRIBUTING.md outside of the tree with it. The programs run elsewhere, without the environment
+# of the test; where the optimised build names the source tree nowhere, they cannot read it.
 #   installed.sh CMAKE BUILD_TYPE SOURCE_TREE BUILD_TREE OUTSIDE
 set -euo pipefail
 
@@ -83,7 +83,7 @@ PYTHON
     require "$work/elsewhere/python.png" "$work/elsewhere/study of python/runs.csv"
 fi
 
-# The README's technique, in a folder that is not the project's.
+# The example technique, in a folder that is not the project's.
 cp -r "$outside" "$work/outside"
 quietly "$cmake" -G Ninja -S "$work/outside" -B "$work/outside/build" \
     -DCMAKE_PREFIX_PATH="$work/prefix"

@@ -35,16 +35,16 @@ int recurse(int depth) {
     return gEndless != 0 ? recurse(depth + 1) + frame[0] : depth;
 }
 
-[[noreturn]] void eatMemory() {
+[[noreturn]] void exhaustMemory() {
     static std::vector<std::vector<char>> eaten;
     for (;;)
         eaten.emplace_back(std::size_t{1} << 20, 'x');
 }
 
 // As a library that takes running out of memory for a property of the file.
-std::string eatMemoryAndCatch() {
+std::string exhaustMemoryAndCatch() {
     try {
-        eatMemory();
+        exhaustMemory();
     } catch (const std::bad_alloc&) {
         throw IoError("the file is of no known kind.");
     }
@@ -85,15 +85,15 @@ void handle(const Request& request, Channel& channel) {
         std::fputs("to standard error\n", stderr);
     }
     answer(channel, [&]() -> std::string {
-        if (wanted == "memory") eatMemory();
-        if (wanted == "catch") return eatMemoryAndCatch();
+        if (wanted == "memory") exhaustMemory();
+        if (wanted == "catch") return exhaustMemoryAndCatch();
         if (wanted == "refuse") throw ConfigError(request.name + ":3: no such thing.");
         if (wanted == "damaged") throw IoError(request.name + " is cut off.");
         return well;
     });
     if (wanted == "leave") {
         channel.flush();
-        ::_exit(reading::kExitNobodyAsks);
+        ::_exit(reading::kExitNoClient);
     }
 }
 

@@ -45,6 +45,8 @@ class Settings(TestCase):
         self.assert_fails(kaustik.ConfigError, ["nothing.like.it"], r.set, both)
         self.assertEqual(r.get("layers.count"), before)
         self.assert_fails(kaustik.ConfigError, ["did you mean", "emit.photons"], r.get, "emit.photon")
+        self.assert_fails(kaustik.ConfigError, ["secant.most", "trace.secant.max_steps"], r.set,
+                          {"secant.most": 3})
         self.assertEqual(r.get("emit.photons"), (32, 32))
         r.step()
 

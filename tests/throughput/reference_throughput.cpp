@@ -82,8 +82,8 @@ double processorSeconds() {
 
 double bareSeconds(RTCScene scene, const std::vector<BareRay>& rays) {
     const double start = processorSeconds();
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
+    QueryContext context;
+    initQueryContext(context);
     std::size_t hits = 0;
     for (const BareRay& ray : rays) {
         RTCRayHit query{};
@@ -96,7 +96,7 @@ double bareSeconds(RTCScene scene, const std::vector<BareRay>& rays) {
         query.ray.tfar = ray.tfar;
         query.ray.mask = 0xffffffffu;
         query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-        rtcIntersect1(scene, &context, &query);
+        findFirstHit(scene, context, query);
         hits += query.hit.geomID != RTC_INVALID_GEOMETRY_ID ? 1 : 0;
     }
     const double time = processorSeconds() - start;

@@ -28,7 +28,7 @@ void drawReference(Bench& bench) {
         ImGui::TextColored(ImVec4(1.0f, 0.45f, 0.4f, 1.0f), "%s", reference.problem.c_str());
     bench.map.area("error.problem", 0, 0, 0, 0, reference.problem);
     const ReferenceWorker::Progress progress = bench.referenceWorker.progress();
-    const bool isOfThisView = isOfSameView(reference, bench.document);
+    const bool isOfThisView = hasSameView(reference, bench.document);
     if (reference.isLooking) {
         ImGui::TextDisabled("Looking for a reference …");
     } else if (!isOfThisView) {
@@ -174,9 +174,9 @@ void drawError(Bench& bench) {
             bench.map.control("error.frame", isOld ? "old" : "new");
             drawTable(bench, "caustic, all paths", &ReferenceState::Judgement::whole);
             drawTable(bench, "modelled paths", &ReferenceState::Judgement::modelled);
-            bool isShown = bench.view.beside == Beside::error;
+            bool isShown = bench.view.sidePicture == SidePicture::error;
             if (checkbox(bench, "heat map beside the picture", isShown, "error.heat_map"))
-                bench.view.beside = isShown ? Beside::error : Beside::nothing;
+                bench.view.sidePicture = isShown ? SidePicture::error : SidePicture::none;
         }
     }
     drawLedger(bench);

@@ -18,7 +18,7 @@ const std::vector<std::string>& channelNames() {
     return names;
 }
 
-const std::vector<std::string>& besideNames() {
+const std::vector<std::string>& sidePictureNames() {
     static const std::vector<std::string> names = {"nothing", "variant B", "the reference",
                                                    "heat map of the error"};
     return names;
@@ -39,7 +39,7 @@ void drawChoiceOfTexture(Bench& bench) {
     }
     tooltip("Any texture of the graph. One whose pass nothing else needs makes that pass run.");
     if (index == 0) {
-        if (bench.view.beside == Beside::reference)
+        if (bench.view.sidePicture == SidePicture::reference)
             ImGui::TextDisabled("caustic.irradiance, of which the reference is.");
         return;
     }
@@ -167,9 +167,9 @@ void drawImage(Bench& bench) {
     chooseVariant(bench, "image");
     drawChoiceOfTexture(bench);
     drawMapping(bench, viewed);
-    int beside = static_cast<int>(bench.view.beside);
-    if (choose(bench, "beside it", besideNames(), beside, "image.beside"))
-        bench.view.beside = static_cast<Beside>(beside);
+    int sidePicture = static_cast<int>(bench.view.sidePicture);
+    if (choose(bench, "beside it", sidePictureNames(), sidePicture, "image.beside"))
+        bench.view.sidePicture = static_cast<SidePicture>(sidePicture);
     tooltip(
         "What is seen to the right of the split, which can be dragged. The reference is of the "
         "caustic irradiance, and shown beside that.");

@@ -10,7 +10,7 @@ namespace kaustik::gui {
 void drawShown(Bench& bench);       // one line: whether what is shown is what was asked for
 void drawPasses(Bench& bench);      // what runs, what it costs, on and off
 void drawTimeChart(Bench& bench);   // the newest frames as stacks of their passes
-void drawTechnique(Bench& bench);   // technique, nodes, and a second variant beside the first
+void drawTechnique(Bench& bench);   // technique, nodes, and a second variant next to the first
 void drawParameters(Bench& bench);  // of the nodes in use, from their declarations
 void drawImage(Bench& bench);       // which texture, and how its values become colours
 void drawPicture(Bench& bench);     // the picture itself, with what the hand does on it

@@ -6,7 +6,7 @@
 #include "framework/core/error.h"
 #include "framework/gui/panels/panels.h"
 #include "framework/gui/widgets.h"
-#include "framework/pipeline/in_use.h"
+#include "framework/pipeline/effect.h"
 
 namespace kaustik::gui {
 namespace {
@@ -21,18 +21,23 @@ bool matches(const params::NamedField& named, const std::string& search) {
            std::string::npos;
 }
 
-void drawRow(Bench& bench, const params::ParamSet& params, const params::NamedField& named) {
+// `reason`: it has no effect; "" where it has.
+void drawRow(Bench& bench, const params::ParamSet& params, const params::NamedField& named,
+             const std::string& reason) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     ImGui::AlignTextToFramePadding();
     const bool isChanged = params.isSetByUser(named.fullName);
     const std::string label = named.fullName.substr(named.fullName.find('.') + 1);
-    if (isChanged) {
+    if (!reason.empty()) {
+        ImGui::TextDisabled("%s", label.c_str());
+    } else if (isChanged) {
         ImGui::TextColored(ImVec4(1.0f, 0.75f, 0.25f, 1.0f), "%s", label.c_str());
     } else {
         ImGui::TextUnformatted(label.c_str());
     }
-    tooltip(named.field.sentence);
+    tooltip(reason.empty() ? named.field.sentence
+                           : named.field.sentence + ".\n" + sayNoEffect(named.fullName, reason));
     ImGui::TableNextColumn();
     const float unitWidth =
         named.field.unit.empty()
@@ -66,10 +71,13 @@ void drawParameters(Bench& bench) {
               "parameters.search");
     ImGui::SameLine();
     static_cast<void>(checkbox(bench, "all nodes", panels.showsAllParameters, "parameters.all"));
-    tooltip("Also those of nodes that are not in use.");
+    tooltip("Also those that have no effect, as of nodes that are not in use.");
     try {
         const params::ParamSet params =
             settingsOf(bench.edited(), bench.document.size, bench.registry).params;
+        const scene::SceneNeeds* needs =
+            bench.result && bench.result->scene ? &bench.result->scene->needs : nullptr;
+        const FrameFacts facts{bench.registry, params, needs};
         ImGui::BeginChild("list");
         std::string stage;
         bool isTable = false;
@@ -80,7 +88,9 @@ void drawParameters(Bench& bench) {
         });
         for (const params::NamedField& named : fields) {
             if (named.fullName.find('.') == std::string::npos) continue;
-            if (!panels.showsAllParameters && !isInUse(bench.registry, params, named.fullName) &&
+            const std::string reason = whyNoEffect(facts, named.fullName);
+            // What a value next to it keeps from having an effect is shown all the same.
+            if (!panels.showsAllParameters && reason != named.field.obstacle &&
                 !params.isSetByUser(named.fullName)) {
                 continue;
             }
@@ -96,7 +106,7 @@ void drawParameters(Bench& bench) {
                     ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 0.55f);
                 }
             }
-            if (isTable) drawRow(bench, params, named);
+            if (isTable) drawRow(bench, params, named, reason);
         }
         if (isTable) ImGui::EndTable();
         ImGui::EndChild();

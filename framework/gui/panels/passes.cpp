@@ -58,7 +58,7 @@ void drawPassRow(Bench& bench, const VariantResult& result, const graph::PassRec
                       : pass.state == graph::PassState::bypassed ? "bypassed"
                       : pass.state == graph::PassState::culled   ? "culled"
                                                                  : "skipped");
-    tooltip(fmt::format("{}\n{}", pass.name, pass.why));
+    tooltip(fmt::format("{}\n{}", pass.name, pass.reason));
     if (times == nullptr) {
         // The reason runs over all the columns that have no numbers here.
         ImGui::TableNextColumn();
@@ -68,11 +68,11 @@ void drawPassRow(Bench& bench, const VariantResult& result, const graph::PassRec
         const ImVec2 clipHigh = draw.GetClipRectMax();
         draw.PushClipRect({corner.x, clipLow.y},
                           {ImGui::GetWindowPos().x + ImGui::GetWindowWidth(), clipHigh.y});
-        draw.AddText(corner, ImGui::GetColorU32(kGrey), pass.why.c_str());
+        draw.AddText(corner, ImGui::GetColorU32(kGrey), pass.reason.c_str());
         draw.PopClipRect();
         bench.map.area("passes.why." + pass.name, corner.x, corner.y,
-                       ImGui::CalcTextSize(pass.why.c_str()).x, ImGui::GetTextLineHeight(),
-                       pass.why);
+                       ImGui::CalcTextSize(pass.reason.c_str()).x, ImGui::GetTextLineHeight(),
+                       pass.reason);
         return;
     }
     const double median = medianOf(times->gpuMilliseconds);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "framework/gui/camera_control.h"
+#include "framework/gui/imgui_keys.h"
 #include "framework/gui/panels/panels.h"
 #include "framework/gui/panels/picture_overlay.h"
 #include "framework/gui/widgets.h"
@@ -53,23 +54,23 @@ struct Other {
 Other otherImage(const Bench& bench) {
     const FrameResult& result = *bench.result;
     const ReferenceState& reference = *bench.reference;
-    switch (bench.view.beside) {
-        case Beside::nothing:
+    switch (bench.view.sidePicture) {
+        case SidePicture::none:
             break;
-        case Beside::other: {
+        case SidePicture::other: {
             const VariantResult& b = result.variants[1];
             if (b.viewed && !b.viewed->values.values.empty())
                 return {&b.viewed->values, b.viewed->version, b.viewed->isEncoded, "B"};
             break;
         }
-        case Beside::reference:
-            if (reference.irradiance && isOfSameView(reference, result.document))
+        case SidePicture::reference:
+            if (reference.irradiance && hasSameView(reference, result.document))
                 return {reference.irradiance.get(), 2 * reference.version, false, "reference"};
             break;
-        case Beside::error:
+        case SidePicture::error:
             if (const ReferenceState::Judgement& judgement =
-                    reference.judgements[bench.asked().seen()];
-                judgement.heatMap && isOfSameView(reference, result.document)) {
+                    reference.judgements[bench.requested().seen()];
+                judgement.heatMap && hasSameView(reference, result.document)) {
                 return {judgement.heatMap.get(), 2 * reference.version + 1, true,
                         judgement.order == result.order ? "error" : "error of before"};
             }
@@ -113,7 +114,7 @@ void zoomAt(ViewState& view, const PictureFrame& frame, ImVec2 mouse, float fact
 void fly(Bench& bench) {
     const ImGuiIO& io = ImGui::GetIO();
     if (io.WantTextInput || io.KeyCtrl || !bench.isSceneCurrent()) return;
-    const auto key = [&](char c) { return ImGui::IsKeyDown(static_cast<int>(c)) ? 1.0 : 0.0; };
+    const auto key = [&](char c) { return isKeyDown(c) ? 1.0 : 0.0; };
     const glm::dvec3 way(key('D') - key('A'), key('E') - key('Q'), key('W') - key('S'));
     if (way == glm::dvec3(0.0)) return;
     const scene::Bounds& bounds = bench.result->scene->bounds;
@@ -125,24 +126,24 @@ void fly(Bench& bench) {
 }
 
 // What the mouse holds while a button is down.
-enum class Hold { nothing, camera, look, middle, split, light };
+enum class DragTarget { none, camera, look, middle, split, light };
 
 // A press that moves less is a click: no hand holds quite still. Pixels at scale 1.
 constexpr double kClickPixels = 4.0;
 
-struct Hand {
-    Hold hold = Hold::nothing;
+struct DragState {
+    DragTarget hold = DragTarget::none;
     int light = -1;
     ImVec2 pressed;  // where
     bool hasMoved = false;
     // Whether it changes what is worked on, and not only how it is seen.
     [[nodiscard]] bool changesDocument() const {
-        return hold == Hold::camera || hold == Hold::look || hold == Hold::light;
+        return hold == DragTarget::camera || hold == DragTarget::look || hold == DragTarget::light;
     }
 };
 
 // The way of the mouse that counts in this frame; 0 before a press is more than a click.
-glm::dvec2 wayOf(const Bench& bench, const Hand& hand) {
+glm::dvec2 dragPath(const Bench& bench, const DragState& hand) {
     const ImGuiIO& io = ImGui::GetIO();
     if (hand.hasMoved || !hand.changesDocument()) return {io.MouseDelta.x, io.MouseDelta.y};
     const glm::dvec2 whole(io.MousePos.x - hand.pressed.x, io.MousePos.y - hand.pressed.y);
@@ -166,38 +167,38 @@ void dragHeldLight(Bench& bench, const PictureFrame& frame, int index, glm::dvec
     }
 }
 
-void useHand(Bench& bench, const PictureFrame& frame, Hand& hand) {
+void applyDrag(Bench& bench, const PictureFrame& frame, DragState& hand) {
     const ImGuiIO& io = ImGui::GetIO();
-    const glm::dvec2 way = wayOf(bench, hand);
-    if (way == glm::dvec2(0.0) || hand.hold == Hold::nothing) return;
+    const glm::dvec2 way = dragPath(bench, hand);
+    if (way == glm::dvec2(0.0) || hand.hold == DragTarget::none) return;
     hand.hasMoved = true;
     ViewState& view = bench.view;
     const double height = double(frame.high.y) - double(frame.low.y);
     switch (hand.hold) {
-        case Hold::camera:
+        case DragTarget::camera:
             if (!bench.isSceneCurrent()) return;
             bench.document.edits.camera = orbit(bench.camera(), way, height);
             bench.isTurning = true;
             break;
-        case Hold::look:
+        case DragTarget::look:
             if (!bench.isSceneCurrent()) return;
             bench.document.edits.camera = look(bench.camera(), way, height);
             bench.isTurning = true;
             break;
-        case Hold::middle:
+        case DragTarget::middle:
             if (view.zoom <= 0.0f) zoomAt(view, frame, io.MousePos, 1.0f);
             view.middle -= glm::vec2(way) / (frame.zoom * glm::vec2(frame.width, frame.height));
             break;
-        case Hold::split:
+        case DragTarget::split:
             view.split = std::clamp(
                 (io.MousePos.x - frame.low.x) / std::max(frame.high.x - frame.low.x, 1.0f), 0.0f,
                 1.0f);
             break;
-        case Hold::light:
+        case DragTarget::light:
             dragHeldLight(bench, frame, hand.light, way / double(frame.zoom));
             bench.isTurning = true;
             break;
-        case Hold::nothing:
+        case DragTarget::none:
             break;
     }
 }
@@ -227,7 +228,7 @@ void drawCursorValue(Bench& bench, const PictureFrame& frame, const ViewedTextur
 // What the image left of the split is of, as it was rendered: it may be older than what is asked
 // for.
 void drawCaption(const Bench& bench, const PictureFrame& frame, const ViewedTexture& viewed) {
-    const char* variant = !bench.document.other ? "" : bench.asked().seen() == 0 ? "A " : "B ";
+    const char* variant = !bench.document.other ? "" : bench.requested().seen() == 0 ? "A " : "B ";
     const std::string layer = viewed.layers > 1 ? fmt::format(", layer {}", viewed.layer) : "";
     const std::string text = fmt::format("{}{}{}", variant, viewed.name, layer);
     bench.map.area("picture.caption", 0, 0, 0, 0, text);
@@ -257,18 +258,18 @@ void drawOther(Bench& bench, const PictureFrame& frame, const Other& other, floa
 }
 
 // What a press takes hold of.
-Hand takeHold(bool isNearSplit, int pointedLight) {
-    Hand hand;
+DragState beginDrag(bool isNearSplit, int pointedLight) {
+    DragState hand;
     hand.pressed = ImGui::GetIO().MousePos;
     if (ImGui::IsMouseDown(ImGuiMouseButton_Right)) {
-        hand.hold = Hold::look;
+        hand.hold = DragTarget::look;
     } else if (ImGui::IsMouseDown(ImGuiMouseButton_Middle)) {
-        hand.hold = Hold::middle;
+        hand.hold = DragTarget::middle;
     } else if (pointedLight >= 0) {
-        hand.hold = Hold::light;
+        hand.hold = DragTarget::light;
         hand.light = pointedLight;
     } else {
-        hand.hold = isNearSplit ? Hold::split : Hold::camera;
+        hand.hold = isNearSplit ? DragTarget::split : DragTarget::camera;
     }
     return hand;
 }
@@ -294,7 +295,7 @@ void drawWords(Bench& bench, ImVec2 corner, ImVec2 size, const char* text) {
 }  // namespace
 
 void drawPicture(Bench& bench) {
-    static thread_local Hand hand;  // of the one mouse that there is
+    static thread_local DragState hand;  // of the one mouse that there is
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const ImVec2 size = ImGui::GetContentRegionAvail();
     if (size.x < 16.0f || size.y < 16.0f) return;
@@ -304,7 +305,7 @@ void drawPicture(Bench& bench) {
     const bool isHovered = ImGui::IsItemHovered();
     const bool isActivated = ImGui::IsItemActivated();
     const bool isActive = ImGui::IsItemActive();
-    const VariantResult& shown = bench.result->variants[bench.asked().seen()];
+    const VariantResult& shown = bench.result->variants[bench.requested().seen()];
     if (!shown.viewed) {
         const bool isToCome = bench.result->problem.empty() && shown.error.empty();
         return drawWords(
@@ -336,7 +337,7 @@ void drawPicture(Bench& bench) {
     drawPixelValues(bench, frame, viewed.values);
     drawPhotons(bench, frame);
     const int pointedLight =
-        drawLights(bench, frame, isHovered, hand.hold == Hold::light ? hand.light : -1);
+        drawLights(bench, frame, isHovered, hand.hold == DragTarget::light ? hand.light : -1);
     drawCaption(bench, frame, viewed);
     draw.PopClipRect();
     bench.map.area("picture", corner.x, corner.y, size.x, size.y,
@@ -349,15 +350,15 @@ void drawPicture(Bench& bench) {
     if (isActivated) {
         const bool isNearSplit = other.image != nullptr &&
                                  std::abs(mouse.x - splitX) < static_cast<float>(bench.px(6.0));
-        hand = takeHold(isNearSplit, pointedLight);
+        hand = beginDrag(isNearSplit, pointedLight);
     }
     if (isActive) {
-        useHand(bench, frame, hand);
-        if (hand.hold != Hold::nothing && hand.hasMoved) bench.isDragging = true;
-    } else if (hand.hold != Hold::nothing) {
+        applyDrag(bench, frame, hand);
+        if (hand.hold != DragTarget::none && hand.hasMoved) bench.isDragging = true;
+    } else if (hand.hold != DragTarget::none) {
         const glm::ivec2 pixel = glm::floor(frame.pixelAt(mouse));
-        if (!hand.hasMoved && hand.hold == Hold::camera && view.probes && hasPixelsOfDocument &&
-            frame.contains(pixel))
+        if (!hand.hasMoved && hand.hold == DragTarget::camera && view.probes &&
+            hasPixelsOfDocument && frame.contains(pixel))
             view.probePixel = pixel;
         hand = {};
     }

@@ -105,7 +105,7 @@ void drawPhotons(const Bench& bench, const PictureFrame& frame) {
     const auto& probe = bench.result->probe;
     const ViewState& state = bench.view;
     // Of variant A only.
-    if (!state.probes || state.probePixel.x < 0 || bench.asked().seen() != 0) return;
+    if (!state.probes || state.probePixel.x < 0 || bench.requested().seen() != 0) return;
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const glm::vec2 middle = glm::vec2(state.probePixel) + 0.5f;
     draw.AddCircle(frame.windowAt(middle), std::max(state.probeRadius * frame.zoom, 4.0f),

@@ -17,19 +17,19 @@ void saveExperiment(Bench& bench) {
         const std::vector<std::filesystem::path> files =
             writeExperiment(bench.document, bench.registry, bench.panels.recordFolder,
                             recordingName(bench.document.scene), bench.panels.isPrecise);
-        bench.say(fmt::format("Wrote {}; 'kaustik experiment run {}' does it again.",
-                              files.front().string(), files.front().string()));
+        bench.notify(fmt::format("Wrote {}; 'kaustik experiment run {}' does it again.",
+                                 files.front().string(), files.front().string()));
     } catch (const std::exception& error) {
-        bench.say(error.what(), true);
+        bench.notify(error.what(), true);
     }
 }
 
 namespace {
 
 #ifdef KAUSTIK_HAS_EMBREE
-constexpr bool kKnowsReference = true;
+constexpr bool kHasReference = true;
 #else
-constexpr bool kKnowsReference = false;
+constexpr bool kHasReference = false;
 #endif
 
 void drawReport(Bench& bench, const std::filesystem::path& folder,
@@ -38,7 +38,7 @@ void drawReport(Bench& bench, const std::filesystem::path& folder,
     if (button(bench, "Report of 8 frames", "record.report")) {
         RecordRequest request;
         request.folder = folder / recordingName(bench.document.scene);
-        if (kKnowsReference && panels.judgesReports)
+        if (kHasReference && panels.judgesReports)
             request.referencePhotons = static_cast<std::uint64_t>(panels.referencePhotons);
         bench.renderer->record(request);
     }
@@ -46,10 +46,10 @@ void drawReport(Bench& bench, const std::filesystem::path& folder,
         "What 'kaustik run' writes: pictures, caustic, report.json and the Chrome trace, of "
         "variant A.");
     ImGui::SameLine();
-    ImGui::BeginDisabled(!kKnowsReference);
+    ImGui::BeginDisabled(!kHasReference);
     static_cast<void>(checkbox(bench, "with its error", panels.judgesReports, "record.judged"));
     ImGui::EndDisabled();
-    tooltip(kKnowsReference
+    tooltip(kHasReference
                 ? fmt::format("What 'kaustik run --reference auto' writes, too: error and hits, "
                               "against a reference of {:.3g} million photons (panel Error), which "
                               "is computed first where there is none.",
@@ -69,11 +69,11 @@ void drawRecord(Bench& bench) {
     ImGui::Spacing();
     if (button(bench, "Screenshot of the window (F12)", "record.screenshot"))
         bench.wantsScreenshot = true;
-    const std::string whyNot = whyItCannotRun(bench.asked(), *bench.result);
+    const std::string obstacle = runObstacle(bench.requested(), *bench.result);
     const auto explain = [&](const char* sentence) {
-        tooltip(whyNot.empty() ? sentence : "What is set up cannot run: " + whyNot);
+        tooltip(obstacle.empty() ? sentence : "What is set up cannot run: " + obstacle);
     };
-    ImGui::BeginDisabled(!whyNot.empty());
+    ImGui::BeginDisabled(!obstacle.empty());
     if (button(bench, "Save as experiment (Ctrl S)", "record.experiment"))
         bench.wantsExperiment = true;
     explain(
@@ -88,7 +88,7 @@ void drawRecord(Bench& bench) {
     ImGui::InputFloat("seconds between", &bench.panels.sequenceStep, 0.0f, 0.0f, "%.4f");
     if (button(bench, "Image sequence", "record.sequence")) {
         RecordRequest request;
-        request.what = RecordRequest::What::sequence;
+        request.what = RecordRequest::RecordingKind::sequence;
         request.folder = folder / recordingName(bench.document.scene);
         request.frames = bench.panels.sequenceFrames;
         request.secondsPerFrame = double(bench.panels.sequenceStep);

@@ -9,7 +9,7 @@ namespace {
 
 ImVec4 colorOf(Shown::Kind kind) {
     switch (kind) {
-        case Shown::Kind::asked:
+        case Shown::Kind::requested:
             return {0.45f, 0.75f, 0.45f, 1.0f};
         case Shown::Kind::rendering:
             return {0.5f, 0.7f, 1.0f, 1.0f};
@@ -66,7 +66,7 @@ void go(Bench& bench, Shown::Remedy remedy) {
 }  // namespace
 
 void drawShown(Bench& bench) {
-    const Shown shown = shownOf(bench.asked(), *bench.result, *bench.reference, bench.whole);
+    const Shown shown = shownOf(bench.requested(), *bench.result, *bench.reference, bench.whole);
     const ImVec4 color = colorOf(shown.kind);
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const float height = ImGui::GetFrameHeight();

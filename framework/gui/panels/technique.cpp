@@ -74,7 +74,7 @@ void drawVariants(Bench& bench) {
     if (!document.other) {
         if (button(bench, "Keep this as B and go on with A", "variant.keep")) {
             document.other = document.variant;
-            bench.view.beside = Beside::other;
+            bench.view.sidePicture = SidePicture::other;
         }
         tooltip("Renders both from then on, A left and B right of the split.");
         return;
@@ -84,7 +84,8 @@ void drawVariants(Bench& bench) {
     if (button(bench, "Drop B", "variant.drop")) {
         document.other.reset();
         bench.panels.edited = 0;
-        if (bench.view.beside == Beside::other) bench.view.beside = Beside::nothing;
+        if (bench.view.sidePicture == SidePicture::other)
+            bench.view.sidePicture = SidePicture::none;
         return;
     }
     if (ImGui::BeginTable("variants", 3, ImGuiTableFlags_RowBg)) {

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kFramesShown = 64;
 // Frames that take longer, by this factor, reach beyond the chart.
-constexpr double kMostOfMedian = 3.0;
+constexpr double kMaxMedianRatio = 3.0;
 
 }  // namespace
 
@@ -30,11 +30,11 @@ void drawTimeChart(Bench& bench) {
 
     const std::size_t frames = result.frameMs.size();
     const std::size_t first = frames > kFramesShown ? frames - kFramesShown : 0;
-    double most = 1e-6;
+    double maximum = 1e-6;
     for (std::size_t frame = first; frame < frames; ++frame)
-        most = std::max(most, result.frameMs[frame]);
+        maximum = std::max(maximum, result.frameMs[frame]);
     // A frame that compiles takes many times as long, and would leave the others no height.
-    most = std::min(most, kMostOfMedian * medianOf(result.frameMs));
+    maximum = std::min(maximum, kMaxMedianRatio * medianOf(result.frameMs));
     const float width =
         std::min(size.x / static_cast<float>(frames - first), static_cast<float>(bench.px(24.0)));
     std::string pointed;
@@ -46,7 +46,7 @@ void drawTimeChart(Bench& bench) {
         for (const report::PassTimes& pass : result.times) {
             if (frame >= pass.gpuMilliseconds.size()) continue;
             const float height =
-                static_cast<float>(pass.gpuMilliseconds[frame] / most) * (size.y - 4.0f);
+                static_cast<float>(pass.gpuMilliseconds[frame] / maximum) * (size.y - 4.0f);
             const ImVec2 low(x, y - height);
             const ImVec2 high(x + std::max(width - 1.0f, 1.0f), y);
             draw.AddRectFilled(low, high,
@@ -61,7 +61,7 @@ void drawTimeChart(Bench& bench) {
     }
     draw.PopClipRect();
     const char* variant = !bench.document.other ? "" : bench.editedIndex() == 0 ? "A: " : "B: ";
-    const std::string scale = fmt::format("{}{:.1f} ms", variant, most);
+    const std::string scale = fmt::format("{}{:.1f} ms", variant, maximum);
     draw.AddText({corner.x + 4.0f, corner.y + 2.0f}, IM_COL32(200, 200, 200, 255), scale.c_str());
     if (!pointed.empty()) tooltip(pointed);
 }

@@ -47,8 +47,8 @@ std::string oneLine(std::string message, const char* fallback) {
 }
 
 // Reads the first image of the file, through `proxy` where there is one.
-void readThrough(const std::string& name, OIIO::Filesystem::IOProxy* proxy,
-                 const KaustikImageSink* sink) {
+void readFromProxy(const std::string& name, OIIO::Filesystem::IOProxy* proxy,
+                   const KaustikImageSink* sink) {
     OIIO::ImageSpec hints;
     hints["oiio:UnassociatedAlpha"] = 1;
     // Some readers take the proxy from the argument of open, others only from the hints.
@@ -115,7 +115,7 @@ void encode(const char* extension, const OIIO::ImageSpec& spec, OIIO::TypeDesc t
 }
 
 bool readFile(const char* path, const KaustikImageSink* sink) {
-    return guarded(sink, [&] { readThrough(path, nullptr, sink); });
+    return guarded(sink, [&] { readFromProxy(path, nullptr, sink); });
 }
 
 bool readMemory(const unsigned char* bytes, std::size_t count, const KaustikImageSink* sink) {
@@ -128,7 +128,7 @@ bool readMemory(const unsigned char* bytes, std::size_t count, const KaustikImag
                 "known format; PNG and JPEG are always right)");
         }
         OIIO::Filesystem::IOMemReader proxy(bytes, count);
-        readThrough(fmt::format("memory.{}", extension), &proxy, sink);
+        readFromProxy(fmt::format("memory.{}", extension), &proxy, sink);
     });
 }
 

@@ -49,10 +49,10 @@ const Tolerance kShare{
     3e-3,
     "of 128 x 128 photons some 7,000 fall on the disc, give or take 25 at its rim, "
     "which count as whole ones and of which most is reflected"};
-const Tolerance kNothing{5e-4,
-                         "normals of a mesh of 192 segments stand for the ball's to 1e-3 rad; "
-                         "nothing but what enters within a thousandth of the rim comes so near to "
-                         "the critical angle, half of it reflected"};
+const Tolerance kNoMiss{5e-4,
+                        "normals of a mesh of 192 segments stand for the ball's to 1e-3 rad; "
+                        "nothing but what enters within a thousandth of the rim comes so near to "
+                        "the critical angle, half of it reflected"};
 
 // An account's share of what has hit the ball when the interactions end: what is still on its way
 // in it, say.
@@ -68,7 +68,7 @@ double shareOf(Lab& lab, unsigned account, const Lab::Choice& choice, const scen
 
 void expectNothingTrapped(Lab& lab, const Lab::Choice& tracer, const scene::Scene& scene,
                           const std::string& what) {
-    const bool seesNoGlass = lab.seesReceiversAlone(tracer);
+    const bool seesNoGlass = lab.seesReceiversOnly(tracer);
     for (const int bounces : {1, 2, 16}) {
         if (seesNoGlass) {
             lab.expect(tracer.subject,
@@ -88,7 +88,7 @@ void expectNothingTrapped(Lab& lab, const Lab::Choice& tracer, const scene::Scen
                         bounces),
             isIn ? shareInside(kGlassIndex, 0) : 0.0,
             shareOf(lab, kAccountBounceLimit, tracer, scene, bounces, {{"specular", "interface"}}),
-            isIn ? kShare : kNothing);
+            isIn ? kShare : kNoMiss);
     }
 }
 

@@ -7,10 +7,10 @@
 
 namespace kaustik::numerics {
 
-void addRaySegmentCases(Suite& suite);      // A1 to A5, A7: include/ray_segment.glsl
+void addRaySegmentCases(Suite& suite);      // A1 to A5, A7: include/views/ray_segment.glsl
 void addTracingCases(Suite& suite);         // A1 to A3, A6 to A11, B17: every tracer
 void addLayerCases(Suite& suite);           // B12 to B16: every node of layers
-void addInterfaceCases(Suite& suite);       // C19 to C25: include/fresnel.glsl
+void addInterfaceCases(Suite& suite);       // C19 to C25: include/surfaces/fresnel.glsl
 void addSurfaceSideCases(Suite& suite);     // C26, A9: emission, interaction, tracers
 void addOpticsCases(Suite& suite);          // C27 to C28a: interaction, tracers, view
 void addReconstructionCases(Suite& suite);  // D31, D32, D34, D34a: reconstruction, emission

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// C19 to C25 on include/fresnel.glsl against Fresnel's equations and Snell's law in double.
+// C19 to C25 on include/surfaces/fresnel.glsl against Fresnel's equations and Snell's law in
+// double.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +14,7 @@
 namespace kaustik::numerics {
 namespace {
 
-constexpr const char* kFile = "include/fresnel.glsl";
+constexpr const char* kFile = "include/surfaces/fresnel.glsl";
 const Tolerance kDirection{3e-7, "some roundings of 6e-8 in the components of a unit vector"};
 
 struct Incidence {

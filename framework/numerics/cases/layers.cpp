@@ -59,15 +59,15 @@ void coplanarDuplicates(Lab& lab) {
     for (const Lab::Choice& node : lab.each<LayersStage>()) {
         const Peeled first = peel(lab, node, scene, 32, 24);
         const Peeled second = peel(lab, node, scene, 32, 24);
-        int least = 99;
-        int most = 0;
+        int minimum = 99;
+        int maximum = 0;
         for (int i = 0; i < 32 * 24; ++i) {
-            least = std::min(least, first.countAt(i % 32, i / 32));
-            most = std::max(most, first.countAt(i % 32, i / 32));
+            minimum = std::min(minimum, first.countAt(i % 32, i / 32));
+            maximum = std::max(maximum, first.countAt(i % 32, i / 32));
         }
-        lab.expect(node.subject, "fewest layers of three equal planes and one behind", 2, least,
+        lab.expect(node.subject, "fewest layers of three equal planes and one behind", 2, minimum,
                    kExactly);
-        lab.expect(node.subject, "most layers of them", 2, most, kExactly);
+        lab.expect(node.subject, "most layers of them", 2, maximum, kExactly);
         lab.expectDeviation(node.subject, "texels that differ in a second run",
                             static_cast<double>(differences(first.layers, second.layers) +
                                                 differences(first.surfaces, second.surfaces)),
@@ -119,16 +119,17 @@ void sphereAndTorus(Lab& lab) {
         for (const bool isTorus : {false, true}) {
             const std::string name = isTorus ? "torus" : "sphere";
             const Peeled peeled = peel(lab, node, isTorus ? torus : ball, 96, 72);
-            int most = 0;
+            int maximum = 0;
             int odd = 0;
             int pixels = 0;
             for (int i = 0; i < 96 * 72; ++i) {
                 const int count = peeled.countAt(i % 96, i / 96);
-                most = std::max(most, count);
+                maximum = std::max(maximum, count);
                 odd += count % 2;
                 pixels += count > 0 ? 1 : 0;
             }
-            lab.expect(node.subject, "most layers of a " + name, isTorus ? 4 : 2, most, kExactly);
+            lab.expect(node.subject, "most layers of a " + name, isTorus ? 4 : 2, maximum,
+                       kExactly);
             lab.expect(node.subject, "pixels of a " + name + " with an odd number", 0, odd,
                        {pixels / 1000.0,
                         "a pixel centre on the outline may belong to one of its two "

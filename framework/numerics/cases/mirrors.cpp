@@ -147,7 +147,7 @@ Found compare(const Frame& frame, const Setting& setting) {
                 follow(frame, setting, glm::normalize(frame.worldAt(x, y, 1.0) - eye));
             if (!exact || !exact->isShown || exact->mirrors > 2) continue;
             ++found.shown[static_cast<std::size_t>(exact->mirrors)];
-            if (direction.at(x, y, 3) != transport::kPathCameOut ||
+            if (direction.at(x, y, 3) != transport::kPathExited ||
                 position.at(x, y, 3) != static_cast<float>(exact->mirrors)) {
                 ++found.wrong;
                 continue;
@@ -183,17 +183,17 @@ std::vector<Lab::Choice> viewNodes(const Lab& lab) {
     return choices;
 }
 
-void expectMirrors(Lab& lab, const Setting& setting, int mostMirrors) {
+void expectMirrors(Lab& lab, const Setting& setting, int maxMirrors) {
     const scene::Scene scene = sceneOf(setting);
     for (const Lab::Choice& node : viewNodes(lab)) {
         const Frame frame = lab.render(node, scene, {160, 120, {}});
         const Found found = compare(frame, setting);
-        for (int mirrors = 1; mirrors <= mostMirrors; ++mirrors) {
+        for (int mirrors = 1; mirrors <= maxMirrors; ++mirrors) {
             const int pixels = found.shown[static_cast<std::size_t>(mirrors)];
             lab.expectAtLeast(node.subject,
                               fmt::format("pixels that look into {}",
                                           mirrors == 1 ? "one mirror" : "two mirrors in turn"),
-                              200, pixels, kEnough);
+                              200, pixels, kTooFewReason);
         }
         lab.expect(node.subject, "of these: lost, or into another number of mirrors", 0.0,
                    found.wrong, kExactly);

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <limits>
 
-#include "framework/numerics/bench.h"
 #include "framework/numerics/cases/common_cases.h"
 #include "framework/numerics/cases/scene_text.h"
 #include "framework/numerics/exact.h"
 #include "framework/numerics/probe.h"
+#include "framework/numerics/stage_harness.h"
 
 namespace kaustik::numerics {
 namespace {
@@ -65,8 +65,9 @@ void transmittance(Lab& lab) {
         probe(lab.context(), "numerics/transmittance.comp", inputs, static_cast<int>(paths.size()),
               1, [&](gl::Command& command) { command.storage("Materials", buffer); });
     for (std::size_t i = 0; i < paths.size(); ++i) {
-        lab.expect("include/surface_data.glsl", std::string("transmittance: ") + paths[i].what,
-                   paths[i].expected, static_cast<double>(out[i].g),
+        lab.expect("include/surfaces/surface_data.glsl",
+                   std::string("transmittance: ") + paths[i].what, paths[i].expected,
+                   static_cast<double>(out[i].g),
                    paths[i].expected == 1.0 || paths[i].expected == 0.0
                        ? kExactly
                        : Tolerance{1e-6, "some steps of a 32-bit exp"});
@@ -154,7 +155,7 @@ void lookingOutOfWater(Lab& lab) {
                           "a dark floor would prove nothing");
     }
     for (const Lab::Choice& specular : lab.each<SpecularStage>()) {
-        BenchPhoton photon;
+        StagePhoton photon;
         photon.position = {0.0, 0.0, 0.0};
         photon.direction = {0.0, 1.0, 0.0};
         photon.media = {kWater};
@@ -172,7 +173,7 @@ void nestedDielectrics(Lab& lab) {
                           object("cube", "box", "glass", {0, -1, -4}, "size = [1, 1, 1]") +
                           floorPlane("floor", "grey", 20, {0, -3, -4}));
     const auto arriving = [&](double radians, bool enters, const Media& media) {
-        BenchPhoton photon;
+        StagePhoton photon;
         photon.position = {0.0, -0.5, -4.0};
         photon.direction = {std::sin(radians), enters ? -std::cos(radians) : std::cos(radians),
                             0.0};
@@ -182,7 +183,7 @@ void nestedDielectrics(Lab& lab) {
         return photon;
     };
     const Media glassInWater = {kGlass, kWater};
-    const std::vector<BenchPhoton> photons = {arriving(0.6, true, {kWater}),
+    const std::vector<StagePhoton> photons = {arriving(0.6, true, {kWater}),
                                               arriving(0.6, false, glassInWater),
                                               arriving(1.2, false, glassInWater)};
     for (const Lab::Choice& specular : lab.each<SpecularStage>()) {
@@ -244,14 +245,14 @@ void cubeWithInternalReflections(Lab& lab) {
                 120,
                 {{"emit.photons", "48x48"}, {"specular.bounces", std::to_string(bounces)}}};
             // What its technique may choose leads photons through the cube by itself.
-            if (lab.seesReceiversAlone(tracer))
+            if (lab.seesReceiversOnly(tracer))
                 request.settings.emplace_back("specular", "interface");
             const Frame frame = lab.render(tracer, scene, request);
             const EnergyLedger ledger = frame.renderer().ledger();
             lab.expect(tracer.subject, fmt::format("balance of {} interactions", bounces), 0.0,
                        ledger.balance(), {2e-6, "sums of 32-bit fluxes and areas in fixed point"});
             const double share = ledger.watts[kAccountBounceLimit] / ledger.watts[kAccountEmitted];
-            if (lab.seesReceiversAlone(tracer)) {
+            if (lab.seesReceiversOnly(tracer)) {
                 lab.expect(tracer.subject,
                            fmt::format("share at the limit of {}, of a body that it cannot leave",
                                        bounces),

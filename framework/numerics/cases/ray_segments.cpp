@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A1 to A5 and A7 on include/ray_segment.glsl: how every screen-space tracer clips and interpolates
-// a photon's ray, against clipping and projection in double.
+// A1 to A5 and A7 on include/views/ray_segment.glsl: how every screen-space tracer clips and
+// interpolates a photon's ray, against clipping and projection in double.
 #include <algorithm>
 #include <cmath>
 
@@ -14,7 +14,7 @@ namespace {
 
 using namespace transport;
 
-constexpr const char* kFile = "include/ray_segment.glsl";
+constexpr const char* kFile = "include/views/ray_segment.glsl";
 constexpr double kNear = 0.01;
 constexpr int kSide = 8192;
 // The coordinates here are of about 1 m.

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "framework/numerics/bench.h"
 #include "framework/numerics/cases/common_cases.h"
 #include "framework/numerics/cases/scene_text.h"
 #include "framework/numerics/kernel_weights.h"
+#include "framework/numerics/stage_harness.h"
 
 namespace kaustik::numerics {
 namespace {
@@ -36,9 +36,9 @@ glm::dvec3 at(double pixelX, double pixelY, double depth) {
             (2.0 * pixelY / kSide - 1.0) * kTangent * depth, -depth};
 }
 
-BenchPhoton landing(const glm::dvec3& position, const glm::dvec3& normal,
+StagePhoton landing(const glm::dvec3& position, const glm::dvec3& normal,
                     const glm::dvec3& direction, double footprint) {
-    BenchPhoton photon;
+    StagePhoton photon;
     photon.position = position;
     photon.direction = glm::normalize(direction);
     photon.startNormal = normal;
@@ -93,7 +93,7 @@ void kernelAtEverySubPixelOffset(Lab& lab) {
     const double pixel = 2.0 * kTangent * 10.0 / kSide;
     for (const Lab::Choice& node : inOneMap(lab)) {
         expectKernelWeights(lab, node, kOnTheScreen, "");
-        std::vector<BenchPhoton> border;
+        std::vector<StagePhoton> border;
         for (int i = 0; i < 60; ++i)
             border.push_back(
                 landing(at(0.05 * i, 4.0 + 2.0 * i, 10.0), {0, 0, 1}, {0, 0, -1}, pixel));
@@ -118,7 +118,7 @@ void kernelAtEverySubTexelOffset(Lab& lab) {
         makeScene({}, kSunAlongTheView + facingPlane("wall", "grey", kSide * texel, {0, 0, -20}));
     for (const Lab::Choice& node : inOneMap(lab)) {
         for (const double width : {0.02, 0.3, 1.3}) {
-            std::vector<BenchPhoton> photons;
+            std::vector<StagePhoton> photons;
             for (int i = 0; i < 100; ++i) {
                 photons.push_back(landing({12.1 * texel * (i % 10 - 4.5) + 0.03 * texel,
                                            12.1 * texel * (i / 10 - 4.5) + 0.03 * texel, -20.0},
@@ -128,7 +128,7 @@ void kernelAtEverySubTexelOffset(Lab& lab) {
                 reconstructHits(lab, node, scene, photons, inTheLightsMap(kSide, "scene"));
             const StoredFlux stored = readStored(frame);
             double worst = 0.0;
-            for (const BenchPhoton& photon : photons) {
+            for (const StagePhoton& photon : photons) {
                 const int x = static_cast<int>(std::floor(photon.position.x / texel)) + kSide / 2;
                 const int y = static_cast<int>(std::floor(photon.position.y / texel)) + kSide / 2;
                 worst = std::max(worst, std::abs(stored.in(x - 5, y - 5, x + 6, y + 6) - 1.0));
@@ -148,7 +148,7 @@ void grazingEdgeAndOccluder(Lab& lab) {
     low.position = {0.0, 0.35, 10.0};
     low.target = {0.0, 0.0, 0.0};
     const scene::Scene floor = makeScene(low, kSun + floorPlane("floor", "grey", 200, {0, 0, 0}));
-    std::vector<BenchPhoton> grazing;
+    std::vector<StagePhoton> grazing;
     for (int i = 0; i < 100; ++i) {
         grazing.push_back(landing({0.2 * (i % 10) - 0.9, 0.0, 0.3 * (i / 10) - 1.5}, {0, 1, 0},
                                   {0.3, -1.0, 0.2}, 0.02));
@@ -157,8 +157,8 @@ void grazingEdgeAndOccluder(Lab& lab) {
     const scene::Scene shelf = makeScene({}, kSun + facingPlane("wall", "grey", 60, {0, 0, -10}) +
                                                  facingPlane("shelf", "grey", 10, {-5.0, 0, -5}));
     const double pixel = 2.0 * kTangent * 5.0 / kSide;
-    std::vector<BenchPhoton> onTheEdge;
-    std::vector<BenchPhoton> behindTheEdge;
+    std::vector<StagePhoton> onTheEdge;
+    std::vector<StagePhoton> behindTheEdge;
     for (int i = 0; i < 60; ++i) {
         onTheEdge.push_back(landing(at(63.5, 4.0 + 2.0 * i, 5.0), {0, 0, 1}, {0, 0, -1}, pixel));
         behindTheEdge.push_back(
@@ -197,7 +197,7 @@ void borderOfAMap(Lab& lab) {
         makeScene({}, kSunAlongTheView + facingPlane("wall", "grey", 60, {0, 0, -10}));
     // Half a metre to each side of where the map ends: a fiftieth beyond what the eye sees.
     const double end = 1.04 * 10.0 * kTangent;
-    std::vector<BenchPhoton> border;
+    std::vector<StagePhoton> border;
     for (int i = 0; i < 60; ++i) {
         border.push_back(
             landing({end - 0.5 + i / 60.0, -5.0 + i / 6.0, -10.0}, {0, 0, 1}, {0, 0, -1}, 0.1));
@@ -221,7 +221,7 @@ void grazingEdgeAndOccluderOfAMap(Lab& lab) {
     const double low = glm::radians(2.0);
     const scene::Scene floor = makeScene(above, sun({0.0, -std::sin(low), -std::cos(low)}) +
                                                     floorPlane("floor", "grey", 200, {0, 0, 0}));
-    std::vector<BenchPhoton> grazing;
+    std::vector<StagePhoton> grazing;
     for (int i = 0; i < 100; ++i) {
         grazing.push_back(landing({0.1 * (i % 10) - 0.45, 0.0, 0.1 * (i / 10) - 0.45}, {0, 1, 0},
                                   {0.3, -1.0, 0.2}, 0.02));
@@ -230,8 +230,8 @@ void grazingEdgeAndOccluderOfAMap(Lab& lab) {
         makeScene({}, kSunAlongTheView + facingPlane("wall", "grey", 60, {0, 0, -10}) +
                           facingPlane("shelf", "grey", 10, {-5.0, 0, -5}));
     const double texel = 2.0 * 1.04 * 10.0 * kTangent / kSide;
-    std::vector<BenchPhoton> onTheEdge;
-    std::vector<BenchPhoton> behindTheEdge;
+    std::vector<StagePhoton> onTheEdge;
+    std::vector<StagePhoton> behindTheEdge;
     for (int i = 0; i < 60; ++i) {
         const double y = 0.09 * i - 2.7;
         onTheEdge.push_back(landing({-0.5 * texel, y, -5.0}, {0, 0, 1}, {0, 0, -1}, 1.6 * texel));
@@ -268,9 +268,9 @@ void manyDepositsInOnePixel(Lab& lab) {
     // there to 2^25.
     const scene::Scene scene = makeScene({}, kSun + facingPlane("wall", "grey", 60, {0, 0, -10}));
     constexpr int kDeposits = 1 << 21;
-    BenchPhoton photon = landing({0, 0, -10}, {0, 0, 1}, {0, 0, -1}, 0.01);
+    StagePhoton photon = landing({0, 0, -10}, {0, 0, 1}, {0, 0, -1}, 0.01);
     photon.fluxWatts = glm::dvec3(0.1);
-    const std::vector<BenchPhoton> photons(kDeposits, photon);
+    const std::vector<StagePhoton> photons(kDeposits, photon);
     for (const Lab::Choice& node : lab.each<ReconstructStage>()) {
         const Frame frame = reconstructHits(lab, node, scene, photons, kOnTheScreen, {1, 1});
         const double flux = 0.1 * kDeposits - account(frame, kAccountOffScreen);
@@ -309,9 +309,9 @@ void manyDepositsInOneTexel(Lab& lab) {
     const scene::Scene scene =
         makeScene({}, brightSun + plates + facingPlane("plate", "grey", 0.8 * size, middle));
     constexpr int kDeposits = 1 << 21;
-    BenchPhoton photon = landing(middle, {0, 0, 1}, {0, 0, -1}, 0.001);
+    StagePhoton photon = landing(middle, {0, 0, 1}, {0, 0, -1}, 0.001);
     photon.fluxWatts = glm::dvec3(0.1);
-    const std::vector<BenchPhoton> photons(kDeposits, photon);
+    const std::vector<StagePhoton> photons(kDeposits, photon);
     for (const Lab::Choice& node : lab.each<ReconstructStage>()) {
         const Frame frame =
             reconstructHits(lab, node, scene, photons, inTheLightsMap(kTexels, "scene"), {1, 1});
@@ -391,7 +391,7 @@ void expectKernelWeights(Lab& lab, const Lab::Choice& reconstruct, const Setting
     const double pixel = 2.0 * kTangent * 10.0 / kSide;
     for (const double footprint : {0.02 * pixel, 0.3 * pixel, 1.3 * pixel}) {
         // One photon in every 12 x 12 pixels.
-        std::vector<BenchPhoton> photons;
+        std::vector<StagePhoton> photons;
         for (int i = 0; i < 100; ++i) {
             const double x = 12.0 * (i % 10) + 6.0 + 0.1 * (i % 10);
             const double y = 12.0 * (i / 10) + 6.0 + 0.1 * (i / 10);

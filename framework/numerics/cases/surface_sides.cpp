@@ -5,11 +5,11 @@
 #include <cmath>
 #include <limits>
 
-#include "framework/numerics/bench.h"
 #include "framework/numerics/cases/common_cases.h"
 #include "framework/numerics/cases/scene_text.h"
 #include "framework/numerics/exact.h"
 #include "framework/numerics/probe.h"
+#include "framework/numerics/stage_harness.h"
 
 namespace kaustik::numerics {
 namespace {
@@ -20,7 +20,7 @@ using namespace transport;
 // own where that would send light to the wrong side.
 struct Bend {
     glm::dvec3 direction{0.0};
-    bool isFallBack = false;
+    bool isFallback = false;
     double margin = 1.0;  // the cosine by which it was decided
 };
 Bend exactBend(const glm::dvec3& direction, const SurfacePoint& surface, bool isMirror, double from,
@@ -28,18 +28,18 @@ Bend exactBend(const glm::dvec3& direction, const SurfacePoint& surface, bool is
     const double side = glm::dot(direction, surface.triangleNormal) < 0.0 ? 1.0 : -1.0;
     const glm::dvec3 outer = side * surface.triangleNormal;
     Bend bend;
-    for (const bool isFallBack : {false, true}) {
-        const glm::dvec3 normal = isFallBack ? outer : side * surface.shadingNormal;
+    for (const bool isFallback : {false, true}) {
+        const glm::dvec3 normal = isFallback ? outer : side * surface.shadingNormal;
         const double incidence = glm::dot(direction, normal);
-        if (!isFallBack) bend.margin = std::abs(incidence);
+        if (!isFallback) bend.margin = std::abs(incidence);
         if (incidence >= 0.0) continue;
         const ExactInterface interaction = exactInterface(direction, normal, from, to);
         const bool isReflected = isMirror || interaction.refracted == glm::dvec3(0.0);
         bend.direction = isReflected ? interaction.reflected : interaction.refracted;
-        bend.isFallBack = isFallBack;
+        bend.isFallback = isFallback;
         const double above = glm::dot(interaction.reflected, outer);
         const double onward = glm::dot(bend.direction, outer);
-        if (!isFallBack) bend.margin = std::min({bend.margin, std::abs(above), std::abs(onward)});
+        if (!isFallback) bend.margin = std::min({bend.margin, std::abs(above), std::abs(onward)});
         if (above > 0.0 && (onward > 0.0) == isReflected) return bend;
     }
     return bend;
@@ -111,7 +111,7 @@ void shadingNormalOnTheWrongSide(Lab& lab) {
                 if (incidence > -1e-3) continue;
                 const Bend exact = exactBend(direction, *surface, isMirror, 1.0, kGlassIndex);
                 ++compared;
-                fallBacks += exact.isFallBack ? 1 : 0;
+                fallBacks += exact.isFallback ? 1 : 0;
                 const glm::dvec3& measured = bent.after.directions[i];
                 const bool isOutside = glm::dot(measured, surface->triangleNormal) > 0.0;
                 wrongSide += isOutside == isMirror ? 0 : 1;
@@ -129,7 +129,7 @@ void shadingNormalOnTheWrongSide(Lab& lab) {
                                  "normals interpolate to 1e-6 over triangles of 1 m that are "
                                  "32 texels wide, more where light grazes by 1e-3"});
             lab.expectAtLeast(emitter.subject, "photons" + what + " that are compared", 500,
-                              compared, kEnough);
+                              compared, kTooFewReason);
             lab.expectAtLeast(
                 emitter.subject, "photons" + what + " that need the triangle's own normal",
                 isMirror ? 10 : 1, fallBacks, "without them the case would not try the rule");
@@ -151,7 +151,7 @@ void insideABall(Lab& lab) {
     const glm::dvec3 center(0, 0.7, 0);
     const glm::dvec3 side = glm::normalize(glm::cross(light, glm::dvec3(0, 1, 0)));
     const glm::dvec3 up = glm::cross(side, light);
-    std::vector<BenchPhoton> photons;
+    std::vector<StagePhoton> photons;
     std::vector<double> exact;
     for (int i = 0; i < 1600; ++i) {
         const double x = (i % 40 - 19.5) / 41.0;
@@ -159,7 +159,7 @@ void insideABall(Lab& lab) {
         const glm::dvec3 from = center + x * side + y * up - 2.0 * light;
         const auto entry = firstCrossing(scene, scene.objects[0], from, light, false, 0.0);
         if (!entry) continue;
-        BenchPhoton p;
+        StagePhoton p;
         p.position = from + *entry * light;
         const auto surface = surfaceAt(scene, scene.objects[0], p.position);
         if (!surface) continue;
@@ -173,7 +173,7 @@ void insideABall(Lab& lab) {
     }
     for (const Lab::Choice& tracer : lab.each<TraceStage>()) {
         const Traced traced = tracePhotons(lab, tracer, scene, photons, {}, {400, 300});
-        if (lab.seesReceiversAlone(tracer)) {
+        if (lab.seesReceiversOnly(tracer)) {
             lab.expect(tracer.subject,
                        "hits of photons inside a ball of glass, whose far side it does not see", 0,
                        static_cast<double>(traced.hitCount()), kExactly);
@@ -186,7 +186,7 @@ void insideABall(Lab& lab) {
         int wrong = 0;
         double worst = 0.0;
         for (std::size_t i = 0; i < photons.size(); ++i) {
-            const BenchHit& hit = traced.hits[i];
+            const StageHit& hit = traced.hits[i];
             const double error = std::abs(hit.distanceMeters - exact[i]);
             // A footprint is 6 mm here, and the ball is hit at up to a tenth of it edge-on.
             if (hit.material != kGlass || error > 0.06) {
@@ -211,9 +211,9 @@ void shadingNormalOfATracedHit(Lab& lab) {
         {}, sun({0.1, -0.2, -1}) +
                 object("ball", "sphere", "mirror", {0, 0, -4}, "radius = 1\nsegments = 6") +
                 facingPlane("wall", "grey", 30, {0, 0, -12}));
-    std::vector<BenchPhoton> photons;
+    std::vector<StagePhoton> photons;
     for (int i = 0; i < 900; ++i) {
-        BenchPhoton p;
+        StagePhoton p;
         p.position = {0.06 * (i % 30) - 0.87, 0.06 * (i / 30) - 0.87, -1.5};
         p.direction = glm::normalize(glm::dvec3(0.1, -0.05, -1.0));
         photons.push_back(p);
@@ -225,7 +225,7 @@ void shadingNormalOfATracedHit(Lab& lab) {
         std::size_t passed = 0;
         double worst = 0.0;
         for (std::size_t i = 0; i < photons.size(); ++i) {
-            const BenchHit& hit = traced.hits[i];
+            const StageHit& hit = traced.hits[i];
             passed += hit.material == kGrey ? 1 : 0;
             if (hit.material != kMirror) continue;
             const auto surface = surfaceAt(scene, scene.objects[0], hit.position);
@@ -240,7 +240,7 @@ void shadingNormalOfATracedHit(Lab& lab) {
             if (exact.margin < 0.05) continue;
             worst = std::max(worst, glm::length(bent - exact.direction));
         }
-        if (lab.seesReceiversAlone(tracer)) {
+        if (lab.seesReceiversOnly(tracer)) {
             lab.expect(tracer.subject,
                        "hits of the wall behind a mirrored ball, which it does not see",
                        static_cast<double>(photons.size()), static_cast<double>(passed), kExactly);
@@ -253,7 +253,7 @@ void shadingNormalOfATracedHit(Lab& lab) {
                              "the normal is bilinear between pixels of 0.01 m, on triangles across "
                              "which it turns by 1 rad/m, and reflection doubles that"});
         lab.expectAtLeast(tracer.subject, "hits of a coarse mirrored ball that are compared", 100,
-                          found, kEnough);
+                          found, kTooFewReason);
     }
 }
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "framework/numerics/bench.h"
 #include "framework/numerics/cases/common_cases.h"
 #include "framework/numerics/cases/scene_text.h"
+#include "framework/numerics/stage_harness.h"
 #include "framework/transport/watts.h"
 
 namespace kaustik::numerics {
@@ -23,34 +23,34 @@ const Tolerance kOnPlane{2e-5,
                          "normal, along rays that close in on the plane with a cosine of 0.1 "
                          "or more"};
 
-BenchPhoton photon(const glm::dvec3& position, const glm::dvec3& direction) {
-    BenchPhoton result;
+StagePhoton photon(const glm::dvec3& position, const glm::dvec3& direction) {
+    StagePhoton result;
     result.position = position;
     result.direction = glm::normalize(direction);
     return result;
 }
 
 // Along the ray to the plane n·p = d.
-double exactDistance(const BenchPhoton& photon, const glm::dvec3& normal, double d) {
+double exactDistance(const StagePhoton& photon, const glm::dvec3& normal, double d) {
     return (d - glm::dot(normal, photon.position)) / glm::dot(normal, photon.direction);
 }
 
-double totalFlux(const std::vector<BenchPhoton>& photons) {
+double totalFlux(const std::vector<StagePhoton>& photons) {
     double total = 0.0;
-    for (const BenchPhoton& p : photons)
+    for (const StagePhoton& p : photons)
         total += wattsOf(p.fluxWatts);
     return total;
 }
 
 // Rows that say that every photon hits the plane n·p = d, of this material, where it should.
 void expectHits(Lab& lab, const std::string& subject, const std::string& what,
-                const std::vector<BenchPhoton>& photons, const Traced& traced,
+                const std::vector<StagePhoton>& photons, const Traced& traced,
                 const glm::dvec3& normal, double d, std::uint32_t material,
                 const Tolerance& tolerance = kOnPlane) {
     double worst = 0.0;
     std::size_t right = 0;
     for (std::size_t i = 0; i < photons.size(); ++i) {
-        const BenchHit& hit = traced.hits[i];
+        const StageHit& hit = traced.hits[i];
         if (!hit.isHit() || hit.material != material) continue;
         ++right;
         worst =
@@ -66,7 +66,7 @@ const Tolerance kLedger{1e-5,
 
 // Rows that say that no photon hits anything, and that these accounts hold all of their flux.
 void expectNoHits(Lab& lab, const std::string& subject, const std::string& what,
-                  const std::vector<BenchPhoton>& photons, const Traced& traced,
+                  const std::vector<StagePhoton>& photons, const Traced& traced,
                   const std::vector<unsigned>& accounts, const std::string& names) {
     double counted = 0.0;
     for (const unsigned account : accounts)
@@ -79,9 +79,9 @@ void expectNoHits(Lab& lab, const std::string& subject, const std::string& what,
 // The same of what the eye does not see; of a tracer that sees it all the same, rows that say that
 // all hit. The scenes are of flat receivers, which their light sees.
 void expectCounted(Lab& lab, const Lab::Choice& tracer, const std::string& what,
-                   const std::vector<BenchPhoton>& photons, const Traced& traced,
+                   const std::vector<StagePhoton>& photons, const Traced& traced,
                    const std::vector<unsigned>& accounts, const std::string& names) {
-    if (lab.seenBy(tracer) != Sees::eyeLayers) {
+    if (lab.tracerReach(tracer) != TracerReach::eyeLayers) {
         lab.expect(tracer.subject, "hits of " + what + ", which it sees",
                    static_cast<double>(photons.size()), static_cast<double>(traced.hitCount()),
                    kExactly);
@@ -91,7 +91,7 @@ void expectCounted(Lab& lab, const Lab::Choice& tracer, const std::string& what,
 }
 
 // Flux that is in the ledger needs a light for its quantum, and a tracer in a light's depths one
-// that sees what is to be hit: the sun sees no wall that faces the eye, a lamp beside the eye all
+// that sees what is to be hit: the sun sees no wall that faces the eye, a lamp next to the eye all
 // around it.
 const std::string kSun = sun({0.0, -1.0, 0.0});
 const std::string kLampAtTheEye =
@@ -104,8 +104,8 @@ void nearPlaneAndBehindTheEye(Lab& lab) {
     const scene::Scene scene =
         makeScene({}, kLampAtTheEye + facingPlane("wall", "grey", 60, {0, 0, -10}) +
                           facingPlane("wall behind", "grey", 60, {0, 0, 10}));
-    std::vector<BenchPhoton> fromBehind;
-    std::vector<BenchPhoton> toBehind;
+    std::vector<StagePhoton> fromBehind;
+    std::vector<StagePhoton> toBehind;
     for (int i = 0; i < 64; ++i) {
         const double x = 0.05 * (i % 8 - 3.6);
         const double y = 0.05 * (i / 8 - 3.4);
@@ -126,7 +126,7 @@ void whollyBehindTheEye(Lab& lab) {
     const scene::Scene scene =
         makeScene({}, kLampAtTheEye + facingPlane("wall", "grey", 60, {0, 0, -10}) +
                           facingPlane("wall behind", "grey", 60, {0, 0, 10}));
-    std::vector<BenchPhoton> photons;
+    std::vector<StagePhoton> photons;
     for (int i = 0; i < 64; ++i)
         photons.push_back(photon({0.3 * (i % 8) - 1.0, 0.3 * (i / 8) - 1.0, 1.0}, {0.1, 0.2, 1.0}));
     for (const Lab::Choice& tracer : lab.each<TraceStage>()) {
@@ -140,9 +140,9 @@ void alongTheViewDirection(Lab& lab) {
     const scene::Scene scene =
         makeScene({}, kLampAtTheEye + facingPlane("wall", "grey", 60, {0, 0, -10}) +
                           facingPlane("plate", "white", 4, {0, 0, -3}));
-    std::vector<BenchPhoton> parallel;
-    std::vector<BenchPhoton> away;
-    std::vector<BenchPhoton> towards;
+    std::vector<StagePhoton> parallel;
+    std::vector<StagePhoton> away;
+    std::vector<StagePhoton> towards;
     for (int i = 0; i < 100; ++i) {
         const glm::dvec3 p(0.037 * (i % 10) - 0.2, 0.041 * (i / 10) - 0.2, -1.0);
         parallel.push_back(photon(p, {0, 0, -1}));
@@ -169,7 +169,7 @@ glm::dvec3 at(double pixelX, double pixelY, double depth) {
 void diagonalsEdgesAndTies(Lab& lab) {
     const scene::Scene scene =
         makeScene({}, kLampAtTheEye + facingPlane("wall", "grey", 60, {0, 0, -10}));
-    std::vector<BenchPhoton> photons;
+    std::vector<StagePhoton> photons;
     for (const double start : {20.0, 20.5, 33.25}) {
         for (const double length : {1.0, 7.0, 32.0, 60.0}) {
             for (const auto& [dx, dy] : {std::pair(1.0, 1.0), std::pair(1.0, 0.0),
@@ -192,8 +192,8 @@ void offScreenAndBeyondTheLastLayer(Lab& lab) {
                           facingPlane("2", "grey", 40, {0, 0, -4}) +
                           facingPlane("3", "grey", 40, {0, 0, -5}) +
                           facingPlane("4", "grey", 40, {0, 0, -6}));
-    std::vector<BenchPhoton> leaving;
-    std::vector<BenchPhoton> hidden;
+    std::vector<StagePhoton> leaving;
+    std::vector<StagePhoton> hidden;
     for (int i = 0; i < 64; ++i) {
         const double x = 0.1 * (i % 8) - 0.35;
         const double y = 0.1 * (i / 8) - 0.35;
@@ -205,7 +205,7 @@ void offScreenAndBeyondTheLastLayer(Lab& lab) {
             lab, tracer, "rays that leave the screen before they hit", leaving,
             tracePhotons(lab, tracer, scene, leaving, {{"reconstruct.map_covers", "scene"}}),
             {kAccountOffScreen}, "off screen");
-        if (lab.seenBy(tracer) == Sees::lightFront) {
+        if (lab.tracerReach(tracer) == TracerReach::lightFront) {
             expectNoHits(lab, tracer.subject, "rays beyond what the light sees", hidden,
                          tracePhotons(lab, tracer, scene, hidden), kUnseenByLight,
                          "hidden in the map or unresolved");
@@ -223,7 +223,7 @@ void passesBehind(Lab& lab) {
         makeScene({}, kLampAtTheEye + facingPlane("wall", "grey", 60, {0, 0, -10}) +
                           object("box", "box", "white", {0, 0, -5}, "size = [2, 2, 1]") +
                           facingPlane("plate", "white", 1, {2, 1.5, -5}));
-    std::vector<BenchPhoton> photons;
+    std::vector<StagePhoton> photons;
     for (int i = 0; i < 100; ++i)
         photons.push_back(
             photon({-4.0, 0.12 * (i / 10) - 0.5, -8.0 - 0.02 * (i % 10)}, {1.0, 0.05, -0.25}));
@@ -240,7 +240,7 @@ void stepsAcrossAThinSurface(Lab& lab) {
                           object("sheet", "plane", "white", {0, 0, -5},
                                  fmt::format("size = [8, 8]\nrotation_degrees = [{}, 0, 0]",
                                              number(90.0 - glm::degrees(0.5)))));
-    std::vector<BenchPhoton> photons;
+    std::vector<StagePhoton> photons;
     for (int i = 0; i < 400; ++i) {
         const glm::dvec3 p(0.031 * (i % 20) - 0.3, 0.029 * (i / 20) - 0.3, -1.0);
         // Less than two pixels on the screen, and 99 m deep.
@@ -271,9 +271,9 @@ void startsOnASurface(Lab& lab) {
         for (const double depth : {1.0, 0.02}) {
             for (const double shift : {0.0, 1e5}) {
                 const scene::Scene scene = basin(depth, shift);
-                std::vector<BenchPhoton> photons;
+                std::vector<StagePhoton> photons;
                 for (int i = 0; i < 400; ++i) {
-                    BenchPhoton p =
+                    StagePhoton p =
                         photon({shift + 0.05 * (i % 20) - 0.5, 0.0, shift + 0.05 * (i / 20) - 0.5},
                                {0.3, -1.0, 0.1});
                     p.media = {kWater};
@@ -309,15 +309,15 @@ void openMirrors(Lab& lab) {
         makeScene(camera, kSun + sheet("left", -2.0, -90.0) + sheet("right", 2.0, -90.0) +
                               floorPlane("floor", "grey", 20, {0, -2, 0}));
     const glm::dvec3 toRight = {1.0, 0.02, 0.03};
-    std::vector<BenchPhoton> fromFront;
-    std::vector<BenchPhoton> fromBack;
-    std::vector<BenchPhoton> inTheOpen;
+    std::vector<StagePhoton> fromFront;
+    std::vector<StagePhoton> fromBack;
+    std::vector<StagePhoton> inTheOpen;
     for (int i = 0; i < 100; ++i) {
         const double y = 0.1 * (i % 10) - 0.4;
         const double z = 0.1 * (i / 10) - 0.4;
         // Where a tracer puts a photon: near the surface, on either side.
         const double off = 1e-4 * (i % 3 - 1);
-        BenchPhoton p = photon({-2.0 + off, y, z}, toRight);
+        StagePhoton p = photon({-2.0 + off, y, z}, toRight);
         p.leftSide = kLeftOutside;
         fromFront.push_back(p);
         p = photon({2.0 + off, y, z}, {-1.0, 0.02, 0.03});
@@ -327,8 +327,8 @@ void openMirrors(Lab& lab) {
     }
     const Tolerance offsets{1e-4, "32-bit depths and normals of planes 6 m away, seen at a slant"};
     for (const Lab::Choice& tracer : lab.each<TraceStage>()) {
-        if (lab.seesReceiversAlone(tracer)) {
-            for (const std::vector<BenchPhoton>* photons : {&inTheOpen, &fromFront, &fromBack}) {
+        if (lab.seesReceiversOnly(tracer)) {
+            for (const std::vector<StagePhoton>* photons : {&inTheOpen, &fromFront, &fromBack}) {
                 expectNoHits(lab, tracer.subject,
                              "photons between open mirrors, of which it sees none", *photons,
                              tracePhotons(lab, tracer, scene, *photons), kUnseenByLight,
@@ -353,8 +353,8 @@ void twoSurfacesWithinEpsilon(Lab& lab) {
         makeScene({}, kLampAtTheEye + facingPlane("front", "grey", 60, {0, 0, -10}) +
                           facingPlane("back", "white", 60, {0, 0, -10 - gap}) +
                           facingPlane("behind", "grey", 60, {0, 0, -20}));
-    std::vector<BenchPhoton> forth;
-    std::vector<BenchPhoton> back;
+    std::vector<StagePhoton> forth;
+    std::vector<StagePhoton> back;
     for (int i = 0; i < 100; ++i) {
         const double x = 0.11 * (i % 10) - 0.5;
         const double y = 0.13 * (i / 10) - 0.5;
@@ -366,7 +366,7 @@ void twoSurfacesWithinEpsilon(Lab& lab) {
     for (const Lab::Choice& tracer : lab.each<TraceStage>()) {
         expectHits(lab, tracer.subject, "the nearer of two walls 2 mm apart", forth,
                    tracePhotons(lab, tracer, scene, forth), {0, 0, 1}, -10.0, kGrey);
-        if (lab.seenBy(tracer) == Sees::lightFront) {
+        if (lab.tracerReach(tracer) == TracerReach::lightFront) {
             // It has no thickness to be told of, and trace.test and epsilon are not its.
             expectHits(lab, tracer.subject,
                        "the farther of them from behind, which alone its light sees", back,
@@ -399,8 +399,8 @@ void edgeOnOrBelowAPixel(Lab& lab) {
         kSun + floorPlane("edge", "white", 2, {0, 0, -5}) +
             object("speck", "box", "white", {at(90.0, 90.0, 5.0)}, "size = [0.01, 0.01, 0.01]") +
             object("bounds", "plane", "grey", {0, -40, -5}, "size = [90, 10]"));
-    std::vector<BenchPhoton> edge;
-    std::vector<BenchPhoton> speck;
+    std::vector<StagePhoton> edge;
+    std::vector<StagePhoton> speck;
     for (int i = 0; i < 64; ++i) {
         edge.push_back(
             photon({0.1 * (i % 8) - 0.35, 1.0, -5.0 + 0.1 * (i / 8) - 0.35}, {0, -1, 0}));
@@ -413,7 +413,7 @@ void edgeOnOrBelowAPixel(Lab& lab) {
                                                 kAccountUnresolved, kAccountOffScreen};
         expectCounted(lab, tracer, "a sheet seen edge-on", edge,
                       tracePhotons(lab, tracer, scene, edge), accounts, "lost");
-        if (lab.seenBy(tracer) == Sees::lightFront) {
+        if (lab.tracerReach(tracer) == TracerReach::lightFront) {
             // The sides of the speck, which the sun does not see.
             std::vector<unsigned> unseen = kUnseenByLight;
             unseen.push_back(kAccountMissedByTracer);
@@ -421,7 +421,7 @@ void edgeOnOrBelowAPixel(Lab& lab) {
                          tracePhotons(lab, tracer, scene, speck), unseen, "lost");
             continue;
         }
-        if (lab.seenBy(tracer) == Sees::around) {
+        if (lab.tracerReach(tracer) == TracerReach::around) {
             expectNoHits(lab, tracer.subject, "a speck below a texel of a face around", speck,
                          tracePhotons(lab, tracer, scene, speck), accounts, "lost");
             continue;

@@ -121,7 +121,7 @@ void expectDark(Lab& lab, const std::string& what, const scene::Scene& scene) {
 void expectLit(Lab& lab, const std::string& what, const scene::Scene& scene,
                const FrameRequest& request) {
     renderAll(lab, what, scene, request, [&](const Technique& technique, const Frame& frame) {
-        if (lab.seenBy(technique) == Sees::flatReceivers &&
+        if (lab.tracerReach(technique) == TracerReach::flatReceivers &&
             frame.renderer().needs().closedDielectrics) {
             lab.expectAtLeast(technique.name, "light in a body counted as missed, W: " + what, 1e-6,
                               frame.renderer().ledger().watts[kAccountMissedByTracer],

@@ -17,7 +17,8 @@ def techniques() -> List[Dict[str, Any]]:
 
 
 def nodes(technique: str = "") -> List[Dict[str, Any]]:
-    """The nodes, or those that a technique chooses: name, stage, description, source."""
+    """The nodes, or those that a technique chooses: name, stage, description, source,
+    limits."""
     return _kaustik.nodes(technique)
 
 

@@ -5,12 +5,9 @@ import base64
 import html
 import struct
 import zlib
-from typing import TYPE_CHECKING, Any
+from typing import Any, Dict, List, Optional
 
 from . import _kaustik
-
-if TYPE_CHECKING:
-    from ._renderer import Renderer
 
 
 def _png(width: int, height: int, rgb: bytes) -> bytes:
@@ -47,22 +44,28 @@ def array_html(self: "_kaustik.Array") -> str:
     return f"<figure>{_image_tag(self)}<figcaption>{what}</figcaption></figure>"
 
 
-def renderer_html(renderer: "Renderer") -> str:
-    """The last picture, and the passes with their median times."""
-    title = html.escape(repr(renderer))
-    if renderer.closed:
-        return f"<p>{title}</p>"
-    times = renderer._session.times()
-    parts = [f"<p>{title}</p>"]
-    if times["frames"] > 0 and not times["is_stale"]:
-        parts.append(_image_tag(renderer.read(times["picture"])))
+def renderer_html(
+    name: str,
+    passes: List[Dict[str, Any]],
+    times: Dict[str, Any],
+    picture: Optional["_kaustik.Array"],
+) -> str:
+    """A renderer's name, its last picture, and its passes with their median times."""
+    parts = [title_html(name)]
+    if picture is not None:
+        parts.append(_image_tag(picture))
     parts.append("<table><tr><th>pass</th><th>ms</th><th>why</th></tr>")
     medians = {entry["name"]: entry["gpu_ms"]["median"] for entry in times["passes"]}
-    for entry in renderer.passes():
+    for entry in passes:
         parts.append(_row(entry, medians.get(entry["name"])))
     total = f"{times['frame_ms']['median']:.3f}" if times["frames"] > 0 else ""
     parts.append(f"<tr><th>frame</th><th>{total}</th><th>median of {times['frames']}</th></tr>")
     return "".join(parts) + "</table>"
+
+
+def title_html(name: str) -> str:
+    """A name alone."""
+    return f"<p>{html.escape(name)}</p>"
 
 
 def _row(entry: Any, median: Any) -> str:

@@ -23,7 +23,7 @@ from typing import (
 from . import _kaustik
 from ._kaustik import Array
 from ._names import no_attribute
-from ._pictures import renderer_html
+from ._pictures import renderer_html, title_html
 
 # What a parameter may be given: (width, height) for one that is written WxH.
 Value = Union[bool, int, float, str, Tuple[int, int]]
@@ -262,7 +262,13 @@ class Renderer:
         )
 
     def _repr_html_(self) -> str:
-        return renderer_html(self)
+        name = repr(self)
+        if self.closed:
+            return title_html(name)
+        times = self._session.times()
+        is_shown = times["frames"] > 0 and not times["is_stale"]
+        picture = self.read(times["picture"]) if is_shown else None
+        return renderer_html(name, self.passes(), times, picture)
 
 
 def _value(value: Any) -> Value:

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "framework/core/error.h"
-#include "framework/reading/reader_process.h"
 #include "framework/scene/files/scene_wire.h"
 #include "framework/scene/meshes/mesh_checks.h"
 
@@ -30,9 +29,8 @@ bool isWhole(const Scene& scene) {
 
 }  // namespace
 
-Scene importGltf(const std::filesystem::path& path) {
-    using reading::RequestKind;
-    auto scene = reading::readInOwnProcess<Scene>({RequestKind::gltf, path.string(), path, ""});
+Scene importGltf(const std::filesystem::path& path, reading::ReaderProcess& reader) {
+    auto scene = reader.ask<Scene>({reading::RequestKind::gltf, path.string(), path, ""});
     // The reader has done so, too; but who knows what the file has done to the reader.
     for (const Mesh& mesh : scene.meshes)
         validateMesh(mesh, path.string());
@@ -41,6 +39,11 @@ Scene importGltf(const std::filesystem::path& path) {
             fmt::format("{} is damaged: its parts do not fit. Export it again.", path.string()));
     }
     return scene;
+}
+
+Scene importGltf(const std::filesystem::path& path) {
+    reading::ReaderProcess reader;
+    return importGltf(path, reader);
 }
 
 }  // namespace kaustik::scene

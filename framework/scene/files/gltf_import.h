@@ -6,6 +6,7 @@
 
 #include <filesystem>
 
+#include "framework/reading/reader_process.h"
 #include "framework/scene/scene.h"
 
 namespace kaustik::scene {
@@ -14,6 +15,9 @@ namespace kaustik::scene {
 // sense (an IOR below 1, a transmission of 7) and IoError where the file is damaged (cut off, an
 // accessor out of range, a missing buffer); both name the file and the JSON field. What was left
 // out or approximated is in Scene::warnings.
+[[nodiscard]] Scene importGltf(const std::filesystem::path& path, reading::ReaderProcess& reader);
+
+// The same in a process for this file alone.
 [[nodiscard]] Scene importGltf(const std::filesystem::path& path);
 
 }  // namespace kaustik::scene

@@ -42,12 +42,16 @@ std::vector<fs::path> shippedSceneFiles() {
     return files;
 }
 
+// Of a scene that does not say its name.
+std::string nameOf(const fs::path& path) {
+    return path.has_stem() ? path.stem().string() : "scene";
+}
+
 // A file that says `extends`: only what it changes is in it.
 Scene loadExtension(TableReader& top, const fs::path& path) {
-    const std::string base = top.text("extends");
-    const std::string name = top.text("name", path.has_stem() ? path.stem().string() : "scene");
-    const std::string description = top.text("description", "");
-    const SceneEdits edits = readEdits(top);
+    ExtensionKeys keys = top.read<ExtensionKeys>();
+    const std::string& base = keys.extends;
+    const SceneEdits edits = makeEdits(std::move(keys.edits));
     // A scene that extends itself, by whatever way, would be loaded for ever.
     static thread_local int depth = 0;
     struct Deeper {
@@ -61,8 +65,8 @@ Scene loadExtension(TableReader& top, const fs::path& path) {
     } catch (const ConfigError& error) {
         top.fail("extends", error.what());
     }
-    scene.name = name;
-    if (!description.empty()) scene.description = description;
+    scene.name = keys.name.value_or(nameOf(path));
+    if (!keys.description.empty()) scene.description = keys.description;
     scene.extendedFiles.insert(scene.extendedFiles.begin(), scene.file);
     scene.file = path;
     try {
@@ -93,36 +97,27 @@ Scene makeScene(const TomlNode& document, const fs::path& path, reading::ReaderP
     if (top.has("extends")) return loadExtension(top, path);
     Scene scene;
     scene.file = path;
-    scene.name = top.text("name", path.has_stem() ? path.stem().string() : "scene");
-    scene.description = top.text("description", "");
-    scene.backgroundRadiance =
-        top.uniformOrVector3("background_radiance", kNotNegative, glm::dvec3(0.0));
-    scene.ambientIrradiance =
-        top.uniformOrVector3("ambient_irradiance", kNotNegative, glm::dvec3(0.0));
-    scene.timeSeconds = top.number("time", kAnyNumber, 0.0);
-    std::optional<TableReader> camera = top.table("camera");
-    std::optional<TableReader> medium = top.table("medium");
-    std::optional<TableReader> environment = top.table("environment");
-    std::vector<TableReader> lights = top.tables("light");
-    std::vector<TableReader> materials = top.tables("material");
-    std::vector<TableReader> objects = top.tables("object");
-    // Before the tables: a misspelt [[materials]] is not a missing material.
-    top.finish();
-
-    if (camera) scene.camera = readCamera(*camera);
-    if (medium) scene.medium = readMedium(*medium);
-    if (environment) readEnvironment(*environment, scene);
-    for (TableReader& reader : lights) {
+    // Before the tables in it: a misspelt [[materials]] is not a missing material.
+    SceneKeys keys = top.read<SceneKeys>();
+    scene.name = keys.name.value_or(nameOf(path));
+    scene.description = keys.description;
+    scene.backgroundRadiance = keys.backgroundRadiance;
+    scene.ambientIrradiance = keys.ambientIrradiance;
+    scene.timeSeconds = keys.timeSeconds;
+    if (keys.camera.reader) scene.camera = readCamera(*keys.camera.reader);
+    if (keys.medium.reader) scene.medium = keys.medium.reader->read<Medium>();
+    if (keys.environment.reader) readEnvironment(*keys.environment.reader, scene);
+    for (TableReader& reader : keys.lights.readers) {
         Light light = readLight(reader, scene);
         requireNewName(scene.lights, light.name, reader);
         scene.lights.push_back(std::move(light));
     }
-    for (TableReader& reader : materials) {
+    for (TableReader& reader : keys.materials.readers) {
         Material material = readMaterial(reader, scene);
         requireNewName(scene.materials, material.name, reader);
         scene.materials.push_back(std::move(material));
     }
-    for (TableReader& reader : objects) {
+    for (TableReader& reader : keys.objects.readers) {
         Object object = readObject(reader, scene, process);
         requireNewName(scene.objects, object.name, reader);
         scene.objects.push_back(std::move(object));

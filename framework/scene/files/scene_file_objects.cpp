@@ -21,66 +21,36 @@ namespace fs = std::filesystem;
 // Four of the finest shapes have as many, and take a gigabyte.
 constexpr std::size_t kMostTriangles = std::size_t{1} << 25;
 
-// How the file places an object; `fit` and `rest_on` need the mesh, so this is applied later.
-struct Placement {
-    glm::dvec3 position{0.0};
-    glm::dvec3 rotationDegrees{0.0};
-    glm::dvec3 scale{1.0};
-    std::optional<double> fitHeight;
-    std::optional<double> fitSize;
-    std::optional<double> restOn;
-};
-
-Placement readPlacement(TableReader& reader, bool isMesh) {
-    Placement placement;
-    placement.position = reader.vector3("position", kAnyNumber, glm::dvec3(0.0));
-    placement.rotationDegrees = reader.vector3("rotation_degrees", kAnyNumber, glm::dvec3(0.0));
-    placement.scale = reader.uniformOrVector3("scale", kPositive, glm::dvec3(1.0));
-    if (!isMesh) return placement;
-    if (reader.has("rest_on")) placement.restOn = reader.number("rest_on", kAnyNumber);
-    if (std::optional<TableReader> fit = reader.table("fit")) {
-        if (reader.has("scale")) reader.fail("fit", "either fit or scale is given, not both");
-        if (fit->has("height") == fit->has("size")) {
-            fit->finish();
-            reader.fail("fit", "fit must be {height = …} or {size = …}");
-        }
-        if (fit->has("height")) placement.fitHeight = fit->number("height", kPositive);
-        if (fit->has("size")) placement.fitSize = fit->number("size", kPositive);
-        fit->finish();
-    }
-    return placement;
-}
-
-glm::dmat4 rotationAndScale(const Placement& placement) {
-    const glm::dvec3 angles = glm::radians(placement.rotationDegrees);
+glm::dmat4 rotationAndScale(const ObjectKeys& keys) {
+    const glm::dvec3 angles = glm::radians(keys.rotationDegrees);
     glm::dmat4 matrix(1.0);
     matrix = glm::rotate(matrix, angles.z, glm::dvec3(0.0, 0.0, 1.0));
     matrix = glm::rotate(matrix, angles.y, glm::dvec3(0.0, 1.0, 0.0));
     matrix = glm::rotate(matrix, angles.x, glm::dvec3(1.0, 0.0, 0.0));
-    return glm::scale(matrix, placement.scale);
+    return glm::scale(matrix, keys.scale);
 }
 
-glm::dmat4 placeInWorld(const Placement& placement, const Scene& scene, const Object& object,
+glm::dmat4 placeInWorld(const ObjectKeys& keys, const Scene& scene, const Object& object,
                         const TableReader& reader) {
-    glm::dmat4 matrix = rotationAndScale(placement);
+    glm::dmat4 matrix = rotationAndScale(keys);
     glm::dvec3 anchor(0.0);  // the point that goes to `position`
-    if (placement.fitHeight || placement.fitSize || placement.restOn) {
+    if (keys.fit || keys.restOn) {
         const Bounds bounds = objectBounds(scene, {"", object.mesh, 0, matrix});
         const glm::dvec3 extent = bounds.maximum - bounds.minimum;
         const double longest = std::max({extent.x, extent.y, extent.z});
         double factor = 1.0;
-        if (placement.fitHeight) factor = *placement.fitHeight / extent.y;
-        if (placement.fitSize) factor = *placement.fitSize / longest;
+        if (keys.fit)
+            factor = keys.fit->height ? *keys.fit->height / extent.y : *keys.fit->size / longest;
         if (!std::isfinite(factor)) reader.fail("fit", "the mesh has no extent to be scaled from");
         matrix = glm::scale(glm::dmat4(1.0), glm::dvec3(factor)) * matrix;
         anchor = 0.5 * factor * (bounds.minimum + bounds.maximum);
-        if (placement.restOn) anchor.y = factor * bounds.minimum.y - *placement.restOn;
+        if (keys.restOn) anchor.y = factor * bounds.minimum.y - *keys.restOn;
     }
-    return glm::translate(glm::dmat4(1.0), placement.position - anchor) * matrix;
+    return glm::translate(glm::dmat4(1.0), keys.position - anchor) * matrix;
 }
 
 // What to do about a mesh that is not there: those of the papers are fetched by a command.
-std::string howToGet(const std::string& mesh) {
+std::string meshHint(const std::string& mesh) {
     const auto fetch = [](const char* option) {
         return fmt::format("run experiments/fetch_meshes.sh{} to get it.", option);
     };
@@ -93,8 +63,7 @@ std::string howToGet(const std::string& mesh) {
            "the papers' meshes).";
 }
 
-fs::path findMesh(TableReader& reader) {
-    const fs::path name = reader.text("mesh");
+fs::path findMesh(const TableReader& reader, const fs::path& name) {
     std::vector<fs::path> folders{reader.file().parent_path(), projectRoot() / "meshes"};
     if (const char* fromEnvironment = std::getenv("KAUSTIK_MESHES")) {
         if (*fromEnvironment != '\0') folders.emplace_back(fromEnvironment);
@@ -109,7 +78,7 @@ fs::path findMesh(TableReader& reader) {
     }
     throw IoError(fmt::format("{}: {}: mesh '{}' was not found in {}; {}", reader.place("mesh"),
                               reader.subject(), name.string(), joinNames(searched),
-                              howToGet(name.string())));
+                              meshHint(name.string())));
 }
 
 // The index of the mesh in the scene; a file that another object uses is read once.
@@ -124,7 +93,7 @@ std::uint32_t addMeshFile(const fs::path& file, Scene& scene, reading::ReaderPro
     return static_cast<std::uint32_t>(scene.meshes.size() - 1);
 }
 
-std::uint32_t findMaterial(TableReader& reader, const std::string& name, const Scene& scene) {
+std::uint32_t findMaterial(const TableReader& reader, const std::string& name, const Scene& scene) {
     std::vector<std::string> names;
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         if (scene.materials[i].name == name) return static_cast<std::uint32_t>(i);
@@ -135,7 +104,7 @@ std::uint32_t findMaterial(TableReader& reader, const std::string& name, const S
 }
 
 // A few lines of text must not take all of the memory.
-void requireRoom(const Mesh& shape, const Scene& scene, const TableReader& reader) {
+void requireMeshLimits(const Mesh& shape, const Scene& scene, const TableReader& reader) {
     std::size_t triangles = shape.triangles.size();
     for (const Mesh& mesh : scene.meshes)
         triangles += mesh.triangles.size();
@@ -149,28 +118,22 @@ void requireRoom(const Mesh& shape, const Scene& scene, const TableReader& reade
 }  // namespace
 
 Object readObject(TableReader& reader, Scene& scene, reading::ReaderProcess& process) {
+    const auto keys = reader.read<ObjectKeys>();
     Object object;
-    object.name = reader.name();
-    const std::string material = reader.text("material");
-    const bool isMesh = reader.has("mesh");
-    if (isMesh && reader.has("shape")) {
-        reader.fail("shape", "either mesh or shape is given, not both");
-    }
-    const Placement placement = readPlacement(reader, isMesh);
-    if (isMesh) {
-        const fs::path file = findMesh(reader);
-        reader.finish();
-        object.material = findMaterial(reader, material, scene);
+    object.name = keys.name;
+    if (keys.isMesh) {
+        const fs::path file = findMesh(reader, keys.mesh);
+        object.material = findMaterial(reader, keys.material, scene);
         object.mesh = addMeshFile(file, scene, process);
     } else {
-        Mesh mesh = readShape(reader, scene.timeSeconds);
+        Mesh mesh = makeShape(keys.shape, reader, scene.timeSeconds);
         mesh.name = object.name;
-        object.material = findMaterial(reader, material, scene);
-        requireRoom(mesh, scene, reader);
+        object.material = findMaterial(reader, keys.material, scene);
+        requireMeshLimits(mesh, scene, reader);
         scene.meshes.push_back(std::move(mesh));
         object.mesh = static_cast<std::uint32_t>(scene.meshes.size() - 1);
     }
-    object.toWorld = placeInWorld(placement, scene, object, reader);
+    object.toWorld = placeInWorld(keys, scene, object, reader);
     return object;
 }
 

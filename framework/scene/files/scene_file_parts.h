@@ -1,24 +1,23 @@
 // SPDX-License-Identifier: MIT
-// A scene file's table and the tables in it, one reader each; `scene_file.h` describes their keys.
+// From the tables of a scene file to what they mean; scene_keys.h has their keys.
 #pragma once
 
 #include <filesystem>
 #include <string>
 
-#include "framework/scene/files/table_reader.h"
+#include "framework/scene/files/scene_keys.h"
 #include "framework/scene/scene.h"
 #include "framework/scene/scene_edits.h"
 
 namespace kaustik::scene {
 
-// The scene of a table. What it names is looked for beside `path`, which is a folder with a '/' at
+// The scene of a table. What it names is looked for next to `path`, which is a folder with a '/' at
 // its end where the table stands in no file: errors then begin with "the scene". `process` reads
 // mesh files. Throws as loadSceneFile().
 [[nodiscard]] Scene makeScene(const TomlNode& document, const std::filesystem::path& path,
                               reading::ReaderProcess& process);
 
 [[nodiscard]] Camera readCamera(TableReader& reader);
-[[nodiscard]] Medium readMedium(TableReader& reader);
 
 // Sets the environment; a pattern becomes one of its images.
 void readEnvironment(TableReader& reader, Scene& scene);
@@ -31,14 +30,13 @@ void readEnvironment(TableReader& reader, Scene& scene);
 // have been read. `process` reads mesh files.
 [[nodiscard]] Object readObject(TableReader& reader, Scene& scene, reading::ReaderProcess& process);
 
-// The waves of a table: [{…}, …] under `waves`, or [[….wave]].
-[[nodiscard]] std::vector<Wave> readWaves(TableReader& reader);
-
-// What a scene file that extends another one may say: scene_file_extension.cpp.
+// What a scene file that extends another one changes.
+[[nodiscard]] SceneEdits makeEdits(EditKeys keys);
+// The same of a table that has nothing else.
 [[nodiscard]] SceneEdits readEdits(TableReader& top);
 
-// The mesh of a `shape = …` object at the scene's time.
-[[nodiscard]] Mesh readShape(TableReader& reader, double timeSeconds);
+// The mesh of a shape; `reader` is the object's, for errors.
+[[nodiscard]] Mesh makeShape(const Shape& shape, const TableReader& reader, double timeSeconds);
 
 // ".pfm" of "a/B.PFM".
 [[nodiscard]] std::string lowerExtension(const std::filesystem::path& path);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "framework/core/error.h"
@@ -26,10 +27,6 @@ std::string sentence(const std::string& text) {
     return text.ends_with('?') || text.ends_with('.') ? text : text + ".";
 }
 
-double validNumber(const NumberRange& range) {
-    return 0.5 * (std::max(range.minimum, -2.0) + std::min(range.maximum, 4.0));
-}
-
 }  // namespace
 
 bool NumberRange::contains(double value) const {
@@ -45,14 +42,14 @@ std::string NumberRange::description() const {
 TableReader::TableReader(const TomlNode& table, std::filesystem::path file, std::string subject)
     : table_(&table), file_(std::move(file)), subject_(std::move(subject)) {}
 
-const TomlNode* TableReader::find(std::string_view key) {
+void TableReader::note(std::string_view key) {
     if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.emplace_back(key);
-    return table_->find(key);
 }
 
-const TomlNode* TableReader::require(std::string_view key, bool optional) {
-    const TomlNode* node = find(key);
-    if (node == nullptr && !optional) missing_.emplace_back(key);
+const TomlNode* TableReader::find(std::string_view key, bool isRequired) {
+    note(key);
+    const TomlNode* node = table_->find(key);
+    if (node == nullptr && isRequired) missing_.emplace_back(key);
     return node;
 }
 
@@ -68,13 +65,13 @@ double TableReader::checkedNumber(std::string_view key, const TomlNode& node,
 }
 
 std::vector<double> TableReader::numbers(std::string_view key, const TomlNode& node,
-                                         std::size_t size, bool uniform,
+                                         std::size_t size, bool isUniform,
                                          const NumberRange& range) const {
-    if (uniform && node.isNumber()) return std::vector(size, checkedNumber(key, node, range));
+    if (isUniform && node.isNumber()) return std::vector(size, checkedNumber(key, node, range));
     const std::vector<TomlNode>* array = node.list();
     if (array == nullptr || array->size() != size) {
         fail(key, fmt::format("{} must be {}a list of {} numbers, not {}", key,
-                              uniform ? "a number or " : "", size, shown(node)));
+                              isUniform ? "a number or " : "", size, shown(node)));
     }
     std::vector<double> values;
     for (const TomlNode& element : *array)
@@ -92,66 +89,33 @@ unsigned TableReader::checkedCount(std::string_view key, const TomlNode& node, u
     return static_cast<unsigned>(*integer);
 }
 
-double TableReader::number(std::string_view key, const NumberRange& range,
-                           std::optional<double> fallback) {
-    const TomlNode* node = require(key, fallback.has_value());
-    return node ? checkedNumber(key, *node, range) : fallback.value_or(validNumber(range));
+const std::string& TableReader::checkedText(std::string_view key, const TomlNode& node) const {
+    const auto* const value = node.as<std::string>();
+    if (value == nullptr) fail(key, fmt::format("{} must be text, not {}", key, shown(node)));
+    return *value;
 }
 
-float TableReader::numberAsFloat(std::string_view key, const NumberRange& range,
-                                 std::optional<double> fallback) {
-    return static_cast<float>(number(key, range, fallback));
+std::size_t TableReader::indexOf(std::string_view key, const char* intro, const std::string& value,
+                                 const std::vector<std::string>& names) const {
+    const auto found = std::find(names.begin(), names.end(), value);
+    if (found == names.end()) fail(key, std::string(key) + intro + notOneOf(value, names));
+    return static_cast<std::size_t>(found - names.begin());
 }
 
-unsigned TableReader::count(std::string_view key, unsigned minimum, unsigned maximum,
-                            std::optional<unsigned> fallback) {
-    const TomlNode* node = require(key, fallback.has_value());
-    return node ? checkedCount(key, *node, minimum, maximum) : fallback.value_or(minimum);
-}
-
-glm::uvec2 TableReader::counts(std::string_view key, unsigned minimum, unsigned maximum,
-                               std::optional<glm::uvec2> fallback) {
-    const TomlNode* node = require(key, fallback.has_value());
-    if (node == nullptr) return fallback.value_or(glm::uvec2(minimum));
+void TableReader::counts(glm::uvec2& value, const Key& key, unsigned minimum, unsigned maximum,
+                         Presence presence) {
+    const TomlNode* node = find<glm::uvec2>(key, presence);
+    if (node == nullptr) return;
     const std::vector<TomlNode>* array = node->list();
-    if (array == nullptr) return glm::uvec2(checkedCount(key, *node, minimum, maximum));
-    if (array->size() != 2) {
-        fail(key, fmt::format("{} must be one or two whole numbers, not {}", key, shown(*node)));
+    if (array != nullptr && array->size() != 2) {
+        fail(key.name,
+             fmt::format("{} must be one or two whole numbers, not {}", key.name, shown(*node)));
     }
-    return {checkedCount(key, array->front(), minimum, maximum),
-            checkedCount(key, array->back(), minimum, maximum)};
-}
-
-glm::dvec2 TableReader::vector2(std::string_view key, const NumberRange& range,
-                                std::optional<glm::dvec2> fallback) {
-    const TomlNode* node = require(key, fallback.has_value());
-    if (node == nullptr) return fallback.value_or(glm::dvec2(validNumber(range)));
-    const std::vector<double> v = numbers(key, *node, 2, false, range);
-    return {v[0], v[1]};
-}
-
-glm::dvec3 TableReader::vector3(std::string_view key, const NumberRange& range,
-                                std::optional<glm::dvec3> fallback) {
-    const TomlNode* node = require(key, fallback.has_value());
-    if (node == nullptr) return fallback.value_or(glm::dvec3(validNumber(range)));
-    const std::vector<double> v = numbers(key, *node, 3, false, range);
-    return {v[0], v[1], v[2]};
-}
-
-glm::dvec2 TableReader::uniformOrVector2(std::string_view key, const NumberRange& range,
-                                         std::optional<glm::dvec2> fallback) {
-    const TomlNode* node = require(key, fallback.has_value());
-    if (node == nullptr) return fallback.value_or(glm::dvec2(validNumber(range)));
-    const std::vector<double> v = numbers(key, *node, 2, true, range);
-    return {v[0], v[1]};
-}
-
-glm::dvec3 TableReader::uniformOrVector3(std::string_view key, const NumberRange& range,
-                                         std::optional<glm::dvec3> fallback) {
-    const TomlNode* node = require(key, fallback.has_value());
-    if (node == nullptr) return fallback.value_or(glm::dvec3(validNumber(range)));
-    const std::vector<double> v = numbers(key, *node, 3, true, range);
-    return {v[0], v[1], v[2]};
+    const auto checked = [&](const TomlNode& count) {
+        return checkedCount(key.name, count, minimum, maximum);
+    };
+    value = array == nullptr ? glm::uvec2(checked(*node))
+                             : glm::uvec2(checked(array->front()), checked(array->back()));
 }
 
 glm::dvec3 unitDirection(const glm::dvec3& vector) {
@@ -159,67 +123,87 @@ glm::dvec3 unitDirection(const glm::dvec3& vector) {
                           std::max({std::abs(vector.x), std::abs(vector.y), std::abs(vector.z)}));
 }
 
-glm::dvec3 TableReader::direction(std::string_view key) {
-    const glm::dvec3 vector = vector3(key, kAnyNumber);
-    if (vector == glm::dvec3(0.0)) fail(key, fmt::format("{} must not be the zero vector", key));
-    return unitDirection(vector);
-}
-
-bool TableReader::flag(std::string_view key, bool fallback) {
-    const TomlNode* node = find(key);
-    if (node == nullptr) return fallback;
-    const bool* const value = node->as<bool>();
-    if (value == nullptr) {
-        fail(key, fmt::format("{} must be true or false, not {}", key, shown(*node)));
+void TableReader::requireDirection(std::string_view key) const {
+    for (const TomlNode& element : *table_->find(key)->list()) {
+        const auto* const integer = element.as<std::int64_t>();
+        if (integer != nullptr ? *integer != 0 : *element.as<double>() != 0.0) return;
     }
-    return *value;
+    fail(key, fmt::format("{} must not be the zero vector", key));
 }
 
-std::string TableReader::text(std::string_view key, std::optional<std::string> fallback) {
-    const TomlNode* node = require(key, fallback.has_value());
-    if (node == nullptr) return fallback.value_or("");
-    const auto* const value = node->as<std::string>();
-    if (value == nullptr) fail(key, fmt::format("{} must be text, not {}", key, shown(*node)));
-    return *value;
+void TableReader::flag(bool& value, const Key& key) {
+    const TomlNode* node = find(key.name, false);
+    if (node == nullptr) return;
+    const bool* const written = node->as<bool>();
+    if (written == nullptr) {
+        fail(key.name, fmt::format("{} must be true or false, not {}", key.name, shown(*node)));
+    }
+    value = *written;
 }
 
-std::vector<std::string> TableReader::texts(std::string_view key) {
-    const TomlNode* node = find(key);
-    if (node == nullptr) return {};
+void TableReader::folderName(std::string& value, const Key& key) {
+    text(value, key);
+    const bool isPlain = std::all_of(value.begin(), value.end(), [](unsigned char c) {
+        return std::isalnum(c) != 0 || c == '-' || c == '_';
+    });
+    if (has(key.name) && (!isPlain || value.empty())) {
+        fail(key.name, fmt::format("{} must be of letters, digits, '-' and '_', not '{}', since it "
+                                   "names a folder",
+                                   key.name, value));
+    }
+}
+
+void TableReader::texts(std::vector<std::string>& values, const Key& key) {
+    const TomlNode* node = find(key.name, false);
+    if (node == nullptr) return;
     const std::vector<TomlNode>* array = node->list();
     if (array == nullptr) {
-        fail(key, fmt::format("{} must be a list of texts, not {}", key, shown(*node)));
+        fail(key.name, fmt::format("{} must be a list of texts, not {}", key.name, shown(*node)));
     }
-    std::vector<std::string> values;
     for (const TomlNode& element : *array) {
         const auto* const value = element.as<std::string>();
         if (value == nullptr) {
-            fail(key, fmt::format("{} must hold texts only, not {}", key, shown(element)));
+            fail(key.name,
+                 fmt::format("{} must hold texts only, not {}", key.name, shown(element)));
         }
         values.push_back(*value);
     }
-    return values;
 }
 
-std::string TableReader::name() {
-    const std::string value = text("name");
+void TableReader::name(std::string& value) {
+    text(value, {"name", ""});
     if (has("name") && value.empty()) fail("name", "name must not be empty");
     if (!value.empty()) subject_ = fmt::format("{} '{}'", subject_, value);
-    return value;
+}
+
+void TableReader::rule(const KeyRule& rule) {
+    for (const char* key : rule.keys)
+        note(key);
+    if (countOf(rule) > 1) fail(rule.place, rule.sentence);
+    rules_.push_back(rule);
+}
+
+std::ptrdiff_t TableReader::countOf(const KeyRule& rule) const {
+    return std::count_if(rule.keys.begin(), rule.keys.end(),
+                         [&](const char* key) { return table_->find(key) != nullptr; });
+}
+
+TableReader TableReader::inner(const TomlNode& node, std::string_view key) const {
+    return {node, file_,
+            subject_.empty() ? std::string(key) : fmt::format("{}: {}", subject_, key)};
 }
 
 std::optional<TableReader> TableReader::table(std::string_view key) {
-    const TomlNode* node = find(key);
+    const TomlNode* node = find(key, false);
     if (node == nullptr) return std::nullopt;
     if (node->as<TomlTable>() == nullptr) {
         fail(key, fmt::format("{0} must be one table, [{0}], not {1}", key, shown(*node)));
     }
-    return TableReader(*node, file_,
-                       subject_.empty() ? std::string(key) : fmt::format("{}: {}", subject_, key));
+    return inner(*node, key);
 }
 
 std::vector<TableReader> TableReader::tables(std::string_view key) {
-    const TomlNode* node = find(key);
+    const TomlNode* node = find(key, false);
     if (node == nullptr) return {};
     const std::vector<TomlNode>* array = node->list();
     const bool right =
@@ -230,16 +214,23 @@ std::vector<TableReader> TableReader::tables(std::string_view key) {
         fail(key, fmt::format("{0} must be a list of tables, [[{0}]], not {1}", key, shown(*node)));
     }
     std::vector<TableReader> readers;
-    for (const TomlNode& element : *array) {
-        readers.emplace_back(
-            element, file_,
-            subject_.empty() ? std::string(key) : fmt::format("{}: {}", subject_, key));
-    }
+    for (const TomlNode& element : *array)
+        readers.push_back(inner(element, key));
     return readers;
 }
 
+void TableReader::foreignTable(const Key& key, const char*, Tables count) {
+    const TomlNode* node = table_->find(key.name);
+    if (count == Tables::oneOrSeveral && node != nullptr && node->list() != nullptr) {
+        static_cast<void>(tables(key.name));
+        if (node->list()->empty()) fail(key.name, fmt::format("{} is an empty list", key.name));
+    } else {
+        static_cast<void>(table(key.name));
+    }
+}
+
 bool TableReader::has(std::string_view key) {
-    return find(key) != nullptr;
+    return find(key, false) != nullptr;
 }
 
 void TableReader::finish() const {
@@ -251,6 +242,11 @@ void TableReader::finish() const {
                          suggestion.empty() ? "; the keys are " + joinNames(known_) : suggestion));
     }
     if (!missing_.empty()) failMissing(missing_.front());
+    for (const KeyRule& rule : rules_) {
+        if (!rule.needsOne || countOf(rule) == 1) continue;
+        if (*rule.missing != '\0') failMissing(rule.missing);
+        fail(rule.place, rule.sentence);
+    }
 }
 
 void TableReader::failMissing(std::string_view key) const {

@@ -16,7 +16,7 @@
 namespace kaustik::scene {
 
 // The largest number of steps along one side of a grid or around a circle: finer meshes than
-// 2048 x 2048 quads would not fit beside the rest of a scene.
+// 2048 x 2048 quads would not fit next to the rest of a scene.
 inline constexpr unsigned kMaximumCells = 2048;
 
 // A rectangle in the xz-plane that faces +y.

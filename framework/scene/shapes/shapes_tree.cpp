@@ -40,14 +40,14 @@ struct Branch {
     double radius = 0.1;
 };
 
-glm::dvec3 acrossOf(const glm::dvec3& direction) {
+glm::dvec3 perpendicularTo(const glm::dvec3& direction) {
     const glm::dvec3 other =
         std::abs(direction.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
     return glm::normalize(glm::cross(direction, other));
 }
 
 void addTube(MeshBuilder& builder, const Branch& branch, unsigned sides) {
-    const glm::dvec3 u = acrossOf(branch.direction);
+    const glm::dvec3 u = perpendicularTo(branch.direction);
     const glm::dvec3 v = glm::cross(branch.direction, u);
     const auto ring = [&](unsigned i, unsigned j) {
         const double angle = 2.0 * glm::pi<double>() * (i % sides) / sides;
@@ -75,7 +75,7 @@ void grow(MeshBuilder& builder, const TreeShape& shape, const Branch& branch, un
           double turn, Numbers& numbers) {
     addTube(builder, branch, shape.sides);
     if (level >= shape.levels) return;
-    const glm::dvec3 u = acrossOf(branch.direction);
+    const glm::dvec3 u = perpendicularTo(branch.direction);
     const glm::dvec3 v = glm::cross(branch.direction, u);
     for (unsigned child = 0; child < shape.children; ++child) {
         const double around = turn + child * kGoldenAngle + 0.5 * numbers.next();

@@ -3,7 +3,7 @@
 // size, down to one far smaller than a pixel, and of either orientation.
 
 // A triangle thinner than this, px, is taken to be as thin: along it, it is the same.
-const float kLeastHeight = 1.0 / 64.0;
+const float kMinHeight = 1.0 / 64.0;
 
 struct Triangle {
     vec2 a, b, c;  // px, from the corner of some pixel
@@ -20,16 +20,16 @@ Triangle triangleOf(vec2 a, vec2 b, vec2 c) {
     // The corner across the longest side is moved away from it: what the triangle holds between two
     // lines across that side stays the same share of it.
     float sign = twice < 0.0 ? -1.0 : 1.0;
-    if (abs(twice) < kLeastHeight * sqrt(longest)) {
-        if (longest < kLeastHeight * kLeastHeight) {
+    if (abs(twice) < kMinHeight * sqrt(longest)) {
+        if (longest < kMinHeight * kMinHeight) {
             // A point; as large as what is resolved.
             vec2 middle = (a + b + c) / 3.0;
-            a = middle + kLeastHeight * vec2(-1.0, -0.5);
-            b = middle + kLeastHeight * vec2(1.0, -0.5);
-            c = middle + kLeastHeight * vec2(0.0, 1.0);
+            a = middle + kMinHeight * vec2(-1.0, -0.5);
+            b = middle + kMinHeight * vec2(1.0, -0.5);
+            c = middle + kMinHeight * vec2(0.0, 1.0);
             sign = 1.0;
         } else {
-            float lift = (sign * kLeastHeight - twice * inversesqrt(longest)) * inversesqrt(longest);
+            float lift = (sign * kMinHeight - twice * inversesqrt(longest)) * inversesqrt(longest);
             if (longest == sides.x) {
                 c += lift * vec2(-ab.y, ab.x);
             } else if (longest == sides.y) {
@@ -40,7 +40,7 @@ Triangle triangleOf(vec2 a, vec2 b, vec2 c) {
         }
         twice = (b.x - a.x) * (c.y - b.y) - (b.y - a.y) * (c.x - b.x);
     }
-    if (twice == 0.0) twice = sign * kLeastHeight * kLeastHeight;
+    if (twice == 0.0) twice = sign * kMinHeight * kMinHeight;
     return Triangle(a, b, c, 0.5 * twice);
 }
 

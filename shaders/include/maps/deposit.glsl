@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// What reconstructions add to a texel of a map (techniques/shared/stores.h): flux, and where a
+// What reconstructions add to a texel of a map (techniques/stores/stores.h): flux, and where a
 // receiver of the scene is glossy, what its irradiance alone does not tell.
 //   GLOSSY_RECEIVERS  how it goes to the eye, W/sr: the map is of the eye's own pixels
 //   MEAN_DIRECTION    the flux of all channels times 1 + its direction, which is nowhere negative
-#include "include/flux_sum.glsl"
-#include "include/view.glsl"
+#include "include/maps/flux_sum.glsl"
+#include "include/views/view.glsl"
 #ifdef GLOSSY_RECEIVERS
-#include "include/receiver_brdf.glsl"
+#include "include/surfaces/receiver_brdf.glsl"
 #endif
 
 // To the set of the map that holds it. `directionVs`: unit, in which it arrives, in the eye's view.

@@ -2,7 +2,7 @@
 // A map in 64-bit fixed point (CausticMap, InScattered), of which the sums depend neither on the
 // order nor on the batches in which light arrives (hard case 34: a plain 32-bit sum of 2^25 deposits
 // is 15 % off). The unit of flux is the ledger's.
-#include "include/ledger_unit.glsl"
+#include "include/photons/ledger_unit.glsl"
 #include "framework/transport/types.h"
 
 layout(r32ui) uniform uimage2DArray fluxSums;

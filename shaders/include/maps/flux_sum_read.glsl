@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A map of flux to read: see include/flux_sum.glsl.
-#include "include/ledger_unit.glsl"
+// A map of flux to read: see include/maps/flux_sum.glsl.
+#include "include/photons/ledger_unit.glsl"
 #include "framework/transport/types.h"
 
 uniform usampler2DArray fluxSums;

@@ -9,7 +9,7 @@
 #include "framework/transport/types.h"
 
 layout(std140) uniform MapViews {
-    ViewData mapViews[kMostViews];
+    ViewData mapViews[kMaxViews];
 };
 #ifdef MAP_IS_CUBE
 uniform sampler2DArray mapReceiver;

@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: MIT
 // Which hits of a list a map takes. ONE_LIGHT: those of one light's photons; ONE_GENERATOR: of those
 // that have left one caustic generator last.
-#include "include/hits.glsl"
-#include "include/photon_thread.glsl"
+#include "include/photons/hits.glsl"
+#include "include/photons/photon_thread.glsl"
 
 #ifdef ONE_LIGHT
 uniform int lightOfMap;
 #endif
 #ifdef ONE_GENERATOR
-#include "include/generators.glsl"
+#include "include/surfaces/generators.glsl"
 uniform int generatorOfMap;
 #endif
 
-bool arrivesHere(ivec2 texel) {
-    bool isOurs = true;
+bool hasArrived(ivec2 texel) {
+    bool isOwn = true;
 #ifdef ONE_LIGHT
-    isOurs = int(originAt(texel).light) == lightOfMap;
+    isOwn = int(originAt(texel).light) == lightOfMap;
 #endif
 #ifdef ONE_GENERATOR
-    isOurs = generatorOf(texelFetch(photonPosition, texel, 0).xyz) == generatorOfMap;
+    isOwn = generatorOf(texelFetch(photonPosition, texel, 0).xyz) == generatorOfMap;
 #endif
-    return isOurs && uint(texelFetch(hitFlux, texel, 0).w) == kFateReceiver;
+    return isOwn && uint(texelFetch(hitFlux, texel, 0).w) == kFateReceiver;
 }

@@ -49,30 +49,30 @@ vec3 shapeFrom(vec3 normal, mat2x3 positions, mat2x3 normals) {
 }
 
 // A beam that grazes a surface is taken as if it came at this sine at least.
-const float kLeastBeamSlant = 1e-3;
-float boundedSlant(float slant, float least) {
-    return (slant < 0.0 ? -1.0 : 1.0) * max(abs(slant), least);
+const float kMinBeamSlant = 1e-3;
+float boundedSlant(float slant, float minimum) {
+    return (slant < 0.0 ? -1.0 : 1.0) * max(abs(slant), minimum);
 }
 
 // Where the next cells' rays hit the plane with this unit normal that the photon's ray hits after
 // `distance` m: from the photon's hit, m a cell. `farther`: by how much more than that they fly.
-mat2x3 beamOnPlane(Beam beam, vec3 direction, float distance, vec3 normal, float leastSlant,
+mat2x3 beamOnPlane(Beam beam, vec3 direction, float distance, vec3 normal, float minSlant,
                    out vec2 farther) {
     mat2x3 offsets = basisAcross(direction) * (beam.place + distance * beam.turn);
-    farther = -(normal * offsets) / boundedSlant(dot(direction, normal), leastSlant);
+    farther = -(normal * offsets) / boundedSlant(dot(direction, normal), minSlant);
     return offsets + outerProduct(direction, farther);
 }
-mat2x3 beamOnPlane(Beam beam, vec3 direction, float distance, vec3 normal, float leastSlant) {
+mat2x3 beamOnPlane(Beam beam, vec3 direction, float distance, vec3 normal, float minSlant) {
     vec2 farther;
-    return beamOnPlane(beam, direction, distance, normal, leastSlant, farther);
+    return beamOnPlane(beam, direction, distance, normal, minSlant, farther);
 }
 
 // The beam of a photon that leaves the surface that it has hit. `before`, `after`: its directions,
 // unit; `normal`: unit, either side; `shape`: its turning; `eta`: index before over index beyond, or
 // 0 where it is reflected. Bounded where light leaves at the critical angle.
-Beam beamBeyond(Beam beam, vec3 before, float distance, vec3 normal, vec3 shape, vec3 after,
+Beam propagatedBeam(Beam beam, vec3 before, float distance, vec3 normal, vec3 shape, vec3 after,
                 float eta) {
-    mat2x3 places = beamOnPlane(beam, before, distance, normal, kLeastBeamSlant);
+    mat2x3 places = beamOnPlane(beam, before, distance, normal, kMinBeamSlant);
     mat2x3 turns = basisAcross(before) * beam.turn;
     mat2x3 tangents = basisAcross(normal);
     mat2x3 normals = tangents * (mat2(shape.x, shape.z, shape.z, shape.y) *
@@ -83,7 +83,7 @@ Beam beamBeyond(Beam beam, vec3 before, float distance, vec3 normal, vec3 shape,
     if (eta == 0.0) {
         turned = turns - 2.0 * (outerProduct(normal, slants) + slant * normals);
     } else {
-        float beyond = boundedSlant(dot(after, normal), kLeastBeamSlant);
+        float beyond = boundedSlant(dot(after, normal), kMinBeamSlant);
         float kept = eta * slant - beyond;
         vec2 kepts = (eta - eta * eta * slant / beyond) * slants;
         turned = eta * turns - kept * normals - outerProduct(normal, kepts);

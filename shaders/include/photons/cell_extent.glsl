@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a photon stands for where its light's grid is lit in part: of its own cell and of cells
-// beside it whose middles are dark, as far as the border of what the light sees is from the
+// next to it whose middles are dark, as far as the border of what the light sees is from the
 // photon's place, told by sub-cells. At the border of a mesh's grid of vertices: of nothing beyond.
 // Four quarters, each a quadrilateral from the photon's place.
 

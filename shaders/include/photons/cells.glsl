@@ -16,11 +16,11 @@ ivec2 cellOf(PhotonOrigin origin) {
            ivec2(0, cellFirstRow);
 }
 
-// Of a photon's cell and those beside it by so many; kNoCell where the grid has none. Photons that
+// Of a photon's cell and those next to it by so many; kNoCell where the grid has none. Photons that
 // have taken another branch where both were followed are neighbours of their own.
-uint cellPlace(PhotonOrigin origin, ivec2 beside) {
+uint cellPlace(PhotonOrigin origin, ivec2 neighbourOffset) {
     if (cellGrid.x == 0) return kNoCell;
-    ivec2 at = cellOf(origin) + beside;
+    ivec2 at = cellOf(origin) + neighbourOffset;
     int light = int(origin.light) - cellLights.x;
     bool isIn = all(greaterThanEqual(at, ivec2(0))) && all(lessThan(at, cellGrid)) && light >= 0 &&
                 light < cellLights.y;

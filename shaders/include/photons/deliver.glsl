@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // What makes of a surface that a photon reaches a hit, with the normal and the flux that arrives:
 // what every tracer ends with.
-#include "include/ledger.glsl"
-#include "include/medium.glsl"
-#include "include/specular.glsl"
-#include "include/transfer_map.glsl"
+#include "include/photons/ledger.glsl"
+#include "include/photons/medium.glsl"
+#include "include/surfaces/specular.glsl"
+#include "include/photons/transfer_map.glsl"
 
 // What the list says of a photon that was not on its way, or hit nothing.
-Hit nothingHit() {
+Hit emptyHit() {
     return Hit(vec3(0.0), 0.0, vec3(0.0), 0u, vec3(0.0), kFateEnded, vec3(0.0));
 }
 
@@ -22,7 +22,7 @@ vec3 receiverNormal(vec3 positionVs, vec3 direction, vec3 shading, vec3 geometri
 // Accounts for what was absorbed on the way and what arrives at a receiver. `shading`, `geometric`:
 // unit, outward; `material`: index + 1.
 Hit deliverTo(Photon photon, float distance, vec3 shading, vec3 geometric, uint material) {
-    Hit hit = nothingHit();
+    Hit hit = emptyHit();
     bool arrives = isReceiver(materialKind(material - 1u));
     hit.material = material;
     hit.positionVs = photon.positionVs + distance * photon.directionVs;

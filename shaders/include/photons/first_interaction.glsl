@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // For shaders that send photons on as their light sends them, and as its view alone shows the
 // scene: one thread a photon of one light, at the first specular surface of its path.
-#include "include/next_photons.glsl"
+#include "include/photons/next_photons.glsl"
 
 uniform int lightIndex;
 
@@ -29,10 +29,10 @@ struct Arrival {
 bool arrivalOfThread(out Arrival arrival) {
     arrival.index = photonOfThread();
     arrival.texel = ivec2(photonTexel(photons, arrival.index));
-    bool goesOn = arrival.index < photons.count &&
+    bool continues = arrival.index < photons.count &&
                   uint(texelFetch(hitFlux, arrival.texel, 0).w) == kFateSpecular;
-    arrival.slot = nextSlot(goesOn);
-    if (!goesOn) return false;
+    arrival.slot = nextSlot(continues);
+    if (!continues) return false;
     arrival.origin = originAt(arrival.texel);
     if (int(arrival.origin.light) != lightIndex) return false;
     arrival.hit = hitAt(arrival.texel);
@@ -41,7 +41,7 @@ bool arrivalOfThread(out Arrival arrival) {
         // The light's view says nothing of light that has been bent already.
         ledgerAdd(kAccountBounceLimit, arrival.hit.fluxWatts);
         sendNothing(arrival.slot, arrival.photon,
-                    originOfNext(arrival.origin, arrival.index, false));
+                    nextPhotonOrigin(arrival.origin, arrival.index, false));
         return false;
     }
     ledgerAdd(kAccountEmitted, arrival.hit.fluxWatts);
@@ -50,11 +50,11 @@ bool arrivalOfThread(out Arrival arrival) {
 
 // The branch that is followed, one of two; the other one is in the ledger's untraced_branch. Of
 // fate kFateNone where there is none: it was in more dielectrics than a stack holds.
-struct TakenBranch {
+struct ChosenBranch {
     Photon photon;
     bool isReflected;
 };
-TakenBranch branchTaken(Photon photon, Hit hit, bool wantsReflected) {
+ChosenBranch chosenBranch(Photon photon, Hit hit, bool wantsReflected) {
     Branches branches = branchesOf(photon, hit);
     bool refracts = branches.transmitted.fate == kFateInFlight;
     bool reflects = branches.reflected.fate == kFateInFlight;
@@ -63,8 +63,8 @@ TakenBranch branchTaken(Photon photon, Hit hit, bool wantsReflected) {
                   (wantsReflected ? branches.transmitted : branches.reflected).fluxWatts);
         refracts = !wantsReflected;
     }
-    if (refracts) return TakenBranch(branches.transmitted, false);
-    return TakenBranch(branches.reflected, true);
+    if (refracts) return ChosenBranch(branches.transmitted, false);
+    return ChosenBranch(branches.reflected, true);
 }
 
 // Whether a photon that goes on refracted is in a body then, and not beyond a sheet or outside.

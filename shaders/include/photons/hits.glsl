@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Hits to read, as Hits::sample binds them.
-#include "include/transfer_map.glsl"
+#include "include/photons/transfer_map.glsl"
 
 uniform sampler2D hitPosition;
 uniform sampler2D hitSurface;

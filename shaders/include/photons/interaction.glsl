@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What becomes of a photon where it has hit a specular surface (K06, section 2.3).
-#include "include/ledger.glsl"
-#include "include/specular.glsl"
+#include "include/photons/ledger.glsl"
+#include "include/surfaces/specular.glsl"
 #ifdef PHOTON_BEAMS
-#include "include/beam.glsl"
+#include "include/photons/beam.glsl"
 #endif
 
 // The branches: fate kFateNone where there is none. Their flux is the photon's, less what a mirror
@@ -22,7 +22,7 @@ Branches branchesOf(Photon photon, Hit hit) {
     photon.fate = kFateInFlight;
     // The hit's normal has the triangle's side: see bendingNormal.
     bool enters = dot(photon.directionVs, hit.normalVs) < 0.0;
-    photon.media = withLeftSide(photon.media, kLeftNothing);
+    photon.media = withLeftSide(photon.media, kLeftNone);
     Branches branches = Branches(photon, photon);
     if (uint(data.albedo.w) == kMaterialMirror) {
         branches.transmitted.fate = kFateNone;
@@ -67,7 +67,7 @@ Beam beamOfBranch(Beam beam, Photon before, Hit hit, vec3 direction, bool isRefl
         vec2 indices = indicesAt(hit.material, before.media, enters);
         eta = indices.x / indices.y;
     }
-    return beamBeyond(beam, before.directionVs, hit.distanceMeters, hit.normalVs, hit.shape,
+    return propagatedBeam(beam, before.directionVs, hit.distanceMeters, hit.normalVs, hit.shape,
                       direction, eta);
 }
 #endif

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The energy ledger: sums of watts in 64-bit fixed point by integer atomics, so that they neither
 // drift nor depend on the order in which photons come.
-#include "include/ledger_unit.glsl"
+#include "include/photons/ledger_unit.glsl"
 #include "framework/transport/types.h"
 
 layout(std430) buffer LedgerEntries {
@@ -17,7 +17,7 @@ void ledgerAddUnits(uint account, uint lowUnits, uint highUnits) {
 
 // Adds the flux of all channels to an account, as one event. What is not a number counts as an
 // event of its own account and adds nothing. Photons that another batch brings as well have flux
-// that no sum resolves (shared/emit_grid.comp), and count there.
+// that no sum resolves (emit/grid.comp), and count there.
 void ledgerAdd(uint account, vec3 fluxWatts) {
     float watts = fluxWatts.r + fluxWatts.g + fluxWatts.b;
     if (isnan(watts) || isinf(watts) || watts < 0.0) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Cells of a light's grid and what the light sees first through each (shared/emit_sight.frag), by
+// Cells of a light's grid and what the light sees first through each (emit/grid_sight.frag), by
 // sub-cells, an odd number a cell's side. A compute thread a cell.
-#include "include/light_triangle.glsl"
-#include "include/lights.glsl"
+#include "include/photons/light_triangle.glsl"
+#include "include/photons/lights.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -24,10 +24,10 @@ bool cellOfThread(out ivec2 cell, out ivec2 texel) {
     return all(lessThan(here, cellsHere));
 }
 
-// What the light sees through the middle of the sub-cell that lies so many beside the middle of the
+// What the light sees through the middle of the sub-cell that lies so many next to the middle of the
 // cell. x: object's index + 1, 0 where nothing is or the grid has ended; y: the triangle.
-uvec2 seenAt(ivec2 cell, ivec2 beside) {
-    ivec2 texel = (cell - ivec2(0, sightFirstRow)) * subcells + subcells / 2 + beside;
+uvec2 seenAt(ivec2 cell, ivec2 neighbourOffset) {
+    ivec2 texel = (cell - ivec2(0, sightFirstRow)) * subcells + subcells / 2 + neighbourOffset;
     ivec2 size = textureSize(sight, 0);
     bool isIn = all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, size));
     return isIn ? texelFetch(sight, texel, 0).xy : uvec2(0u);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The triangles that a light sees, and where its rays meet them.
-#include "include/scene_triangle.glsl"
+#include "include/surfaces/scene_triangle.glsl"
 
 layout(std430) readonly buffer Instances {
     InstanceData instances[];  // in the eye's view
@@ -40,13 +40,13 @@ vec3 weightsOnRay(vec3 corners[3], vec2 place, bool isParallel) {
     }
     // A triangle that lies in the light's direction is hit anywhere along it.
     float sum = weights.x + weights.y + weights.z;
-    float least = 1e-6 * (abs(weights.x) + abs(weights.y) + abs(weights.z));
-    return abs(sum) > least ? weights / sum : vec3(1.0 / 3.0);
+    float minimum = 1e-6 * (abs(weights.x) + abs(weights.y) + abs(weights.z));
+    return abs(sum) > minimum ? weights / sum : vec3(1.0 / 3.0);
 }
 
-// Where the light's ray hits the triangle. `place`: as in weightsOnRay. `least`: of its weights, less
+// Where the light's ray hits the triangle. `place`: as in weightsOnRay. `minimum`: of its weights, less
 // than 0 where the ray passes the triangle by.
-PointOnTriangle pointOnTriangle(uvec2 seen, vec2 place, bool isParallel, out float least) {
+PointOnTriangle pointOnTriangle(uvec2 seen, vec2 place, bool isParallel, out float minimum) {
     uint object = seen.x - 1u;
     vec3 positions[3];
     vec3 normals[3];
@@ -58,7 +58,7 @@ PointOnTriangle pointOnTriangle(uvec2 seen, vec2 place, bool isParallel, out flo
         ofLight[i] = (lightInstances[object].modelToView * vec4(corner.position, 1.0)).xyz;
     }
     vec3 weights = weightsOnRay(ofLight, place, isParallel);
-    least = min(weights.x, min(weights.y, weights.z));
+    minimum = min(weights.x, min(weights.y, weights.z));
     vec3 area = cross(positions[1] - positions[0], positions[2] - positions[0]);
     float size = length(area);
     return PointOnTriangle(
@@ -69,6 +69,6 @@ PointOnTriangle pointOnTriangle(uvec2 seen, vec2 place, bool isParallel, out flo
         mat2x3(normals[1] - normals[0], normals[2] - normals[0]));
 }
 PointOnTriangle pointOnTriangle(uvec2 seen, vec2 place, bool isParallel) {
-    float least;
-    return pointOnTriangle(seen, place, isParallel, least);
+    float minimum;
+    return pointOnTriangle(seen, place, isParallel, minimum);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Lights in the eye's view space; units as in LightData.
-#include "include/scene_images.glsl"
+#include "include/surfaces/scene_images.glsl"
 #include "framework/transport/types.h"
 
 layout(std430) readonly buffer Lights {
@@ -32,7 +32,7 @@ vec3 spotColor(LightData light, vec3 direction, float width) {
 }
 
 // Radiant intensity of a point or spot light towards the point, W/sr. The cone's edge is the smooth
-// falloff of scene/scene_file.h (KHR_lights_punctual's, squared); beyond the range there is none.
+// falloff of KHR_lights_punctual, squared, as scene files have it; beyond the range there is none.
 // `beamWidth`: at 1 m, over which a spot's image is averaged.
 vec3 lightIntensity(LightData light, vec3 positionVs, float beamWidth) {
     vec3 offset = positionVs - light.positionVs.xyz;

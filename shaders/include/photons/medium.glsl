@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The homogeneous medium that fills the scene, beside and inside of its dielectrics: what light
+// The homogeneous medium that fills the scene, next to and inside of its dielectrics: what light
 // loses on a path, and what is scattered. For photons it ends at the scene's bounding box; the
 // straight ray to the eye loses light to it all the way (the reference's light_tracing.h does the
 // same).
-#include "include/dielectrics.glsl"
-#include "include/transfer_map.glsl"
-#include "include/view.glsl"
+#include "include/surfaces/dielectrics.glsl"
+#include "include/photons/transfer_map.glsl"
+#include "include/views/view.glsl"
 
 // Of the scene's medium and of the innermost dielectric around a photon, 1/m.
 vec3 extinctionAround(uint media) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A compute thread a photon of the list that a pass makes: Command::dispatchOver(photons), which
 // knows already how many there will be.
-#include "include/store_photons.glsl"
+#include "include/photons/store_photons.glsl"
 
 layout(local_size_x = 64) in;  // kPhotonGroup
 

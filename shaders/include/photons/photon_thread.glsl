@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A compute thread a photon of a list: Command::dispatchOver(photons).
-#include "include/photons.glsl"
+#include "include/photons/photons.glsl"
 
 layout(local_size_x = 64) in;  // kPhotonGroup
 

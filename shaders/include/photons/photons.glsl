@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A list of photons to read, as Photons::sample binds it.
-#include "include/transfer_map.glsl"
+#include "include/photons/transfer_map.glsl"
 #include "framework/transport/photon_list.h"
 #ifdef PHOTON_BEAMS
-#include "include/beam.glsl"
+#include "include/photons/beam.glsl"
 #endif
 
 uniform sampler2D photonPosition;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Hits to write, as Hits::store binds them. HITS_WITHOUT_SHAPE: another shader of the pass adds that.
-#include "include/transfer_map.glsl"
+#include "include/photons/transfer_map.glsl"
 
 layout(rgba32f) writeonly uniform image2D hitPosition;
 layout(rgba32f) writeonly uniform image2D hitSurface;

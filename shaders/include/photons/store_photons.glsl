@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The next list of photons, to write, as Photons::store binds it under "next".
-#include "include/transfer_map.glsl"
+#include "include/photons/transfer_map.glsl"
 #include "framework/transport/photon_list.h"
 #ifdef PHOTON_BEAMS
-#include "include/beam.glsl"
+#include "include/photons/beam.glsl"
 #endif
 
 layout(rgba32f) writeonly uniform image2D nextPosition;

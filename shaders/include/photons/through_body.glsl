@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A photon through a body: where it has entered, the view of the body's back faces says where it
-// leaves (include/two_interfaces.glsl, W05). Whoever includes this includes the faces too.
-#include "include/interaction.glsl"
-#include "include/two_interfaces.glsl"
+// leaves (include/views/two_interfaces.glsl, W05). Whoever includes this includes the faces too.
+#include "include/photons/interaction.glsl"
+#include "include/views/two_interfaces.glsl"
 
 struct Passage {
     bool isOut;     // else it was totally reflected inside, and is in the ledger
@@ -10,7 +10,7 @@ struct Passage {
     vec3 within;    // its direction inside, unit, eye view space
     vec2 indices;   // of refraction, outside and inside
     vec3 exitNormal;  // outward, unit, eye view space
-    WayInside way;    // in the view; of length 0 at the very rim
+    InnerPath way;    // in the view; of length 0 at the very rim
 };
 
 // `before`: as it came to `hit`; `inside`: as it goes on from there. `alongView`: it came as the
@@ -22,14 +22,14 @@ Passage throughBody(Photon before, Hit hit, Photon inside, int steps, int distan
     vec3 onward = directionFromEye(inside.directionVs);
     vec3 normal = directionFromEye(hit.normalVs);
     ivec2 there = texelAt(entry);
-    float through = (backAt(there) + entry.z) * length(viewRay(pixelOf(entry)));
+    float through = (backDepthAt(there) + entry.z) * length(viewRay(pixelOf(entry)));
     vec2 indices = indicesAt(hit.material, before.media, true);
     Passage passage = Passage(true, inside, inside.directionVs, indices, vec3(0.0),
-                              WayInside(0.0, entry, -normal, there));
-    if (backAt(there) > 0.0 && through > 0.0) {
+                              InnerPath(0.0, entry, -normal, there));
+    if (backDepthAt(there) > 0.0 && through > 0.0) {
         if (!alongView && steps > 0 && distances == kEstimates)
             through = distanceInside(entry, along, through, steps);
-        passage.way = wayInside(entry, along, onward, normal, through, indices.y / indices.x, steps,
+        passage.way = innerPath(entry, along, onward, normal, through, indices.y / indices.x, steps,
                                 distances);
     } else {
         // At the very rim the back faces are another texel's: no thickness, it goes straight on.
@@ -77,9 +77,9 @@ vec3 shapeAtExit(Passage passage) {
 
 // The beam of a photon that has come through.
 Beam beamThrough(Beam beam, Photon before, Hit hit, Passage passage) {
-    beam = beamBeyond(beam, before.directionVs, hit.distanceMeters, hit.normalVs, hit.shape,
+    beam = propagatedBeam(beam, before.directionVs, hit.distanceMeters, hit.normalVs, hit.shape,
                       passage.within, passage.indices.x / passage.indices.y);
-    return beamBeyond(beam, passage.within, passage.way.length, passage.exitNormal,
+    return propagatedBeam(beam, passage.within, passage.way.length, passage.exitNormal,
                       shapeAtExit(passage), passage.photon.directionVs,
                       passage.indices.y / passage.indices.x);
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What tracers that search in order share: what makes of what was found a hit, with the normal and
 // the flux that arrives, or an entry in the ledger.
-#include "include/deliver.glsl"
-#include "include/exit_test.glsl"
+#include "include/photons/deliver.glsl"
+#include "include/views/exit_test.glsl"
 
 #ifdef PHOTON_BEAMS
 mat3 turningToEye(mat3 turning) {
@@ -24,7 +24,7 @@ Photon photonInView(Photon photon) {
 
 // The hit, or, where nothing was hit, the account of the reason.
 Hit deliver(Photon photon, FirstHit first) {
-    Hit hit = nothingHit();
+    Hit hit = emptyHit();
     if (!isNumber(photon)) {
         ledgerAdd(kAccountNotANumber, vec3(0.0));
         return hit;

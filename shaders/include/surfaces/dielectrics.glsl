@@ -2,7 +2,7 @@
 // The dielectrics around a photon or a ray of the eye, as materials (index + 1, 0 for vacuum): the
 // stack of framework/transport/media_stack.h with the scene's numbers. Of two that overlap, the one
 // entered last fills what they share; either may be left before the other, down to the fourth.
-#include "include/surface_data.glsl"
+#include "include/surfaces/surface_data.glsl"
 #include "framework/transport/media_stack.h"
 
 // Read before any loop: Mesa's software rasteriser keeps what it has loaded within one for after it,

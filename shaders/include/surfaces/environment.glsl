@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What comes from outside of the scene: the background radiance, times the environment's picture
 // where there is one (scene/environment.h has the same in double).
-#include "include/scene_images.glsl"
-#include "include/view.glsl"
+#include "include/surfaces/scene_images.glsl"
+#include "include/views/view.glsl"
 
 // Radiance that comes along a ray which hits nothing more, W/m²/sr. `directionVs`: unit, along the
 // ray, away from the eye.

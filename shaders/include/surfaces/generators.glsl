@@ -9,7 +9,7 @@ layout(std140) uniform Generators {
 int generatorOf(vec3 positionVs) {
     vec3 place = mat3(generators.eyeToWorld) * positionVs;
     int nearest = 0;
-    vec2 least = vec2(3.0e38);  // how far outside of the box, m; how far from its middle, in boxes
+    vec2 minimum = vec2(3.0e38);  // how far outside of the box, m; how far from its middle, in boxes
     for (int i = 0; i < int(generators.count.x); ++i) {
         vec3 offset = abs(place - generators.centers[i].xyz);
         vec3 halfExtent = generators.halfExtents[i].xyz;
@@ -18,8 +18,8 @@ int generatorOf(vec3 positionVs) {
         float slack = 1e-4 * (length(halfExtent) + length(positionVs));
         vec2 away = vec2(max(length(max(offset - halfExtent, 0.0)) - slack, 0.0),
                          max(shares.x, max(shares.y, shares.z)));
-        if (away.x > least.x || (away.x == least.x && away.y >= least.y)) continue;
-        least = away;
+        if (away.x > minimum.x || (away.x == minimum.x && away.y >= minimum.y)) continue;
+        minimum = away;
         nearest = i;
     }
     return nearest;

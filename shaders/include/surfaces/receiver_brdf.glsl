@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // How the receiver that a pixel sees reflects towards the eye.
 #include "framework/transport/brdf.h"
-#include "include/surface_data.glsl"
-#include "include/view.glsl"
+#include "include/surfaces/surface_data.glsl"
+#include "include/views/view.glsl"
 
 uniform sampler2D receiverAlbedo;
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // On which side of a specular surface light is, and by which normal it is bent (hard case 26).
-#include "include/dielectrics.glsl"
-#include "include/fresnel.glsl"
-#include "include/transfer_map.glsl"
+#include "include/surfaces/dielectrics.glsl"
+#include "include/surfaces/fresnel.glsl"
+#include "include/photons/transfer_map.glsl"
 
 // Whether light in `media` is inside of something that has an inside, other than water.
 bool isInsideClosed(uint media) {

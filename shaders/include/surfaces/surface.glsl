@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Surfaces as fragments see them: materials, patterns, and normals on the side they belong to.
-#include "include/scene_images.glsl"
-#include "include/surface_data.glsl"
+#include "include/surfaces/scene_images.glsl"
+#include "include/surfaces/surface_data.glsl"
 
 // How much of a step that repeats every 1 is above `edge`, averaged over a filter of width `w`.
 float filteredStep(float x, float edge, float w) {

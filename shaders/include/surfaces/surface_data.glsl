@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Materials for shaders that are no fragments (include/surface.glsl needs derivatives).
+// Materials for shaders that are no fragments (include/surfaces/surface.glsl needs derivatives).
 #include "framework/transport/types.h"
 
 layout(std430) readonly buffer Materials {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The farthest back faces of all bodies in one view (techniques/shared/back_faces.h), as the faces
-// that include/faces.glsl asks for.
-#include "include/faces.glsl"
+// The farthest back faces of all bodies in one view (techniques/raster_views/back_faces.h), as the faces
+// that include/views/faces.glsl asks for.
+#include "include/views/faces.glsl"
 
 uniform sampler2D backDepth;    // 0 none
 uniform sampler2D backSurface;  // outward normals; w: material + 1

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Whether a photon inside a closed dielectric has come out of it between two pixels, or into a body
 // that lies in it, although it crossed none of their planes: at a silhouette the surface bends away
-// within a pixel, and beside it there is no layer left to hit. Between the layers of one pixel
+// within a pixel, and next to it there is no layer left to hit. Between the layers of one pixel
 // inside and outside are known.
-#include "include/hit_test.glsl"
+#include "include/views/hit_test.glsl"
 
 // Whether a range of depths overlaps the inside of a dielectric at a pixel. Layers come front to
 // back; one that faces the eye opens the inside, one that faces away closes it. Unknown is inside:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the eye sees through bodies in image space: what its ray meets first, and what it sees
 // beyond them. How it goes through them says whoever includes this: goThroughBodies.
-#include "include/scene_look.glsl"
+#include "include/views/scene_look.glsl"
 
 layout(location = 0) out vec4 radiance;
 layout(location = 1) out vec4 exitPosition;
@@ -37,13 +37,13 @@ void lookThroughInterfaces(ivec2 pixel, vec3 viewing, float depth, vec4 surface)
     EyePath through =
         EyePath(entry, isTotal ? first.reflected : first.refracted,
                 vec3(isTotal ? 1.0 : 1.0 - first.reflectance) * reached, enters != isTotal, 1.0,
-                kPathCameOut);
+                kPathExited);
     if (enters) goThroughBodies(through, pixel, viewing, depth, surface);
     uint medium = through.isInMedium && isOpen(material - 1u) ? material : 0u;
     float ratio = mediumIndex(mediumAtEye) / mediumIndex(through.isInMedium ? material : 0u);
     MirrorPath path = MirrorPath(through.origin, through.direction, vec3(1.0), 0u, 0);
     SceneHit seen = lookThrough(path.origin, path.direction, 0u);
-    if (followMirrors(path, seen, medium)) through.ending = kPathMirroredTooOften;
+    if (followMirrors(path, seen, medium)) through.ending = kPathMirrorLimit;
     exitPosition = vec4(path.origin, through.interfaces + float(path.mirrors));
     exitDirection = vec4(path.direction, through.ending);
 

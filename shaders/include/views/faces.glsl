@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Fronts and backs of bodies in some view, whichever buffers they are in: whoever includes this
-// defines faceDepth and faceNormal (include/back_faces.glsl, where there are backs alone).
-#include "include/view.glsl"
+// defines faceDepth and faceNormal (include/views/back_faces.glsl, where there are backs alone).
+#include "include/views/view.glsl"
 
 const int kFrontFace = 0;  // the nearest
 const int kBackFace = 1;   // the farthest

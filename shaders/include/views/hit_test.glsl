@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Whether a step of a photon's ray hits a surface of the layered depth. All tracers ask here.
-#include "include/octahedral.glsl"
-#include "include/ray_segment.glsl"
-#include "include/specular.glsl"
+#include "include/views/octahedral.glsl"
+#include "include/views/ray_segment.glsl"
+#include "include/surfaces/specular.glsl"
 
 uniform sampler2DArray layerDepths;
 uniform sampler2DArray layerSurfaces;
@@ -51,7 +51,7 @@ bool isAround(TracedRay ray, uint medium) {
 // left a body of the same glass within that is told by the distance, too.
 // `normal`: the triangle's, outward; `height`: the ray's origin above its plane, m.
 bool isFacing(TracedRay ray, uint material, vec3 normal, float height, float resolved) {
-    if (leftSide(ray.media) == kLeftForAll) return abs(height) > resolved;
+    if (leftSide(ray.media) == kLeftBothSides) return abs(height) > resolved;
     uint kind = materialKind(material - 1u);
     if (isReceiver(kind)) return true;
     bool leaves = dot(ray.direction, normal) > 0.0;
@@ -125,7 +125,7 @@ float crossLayer(TracedRay ray, RayStep at, LayerSurface surface) {
         depth - surface.margin > max(at.zBegin, at.zEnd)) {
         return 0.0;
     }
-    // … and the ray must cross the triangle's plane within this step, or half a step beside it: two
+    // … and the ray must cross the triangle's plane within this step, or half a step next to it: two
     // neighbours' planes may leave a gap between them.
     float closing = dot(surface.normal, ray.direction);
     if (abs(closing) < 1e-6) return 0.0;
@@ -198,7 +198,7 @@ LayerHit testStep(RaySegment segment, TracedRay ray, int i, int n) {
 const float kSmoothReach = 32.0;
 const float kNearReach = 4.0;
 // Directions along which the samples lie nearer together than this say little of a slope, px.
-const float kLeastSpread = 0.17;
+const float kMinSpread = 0.17;
 
 // A smooth surface around a point of it, from what the pixels around show of it: its normal is
 // taken to change evenly with the position, as on a sphere it does exactly. Where a silhouette
@@ -219,7 +219,7 @@ SmoothSurface smoothSurfaceAt(vec3 pointVs, vec4 surface, LayerSurface layerHit)
     float footprint = pixelFootprint(layerHit.depth);
     float reach = 2.0 * extent + kSmoothReach * footprint;
     float near = kNearReach * footprint;
-    float least = kLeastSpread * footprint;
+    float minimum = kMinSpread * footprint;
     // Weighted sums over the samples, positions from the point: the mean of position and normal,
     // and of their products.
     float weights = 0.0;
@@ -273,7 +273,7 @@ SmoothSurface smoothSurfaceAt(vec3 pointVs, vec4 surface, LayerSurface layerHit)
     meanHeight /= weights;
     spread = spread / weights - outerProduct(meanPosition, meanPosition);
     turned = turned / weights - outerProduct(meanNormal, meanPosition);
-    result.turning = turned * inverse(spread + mat3(least * least));
+    result.turning = turned * inverse(spread + mat3(minimum * minimum));
     vec3 normal = meanNormal - result.turning * meanPosition;
     float size = length(normal);
     if (size < 1e-3) return result;
@@ -286,7 +286,7 @@ SmoothSurface smoothSurfaceAt(vec3 pointVs, vec4 surface, LayerSurface layerHit)
     evenTurned = evenTurned / evenWeights - outerProduct(evenNormal / evenWeights, evenPosition);
     // What keeps the inverse finite is taken back where the samples tell (iterated Tikhonov
     // regularisation): a tenth is lost without, a ten-thousandth so.
-    mat3 solve = inverse(evenSpread + mat3(least * least));
+    mat3 solve = inverse(evenSpread + mat3(minimum * minimum));
     for (int i = 0; i < 4; ++i)
         result.curving += (evenTurned - result.curving * evenSpread) * solve;
 #endif

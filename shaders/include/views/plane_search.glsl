@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Where a ray meets what a view shows, by iteration in its depths (WD08, section 3; SP05) and by
 // even steps. Of which surfaces these are says whoever includes this: planeAt.
-#include "include/ray_segment.glsl"
+#include "include/views/ray_segment.glsl"
 
 // What the view shows in a direction, as the plane of a texel.
 struct SeenPlane {
@@ -29,13 +29,13 @@ ivec2 clampedTexel(vec3 positionVs) {
 float inFront(SeenPlane plane, vec3 positionVs) {
     vec3 ray = viewDirection(positionVs);
     float facing = dot(plane.normal, ray);
-    // Seen edge-on a plane says nothing of the pixels beside it.
+    // Seen edge-on a plane says nothing of the pixels next to it.
     if (abs(facing) < 1e-3 * length(ray)) return plane.depth + positionVs.z;
     return dot(plane.normal, plane.middle - positionVs) / facing * -ray.z;
 }
 
 // How far off a texel's plane a hit may lie: what its surface may differ by within the texel.
-float residualAllowed(SeenPlane plane) {
+float residualTolerance(SeenPlane plane) {
     return depthMargin(viewRay(vec2(plane.texel) + 0.5), plane.depth, plane.normal);
 }
 
@@ -50,7 +50,7 @@ bool isOn(vec3 origin, vec3 direction, float t, out SeenPlane plane) {
     vec3 there = origin + t * direction;
     plane = planeAt(clampedTexel(there));
     if (!plane.exists) return false;
-    return abs(inFront(plane, there)) <= residualAllowed(plane);
+    return abs(inFront(plane, there)) <= residualTolerance(plane);
 }
 
 // Where the ray meets the plane of what is seen at `t`; SP05 goes as far as that surface is away

@@ -3,7 +3,7 @@
 // anything is divided, to the part that is inside the scene's bounds, beyond the near plane and on
 // the screen; then projected. Along it 1/z interpolates linearly in screen space, by index; depth
 // itself where the view's rays are parallel.
-#include "include/view.glsl"
+#include "include/views/view.glsl"
 
 struct RaySegment {
     bool visible;      // some part is on the screen

@@ -4,12 +4,12 @@
 // "This is an approximation that can only simulate the refraction of [...] objects that are visible
 // to the viewer in the absence of the water surface". LOOK_IN_LAYERS: surfaces are looked for in
 // the layered depth of the scene, as in the paper; one that the image does not show is lit here.
-#include "include/hit_test.glsl"
-#include "include/view_sample.glsl"
-#include "include/environment.glsl"
+#include "include/views/hit_test.glsl"
+#include "include/views/view_sample.glsl"
+#include "include/surfaces/environment.glsl"
 #include "framework/transport/brdf.h"
 #if defined(LOOK_IN_LAYERS) || defined(GLOSSY_RECEIVERS)
-#include "include/lights.glsl"
+#include "include/photons/lights.glsl"
 
 uniform int lightCount;
 #endif
@@ -22,9 +22,9 @@ uniform int sceneLayers;
 uniform sampler2DArray directVisibility;
 #endif
 
-uniform int looksIntoScene;  // else only at the environment
+uniform int searchesScene;  // else only at the environment
 uniform int reflectsScene;   // the same for reflections at the first interface
-uniform int lookStride;      // px
+uniform int searchStride;      // px
 uniform int lookMirrors;     // most mirrors that a ray hits one after the other
 struct SceneHit {
     uint material;  // index + 1 of a receiver or a mirror; 0: nothing is found
@@ -36,17 +36,17 @@ struct SceneHit {
     vec3 radiance;    // of a receiver
 };
 
-SceneHit nothingThere() {
+SceneHit noSceneHit() {
     return SceneHit(0u, false, true, 0.0, ivec2(-1), vec3(0.0), vec3(0.0));
 }
 
 // What the ray passes last, where the screen shows nothing of what it hits.
-SceneHit nothingFound(vec3 origin, vec3 direction, bool isOpen) {
+SceneHit emptySceneHit(vec3 origin, vec3 direction, bool isOpen) {
     float low = 0.0;
     float high = 3.0e38;
     cutToBox(origin, direction, view.boundsCenterVs.xyz, view.boundsHalfExtent.xyz, low, high);
     cutToNearPlane(origin, direction, low, high);
-    SceneHit none = nothingThere();
+    SceneHit none = noSceneHit();
     none.isOpen = isOpen;
     if (high < low) return none;
     none.t = high;
@@ -81,7 +81,7 @@ vec3 radianceAround(vec3 hitVs, ivec2 texel, vec3 normal) {
 // What a glossy receiver sends back along a ray instead of to the eye, of the direct light that the
 // image has there, W/m²/sr; the caustic's part stays as the eye sees it. `shaded`: unit, the
 // receiver's outward normal.
-vec3 lobeInsteadOfEyes(vec3 hitVs, vec3 direction, ivec2 texel, vec3 shaded, uint material) {
+vec3 lobeRadiance(vec3 hitVs, vec3 direction, ivec2 texel, vec3 shaded, uint material) {
     vec4 lobe = materials[material - 1u].specular;
     vec3 difference = vec3(0.0);
     if (lobe.rgb == vec3(0.0)) return difference;
@@ -103,7 +103,7 @@ vec3 lobeInsteadOfEyes(vec3 hitVs, vec3 direction, ivec2 texel, vec3 shaded, uin
 vec3 radianceOfSeen(vec3 hitVs, vec3 direction, ivec2 texel, LayerSurface surface, vec3 shaded) {
     vec3 radiance = radianceAround(hitVs, texel, surface.normal);
 #ifdef GLOSSY_RECEIVERS
-    radiance += lobeInsteadOfEyes(hitVs, direction, texel, shaded, surface.material);
+    radiance += lobeRadiance(hitVs, direction, texel, shaded, surface.material);
 #endif
     return max(radiance, vec3(0.0));
 }
@@ -141,25 +141,25 @@ const int kBefore = 0;
 const int kAround = 1;  // so near that the pixel's depth in its middle does not tell
 const int kBehind = 2;
 
-// The first receiver or mirror that the eye sees. `lookStride` pixels are looked at together: where
+// The first receiver or mirror that the eye sees. `searchStride` pixels are looked at together: where
 // the ray comes from in front of the surfaces to beyond them, or is near one, all pixels between
 // are asked, and the last ones, since the ray ends just behind the scene's last surface.
 SceneHit searchScene(TracedRay ray) {
     RaySegment segment = clipRay(ray.origin, ray.direction);
-    if (!segment.visible) return nothingFound(ray.origin, ray.direction, false);
+    if (!segment.visible) return emptySceneHit(ray.origin, ray.direction, false);
     int n = stepCount(segment, 4, 16384);
     int before = kBefore;
-    for (int look = 0; look < n; look += lookStride) {
-        int last = min(look + lookStride, n) - 1;
+    for (int look = 0; look < n; look += searchStride) {
+        int last = min(look + searchStride, n) - 1;
         LayerSurface there = seenAt(texelOfStep(segment, last, n));
         float beyond = depthAtIndex(segment, float(last) + 1.0, float(n)) - there.depth;
         int place = there.depth <= 0.0 || beyond < -there.margin ? kBefore
                     : beyond > there.margin                      ? kBehind
                                                                  : kAround;
-        bool isAsked = before == kAround || place == kAround || last == n - 1 ||
+        bool isQueried = before == kAround || place == kAround || last == n - 1 ||
                        (before == kBefore && place == kBehind);
         before = place;
-        for (int i = isAsked ? look : last + 1; i <= last; ++i) {
+        for (int i = isQueried ? look : last + 1; i <= last; ++i) {
             RayStep at = rayStep(segment, i, n);
             LayerSurface surface = seenAt(at.texel);
             if (surface.depth <= 0.0) continue;
@@ -175,7 +175,7 @@ SceneHit searchScene(TracedRay ray) {
                             radianceOfSeen(hitVs, ray.direction, at.texel, surface, surface.normal));
         }
     }
-    return nothingFound(ray.origin, ray.direction,
+    return emptySceneHit(ray.origin, ray.direction,
                         before != kBehind && segment.cause == kAccountUnresolved);
 }
 #else
@@ -192,9 +192,9 @@ struct SceneLayerHit {
     int layer;
 };
 
-// The first surface of all layers; `asksDielectrics`: of those too. A hit may lie half a step
+// The first surface of all layers; `includesDielectrics`: of those too. A hit may lie half a step
 // beyond its own, and the next step know a nearer one: it is asked too.
-SceneLayerHit searchSceneLayers(TracedRay ray, RaySegment segment, bool asksDielectrics) {
+SceneLayerHit searchSceneLayers(TracedRay ray, RaySegment segment, bool includesDielectrics) {
     SceneLayerHit best = SceneLayerHit(0.0, ivec2(0), -1);
     int n = stepCount(segment, 4, 16384);
     int end = n;
@@ -203,7 +203,7 @@ SceneLayerHit searchSceneLayers(TracedRay ray, RaySegment segment, bool asksDiel
         for (int layer = 0; layer < sceneLayers; ++layer) {
             LayerSurface surface = sceneLayerAt(at.texel, layer);
             if (surface.depth <= 0.0) break;
-            if (!asksDielectrics && materialKind(surface.material - 1u) == kMaterialDielectric)
+            if (!includesDielectrics && materialKind(surface.material - 1u) == kMaterialDielectric)
                 continue;
             float t = crossLayer(ray, at, surface);
             if (t <= 0.0 || (best.layer >= 0 && t >= best.t)) continue;
@@ -238,7 +238,7 @@ vec3 radianceOfHidden(vec3 hitVs, vec3 direction, vec3 normal, uint material) {
         vec3 toLight = -lightDirection(light, hitVs);
         float cosine = dot(normal, toLight);
         if (cosine <= 0.0) continue;
-        TracedRay ray = tracedRay(hitVs, toLight, withLeftSide(0u, kLeftForAll));
+        TracedRay ray = tracedRay(hitVs, toLight, withLeftSide(0u, kLeftBothSides));
         RaySegment segment = clipRay(ray.origin, ray.direction);
         if (segment.visible) {
             SceneLayerHit blocker = searchSceneLayers(ray, segment, true);
@@ -255,10 +255,10 @@ vec3 radianceOfHidden(vec3 hitVs, vec3 direction, vec3 normal, uint material) {
 
 SceneHit searchScene(TracedRay ray) {
     RaySegment segment = clipRay(ray.origin, ray.direction);
-    if (!segment.visible) return nothingFound(ray.origin, ray.direction, false);
+    if (!segment.visible) return emptySceneHit(ray.origin, ray.direction, false);
     SceneLayerHit hit = searchSceneLayers(ray, segment, false);
     if (hit.layer < 0) {
-        return nothingFound(ray.origin, ray.direction, segment.cause == kAccountUnresolved);
+        return emptySceneHit(ray.origin, ray.direction, segment.cause == kAccountUnresolved);
     }
     LayerSurface surface = sceneLayerAt(hit.texel, hit.layer);
     vec4 shaded = texelFetch(sceneSurfaces, ivec3(hit.texel, hit.layer), 0);
@@ -283,8 +283,8 @@ SceneHit searchScene(TracedRay ray) {
 
 // What the ray that goes on sees; `media` as for a photon.
 SceneHit lookThrough(vec3 origin, vec3 direction, uint media) {
-    return looksIntoScene != 0 ? searchScene(tracedRay(origin, direction, media))
-                               : nothingThere();
+    return searchesScene != 0 ? searchScene(tracedRay(origin, direction, media))
+                               : noSceneHit();
 }
 
 // A ray at mirrors.
@@ -302,7 +302,7 @@ void reflectAt(inout MirrorPath path, vec3 positionVs, vec3 normal, uint materia
     path.origin = positionVs;
     path.direction = normalize(reflect(path.direction, normal));
     path.share *= materials[material - 1u].albedo.rgb;
-    uint left = isOpen(material - 1u) ? (enters ? kLeftOutside : kLeftInside) : kLeftNothing;
+    uint left = isOpen(material - 1u) ? (enters ? kLeftOutside : kLeftInside) : kLeftNone;
     path.media = withLeftSide(path.media, left);
     ++path.mirrors;
 }
@@ -312,7 +312,7 @@ void reflectAt(inout MirrorPath path, vec3 positionVs, vec3 normal, uint materia
 bool followMirrors(inout MirrorPath path, inout SceneHit seen, uint medium) {
     while (seen.material != 0u && seen.isMirror) {
         if (path.mirrors >= lookMirrors) {
-            seen = nothingThere();
+            seen = noSceneHit();
             return true;
         }
         path.share *= mediumTransmittance(medium, seen.t);
@@ -323,7 +323,7 @@ bool followMirrors(inout MirrorPath path, inout SceneHit seen, uint medium) {
 }
 
 // Mean radiance of one material's receivers around a pixel: what its pattern does there says
-// nothing of a place beside the screen. False: the pixel has none.
+// nothing of a place next to the screen. False: the pixel has none.
 bool meanRadianceAround(ivec2 pixel, out vec3 mean) {
     const int kReach = 3;
     const int kStep = 5;  // px
@@ -366,7 +366,7 @@ vec3 radianceAlong(vec3 origin, vec3 direction, uint medium, SceneHit seen, ivec
 // Radiance of the reflection at the first interface, of a ray in `medium`.
 vec3 radianceReflected(vec3 origin, vec3 direction, uint medium, uint media, ivec2 pixel) {
     if (reflectsScene == 0) {
-        return radianceAlong(origin, direction, medium, nothingThere(), pixel);
+        return radianceAlong(origin, direction, medium, noSceneHit(), pixel);
     }
     MirrorPath path = MirrorPath(origin, direction, vec3(1.0), media, 0);
     SceneHit seen = lookThrough(origin, direction, media);
@@ -385,10 +385,10 @@ MirrorView lookIntoMirror(ivec2 pixel, vec3 viewing) {
     MirrorPath path = MirrorPath(vec3(0.0), normalize(viewing), vec3(1.0), 0u, 0);
     reflectAt(path, viewing * firstDepth(pixel), surface.xyz, uint(surface.w));
     SceneHit seen = reflectsScene != 0 ? lookThrough(path.origin, path.direction, path.media)
-                                       : nothingThere();
+                                       : noSceneHit();
     bool isCut = followMirrors(path, seen, 0u);
     return MirrorView(
         path.share * radianceAlong(path.origin, path.direction, 0u, seen, pixel),
         vec4(path.origin, float(path.mirrors)),
-        vec4(path.direction, isCut ? kPathMirroredTooOften : kPathCameOut));
+        vec4(path.direction, isCut ? kPathMirrorLimit : kPathExited));
 }

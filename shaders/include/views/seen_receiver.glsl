@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a view's pixels see of the surface that light arrives on, and to which accounts goes what
 // they do not: for every reconstruction that stores light where it is seen.
-#include "include/view.glsl"
+#include "include/views/view.glsl"
 
 // View depth, negative of a mirror, and area of the surface that each pixel sees.
 #ifdef MANY_VIEWS
@@ -29,17 +29,17 @@ vec4 receiverSurfaceAt(ivec2 pixel) {
 
 #ifdef OTHER_VIEW
 const uint kAccountHidden = kAccountHiddenInMap;
-const uint kAccountBeside = kAccountOutsideMap;
+const uint kAccountOutside = kAccountOutsideMap;
 const uint kAccountBehind = kAccountOutsideMap;
 #else
 const uint kAccountHidden = kAccountOccludedSplat;
-const uint kAccountBeside = kAccountOffScreen;
+const uint kAccountOutside = kAccountOffScreen;
 const uint kAccountBehind = kAccountBehindEye;
 #endif
 
 const int kSeenOn = 0;         // the pixel sees the surface
 const int kSeenOccluded = 1;   // something nearer is in front of it
-const int kSeenBeside = 2;     // the surface has ended before
+const int kSeenOutside = 2;     // the surface has ended before
 const int kSeenOffScreen = 3;
 
 // `depth`: where the surface would be at the pixel, m; `normal`: its own; `tolerance`: by which what
@@ -48,10 +48,10 @@ int seenAt(ivec2 pixel, float depth, vec3 normal, float tolerance, inout float a
     vec2 seen = receiverAt(pixel);
     bool isMirror = seen.x < 0.0;
     float seenDepth = abs(seen.x);
-    if (seenDepth == 0.0) return kSeenBeside;
+    if (seenDepth == 0.0) return kSeenOutside;
     if (seenDepth < depth - tolerance) return kSeenOccluded;
-    if (isMirror || seenDepth > depth + tolerance) return kSeenBeside;
-    if (dot(receiverSurfaceAt(pixel).xyz, normal) <= 0.0) return kSeenBeside;
+    if (isMirror || seenDepth > depth + tolerance) return kSeenOutside;
+    if (dot(receiverSurfaceAt(pixel).xyz, normal) <= 0.0) return kSeenOutside;
     area = seen.y;
     return kSeenOn;
 }

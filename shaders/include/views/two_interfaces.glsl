@@ -4,11 +4,11 @@
 // inverse normal, d_N. The weight of d_V is the ratio of the angles of refraction and incidence:
 // right for an index of 1, where the ray goes straight on, and for one without limit, where it
 // follows the normal. For any view from which rays come: the eye's, or a light's for its photons.
-// Of which buffers the faces are says whoever includes this (include/faces.glsl).
-#include "include/faces.glsl"
+// Of which buffers the faces are says whoever includes this (include/views/faces.glsl).
+#include "include/views/faces.glsl"
 
 // Depth of the back faces, 0 where there are none.
-float backAt(ivec2 texel) { return depthOfFace(texel, kBackFace); }
+float backDepthAt(ivec2 texel) { return depthOfFace(texel, kBackFace); }
 
 // From a point of the front along `direction`, unit, to the back faces, m: a point on that way is
 // inside as long as these lie beyond it. In steps that grow, from a quarter of what the view's ray
@@ -20,7 +20,7 @@ float distanceInside(vec3 entry, vec3 direction, float through, int steps) {
     bool isOut = false;
     for (int i = 0; i < steps; ++i) {
         vec3 p = entry + direction * (inside + step);
-        float back = backAt(texelAt(p));
+        float back = backDepthAt(texelAt(p));
         isOut = back <= 0.0 || -p.z > back;
         if (isOut) break;
         inside += step;
@@ -32,7 +32,7 @@ float distanceInside(vec3 entry, vec3 direction, float through, int steps) {
     for (int i = 0; i < 8; ++i) {
         float middle = 0.5 * (inside + outside);
         vec3 p = entry + direction * middle;
-        float back = backAt(texelAt(p));
+        float back = backDepthAt(texelAt(p));
         if (back <= 0.0 || -p.z > back) {
             outside = middle;
         } else {
@@ -42,7 +42,7 @@ float distanceInside(vec3 entry, vec3 direction, float through, int steps) {
     return 0.5 * (inside + outside);
 }
 
-struct WayInside {
+struct InnerPath {
     float length;  // m
     vec3 exit;
     vec3 normal;   // of the back faces there, outward, unit
@@ -56,7 +56,7 @@ const int kSearch = 1;     // along the ray itself, as if the back faces were al
 // `entry`: where the ray has met the front; `along`: unit, in which it came; `onward`: unit, in
 // which it goes on; `normal`: outward, unit; `through`: from the front to the back faces along the
 // view's ray, m, more than 0; `index`: of the body, by that around; `steps`: 0 for d_V alone.
-WayInside wayInside(vec3 entry, vec3 along, vec3 onward, vec3 normal, float through, float index,
+InnerPath innerPath(vec3 entry, vec3 along, vec3 onward, vec3 normal, float through, float index,
                     int steps, int distances) {
     float inside = through;
     if (distances == kSearch) {
@@ -72,7 +72,7 @@ WayInside wayInside(vec3 entry, vec3 along, vec3 onward, vec3 normal, float thro
     // Beside the silhouette: the last pixel on the way there that has back faces.
     ivec2 there = texelAt(exit);
     const int kTries = 8;
-    for (int i = 1; i <= kTries && backAt(there) <= 0.0; ++i)
+    for (int i = 1; i <= kTries && backDepthAt(there) <= 0.0; ++i)
         there = texelAt(mix(exit, entry, float(i) / float(kTries)));
-    return WayInside(inside, exit, normalAround(exit, there, kBackFace), there);
+    return InnerPath(inside, exit, normalAround(exit, there, kBackFace), there);
 }

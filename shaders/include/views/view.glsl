@@ -8,7 +8,7 @@
 
 #ifdef MANY_VIEWS
 layout(std140) uniform View {
-    ViewData views[kMostViews];
+    ViewData views[kMaxViews];
 };
 uniform int viewCount;
 int viewIndex = 0;
@@ -129,11 +129,11 @@ float pixelDepthExtent(vec3 ray, float depth, vec3 normalVs) {
 // the silhouette of something thin, which ends within the pixel: without a bound rays hit its
 // plane far in front of it and beyond (cornell-bunny: 99.0 % of the photons right without, 99.4 %
 // with 8, 98.8 % with 3).
-const float kSteepestSlope = 8.0;
+const float kMaxSlope = 8.0;
 float depthMargin(vec3 ray, float depth, vec3 normalVs) {
     float footprint = pixelFootprint(depth);
     float extent = pixelDepthExtent(ray, depth, normalVs);
-    return footprint + min(extent, 0.5 * kSteepestSlope * footprint);
+    return footprint + min(extent, 0.5 * kMaxSlope * footprint);
 }
 
 // The area that a pixel sees of a plane with unit normal `normalVs` at this depth: exact for a

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // What a ray of the eye meets first, and what it sees where that is not specular.
-#include "include/first_surface.glsl"
-#include "include/octahedral.glsl"
-#include "include/view.glsl"
+#include "include/views/first_surface.glsl"
+#include "include/views/octahedral.glsl"
+#include "include/views/view.glsl"
 
 // What the eye's ray sees that meets no specular surface: the receiver at the pixel's middle, unless
 // the ray's is a nearer or a farther one, at an edge within the pixel; then that of the pixels
-// beside which is nearest to it in depth.
+// next to which is nearest to it in depth.
 vec4 radianceStraight(ivec2 pixel) {
 #ifdef BESIDE_MIDDLE
     float depth = max(-texelFetch(sight, pixel, 0).x, 0.0);

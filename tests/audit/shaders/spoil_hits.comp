@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Moves hits sideways by a number of pixels, or drops them.
-#include "include/transfer_map.glsl"
-#include "include/view.glsl"
+#include "include/photons/transfer_map.glsl"
+#include "include/views/view.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 

@@ -33,7 +33,8 @@ class GlDebug : public testing::Test {
   protected:
     GlDebug() {
         ::setenv("KAUSTIK_GL_DEBUG", "0", 1);
-        registry_.node<ReconstructStage>("wrong", {"An error.", "a test"}, &enableNothing);
+        registry_.node<ReconstructStage>("wrong", {"An error.", "a test", "For this test."},
+                                         &enableNothing);
         registry_.technique({"wrong", "An error.", "a test", {{"reconstruct", "wrong"}}, {}});
     }
     [[nodiscard]] std::string errorOf(std::vector<const char*> more) const {

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT
-// The README's example technique, compiled and run as it stands there: from outside framework/ and
-// techniques/, with shaders of its own. It is listed, takes --set, runs and is timed like the
-// others, and what it deposits is right.
+// The example technique of CONTRIBUTING.md, compiled and run as it stands there: from outside
+// framework/ and techniques/, with shaders of its own. It is listed, takes --set, runs and is timed
+// like the others, and what it deposits is right.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "example/techniques/points.cpp"
+#include "example/techniques/reconstruct/points.cpp"
 #include "framework/core/files.h"
 #include "framework/numerics/frame.h"
 #include "framework/scene/files/scene_file.h"
-#include "readme_example/techniques/my_family/points.cpp"
 #include "techniques/register_all.h"
 #include "tests/gpu/app/command_line.h"
 #include "tests/gpu/fixture.h"
@@ -22,13 +23,17 @@ namespace {
 
 Registry registryWithPoints() {
     Registry registry = registerAll();
-#include "readme_example/techniques/register_all.cpp"
+#define NODE(name) register##name(registry);
+#define TECHNIQUE(name) register##name(registry);
+#include "example/techniques/registered.inc"
+#undef NODE
+#undef TECHNIQUE
     return registry;
 }
 
 class OwnTechnique : public testing::Test {
   protected:
-    OwnTechnique() { ::setenv("KAUSTIK_SHADERS", KAUSTIK_README_EXAMPLE "/shaders", 1); }
+    OwnTechnique() { ::setenv("KAUSTIK_SHADERS", KAUSTIK_EXAMPLE "/shaders", 1); }
     ~OwnTechnique() override { ::unsetenv("KAUSTIK_SHADERS"); }
     [[nodiscard]] CommandResult command(const std::vector<const char*>& arguments) const {
         return runCommandLine(registry, arguments);

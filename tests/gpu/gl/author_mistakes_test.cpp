@@ -61,7 +61,7 @@ void expectNamed(const Execute& execute, const std::string& resource, const std:
 }
 
 gl::Command flatCommand(gl::PassContext& pass) {
-    return pass.fullscreen("shared/display.frag");
+    return pass.fullscreen("compose/picture_display.frag");
 }
 
 TEST(AuthorMistakes, WhatIsDeclaredIsNoError) {
@@ -110,7 +110,7 @@ TEST(AuthorMistakes, ADrawToNothingNamesPassAndShader) {
         [](const Resources& made, const Resources&, gl::PassContext& pass) {
             flatCommand(pass).texture("radiance", made.image).draw();
         },
-        "shared/display.frag", "target() or depth() is missing");
+        "compose/picture_display.frag", "target() or depth() is missing");
     expectNamed([](const Resources&, const Resources&,
                    gl::PassContext& pass) { flatCommand(pass).clear(); },
                 "", "target() or depth() comes first");
@@ -157,7 +157,9 @@ TEST(AuthorMistakes, ANodeOrATechniqueThatIsRegisteredTwiceIsNamed) {
         }
         return "no error";
     };
-    const auto addNode = [&] { registry.node<TraceStage>("mine", {"None.", "a test"}, &noHits); };
+    const auto addNode = [&] {
+        registry.node<TraceStage>("mine", {"None.", "a test", "For this test."}, &noHits);
+    };
     const auto addTechnique = [&] { registry.technique({"mine", "None.", "a test", {}, {}}); };
     EXPECT_EQ(errorOfRegistering(addNode), "no error");
     EXPECT_EQ(errorOfRegistering(addNode), "The node 'trace.mine' is registered twice.");

@@ -33,7 +33,7 @@ GivenDevices givenBy(const std::string& text) {
     });
 }
 
-const GivenDevices kNothingSaid;
+const GivenDevices kUnspecified;
 
 std::vector<int> indices(const std::vector<EglDevice>& devices) {
     std::vector<int> numbers;
@@ -52,64 +52,65 @@ std::string refusal(const std::function<void()>& call) {
 }
 
 TEST(GivenDevices, AreReadAsCudaReadsThem) {
-    EXPECT_FALSE(givenDevices([](const char*) { return nullptr; }).saysSo());
+    EXPECT_FALSE(givenDevices([](const char*) { return nullptr; }).isExplicit());
     EXPECT_EQ(givenBy("2, 0").entries, (std::vector<std::string>{"2", "0"}));
     EXPECT_EQ(givenBy("GPU-bbbb,1").entries, (std::vector<std::string>{"GPU-bbbb", "1"}));
     EXPECT_EQ(givenBy("1,-1,0").entries, (std::vector<std::string>{"1"}));
-    EXPECT_TRUE(givenBy("").saysSo());
+    EXPECT_TRUE(givenBy("").isExplicit());
     EXPECT_TRUE(givenBy("").entries.empty());
     EXPECT_TRUE(givenBy("NoDevFiles").entries.empty());
 }
 
 TEST(DeviceChoice, TakesAGraphicsProcessorBeforeWhatStandsInForOne) {
-    EXPECT_EQ(indices(inOrderOfChoice(machine(), kNothingSaid)), (std::vector<int>{0, 1, -1, 2}));
-    EXPECT_EQ(indices(inOrderOfChoice({}, kNothingSaid)), (std::vector<int>{-1}));
+    EXPECT_EQ(indices(inPreferenceOrder(machine(), kUnspecified)), (std::vector<int>{0, 1, -1, 2}));
+    EXPECT_EQ(indices(inPreferenceOrder({}, kUnspecified)), (std::vector<int>{-1}));
 }
 
 TEST(DeviceChoice, TakesWhatTheJobWasGiven) {
-    EXPECT_EQ(indices(inOrderOfChoice(machine(), givenBy("0"))), (std::vector<int>{1, -1, 2}));
-    EXPECT_EQ(indices(inOrderOfChoice(machine(), givenBy("1"))), (std::vector<int>{0, -1, 2}));
-    EXPECT_EQ(indices(inOrderOfChoice(machine(), givenBy("GPU-BBBB"))),
+    EXPECT_EQ(indices(inPreferenceOrder(machine(), givenBy("0"))), (std::vector<int>{1, -1, 2}));
+    EXPECT_EQ(indices(inPreferenceOrder(machine(), givenBy("1"))), (std::vector<int>{0, -1, 2}));
+    EXPECT_EQ(indices(inPreferenceOrder(machine(), givenBy("GPU-BBBB"))),
               (std::vector<int>{1, -1, 2}));
     // None at all: the processor.
-    EXPECT_EQ(indices(inOrderOfChoice(machine(), givenBy("-1"))), (std::vector<int>{-1, 2}));
+    EXPECT_EQ(indices(inPreferenceOrder(machine(), givenBy("-1"))), (std::vector<int>{-1, 2}));
 }
 
 TEST(DeviceChoice, KeepsDevicesOfWhichNobodyCanTell) {
     EglDevice other;  // of a vendor that CUDA does not count
     other.index = 0;
-    EXPECT_EQ(indices(inOrderOfChoice({other}, givenBy("0"))), (std::vector<int>{0, -1}));
-    EXPECT_EQ(indices(inOrderOfChoice({other, machine()[1]}, givenBy("0"))),
+    EXPECT_EQ(indices(inPreferenceOrder({other}, givenBy("0"))), (std::vector<int>{0, -1}));
+    EXPECT_EQ(indices(inPreferenceOrder({other, machine()[1]}, givenBy("0"))),
               (std::vector<int>{1, 0, -1}));
 }
 
 TEST(DeviceChoice, RefusesAJobWhoseDevicesEglDoesNotList) {
     const std::string message =
-        refusal([] { static_cast<void>(inOrderOfChoice(machine(), givenBy("5"))); });
+        refusal([] { static_cast<void>(inPreferenceOrder(machine(), givenBy("5"))); });
     EXPECT_NE(message.find("CUDA_VISIBLE_DEVICES=5 gives this job no device"), std::string::npos)
         << message;
 }
 
 TEST(DeviceWanted, IsFoundByNumberAndUuid) {
-    EXPECT_EQ(indices(thoseWanted(machine(), "1", kNothingSaid)), (std::vector<int>{1}));
-    EXPECT_EQ(indices(thoseWanted(machine(), "aaaa0000", kNothingSaid)), (std::vector<int>{0}));
-    EXPECT_EQ(indices(thoseWanted(machine(), "GPU-bbbb0", kNothingSaid)), (std::vector<int>{1}));
+    EXPECT_EQ(indices(matchingDevices(machine(), "1", kUnspecified)), (std::vector<int>{1}));
+    EXPECT_EQ(indices(matchingDevices(machine(), "aaaa0000", kUnspecified)), (std::vector<int>{0}));
+    EXPECT_EQ(indices(matchingDevices(machine(), "GPU-bbbb0", kUnspecified)),
+              (std::vector<int>{1}));
     // What may be a name is for a context to tell.
-    EXPECT_TRUE(thoseWanted(machine(), "Quadro", kNothingSaid).empty());
+    EXPECT_TRUE(matchingDevices(machine(), "Quadro", kUnspecified).empty());
 }
 
 TEST(DeviceWanted, MustBeThereAndGivenToTheJob) {
     const std::string missing =
-        refusal([] { static_cast<void>(thoseWanted(machine(), "7", kNothingSaid)); });
+        refusal([] { static_cast<void>(matchingDevices(machine(), "7", kUnspecified)); });
     EXPECT_NE(missing.find("there is no device 7"), std::string::npos) << missing;
     for (const char* wanted : {"0", "GPU-aaaa"}) {
         const std::string message =
-            refusal([&] { static_cast<void>(thoseWanted(machine(), wanted, givenBy("0"))); });
+            refusal([&] { static_cast<void>(matchingDevices(machine(), wanted, givenBy("0"))); });
         EXPECT_NE(message.find("device 0"), std::string::npos) << message;
         EXPECT_NE(message.find("CUDA_VISIBLE_DEVICES=0"), std::string::npos) << message;
     }
     // What renders on the processor is nobody's to give.
-    EXPECT_EQ(indices(thoseWanted(machine(), "2", givenBy("0"))), (std::vector<int>{2}));
+    EXPECT_EQ(indices(matchingDevices(machine(), "2", givenBy("0"))), (std::vector<int>{2}));
 }
 
 }  // namespace

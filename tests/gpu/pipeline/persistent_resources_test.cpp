@@ -29,7 +29,7 @@ IrradianceMap meanOfFrames(FrameBuilder& frame, const params::NoParams&, Caustic
                 setup.sample("fluxSums", map.maps.front().flux);
                 setup.sample("receiver", surfaces.eye.receiver);
                 data.sum =
-                    setup.image("sumAndCount", setup.createLasting<IrradianceTexel>(
+                    setup.image("sumAndCount", setup.createPersistent<IrradianceTexel>(
                                                    "mean.sum", frame.width(), frame.height()));
                 data.mean.irradiance =
                     setup.image("mean", setup.create<IrradianceTexel>(
@@ -55,7 +55,8 @@ Rendered irradianceOf(const Renderer& renderer) {
 
 TEST(WhatLasts, IsThereInTheNextFrameAndInAGraphBuiltAnew) {
     Registry registry = registerAll();
-    registry.node<GatherStage>("mean", {"Of all frames.", "a test"}, &meanOfFrames);
+    registry.node<GatherStage>("mean", {"Of all frames.", "a test", "For this test."},
+                               &meanOfFrames);
     registry.technique({"mean", "Of all frames.", "a test", {{"gather", "mean"}}, {}});
     scene::Scene scene = scene::loadScene("pool");
     const auto settingsOf = [&](const std::string& technique) {

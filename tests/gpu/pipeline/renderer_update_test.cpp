@@ -78,12 +78,12 @@ TEST_F(RendererUpdate, AFrameThatIsEndedEarlyHasNoTimeAndTheNextOneIsWhole) {
     Renderer renderer(context(), registry_, scene, settings("march", 64));
     const std::vector<float> whole = picture(renderer);
     gl::PassTimer timer(gl::TimerMode::finish);
-    std::size_t asked = 0;
+    std::size_t requested = 0;
     EXPECT_FALSE(renderer.renderFrame(timer, [&](std::size_t step) {
-        asked = step;
+        requested = step;
         return step < 3;
     }));
-    EXPECT_EQ(asked, 3u);
+    EXPECT_EQ(requested, 3u);
     EXPECT_TRUE(timer.takeFinished(true).empty());
     EXPECT_TRUE(renderer.renderFrame(timer));
     EXPECT_EQ(timer.takeFinished(true).size(), 1u);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // coverageOf for a list of cases: two corners; the third one and the pixel's lower left corner.
 // Out: what of the pixel is covered, and the triangle that was taken.
-#include "include/coverage.glsl"
+#include "include/maps/coverage.glsl"
 
 layout(local_size_x = 64) in;
 layout(std430) readonly buffer Inputs {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // What other views hold where one of the eye's receivers lies, over the texel's area on it.
-#include "include/flux_sum_read.glsl"
-#include "include/view.glsl"
+#include "include/maps/flux_sum_read.glsl"
+#include "include/views/view.glsl"
 
 layout(std140) uniform MapViews {
-    ViewData mapViews[kMostViews];
+    ViewData mapViews[kMaxViews];
 };
 #ifdef CUBE
 uniform sampler2DArray mapReceiver;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Irradiance with a closed form. r: a constant for each material; g: waves over the world's x and
 // z; b: noise, even in [0, 1000], that differs from pixel to pixel and from seed to seed.
-#include "include/view.glsl"
+#include "include/views/view.glsl"
 
 uniform sampler2D receiver;
 uniform sampler2D receiverSurface;

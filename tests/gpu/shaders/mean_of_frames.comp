@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // rgb: the sum over all frames so far; a: how many they are.
-#include "include/flux_sum_read.glsl"
+#include "include/maps/flux_sum_read.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 

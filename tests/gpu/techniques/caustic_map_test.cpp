@@ -8,8 +8,8 @@
 #include <cmath>
 #include <functional>
 
-#include "framework/numerics/bench.h"
 #include "framework/numerics/cases/scene_text.h"
+#include "framework/numerics/stage_harness.h"
 #include "tests/gpu/techniques/caustic_map_frame.h"
 
 namespace kaustik::test {
@@ -290,15 +290,15 @@ TEST(Edges, OfWhatHidesTheFloorDoNotLeak) {
 
 class Background : public ::testing::Test {
   protected:
-    Traced trace(const scene::Scene& scene, const std::vector<BenchPhoton>& photons,
+    Traced trace(const scene::Scene& scene, const std::vector<StagePhoton>& photons,
                  const Settings& more = {}) {
         Settings settings{{"reconstruct.map_size", "256"}, {"reconstruct.map_covers", "scene"}};
         settings.insert(settings.end(), more.begin(), more.end());
         return tracePhotons(lab_, lab_.choose(TraceStage::name, "background"), scene, photons,
                             settings);
     }
-    static BenchPhoton from(const dvec3& position, const dvec3& to) {
-        BenchPhoton photon;
+    static StagePhoton from(const dvec3& position, const dvec3& to) {
+        StagePhoton photon;
         photon.position = position;
         photon.direction = glm::normalize(to - position);
         return photon;
@@ -314,11 +314,11 @@ TEST_F(Background, BooksWhatIsHiddenOrBesideItsMap) {
     const scene::Scene scene =
         makeScene(kAbove, sun({0, -1, 0}) + floorPlane("table", "white", 1.0, {0, -0.3, 0}) +
                               floorPlane("floor", "grey", 4.0, {0, -1, 0}));
-    std::vector<BenchPhoton> photons;
+    std::vector<StagePhoton> photons;
     photons.push_back(from({1.0, 0.5, 0.0}, {1.2, -1.0, 0.3}));  // hit
     for (int i = 0; i < 2; ++i)                                  // below the table
         photons.push_back(from({1.0, -0.5, 0.02 * i}, {0.0, -1.0, 0.1}));
-    for (int i = 0; i < 4; ++i)  // beside the floor
+    for (int i = 0; i < 4; ++i)  // next to the floor
         photons.push_back(from({1.0, 0.5, 0.02 * i}, {4.0, -0.5, 0.1}));
     const Traced traced = trace(scene, photons);
     EXPECT_EQ(traced.hitCount(), 1U);
@@ -332,7 +332,7 @@ TEST_F(Background, PassesBehindWhatItDoesNotTouch) {
     const scene::Scene scene =
         makeScene(kAbove, sun({0, -1, 0}) + floorPlane("table", "white", 0.3, {0, 0.5, 0}) +
                               floorPlane("floor", "grey", 4.0, {0, -1, 0}));
-    std::vector<BenchPhoton> photons;
+    std::vector<StagePhoton> photons;
     for (int i = 0; i < 40; ++i) {
         const double z = -0.3 + 0.015 * i;
         photons.push_back(from({-1.0, -0.3, z}, {1.0, -1.0, z}));  // in the table's shadow
@@ -351,7 +351,7 @@ TEST_F(Background, FindsAThinBoardBetweenTwoSteps) {
         makeScene(kAbove, sun({0, -1, 0}) +
                               object("shelf", "box", "white", {0, 0, 0}, "size = [0.4, 0.004, 1]") +
                               floorPlane("floor", "grey", 4.0, {0, -1, 0}));
-    std::vector<BenchPhoton> photons;
+    std::vector<StagePhoton> photons;
     std::vector<dvec3> expected;
     for (int i = 0; i < 40; ++i) {
         const dvec3 place(-0.18 + 0.009 * i, 0.002, 0.3 * std::sin(3.0 * i));
@@ -375,7 +375,7 @@ TEST_F(Background, FindsNothingBetweenTheSidesOfADepthEdge) {
             kAbove, light.text +
                         object("rod", "box", "white", {0, -0.5, 0}, "size = [0.04, 0.04, 2]") +
                         floorPlane("floor", "grey", 4.0, {0, -1, 0}));
-        std::vector<BenchPhoton> photons;
+        std::vector<StagePhoton> photons;
         for (int i = 0; i < 2000; ++i) {
             const double u = std::fmod(0.618034 * i, 1.0);
             const double v = (i + 0.5) / 2000.0;
@@ -388,7 +388,7 @@ TEST_F(Background, FindsNothingBetweenTheSidesOfADepthEdge) {
         int onRod = 0;
         int near = 0;
         int elsewhere = 0;
-        for (const BenchHit& hit : traced.hits) {
+        for (const StageHit& hit : traced.hits) {
             if (!hit.isHit() || std::abs(hit.position.y + 1.0) < 1e-3) continue;
             const dvec3 off = glm::abs(hit.position - dvec3(0, -0.5, 0)) - dvec3(0.02, 0.02, 1.0);
             const double across = std::max(off.x, off.z);

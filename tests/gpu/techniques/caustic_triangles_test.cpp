@@ -74,8 +74,8 @@ TEST(CausticGenerators, AreNoMoreThanMayBe) {
     for (int i = 0; i < 5; ++i)
         balls += ball(fmt::format("ball {}", i), {2.0 * i - 4.0, 1, 0}, 0.2);
     const scene::Scene scene = makeScene(kCamera, sun({0, -1, 0}) + kFloor + balls);
-    EXPECT_EQ(generatorsOf(scene, {{"around.most", "3"}}), 3u);
-    EXPECT_EQ(generatorsOf(scene, {{"around.most", "1"}}), 1u);
+    EXPECT_EQ(generatorsOf(scene, {{"around.max_generators", "3"}}), 3u);
+    EXPECT_EQ(generatorsOf(scene, {{"around.max_generators", "1"}}), 1u);
 }
 
 TEST(CausticGenerators, MayHaveSeveralReferencePoints) {

@@ -7,7 +7,7 @@
 
 #include "framework/numerics/cases/scene_text.h"
 #include "framework/scene/files/scene_file.h"
-#include "techniques/shared/vertex_grid.h"
+#include "techniques/emit/vertices_grid.h"
 #include "tests/gpu/fixture.h"
 #include "tests/gpu/techniques/smooth_tracer.h"
 

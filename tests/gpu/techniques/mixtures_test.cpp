@@ -111,7 +111,7 @@ void expectHelpful(const std::string& message) {
 }
 
 // Whether it renders; anything thrown but a ConfigError fails the test.
-bool rendersOrSaysWhyNot(const Settings& mixture) {
+bool rendersOrExplains(const Settings& mixture) {
     SCOPED_TRACE(textOf(mixture));
     Settings settings = {{"emit.photons", "32x32"},      {"refine.finest", "64"},
                          {"refine.start", "16"},         {"refine.check", "32"},
@@ -154,8 +154,7 @@ Settings storedIn(const std::string& space, const std::string& reconstruct) {
                          {"gather", space == "light"  ? "project"
                                     : space == "cube" ? "cube"
                                                       : "screen"}};
-    const std::string filter =
-        registry().findNode(ReconstructStage::name, reconstruct).description.filter;
+    const std::string filter = registry().traits<ReconstructStage>(reconstruct).filter;
     if (!filter.empty()) settings.emplace_back("filter", filter);
     return settings;
 }
@@ -171,7 +170,7 @@ TEST_P(EveryTracer, FeedsEveryReconstructionInEverySpace) {
             settings.emplace_back("trace", GetParam());
             // Which keeps no directions for the scene's glossy plate, and says so.
             pairs += reconstruct == "multi_level" ? 0 : 1;
-            rendered += rendersOrSaysWhyNot(settings) ? 1 : 0;
+            rendered += rendersOrExplains(settings) ? 1 : 0;
         }
     }
     EXPECT_EQ(rendered, pairs);
@@ -202,7 +201,7 @@ TEST_P(EveryNode, OfTheStageFitsIntoEverySpace) {
                 settings.emplace_back("driver", "adaptive");
                 settings.emplace_back("emit", "deferred");
             }
-            rendered += rendersOrSaysWhyNot(settings) ? 1 : 0;
+            rendered += rendersOrExplains(settings) ? 1 : 0;
         }
     }
     EXPECT_GT(rendered, 2);

@@ -46,10 +46,10 @@ cells = [4, 4]
 }
 
 double brightest(const Texels& irradiance) {
-    float most = 0.0f;
+    float maximum = 0.0f;
     for (const float value : irradiance.values)
-        most = std::max(most, value);
-    return static_cast<double>(most);
+        maximum = std::max(maximum, value);
+    return static_cast<double>(maximum);
 }
 
 TEST(ReceiverSide, ThatIsLitIsSeenFromWhereTheLightComesFrom) {
@@ -132,7 +132,7 @@ rotation_degrees = [90, 0, 0]
 // A mirror sends light to the back of a sheet, of which a map with six faces sees the front: a
 // splat that reaches from one face into the next is not stored by half.
 TEST(ReceiverSide, ThatAMapDoesNotSeeGetsNothingFromAnyOfItsFaces) {
-    if (isWithoutExactTracer()) GTEST_SKIP() << "built without Embree";
+    if (lacksExactTracer()) GTEST_SKIP() << "built without Embree";
     const scene::Scene scene = numerics::makeScene(
         {{0, 6, 6}, {0, 0, 0}},
         "[[light]]\nname = \"lamp\"\ntype = \"point\"\nposition = [0, 2, 0]\nintensity = 100\n" +

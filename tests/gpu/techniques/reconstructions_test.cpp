@@ -100,7 +100,7 @@ class Plate : public ::testing::TestWithParam<double> {
 };
 
 TEST_P(Plate, HidesTheFloorFromTrianglesToWithinACell) {
-    if (isWithoutExactTracer()) GTEST_SKIP() << "the build has no Embree";
+    if (lacksExactTracer()) GTEST_SKIP() << "the build has no Embree";
     const double slope = GetParam();  // of the sun, x to y
     const scene::Scene scene = makeScene(
         {{-2.0, -0.25, 0.0}, {0.0, -1.0, 0.0}, 60.0, 0.01},

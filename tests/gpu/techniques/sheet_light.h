@@ -27,7 +27,7 @@ inline std::string floorOf(double side) {
     return numerics::floorPlane("floor", "grey", side, {0, -1, 0});
 }
 
-// Light of some structure, a part of which falls beside the map of what the eye sees.
+// Light of some structure, a part of which falls next to the map of what the eye sees.
 inline scene::Scene waves() {
     return numerics::makeScene(
         kAbove, numerics::sun({0.2, -1.0, 0.1}) +
@@ -50,21 +50,21 @@ inline const Settings kSmall{{"emit.photons", "96x96"},
                              {"specular.two_interfaces.size", "256"}};
 
 inline double brightest(const MapTexels& map) {
-    double most = 0.0;
+    double maximum = 0.0;
     for (const glm::dvec3& flux : map.flux)
-        most = std::max({most, flux.r, flux.g, flux.b});
-    return most;
+        maximum = std::max({maximum, flux.r, flux.g, flux.b});
+    return maximum;
 }
 // `inset`: texels along the border that do not count.
 inline double largestDifferenceWithin(const MapTexels& a, const MapTexels& b, int inset) {
-    double most = 0.0;
+    double maximum = 0.0;
     for (int y = inset; y < a.height - inset; ++y) {
         for (int x = inset; x < a.width - inset; ++x) {
             const glm::dvec3 off = glm::abs(a.at(x, y) - b.at(x, y));
-            most = std::max({most, off.r, off.g, off.b});
+            maximum = std::max({maximum, off.r, off.g, off.b});
         }
     }
-    return most;
+    return maximum;
 }
 inline double largestDifference(const MapTexels& a, const MapTexels& b) {
     return largestDifferenceWithin(a, b, 0);

@@ -26,6 +26,7 @@ struct LinesParams {
     template <class R>
     void reflect(R& r) {
         r.field(width, "width", "Texels of a line", "texels", params::range(0, 4096));
+        r.renamed("room", "width");
     }
 };
 struct EmitParams {
@@ -52,7 +53,7 @@ class Experiment : public testing::Test {
         return set;
     }
 
-    // Every experiment here runs the empty scene beside it, unless it says otherwise.
+    // Every experiment here runs the empty scene next to it, unless it says otherwise.
     [[nodiscard]] Plan plan(const std::string& text) const {
         const std::filesystem::path file = folder.file("study.toml", text);
         return makePlan(readSpec(file), {"empty.toml", "screen", "64x48", 8, 1, 1, "none", 1000},

@@ -24,7 +24,7 @@ TEST(Graph, RunsPassesInOrderAndCullsWhatNothingAsksFor) {
     EXPECT_EQ(run(compiled), (std::vector<std::string>{"s.a", "s.b"}));
     ASSERT_EQ(compiled.records.size(), 3u);
     EXPECT_EQ(compiled.records[2].state, PassState::culled);
-    EXPECT_EQ(compiled.records[2].why, "nothing asks for s.c.out");
+    EXPECT_EQ(compiled.records[2].reason, "nothing asks for s.c.out");
 }
 
 TEST(Graph, KeepsAPassWithASideEffectAndAllThatLeadsToIt) {
@@ -57,7 +57,7 @@ Texture<Color> remember(Graph& graph, Texture<Color> input) {
     const auto before = graph.addPass<Texture<Color>, FakeContext>(
         {"s.begin", ""},
         [&](PassSetup& setup, Texture<Color>& texture) {
-            texture = setup.createLasting<Color>("s.history", 8, 8);
+            texture = setup.createPersistent<Color>("s.history", 8, 8);
         },
         [](const auto&, FakeContext& context) { context.ran.push_back("s.begin"); });
     graph.addPass<Texture<Color>, FakeContext>(
@@ -87,15 +87,15 @@ TEST(Graph, GivesWhatLastsMemoryOfItsOwn) {
     remember(ordered, third);
     ordered.request(ordered.find("s.history"));
     const Compiled compiled = ordered.compile();
-    std::size_t lasting = 0;
+    std::size_t persistent = 0;
     for (const Slot& slot : compiled.slots)
-        lasting += slot.lasts ? 1 : 0;
-    EXPECT_EQ(lasting, 1u);
+        persistent += slot.isPersistent ? 1 : 0;
+    EXPECT_EQ(persistent, 1u);
     const std::size_t slot = compiled.slotOf(ordered.find("s.history"));
-    EXPECT_TRUE(compiled.slots[slot].lasts);
+    EXPECT_TRUE(compiled.slots[slot].isPersistent);
     for (const Step& step : compiled.steps) {
-        for (const std::size_t birth : step.births)
-            EXPECT_NE(birth, slot) << step.name;
+        for (const std::size_t undefinedSlot : step.undefinedSlots)
+            EXPECT_NE(undefinedSlot, slot) << step.name;
     }
 }
 
@@ -106,7 +106,7 @@ TEST(Graph, RunsWhatIsWrittenForTheNextFrame) {
     const auto history = graph.addPass<Texture<Color>, FakeContext>(
         {"s.begin", ""},
         [&](PassSetup& setup, Texture<Color>& texture) {
-            texture = setup.createLasting<Color>("s.history", 8, 8);
+            texture = setup.createPersistent<Color>("s.history", 8, 8);
         },
         [](const auto&, FakeContext& context) { context.ran.push_back("s.begin"); });
     graph.request(filter(graph, "s.mean", history));
@@ -198,7 +198,7 @@ TEST(Graph, ADisabledPassForwardsItsInput) {
     EXPECT_EQ(compiled.slotOf(b), compiled.slotOf(a));
     EXPECT_NE(compiled.slotOf(c), compiled.slotOf(a));
     EXPECT_EQ(compiled.records[1].state, PassState::bypassed);
-    EXPECT_TRUE(contains(compiled.records[1].why, "'s.b.out' is 's.a.out' unchanged"));
+    EXPECT_TRUE(contains(compiled.records[1].reason, "'s.b.out' is 's.a.out' unchanged"));
 }
 
 TEST(Graph, ADisabledPassWithoutInputIsReplacedByANeutralValue) {
@@ -353,7 +353,7 @@ TEST(Graph, BatchesOfOneNodeAreOneRecord) {
     ASSERT_EQ(compiled.records.size(), 3u);
     EXPECT_EQ(compiled.records[1].repeats, 4u);
     EXPECT_EQ(compiled.records[2].state, PassState::skipped);
-    EXPECT_EQ(compiled.records[2].why, "the scene has no medium");
+    EXPECT_EQ(compiled.records[2].reason, "the scene has no medium");
 }
 
 TEST(Graph, PrintsItselfAsGraphviz) {

@@ -54,34 +54,36 @@ TEST(Document, ThatMakesNoSenseIsANewOne) {
 }
 
 TEST(State, IsTheSameAfterARestart) {
-    Kept kept;
+    SavedState kept;
     kept.view.resource = "layers.depth";
     kept.view.layer = 3;
     kept.view.isFalseColor = true;
     kept.view.exposureStops = -2.5f;
-    kept.view.beside = Beside::reference;
+    kept.view.sidePicture = SidePicture::reference;
     kept.panels.leftWidth = 333.0f;
     kept.panels.recordFolder = "elsewhere";
     kept.window = {1000, 700, 10, 20};
-    kept.knowsDevice = true;
+    kept.isDeviceKnown = true;
     kept.panels.judgesReports = false;
     std::vector<std::string> problems;
-    EXPECT_EQ(toJson(keptFromJson(toJson(kept), problems)), toJson(kept));
+    EXPECT_EQ(toJson(savedStateFromJson(toJson(kept), problems)), toJson(kept));
     EXPECT_TRUE(problems.empty());
-    EXPECT_NE(toJson(kept), toJson(Kept()));
+    EXPECT_NE(toJson(kept), toJson(SavedState()));
 }
 
 TEST(State, ThatMakesNoSenseIsAsAtTheFirstStart) {
     for (const char* text : {"null", "[1]", R"({"view": 3, "panels": "x"})",
                              R"({"view": {"layer": "many", "split": null}})"}) {
         std::vector<std::string> problems;
-        EXPECT_EQ(toJson(keptFromJson(json::parse(text), problems)), toJson(Kept())) << text;
+        EXPECT_EQ(toJson(savedStateFromJson(json::parse(text), problems)), toJson(SavedState()))
+            << text;
         EXPECT_FALSE(problems.empty()) << text;
     }
     std::vector<std::string> problems;
-    const Kept kept = keptFromJson(json::parse(R"({"window": {"width": -5, "height": 1e9},
+    const SavedState kept =
+        savedStateFromJson(json::parse(R"({"window": {"width": -5, "height": 1e9},
                                                    "view": {"split": 7, "channel": 99}})"),
-                                   problems);
+                           problems);
     EXPECT_GE(kept.window.width, 400);
     EXPECT_LE(kept.window.height, 16384);
     EXPECT_EQ(kept.view.split, 1.0f);

@@ -76,7 +76,7 @@ TEST(LightMarker, MovesWithTheViewAndNeverJumps) {
     scene::Camera by = camera();
     std::optional<glm::dvec2> before;
     int seen = 0;
-    int beside = 0;
+    int sidePicture = 0;
     int behind = 0;
     double way = 0.0;
     constexpr int kSteps = 4000;
@@ -89,7 +89,7 @@ TEST(LightMarker, MovesWithTheViewAndNeverJumps) {
             EXPECT_TRUE(isOnEdge(marker->place)) << step;
         }
         seen += isSeen ? 1 : 0;
-        beside += !isSeen && !marker->isBehind ? 1 : 0;
+        sidePicture += !isSeen && !marker->isBehind ? 1 : 0;
         behind += marker->isBehind ? 1 : 0;
         if (before) {
             const double moved = glm::distance(marker->place, *before);
@@ -102,7 +102,7 @@ TEST(LightMarker, MovesWithTheViewAndNeverJumps) {
         before = marker->place;
     }
     EXPECT_GT(seen, 0);
-    EXPECT_GT(beside, 0);
+    EXPECT_GT(sidePicture, 0);
     EXPECT_GT(behind, 0);
     EXPECT_GT(way, 1000.0);
 }

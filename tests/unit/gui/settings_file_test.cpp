@@ -33,7 +33,7 @@ TEST_F(SettingsFile, IsReadAsItWasWritten) {
     Document document;
     document.scene = "ring";
     document.variant.assignments = {{"trace.epsilon", "0.25"}};
-    nlohmann::json all = toJson(Kept());
+    nlohmann::json all = toJson(SavedState());
     all["document"] = toJson(document);
     write(all.dump());
     EXPECT_TRUE(read().problems.empty());
@@ -44,14 +44,14 @@ TEST_F(SettingsFile, ThatIsCutOffIsKeptUnderAnotherName) {
     write(R"({"view": {"layer": 3)");
     const Settings settings = read();
     ASSERT_EQ(settings.problems.size(), 1u);
-    const PutAside aside = putSettingsAside(folder_ / "", settings.problems);
+    const SettingsBackup aside = setSettingsAside(folder_ / "", settings.problems);
     EXPECT_TRUE(aside.isDone);
     EXPECT_FALSE(exists("workbench.json"));
     EXPECT_EQ(readFile(folder_ / "workbench-damaged-1.json"), R"({"view": {"layer": 3)");
     EXPECT_NE(aside.notice.find("workbench-damaged-1.json"), std::string::npos) << aside.notice;
     // And the next one, too.
     write("[");
-    EXPECT_TRUE(putSettingsAside(folder_ / "", read().problems).isDone);
+    EXPECT_TRUE(setSettingsAside(folder_ / "", read().problems).isDone);
     EXPECT_EQ(readFile(folder_ / "workbench-damaged-2.json"), "[");
     EXPECT_EQ(readFile(folder_ / "workbench-damaged-1.json"), R"({"view": {"layer": 3)");
 }
@@ -82,8 +82,20 @@ TEST_F(SettingsFile, WithNamesOfAnotherVersionIsDamaged) {
     EXPECT_EQ(settings.document.variant, Variant());
 }
 
+TEST_F(SettingsFile, WithTheFormerNameOfAParameterIsToldTheNewOne) {
+    Document document;
+    document.scene = "ring";
+    document.variant.assignments = {{"secant.most", "1"}};
+    write(nlohmann::json({{"document", toJson(document)}}).dump());
+    const Settings settings = read();
+    ASSERT_EQ(settings.problems.size(), 1u);
+    EXPECT_NE(settings.problems.front().find("it is called 'trace.secant.max_steps' now"),
+              std::string::npos)
+        << settings.problems.front();
+}
+
 TEST_F(SettingsFile, ThatCannotBePutAsideIsNotToBeReplaced) {
-    const PutAside aside = putSettingsAside(folder_ / "nowhere", {"a problem"});
+    const SettingsBackup aside = setSettingsAside(folder_ / "nowhere", {"a problem"});
     EXPECT_FALSE(aside.isDone);
     EXPECT_NE(aside.notice.find("nothing is kept"), std::string::npos) << aside.notice;
 }

@@ -24,8 +24,8 @@ class ShownTest : public testing::Test {
         document.other = document.variant;
         result.document = document;
     }
-    [[nodiscard]] Asked asked() const { return {document, kOrder, view}; }
-    [[nodiscard]] Shown shown() const { return shownOf(asked(), result, reference, whole); }
+    [[nodiscard]] ShownRequest requested() const { return {document, kOrder, view}; }
+    [[nodiscard]] Shown shown() const { return shownOf(requested(), result, reference, whole); }
     [[nodiscard]] bool says(const std::string& part) const {
         return shown().sentence.find(part) != std::string::npos;
     }
@@ -38,35 +38,35 @@ class ShownTest : public testing::Test {
 };
 
 TEST_F(ShownTest, IsWhatWasAskedFor) {
-    EXPECT_EQ(shown().kind, Shown::Kind::asked);
+    EXPECT_EQ(shown().kind, Shown::Kind::requested);
     EXPECT_EQ(shown().remedy, Shown::Remedy::none);
-    EXPECT_TRUE(isRendered(asked(), result));
+    EXPECT_TRUE(isRendered(requested(), result));
     addOther();
-    EXPECT_EQ(shown().kind, Shown::Kind::asked);
-    EXPECT_TRUE(isRendered(asked(), result));
+    EXPECT_EQ(shown().kind, Shown::Kind::requested);
+    EXPECT_TRUE(isRendered(requested(), result));
 }
 
 TEST_F(ShownTest, IsOfBeforeUntilTheNewestOrderIsRendered) {
     result.order = kOrder - 1;
     result.variants[0].order = kOrder - 1;
     EXPECT_EQ(shown().kind, Shown::Kind::rendering);
-    EXPECT_FALSE(isRendered(asked(), result));
+    EXPECT_FALSE(isRendered(requested(), result));
     // The order is known, and its frame is on its way.
     result.order = kOrder;
     EXPECT_EQ(shown().kind, Shown::Kind::rendering);
     // What went wrong with an older order is over.
     result.variants[0].error = "an old mistake";
     EXPECT_EQ(shown().kind, Shown::Kind::rendering);
-    EXPECT_EQ(whyItCannotRun(asked(), result), "");
+    EXPECT_EQ(runObstacle(requested(), result), "");
 }
 
 // As when it turns out that a frame takes long, and fewer are wanted.
 TEST_F(ShownTest, IsWhatWasAskedForAlsoIfMoreFramesOfItAreWanted) {
     result.order = kOrder + 1;
-    EXPECT_EQ(shown().kind, Shown::Kind::asked);
+    EXPECT_EQ(shown().kind, Shown::Kind::requested);
     result.variants[0].order = kOrder + 1;
-    EXPECT_EQ(shown().kind, Shown::Kind::asked);
-    EXPECT_TRUE(isRendered(asked(), result));
+    EXPECT_EQ(shown().kind, Shown::Kind::requested);
+    EXPECT_TRUE(isRendered(requested(), result));
     result.variants[0].error = "No.";
     EXPECT_EQ(shown().kind, Shown::Kind::stale);
 }
@@ -75,13 +75,13 @@ TEST_F(ShownTest, IsOfBeforeUntilBothVariantsAreRendered) {
     addOther();
     result.variants[1].order = kOrder - 1;
     EXPECT_EQ(shown().kind, Shown::Kind::rendering);
-    EXPECT_FALSE(isRendered(asked(), result));
+    EXPECT_FALSE(isRendered(requested(), result));
 }
 
 TEST_F(ShownTest, IsAQuickPictureWhileTheViewIsTurned) {
     result.variants[0].isPreview = true;
     EXPECT_EQ(shown().kind, Shown::Kind::preview);
-    EXPECT_FALSE(isRendered(asked(), result));
+    EXPECT_FALSE(isRendered(requested(), result));
     result.order = kOrder - 1;
     EXPECT_EQ(shown().kind, Shown::Kind::preview);
 }
@@ -92,8 +92,8 @@ TEST_F(ShownTest, IsStaleWhereAVariantCannotBeRendered) {
     EXPECT_EQ(shown().kind, Shown::Kind::stale);
     EXPECT_TRUE(says(": There is no pass 'x'. Nor 'y'.")) << "in one line";
     EXPECT_EQ(shown().remedy, Shown::Remedy::forget) << "nothing to go back to";
-    EXPECT_FALSE(isRendered(asked(), result));
-    EXPECT_NE(whyItCannotRun(asked(), result), "");
+    EXPECT_FALSE(isRendered(requested(), result));
+    EXPECT_NE(runObstacle(requested(), result), "");
     whole = Document();
     EXPECT_EQ(shown().remedy, Shown::Remedy::back);
     // Also where a quick picture is all that there is.
@@ -105,10 +105,10 @@ TEST_F(ShownTest, NamesTheVariantThatCannotBeRendered) {
     addOther();
     result.variants[1].error = "No.";
     EXPECT_TRUE(says("B: No."));
-    EXPECT_EQ(whyItCannotRun(asked(), result), "B: No.");
+    EXPECT_EQ(runObstacle(requested(), result), "B: No.");
     // One that the document does not have is no reason.
     document.other.reset();
-    EXPECT_EQ(shown().kind, Shown::Kind::asked);
+    EXPECT_EQ(shown().kind, Shown::Kind::requested);
 }
 
 TEST_F(ShownTest, IsStaleWhereTheSceneCannotBeHad) {
@@ -146,19 +146,19 @@ TEST_F(ShownTest, IsStaleWhereTheTextureOrItsLayerIsMissing) {
     EXPECT_EQ(shown().remedy, Shown::Remedy::layer);
     EXPECT_TRUE(says("no layer 6"));
     EXPECT_TRUE(says("0 to 3"));
-    EXPECT_TRUE(isRendered(asked(), result)) << "it runs all the same";
+    EXPECT_TRUE(isRendered(requested(), result)) << "it runs all the same";
 }
 
 TEST_F(ShownTest, IsStaleWhereShadersAreBroken) {
     result.shaderProblem = "a.frag:3: what is this?";
     EXPECT_EQ(shown().kind, Shown::Kind::stale);
     EXPECT_TRUE(says("a.frag:3"));
-    EXPECT_NE(whyItCannotRun(asked(), result), "");
+    EXPECT_NE(runObstacle(requested(), result), "");
 }
 
 TEST_F(ShownTest, SaysWhatIsMissingBesideThePicture) {
-    view.beside = Beside::reference;
-    EXPECT_EQ(shown().kind, Shown::Kind::asked);
+    view.sidePicture = SidePicture::reference;
+    EXPECT_EQ(shown().kind, Shown::Kind::requested);
     EXPECT_TRUE(says("no reference of this view"));
     reference.photons = 1000;
     reference.aim = ReferenceAim{document.scene, document.edits, document.size, {}, 0};
@@ -166,7 +166,7 @@ TEST_F(ShownTest, SaysWhatIsMissingBesideThePicture) {
     reference.aim->size = {1, 1};
     EXPECT_TRUE(says("no reference of this view")) << "of another size";
     reference.aim->size = document.size;
-    view.beside = Beside::error;
+    view.sidePicture = SidePicture::error;
     EXPECT_TRUE(says("still being measured"));
     reference.judgements[0].order = kOrder;
     EXPECT_FALSE(says("still being measured"));
@@ -174,7 +174,7 @@ TEST_F(ShownTest, SaysWhatIsMissingBesideThePicture) {
 
 TEST_F(ShownTest, PassesThatAreNoLongerThereAreNotWhatWasAskedFor) {
     result.variants[0].absentPasses = {"shadow.lookup"};
-    EXPECT_FALSE(isRendered(asked(), result)) << "the experiment would fail";
+    EXPECT_FALSE(isRendered(requested(), result)) << "the experiment would fail";
 }
 
 }  // namespace

@@ -54,20 +54,20 @@ TEST(Pfm, IsWrittenAsLittleEndianWithThreeInterleavedChannels) {
 }
 
 // A mebibyte is what reading a small file may take; an image of that size takes 2047.
-constexpr std::size_t kNextToNothing = std::size_t{1} << 20;
+constexpr std::size_t kNegligible = std::size_t{1} << 20;
 
 TEST(Pfm, AHeaderAloneTakesNoMemoryForThePixelsThatItClaims) {
     const std::size_t before = test::peakBytes();
     EXPECT_THAT(messageOf<IoError>([] { (void)decodePfm("PF\n16384 10922\n-1.0\n", "a.pfm"); }),
                 HasSubstr("a.pfm is not a whole PFM file: it is cut off"));
-    EXPECT_LT(test::peakBytes() - before, kNextToNothing);
+    EXPECT_LT(test::peakBytes() - before, kNegligible);
 }
 
 TEST(Ppm, AHeaderAloneTakesNoMemoryForThePixelsThatItClaims) {
     const std::size_t before = test::peakBytes();
     EXPECT_THAT(messageOf<IoError>([] { (void)decodePpm("P6\n16384 10922\n255\n", "a.ppm"); }),
                 HasSubstr("a.ppm is not a whole PPM file: it is cut off"));
-    EXPECT_LT(test::peakBytes() - before, kNextToNothing);
+    EXPECT_LT(test::peakBytes() - before, kNegligible);
 }
 
 TEST(Pfm, AFileCutOffAtAnyByteIsAnErrorThatNamesIt) {

@@ -68,9 +68,9 @@ TEST_F(GltfImport, WithoutAThicknessNothingIsAbsorbedAndAWarningSaysSo) {
 
 TEST_F(GltfImport, ATransmissionBetweenNothingAndAllIsRoundedWithAWarning) {
     const char* factor = "/materials/0/extensions/KHR_materials_transmission/transmissionFactor";
-    const Scene most = import(changed(factor, 0.75));
-    EXPECT_EQ(most.materials.at(0).kind, MaterialKind::dielectric);
-    EXPECT_THAT(warnings(most), HasSubstr("transmissionFactor is 0.75"));
+    const Scene maximum = import(changed(factor, 0.75));
+    EXPECT_EQ(maximum.materials.at(0).kind, MaterialKind::dielectric);
+    EXPECT_THAT(warnings(maximum), HasSubstr("transmissionFactor is 0.75"));
     const Scene little = import(changed(factor, 0.25));
     EXPECT_EQ(little.materials.at(0).kind, MaterialKind::lambertian);
     EXPECT_THAT(warnings(little), HasSubstr("transmissionFactor is 0.25"));

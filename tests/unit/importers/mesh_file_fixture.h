@@ -63,8 +63,10 @@ inline std::string chunk3ds(std::uint16_t kind, const std::string& contents) {
            contents;
 }
 
-// `lastIndex` in place of the last corner of the last face.
-inline std::string tetrahedron3ds(int lastIndex = 3) {
+// `lastIndex` in place of the last corner of the last face; `aboutFaces` and `aboutMesh` are
+// further chunks.
+inline std::string tetrahedron3ds(int lastIndex = 3, const std::string& aboutFaces = "",
+                                  const std::string& aboutMesh = "") {
     std::string faces = littleEndian(std::uint16_t{4});
     for (std::size_t i = 0; i < kFaces.size(); ++i) {
         faces += littleEndian(
@@ -72,7 +74,8 @@ inline std::string tetrahedron3ds(int lastIndex = 3) {
         if (i % 3 == 2) faces += littleEndian(std::uint16_t{7});  // flags
     }
     const std::string vertices = littleEndian(std::uint16_t{4}) + littleEndianFloats(kCorners);
-    const std::string mesh = chunk3ds(0x4100, chunk3ds(0x4110, vertices) + chunk3ds(0x4120, faces));
+    const std::string mesh = chunk3ds(
+        0x4100, chunk3ds(0x4110, vertices) + chunk3ds(0x4120, faces + aboutFaces) + aboutMesh);
     const std::string object = chunk3ds(0x4000, std::string("tetra") + '\0' + mesh);
     return chunk3ds(0x4d4d,
                     chunk3ds(0x0002, littleEndian(std::uint32_t{3})) + chunk3ds(0x3d3d, object));

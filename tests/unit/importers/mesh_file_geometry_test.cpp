@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "framework/importers/triangle_soup.h"
@@ -129,6 +130,91 @@ TEST_F(MeshImport, ASliverThatFillsATJunctionClosesTheMesh) {
                                  "f 1 3 5\nf 1 5 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\nf 2 5 3\n");
     EXPECT_EQ(imported.mesh.triangles.size(), 5u);
     EXPECT_TRUE(imported.mesh.closed);
+}
+
+TEST_F(MeshImport, SmoothingGroupsOfA3dsKeepAnEdgeSharpWhereFacesHaveNoneInCommon) {
+    const auto groups = [](std::array<std::uint32_t, 4> ofFaces) {
+        std::string bytes;
+        for (const std::uint32_t group : ofFaces)
+            bytes += littleEndian(group);
+        return tetrahedron3ds(3, chunk3ds(0x4150, bytes));
+    };
+    // A vertex for each normal: the corners of four faces apart, those of two and two, of all.
+    const Mesh flat = import("a.3ds", groups({1, 2, 4, 8})).mesh;
+    EXPECT_EQ(flat.positions.size(), 12u);
+    for (const glm::uvec3& triangle : flat.triangles) {
+        const glm::vec3 a = flat.positions[triangle.x];
+        const glm::vec3 normal = glm::normalize(
+            glm::cross(flat.positions[triangle.y] - a, flat.positions[triangle.z] - a));
+        for (glm::length_t corner = 0; corner < 3; ++corner)
+            EXPECT_LT(glm::length(flat.normals[triangle[corner]] - normal), 1e-6f);
+    }
+    EXPECT_EQ(import("b.3ds", groups({1, 1, 2, 2})).mesh.positions.size(), 8u);
+    // The first and the third face have nothing in common, at the two corners that they share.
+    EXPECT_EQ(import("c.3ds", groups({1, 3, 2, 3})).mesh.positions.size(), 8u);
+    EXPECT_EQ(import("d.3ds", groups({5, 5, 4, 12})).mesh.positions.size(), 4u);
+}
+
+TEST_F(MeshImport, UvsAreReadInEveryFormat) {
+    const auto uvs = [](const Mesh& mesh) {
+        std::vector<glm::vec2> found;
+        for (const glm::uvec3& triangle : mesh.triangles)
+            for (glm::length_t corner = 0; corner < 3; ++corner)
+                found.push_back(mesh.uvs[triangle[corner]]);
+        return found;
+    };
+    const std::vector<glm::vec2> expected{{0, 0}, {0.5f, 0}, {0, 1}};
+    EXPECT_EQ(
+        uvs(import("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0\nvt 0.5 0\nvt 0 1 0\nf 1/1 2/2 3/3\n")
+                .mesh),
+        expected);
+    const auto ply = [](const std::string& ofVertices, const std::string& data) {
+        return "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n" +
+               ofVertices + "element face 1\nproperty list uchar int vertex_indices\n" + data;
+    };
+    EXPECT_EQ(uvs(import("a.ply", ply("property float s\nproperty float t\n",
+                                      "end_header\n0 0 0 0\n1 0 .5 0\n0 1 0 1\n3 0 1 2\n"))
+                      .mesh),
+              expected);
+    // Of the corners of a face, as MeshLab writes them.
+    EXPECT_EQ(uvs(import("b.ply", ply("",
+                                      "property list uchar float texcoord\nend_header\n0 0\n"
+                                      "1 0\n0 1\n3 0 1 2 6 0 0 .5 0 0 1\n"))
+                      .mesh),
+              expected);
+    const std::string mapping = chunk3ds(
+        0x4140, littleEndian(std::uint16_t{4}) + littleEndianFloats({0, 0, 0.5f, 0, 0, 1, 1, 1}));
+    const Mesh mesh = import("a.3ds", tetrahedron3ds(3, "", mapping)).mesh;
+    EXPECT_EQ(uvs(mesh)[1], glm::vec2(0, 1));
+    EXPECT_EQ(uvs(mesh)[2], glm::vec2(0.5f, 0));
+}
+
+TEST_F(MeshImport, AVertexOfAnObjIsDividedByItsWeightAndMayHaveAColour) {
+    const std::string rest = "v 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    EXPECT_EQ(import("a.obj", "v 2 2 -4 2\n" + rest).mesh.origin, glm::dvec3(0.5, 0.5, -1));
+    EXPECT_EQ(import("b.obj", "v 1 1 -2 2 0 0\n" + rest).mesh.origin, glm::dvec3(0.5, 0.5, -1));
+    EXPECT_THAT(errorOf("c.obj", "v 1 1 1 0\n" + rest),
+                HasSubstr("c.obj:1: a vertex has the weight"));
+}
+
+TEST_F(MeshImport, A3dsIsDividedByItsMasterScaleAndItsKeyframesAreLeftOutWithAWarning) {
+    std::string file = tetrahedron3ds();
+    // Into the main chunk, and into the editor's, which comes last.
+    const auto append = [&](const std::string& chunk, bool inEditor) {
+        const std::size_t editor = 16;  // behind the headers of the file and of its version
+        file.replace(2, 4, littleEndian(static_cast<std::uint32_t>(file.size() + chunk.size())));
+        if (inEditor)
+            file.replace(
+                editor + 2, 4,
+                littleEndian(static_cast<std::uint32_t>(file.size() - editor + chunk.size())));
+        file += chunk;
+    };
+    append(chunk3ds(0x0100, littleEndianFloats({2.0f})), true);
+    append(chunk3ds(0xb000, ""), false);
+    const ImportedMesh imported = import("a.3ds", file);
+    EXPECT_EQ(imported.mesh.origin, glm::dvec3(0.25, 0.75, -0.5));
+    ASSERT_EQ(imported.warnings.size(), 1u);
+    EXPECT_THAT(imported.warnings.front(), HasSubstr("keyframes were left out"));
 }
 
 TEST_F(MeshImport, AMeshWithAHoleIsNotClosed) {

@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: MIT
-#include "framework/params/param_set.h"
+#include "framework/params/assignment.h"
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
 #include "framework/core/error.h"
+
+namespace kaustik {
+// What this program knows of a frame.
+struct FrameFacts {
+    bool hasPhotons = true;
+};
+}  // namespace kaustik
 
 namespace kaustik::params {
 namespace {
@@ -43,6 +50,24 @@ struct SpritesParams {
     }
 };
 
+// Whose parameter was called `maximum` before.
+struct StepsParams {
+    int maxSteps = 64;
+    template <class R>
+    void reflect(R& r) {
+        r.field(maxSteps, "max_steps", "Steps of a ray", "", range(1, 4096));
+        r.renamed("most", "max_steps");
+    }
+};
+
+struct CountParams {
+    int maximum = 3;
+    template <class R>
+    void reflect(R& r) {
+        r.field(maximum, "most", "Cells in a row", "", range(1, 9));
+    }
+};
+
 ParamSet makeSet() {
     ParamSet set;
     set.declareChoice("trace", "Which tracer", {"lines", "march"}, "lines");
@@ -54,7 +79,7 @@ ParamSet makeSet() {
 
 std::string messageOf(ParamSet& set, const std::string& assignment) {
     try {
-        set.setAssignment(assignment, "--set");
+        assign(set, {parseAssignment(assignment, "--set")});
     } catch (const ConfigError& error) {
         EXPECT_EQ(error.exitCode(), kExitBadRequest);
         return error.what();
@@ -64,15 +89,15 @@ std::string messageOf(ParamSet& set, const std::string& assignment) {
 
 TEST(ParamSet, TakesFullNamesAndShorterOnesThatAreUnique) {
     ParamSet set = makeSet();
-    set.setAssignment("trace.epsilon=0.5", "--set");
+    assign(set, {parseAssignment("trace.epsilon=0.5", "--set")});
     EXPECT_EQ(set.get<TraceParams>("trace").epsilonMeters, 0.5f);
-    set.setAssignment("epsilon=0.25", "--set");
+    assign(set, {parseAssignment("epsilon=0.25", "--set")});
     EXPECT_EQ(set.get<TraceParams>("trace").epsilonMeters, 0.25f);
-    set.setAssignment("lines.width=7", "--set");
+    assign(set, {parseAssignment("lines.width=7", "--set")});
     EXPECT_EQ(set.get<LinesParams>("trace.lines").width, 7);
-    set.setAssignment("trace.width=9", "--set");
+    assign(set, {parseAssignment("trace.width=9", "--set")});
     EXPECT_EQ(set.get<LinesParams>("trace.lines").width, 9);
-    set.setAssignment("grid=64x32", "--set");
+    assign(set, {parseAssignment("grid=64x32", "--set")});
     EXPECT_EQ(set.get<SpritesParams>("reconstruct.sprites").grid, (Extent{64, 32}));
 }
 
@@ -88,6 +113,32 @@ TEST(ParamSet, NamesTheNearestParameterWhenOneIsUnknown) {
     EXPECT_NE(messageOf(set, "trace.epsilom=1").find("did you mean 'trace.epsilon'"),
               std::string::npos);
     EXPECT_NE(messageOf(set, "epsilon").find("name=value"), std::string::npos);
+}
+
+TEST(ParamSet, NamesTheParameterThatWasCalledOtherwiseBefore) {
+    ParamSet set;
+    set.declare<StepsParams>("trace.march");
+    const ParamSet copy = set;
+    for (ParamSet each : {set, copy}) {
+        for (const char* former : {"trace.march.most=7", "march.most=7", "most=7"}) {
+            const std::string message = messageOf(each, former);
+            EXPECT_NE(message.find("it is called 'trace.march.max_steps' now"), std::string::npos)
+                << message;
+        }
+        EXPECT_EQ(each.get<StepsParams>("trace.march").maxSteps, 64);
+        each.setAssignment("max_steps=7", "--set");
+        EXPECT_EQ(each.get<StepsParams>("trace.march").maxSteps, 7);
+    }
+}
+
+TEST(ParamSet, AShortNameOfOneParameterThatAnotherHadBeforeIsAmbiguous) {
+    ParamSet set;
+    set.declare<StepsParams>("trace.march");
+    set.declare<CountParams>("emit.grid");
+    EXPECT_NE(messageOf(set, "most=7").find("emit.grid.most and trace.march.max_steps"),
+              std::string::npos);
+    set.setAssignment("grid.most=7", "--set");
+    EXPECT_EQ(set.get<CountParams>("emit.grid").maximum, 7);
 }
 
 TEST(ParamSet, EnforcesRangesAndTypesAndLeavesTheValueAlone) {
@@ -113,7 +164,7 @@ TEST(ParamSet, AcceptsBothEndsOfARange) {
 TEST(ParamSet, AStageIsSetLikeAParameter) {
     ParamSet set = makeSet();
     EXPECT_EQ(set.choice("trace"), "lines");
-    set.setAssignment("trace=march", "--set");
+    assign(set, {parseAssignment("trace=march", "--set")});
     EXPECT_EQ(set.choice("trace"), "march");
     const std::string message = messageOf(set, "trace=marsh");
     EXPECT_NE(message.find("did you mean 'march'"), std::string::npos);
@@ -134,7 +185,7 @@ TEST(ParamSet, ATechniquesDefaultIsNotCountedAsTheUsers) {
     set.setDefault("trace", "march", "a test");
     EXPECT_EQ(set.choice("trace"), "march");
     EXPECT_FALSE(set.isSetByUser("trace"));
-    set.setAssignment("trace=lines", "--set");
+    assign(set, {parseAssignment("trace=lines", "--set")});
     EXPECT_TRUE(set.isSetByUser("trace"));
 }
 
@@ -212,9 +263,34 @@ TEST(ParamSet, ATechniquesMistypedDefaultNamesTheTechnique) {
 TEST(ParamSet, ACopyHasValuesOfItsOwn) {
     ParamSet set = makeSet();
     ParamSet copy = set;
-    copy.setAssignment("lines.width=5", "--set");
+    assign(copy, {parseAssignment("lines.width=5", "--set")});
     EXPECT_EQ(set.get<LinesParams>("trace.lines").width, 1024);
     EXPECT_EQ(copy.get<LinesParams>("trace.lines").width, 5);
+}
+
+struct WidthParams {
+    int width = 0;
+    int footprints = 2;
+    template <class R>
+    void reflect(R& r) {
+        r.field(width, "width", "Width; 0: by the footprint", "px", range(0, 9));
+        r.field(footprints, "footprints", "Widths of the footprint", "", range(1, 9))
+            .when(width == 0, "its width is set")
+            .when([](const FrameFacts& facts) { return facts.hasPhotons ? "" : "it is dark"; });
+    }
+};
+
+TEST(Condition, IsAskedOfTheValuesAsTheyAreAndOfWhatIsKnown) {
+    ParamSet set;
+    set.declare<WidthParams>("media");
+    EXPECT_TRUE(set.find("media.width").conditions.empty());
+    const Field footprints = set.find("media.footprints");
+    EXPECT_EQ(footprints.obstacle, "");
+    ASSERT_EQ(footprints.conditions.size(), 1u);
+    EXPECT_EQ(footprints.conditions.front()({.hasPhotons = true}), "");
+    EXPECT_EQ(footprints.conditions.front()({.hasPhotons = false}), "it is dark");
+    set.set("media.width", "3", "test");
+    EXPECT_EQ(set.find("media.footprints").obstacle, "its width is set");
 }
 
 }  // namespace

@@ -63,54 +63,54 @@ TEST(IsSheet, IsWhatDoesNotTurnBack) {
     EXPECT_FALSE(isSheet(withoutATriangle(makeSphere({}))));
 }
 
-TEST(HitsAgain, AreNoneWithoutASpecularSurfaceAndAtASinglePlane) {
-    EXPECT_FALSE(hitsAgain({}).reflected);
+TEST(RepeatedHits, AreNoneWithoutASpecularSurfaceAndAtASinglePlane) {
+    EXPECT_FALSE(repeatedHits({}).reflected);
     for (const MaterialKind kind : {MaterialKind::dielectric, MaterialKind::mirror}) {
         Scene scene;
         add(scene, makePlane({}), kind);
         scene.lights.push_back(sunAt(80.0));
-        EXPECT_FALSE(hitsAgain(scene).transmitted);
-        EXPECT_FALSE(hitsAgain(scene).reflected);
+        EXPECT_FALSE(repeatedHits(scene).transmitted);
+        EXPECT_FALSE(repeatedHits(scene).reflected);
     }
 }
 
-TEST(HitsAgain, AreThereInABodyEvenIfItsMeshIsOpen) {
+TEST(RepeatedHits, AreThereInABodyEvenIfItsMeshIsOpen) {
     for (const Mesh& ball : {makeSphere({}), withoutATriangle(makeSphere({}))}) {
         Scene scene;
         add(scene, ball);
         scene.lights.push_back(sunAt(0.0));
-        EXPECT_TRUE(hitsAgain(scene).transmitted);
+        EXPECT_TRUE(repeatedHits(scene).transmitted);
     }
 }
 
-TEST(HitsAgain, AreThereBetweenTwoSheets) {
+TEST(RepeatedHits, AreThereBetweenTwoSheets) {
     Scene scene;
     add(scene, makePlane({}));
     add(scene, makePlane({}));
-    EXPECT_TRUE(hitsAgain(scene).transmitted);
+    EXPECT_TRUE(repeatedHits(scene).transmitted);
 }
 
 // By hand: what enters goes on within 20 degrees of straight down, which waves of 20 degrees are
 // too flat to be hit; what is reflected is turned by 40 degrees, and 70 + 20 is where they are not.
-TEST(HitsAgain, OfReflectedLightBeginWhereWavesAreAsSteepAsItsPath) {
+TEST(RepeatedHits, OfReflectedLightBeginWhereWavesAreAsSteepAsItsPath) {
     for (const double sun : {0.0, 29.0}) {
-        EXPECT_FALSE(hitsAgain(waterUnderSun(20.0, sun)).transmitted);
-        EXPECT_FALSE(hitsAgain(waterUnderSun(20.0, sun)).reflected);
+        EXPECT_FALSE(repeatedHits(waterUnderSun(20.0, sun)).transmitted);
+        EXPECT_FALSE(repeatedHits(waterUnderSun(20.0, sun)).reflected);
     }
-    EXPECT_FALSE(hitsAgain(waterUnderSun(20.0, 31.0)).transmitted);
-    EXPECT_TRUE(hitsAgain(waterUnderSun(20.0, 31.0)).reflected);
+    EXPECT_FALSE(repeatedHits(waterUnderSun(20.0, 31.0)).transmitted);
+    EXPECT_TRUE(repeatedHits(waterUnderSun(20.0, 31.0)).reflected);
 }
 
-TEST(HitsAgain, OfRefractedLightBeginWhereTheSunGrazesTheWaves) {
-    EXPECT_FALSE(hitsAgain(waterUnderSun(20.0, 69.0)).transmitted);
-    EXPECT_TRUE(hitsAgain(waterUnderSun(20.0, 71.0)).transmitted);
+TEST(RepeatedHits, OfRefractedLightBeginWhereTheSunGrazesTheWaves) {
+    EXPECT_FALSE(repeatedHits(waterUnderSun(20.0, 69.0)).transmitted);
+    EXPECT_TRUE(repeatedHits(waterUnderSun(20.0, 71.0)).transmitted);
     // Steep waves bend light that comes from straight above by as much.
-    EXPECT_FALSE(hitsAgain(waterUnderSun(44.0, 0.0)).transmitted);
-    EXPECT_TRUE(hitsAgain(waterUnderSun(46.0, 0.0)).transmitted);
+    EXPECT_FALSE(repeatedHits(waterUnderSun(44.0, 0.0)).transmitted);
+    EXPECT_TRUE(repeatedHits(waterUnderSun(46.0, 0.0)).transmitted);
 }
 
-TEST(HitsAgain, AreThereForLightFromWithin) {
-    EXPECT_TRUE(hitsAgain(waterUnderSun(5.0, 180.0)).transmitted);
+TEST(RepeatedHits, AreThereForLightFromWithin) {
+    EXPECT_TRUE(repeatedHits(waterUnderSun(5.0, 180.0)).transmitted);
     // A lamp over the water's edge sees it at a slant, one far above does not.
     for (const auto& [height, expected] : {std::pair(0.1, true), std::pair(10.0, false)}) {
         Scene scene;
@@ -119,11 +119,11 @@ TEST(HitsAgain, AreThereForLightFromWithin) {
         lamp.kind = LightKind::point;
         lamp.position = {0.5, height, 0.0};
         scene.lights.push_back(lamp);
-        EXPECT_EQ(hitsAgain(scene).transmitted, expected) << height;
+        EXPECT_EQ(repeatedHits(scene).transmitted, expected) << height;
     }
 }
 
-TEST(HitsAgain, DependOnHowTheWaterIsPlacedOnly) {
+TEST(RepeatedHits, DependOnHowTheWaterIsPlacedOnly) {
     const glm::dmat4 turned =
         glm::rotate(glm::dmat4(1.0), glm::radians(90.0), glm::dvec3(0.0, 0.0, 1.0));
     for (const auto& [sun, expected] : {std::pair(29.0, false), std::pair(31.0, true)}) {
@@ -131,19 +131,19 @@ TEST(HitsAgain, DependOnHowTheWaterIsPlacedOnly) {
         add(scene, wavyWater(20.0), MaterialKind::dielectric, turned);
         scene.lights.push_back(sunAt(sun));
         scene.lights[0].direction = glm::dmat3(turned) * scene.lights[0].direction;
-        EXPECT_EQ(hitsAgain(scene).reflected, expected) << sun;
+        EXPECT_EQ(repeatedHits(scene).reflected, expected) << sun;
     }
     // Twice as high, so as steep as 36 degrees.
     Scene stretched = waterUnderSun(20.0, 20.0);
-    EXPECT_FALSE(hitsAgain(stretched).reflected);
+    EXPECT_FALSE(repeatedHits(stretched).reflected);
     stretched.objects[0].toWorld = glm::scale(glm::dmat4(1.0), glm::dvec3(1.0, 2.0, 1.0));
-    EXPECT_TRUE(hitsAgain(stretched).reflected);
+    EXPECT_TRUE(repeatedHits(stretched).reflected);
 }
 
-TEST(HitsAgain, OfShippedWaterAreThoseOfReflectedLightFromALowSun) {
-    EXPECT_FALSE(hitsAgain(loadScene("flat-water")).reflected);
-    EXPECT_FALSE(hitsAgain(loadScene("pool-reflections")).transmitted);
-    EXPECT_TRUE(hitsAgain(loadScene("pool-reflections")).reflected);
+TEST(RepeatedHits, OfShippedWaterAreThoseOfReflectedLightFromALowSun) {
+    EXPECT_FALSE(repeatedHits(loadScene("flat-water")).reflected);
+    EXPECT_FALSE(repeatedHits(loadScene("pool-reflections")).transmitted);
+    EXPECT_TRUE(repeatedHits(loadScene("pool-reflections")).reflected);
 }
 
 // A sheet, a wall beyond it where a low sun is reflected to, and the sun.

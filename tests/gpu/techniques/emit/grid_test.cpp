@@ -105,12 +105,12 @@ TEST(GridEmissionBorder, LiesWhereTheSheetEnds) {
     // Along x at z = 0 the lit part is 0.97 m wide; by whole cells of 0.08 m it cannot be.
     const auto widthOf = [](const Texels& irradiance) {
         double sum = 0.0;
-        double most = 0.0;
+        double maximum = 0.0;
         for (int x = 0; x < 240; ++x) {
             sum += irradiance.rgb(x, 90).g;
-            most = std::max(most, double{irradiance.rgb(120, 90).g});
+            maximum = std::max(maximum, double{irradiance.rgb(120, 90).g});
         }
-        return sum / most;
+        return sum / maximum;
     };
     const double pixelsPerMeter = 90.0 / (0.8 * std::tan(glm::radians(50.0)));
     EXPECT_NEAR(widthOf(rowOf(5)) / (0.97 * pixelsPerMeter), 1.0, 0.02);

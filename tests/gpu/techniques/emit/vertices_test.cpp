@@ -81,7 +81,7 @@ TEST(EmitVertices, FluxOnFlatWaterIsIrradianceTimesAreaTimesCosine) {
 }
 
 TEST(EmitVertices, PhotonsLieAtTheirVerticesAndCarryTheirThirds) {
-    // With another one beside it, the sheet is no grid.
+    // With another one next to it, the sheet is no grid.
     const scene::Scene scene =
         makeScene(kAbove, sun({0, -1, 0}, 900.0) + sheet("plane") +
                               floorPlane("pane", "glass", 1, {2, 0, 0}) + kFloor);

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "tests/gpu/techniques/lit_by_a_sheet.h"
+#include "tests/gpu/techniques/sheet_light.h"
 
 namespace kaustik::test {
 namespace {

@@ -9,9 +9,9 @@
 #include <functional>
 
 #include "framework/scene/files/scene_file.h"
+#include "techniques/layered_depth/fragment_lists.h"
+#include "techniques/layered_depth/pyramid.h"
 #include "techniques/register_all.h"
-#include "techniques/screen_space_photons/lists.h"
-#include "techniques/screen_space_photons/pyramid.h"
 #include "tests/gpu/fixture.h"
 
 namespace kaustik::test {
@@ -99,7 +99,8 @@ bool reaches(const numerics::Frame& frame, const std::string& limit) {
 }
 
 bool peeledForLists(const numerics::Frame& frame) {
-    return reaches(frame, "layers.lists.memory") || reaches(frame, "layers.lists.room") ||
+    return reaches(frame, "layers.lists.memory") ||
+           reaches(frame, "layers.lists.fragments_per_pixel") ||
            reaches(frame, "layers.lists.longest");
 }
 
@@ -230,7 +231,7 @@ TEST(FragmentLists, ThatHaveNoRoomLeaveTheViewToPeelingAndSaySo) {
     };
     const std::vector<Limited> all{
         {{{"layers.lists.memory", "1"}}, "layers.lists.memory"},
-        {{{"layers.lists.room", "1"}}, "layers.lists.room"},
+        {{{"layers.lists.fragments_per_pixel", "1"}}, "layers.lists.fragments_per_pixel"},
     };
     for (const Limited& limited : all) {
         SCOPED_TRACE(limited.limit);
@@ -245,7 +246,7 @@ TEST(FragmentLists, ThatHaveNoRoomLeaveTheViewToPeelingAndSaySo) {
         EXPECT_EQ(found->lostWatts, 0.0);
         const auto fragments =
             static_cast<double>(both.listed.renderer().layerStatistics().fragments);
-        EXPECT_EQ(found->needed, limited.limit == "layers.lists.room"
+        EXPECT_EQ(found->needed, limited.limit == "layers.lists.fragments_per_pixel"
                                      ? std::ceil(fragments / (320.0 * 240.0))
                                      : std::ceil(fragments * 36.0 / 1048576.0));
         // With what is said to be needed there is room.

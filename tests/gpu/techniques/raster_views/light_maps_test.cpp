@@ -77,7 +77,7 @@ Off offFrom(const MapFrame& frame, const std::function<double(const dvec3&)>& ex
 }
 
 TEST(MapCascades, HaveNoSeamsInUniformLight) {
-    if (isWithoutExactTracer()) GTEST_SKIP() << "built without Embree";
+    if (lacksExactTracer()) GTEST_SKIP() << "built without Embree";
     const scene::Scene scene = uniform(sun({0, -1, 0}, kIrradiance));
     for (const char* way : {"triangles", "beams"}) {
         SCOPED_TRACE(way);
@@ -94,7 +94,7 @@ TEST(MapCascades, HaveNoSeamsInUniformLight) {
 }
 
 TEST(MapCascades, AreThoseOfEachLight) {
-    if (isWithoutExactTracer()) GTEST_SKIP() << "built without Embree";
+    if (lacksExactTracer()) GTEST_SKIP() << "built without Embree";
     const scene::Scene scene = uniform(severalLights());
     const MapFrame frame =
         cascades(scene, 3, {{"trace", "raytraced"}, {"reconstruct", "triangles"}});
@@ -140,7 +140,7 @@ TEST(MapCascades, LeaveTheLedgerAsItIs) {
 
 // The border of the light, which the eye has close before it, is as sharp as the map's texels.
 TEST(MapCascades, AreFinerWhereTheEyeLooksClosely) {
-    if (isWithoutExactTracer()) GTEST_SKIP() << "built without Embree";
+    if (lacksExactTracer()) GTEST_SKIP() << "built without Embree";
     const scene::Scene scene = uniform(sun({0, -1, 0}, kIrradiance));
     std::vector<double> texels;
     std::vector<double> blurred;

@@ -10,11 +10,11 @@
 #include "framework/core/error.h"
 #include "framework/numerics/frame.h"
 #include "framework/scene/files/scene_file.h"
+#include "techniques/layered_depth/depth_peeling.h"
+#include "techniques/layered_depth/pyramid.h"
+#include "techniques/raster_views/receivers.h"
 #include "techniques/register_all.h"
-#include "techniques/screen_space_photons/peel.h"
-#include "techniques/screen_space_photons/pyramid.h"
-#include "techniques/screen_space_photons/sprites.h"
-#include "techniques/shared/receivers.h"
+#include "techniques/splats/sprite_splats.h"
 #include "tests/gpu/fixture.h"
 
 namespace kaustik::test {
@@ -59,9 +59,10 @@ Registry storingIn(const MakeViews& makeViews, const std::string& gather) {
         std::function([makeViews](FrameBuilder& frame, const SpritesParams& params, Hits hits,
                                   Surfaces surfaces, CausticMap before) {
             const auto seen = frame.once<ReceiverView>("receivers elsewhere", [&] {
-                return std::make_shared<ReceiverView>(
-                    seeReceivers(frame, surfaces.geometry, makeViews(frame), "elsewhere", "a test")
-                        .receivers);
+                return std::make_shared<ReceiverView>(renderReceivers(frame, surfaces.geometry,
+                                                                      makeViews(frame), "elsewhere",
+                                                                      "a test")
+                                                          .receivers);
             });
             const Stored stored =
                 splatInto(frame, {.params = params}, hits, {*seen, -1, "_elsewhere"},
@@ -138,7 +139,7 @@ Agreement agreement(const numerics::Frame& a, const numerics::Frame& b, std::siz
 
 void expectTracersAgree(const std::string& sceneName, const MakeViews& makeViews,
                         const std::string& tracer, const std::string& exactTechnique,
-                        double tolerance, double leastShare) {
+                        double tolerance, double minShare) {
     const scene::Scene scene = scene::loadScene(sceneName);
     const Registry registry = tracingIn(makeViews, tracer);
     const numerics::Settings settings{{"emit.photons", "64x64"}};
@@ -146,7 +147,7 @@ void expectTracersAgree(const std::string& sceneName, const MakeViews& makeViews
     const numerics::Frame exact = render(registry, scene, exactTechnique, settings);
     const Agreement found = agreement(traced, exact, 0, tolerance);
     EXPECT_GT(found.photons, 1000);
-    EXPECT_GE(found.share(), leastShare) << found.same << " of " << found.photons;
+    EXPECT_GE(found.share(), minShare) << found.same << " of " << found.photons;
     EXPECT_LT(std::abs(traced.renderer().ledger().balance()), 1e-6);
 }
 
@@ -166,7 +167,7 @@ TEST(LayersInTheSunsView, GiveTheHitsOfAnalyticPlanes) {
 }
 
 TEST(LayersInTheSunsView, GiveTheHitsOfExactRays) {
-    if (isWithoutExactTracer()) GTEST_SKIP() << "the build has no Embree";
+    if (lacksExactTracer()) GTEST_SKIP() << "the build has no Embree";
     for (const std::string& tracer : kTracersInAnyView) {
         SCOPED_TRACE(tracer);
         expectTracersAgree("flat-water", sun512, tracer, "raytraced", 1e-4, 0.999);
@@ -176,7 +177,7 @@ TEST(LayersInTheSunsView, GiveTheHitsOfExactRays) {
 }
 
 TEST(LayersOnACube, GiveTheHitsOfExactRays) {
-    if (isWithoutExactTracer()) GTEST_SKIP() << "the build has no Embree";
+    if (lacksExactTracer()) GTEST_SKIP() << "the build has no Embree";
     // Around the ball, so that every ray in it crosses a face or two.
     const auto cube = [](FrameBuilder& frame) {
         const scene::Scene& scene = frame.scene();

@@ -19,7 +19,7 @@ using namespace numerics;
 using glm::dvec2;
 using glm::dvec3;
 
-// As shaders/include/beam.glsl says (Duff et al. 2017).
+// As shaders/include/photons/beam.glsl says (Duff et al. 2017).
 glm::dmat2x3 basisAcross(const dvec3& unit) {
     const double side = unit.z < 0.0 ? -1.0 : 1.0;
     const double a = -1.0 / (side + unit.z);
@@ -135,7 +135,7 @@ class LightGrid {
 
 // The relative errors of photons after so many interactions.
 struct Errors {
-    std::vector<double> place;    // of how far neighbours are beside a photon
+    std::vector<double> place;    // of how far neighbours are next to a photon
     std::vector<double> beam;     // the same with the turn of the direction, by the way to the hit
     std::vector<double> arrival;  // of where neighbours hit the surface that the photon hits next
     int judged = 0;               // photons that go on and do not graze
@@ -151,7 +151,7 @@ double quantile(std::vector<double> values, double share) {
 // Largest relative errors of half of the photons, of 95 % and of all.
 struct Bounds {
     double half = 0.0;
-    double most = 0.0;
+    double maximum = 0.0;
     double all = 1e30;
 };
 
@@ -215,7 +215,7 @@ void compare(const Case& what, const Frame& frame, const LightGrid& grid, int in
             arrived[axis] = scale * (more[last].position - less[last].position);
             turned[axis] = scale * (direction(more, grid.rayOf(cell + step)) -
                                     direction(less, grid.rayOf(cell - step)));
-            // Before the first interaction: where the light first hits, and so beside the photon.
+            // Before the first interaction: where the light first hits, and so next to the photon.
             const std::size_t from = last == 0 ? 0 : last - 1;
             moved[axis] = scale * (more[from].position - less[from].position);
         }
@@ -226,7 +226,7 @@ void compare(const Case& what, const Frame& frame, const LightGrid& grid, int in
         // Where the neighbours' rays hit the plane that the photon has hit.
         const glm::dmat2x3 offsets =
             across * (photon.place + (last == 0 ? 0.0 : photon.distance) * photon.turn);
-        const glm::dmat2x3 beside =
+        const glm::dmat2x3 neighbour =
             offsets - glm::outerProduct(photon.direction, photon.hitNormal * offsets) /
                           glm::dot(photon.direction, photon.hitNormal);
         const double way = glm::length(own[last].position - own[last == 0 ? 0 : last - 1].position);
@@ -235,7 +235,7 @@ void compare(const Case& what, const Frame& frame, const LightGrid& grid, int in
             std::hypot(frobenius(photon.place - place), way * frobenius(photon.turn - turn)) /
             std::hypot(frobenius(place), way * frobenius(turn)));
         const glm::dmat2x3 exact = toView * arrived;
-        errors.arrival.push_back(frobenius(beside - exact) / frobenius(exact));
+        errors.arrival.push_back(frobenius(neighbour - exact) / frobenius(exact));
     }
 }
 
@@ -257,10 +257,10 @@ std::vector<Errors> errorsOf(const Case& what, const std::string& tracer, int wi
     return all;
 }
 
-void expectWithin(const std::vector<Errors>& all, const Bounds& bounds, double leastFound) {
+void expectWithin(const std::vector<Errors>& all, const Bounds& bounds, double minFound) {
     for (std::size_t i = 0; i < all.size(); ++i) {
         const Errors& errors = all[i];
-        EXPECT_LE(errors.elsewhere, (1.0 - leastFound) * errors.judged) << i;
+        EXPECT_LE(errors.elsewhere, (1.0 - minFound) * errors.judged) << i;
         EXPECT_GE(errors.place.size(), 15u) << i;
         const std::pair<const char*, const std::vector<double>*> kinds[] = {
             {"place", &errors.place}, {"beam", &errors.beam}, {"arrival", &errors.arrival}};
@@ -271,7 +271,7 @@ void expectWithin(const std::vector<Errors>& all, const Bounds& bounds, double l
                             quantile(*values, 0.99), quantile(*values, 1.0));
             ::testing::Test::RecordProperty(fmt::format("{}_{}", name, i), text);
             EXPECT_LE(quantile(*values, 0.5), bounds.half) << name << " " << i << ": " << text;
-            EXPECT_LE(quantile(*values, 0.95), bounds.most) << name << " " << i << ": " << text;
+            EXPECT_LE(quantile(*values, 0.95), bounds.maximum) << name << " " << i << ": " << text;
             EXPECT_LE(quantile(*values, 1.0), bounds.all) << name << " " << i << ": " << text;
         }
     }
@@ -351,7 +351,7 @@ class Beams : public ::testing::TestWithParam<Case> {};
 // Within 1e-3, but for photons that come near a focus, where what they are judged by goes to
 // nothing.
 TEST_P(Beams, AreWhatNeighboursDoAfterEveryInteraction) {
-    if (isWithoutExactTracer()) GTEST_SKIP() << "the build has no Embree";
+    if (lacksExactTracer()) GTEST_SKIP() << "the build has no Embree";
     expectWithin(errorsOf(GetParam(), "raytraced", 120, 90), {5e-4, 1e-3, 5e-3}, 0.97);
 }
 

@@ -57,12 +57,12 @@ double toFocus(const MapPhoton& photon) {
 }
 
 // Photons that came in so near the axis, m.
-std::vector<MapPhoton> paraxial(const MapFrame& frame, double most, double x = 0.0,
+std::vector<MapPhoton> paraxial(const MapFrame& frame, double maximum, double x = 0.0,
                                 double z = 0.0) {
     std::vector<MapPhoton> near;
     for (const MapPhoton& photon : frame.photons()) {
         if (photon.fate == kFateInFlight &&
-            std::hypot(photon.entry.x - x, photon.entry.z - z) < most)
+            std::hypot(photon.entry.x - x, photon.entry.z - z) < maximum)
             near.push_back(photon);
     }
     return near;
@@ -140,7 +140,7 @@ TEST_P(Lens, OfAWavesCrestFocusesBelowItInClosedForm) {
     const std::vector<MapPhoton> photons = paraxial(render(scene, model), 0.03);
     ASSERT_GT(photons.size(), 5U);
     for (const MapPhoton& photon : photons) {
-        // 0.03 m beside the crest the curvature is less by 1 - cos(0.03 k) = 7 %; the mean of both
+        // 0.03 m next to the crest the curvature is less by 1 - cos(0.03 k) = 7 %; the mean of both
         // directions by half of that.
         const double here = 0.5 * (std::cos(k * photon.entry.x) + std::cos(k * photon.entry.z));
         EXPECT_NEAR(toFocus(photon), focal / here, 0.04 * focal);

@@ -85,13 +85,13 @@ TEST(ShadowMap, HasNoStepsWhereThePictureMagnifiesIt) {
     double worst = 0.0;
     double largestStep = 0.0;
     glm::dvec3 here;
-    glm::dvec3 beside;
+    glm::dvec3 neighbour;
     for (int y = 0; y < 240; ++y) {
         for (int x = 0; x + 1 < 320; ++x) {
-            if (!shadow.onFloor(x, y, here) || !shadow.onFloor(x + 1, y, beside)) continue;
+            if (!shadow.onFloor(x, y, here) || !shadow.onFloor(x + 1, y, neighbour)) continue;
             partly += shadow.lit(x, y) > 0.0 && shadow.lit(x, y) < 1.0 ? 1 : 0;
             const double texels =
-                std::abs(beside.x - here.x) / texel.x + std::abs(beside.z - here.z) / texel.y;
+                std::abs(neighbour.x - here.x) / texel.x + std::abs(neighbour.z - here.z) / texel.y;
             const double step = std::abs(shadow.lit(x + 1, y) - shadow.lit(x, y));
             // What a square of three texels holds changes by a third of what it moves.
             worst = std::max(worst, step - texels / 3.0);

@@ -315,7 +315,7 @@ TEST(DeferredBall, AloneIsThatOfTwoInterfaces) {
     }
 }
 
-// A third ball beside the first two, farther away and lit by itself.
+// A third ball next to the first two, farther away and lit by itself.
 TEST(DeferredBodies, BeyondThoseKeptAreNamedAndInTheLedger) {
     const dvec3 direction(0.0, -1.0, 0.0);
     const double radius = 0.4;
@@ -364,10 +364,10 @@ TEST(DeferredBodies, AreThoseWhoseOwnBoxesOverlap) {
         const scene::Scene scene = makeScene(kAside, sun({0, -1, 0}) + balls + floorBelow());
         const MapFrame frame = render(scene, {});
         frame.expectBalance();
-        bool isSaid = false;
+        bool isMentioned = false;
         for (const std::string& warning : frame.renderer().warnings())
-            isSaid = isSaid || warning.find("whose boxes overlap") != std::string::npos;
-        EXPECT_EQ(isSaid, isOneBody);
+            isMentioned = isMentioned || warning.find("whose boxes overlap") != std::string::npos;
+        EXPECT_EQ(isMentioned, isOneBody);
         return frame.watts(kAccountInternalReflectionLimit) / frame.watts(kAccountEmitted);
     };
     // Light that has entered a ball comes to its back at an angle at which it leaves.
@@ -420,7 +420,7 @@ class DeferredView : public ::testing::Test {
                     followPath(smooth, {eye.position, along}, {false, false, false, false});
                 if (own.size() != 4) continue;
                 ++result.exact;
-                if (positions.at(x, y, 3) != 4.0f || directions.at(x, y, 3) != kPathCameOut)
+                if (positions.at(x, y, 3) != 4.0f || directions.at(x, y, 3) != kPathExited)
                     continue;
                 ++result.both;
                 degrees.push_back(

@@ -71,9 +71,9 @@ bool isInTheMiddle(const dvec3& entry, const Slant& slant) {
     if (std::abs(entry.y - 0.5 * kThickness) > 1e-3) return false;
     const dvec3 along = slant.direction() * (kThickness / std::cos(slant.angle()));
     const dvec3 end = entry + along;
-    const double most = 1.95;
+    const double maximum = 1.95;
     return std::max({std::abs(entry.x), std::abs(entry.z), std::abs(end.x), std::abs(end.z)}) <
-           most;
+           maximum;
 }
 
 class Slab : public ::testing::TestWithParam<double> {
@@ -363,7 +363,7 @@ TEST(TotalReflectionInside, IsInTheLedger) {
 
 // A mirror below half of a slab: what has been bent before is not followed, but known.
 TEST(LightThatHasBeenBentBefore, IsInTheLedger) {
-    if (isWithoutExactTracer()) GTEST_SKIP() << "the build has no Embree";
+    if (lacksExactTracer()) GTEST_SKIP() << "the build has no Embree";
     const scene::Scene scene = makeScene(
         kAbove, sun({0, -1, 0}) + object("slab", "box", "glass", {0, 0, 0}, "size = [2, 0.2, 2]") +
                     object("half", "plane", "mirror", {-0.5, -0.5, 0}, "size = [1, 2]") +

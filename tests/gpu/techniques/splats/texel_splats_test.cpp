@@ -7,9 +7,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "framework/numerics/bench.h"
+#include "framework/numerics/stage_harness.h"
 #include "framework/report/map_account.h"
-#include "tests/gpu/techniques/lit_by_a_sheet.h"
+#include "tests/gpu/techniques/sheet_light.h"
 
 namespace kaustik::test {
 namespace {
@@ -68,9 +68,9 @@ class MadeUpPhotons : public ::testing::Test {
     numerics::Frame store(const scene::Scene& scene, const render::RasterView& view,
                           const std::vector<dvec2>& texels, double depth,
                           const Settings& settings) {
-        std::vector<BenchPhoton> photons;
+        std::vector<StagePhoton> photons;
         for (const dvec2& texel : texels) {
-            BenchPhoton photon;
+            StagePhoton photon;
             photon.position = placeBefore(view, texel, depth);
             photon.direction = {0, -1, 0};
             photon.startNormal = {0, 1, 0};
@@ -79,7 +79,7 @@ class MadeUpPhotons : public ::testing::Test {
         }
         return reconstruct(scene, photons, settings);
     }
-    numerics::Frame reconstruct(const scene::Scene& scene, const std::vector<BenchPhoton>& photons,
+    numerics::Frame reconstruct(const scene::Scene& scene, const std::vector<StagePhoton>& photons,
                                 const Settings& settings) {
         return reconstructHits(lab_, lab_.choose(ReconstructStage::name, "fixed"), scene, photons,
                                with({{"reconstruct.space", "light"},
@@ -157,12 +157,12 @@ TEST_F(MadeUpPhotons, AreInTheMapOrCountedBesideItAtItsBorder) {
     for (const char* diameter : {"1", "7", "63"}) {
         const numerics::Frame frame = store(floor_, view, texels, depthOfFloor(view),
                                             {{"reconstruct.fixed.diameter", diameter}});
-        const double beside = frame.renderer().ledger().watts[transport::kAccountOutsideMap];
-        EXPECT_NEAR(storedIn(frame).sum().g + beside, double(texels.size()),
+        const double outside = frame.renderer().ledger().watts[transport::kAccountOutsideMap];
+        EXPECT_NEAR(storedIn(frame).sum().g + outside, double(texels.size()),
                     kFlux * double(texels.size()))
             << diameter;
-        // Points lie on one texel, and nothing of them beside the map.
-        EXPECT_EQ(beside > 0.0, std::string(diameter) != "1") << diameter;
+        // Points lie on one texel, and nothing of them next to the map.
+        EXPECT_EQ(outside > 0.0, std::string(diameter) != "1") << diameter;
     }
 }
 
@@ -170,16 +170,16 @@ TEST_F(MadeUpPhotons, BesideTheMapAndBehindWhatItSeesAreInTheLedger) {
     const scene::Scene scene = makeScene(
         kAbove, sun({0, -1, 0}) + floorOf(4.0) + floorPlane("table", "white", 1.0, {0, -0.5, 0}));
     const auto landing = [](const dvec3& position, const dvec3& direction = {0, -1, 0}) {
-        BenchPhoton photon;
+        StagePhoton photon;
         photon.position = position;
         photon.direction = direction;
         photon.startNormal = {0, 1, 0};
         photon.startMaterial = kGrey;
         return photon;
     };
-    std::vector<BenchPhoton> photons(1, landing({1.2, -1.0, 0.3}));  // seen
+    std::vector<StagePhoton> photons(1, landing({1.2, -1.0, 0.3}));  // seen
     photons.insert(photons.end(), 2, landing({0.1, -1.0, 0.1}));     // below the table
-    photons.insert(photons.end(), 4, landing({3.0, -1.0, 0.1}));     // beside the map
+    photons.insert(photons.end(), 4, landing({3.0, -1.0, 0.1}));     // next to the map
     // From below: the side that the light does not see.
     photons.insert(photons.end(), 8, landing({1.2, -1.0, 0.3}, {0, 1, 0}));
     const EnergyLedger ledger = reconstruct(scene, photons, {}).renderer().ledger();
@@ -192,9 +192,9 @@ TEST_F(MadeUpPhotons, BesideTheMapAndBehindWhatItSeesAreInTheLedger) {
 TEST_F(MadeUpPhotons, StayOnTheirSurfaceWhereEdgesAreKept) {
     const scene::Scene scene = makeScene(
         kAbove, sun({0, -1, 0}) + floorOf(4.0) + floorPlane("table", "white", 1.0, {0, -0.5, 0}));
-    std::vector<BenchPhoton> photons;
+    std::vector<StagePhoton> photons;
     for (int i = 0; i < 50; ++i) {
-        BenchPhoton photon;
+        StagePhoton photon;
         photon.position = {0.5 - 0.003 * (i + 0.5), -0.5, 0.4 * std::sin(7.0 * i)};
         photon.direction = {0, -1, 0};
         photon.startNormal = {0, 1, 0};
@@ -228,13 +228,13 @@ TEST_F(MadeUpPhotons, StayOnTheirSurfaceWhereEdgesAreKept) {
 TEST_F(MadeUpPhotons, AddUpInATexelWithoutDrift) {
     const render::RasterView view = mapViewOf(reconstruct(floor_, {}, {}));
     constexpr std::size_t kPhotons = std::size_t{1} << 18U;
-    BenchPhoton photon;
+    StagePhoton photon;
     photon.position = placeBefore(view, {64.5, 64.5}, depthOfFloor(view));
     photon.direction = {0, -1, 0};
     photon.fluxWatts = dvec3(0.1);
     photon.startNormal = {0, 1, 0};
     photon.startMaterial = kGrey;
-    const numerics::Frame frame = reconstruct(floor_, std::vector<BenchPhoton>(kPhotons, photon),
+    const numerics::Frame frame = reconstruct(floor_, std::vector<StagePhoton>(kPhotons, photon),
                                               {{"reconstruct.fixed.diameter", "1"}});
     const double expected = double(kPhotons) * double{0.1f};
     EXPECT_NEAR(storedIn(frame).at(64, 64).g, expected, 1e-7 * expected);
@@ -309,11 +309,11 @@ class Blend : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(Blend, TakesTheSmallestSizeThatHasEnoughAndLiesBetweenSizes) {
     const scene::Scene scene = waves();
-    const auto render = [&](const char* least, const char* most) {
+    const auto render = [&](const char* minimum, const char* maximum) {
         return MapFrame(scene, "multi_resolution",
                         with(kSmall, {{"filter.blend.interpolant", GetParam()},
-                                      {"filter.blend.least", least},
-                                      {"filter.blend.most", most}}));
+                                      {"filter.blend.min_photons", minimum},
+                                      {"filter.blend.max_photons", maximum}}));
     };
     // Of floats with 24 bits.
     const auto same = [](double a, double b) { return std::abs(a - b) <= 1e-6 * std::max(a, b); };
@@ -336,14 +336,14 @@ TEST_P(Blend, TakesTheSmallestSizeThatHasEnoughAndLiesBetweenSizes) {
             ASSERT_TRUE(same(smallest.flux[i].g, sets[0].flux[i].g));
         }
         ASSERT_TRUE(same(largest.flux[i].g, sets[3].flux[i].g));
-        double least = 1e30;
-        double most = 0.0;
+        double minimum = 1e30;
+        double maximum = 0.0;
         for (const MapTexels& set : sets) {
-            least = std::min(least, set.flux[i].g);
-            most = std::max(most, set.flux[i].g);
+            minimum = std::min(minimum, set.flux[i].g);
+            maximum = std::max(maximum, set.flux[i].g);
         }
-        ASSERT_GE(value, least * (1.0 - 1e-6));
-        ASSERT_LE(value, most * (1.0 + 1e-6));
+        ASSERT_GE(value, minimum * (1.0 - 1e-6));
+        ASSERT_LE(value, maximum * (1.0 + 1e-6));
         if (counts[0][i] >= 16) {
             ++whole;
             ASSERT_TRUE(same(value, sets[0].flux[i].g));

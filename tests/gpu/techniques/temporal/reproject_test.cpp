@@ -383,7 +383,7 @@ void expectNoGhosts(const glm::dvec3& offset) {
     // (1 - w)/w of what each adds.
     EXPECT_LT(largestOf(found, 1, true), 8.0);
     EXPECT_GT(largestOf(ghosts, 1, true), 80.0);
-    // At outlines the texels that are left lie beside the place: by less than a pixel, over which
+    // At outlines the texels that are left lie next to the place: by less than a pixel, over which
     // the waves rise by 3/m 0.03 m of 1000 W/m².
     EXPECT_LT(largestOf(found, 1, false), 90.0);
     // And it is a mean: variance falls as if the camera stood, and more where texels are mixed. A

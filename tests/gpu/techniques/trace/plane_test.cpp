@@ -7,8 +7,8 @@
 #include <limits>
 #include <random>
 
-#include "framework/numerics/bench.h"
 #include "framework/numerics/cases/scene_text.h"
+#include "framework/numerics/stage_harness.h"
 #include "framework/scene/files/scene_file.h"
 #include "framework/transport/watts.h"
 #include "tests/gpu/fixture.h"
@@ -24,7 +24,7 @@ constexpr double kRelative = 1e-5;  // 32-bit positions of 10 m and normals, and
 
 class TracePlane : public testing::Test {
   protected:
-    Traced trace(const scene::Scene& scene, const std::vector<BenchPhoton>& photons) {
+    Traced trace(const scene::Scene& scene, const std::vector<StagePhoton>& photons) {
         return tracePhotons(lab_, lab_.choose(TraceStage::name, "plane"), scene, photons);
     }
 
@@ -34,16 +34,16 @@ class TracePlane : public testing::Test {
     Lab lab_{context(), registry_, suite_};
 };
 
-BenchPhoton photon(const glm::dvec3& position, const glm::dvec3& direction) {
-    BenchPhoton result;
+StagePhoton photon(const glm::dvec3& position, const glm::dvec3& direction) {
+    StagePhoton result;
     result.position = position;
     result.direction = glm::normalize(direction);
     return result;
 }
 
 // From a point into every direction, the same on every machine.
-std::vector<BenchPhoton> photonsFrom(const glm::dvec3& position, int count) {
-    std::vector<BenchPhoton> photons;
+std::vector<StagePhoton> photonsFrom(const glm::dvec3& position, int count) {
+    std::vector<StagePhoton> photons;
     for (int i = 0; i < count; ++i) {  // a spiral over the sphere
         const double y = 1.0 - (2.0 * i + 1.0) / count;
         const double turn = 2.399963229728653 * i;
@@ -61,19 +61,19 @@ TEST_F(TracePlane, HitsATiltedPlaneWhereTheRayMeetsIt) {
     const glm::dvec3 normal = glm::normalize(glm::dvec3(place * glm::dvec4(0, 1, 0, 0)));
     const glm::dvec3 middle(place[3]);
     const glm::dmat4 toPlane = glm::inverse(place);
-    std::vector<BenchPhoton> photons = photonsFrom({0.5, 1.0, -5.0}, 4000);
-    const std::vector<BenchPhoton> behind = photonsFrom({-0.4, -2.5, -10.0}, 4000);
+    std::vector<StagePhoton> photons = photonsFrom({0.5, 1.0, -5.0}, 4000);
+    const std::vector<StagePhoton> behind = photonsFrom({-0.4, -2.5, -10.0}, 4000);
     photons.insert(photons.end(), behind.begin(), behind.end());
     const Traced traced = trace(scene, photons);
     int hits = 0;
     int passed = 0;
     for (std::size_t i = 0; i < photons.size(); ++i) {
-        const BenchPhoton& p = photons[i];
+        const StagePhoton& p = photons[i];
         const double t = glm::dot(middle - p.position, normal) / glm::dot(p.direction, normal);
         const glm::dvec3 on(toPlane * glm::dvec4(p.position + t * p.direction, 1.0));
-        const double beside = std::max(std::abs(on.x) - 3.0, std::abs(on.z) - 2.0);
-        if (std::abs(beside) < 1e-4) continue;  // which side of the edge is known to rounding
-        const bool isHit = t > 0.0 && beside < 0.0;
+        const double neighbour = std::max(std::abs(on.x) - 3.0, std::abs(on.z) - 2.0);
+        if (std::abs(neighbour) < 1e-4) continue;  // which side of the edge is known to rounding
+        const bool isHit = t > 0.0 && neighbour < 0.0;
         ASSERT_EQ(traced.hits[i].isHit(), isHit) << i;
         ++(isHit ? hits : passed);
         if (!isHit) continue;
@@ -96,8 +96,8 @@ TEST_F(TracePlane, HitsTheNearestOfSeveralFromEitherSide) {
         makeScene({}, kSun + facingPlane("far", "white", 40, {0, 0, -7}) +
                           facingPlane("near", "grey", 40, {0, 0, -6.998}) +
                           facingPlane("nearest, beside", "white", 1, {20, 0, -4}));
-    std::vector<BenchPhoton> forth;
-    std::vector<BenchPhoton> back;
+    std::vector<StagePhoton> forth;
+    std::vector<StagePhoton> back;
     for (int i = 0; i < 100; ++i) {
         forth.push_back(photon({0.1 * i - 5.0, 0.3, -2.0}, {0.002 * i, 0.1, -1.0}));
         back.push_back(photon({0.1 * i - 5.0, 0.3, -9.0}, {0.002 * i, 0.1, 1.0}));
@@ -125,7 +125,7 @@ struct Room {
 TEST_F(TracePlane, HitsTheFiveFacesOfARoomFromInside) {
     const Room room;
     const glm::dvec3 inRoom(0.7, 0.1, -0.4);
-    const std::vector<BenchPhoton> photons =
+    const std::vector<StagePhoton> photons =
         photonsFrom(glm::dvec3(room.place * glm::dvec4(inRoom, 1.0)), 6000);
     const glm::dmat3 back(glm::inverse(room.place));
     const Traced traced = trace(room.scene, photons);
@@ -166,7 +166,7 @@ TEST_F(TracePlane, LetsNothingThroughWhereFacesMeet) {
     const Room room;
     const glm::dvec3 inRoom(0.7, 0.1, -0.4);
     const glm::dvec3 from(room.place * glm::dvec4(inRoom, 1.0));
-    std::vector<BenchPhoton> photons;
+    std::vector<StagePhoton> photons;
     for (int i = 0; i <= 1000; ++i) {
         const double s = 0.002 * i - 1.0;
         const glm::dvec3& h = room.half;
@@ -183,7 +183,7 @@ TEST_F(TracePlane, LetsNothingThroughWhereFacesMeet) {
 TEST_F(TracePlane, HitsWhatTheEyeDoesNotSee) {
     const scene::Scene scene = makeScene({}, kSun + floorPlane("floor", "grey", 60, {0, -1, 0}) +
                                                  facingPlane("behind", "white", 60, {0, 0, 10}));
-    std::vector<BenchPhoton> photons;
+    std::vector<StagePhoton> photons;
     for (int i = 0; i < 50; ++i) {
         photons.push_back(photon({-20.0, 0.02 * i, 3.0}, {0.1, -1.0, 0.2}));
         photons.push_back(photon({0.1, 0.02 * i, 2.0}, {0.0, 0.5, 1.0}));
@@ -197,13 +197,13 @@ TEST_F(TracePlane, HitsWhatTheEyeDoesNotSee) {
     }
 }
 
-// Water over a floor, and a ball of glass beside it.
+// Water over a floor, and a ball of glass next to it.
 TEST_F(TracePlane, CountsPhotonsInsideOfABodyAndNotThoseInWater) {
     const scene::Scene scene = makeScene(
         {}, kSun + floorPlane("floor", "grey", 20, {0, -2, -5}) +
                 floorPlane("water", "water", 2, {0, 0, -5}) +
                 object("ball", "sphere", "glass", {3, 0, -5}, "radius = 0.5\nsegments = 24"));
-    std::vector<BenchPhoton> photons(4, photon({0, 0, -5}, {0.1, -1, 0.1}));
+    std::vector<StagePhoton> photons(4, photon({0, 0, -5}, {0.1, -1, 0.1}));
     photons[1].media = {kWater};
     photons[2].media = {kGlass};
     photons[3].media = {kWater, kGlass};  // glass around the water
@@ -221,7 +221,7 @@ TEST_F(TracePlane, CountsPhotonsInsideOfABodyAndNotThoseInWater) {
 TEST_F(TracePlane, IsNotMetWhereAPhotonStartsInItAndLeavesItsFront) {
     const scene::Scene scene = makeScene({}, kSun + floorPlane("floor", "grey", 6, {0, -1, -5}) +
                                                  floorPlane("ceiling", "white", 6, {0, 1, -5}));
-    std::vector<BenchPhoton> photons;
+    std::vector<StagePhoton> photons;
     for (int i = 0; i < 64; ++i) {
         const glm::dvec3 on(0.05 * i - 1.6, -1.0, -5.0 + 0.013 * i);
         photons.push_back(photon(on, {0.2, 1.0, 0.1}));   // a mirror that lies on the floor
@@ -240,7 +240,7 @@ TEST_F(TracePlane, IsNotMetWhereAPhotonStartsInItAndLeavesItsFront) {
 TEST_F(TracePlane, GivesADefinedResultForRaysThatAreNone) {
     const scene::Scene scene = makeScene({}, kSun + facingPlane("wall", "grey", 6, {0, 0, -5}));
     const double noNumber = std::numeric_limits<double>::quiet_NaN();
-    std::vector<BenchPhoton> photons(5, photon({0, 0, -1}, {0, 0, -1}));
+    std::vector<StagePhoton> photons(5, photon({0, 0, -1}, {0, 0, -1}));
     photons[0].position.x = noNumber;
     photons[1].direction.y = noNumber;
     photons[2].direction = glm::dvec3(0.0);
@@ -254,7 +254,7 @@ TEST_F(TracePlane, GivesADefinedResultForRaysThatAreNone) {
 
 TEST_F(TracePlane, GivesEqualBitsAgain) {
     const Room room;
-    const std::vector<BenchPhoton> photons = photonsFrom({0.3, -0.2, -0.6}, 500);
+    const std::vector<StagePhoton> photons = photonsFrom({0.3, -0.2, -0.6}, 500);
     const Traced a = trace(room.scene, photons);
     const Traced b = trace(room.scene, photons);
     for (std::size_t i = 0; i < photons.size(); ++i) {

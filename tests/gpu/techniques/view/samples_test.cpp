@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "framework/scene/files/scene_file.h"
-#include "techniques/shared/view_passes.h"
+#include "techniques/eye_rays/view_passes.h"
 #include "tests/gpu/fixture.h"
 
 namespace kaustik::test {

@@ -63,11 +63,11 @@ std::array<glm::dvec3, 3> worldCorners(const Scene& scene, const Object& object,
 }
 
 // The share of an object's triangles whose middle sees the light past every receiver.
-double lightedShare(const Scene& scene, const Object& object, const Light& light) {
+double litShare(const Scene& scene, const Object& object, const Light& light) {
     const std::vector<glm::uvec3>& triangles = scene.meshes[object.mesh].triangles;
     const std::size_t stride = triangles.size() / 200 + 1;
     int seen = 0;
-    int asked = 0;
+    int requested = 0;
     for (std::size_t i = 0; i < triangles.size(); i += stride) {
         const auto corners = worldCorners(scene, object, triangles[i]);
         const glm::dvec3 middle = (corners[0] + corners[1] + corners[2]) / 3.0;
@@ -81,10 +81,10 @@ double lightedShare(const Scene& scene, const Object& object, const Light& light
                 blocked = blocked || cuts(source, middle, worldCorners(scene, other, triangle));
             }
         }
-        ++asked;
+        ++requested;
         seen += !blocked;
     }
-    return double(seen) / asked;
+    return double(seen) / requested;
 }
 
 TEST_F(ShippedScenes, AreListedByNameWithADescription) {
@@ -116,7 +116,7 @@ TEST_F(ShippedScenes, HaveALightThatReachesEverySpecularObject) {
             if (isReceiver(scene.materials[object.material].kind)) continue;
             double best = 0.0;
             for (const Light& light : scene.lights) {
-                best = std::max(best, lightedShare(scene, object, light));
+                best = std::max(best, litShare(scene, object, light));
             }
             EXPECT_GT(best, 0.2) << object.name;
         }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How much of a pixel a triangle covers (shaders/include/coverage.glsl), against a polygon that is
-// clipped to the pixel in double precision.
+// How much of a pixel a triangle covers (shaders/include/maps/coverage.glsl), against a polygon
+// that is clipped to the pixel in double precision.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,7 +16,7 @@ using glm::dvec2;
 using glm::vec2;
 using glm::vec4;
 
-constexpr double kLeastHeight = 1.0 / 64.0;  // px, as in the shader
+constexpr double kMinHeight = 1.0 / 64.0;  // px, as in the shader
 
 using Corners = std::array<vec2, 3>;
 
@@ -139,14 +139,14 @@ TEST_F(Coverages, AreExactWhateverTheSizeAndTheOrientation) {
         triangles.push_back({middle + within(size), middle + within(size), middle + within(size)});
         const Corners& t = triangles.back();
         // Those that are thinner than what is resolved have a test of their own.
-        if (2.0 * std::abs(areaOf(t)) < 1.5 * kLeastHeight * longestSide(t)) triangles.pop_back();
+        if (2.0 * std::abs(areaOf(t)) < 1.5 * kMinHeight * longestSide(t)) triangles.pop_back();
     }
     ASSERT_GT(triangles.size(), 1000u);
     const Coverage found = coverageOf(triangles);
     RecordProperty("worst_e9", static_cast<int>(1e9 * found.worst));
     EXPECT_GT(found.covered, 10000u);
     EXPECT_EQ(found.moved, 0u);
-    // Corners lie some 1e-6 px beside themselves in float; a side is at most 1.4 px long in a
+    // Corners lie some 1e-6 px next to themselves in float; a side is at most 1.4 px long in a
     // pixel.
     EXPECT_LT(found.worst, 2e-5);
     EXPECT_LT(found.worstSum, 1e-3);
@@ -179,7 +179,7 @@ TEST_F(Coverages, OfSliversAndPointsAddUpToWhatTheyAreTakenAs) {
     const Coverage found = coverageOf(triangles);
     EXPECT_GT(found.moved, 1000u);
     // No corner leaves its place by more than what is resolved, twice that of a point's.
-    EXPECT_LT(found.farthest, 2.0 * kLeastHeight);
+    EXPECT_LT(found.farthest, 2.0 * kMinHeight);
     EXPECT_LT(found.worst, 1e-5);
     EXPECT_LT(found.worstSum, 5e-3);
 }

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace kaustik::experiment {
+
+// The JSON Schema of experiment files. `params`: all parameters, as `kaustik list params --json`
+// prints them; `techniques`: the techniques' names.
+[[nodiscard]] nlohmann::json studySchema(const nlohmann::json& params,
+                                         const nlohmann::json& techniques);
+
+}  // namespace kaustik::experiment

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "framework/gui/imgui_keys.h"
+
+#define GLFW_INCLUDE_NONE  // OpenGL comes from epoxy
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
+#include <imgui.h>
+
+namespace kaustik::gui {
+namespace {
+
+#if IMGUI_VERSION_NUM < 18700
+
+int imguiKey(int key) {
+    return key;
+}
+
+#else
+
+// Of keys that type something and of function keys; ImGuiKey_None for others.
+ImGuiKey imguiKey(int key) {
+    struct Range {
+        int first, last;  // GLFW_KEY_…
+        ImGuiKey imguiFirst;
+    };
+    // Dear ImGui has the same order in each of them.
+    static constexpr Range kRanges[] = {
+        {GLFW_KEY_SPACE, GLFW_KEY_SPACE, ImGuiKey_Space},
+        {GLFW_KEY_APOSTROPHE, GLFW_KEY_APOSTROPHE, ImGuiKey_Apostrophe},
+        {GLFW_KEY_COMMA, GLFW_KEY_SLASH, ImGuiKey_Comma},
+        {GLFW_KEY_0, GLFW_KEY_9, ImGuiKey_0},
+        {GLFW_KEY_SEMICOLON, GLFW_KEY_SEMICOLON, ImGuiKey_Semicolon},
+        {GLFW_KEY_EQUAL, GLFW_KEY_EQUAL, ImGuiKey_Equal},
+        {GLFW_KEY_A, GLFW_KEY_Z, ImGuiKey_A},
+        {GLFW_KEY_LEFT_BRACKET, GLFW_KEY_RIGHT_BRACKET, ImGuiKey_LeftBracket},
+        {GLFW_KEY_GRAVE_ACCENT, GLFW_KEY_GRAVE_ACCENT, ImGuiKey_GraveAccent},
+        {GLFW_KEY_F1, GLFW_KEY_F12, ImGuiKey_F1},
+    };
+    for (const Range& range : kRanges) {
+        if (key >= range.first && key <= range.last)
+            return static_cast<ImGuiKey>(range.imguiFirst + (key - range.first));
+    }
+    return ImGuiKey_None;
+}
+
+#endif
+
+}  // namespace
+
+bool isKeyDown(int key) {
+    return ImGui::IsKeyDown(imguiKey(key));
+}
+
+bool isKeyPressed(int key) {
+    return ImGui::IsKeyPressed(imguiKey(key), false);
+}
+
+void sendKey(GLFWwindow* window, int key, int scancode, int action, int modifiers) {
+#if IMGUI_VERSION_NUM >= 18700
+    // Its callback would look up once more what is printed on the key.
+    if (const ImGuiKey known = imguiKey(key); known != ImGuiKey_None) {
+        if (action != GLFW_REPEAT) ImGui::GetIO().AddKeyEvent(known, action == GLFW_PRESS);
+        return;
+    }
+#endif
+    ImGui_ImplGlfw_KeyCallback(window, key, scancode, action, modifiers);
+}
+
+}  // namespace kaustik::gui

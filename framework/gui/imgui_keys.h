@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// Keys between GLFW and Dear ImGui, which up to 1.86 numbers them as GLFW does and since 1.87 has
+// numbers of its own. Everything else names a key by its GLFW_KEY_….
+#pragma once
+
+struct GLFWwindow;
+
+namespace kaustik::gui {
+
+[[nodiscard]] bool isKeyDown(int key);
+// Whether the key went down in this frame; that it is held and repeats does not count.
+[[nodiscard]] bool isKeyPressed(int key);
+
+// Tells Dear ImGui what a GLFW key callback was told, of a key by what is printed on it (keys.h).
+void sendKey(GLFWwindow* window, int key, int scancode, int action, int modifiers);
+
+}  // namespace kaustik::gui

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+// Handles of photons and of their hits, as lists in textures.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "framework/graph/graph.h"
+#include "framework/transport/light_cells.h"
+#include "framework/transport/texels.h"
+#include "framework/transport/types.h"
+
+namespace kaustik {
+
+using Ledger = graph::Buffer<transport::LedgerEntry>;
+
+// The paths that photons stand for, of all that light takes: what a technique claims to model. The
+// reference can be restricted to the same.
+struct ModelledPaths {
+    bool transmissionOnly = false;  // at dielectrics the refracted branch, unless all is reflected
+    int interactions = 0;           // most specular interactions of a photon
+    bool end = false;               // whoever sent the photons on cannot do so again
+};
+
+// The cells of lights' grids, or the vertices of a mesh's grid, that photons of a list stand for,
+// row by row: by them neighbours are found. PhotonOrigin::cell counts from the grid's first row.
+struct CellGrid {
+    int width = 0;  // cells; 0: nobody has neighbours
+    int firstRow = 0;
+    int rows = 0;
+    int firstLight = 0;
+    int lights = 0;
+    int splits = 0;  // a cell may have 2^splits photons in the list, told apart by so many first
+                     // interactions of their paths
+    [[nodiscard]] std::size_t places() const {
+        return (static_cast<std::size_t>(width) * static_cast<std::size_t>(rows) *
+                static_cast<std::size_t>(lights))
+               << static_cast<unsigned>(splits);
+    }
+};
+
+// A list of photons, as texels of the transfer map (K06, section 2; PhotonList says how many), with
+// the account of what they have lost so far. Names in shaders: include/photons/photons.glsl.
+struct Photons {
+    graph::Texture<PhotonPosition> position;
+    graph::Texture<PhotonDirection> direction;
+    graph::Texture<PhotonFlux> flux;
+    graph::Texture<OriginTexel> origin;
+    // Invalid where nobody uses beams (FrameBuilder::usesBeams).
+    graph::Texture<BeamPlace> beamPlace;
+    graph::Texture<BeamTurn> beamTurn;
+    graph::Buffer<transport::PhotonList> list;
+    Ledger ledger;
+    ModelledPaths paths;
+    CellGrid cells;
+    graph::Texture<CellExtentTexel> extents;  // by cell; invalid where each stands for itself
+    // Of the textures: room for so many photons. Only the device knows how many there are.
+    int width = 0;
+    int height = 0;
+    // Rows that suffice for those that go on: fewer where a list holds photons more than once.
+    int nextRows = 0;
+    std::string batch;   // the suffix of its batch of emission
+    std::string suffix;  // tells the names of its resources from those of other lists
+    [[nodiscard]] int capacity() const { return width * height; }
+    [[nodiscard]] bool hasBeams() const { return beamPlace.valid(); }
+
+    // New textures, to be filled by the pass, and a new list, unless it is that of `cells`.
+    static Photons create(graph::PassSetup& setup, int width, int height, const std::string& suffix,
+                          bool hasBeams, const LightCells& cells = {});
+    // For a pass that reads photons: "photonPosition", "photonDirection", "photonFlux",
+    // "photonOrigin" and the block "Photons"; with beams, for which the shaders of the pass are
+    // compiled as PHOTON_BEAMS, "photonBeamPlace" and "photonBeamTurn".
+    void sample(graph::PassSetup& setup) const;
+    // For a pass that makes them: images under the same names with "next" instead of "photon", and
+    // the block "NextPhotons".
+    void store(graph::PassSetup& setup) const;
+    // For a pass that goes on filling textures that one before has created.
+    void rewrite(graph::PassSetup& setup);
+    [[nodiscard]] std::vector<graph::ResourceRef> textures() const;
+    // What all passes do that lose flux; block "LedgerEntries".
+    void account(graph::PassSetup& setup);
+};
+
+// Where photons arrived, each at the texel that it has among `incoming`.
+struct Hits {
+    graph::Texture<HitPosition> position;
+    graph::Texture<HitSurface> surface;
+    graph::Texture<HitFlux> flux;
+    graph::Texture<HitShape> shape;  // where the photons have beams
+    Photons incoming;                // the photons that made them
+
+    static Hits create(graph::PassSetup& setup, const Photons& incoming);
+    // "hitPosition", "hitSurface", "hitFlux", "hitShape": to read, or as images of the pass that
+    // makes them.
+    void sample(graph::PassSetup& setup) const;
+    void store(graph::PassSetup& setup) const;
+    // For a pass that goes on filling what one before has created.
+    void rewrite(graph::PassSetup& setup);
+    // In the order of a fragment shader's outputs.
+    [[nodiscard]] std::vector<graph::ResourceRef> textures() const;
+};
+
+}  // namespace kaustik

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// Handles of what is seen of the scene in some views: by the eye, by lights, from a point.
+#pragma once
+
+#include <memory>
+
+#include "framework/render/raster_views.h"
+#include "framework/transport/geometry.h"
+#include "framework/transport/texels.h"
+#include "framework/transport/types.h"
+
+namespace kaustik {
+
+// The views that textures were rasterised in; those of cubes hold their faces one after the other.
+using Views = std::shared_ptr<const render::RasterViews>;
+
+// Where light can be stored: the first diffuse or glossy surface on each pixel's straight ray,
+// dielectrics being invisible to it; a pixel that ends on a mirror has none. 2D, or of a cube
+// arrays.
+struct ReceiverView {
+    graph::Texture<ReceiverTexel> receiver;
+    graph::Texture<SurfaceTexel> receiverSurface;  // where the ray ends on a mirror, the mirror's
+    graph::Texture<AlbedoTexel> receiverAlbedo;
+    Views views;
+};
+
+// What the eye sees.
+struct EyeBuffer : ReceiverView {
+    // The first specular surface in front of the receiver; invalid where the scene has none.
+    graph::Texture<ViewDepth> interface;
+    graph::Texture<SurfaceTexel> interfaceSurface;
+};
+
+// All surfaces along each pixel's ray, front to back (K06, section 2.2). Of a cube the arrays hold
+// `layers` for each face.
+struct LayeredDepth {
+    graph::Texture<LayerTexel> depth;      // array, one layer a surface
+    graph::Texture<SurfaceTexel> surface;  // array
+    graph::Texture<SquarePlane> pyramid;   // array; planes of the layers over squares of pixels
+    graph::Buffer<transport::LayerStatistics> statistics;
+    int layers = 0;
+    Views views;
+};
+
+// What a technique's nodes are given of the scene. A pass that nobody reads does not run: whoever
+// is handed a surface pays for those that it reads.
+struct Surfaces {
+    Geometry geometry;
+    EyeBuffer eye;
+    LayeredDepth layers;
+};
+
+}  // namespace kaustik

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// Embree 3 or 4, whichever CMake has found, or in a build without it whichever has its headers
+// there. They differ in how a query hands its context on to the filters; everything else that is
+// used here has the same names and means the same.
+#pragma once
+
+#if defined(KAUSTIK_EMBREE_MAJOR) ? KAUSTIK_EMBREE_MAJOR == 3 : !__has_include(<embree4/rtcore.h>)
+#include <embree3/rtcore.h>
+#else
+#include <embree4/rtcore.h>
+#endif
+
+namespace kaustik::reference {
+
+#if RTC_VERSION_MAJOR == 3
+
+using QueryContext = RTCIntersectContext;
+
+inline void initQueryContext(QueryContext& context) {
+    rtcInitIntersectContext(&context);
+}
+
+inline void findFirstHit(RTCScene scene, QueryContext& context, RTCRayHit& query) {
+    rtcIntersect1(scene, &context, &query);
+}
+
+inline void findAnyHit(RTCScene scene, QueryContext& context, RTCRay& ray) {
+    rtcOccluded1(scene, &context, &ray);
+}
+
+#else
+
+using QueryContext = RTCRayQueryContext;
+
+inline void initQueryContext(QueryContext& context) {
+    rtcInitRayQueryContext(&context);
+}
+
+inline void findFirstHit(RTCScene scene, QueryContext& context, RTCRayHit& query) {
+    RTCIntersectArguments arguments;
+    rtcInitIntersectArguments(&arguments);
+    arguments.context = &context;
+    rtcIntersect1(scene, &query, &arguments);
+}
+
+inline void findAnyHit(RTCScene scene, QueryContext& context, RTCRay& ray) {
+    RTCOccludedArguments arguments;
+    rtcInitOccludedArguments(&arguments);
+    arguments.context = &context;
+    rtcOccluded1(scene, &ray, &arguments);
+}
+
+#endif
+
+}  // namespace kaustik::reference

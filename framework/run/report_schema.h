@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace kaustik::run {
+
+// The JSON Schema of report.json, as this build of the program writes it.
+[[nodiscard]] nlohmann::json reportSchema();
+
+}  // namespace kaustik::run

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: MIT
+#include "framework/run/session.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "framework/core/error.h"
+#include "framework/run/output.h"
+#include "framework/scene/shapes/height_field.h"
+
+namespace kaustik::run {
+namespace {
+
+gl::TimerMode timerMode(bool isPrecise) {
+    return isPrecise ? gl::TimerMode::finish : gl::TimerMode::timestamps;
+}
+
+void checkCount(const char* name, int count, int minimum) {
+    if (count < minimum || count > 1000000)
+        throw ConfigError(fmt::format("{}: {} is not from {} to 1000000.", name, count, minimum));
+}
+
+}  // namespace
+
+void checkSeries(const FrameSeries& series, const SeriesNames& names) {
+    checkCount(names.frames, series.frames, 1);
+    checkCount(names.warmup, series.warmup, 0);
+    if (!(std::abs(series.timeStepSeconds) <= 1e6)) {
+        throw ConfigError(fmt::format("{}: {} is not from -1000000 to 1000000 seconds.",
+                                      names.timeStep, series.timeStepSeconds));
+    }
+}
+
+Session::Session(gl::Context& context, const Registry& registry, scene::Scene& scene,
+                 RenderSettings settings, SessionOptions options)
+    : context_(context),
+      scene_(scene),
+      options_(options),
+      settings_(std::move(settings)),
+      renderer_(context, registry, scene, settings_),
+      timer_(timerMode(options.isPrecise)),
+      needsUpdate_(options.leavesOutAbsentPasses) {}
+
+void Session::change(RenderSettings settings) {
+    settings_ = std::move(settings);
+    noteSceneChange();
+    forgetTimes();
+}
+
+void Session::adopt(RenderSettings settings) {
+    const RenderSettings settingsBefore = settings_;
+    const report::RunRecord recordBefore = record_;
+    const bool neededUpdate = needsUpdate_;
+    const bool forgotTimes = forgetsTimes_;
+    change(std::move(settings));
+    try {
+        prepare();
+    } catch (const Error&) {
+        settings_ = settingsBefore;
+        record_ = recordBefore;
+        if (!neededUpdate) update(settings_);
+        needsUpdate_ = neededUpdate;
+        forgetsTimes_ = forgotTimes;
+        forgetBuild();
+        throw;
+    }
+}
+
+void Session::noteSceneChange() {
+    needsUpdate_ = true;
+    hasFrame_ = false;
+}
+
+void Session::setTime(double seconds) {
+    if (seconds == scene_.timeSeconds) return;
+    scene::setTime(scene_, seconds);
+    noteSceneChange();
+}
+
+void Session::forgetTimes() {
+    forgetsTimes_ = needsUpdate_ = true;
+}
+
+void Session::setPrecise(bool isPrecise) {
+    if (std::exchange(options_.isPrecise, isPrecise) == isPrecise) return;
+    timer_ = gl::PassTimer(timerMode(isPrecise));
+    record_.timer = timer_.mode();
+    record_.frames.clear();
+}
+
+void Session::keep(std::set<std::string> textures) {
+    if (textures == kept_) return;
+    kept_ = std::move(textures);
+    forgetBuild();
+}
+
+std::vector<std::string> Session::keptTextures() const {
+    std::vector<std::string> names(kept_.begin(), kept_.end());
+    std::erase_if(names, [&](const std::string& name) { return !isTexture(renderer_, name); });
+    return names;
+}
+
+void Session::forgetBuild() {
+    isBuilt_ = hasFrame_ = false;
+}
+
+void Session::update(const RenderSettings& settings) {
+    renderer_.update(settings);
+    if (options_.leavesOutAbsentPasses) absentPasses_ = renderer_.forgetAbsentPasses();
+}
+
+void Session::bringUpToDate(const RenderSettings* other) {
+    if (!needsUpdate_ && other == nullptr) return;
+    forgetBuild();
+    needsUpdate_ = true;
+    update(other != nullptr ? *other : settings_);
+    needsUpdate_ = other != nullptr;
+    if (!std::exchange(forgetsTimes_, false)) return;
+    record_.frames.clear();
+    record_.warmup = 0;
+}
+
+void Session::prepare() {
+    bringUpToDate();
+    if (isBuilt_) return;
+    hasFrame_ = false;
+    renderer_.build(Purpose::picture);
+    // What is kept may not be in the graph of other settings.
+    const std::vector<std::string> kept = keptTextures();
+    if (!kept.empty()) renderer_.build(Purpose::picture, kept);
+    isBuilt_ = true;
+    restartRecord();
+}
+
+// Describes the graph that is built. Times of frames of the same passes stay.
+void Session::restartRecord() {
+    report::RunRecord now;
+    now.timer = timer_.mode();
+    now.seed = static_cast<long long>(settings_.seed);
+    now.timeStepSeconds = record_.timeStepSeconds;
+    now.startupMilliseconds = record_.startupMilliseconds;
+    now.graphBuildMilliseconds = renderer_.buildMilliseconds();
+    const graph::Compiled& compiled = renderer_.compiled();
+    now.passes = compiled.records;
+    now.textureBytes = compiled.textureBytes;
+    now.bufferBytes = compiled.bufferBytes;
+    now.peakBytes = compiled.peakBytes;
+    for (const graph::Step& step : compiled.steps) {
+        now.stepNames.push_back(step.name);
+        now.stepBytes.emplace_back(step.liveTextureBytes, step.liveBufferBytes);
+    }
+    if (now.stepNames == record_.stepNames) {
+        now.frames = std::move(record_.frames);
+        now.warmup = record_.warmup;
+    }
+    record_ = std::move(now);
+}
+
+void Session::check(const std::vector<std::string>& saved) {
+    bringUpToDate();
+    forgetBuild();
+    renderer_.build(Purpose::measurement, saved);
+    requireTextures(renderer_, saved);
+}
+
+void Session::measureDepthComplexity() {
+    bringUpToDate();
+    forgetBuild();
+    renderer_.measureDepthComplexity();
+}
+
+void Session::noteStartup(std::chrono::steady_clock::time_point begin) {
+    record_.startupMilliseconds =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+}
+
+RunReference Session::referenceFor(const FrameSeries& series, const std::string& wanted,
+                                   std::uint64_t photons, const Watch& watch) {
+    const double begin = scene_.timeSeconds;
+    setTime(series.secondsOf(series.frames - 1, begin));
+    prepare();
+    RunReference reference(wanted, photons, renderer_, watch);
+    if (series.timeStepSeconds != 0.0 && renderer_.needs().animated) {
+        const bool hasTwoTimes = series.frames > 1;
+        reference.watchFlicker(
+            hasTwoTimes ? std::optional(series.secondsOf(series.frames - 2, begin)) : std::nullopt,
+            renderer_);
+    }
+    return reference;
+}
+
+bool Session::renderBuilt(gl::PassTimer& timer, const ShouldContinue& shouldContinue) {
+    hasFrame_ = false;
+    hasFrame_ = renderer_.renderFrame(timer, shouldContinue);
+    return hasFrame_;
+}
+
+bool Session::renderUntimed(const ShouldContinue& shouldContinue) {
+    gl::PassTimer untimed(gl::TimerMode::finish);
+    return renderBuilt(untimed, shouldContinue);
+}
+
+RenderedSeries Session::render(const FrameSeries& series, const SeriesWatch& watch,
+                               RunReference* reference) {
+    RenderedSeries rendered;
+    const auto collect = [&](bool waits) {
+        for (gl::FrameTime& time : timer_.takeFinished(waits))
+            rendered.times.push_back(std::move(time));
+    };
+    const double begin = scene_.timeSeconds;
+    const int total = series.warmup + series.frames;
+    record_.timeStepSeconds = series.timeStepSeconds;
+    static_cast<void>(timer_.takeFinished(true));  // of a series that an error has ended
+    for (int frame = 0; frame < total; ++frame) {
+        const double seconds = series.secondsOf(std::max(frame - series.warmup, 0), begin);
+        if (seconds != scene_.timeSeconds) collect(true);
+        setTime(seconds);
+        prepare();
+        rendered.isWhole = renderBuilt(timer_, watch.shouldContinue);
+        if (!rendered.isWhole) break;
+        // A ring slot is read when its frame is done; no frame may be lost, so that the ring is
+        // emptied before it is full.
+        collect(options_.isPrecise || frame % 2 == 1);
+        // The picture's own frame repeats the last time, which a filter over time would count
+        // twice.
+        const bool isOfLastTwo = frame >= series.warmup && frame >= total - 2;
+        if (reference != nullptr && isOfLastTwo) reference->recordMoment(renderer_);
+        if (watch.onFrame) watch.onFrame(frame + 1);
+    }
+    collect(true);
+    const auto warm = std::min(rendered.times.size(), static_cast<std::size_t>(series.warmup));
+    rendered.times.erase(rendered.times.begin(),
+                         rendered.times.begin() + static_cast<std::ptrdiff_t>(warm));
+    record_.warmup += static_cast<int>(warm);
+    std::vector<gl::FrameTime>& all = record_.frames;
+    all.insert(all.end(), rendered.times.begin(), rendered.times.end());
+    if (all.size() > options_.framesKept)
+        all.erase(all.begin(), all.end() - static_cast<std::ptrdiff_t>(options_.framesKept));
+    return rendered;
+}
+
+bool Session::renderAgain(const ShouldContinue& shouldContinue) {
+    prepare();
+    return renderUntimed(shouldContinue);
+}
+
+bool Session::renderFor(Purpose purpose, const ShouldContinue& shouldContinue,
+                        const std::optional<params::Extent>& size) {
+    if (size) {
+        RenderSettings other = settings_;
+        other.width = size->width;
+        other.height = size->height;
+        bringUpToDate(&other);
+    } else {
+        bringUpToDate();
+    }
+    forgetBuild();
+    renderer_.build(purpose);
+    const bool isWhole = renderUntimed(shouldContinue);
+    hasFrame_ = false;  // of what was asked for
+    return isWhole;
+}
+
+}  // namespace kaustik::run

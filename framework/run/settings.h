@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// From what somebody asks for to the settings of a renderer.
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "framework/params/assignment.h"
+#include "framework/pipeline/renderer.h"
+
+namespace kaustik::run {
+
+struct SettingsRequest {
+    std::string technique;
+    std::vector<params::Assignment> assignments;  // a later one counts more
+    std::set<std::string> disabledPasses = {};
+    std::string disabledBy = "--disable";  // what names them, for messages
+    std::uint64_t seed = 1;
+};
+
+// Throws ConfigError for what the registry does not have or a parameter does not take.
+[[nodiscard]] RenderSettings makeSettings(const SettingsRequest& request, const Registry& registry);
+
+void setSize(RenderSettings& settings, const params::Extent& size);
+
+}  // namespace kaustik::run

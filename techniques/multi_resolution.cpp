@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Splats of four sizes: Wyman, Dachsbacher 2008 (WD08), section 4.1. Its parts by section:
+// papers.md.
+#include "framework/pipeline/registry.h"
+
+namespace kaustik {
+
+void registerMultiResolution(Registry& registry) {
+    registry.technique({"multi_resolution",
+                        "Splats of four sizes at once, of which each texel takes what its photons "
+                        "are dense enough for.",
+                        "Wyman, Dachsbacher 2008 (WD08), section 4.1",
+                        {{"specular", "two_interfaces"},
+                         {"trace", "background"},
+                         {"reconstruct.space", "light"},
+                         {"gather", "project"},
+                         {"view", "image_space"},
+                         {"emit.photons", "512x512"},
+                         {"reconstruct", "four_radii"},
+                         {"filter", "blend"}}});
+}
+
+}  // namespace kaustik

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#include "techniques/photon_lists/emitted.h"
+
+#include <vector>
+
+namespace kaustik {
+
+Hits storeEmitted(graph::PassSetup& setup, Photons photons, const Samples& samples) {
+    photons.batch = samples.suffix;
+    photons.ledger = samples.ledger.valid() ? setup.write(samples.ledger)
+                                            : setup.createBuffer<transport::LedgerEntry>(
+                                                  "ledger", transport::kAccountCount);
+    photons.store(setup);
+    Hits hits = Hits::create(setup, photons);
+    hits.store(setup);
+    return hits;
+}
+
+void beginEmission(gl::PassContext& context, const Photons& photons, const Samples& samples) {
+    if (!samples.ledger.valid()) context.buffer(photons.ledger).clear();
+    if (!samples.cells.valid()) fillList(context, photons);
+}
+
+void clearEmitted(gl::PassContext& context, const Hits& hits) {
+    for (const std::vector<graph::ResourceRef>& textures :
+         {hits.incoming.textures(), hits.textures()}) {
+        for (const graph::ResourceRef& texture : textures)
+            context.texture(texture).clear({0, 0, 0, 0});
+    }
+}
+
+}  // namespace kaustik

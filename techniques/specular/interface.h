@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "framework/pipeline/frame_builder.h"
+
+namespace kaustik {
+
+// specular.interface, for who chooses between it and another node.
+Photons interactAtInterface(FrameBuilder& frame, const params::NoParams&, Hits hits,
+                            Surfaces surfaces);
+
+}  // namespace kaustik
