@@ -151,7 +151,7 @@ Json texturedScene(const Json& image) {
     document["materials"][0] = {
         {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}, {"metallicFactor", 0}}}};
     document["textures"] = {{{"source", 0}}};
-    document["images"] = {image};
+    document["images"] = Json::array({image});
     return document;
 }
 
