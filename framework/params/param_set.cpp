@@ -130,6 +130,7 @@ Field ParamSet::find(const std::string& fullName) const {
 std::vector<std::string> ParamSet::renamedFrom(std::string_view name) const {
     std::vector<std::string> result;
     for (const auto& [formerName, fullName] : formerNames_) {
+        if (formerName == name) return {fullName};
         if (abbreviates(name, formerName)) result.push_back(fullName);
     }
     return result;
@@ -164,15 +165,6 @@ void ParamSet::set(std::string_view name, std::string_view value, std::string_vi
     const std::string fullName = resolve(name, where);
     find(fullName).set(value, fullName, where);
     setByUser_.insert(fullName);
-}
-
-void ParamSet::setAssignment(std::string_view assignment, std::string_view where) {
-    const auto equals = assignment.find('=');
-    if (equals == std::string_view::npos || equals == 0) {
-        throw ConfigError(
-            fmt::format("{}: '{}' is not of the form name=value.", where, assignment));
-    }
-    set(assignment.substr(0, equals), assignment.substr(equals + 1), where);
 }
 
 void ParamSet::setDefault(std::string_view name, std::string_view value, std::string_view where) {

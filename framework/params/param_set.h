@@ -59,13 +59,12 @@ class ParamSet {
     // name (with the nearest that exists), one that a parameter had before (with its name today), a
     // bad value or one out of range.
     void set(std::string_view name, std::string_view value, std::string_view where);
-    // "name=value", as in --set.
-    void setAssignment(std::string_view assignment, std::string_view where);
     // A technique's own default: range-checked like `set`, but does not count as the user's.
     void setDefault(std::string_view name, std::string_view value, std::string_view where);
 
     [[nodiscard]] std::string resolve(std::string_view name, std::string_view where) const;
-    // The full names of the parameters that were called `name`, or by a longer form of it, before.
+    // The full names of the parameters that were called `name` before, or by a longer form of it
+    // where none was called exactly that.
     [[nodiscard]] std::vector<std::string> renamedFrom(std::string_view name) const;
     [[nodiscard]] bool isSetByUser(const std::string& fullName) const;
     [[nodiscard]] const std::set<std::string>& setByUser() const { return setByUser_; }

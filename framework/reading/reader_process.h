@@ -3,10 +3,11 @@
 // files crash, hang or eat memory for some of them, and here that costs the reader, not the
 // program: whatever happens is one error that names the file.
 //
-// The reader is a program of its own, kaustik_reader, next to the running one. A fork would be
-// cheaper, but is not safe in a process that has threads and an OpenGL context; and the program
-// itself, started once more, would have to be every program that links this library: tests and
-// techniques of others, too. It also keeps those libraries out of the program's own start.
+// The reader is a program of its own, kaustik_reader, next to the running one. To read in a fork
+// without another program would be cheaper, but is not safe in a process that has threads and an
+// OpenGL context; and the program itself, started once more, would have to be every program that
+// links this library: tests and techniques of others, too. It also keeps those libraries out of the
+// program's own start.
 #pragma once
 
 #include <filesystem>

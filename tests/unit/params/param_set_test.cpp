@@ -126,7 +126,7 @@ TEST(ParamSet, NamesTheParameterThatWasCalledOtherwiseBefore) {
                 << message;
         }
         EXPECT_EQ(each.get<StepsParams>("trace.march").maxSteps, 64);
-        each.setAssignment("max_steps=7", "--set");
+        each.set("max_steps", "7", "--set");
         EXPECT_EQ(each.get<StepsParams>("trace.march").maxSteps, 7);
     }
 }
@@ -137,7 +137,7 @@ TEST(ParamSet, AShortNameOfOneParameterThatAnotherHadBeforeIsAmbiguous) {
     set.declare<CountParams>("emit.grid");
     EXPECT_NE(messageOf(set, "most=7").find("emit.grid.most and trace.march.max_steps"),
               std::string::npos);
-    set.setAssignment("grid.most=7", "--set");
+    set.set("grid.most", "7", "--set");
     EXPECT_EQ(set.get<CountParams>("emit.grid").maximum, 7);
 }
 
