@@ -2,19 +2,22 @@
 # SPDX-License-Identifier: MIT
 # Installs what is missing, fetches the meshes, builds, and runs all tests. Safe to run again: only
 # what has changed is installed, fetched and built again.
-#   run.sh [--asan] [-- options of ctest...]
+#   run.sh [--quick | --asan] [-- options of ctest...]
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 preset=release
+selection=()
 while (($# > 0)); do
     case $1 in
         -h | --help)
-            echo "usage: run.sh [--asan] [-- options of ctest...]"
-            echo "Installs, builds and runs all tests; --asan does it with the address and"
-            echo "undefined-behaviour sanitizers. For one test: run.sh -- -R NAME"
+            echo "usage: run.sh [--quick | --asan] [-- options of ctest...]"
+            echo "Installs, builds and runs all tests. --quick runs those that together take a few"
+            echo "minutes (tests/quick); --asan runs all with the address and undefined-behaviour"
+            echo "sanitizers. For one test: run.sh -- -R NAME"
             exit 0
             ;;
+        --quick) selection=(--label-exclude '^slow$') ;;
         --asan) preset=asan ;;
         --)
             shift
@@ -32,4 +35,4 @@ done
 cd "$root"
 # Two at a time at most: on a software rasteriser each test already uses several cores.
 jobs=$(nproc)
-ctest --preset "$preset" --output-on-failure --parallel $((jobs < 2 ? jobs : 2)) "$@"
+ctest --preset "$preset" --output-on-failure --parallel $((jobs < 2 ? jobs : 2)) "${selection[@]}" "$@"
