@@ -37,6 +37,8 @@ struct Bench {
     std::shared_ptr<const FrameResult> result;
     std::shared_ptr<const ReferenceState> reference;
     std::vector<scene::SceneListing> scenes;
+    // Asked for before `reference`: once nothing is computed, `reference` has what was.
+    ReferenceWorker::Progress referenceProgress{};
 
     // The newest order, the one that first asked for the same picture, and the last document that
     // was rendered without an error.

@@ -168,6 +168,7 @@ void Workbench::pollWorkers() {
             settings_.kept.isDeviceKnown = true;
         }
     }
+    bench_.referenceProgress = referenceWorker_.progress();
     if (const auto state = referenceWorker_.state(); state != bench_.reference) {
         bench_.reference = state;
         framesToDraw_ = std::max(framesToDraw_, 2);

@@ -27,7 +27,7 @@ void drawReference(Bench& bench) {
     if (!reference.problem.empty())
         ImGui::TextColored(ImVec4(1.0f, 0.45f, 0.4f, 1.0f), "%s", reference.problem.c_str());
     bench.map.area("error.problem", 0, 0, 0, 0, reference.problem);
-    const ReferenceWorker::Progress progress = bench.referenceWorker.progress();
+    const ReferenceWorker::Progress& progress = bench.referenceProgress;
     const bool isOfThisView = hasSameView(reference, bench.document);
     if (reference.isLooking) {
         ImGui::TextDisabled("Looking for a reference …");
