@@ -5,9 +5,10 @@
     choose.py [--seconds S] [--build build/release]
 
 S seconds (default 210) are what the chosen tests may take together, two at a time, by the times that
-ctest measured in BUILD when it last ran all of them. Chosen are every unit test, then the cheapest test
-of each suite, then whatever is cheapest. All others get the label `slow`. A test that is new has no
-such label until this is run again, and so belongs to the quick ones.
+ctest measured in BUILD when it last ran all of them. Chosen are every unit test and those of Python, then
+the cheapest test of each suite, then whatever is cheapest. All others get the label `slow`; `cluster` and
+`install` have it where they are declared. A test that is new has no such label until this is run again,
+and so belongs to the quick ones.
 """
 
 import argparse
@@ -18,6 +19,8 @@ import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 NEVER_QUICK = {"cluster", "install"}
+# By CMake's add_test, after ctest has read the file: it cannot change their labels.
+ALWAYS_QUICK = ("unit/", "python")
 
 
 def measured(build):
@@ -55,7 +58,7 @@ def main():
                  "run them all first, by ctest --preset release")
 
     by_cost = sorted(tests, key=lambda name: tests[name][1])
-    units = [name for name in by_cost if tests[name][0][0].startswith("unit/")]
+    units = [name for name in by_cost if tests[name][0][0].startswith(ALWAYS_QUICK)]
     suites = {}
     for name in by_cost:
         suites.setdefault(name.split(".")[0], name)
@@ -68,6 +71,8 @@ def main():
     lines = ["# SPDX-License-Identifier: MIT",
              "# Written by choose.py: what `tests/run.sh --quick` leaves out. ctest reads it."]
     for name in sorted(set(tests) - chosen):
+        if NEVER_QUICK & set(tests[name][0]):
+            continue
         labels = ";".join([*tests[name][0], "slow"])
         lines.append(f'set_tests_properties([=[{name}]=] PROPERTIES LABELS "{labels}")')
     (HERE / "slow_tests.cmake").write_text("\n".join(lines) + "\n")
