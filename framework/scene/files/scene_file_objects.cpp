@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Four of the finest shapes have as many, and take a gigabyte.
-constexpr std::size_t kMostTriangles = std::size_t{1} << 25;
+constexpr std::size_t kMaxTriangles = std::size_t{1} << 25;
 
 glm::dmat4 rotationAndScale(const ObjectKeys& keys) {
     const glm::dvec3 angles = glm::radians(keys.rotationDegrees);
@@ -108,11 +108,11 @@ void requireMeshLimits(const Mesh& shape, const Scene& scene, const TableReader&
     std::size_t triangles = shape.triangles.size();
     for (const Mesh& mesh : scene.meshes)
         triangles += mesh.triangles.size();
-    if (triangles <= kMostTriangles) return;
+    if (triangles <= kMaxTriangles) return;
     reader.fail("shape",
                 fmt::format("with this shape the scene has {} triangles, more than {}; give its "
                             "shapes fewer cells or segments",
-                            triangles, kMostTriangles));
+                            triangles, kMaxTriangles));
 }
 
 }  // namespace
