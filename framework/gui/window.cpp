@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <utility>
 
 #include "framework/core/error.h"
@@ -65,6 +66,10 @@ GLFWwindow* tryWindow(const std::string& title, const Window::Placement& placeme
 Window::Window(const std::string& title, const Placement& placement, const fs::path& imguiSettings)
     : iniFile_(imguiSettings.string()) {
     glfwSetErrorCallback([](int, const char* text) { lastGlfwError() = text; });
+#ifdef GLFW_PLATFORM  // GLFW 3.4 asks for a Wayland that nobody runs, and libwayland complains
+    const char* wayland = std::getenv("WAYLAND_DISPLAY");
+    if (wayland == nullptr || *wayland == '\0') glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
+#endif
     if (glfwInit() != GLFW_TRUE) {
         throw DeviceError(fmt::format("There is no display to open a window on ({}). {}",
                                       lastGlfwError(), kWithoutWindow),

@@ -37,6 +37,7 @@ TEST_F(Device, WithoutADriverForItIsAMessageThatSaysWhatToInstall) {
     Conditions noDriver;
     noDriver.environment = {
         {"LIBGL_DRIVERS_PATH", "/nonexistent"},
+        {"GALLIUM_DRIVER", "nonexistent"},  // Mesa 25 looks in no folder
         {"__EGL_VENDOR_LIBRARY_FILENAMES", "/usr/share/glvnd/egl_vendor.d/50_mesa.json"}};
     expectFailure(run(smallRun("ring"), noDriver), 1,
                   {"OpenGL 4.5", "EGL", "Install", "libgl1-mesa-dri"});
