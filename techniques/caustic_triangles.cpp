@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Caustic triangles: Umenhoffer, Patow, Szirmay-Kalos 2008 (U08). Its parts by section: papers.md.
+// As published: one branch, one photon a cell; triangles with a corner that has no photon are not
+// drawn, and all light of a texel comes from the reference point.
 #include "framework/pipeline/registry.h"
 
 namespace kaustik {
@@ -16,7 +18,11 @@ void registerCausticTriangles(Registry& registry) {
                          {"reconstruct.triangles.shading", "vertices"},
                          {"gather", "cube"},
                          {"view", "around"},
-                         {"emit.photons", "128x128"}}});
+                         {"emit.photons", "128x128"}},
+                        {{"emit.grid.subcells", "1"},
+                         {"specular", "interface"},
+                         {"reconstruct.triangles.unjoined", "discard"},
+                         {"gather.cube.incidence", "centre"}}});
 }
 
 }  // namespace kaustik

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Light beams between the vertices of a mesh of water (Watt 1990, W90), on flat receivers.
+// As published: what water reflects is left out.
 #include "framework/pipeline/registry.h"
 
 namespace kaustik {
@@ -14,7 +15,8 @@ void registerDifferentialArea(Registry& registry) {
                          {"layers", "auto"},
                          {"trace", "plane"},
                          {"reconstruct", "triangles"},
-                         {"view", "refraction"}}});
+                         {"view", "refraction"}},
+                        {{"specular", "interface"}}});
 }
 
 }  // namespace kaustik

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Splats on the screen: Wyman, Dachsbacher 2008 (WD08), section 3. Its parts by section:
 // papers.md.
+// As published: as caustic_map is.
 #include "framework/pipeline/registry.h"
 
 namespace kaustik {
@@ -18,7 +19,12 @@ void registerEyeGather(Registry& registry) {
                          {"specular.two_interfaces.lens", "thin"},
                          {"reconstruct", "lens"},
                          {"reconstruct.space", "screen"},
-                         {"gather", "screen"}}});
+                         {"gather", "screen"}},
+                        {{"emit.grid.subcells", "1"},
+                         {"specular.two_interfaces.distance", "estimates"},
+                         {"trace.background.steps", "0"},
+                         {"reconstruct.lens.edges", "crossed"},
+                         {"view.image_space.distance", "estimates"}}});
 }
 
 }  // namespace kaustik

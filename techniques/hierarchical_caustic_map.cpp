@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Hierarchical caustic maps: Wyman 2008 (W08), as WN09 describe them. Its parts by section:
 // papers.md.
+// As published: one photon a cell of a grid, two interfaces by W05's estimates, no search once the
+// iteration has ended, splats wherever they lie.
 #include "framework/pipeline/registry.h"
 
 namespace kaustik {
@@ -19,7 +21,14 @@ void registerHierarchicalCausticMap(Registry& registry) {
                          {"reconstruct.space", "light"},
                          {"reconstruct.fixed.diameter", "3"},
                          {"gather", "project"},
-                         {"view", "image_space"}}});
+                         {"view", "image_space"}},
+                        {{"emit", "grid"},
+                         {"emit.grid.subcells", "1"},
+                         {"specular", "two_interfaces"},
+                         {"specular.two_interfaces.distance", "estimates"},
+                         {"trace.background.steps", "0"},
+                         {"reconstruct.fixed.edges", "crossed"},
+                         {"view.image_space.distance", "estimates"}}});
 }
 
 }  // namespace kaustik

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Splats as wide as a thin lens makes photons' beams: Wyman, Dachsbacher 2008 (WD08), section 4.2.
 // Its parts by section: papers.md.
+// As published: as caustic_map is.
 #include "framework/pipeline/registry.h"
 
 namespace kaustik {
@@ -17,7 +18,12 @@ void registerLensSplats(Registry& registry) {
                          {"view", "image_space"},
                          {"emit.photons", "512x512"},
                          {"specular.two_interfaces.lens", "thin"},
-                         {"reconstruct", "lens"}}});
+                         {"reconstruct", "lens"}},
+                        {{"emit.grid.subcells", "1"},
+                         {"specular.two_interfaces.distance", "estimates"},
+                         {"trace.background.steps", "0"},
+                         {"reconstruct.lens.edges", "crossed"},
+                         {"view.image_space.distance", "estimates"}}});
 }
 
 }  // namespace kaustik

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Splats of four sizes: Wyman, Dachsbacher 2008 (WD08), section 4.1. Its parts by section:
 // papers.md.
+// As published: as caustic_map is.
 #include "framework/pipeline/registry.h"
 
 namespace kaustik {
@@ -17,7 +18,12 @@ void registerMultiResolution(Registry& registry) {
                          {"view", "image_space"},
                          {"emit.photons", "512x512"},
                          {"reconstruct", "four_radii"},
-                         {"filter", "blend"}}});
+                         {"filter", "blend"}},
+                        {{"emit.grid.subcells", "1"},
+                         {"specular.two_interfaces.distance", "estimates"},
+                         {"trace.background.steps", "0"},
+                         {"reconstruct.four_radii.edges", "crossed"},
+                         {"view.image_space.distance", "estimates"}}});
 }
 
 }  // namespace kaustik

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Flat receivers, met analytically: what was done before rays were traced on the screen (K06,
 // section 1.1, Fig. 2).
+// As published: one branch, one photon a cell, discs whose light falls linearly.
 #include "framework/pipeline/registry.h"
 
 namespace kaustik {
@@ -13,7 +14,12 @@ void registerPlanar(Registry& registry) {
                         {{"layers", "auto"},
                          {"trace", "plane"},
                          {"reconstruct", "triangles"},
-                         {"view", "refraction"}}});
+                         {"view", "refraction"}},
+                        {{"emit.grid.subcells", "1"},
+                         {"specular", "interface"},
+                         {"reconstruct", "sprites"},
+                         {"reconstruct.sprites.shape", "disc"},
+                         {"reconstruct.sprites.kernel", "linear"}}});
 }
 
 }  // namespace kaustik

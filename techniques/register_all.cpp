@@ -2,8 +2,11 @@
 #include "techniques/register_all.h"
 
 #include "framework/pipeline/stage_params.h"
+#include "techniques/bibliography.h"
+#include "techniques/eye_rays/view_params.h"
 #include "techniques/generators/around_stage.h"
 #include "techniques/light_cells/refine_stage.h"
+#include "techniques/raster_views/map_params.h"
 
 namespace kaustik {
 
@@ -51,6 +54,7 @@ void registerStages(Registry& registry) {
 Registry registerAll() {
     Registry registry;
     registerStages(registry);
+    registerPapers(registry);
 #define NODE(name) register##name(registry);
 #define TECHNIQUE(name) register##name(registry);
 #include "techniques/registered.inc"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Makes the registry of everything that the project itself offers.
 #pragma once
 
 #include "framework/pipeline/registry.h"

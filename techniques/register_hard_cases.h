@@ -14,7 +14,7 @@ void addNestedCases(numerics::Suite& suite);      // dielectrics in one another
 void addTrianglesCases(numerics::Suite& suite);
 void addSecantCases(numerics::Suite& suite);
 
-// All of them.
+// Registers all cases of the nodes above.
 void registerHardCases(numerics::Suite& suite);
 
 }  // namespace kaustik

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Caustic maps with a photon a vertex: Shah, Konttinen, Pattanaik (SP05), as WD06 and WD08 compare
 // with it.
+// As published: two interfaces by estimates, splats wherever they lie, and no search once the
+// iteration has ended.
 #include "framework/pipeline/registry.h"
 
 namespace kaustik {
@@ -17,7 +19,11 @@ void registerVertexCaustics(Registry& registry) {
                          {"emit.photons", "512x512"},
                          {"emit", "vertices"},
                          {"trace.background.step", "distance"},
-                         {"reconstruct", "fixed"}}});
+                         {"reconstruct", "fixed"}},
+                        {{"specular.two_interfaces.distance", "estimates"},
+                         {"trace.background.steps", "0"},
+                         {"reconstruct.fixed.edges", "crossed"},
+                         {"view.image_space.distance", "estimates"}}});
 }
 
 }  // namespace kaustik

@@ -45,10 +45,13 @@ class Measure:
     column: str
     label: str
     turned: bool = False  # 1 - x: so that less is better
+    deviates: bool = False  # |1 - x|
 
     def of(self, configuration: Configuration) -> float | None:
         mean = configuration.mean(self.column)
-        return None if mean is None else (1.0 - mean if self.turned else mean)
+        if mean is None:
+            return None
+        return abs(1.0 - mean) if self.deviates else 1.0 - mean if self.turned else mean
 
 
 def error_measures(study: Study) -> list[Measure]:
@@ -56,6 +59,8 @@ def error_measures(study: Study) -> list[Measure]:
     measures = []
     for metric, label in (
         ("rel_mse", "relative MSE"),
+        ("smape", "SMAPE"),
+        ("energy_ratio", "deviation of the energy"),
         ("rmse", "RMSE"),
         ("flip_ldr", "mean FLIP"),
     ):
@@ -66,9 +71,8 @@ def error_measures(study: Study) -> list[Measure]:
             unit = ""
             if metric == "rmse":
                 unit = " (W/m²)" if "irradiance" in output else " (W/m²/sr)"
-            measures.append(
-                Measure(column, f"{label} of {output.replace('_', ' ').replace('.', ', ')}{unit}")
-            )
+            text = f"{label} of {output.replace('_', ' ').replace('.', ', ')}{unit}"
+            measures.append(Measure(column, text, deviates=metric == "energy_ratio"))
     for column in study.columns_like(r"hits\.agreement(_visible)?"):
         which = "visible photons" if column.endswith("visible") else "all photons"
         measures.append(Measure(column, f"wrong fates of {which} (share)", turned=True))
@@ -261,7 +265,8 @@ def sweep(study: Study, axis: Axis) -> Figure | None:
     measures = error_measures(study)
     panels: list[Measure] = [Measure(FRAME, "frame time (ms)")]
     for output in ("caustic_irradiance", "in_scattered"):
-        panels += [m for m in measures if m.column.endswith(f"{output}.rel_mse")][:1]
+        for metric in ("rel_mse", "smape", "energy_ratio"):
+            panels += [m for m in measures if m.column.endswith(f"{output}.{metric}")][:1]
     panels += [m for m in measures if m.column == "hits.agreement_visible"]
     figure, rows = plt.subplots(
         len(panels),

@@ -55,6 +55,8 @@ def steps(rows: list[dict]) -> None:
 def name_of(row: dict) -> str:
     technique = row["report"]["technique"]
     name = value(row, "reconstruct")
+    if row["report"].get("as_published"):
+        return f"{technique}, as published"
     if technique == "caustic_triangles":
         if name == "triangles":
             name += ", " + value(row, "reconstruct.triangles.shading")
@@ -97,7 +99,7 @@ def around_ms(report: dict) -> float:
 
 def reach(rows: list[dict]) -> None:
     causes = ["hidden_in_map", "beyond_layers", "edge_on", "bounce_limit", "internal_reflection_limit",
-              "untraced_branch", "tracer", "unresolved"]
+              "untraced_branch", "as_published", "tracer", "unresolved"]
     print(head(["scene", "generators", "stored", *causes, "right hits", "relMSE", "of modelled paths"]))
     for row in rows:
         report = row["report"]

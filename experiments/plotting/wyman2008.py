@@ -65,22 +65,27 @@ def spread(values: list[float]) -> str:
     return f"{statistics.median(values):.2f} ({min(values):.2f} to {max(values):.2f})"
 
 
+def row_of(report: dict) -> str:
+    """Which of a technique's two rows a run took."""
+    return "as published" if report.get("as_published") else "default"
+
+
 def times(rows: list[dict]) -> None:
     by_cell: dict = defaultdict(dict)
     for row in rows:
         report = row["report"]
-        key = (row["scene"], report["scene"]["triangles"], row["emit.photons"])
+        key = (row["scene"], report["scene"]["triangles"], row["emit.photons"], row_of(report))
         by_cell[key].setdefault(row["repeat"], {})[row["technique"]] = (
             report["frame_ms"]["median"], caustic_ms(report))
-    print(head(["scene", "triangles", "photons", "fixed, ms a frame", "four sizes / fixed",
+    print(head(["scene", "triangles", "photons", "row", "fixed, ms a frame", "four sizes / fixed",
                 "lens / fixed", "caustic alone: four sizes", "lens"]))
-    for (scene, triangles, photons), repeats in sorted(by_cell.items(), key=lambda c: c[0]):
+    for (scene, triangles, photons, which), repeats in sorted(by_cell.items(), key=lambda c: c[0]):
         whole = [r for r in repeats.values() if len(r) == 3]
         if not whole:
             continue
         def ratio(name: str, part: int) -> str:
             return spread([r[name][part] / r["caustic_map"][part] for r in whole])
-        print(line([f"`{scene}`", triangles, photons,
+        print(line([f"`{scene}`", triangles, photons, which,
                     f"{statistics.median(r['caustic_map'][0] for r in whole):.0f}",
                     ratio("multi_resolution", 0), ratio("lens_splats", 0),
                     ratio("multi_resolution", 1), ratio("lens_splats", 1)]))
@@ -93,16 +98,17 @@ def times(rows: list[dict]) -> None:
 def name_of(row: dict) -> str:
     """What a run's reconstruction is called in tables."""
     parameters = row["report"]["parameters"]
+    published = ", as published" if row["report"].get("as_published") else ""
     if row["report"]["technique"] == "screen_space_photons":
-        return "screen_space_photons"
-    name = parameters["reconstruct"]
+        return "screen_space_photons" + published
+    name = parameters["reconstruct"] + published
     if name == "fixed" and parameters["reconstruct.fixed.diameter"] == 1:
         name = "points, blur"
-    if name == "four_radii":
+    if parameters["reconstruct"] == "four_radii":
         name += ", " + parameters["filter.blend.interpolant"]
-    if name == "levels":
+    if parameters["reconstruct"] == "levels":
         name += ", " + parameters["filter.levels.from"]
-    if name == "lens":
+    if parameters["reconstruct"] == "lens":
         name += ", " + parameters["specular.two_interfaces.lens"]
     return name + (" @ screen" if parameters["reconstruct.space"] == "screen" else "")
 
@@ -132,7 +138,7 @@ def error(rows: list[dict]) -> None:
 
 
 def reach(rows: list[dict]) -> None:
-    causes = ["hidden_in_map", "outside_map", "bounce_limit", "internal_reflection_limit",
+    causes = ["hidden_in_map", "outside_map", "bounce_limit", "internal_reflection_limit", "as_published",
               "untraced_branch", "edge_on", "tracer", "unresolved"]
     print(head(["scene", "distance", "arrived in the map", *causes, "right of what the light sees",
                 "relMSE", "of modelled paths"]))
@@ -204,7 +210,7 @@ def flicker(rows: list[dict]) -> None:
     for row in rows:
         report = row["report"]
         found = report["error"]["flicker"]
-        print(line([row["technique"], row["emit.photons"], row["temporal"],
+        print(line([f"{row['technique']}, {row_of(report)}", row["emit.photons"], row["temporal"],
                     f"{found['rms_w_m2']:.4g}", f"{found['truth_rms_w_m2']:.4g}",
                     f"{found['difference_w_m2']:+.3g}", f"{found['truth_stderr_w_m2']:.2g}",
                     f"{report['error']['caustic_irradiance']['rmse']:.4g}",

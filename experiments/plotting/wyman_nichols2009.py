@@ -147,6 +147,8 @@ def starts(rows: list[dict]) -> None:
 def error_name(row: dict) -> str:
     technique = row["report"]["technique"]
     kept = value(row, "reconstruct")
+    if row["report"].get("as_published"):
+        return f"{technique}, as published"
     if technique == "screen_space_photons":
         return f"{kept} @ screen" + (", adaptive, eye" if value(row, "driver") == "adaptive" else "")
     return "splats @ light, " + (f"adaptive, {value(row, 'refine.metric')}"

@@ -35,6 +35,8 @@ void addSceneOptions(CLI::App& command, SceneOptions& options) {
         ->capture_default_str();
     command.add_option("--technique", options.technique, "A name from 'list techniques'")
         ->capture_default_str();
+    command.add_flag("--as-published", options.isAsPublished,
+                     "The technique as its paper has it to the letter, for its defaults");
     command
         .add_option("--merge", options.merged,
                     "A .toml of settings; a later one counts more, and options more than it")
@@ -213,6 +215,7 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry,
     listApp->add_option("what", list.what, "scenes, techniques, nodes or params")
         ->capture_default_str();
     listApp->add_option("--technique", list.technique, "Only what this technique uses");
+    listApp->add_flag("--as-published", list.isAsPublished, "Of it, the row of its paper");
     listApp->add_flag("--json", list.json, "As JSON");
 
     DocOptions doc;

@@ -80,10 +80,11 @@ void printTable(const CompareOptions& options, const measure::ImagePair& pair, c
     if (errors.contains("truth_noise")) {
         fmt::print("{:<32}{:<14}{}\n", "", "measured", "from the reference's noise alone");
     }
-    constexpr std::array<std::array<const char*, 2>, 8> kRows{{
+    constexpr std::array<std::array<const char*, 2>, 9> kRows{{
         {"rmse", "RMSE"},
         {"mae", "MAE"},
         {"rel_mse", "relMSE"},
+        {"smape", "SMAPE of lit pixels"},
         {"ssim", "SSIM"},
         {"flip_ldr", "FLIP, one exposure"},
         {"flip_hdr", "FLIP, HDR"},

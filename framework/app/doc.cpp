@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
 // kaustik doc: a page a node, in Markdown, from what is declared: the node's description, its
-// stage's, and its parameters.
+// stage's, its parameters, and the papers that these cite.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
+#include <iterator>
 
 #include "framework/app/commands.h"
 #include "framework/core/error.h"
 #include "framework/core/files.h"
 #include "framework/core/names.h"
+#include "framework/pipeline/effect.h"
 
 namespace kaustik::app {
 namespace {
@@ -63,21 +66,60 @@ std::string parameterTable(const std::vector<params::NamedField>& parameters) {
     return table;
 }
 
-// The techniques that have the node in their row of answers.
+// The techniques whose row of answers names the node.
 std::vector<std::string> techniquesWith(const Registry& registry, const Registry::Node& node) {
     std::vector<std::string> names;
     for (const Technique& technique : registry.techniques()) {
-        if (registry.makeParams(technique).choice(node.stage) == node.name)
+        const params::ParamSet params = registry.makeParams(technique);
+        const bool choosesForStage = std::any_of(
+            technique.defaults.begin(), technique.defaults.end(), [&](const auto& answer) {
+                return params.resolve(answer.first, technique.name) == node.stage;
+            });
+        if (choosesForStage && params.choice(node.stage) == node.name)
             names.push_back("`" + technique.name + "`");
     }
     return names;
+}
+
+std::string rowsWith(const Registry& registry, const Registry::Node& node) {
+    const std::vector<std::string> techniques = techniquesWith(registry, node);
+    std::string rows = techniques.empty() ? "no technique" : joinNames(techniques);
+    if (registry.makeParams({}).choice(node.stage) == node.name)
+        rows += "; where a row says nothing of the stage, it is this node";
+    return rows;
+}
+
+// Whether `name` is in the text as a word of its own.
+bool cites(const std::string& text, const std::string& name) {
+    const auto isPartOfWord = [&](std::size_t at) {
+        return at < text.size() && std::isalnum(static_cast<unsigned char>(text[at])) != 0;
+    };
+    for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
+        if (!(at > 0 && isPartOfWord(at - 1)) && !isPartOfWord(at + name.size())) return true;
+    }
+    return false;
+}
+
+std::string bibliography(const std::vector<Paper>& papers) {
+    if (papers.empty()) return "";
+    std::string text = "\n## Papers\n\n";
+    for (const Paper& paper : papers)
+        text += fmt::format("- {}: {}\n", paper.name, paper.citation);
+    return text;
+}
+
+// What the short names on a page stand for.
+std::string papersOf(const Registry& registry, const std::string& page) {
+    std::vector<Paper> cited;
+    std::copy_if(registry.papers().begin(), registry.papers().end(), std::back_inserter(cited),
+                 [&](const Paper& paper) { return cites(page, paper.name); });
+    return bibliography(cited);
 }
 
 std::string pageOf(const Registry& registry, const Registry::Node& node) {
     const auto stage =
         std::find_if(registry.stages().begin(), registry.stages().end(),
                      [&](const Registry::StageEntry& entry) { return entry.name == node.stage; });
-    const std::vector<std::string> techniques = techniquesWith(registry, node);
     std::string page = fmt::format(
         "# {0}\n\n{1}\n\n"
         "| | |\n| --- | --- |\n"
@@ -90,17 +132,17 @@ std::string pageOf(const Registry& registry, const Registry::Node& node) {
         "## Limits\n\n{9}\n\n## Parameters\n\n",
         fullName(node), node.description.sentence,
         node.description.source.empty() ? "our own" : cell(node.description.source), node.stage,
-        stage->question, stage->takes, stage->gives, node.name,
-        techniques.empty() ? "no technique" : joinNames(techniques), node.description.limits);
+        stage->question, stage->takes, stage->gives, node.name, rowsWith(registry, node),
+        node.description.limits);
     std::vector<params::NamedField> own;
     std::vector<params::NamedField> shared;
-    for (params::NamedField& parameter : registry.makeParams({}).all()) {
-        const std::string& name = parameter.fullName;
-        if (name.starts_with(fullName(node) + ".")) {
-            own.push_back(std::move(parameter));
-        } else if (name.starts_with(node.stage + ".") &&
-                   std::count(name.begin(), name.end(), '.') == 1) {
-            shared.push_back(std::move(parameter));
+    for (params::NamedField& named : registry.makeParams({}).all()) {
+        const ParameterName name = splitParameterName(named.fullName);
+        if (name.stage != node.stage || name.parameter.empty()) continue;
+        if (name.node == node.name) {
+            own.push_back(std::move(named));
+        } else if (name.node.empty()) {
+            shared.push_back(std::move(named));
         }
     }
     page += own.empty() ? "It has none of its own.\n" : parameterTable(own);
@@ -108,7 +150,7 @@ std::string pageOf(const Registry& registry, const Registry::Node& node) {
         page += fmt::format("\nShared by all nodes of stage `{}`:\n\n{}", node.stage,
                             parameterTable(shared));
     }
-    return page;
+    return page + papersOf(registry, page);
 }
 
 std::string indexOf(const Registry& registry) {
@@ -122,7 +164,7 @@ std::string indexOf(const Registry& registry) {
                 fmt::format("- [{0}]({0}.md): {1}\n", fullName(node), node.description.sentence);
         }
     }
-    return index;
+    return index + bibliography(registry.papers());
 }
 
 }  // namespace

@@ -87,9 +87,10 @@ void runStudy(const ExperimentOptions& options, const Registry& registry,
         runSuite(options, spec, registry, addHardCases);
         return;
     }
-    const Plan plan = makePlan(spec, runDefaults(), [&](const std::string& technique) {
-        return registry.makeParams(registry.findTechnique(technique));
-    });
+    const auto makeParams = [&](const std::string& technique, bool isAsPublished) {
+        return registry.makeParams(registry.findTechnique(technique, isAsPublished));
+    };
+    const Plan plan = makePlan(spec, runDefaults(), makeParams);
     const fs::path out = options.out.empty() ? fs::path("results/runs/experiments") / plan.spec.name
                                              : fs::path(options.out);
     run::catchInterrupts();

@@ -39,17 +39,19 @@ void print(const json& entry, std::size_t width) {
 void listCommand(const ListOptions& options, const Registry& registry) {
     const std::vector<std::string> kinds = {"scenes", "techniques", "nodes", "params"};
     if (!options.technique.empty()) {
-        static_cast<void>(registry.findTechnique(options.technique));
+        static_cast<void>(registry.findTechnique(options.technique, options.isAsPublished));
     }
+    if (options.isAsPublished && options.technique.empty())
+        throw ConfigError("list: --as-published asks for a --technique.");
     json entries;
     if (options.what == "scenes") {
         entries = run::listScenes();
     } else if (options.what == "techniques") {
         entries = run::listTechniques(registry);
     } else if (options.what == "nodes") {
-        entries = run::listNodes(registry, options.technique);
+        entries = run::listNodes(registry, options.technique, options.isAsPublished);
     } else if (options.what == "params") {
-        entries = run::listParams(registry, options.technique);
+        entries = run::listParams(registry, options.technique, options.isAsPublished);
     } else {
         const std::string suggestion = didYouMean(options.what, kinds);
         throw ConfigError(fmt::format("list: there is nothing called '{}'{} There is {}.",

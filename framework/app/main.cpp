@@ -7,7 +7,7 @@
 #include "techniques/register_hard_cases.h"
 
 #ifdef __SANITIZE_ADDRESS__
-// Drivers keep memory, and are unloaded before leaks are looked for: nobody could tell whose it is.
+// Drivers keep memory, and are unloaded before leaks are looked for, so that its owner is unknown.
 extern "C" const char* __asan_default_options() {
     return "detect_leaks=0";
 }

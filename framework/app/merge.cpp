@@ -48,6 +48,10 @@ const std::map<std::string, OptionSetter>& optionSetters() {
          [](RunOptions& options, const Found& found) {
              options.scene.technique = found.as<std::string>();
          }},
+        {"as_published",
+         [](RunOptions& options, const Found& found) {
+             options.scene.isAsPublished = found.as<bool>();
+         }},
         {"size", [](RunOptions& options,
                     const Found& found) { options.scene.size = found.as<std::string>(); }},
         {"time",
@@ -86,10 +90,11 @@ std::string optionOf(std::string key) {
     return key;
 }
 
-params::ParamSet makeParams(const std::string& technique, const Setting* named,
+params::ParamSet makeParams(const SceneOptions& options, const Setting* named,
                             const Registry& registry) {
     try {
-        return registry.makeParams(registry.findTechnique(technique));
+        return registry.makeParams(
+            registry.findTechnique(options.technique, options.isAsPublished));
     } catch (const ConfigError& error) {
         if (named == nullptr) throw;
         experiment::failAt(*named, error.what());
@@ -119,8 +124,8 @@ void mergeSettings(RunOptions& options, const std::set<std::string>& given,
     }
 
     const bool isNamedByFile = found.contains("technique") && !given.contains("technique");
-    const params::ParamSet params = makeParams(
-        options.scene.technique, isNamedByFile ? &found["technique"].setting : nullptr, registry);
+    const params::ParamSet params =
+        makeParams(options.scene, isNamedByFile ? &found["technique"].setting : nullptr, registry);
     for (const SettingsFile& file : files) {
         for (params::Assignment& assignment : experiment::assignmentsOf(file.settings, params))
             options.scene.parameters.push_back(std::move(assignment));

@@ -16,7 +16,7 @@ namespace kaustik::app {
 // "file:line: …" for whatever makes no sense and IoError for a file that cannot be read.
 void mergeSettings(RunOptions& options, const std::set<std::string>& given,
                    const Registry& registry);
-// The same; what only `run` has is checked, and has no effect.
+// Does the same for `explain`. Keys that only `run` has are checked and have no effect.
 void mergeSettings(ExplainOptions& options, const std::set<std::string>& given,
                    const Registry& registry);
 

@@ -15,6 +15,7 @@ struct SceneOptions {
     std::string scene = "pool";
     std::string scenePlace;  // of a file that names it; "" for the command line
     std::string technique = "screen_space_photons";
+    bool isAsPublished = false;                  // the technique's row is its paper's
     std::vector<std::string> merged;             // files of settings; mergeSettings() reads them
     std::vector<params::Assignment> parameters;  // what they set, in order; before `assignments`
     std::vector<std::string> assignments;        // --set name=value
@@ -62,6 +63,7 @@ struct ReferenceOptions {
 struct ListOptions {
     std::string what = "scenes";
     std::string technique;
+    bool isAsPublished = false;
     bool json = false;
 };
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 // kaustik run: renders frames, times them, and writes pictures and the report.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <chrono>
 #include <optional>
 
 #include "framework/app/commands.h"
 #include "framework/core/error.h"
+#include "framework/core/number_text.h"
 #include "framework/gl/capture.h"
 #include "framework/image/tev_client.h"
 #include "framework/report/limits.h"
@@ -52,7 +54,9 @@ void runCommand(const RunOptions& options, const Registry& registry) {
     RenderSettings settings = makeSettings(options.scene, registry, options.seed);
     const fs::path folder =
         options.out.empty()
-            ? fs::path("results/runs") / fmt::format("{}-{}", scene.name, settings.technique.name)
+            ? fs::path("results/runs") /
+                  fmt::format("{}-{}{}", scene.name, settings.technique.name,
+                              settings.technique.isAsPublished ? "-as-published" : "")
             : fs::path(options.out);
 
     if (options.captures) gl::requireRenderDoc();
@@ -97,13 +101,17 @@ void runCommand(const RunOptions& options, const Registry& registry) {
                context->info().debugs ? ", debugged" : "");
     fmt::print("{}", report::makeTable(record));
     for (const ReachedLimit& limit : report::reachedLimits(record, renderer))
-        fmt::print("limit   {} = {:g}: {}\n", limit.parameter, limit.value, limit.sentence);
+        fmt::print("limit   {} = {}: {}\n", limit.parameter, numberText(limit.value),
+                   limit.sentence);
     for (const std::string& warning : record.warnings)
         fmt::print("warning: {}\n", warning);
     for (const std::vector<fs::path>& files : {finished.files, captures}) {
         for (const fs::path& file : files)
             fmt::print("wrote {}\n", file.string());
     }
+    // Last, so that everything is there for whoever looks for the cause.
+    if (!record.violations.empty())
+        throw ConservationError(fmt::format("{}", fmt::join(record.violations, " ")));
 }
 
 }  // namespace kaustik::app

@@ -32,7 +32,8 @@ RenderSettings makeSettings(const SceneOptions& options, const Registry& registr
                                  options.parameters,
                                  {options.disabled.begin(), options.disabled.end()},
                                  options.disabledBy,
-                                 static_cast<std::uint64_t>(seed)};
+                                 static_cast<std::uint64_t>(seed),
+                                 options.isAsPublished};
     for (const std::string& assignment : options.assignments)
         request.assignments.push_back(params::parseAssignment(assignment, "--set"));
     RenderSettings settings = run::makeSettings(request, registry);

@@ -2,6 +2,7 @@
 #include "framework/audit/hit_audit.h"
 
 #include "framework/pipeline/photon_texels.h"
+#include "framework/pipeline/stage_params.h"
 #include "framework/scene/dielectrics.h"
 #include "framework/scene/flat_faces.h"
 #include "framework/scene/light_paths.h"
@@ -35,6 +36,8 @@ std::vector<TracedPhoton> readTrace(const Renderer& renderer, const TraceRecord&
         const PhotonTexel& photon = photons[i];
         if (photon.fate == kNoWord) ++notANumber;
         if (photon.fate != kFateInFlight) continue;
+        // Another batch has it, too.
+        if (!trace.hits.incoming.cells.isOwn(photon.origin.cell)) continue;
         TracedPhoton one;
         one.photon.position = photon.position;
         one.photon.direction = photon.direction;
@@ -192,6 +195,7 @@ class Counter {
         : audit_(audit),
           view_(renderer.view()),
           scene_(renderer.scene()),
+          seesBlockers_(renderer.settings().params.get<TraceParams>("trace").blockers > 0),
           lights_(renderer, exact) {
         for (const Sight sight : {Sight::offScreen, Sight::behindEye, Sight::beyondLayers,
                                   Sight::edgeOn, Sight::shown}) {
@@ -229,6 +233,11 @@ class Counter {
             ++audit_.missedPhotons[account];
         }
         if (isRight) return;
+        const bool isSpecular =
+            exact.exists() && !isReceiver(scene_.materials[exact.material - 1].kind);
+        if (isSpecular && traced.found &&
+            glm::distance(*traced.found, traced.photon.position) > exact.distanceMeters)
+            ++audit_.throughSpecular;
         if (fate.verdict == Verdict::missed) {
             ++audit_.missed[nameOf(fate.sight, reach, light)];
         } else {
@@ -251,7 +260,8 @@ class Counter {
                      std::optional<LightVisibility> light) {
         switch (reach) {
             case TracerReach::lightFront:
-                return light == LightVisibility::shown;
+                return light == LightVisibility::shown ||
+                       (light == LightVisibility::specular && seesBlockers_);
             case TracerReach::eyeLayers:
                 return fate.isVisible();
             case TracerReach::everything:
@@ -267,6 +277,7 @@ class Counter {
     HitAudit& audit_;
     const render::RasterView& view_;
     const scene::Scene& scene_;
+    bool seesBlockers_;  // tracers of receivers alone stop light at what is specular
     LightReach lights_;
     std::optional<FlatReach> flat_;  // once it is asked for
     std::vector<double> meters_;
@@ -398,8 +409,7 @@ EnergyLedger resolveLedger(const Renderer& renderer, const HitAudit& audit, doub
         if (audit.missedPhotons[account] == 0 && ledger.events[account] == 0)
             ledger.watts[account] = 0.0;
     }
-    ledger.watts[kAccountEmissionSampling] += emittedWatts - ledger.watts[kAccountEmitted];
-    ledger.watts[kAccountEmitted] = emittedWatts;
+    ledger.judgeEmission(emittedWatts);
     return ledger;
 }
 

@@ -25,7 +25,7 @@ struct Quantiles {
     double percentile99 = 0.0;
     double maximum = 0.0;
 };
-// Nothing without samples.
+// The quantiles do not exist without samples.
 [[nodiscard]] std::optional<Quantiles> quantilesOf(std::vector<double> samples);
 
 // A photon with the wrong fate, for the picture: where it should be, or is where it should not.
@@ -43,6 +43,8 @@ struct HitAudit {
     std::uint64_t right = 0;         // of all
     std::uint64_t rightVisible = 0;  // of those that are visible
     std::uint64_t rightReachable = 0;
+    // Photons that were taken straight through a specular surface, to what lies beyond it.
+    std::uint64_t throughSpecular = 0;
     std::optional<Quantiles> meters;  // from the exact hit, where there are both
     std::optional<Quantiles> pixels;
     std::uint64_t unplaced = 0;  // pairs of hits of which one is not before the eye: no pixels
@@ -53,13 +55,14 @@ struct HitAudit {
     std::array<std::uint64_t, transport::kAccountCount> missedPhotons{};
     std::vector<WrongPhoton> wrong;
 
-    // Nothing where there is no photon to judge.
+    // Shares of photons; they do not exist where there is no photon to judge.
     [[nodiscard]] std::optional<double> agreement() const;
     [[nodiscard]] std::optional<double> agreementVisible() const;
     [[nodiscard]] std::optional<double> agreementReachable() const;
 };
 
-// Of the frame that `renderer` has rendered for Purpose::audit. `scene`: the same one.
+// Judges the frame that `renderer` has rendered for Purpose::audit. `scene` must be made of the
+// scene that was rendered.
 [[nodiscard]] HitAudit auditHits(const Renderer& renderer, const reference::EmbreeScene& scene,
                                  int threads = 0);
 

@@ -29,6 +29,8 @@ void reflect(F& f, const HitAudit& audit) {
     f.field("visible", audit.visible, "Of them those whose exact first hit the screen shows");
     f.field("right", audit.right, "Photons with the right fate");
     f.field("right_visible", audit.rightVisible, "Of those that are visible");
+    f.field("through_specular", audit.throughSpecular,
+            "Photons that were taken straight through a specular surface, to what lies beyond it");
     f.field("nan", audit.notANumber, "Photons that are no numbers");
     f.field("unplaced", audit.unplaced, "Pairs of hits of which one is not before the eye");
     f.field("false_hits", audit.falseHits, "By cause");

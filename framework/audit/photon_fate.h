@@ -38,8 +38,8 @@ enum class Verdict {
 struct PhotonFate {
     Sight sight = Sight::none;
     Verdict verdict = Verdict::right;
-    // Between both hits; absent where one is missing, pixels also where one has no place before the
-    // eye.
+    // The distance between both hits. It does not exist where one of them is missing, and in pixels
+    // also where one of them has no place on the screen because it is not before the eye.
     std::optional<double> distanceMeters;
     std::optional<double> distancePixels;
     // Agreement is judged among what the screen could show: edge-on surfaces are among it.

@@ -26,7 +26,7 @@ struct ShadowAudit {
 [[nodiscard]] ShadowAudit auditShadow(const Image& visibility, std::size_t light,
                                       const reference::EmbreeScene& scene);
 
-// For report.json: shares of `tested`; null where nothing was.
+// The entry of report.json: shares of `tested`, null where nothing was tested.
 [[nodiscard]] nlohmann::json toJson(const ShadowAudit& audit);
 [[nodiscard]] nlohmann::json shadowSchema();
 

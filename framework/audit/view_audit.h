@@ -35,7 +35,7 @@ struct ViewAudit {
                                   const reference::ViewReference& reference,
                                   const render::RasterView& view);
 
-// For report.json; a number that does not exist is null.
+// The entry of report.json; a number that does not exist is null.
 [[nodiscard]] nlohmann::json toJson(const ViewAudit& audit);
 [[nodiscard]] nlohmann::json viewSchema();
 

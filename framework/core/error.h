@@ -14,6 +14,7 @@ inline constexpr int kExitDone = 0;
 inline constexpr int kExitFailed = 1;
 inline constexpr int kExitBadRequest = 2;
 inline constexpr int kExitDeviceLost = 3;
+inline constexpr int kExitImpossible = 4;
 
 class Error : public std::runtime_error {
   public:
@@ -25,7 +26,7 @@ class Error : public std::runtime_error {
     int exitCode_;
 };
 
-// A graph that cannot run: stale handles, a required pass disabled, a resource nobody writes.
+// A graph that cannot run: stale handles, a required pass disabled, a resource that no pass writes.
 class GraphError : public Error {
   public:
     explicit GraphError(const std::string& message) : Error(message, kExitFailed) {}
@@ -47,6 +48,12 @@ class ConfigError : public Error {
 class IoError : public Error {
   public:
     explicit IoError(const std::string& message) : Error(message, kExitFailed) {}
+};
+
+// A run that is done, and whose result no light can have: energy is not conserved.
+class ConservationError : public Error {
+  public:
+    explicit ConservationError(const std::string& message) : Error(message, kExitImpossible) {}
 };
 
 // The device cannot be had (exit 1), is lost or out of memory (exit 3).

@@ -24,7 +24,7 @@
 #include "framework/core/error.h"
 
 // The prefix, of a program that is linked elsewhere with what was installed: kaustikConfig.cmake
-// defines it there, and nobody does here.
+// defines it there, and nothing does here.
 extern "C" [[gnu::weak]] const char* kaustikPrefix();
 
 namespace kaustik {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where the project's files are, and how files are written: whole or not at all.
+// This header says where the project's files are, and writes files so that each is there whole or
+// not at all.
 #pragma once
 
 #include <filesystem>
@@ -38,7 +39,7 @@ namespace kaustik {
 void writeFileWhole(const std::filesystem::path& path,
                     const std::function<void(const std::filesystem::path& temporary)>& write);
 
-// The same for bytes that are at hand.
+// Writes bytes that are at hand to a file in the same way.
 void writeFileWhole(const std::filesystem::path& path, std::string_view bytes);
 
 // Several files that appear together or not at all: they are written into a folder of their own,
@@ -52,7 +53,7 @@ class FilesTogether {
     FilesTogether(const FilesTogether&) = delete;
     FilesTogether& operator=(const FilesTogether&) = delete;
 
-    // Where to write them.
+    // The folder to write the files to.
     [[nodiscard]] const std::filesystem::path& workFolder() const { return work_; }
     // Their final names, from those in the work folder; in a text, too.
     [[nodiscard]] std::filesystem::path placeOf(const std::filesystem::path& file) const;

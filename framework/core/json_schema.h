@@ -24,7 +24,8 @@ namespace kaustik {
 // A whole schema with the name of its file. Its definitions, if any, are under $defs already.
 [[nodiscard]] nlohmann::json schemaDocument(const std::string& name, const std::string& title,
                                             nlohmann::json schema);
-// Of objects that have the key, and of those that do not.
+// The schema of objects that either have the key and are as `with` says, or do not have it and are
+// as `without` says.
 [[nodiscard]] nlohmann::json eitherSchema(const std::string& key, nlohmann::json with,
                                           nlohmann::json without);
 

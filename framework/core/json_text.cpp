@@ -8,11 +8,13 @@
 #include "framework/core/error.h"
 
 namespace kaustik {
+namespace {
 
-std::string jsonText(const nlohmann::json& json, int indent) {
-    return json.dump(indent, ' ', false, nlohmann::json::error_handler_t::replace);
-}
+// Deeper than any file of the project's own nests, and shallow enough for what recurses over it.
+constexpr int kMaxJsonDepth = 64;
 
+// The parser could be asked to watch the depth, but looks at all that an object's parent holds so
+// far when the object ends: 300,000 entries would take half a minute.
 void requireShallowJson(std::string_view text, const std::string& name) {
     int depth = 0;
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -27,6 +29,12 @@ void requireShallowJson(std::string_view text, const std::string& name) {
             --depth;
         }
     }
+}
+
+}  // namespace
+
+std::string jsonText(const nlohmann::json& json, int indent) {
+    return json.dump(indent, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 nlohmann::json parseJson(std::string_view text, const std::string& name) {

@@ -58,7 +58,7 @@ bool setStandard(const std::array<int, 3>& wanted) {
 
 void useDefaultSignals() {
     for (int signal = 1; signal < NSIG; ++signal)
-        ::signal(signal, SIG_DFL);  // fails for those that nobody can handle
+        ::signal(signal, SIG_DFL);  // fails for those that cannot be handled
     sigset_t none;
     ::sigemptyset(&none);
     ::sigprocmask(SIG_SETMASK, &none, nullptr);

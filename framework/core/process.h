@@ -14,7 +14,7 @@
 
 namespace kaustik {
 
-// Besides descriptors of this process, what a standard one of the new process may be.
+// What a standard descriptor of the new process may be, besides one of this process's.
 inline constexpr int kNoDescriptor = -1;      // /dev/null
 inline constexpr int kSharedDescriptor = -2;  // this process's own
 
@@ -47,7 +47,7 @@ class Process {
 
     // Gives errno where it cannot be started, else 0. The one before must have ended.
     [[nodiscard]] int start(const ProcessPlan& plan);
-    [[nodiscard]] bool hasStarted() const { return id_ > 0; }  // and nobody knows its end yet
+    [[nodiscard]] bool hasStarted() const { return id_ > 0; }  // and its end is not known yet
     [[nodiscard]] pid_t id() const { return id_; }
     void send(int signal) const;
     // How it has ended, or none if it still runs after that time.

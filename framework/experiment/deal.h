@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which runs of a plan are one shard's.
+// Deals the runs of a plan out to shards.
 #pragma once
 
 #include <vector>

@@ -57,7 +57,8 @@ struct RunDefaults {
 };
 
 // The parameters of a technique with their defaults; throws ConfigError for an unknown one.
-using MakeParams = std::function<params::ParamSet(const std::string& technique)>;
+using MakeParams =
+    std::function<params::ParamSet(const std::string& technique, bool isAsPublished)>;
 
 // Throws ConfigError "file:line: …" for unknown keys, scenes, techniques and parameters (with the
 // nearest name), values out of range and runs that occur twice; IoError where a file that a scene

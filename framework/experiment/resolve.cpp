@@ -81,6 +81,7 @@ Resolver::Resolved Resolver::resolve(const std::vector<Setting>& base,
     };
     preset("scene", defaults_.scene);
     preset("technique", defaults_.technique);
+    preset("as_published", false);
     preset("size", defaults_.size);
     preset("frames", defaults_.frames);
     preset("warmup", defaults_.warmup);
@@ -97,9 +98,10 @@ Resolver::Resolved Resolver::resolve(const std::vector<Setting>& base,
         }
     }
     const std::string technique = runValue(values["technique"]).get<std::string>();
+    const bool isAsPublished = runValue(values["as_published"]).get<bool>();
     Resolved result;
     try {
-        result.params = makeParams_(technique);
+        result.params = makeParams_(technique, isAsPublished);
     } catch (const ConfigError& error) {
         failAt(values["technique"], error.what());
     }
@@ -132,6 +134,8 @@ Resolver::Resolved Resolver::resolve(const std::vector<Setting>& base,
 
     // Only where it is there, so that studies of still scenes keep the folders that they have.
     if (hasTimeStep) result.settings["time_step_s"] = timeStep;
+    // So do those of the default rows.
+    if (isAsPublished) result.settings["as_published"] = true;
 
     const json& settings = result.settings;
     result.disablePlace = values["disable"].place;
@@ -141,6 +145,7 @@ Resolver::Resolved Resolver::resolve(const std::vector<Setting>& base,
     };
     result.sceneArguments = {scene.argument, option("technique", technique),
                              option("size", settings["size"].get<std::string>())};
+    if (isAsPublished) result.sceneArguments.emplace_back("--as-published");
     if (hasTime) result.sceneArguments.push_back(option("time", fmt::format("{}", time)));
     for (const json& pass : settings["disable"])
         result.sceneArguments.push_back(option("disable", pass.get<std::string>()));
@@ -163,6 +168,7 @@ Resolver::Resolved Resolver::resolve(const std::vector<Setting>& base,
 
 json Resolver::valueOf(const json& settings, const std::string& fullKey) {
     if (fullKey == "time") return settings.at("time_s");
+    if (fullKey == "as_published") return settings.value("as_published", false);
     if (fullKey == "time_step") return settings.value("time_step_s", json());
     if (fullKey == "disable") {
         const auto passes = settings.at("disable").get<std::vector<std::string>>();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From the settings that an experiment writes down to all the settings of one run.
+// Makes all the settings of one run from those that an experiment's file writes down.
 #pragma once
 
 #include <map>

@@ -41,7 +41,7 @@ struct Result {
 [[nodiscard]] Result resultOf(const PlannedRun& run, int repeat, const FinishedRun& finished);
 [[nodiscard]] Result failedResult(const PlannedRun& run, int repeat, const std::string& message);
 
-// Where a run and why it failed are kept.
+// The folder that keeps what a run has written, and the file that keeps why it failed.
 [[nodiscard]] std::filesystem::path runFolder(const std::filesystem::path& out,
                                               const PlannedRun& run, int repeat);
 [[nodiscard]] std::filesystem::path failureFile(const std::filesystem::path& out,

@@ -62,6 +62,7 @@ void requireReportOf(const json& report, const PlannedRun& run, const fs::path& 
             "this is not a kaustik.report/1");
     const json& settings = run.settings;
     same("technique", settings.at("technique"));
+    same("as_published", settings.value("as_published", false));
     same("parameters", settings.at("parameters"));
     same("seed", settings.at("seed"));
     same("frames", settings.at("frames"));

@@ -49,6 +49,7 @@ const std::vector<RunKey>& runKeys() {
         {"scene", "A name of 'kaustik list scenes', or a file beside the experiment", "",
          Type::text},
         {"technique", "A name of 'kaustik list techniques'", "", Type::text},
+        {"as_published", "Takes the technique as its paper has it to the letter", "", Type::flag},
         {"size", "Picture size", "px", Type::size},
         {"frames", "Frames that are timed", "", Type::whole, 1, 1000000},
         {"warmup", "Frames before them", "", Type::whole, 0, 1000000},
@@ -121,7 +122,7 @@ json runValue(const Setting& setting) {
         case RunKey::Type::texts:
             return sortedTexts(setting);
         case RunKey::Type::flag:
-            if (!value.is_boolean()) failAt(setting, "precise must be true or false.");
+            if (!value.is_boolean()) failAt(setting, setting.key + " must be true or false.");
             return value;
     }
     return value;

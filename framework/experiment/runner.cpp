@@ -190,7 +190,7 @@ void requireDisabledPasses(const Plan& plan, const fs::path& program,
         const json& settings = run.settings;
         if (settings.at("disable").empty()) continue;
         const json question = {settings.at("scene"), settings.at("technique"),
-                               settings.at("disable")};
+                               settings.value("as_published", false), settings.at("disable")};
         if (!requested.insert(question.dump()).second) continue;
         std::vector<std::string> words = {"kaustik", "explain"};
         words.insert(words.end(), run.sceneArguments.begin(), run.sceneArguments.end());

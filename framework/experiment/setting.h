@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // One setting as a TOML file states it: a parameter by any unique short form of its name, or one
-// of the keys of a run: scene (a name or a file next to the TOML file), technique, size
-// ("WIDTHxHEIGHT"), frames, warmup, seed, precise, time and time_step (seconds), reference (none,
-// auto or a file beside), reference_photons (of auto, at least), disable (a list of passes).
+// of the keys of a run: scene (a name or a file next to the TOML file), technique,
+// as_published, size ("WIDTHxHEIGHT"), frames, warmup, seed, precise, time and time_step (seconds),
+// reference (none, auto or a file beside), reference_photons (of auto, at least), disable (a list
+// of passes).
 #pragma once
 
 #include <filesystem>
@@ -73,7 +74,7 @@ inline constexpr long long kMaxReferencePhotons = 1'000'000'000'000'000;
 [[nodiscard]] std::vector<std::string> fullKeysOf(const std::vector<Setting>& settings,
                                                   const params::ParamSet& params);
 
-// Those of the settings that are parameters, by full name. Throws as fullKeysOf().
+// The settings among these that are parameters, under their full names. Throws as fullKeysOf().
 [[nodiscard]] std::vector<params::Assignment> assignmentsOf(const std::vector<Setting>& settings,
                                                             const params::ParamSet& params);
 

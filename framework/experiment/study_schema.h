@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Describes experiment files to editors.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

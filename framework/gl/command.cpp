@@ -37,6 +37,9 @@ void setUniform(GLuint program, GLint location, const Command::Value& value) {
     std::visit(Setter{program, location}, value);
 }
 
+// Along each axis: all that OpenGL promises (table 23.64) and that Mesa gives.
+constexpr int kMaxGroups = 65535;
+
 int groups(int count, int local) {
     return (count + local - 1) / local;
 }
@@ -356,6 +359,14 @@ void Command::drawIndexedIndirect(GLuint vertexArray, const Buffer& commands, st
 }
 
 void Command::dispatch(int groupsX, int groupsY, int groupsZ) {
+    if (std::max({groupsX, groupsY, groupsZ}) > kMaxGroups) {
+        throw GraphError(
+            fmt::format("Pass '{}' dispatches {} in {} x {} x {} workgroups; a device may have no "
+                        "more than {} along an axis. dispatchOver() of one number with a shader "
+                        "that includes include/thread.glsl has no such limit.",
+                        context_.passName(), fmt::join(key_.files, " + "), groupsX, groupsY,
+                        groupsZ, kMaxGroups));
+    }
     bind();
     if (groupsX > 0 && groupsY > 0 && groupsZ > 0) {
         glDispatchCompute(static_cast<GLuint>(groupsX), static_cast<GLuint>(groupsY),
@@ -426,7 +437,12 @@ void Command::dispatchOver(int countX, int localX, int countY, int localY) {
                                      context_.passName(), fmt::join(key_.files, " + "), localX,
                                      localY));
     }
-    dispatch(groups(countX, localX), groups(countY, localY));
+    const int x = groups(countX, localX);
+    const int y = groups(countY, localY);
+    // Threads of one number each go on along y (include/thread.glsl).
+    const bool isLine = localY == 1 && countY == 1;
+    if (isLine && x > kMaxGroups) return dispatch(kMaxGroups, groups(x, kMaxGroups));
+    dispatch(x, y);
 }
 
 }  // namespace kaustik::gl

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // One draw or dispatch, put together by name and issued by its last call:
 //
-//     context.fullscreen("maps/halve.frag")
-//         .set("sourceWidth", width)
-//         .target(data.halved)
+//     context.fullscreen("gather/screen.frag")
+//         .define("HAS_INTENSITY")
+//         .target(data.irradiance)
 //         .draw();
 //
 // It starts with what its pass has bound by name (graph::PassSetup) and what is bound to all
@@ -47,7 +47,8 @@ class Command {
     // Inputs. Texture samplers, images and blocks are named as in the shader.
     Command& texture(const std::string& name, const graph::ResourceRef& handle);
     Command& texture(const std::string& name, const Texture& texture);
-    // To read, and to write where the pass has declared that it writes; so has a storage block.
+    // Binds an image that the command reads, and may write where the pass has declared that it
+    // writes it. A storage block is bound in the same way.
     Command& image(const std::string& name, const graph::ResourceRef& handle);
     Command& storage(const std::string& block, const graph::ResourceRef& handle);
     Command& storage(const std::string& block, const Buffer& buffer);
@@ -91,7 +92,7 @@ class Command {
     void dispatchOver(int countX, int localX, int countY = 1, int localY = 1);
     // Workgroups in the numbers that stand at `offset` of a buffer, three uints.
     void dispatchIndirect(const graph::ResourceRef& commands, std::size_t offset);
-    // The same of a draw: count, instances, first vertex and first instance.
+    // Draws with count, instances, first vertex and first instance taken from a buffer.
     void drawIndirect(GLenum mode, const graph::ResourceRef& commands, std::size_t offset);
     // Draws what a geometry shader's streams capture in buffers, instead of rasterising it, and
     // writes how many points each stream had, a uint each, to `counts`.

@@ -18,7 +18,7 @@ struct DeviceInfo {
     std::string version;
     std::string platform;  // which EGL platform gave the context
     int index = -1;        // among EGL's devices; -1: EGL's default
-    std::string uuid;      // as nvidia-smi and Vulkan have it; "" where nobody says
+    std::string uuid;      // as nvidia-smi and Vulkan have it; "" where that is not known
     std::string node;      // such as /dev/dri/renderD128, or ""
     int maxTextureSize = 0;
     int maxViewport = 0;

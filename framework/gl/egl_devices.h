@@ -32,21 +32,21 @@ struct GivenDevices {
 
 using Environment = std::function<const char*(const char* name)>;
 
-// From CUDA_VISIBLE_DEVICES as CUDA reads it: what follows a wrong entry counts for nothing.
+// Reads CUDA_VISIBLE_DEVICES as CUDA does: what follows a wrong entry counts for nothing.
 [[nodiscard]] GivenDevices givenDevices(const Environment& environment);
 
 // Whether the job was given the device; nothing where that cannot be told, as of another vendor's.
 [[nodiscard]] std::optional<bool> isGiven(const EglDevice& device, const GivenDevices& given);
 
-// Where to try to make a context, the best first; EGL's default (index -1) stands before devices
-// that render on the processor. Throws ConfigError where the environment gives only devices that
-// EGL does not list, though it could tell them.
+// The devices to try to make a context on, the best first. EGL's default (index -1) stands before
+// devices that render on the processor. Throws ConfigError where the environment gives only devices
+// that EGL does not list, though it could tell them.
 [[nodiscard]] std::vector<EglDevice> inPreferenceOrder(const std::vector<EglDevice>& devices,
                                                        const GivenDevices& given);
 
-// Those that `wanted` may mean: its number, or a UUID or its beginning; no device where it must be
-// a name of a renderer, which only a context tells. Throws ConfigError for a number that there is
-// not and for a device that the job was not given.
+// The devices that `wanted` may mean: by number, or by a UUID or its beginning. There is none where
+// it must be the name of a renderer, which only a context tells. Throws ConfigError for a number
+// that there is not and for a device that the job was not given.
 [[nodiscard]] std::vector<EglDevice> matchingDevices(const std::vector<EglDevice>& devices,
                                                      const std::string& wanted,
                                                      const GivenDevices& given);

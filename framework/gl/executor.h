@@ -41,12 +41,14 @@ class PassContext : public graph::ExecuteContext {
     [[nodiscard]] Command compute(const std::string& computeShader);
     [[nodiscard]] Command shaders(std::vector<std::string> files);
 
-    // To be cleared or copied at once, or used as `use` says by what is issued next.
+    // The texture or buffer behind a handle, for what uses it without a Command. A texture is
+    // cleared or copied at once; a buffer is used by what is issued next, in the way that `use`
+    // says.
     [[nodiscard]] const Texture& texture(const graph::ResourceRef& handle) const;
     [[nodiscard]] const Buffer& buffer(const graph::ResourceRef& handle,
                                        Use use = Use::updateBuffer) const;
 
-    // For Command.
+    // The members from here on are for Command.
     [[nodiscard]] const std::string& passName() const { return step_.name; }
     [[nodiscard]] const std::vector<graph::Binding>& bindings() const { return step_.bindings; }
     [[nodiscard]] const std::vector<std::string>& defines() const { return step_.defines; }
@@ -79,7 +81,7 @@ class Executor {
     void bindToAll(Globals globals) { globals_ = std::move(globals); }
 
     // Fills every texture with NaN and every buffer with all-ones bits before its first writer
-    // runs, so that a test sees who reads what nobody wrote.
+    // runs, so that a test sees reads of what has not been written.
     void poisonTransients(bool poison) { poison_ = poison; }
 
     // Runs all passes once. Throws what a pass throws, and DeviceError for OpenGL errors: after the

@@ -81,7 +81,8 @@ class Texture {
     // The first rows of a plain texture of floats, to read and to write; four channels.
     [[nodiscard]] std::vector<glm::vec4> readRows(int rows) const;
     void writeRows(const std::vector<glm::vec4>& texels) const;
-    // The same of whole numbers, exactly; GraphError where the texture has none.
+    // All layers of a texture of whole numbers, exactly and in the same order. Throws GraphError
+    // where the texture does not have whole numbers.
     [[nodiscard]] std::vector<std::uint32_t> readWords() const;
 
   private:
@@ -119,7 +120,7 @@ class Buffer {
 [[nodiscard]] FramebufferObject makeFramebuffer();
 [[nodiscard]] VertexArrayObject makeVertexArray();
 [[nodiscard]] QueryObject makeTimestampQuery();
-// Of the points that transform feedback has written.
+// A query that counts the points that transform feedback has written.
 [[nodiscard]] QueryObject makeCaptureQuery();
 
 }  // namespace kaustik::gl

@@ -24,7 +24,7 @@ struct ProgramKey {
     friend auto operator<=>(const ProgramKey&, const ProgramKey&) = default;
 };
 
-// Where a line of an expanded text was written.
+// The place where a line of an expanded text was written.
 struct SourceLine {
     std::string file;
     int number = 0;

@@ -237,8 +237,8 @@ void Graph::placeLoops(const Plan& plan, const std::vector<std::size_t>& passOfS
     }
 }
 
-// Whatever a loop finds from before, or leaves to what comes after it or to its next run, nobody
-// else's memory may be while it runs.
+// What a loop finds from before, or leaves to what comes after it or to its next run, keeps its
+// memory to itself while the loop runs.
 void Graph::extendLiveRanges(const Compiled& compiled, std::vector<LiveRange>& liveRanges) {
     for (bool found = true; found;) {
         found = false;

@@ -70,9 +70,9 @@ class PassSetup {
             createResource(name, BufferDesc{count * sizeof(Content)});
         return handle;
     }
-    // The same, but what this frame leaves in it the next one finds: zeros before the first frame,
-    // and after the graph has been built anew what a resource of the same name and shape had. What
-    // is written to it last runs whenever anything of it is read.
+    // Creates a resource in which the next frame finds what this one has left: zeros before the
+    // first frame, and after the graph has been built anew the contents of the resource of the same
+    // name and shape. What writes it last runs whenever anything of it is read.
     template <class Content>
     [[nodiscard]] Texture<Content> createPersistent(const std::string& name, int width, int height,
                                                     int layers = 0) {
@@ -131,7 +131,7 @@ class PassSetup {
     }
     void bypass(const ResourceRef& output, ClearValue value);
 
-    // Keeps the pass although nobody reads its outputs.
+    // Keeps the pass although no pass reads its outputs.
     void sideEffect();
 
   private:
@@ -170,10 +170,11 @@ struct Step {
     };
     std::vector<Clear> clears;                // neutral outputs of a bypassed pass
     std::vector<std::size_t> undefinedSlots;  // slots whose contents are undefined before this step
-    // Of those the ones that a loop around this step hands on from one run to the next.
+    // Slots of `undefinedSlots` that a loop around this step hands on from one run to the next.
     std::vector<std::size_t> carriedSlots;
-    // Of those the ones that live to the end: before the first frame they are zeros, so that what
-    // a pass leaves unwritten, the rest of a list's texture, is.
+    // Slots of `undefinedSlots` that live to the end of the frame. They are zeros before the first
+    // frame, and so is therefore what a pass leaves unwritten, such as the rest of a list's
+    // texture.
     std::vector<std::size_t> keptSlots;
     std::size_t liveTextureBytes = 0;  // of what has contents that are of use during it
     std::size_t liveBufferBytes = 0;
@@ -186,7 +187,7 @@ struct Loop {
     ResourceRef again;
     std::size_t slot = 0;  // of that
     std::size_t word = 0;
-    // Of its steps those that would make the same again: they run once.
+    // Steps of the loop that would make the same again each time, and so run once.
     std::set<std::size_t> invariant;
 };
 
@@ -222,7 +223,8 @@ struct Compiled {
                                           Kind kind) const;
     // Whether the step may write what is behind a handle, whichever version of it that names.
     [[nodiscard]] bool writes(const Step& step, const ResourceRef& handle) const;
-    // The same after the last step, for what was asked for; the rest's memory others have by then.
+    // The slot after the last step of what was asked for by Graph::request(). Memory of other
+    // resources may be used by others by then.
     [[nodiscard]] std::size_t slotAfterwards(const ResourceRef& handle, Kind kind) const;
 
   private:
@@ -230,7 +232,7 @@ struct Compiled {
     [[nodiscard]] bool isKnown(const ResourceRef& handle) const;
     [[nodiscard]] std::size_t slotOfKind(const ResourceRef& handle, Kind kind,
                                          const std::string& user) const;
-    // By resource: its name, and whether it lives until the end.
+    // The name of each resource, by its index, and whether it lives until the end.
     std::vector<std::string> names_;
     std::vector<bool> isKept_;
     std::vector<std::vector<std::uint32_t>> home_;
@@ -263,7 +265,7 @@ class Graph {
     void skip(std::string name, std::string reason);
 
     // Asks for a resource: it and all that leads to it runs, and it lives until the end. `what`
-    // names it where nobody has made it.
+    // names it in the error where no pass has made it.
     void request(const ResourceRef& handle, const std::string& what = "a resource");
     // Keeps every resource alive until the end (to view or scan), without asking for its passes.
     void keepAll() { keepAll_ = true; }

@@ -77,7 +77,7 @@ struct Bench {
     [[nodiscard]] ShownRequest requested() const {
         return {document, pictureOrder, view, editedIndex()};
     }
-    // As the document has them, which may be newer than what was rendered.
+    // The camera as the document has it, which may be newer than what was rendered; so is the time.
     [[nodiscard]] scene::Camera camera() const {
         if (document.edits.camera) return *document.edits.camera;
         return result->scene ? result->scene->camera : scene::Camera();

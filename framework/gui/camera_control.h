@@ -16,11 +16,11 @@ namespace kaustik::gui {
 [[nodiscard]] scene::Camera look(const scene::Camera& camera, glm::dvec2 pixels, double height);
 // Nearer to the target by notches of a wheel, never reaching it.
 [[nodiscard]] scene::Camera dolly(const scene::Camera& camera, double notches);
-// Along its own axes (right, up, forward), m.
+// Moves the camera along its own axes (right, up, forward), m.
 [[nodiscard]] scene::Camera fly(const scene::Camera& camera, const glm::dvec3& meters);
 
-// Where a light is taken hold of: a point or spot light itself; for a directional one a point on
-// its way through the middle of the scene.
+// The point at which a light is taken hold of: a point or spot light itself, and for a directional
+// light a point on its way through the middle of the scene.
 [[nodiscard]] glm::dvec3 lightHandle(const scene::Light& light, const scene::Bounds& bounds);
 // The light after its handle has been dragged by `pixels` on the picture: a directional one turns
 // about the middle of the scene, another moves at right angles to the view.

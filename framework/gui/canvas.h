@@ -32,7 +32,7 @@ class Canvas {
     // Shows `image` in a slot; uploads it only if `version` is another than before.
     void show(std::size_t slot, const Image& image, std::uint64_t version,
               const ToneMapping& mapping);
-    // For ImGui: the mapped texture, top row first.
+    // The mapped texture, top row first, as ImGui takes it.
     [[nodiscard]] void* texture(std::size_t slot) const;
     static constexpr std::size_t kSlots = 2;
 

@@ -29,6 +29,7 @@ V vectorFrom(const json& j) {
 
 json variantJson(const Variant& variant) {
     return {{"technique", variant.technique},
+            {"as_published", variant.isAsPublished},
             {"set", variant.assignments},
             {"disable", variant.disabled}};
 }
@@ -36,6 +37,7 @@ json variantJson(const Variant& variant) {
 Variant variantFrom(const json& j) {
     Variant variant;
     variant.technique = j.at("technique").get<std::string>();
+    variant.isAsPublished = j.value("as_published", false);  // versions before had no such row
     variant.assignments = j.at("set").get<std::map<std::string, std::string>>();
     variant.disabled = j.at("disable").get<std::set<std::string>>();
     return variant;
@@ -118,8 +120,10 @@ SceneEdits editsFrom(const json& j) {
 
 RenderSettings settingsOf(const Variant& variant, const params::Extent& size,
                           const Registry& registry) {
-    run::SettingsRequest request{
-        .technique = variant.technique, .assignments = {}, .disabledPasses = variant.disabled};
+    run::SettingsRequest request{.technique = variant.technique,
+                                 .assignments = {},
+                                 .disabledPasses = variant.disabled,
+                                 .isAsPublished = variant.isAsPublished};
     for (const auto& [name, value] : variant.assignments)
         request.assignments.push_back({name, value, "workbench"});
     RenderSettings settings = run::makeSettings(request, registry);

@@ -17,11 +17,13 @@
 
 namespace kaustik::gui {
 
-// One way to render: what `kaustik run` takes as --technique, --set and --disable.
+// One way to render: what `kaustik run` takes as --technique,
+// --as-published, --set and --disable.
 struct Variant {
     std::string technique = "screen_space_photons";
     std::map<std::string, std::string> assignments;  // by full name
     std::set<std::string> disabled;                  // passes, by full name
+    bool isAsPublished = false;                      // of the technique its paper's row
     friend bool operator==(const Variant&, const Variant&) = default;
 };
 

@@ -42,6 +42,7 @@ std::string settingsText(const Variant& variant, const Registry& registry, bool 
             asAxes ? fmt::format("{} = [{}]\n", key, value) : fmt::format("{} = {}\n", key, value);
     };
     line("technique", tomlString(variant.technique));
+    if (variant.isAsPublished) line("as_published", "true");
     for (const params::NamedField& named : params.all()) {
         if (!params.isSetByUser(named.fullName)) continue;
         const std::string type = named.field.typeName();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the renderer's thread tells the window: values that nobody changes any more, so that both
+// What the renderer's thread tells the window: values that no longer change, so that both
 // may read them at once.
 #pragma once
 
@@ -51,7 +51,7 @@ struct ViewedTexture {
     Histogram histogram;
 };
 
-// Of one way to render.
+// What was rendered of one of the two variants.
 struct VariantResult {
     std::uint64_t frame = 0;     // counts the frames of this variant
     std::uint64_t previews = 0;  // the same
@@ -68,9 +68,10 @@ struct VariantResult {
     std::optional<ViewedTexture> viewed;
     std::vector<std::string> warnings;
     std::size_t peakBytes = 0;
-    // Of one more frame, once the order is settled.
+    // What a further frame has measured, which is rendered once the order is settled.
     std::optional<EnergyLedger> ledger;
     std::vector<ReachedLimit> limits;
+    std::vector<std::string> violations;          // of the ledger
     std::shared_ptr<const run::Outputs> outputs;  // where asked for
     ModelledPaths paths;
 };
@@ -80,10 +81,10 @@ struct SceneFacts {
     std::string name;
     std::string description;
     std::size_t triangles = 0;
-    // With the changes of the document that was rendered.
+    // What the scene needs, with the changes of the document that was rendered.
     scene::SceneNeeds needs;
     scene::Bounds bounds;
-    // As the scene's file says: the document at hand may say otherwise (Bench).
+    // From here on all is as the scene's file says; the document at hand may say otherwise (Bench).
     scene::Camera camera;
     std::vector<scene::Light> lights;
     std::optional<scene::Medium> medium;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// kaustik gui.
+// The command `kaustik gui`.
 #pragma once
 
 #include <filesystem>

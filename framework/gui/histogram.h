@@ -21,7 +21,7 @@ struct Histogram {
     float end = 0.0f;  // where the last bin begins to count all
 };
 
-// Of the first three channels (a fourth is alpha or a flag).
+// Counts the values of the first three channels; a fourth is alpha or a flag.
 [[nodiscard]] Histogram histogramOf(const Image& image);
 
 }  // namespace kaustik::gui

@@ -14,11 +14,11 @@ namespace kaustik::gui {
 // character in the place of a letter.
 [[nodiscard]] int keyOfCharacter(int place, std::string_view typed);
 
-// The same for a keyboard while it is used: a key is released as what it was pressed as, though
-// the layout has changed since.
+// Names keys while a keyboard is used. A key is released as what it was pressed as, though the
+// layout may have changed since.
 class KeyNames {
   public:
-    // As a GLFW key callback is told.
+    // Takes what a GLFW key callback is told, and gives the key.
     [[nodiscard]] int operator()(int place, int scancode, int action);
 
   private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Where a light's handle is marked in the window: on the handle itself where it is seen, else at
-// the edge of what is seen, on the way there, with the direction in which it lies. The mark moves
-// with the view, and without jumps: also where the handle passes behind the eye.
+// Finds the place where a light's handle is marked in the window: on the handle itself where it is
+// seen, else at the edge of what is seen, on the way there, with the direction in which it lies.
+// The mark moves with the view and without jumps, also where the handle passes behind the eye.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -11,7 +11,7 @@
 
 namespace kaustik::gui {
 
-// Where the picture of `view` lies, in pixels of the window; y goes down.
+// The place of the picture of `view`, in pixels of the window; y goes down.
 struct PictureArea {
     glm::dvec2 low{0.0};  // of the part of the window in which marks may be
     glm::dvec2 high{0.0};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which photons landed at a pixel, and the paths that they came: read from the records of every
+// Finds the photons that landed at a pixel, and the paths that they came, in the records of every
 // tracing of a frame that was rendered for Purpose::audit.
 #pragma once
 
@@ -28,12 +28,12 @@ struct PhotonProbe {
     static constexpr std::size_t kMaxPaths = 200;
 };
 
-// Of the frame that was rendered last; waits for the device.
+// Probes the frame that was rendered last; waits for the device.
 [[nodiscard]] PhotonProbe probePhotons(const Renderer& renderer, glm::ivec2 pixel,
                                        float radiusPixels);
 
-// Where a point before the eye is seen, in pixels from the upper left; `visible` is false for one
-// nearer than the near plane.
+// The place where a point before the eye is seen, in pixels from the upper left. `visible` is false
+// for a point nearer than the near plane.
 struct Projected {
     glm::vec2 pixel{0.0f};
     bool visible = false;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Names the folders that the workbench records into.
 #pragma once
 
 #include <string>

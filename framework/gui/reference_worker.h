@@ -92,8 +92,8 @@ class ReferenceWorker {
     void post();
     void look(Loaded& loaded, const ReferenceAim& aim);
     void computeMore(Loaded& loaded, std::uint64_t photons);
-    // From here on photons are traced to have so many of both references, of which there are
-    // `photons` each in the end.
+    // Begins to trace so many more photons for both references, each of which has `photons` in the
+    // end.
     void beginRun(const Loaded& loaded, std::uint64_t photonsMore, std::uint64_t photons);
     void judgeFrames(Loaded& loaded, const std::array<JudgedFrame, 2>& frames);
     void useLoaded(const Loaded& loaded);

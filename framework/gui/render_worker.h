@@ -66,8 +66,8 @@ class RenderWorker {
     struct Progress {
         bool isBusy = false;
         std::string what;  // "A: layers.peel"
-        // Of all that the order asks for; never less than before until there is another order.
-        // Nothing where frames go on for ever.
+        // The part that is done of all that the order asks for. It never falls until there is
+        // another order. There is none where frames go on for ever.
         std::optional<double> share;
         double seconds = 0.0;  // since this frame began
     };

@@ -26,7 +26,8 @@ struct RenderWorker::Device {
     std::optional<scene::SceneEdits> edits;  // that the scene has
     std::array<std::unique_ptr<VariantRenderer>, 2> renderers;
 
-    // Of textures: unlike those of any other device of this program.
+    // The number of the newest texture that was read back. Numbers start at a time, so that no
+    // device of this program repeats those of another.
     std::uint64_t versions = static_cast<std::uint64_t>(Clock::now().time_since_epoch().count());
     FrameOrder order;
     std::uint64_t number = 0;

@@ -156,6 +156,12 @@ Shown shownOf(const ShownRequest& requested, const FrameResult& result,
             "the last good shaders are in use, until this is mended: " + result.shaderProblem,
             Shown::Remedy::none);
     }
+    for (std::size_t i = 0; i < variantsOf(requested.document); ++i) {
+        const VariantResult& variant = result.variants[i];
+        if (variant.violations.empty()) continue;
+        return {Shown::Kind::impossible,
+                prefixOf(requested.document, i) + variant.violations.front(), Shown::Remedy::none};
+    }
     const std::string missing = missingSidePicture(requested, result, reference);
     return {Shown::Kind::requested,
             missing.empty() ? "What is shown is what was asked for."
@@ -171,6 +177,8 @@ const char* nameOf(Shown::Kind kind) {
             return "rendering";
         case Shown::Kind::preview:
             return "preview";
+        case Shown::Kind::impossible:
+            return "impossible";
         case Shown::Kind::stale:
             break;
     }

@@ -16,10 +16,11 @@ namespace kaustik::gui {
 
 struct Shown {
     enum class Kind {
-        requested,  // what was asked for
-        rendering,  // something older, until what was asked for is rendered
-        preview,    // the same view, quickly made
-        stale       // something else, and that will not change by itself
+        requested,   // what was asked for
+        rendering,   // something older, until what was asked for is rendered
+        preview,     // the same view, quickly made
+        impossible,  // what was asked for, and what no light can do
+        stale        // something else, and that will not change by itself
     };
     Kind kind = Kind::requested;
     std::string sentence;

@@ -152,6 +152,7 @@ void VariantRenderer::readBack(const Viewing& viewing) {
     result_.paths = outputs.hits.incoming.paths;
     result_.ledger.reset();
     result_.limits.clear();
+    result_.violations.clear();
 
     result_.viewed = view(viewing);
     result_.outputs.reset();
@@ -182,6 +183,11 @@ bool VariantRenderer::measure(const ShouldContinue& shouldContinue) {
         const report::RunRecord record = session_->measured();
         result_.ledger = record.ledger;
         result_.limits = report::reachedLimits(record, session_->renderer());
+        result_.violations = record.violations;
+        // What the build has said is there; what has been measured comes after it.
+        result_.warnings = session_->renderer().warnings();
+        result_.warnings.insert(result_.warnings.end(), record.warnings.begin(),
+                                record.warnings.end());
         return true;
     });
 }

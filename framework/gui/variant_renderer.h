@@ -36,12 +36,12 @@ class VariantRenderer {
     // only a DeviceError is thrown.
     bool render(const Variant& variant, const params::Extent& size, const Viewing& viewing,
                 bool isPrecise, const ShouldContinue& shouldContinue);
-    // The same, smaller and without caustics, for a view that is being turned. Not timed.
+    // Renders a smaller picture without caustics, for a view that is being turned. It is not timed.
     bool renderPreview(const Variant& variant, const params::Extent& size,
                        const ShouldContinue& shouldContinue);
-    // One more frame of what was rendered last, for the ledger and the limits.
+    // Renders one more frame of what was rendered last, for the ledger and the limits.
     bool measure(const ShouldContinue& shouldContinue);
-    // One more frame for the photons that landed at a pixel.
+    // Renders one more frame for the photons that landed at a pixel.
     [[nodiscard]] std::optional<PhotonProbe> probe(glm::ivec2 pixel, float radius,
                                                    const ShouldContinue& shouldContinue);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Small parts of panels.
+// The controls that several panels use.
 #pragma once
 
 #include <imgui.h>
@@ -48,18 +48,18 @@ void inputText(Bench& bench, const char* label, const char* hint, std::string& t
 // A stage's colour in charts and lists.
 [[nodiscard]] ImVec4 stageColor(const Registry& registry, const std::string& stage);
 [[nodiscard]] std::string stageOf(const std::string& pass);
-// Where a stage stands among those of the registry; what is none of them comes last.
+// The place of a stage among those of the registry; what is none of them comes last.
 [[nodiscard]] std::size_t stageRank(const Registry& registry, const std::string& stage);
 
-// Which of the two variants the panel is of, where there are two: a line that says so and changes
-// it. `panel` begins its names in the screen map.
+// Draws a line that says which of the two variants the panel is of, and changes it, where there are
+// two. `panel` begins its names in the screen map.
 void chooseVariant(Bench& bench, const std::string& panel);
 
 // Whether a parameter's range is so wide that the middle of a straight slider would be far from all
 // that is usual.
 [[nodiscard]] bool isLogarithmic(const params::Field& field);
 
-// As the report has it.
+// The median as the report has it.
 [[nodiscard]] double medianOf(std::vector<double> values);
 
 }  // namespace kaustik::gui

@@ -66,7 +66,7 @@ GLFWwindow* tryWindow(const std::string& title, const Window::Placement& placeme
 Window::Window(const std::string& title, const Placement& placement, const fs::path& imguiSettings)
     : iniFile_(imguiSettings.string()) {
     glfwSetErrorCallback([](int, const char* text) { lastGlfwError() = text; });
-#ifdef GLFW_PLATFORM  // GLFW 3.4 asks for a Wayland that nobody runs, and libwayland complains
+#ifdef GLFW_PLATFORM  // GLFW 3.4 asks for a Wayland that does not run, and libwayland complains
     const char* wayland = std::getenv("WAYLAND_DISPLAY");
     if (wayland == nullptr || *wayland == '\0') glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
 #endif

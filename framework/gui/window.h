@@ -32,7 +32,7 @@ class Window {
 
     [[nodiscard]] bool isClosing() const;
     void close();
-    // At once, whatever is still to be put away.
+    // Hides the window at once, whatever is still to be put away.
     void hide();
     // Waits for input, but not longer than so many seconds; then begins a frame of the interface.
     void beginFrame(double waitSeconds);

@@ -27,8 +27,8 @@ class Workbench {
     Workbench(const Workbench&) = delete;
     Workbench& operator=(const Workbench&) = delete;
 
-    // Until the window is closed. Throws DeviceError when the window's context is lost; what was
-    // set up has been kept by then.
+    // Runs until the window is closed. Throws DeviceError when the window's context is lost; what
+    // was set up has been kept by then.
     void run();
 
   private:

@@ -10,8 +10,9 @@ namespace kaustik {
 inline constexpr std::int64_t kLargestImageSide = 65536;                    // pixels
 inline constexpr std::int64_t kLargestImageValues = std::int64_t{1} << 29;  // floats: 2 GiB
 
-// No format packs more values into a byte: 8 pixels of a bit each in 1 of 1032 bytes, in PNG. Below
-// so many values nobody asks, so that a picture of one colour may be as small as its format allows.
+// No format packs more values into a byte: 8 pixels of a bit each in 1 of 1032 bytes, in PNG. The
+// ratio is not asked for below so many values, so that a picture of one colour may be as small as
+// its format allows.
 inline constexpr std::int64_t kMaxValuesPerByte = 16384;
 inline constexpr std::int64_t kUnaskedValues = std::int64_t{1} << 26;  // 256 MiB
 

@@ -12,7 +12,7 @@ extern "C" {
 inline constexpr std::uint32_t kKaustikOpenImageIoVersion = 1;
 inline constexpr const char* kKaustikOpenImageIoSymbol = "kaustikOpenImageIoFunctions";
 
-// Where the module puts what it made. `context` is handed back to every call.
+// The functions that the module hands its results to. `context` is handed back to every call.
 struct KaustikImageSink {
     void* context;
     // Room for width * height * channels floats (all at least 1), or null when there is none.
@@ -28,7 +28,7 @@ struct KaustikOpenImageIoFunctions {
     std::uint32_t version;
     // Reads an image file of any format that OpenImageIO knows.
     bool (*readFile)(const char* path, const KaustikImageSink* sink);
-    // The same for an image file that is held in memory.
+    // Reads an image file that is held in memory.
     bool (*readMemory)(const unsigned char* bytes, std::size_t count, const KaustikImageSink* sink);
     // An image as the bytes of an OpenEXR file: 32-bit float, ZIP compression, linear.
     bool (*encodeExr)(const float* values, int width, int height, int channels,

@@ -12,7 +12,7 @@ namespace kaustik {
 class TevClient {
   public:
     // `address`: "HOST:PORT", "HOST" or "": 127.0.0.1 and 14158 where it does not say. Throws
-    // ConfigError for what is no address, IoError where nobody answers.
+    // ConfigError for what is no address, IoError where there is no answer.
     explicit TevClient(const std::string& address);
     ~TevClient();
     TevClient(const TevClient&) = delete;

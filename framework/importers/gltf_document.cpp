@@ -13,7 +13,6 @@
 
 #include "framework/core/error.h"
 #include "framework/core/files.h"
-#include "framework/core/json_text.h"
 #include "framework/importers/gltf_document.h"
 
 namespace kaustik::scene {
@@ -35,7 +34,6 @@ bool isGlb(std::string_view bytes) {
 }
 
 Json parseGltfJson(std::string_view text, const std::string& name) {
-    requireShallowJson(text, name);
     try {
         return Json::parse(text);
     } catch (const Json::exception& error) {

@@ -2,6 +2,11 @@
 // A glTF 2.0 file as checked JSON and as tinygltf's model. tinygltf takes what it does not
 // understand for the default without a word (an IOR of "x", an index of 3.5) and follows indices
 // and byte ranges out of their arrays, so that the JSON is checked before tinygltf sees it.
+//
+// All checks here are about meaning: that what is read is what the file says, or an error that
+// names the field. They are no defence: a file that crashes, hangs or fills the memory of what
+// reads it (JSON nested a million deep, say) ends the reading process, and that is what refuses it
+// (framework/reading/reader_process.h).
 #pragma once
 
 #include <filesystem>

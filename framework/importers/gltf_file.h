@@ -8,7 +8,7 @@
 
 namespace kaustik::scene {
 
-// As importGltf (framework/scene/files/gltf_import.h).
+// Reads the file as importGltf says (framework/scene/files/gltf_import.h).
 [[nodiscard]] Scene readGltfFile(const std::filesystem::path& path);
 
 }  // namespace kaustik::scene

@@ -8,7 +8,7 @@
 
 namespace kaustik::scene {
 
-// As importMeshWithWarnings (framework/scene/files/mesh_import.h).
+// Reads the file as importMeshWithWarnings says (framework/scene/files/mesh_import.h).
 [[nodiscard]] ImportedMesh readMeshFile(const std::filesystem::path& path);
 
 }  // namespace kaustik::scene

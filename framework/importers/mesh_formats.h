@@ -35,12 +35,13 @@ struct MeshFileContents {
 // How much it may hold is the business of the reader process, which has a limit of memory.
 [[nodiscard]] std::string gunzip(std::string_view bytes, const std::string& name);
 
-// For the formats that are text. Cuts the first word off `text`; "" at its end.
+// Cuts the first word off `text`, for the formats that are text; "" at its end.
 [[nodiscard]] std::string_view nextWord(std::string_view& text);
 // True for what is wholly a number; one too large or too small for a double is read as NaN.
 [[nodiscard]] bool parseNumber(std::string_view word, double& value);
-// The same in 32 bits. Whole part, fraction and power of ten are each rounded by themselves, which
-// is up to a unit in the last place off; meshes stay as they have always been read, to the bit.
+// Reads a number in 32 bits in the same way. Whole part, fraction and power of ten are each rounded
+// by themselves, which is up to a unit in the last place off; meshes stay as they have always been
+// read, to the bit.
 [[nodiscard]] bool parseFloat(std::string_view word, float& value);
 
 }  // namespace kaustik::scene

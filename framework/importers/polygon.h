@@ -21,7 +21,8 @@ struct CutPolygon {
     std::size_t work = 0;
 };
 
-// At least three corners, in order; where they are not in a plane, as seen along the mean normal.
+// Cuts a polygon of at least three corners, in order. Where they do not lie in a plane, it is cut
+// as it is seen along the mean normal.
 [[nodiscard]] CutPolygon cutPolygon(std::span<const glm::dvec3> corners);
 
 }  // namespace kaustik::scene

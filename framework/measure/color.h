@@ -29,17 +29,18 @@ inline constexpr std::array<double, 3> kWhiteXyz{0.9504559270, 1.0, 1.0890577507
     return kXyzFromRgb[1][0] * red + kXyzFromRgb[1][1] * green + kXyzFromRgb[1][2] * blue;
 }
 
-// Of an RGB image; negative luminance, which no light has, becomes 0.
+// The luminance of an RGB image. A negative one, which no light has, becomes 0.
 [[nodiscard]] Plane<double> luminancePlane(const Image& rgb);
 
 // The sRGB transfer function (IEC 61966-2-1); `encode` takes [0,1] to [0,1], and clamps to it.
 [[nodiscard]] double encodeSrgb(double linear);
 [[nodiscard]] double decodeSrgb(double encoded);
-// Of every value, alpha excepted: a picture made for a display as linear light.
+// Makes linear light of a picture for a display: decodes every value but those of alpha.
 [[nodiscard]] Image decodeSrgb(Image image);
 
-// Of a number from 1e-30 to 1e30, to 2e-7 relative: a guess from the exponent, good to 4 %, and two
-// steps of Halley's method, each of which cubes the error. std::cbrt took a quarter of FLIP's time.
+// The cube root of a number from 1e-30 to 1e30, to 2e-7 relative: a guess from the exponent, good
+// to 4 %, and two steps of Halley's method, each of which cubes the error. std::cbrt took a quarter
+// of FLIP's time.
 [[nodiscard]] inline float cubeRoot(float value) {
     float root = std::bit_cast<float>(std::bit_cast<std::uint32_t>(value) / 3u + 709921077u);
     for (int step = 0; step < 2; ++step) {

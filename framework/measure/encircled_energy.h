@@ -36,13 +36,14 @@ struct EncircledEnergyComparison {
     std::optional<double> referenceRadiusMeters;
 };
 
-// Of one of the pair's two images. Flux is the sum of the channels, 0 where that is negative, times
-// the pixel's area, evenly spread over the pixel's square. Nothing where there is no flux.
+// Measures one of the pair's two images. Flux is the sum of the channels, 0 where that is negative,
+// times the pixel's area, evenly spread over the pixel's square. There is no result where there is
+// no flux.
 [[nodiscard]] std::optional<EncircledEnergy> encircledEnergy(const ImagePair& pair,
                                                              const Image& imageOfPair,
                                                              const EncircledEnergyParams& params);
 
-// Each image around its own centre. Nothing where one of the two holds no flux.
+// Measures each image around its own centre. There is no result where one of the two holds no flux.
 [[nodiscard]] std::optional<EncircledEnergyComparison> compareEncircledEnergy(
     const ImagePair& pair, const EncircledEnergyParams& params);
 

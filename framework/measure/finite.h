@@ -19,7 +19,7 @@ struct NotFinite {
     int channel = 0;
 };
 
-// Nothing where every value of every channel is finite.
+// The first value that is not finite. There is none where every value of every channel is finite.
 [[nodiscard]] std::optional<NotFinite> findNotFinite(const Image& image);
 
 // "2 values that are not finite (1 NaN, 1 infinite), the first at pixel (3, 4), channel 0"

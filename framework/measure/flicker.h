@@ -23,7 +23,8 @@ struct Flicker {
     double truthStandardError = 0.0;
     std::size_t countedPixels = 0;
 
-    // Above 0 the image changes more than it should.
+    // The change of the image less that of the truth. Above 0 the image changes more than it
+    // should.
     [[nodiscard]] double difference() const { return rms - truthRms; }
 };
 

@@ -26,8 +26,8 @@ struct ExposureRange {
 // paper's choice. `linear` at least 0, and however large.
 [[nodiscard]] double toneMap(double linear);
 
-// From where the brightest luminance is shown as 0.85 to where `scale.faint` is; as many as in the
-// paper, max(2, ceil(stop - start)). `scale` is not black.
+// The exposures from that at which the brightest luminance is shown as 0.85 to that at which
+// `scale.faint` is; as many as in the paper, max(2, ceil(stop - start)). `scale` is not black.
 [[nodiscard]] ExposureRange defaultExposures(const ReferenceScale& scale);
 
 // The largest FLIP over the exposures, in each pixel. Exposures run on all processors; the result

@@ -50,6 +50,12 @@ json formulasJson(const ImageErrors& errors) {
           {"epsilon_rule",
            "0.01 s^2, where pixels of the reference with luminance of at least s hold 50 % of its "
            "flux"}}},
+        {"smape",
+         {{"text",
+           "mean(|I - R| / (|I| + |R|)) over RGB channels of the counted pixels in which the "
+           "luminance of R is more than three times that of its standard error, or, without one, "
+           "more than 0"},
+          {"lit_pixels", errors.litPixels}}},
         {"ssim",
          {{"text",
            "Wang et al. 2004: 11x11 Gaussian, sigma 1.5, K1 0.01, K2 0.03, L 1, of "
@@ -87,6 +93,9 @@ ImageErrors measureErrors(const ImagePair& pair, const MeasureParams& params) {
     if (errors.relMseEpsilon > 0.0) {
         errors.relMse = relativeMeanSquareError(pair, errors.relMseEpsilon);
     }
+    const std::vector<unsigned char> lit = litPixels(pair);
+    errors.litPixels = static_cast<std::size_t>(std::count(lit.begin(), lit.end(), 1));
+    if (errors.litPixels > 0) errors.smape = symmetricRelativeError(pair, lit);
     errors.displayWhite = params.displayWhite;
     errors.exposures = params.exposures;
     if (!errors.scale.isBlack()) {
@@ -104,13 +113,18 @@ ImageErrors measureErrors(const ImagePair& pair, const MeasureParams& params) {
     }
     if (totalFlux(pair, pair.reference()) != 0.0) errors.energyRatio = energyRatio(pair);
     errors.encircledEnergy = compareEncircledEnergy(pair, params.encircledEnergy);
-    if (pair.hasStandardError()) errors.referenceNoise = referenceNoise(pair, errors.relMseEpsilon);
+    if (pair.hasStandardError())
+        errors.referenceNoise = referenceNoise(pair, errors.relMseEpsilon, lit);
     return errors;
 }
 
 std::string absenceReason(const ImageErrors& errors, std::string_view key) {
     const char* const black = "the reference is black, which gives no scale to judge by";
     if (key == "rel_mse" && !errors.relMse) return black;
+    if (key == "smape" && !errors.smape) {
+        return errors.scale.isBlack() ? black
+                                      : "no pixel of the reference is brighter than its noise";
+    }
     if (key == "flip_ldr" && !errors.flipLdr) return black;
     if (key == "flip_hdr" && !errors.flipHdr) return black;
     if (key == "ssim" && !errors.ssim) {
@@ -144,6 +158,7 @@ void reflect(F& f, const RadiiTable& table) {
 struct NoiseTable {
     ReferenceNoise noise;
     bool hasRelMse = false;
+    bool hasSmape = false;
     bool hasEnergyRatio = false;
 };
 template <class F>
@@ -154,6 +169,7 @@ void reflect(F& f, const NoiseTable& table) {
     f.field("rmse", table.noise.rmse, "");
     f.field("mae", table.noise.mae, "");
     f.fieldOrNull("rel_mse", where(table.hasRelMse, table.noise.relMse), "", "");
+    f.fieldOrNull("smape", where(table.hasSmape, table.noise.smape), "", "");
     f.fieldOrNull("energy_ratio", where(table.hasEnergyRatio, table.noise.energyRatio), "",
                   "One standard deviation");
 }
@@ -172,10 +188,13 @@ void reflect(F& f, const ImageErrors& errors) {
         radii = {*errors.encircledEnergy};
     }
     if (errors.referenceNoise) {
-        noise = {*errors.referenceNoise, errors.relMse.has_value(), errors.energyRatio.has_value()};
+        noise = {*errors.referenceNoise, errors.relMse.has_value(), errors.smape.has_value(),
+                 errors.energyRatio.has_value()};
     }
     f.field("rmse", errors.rmse, "Root mean square error");
     orNull("rel_mse", errors.relMse, "Mean square error relative to the reference");
+    orNull("smape", errors.smape,
+           "Symmetric relative error of lit pixels, 0 to 1, weak light as much as bright");
     f.field("mae", errors.mae, "Mean absolute error");
     orNull("ssim", errors.ssim, "Structural similarity");
     orNull("flip_ldr", errors.flipLdr, "FLIP of the images as a display shows them");

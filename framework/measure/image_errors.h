@@ -31,6 +31,7 @@ struct ImageErrors {
     double rmse = 0.0;
     double mae = 0.0;
     std::optional<double> relMse;
+    std::optional<double> smape;
     std::optional<double> ssim;
     std::optional<double> flipLdr;
     std::optional<double> flipHdr;
@@ -40,6 +41,7 @@ struct ImageErrors {
 
     // What they were measured with.
     std::size_t countedPixels = 0;
+    std::size_t litPixels = 0;  // of them
     double relMseEpsilon = 0.0;
     std::optional<double> displayWhite;
     std::optional<ExposureRange> exposures;
@@ -49,9 +51,9 @@ struct ImageErrors {
 
 [[nodiscard]] ImageErrors measureErrors(const ImagePair& pair, const MeasureParams& params = {});
 
-// rmse, rel_mse, mae, ssim, flip_ldr, flip_hdr, energy_ratio and encircled_energy_radius_ratio
-// (null, with a sentence under `reasons`, where absent); the radii; `truth_noise` where known; and
-// `formulas`, each with its text and the numbers that went into it.
+// rmse, rel_mse, smape, mae, ssim, flip_ldr, flip_hdr, energy_ratio and
+// encircled_energy_radius_ratio (null, with a sentence under `reasons`, where absent); the radii;
+// `truth_noise` where known; and `formulas`, each with its text and the numbers that went into it.
 [[nodiscard]] nlohmann::json toJson(const ImageErrors& errors);
 [[nodiscard]] nlohmann::json imageErrorsSchema();
 

@@ -12,7 +12,7 @@ namespace kaustik::measure {
 // ".png" of "a/B.PNG".
 [[nodiscard]] std::string lowerExtension(const std::filesystem::path& file);
 
-// Made for a display: not linear, and with 1 as its white.
+// Whether the file holds a picture made for a display: not linear, and with 1 as its white.
 [[nodiscard]] bool isDisplayPicture(const std::filesystem::path& file);
 
 // The image of a file; one that was made for a display is decoded. Throws IoError.

@@ -16,9 +16,9 @@ namespace kaustik::measure {
 struct PairInputs {
     const Image& image;
     const Image& reference;  // as many channels of colour as the image
-    // 0 in the first channel leaves a pixel out: one without a receiver.
+    // The mask leaves out pixels where its first channel is 0, such as those without a receiver.
     const Image* mask = nullptr;
-    // Of the reference's mean in each pixel, one standard deviation, not negative.
+    // One standard deviation of the reference's mean in each pixel, not negative.
     const Image* standardError = nullptr;
     // m² of receiver that each pixel sees, in the first channel, not negative: sums of irradiance
     // over the pixels are then flux.
@@ -39,7 +39,7 @@ class ImagePair {
     [[nodiscard]] int width() const { return image_.width; }
     [[nodiscard]] int height() const { return image_.height; }
     [[nodiscard]] std::size_t pixelCount() const { return areas_.size(); }
-    // Those that the mask does not leave out; at least 1.
+    // The number of pixels that the mask does not leave out; at least 1.
     [[nodiscard]] std::size_t countedPixels() const { return countedPixels_; }
     [[nodiscard]] bool counts(std::size_t pixel) const { return counts_[pixel] != 0; }
 

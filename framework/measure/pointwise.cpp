@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "framework/measure/pointwise.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <numbers>
@@ -20,6 +21,23 @@ double mean(const ImagePair& pair, const Image& first, const Image& second, cons
         }
     }
     return sum / (3.0 * static_cast<double>(pair.countedPixels()));
+}
+
+// The same over lit pixels.
+template <class Term>
+double meanOfLit(const std::vector<unsigned char>& lit, const Image& first, const Image& second,
+                 const Term& term) {
+    double sum = 0.0;
+    std::size_t values = 0;
+    for (std::size_t pixel = 0; pixel < lit.size(); ++pixel) {
+        if (lit[pixel] == 0) continue;
+        values += 3;
+        for (std::size_t i = 3 * pixel; i < 3 * pixel + 3; ++i) {
+            sum +=
+                term(static_cast<double>(first.values[i]), static_cast<double>(second.values[i]));
+        }
+    }
+    return values > 0 ? sum / static_cast<double>(values) : 0.0;
 }
 
 double squared(double value) {
@@ -44,6 +62,13 @@ double relativeMeanSquareError(const ImagePair& pair, double epsilon) {
                 [epsilon](double i, double r) { return squared(i - r) / (squared(r) + epsilon); });
 }
 
+double symmetricRelativeError(const ImagePair& pair, const std::vector<unsigned char>& lit) {
+    return meanOfLit(lit, pair.image(), pair.reference(), [](double i, double r) {
+        const double sum = std::abs(i) + std::abs(r);
+        return sum > 0.0 ? std::abs(i - r) / sum : 0.0;
+    });
+}
+
 double totalFlux(const ImagePair& pair, const Image& imageOfPair) {
     double sum = 0.0;
     for (std::size_t pixel = 0; pixel < pair.pixelCount(); ++pixel) {
@@ -58,14 +83,18 @@ double energyRatio(const ImagePair& pair) {
     return totalFlux(pair, pair.image()) / totalFlux(pair, pair.reference());
 }
 
-ReferenceNoise referenceNoise(const ImagePair& pair, double epsilon) {
+ReferenceNoise referenceNoise(const ImagePair& pair, double epsilon,
+                              const std::vector<unsigned char>& lit) {
     assert(pair.hasStandardError());
     const Image& errors = pair.standardError();
     ReferenceNoise noise;
     noise.rmse =
         std::sqrt(mean(pair, errors, errors, [](double sigma, double) { return squared(sigma); }));
-    noise.mae = std::sqrt(2.0 / std::numbers::pi) *
-                mean(pair, errors, errors, [](double sigma, double) { return sigma; });
+    const double absolute = std::sqrt(2.0 / std::numbers::pi);  // of a normal deviation of 1
+    noise.mae = absolute * mean(pair, errors, errors, [](double sigma, double) { return sigma; });
+    noise.smape = meanOfLit(lit, errors, pair.reference(), [&](double sigma, double r) {
+        return sigma > 0.0 ? std::min(absolute * sigma / (2.0 * std::max(r, 1e-300)), 1.0) : 0.0;
+    });
     if (epsilon > 0.0) {
         noise.relMse = mean(pair, errors, pair.reference(), [epsilon](double sigma, double r) {
             return squared(sigma) / (squared(r) + epsilon);

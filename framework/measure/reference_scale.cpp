@@ -36,4 +36,17 @@ ReferenceScale referenceScale(const ImagePair& pair) {
     return scale;
 }
 
+std::vector<unsigned char> litPixels(const ImagePair& pair) {
+    const Plane<double> luminances = luminancePlane(pair.reference());
+    Plane<double> noise = luminances;
+    std::fill(noise.values.begin(), noise.values.end(), 0.0);
+    if (pair.hasStandardError()) noise = luminancePlane(pair.standardError());
+    std::vector<unsigned char> lit(luminances.values.size(), 0);
+    for (std::size_t pixel = 0; pixel < lit.size(); ++pixel) {
+        const bool isLit = luminances.values[pixel] > 3.0 * noise.values[pixel];
+        lit[pixel] = pair.counts(pixel) && isLit ? 1 : 0;
+    }
+    return lit;
+}
+
 }  // namespace kaustik::measure

@@ -4,6 +4,8 @@
 // are quantiles of the flux instead, and depend on the reference alone.
 #pragma once
 
+#include <vector>
+
 #include "framework/measure/image_pair.h"
 
 namespace kaustik::measure {
@@ -20,5 +22,10 @@ struct ReferenceScale {
 
 // Flux is luminance times the pixel's area.
 [[nodiscard]] ReferenceScale referenceScale(const ImagePair& pair);
+
+// By pixel: 1 where the reference is lit and not only noisy, which is where its luminance exceeds
+// three times that of its standard error; above 0 where it has none. 0 for pixels that do not
+// count.
+[[nodiscard]] std::vector<unsigned char> litPixels(const ImagePair& pair);
 
 }  // namespace kaustik::measure

@@ -81,8 +81,8 @@ Texels Frame::read(const graph::ResourceRef& handle, int layer) const {
     return texels;
 }
 
-std::vector<std::string> Frame::textureNames() const {
-    const graph::Graph& graph = renderer_->graph();
+std::vector<std::string> textureNames(const Renderer& renderer) {
+    const graph::Graph& graph = renderer.graph();
     std::vector<std::string> names;
     for (const std::string& name : graph.resourceNames()) {
         if (std::holds_alternative<graph::TextureDesc>(graph.descOf(graph.find(name))))
@@ -91,9 +91,9 @@ std::vector<std::string> Frame::textureNames() const {
     return names;
 }
 
-std::size_t Frame::countNotFinite(const std::string& texture) const {
-    const graph::Graph& graph = renderer_->graph();
-    std::vector<float> values = renderer_->texture(graph.find(texture)).read();
+std::size_t countNotFinite(const Renderer& renderer, const std::string& texture) {
+    const graph::Graph& graph = renderer.graph();
+    std::vector<float> values = renderer.texture(graph.find(texture)).read();
     // What lies beyond a list of photons nobody writes, or reads.
     for (const char* listed : {"photons.", "hits."}) {
         if (!texture.starts_with(listed)) continue;
@@ -101,7 +101,7 @@ std::size_t Frame::countNotFinite(const std::string& texture) const {
         const graph::ResourceRef list =
             graph.find(kListName + texture.substr(std::min(suffix, texture.size())));
         if (!list.valid()) continue;
-        const auto count = renderer_->buffer(list).read<transport::PhotonList>().front().count;
+        const auto count = renderer.buffer(list).read<transport::PhotonList>().front().count;
         values.resize(std::min<std::size_t>(values.size(), 4 * std::size_t{count}));
     }
     return static_cast<std::size_t>(std::count_if(

@@ -34,6 +34,14 @@ struct Texels {
     [[nodiscard]] double sum() const;
 };
 
+// Of a frame that was rendered with every texture and its lists of photons kept.
+
+// The names of all textures of the graph.
+[[nodiscard]] std::vector<std::string> textureNames(const Renderer& renderer);
+// How many values of a texture, in all its layers, are not finite; of a list's texture those that
+// it holds. Waits for the device.
+[[nodiscard]] std::size_t countNotFinite(const Renderer& renderer, const std::string& texture);
+
 struct FrameRequest {
     int width = 160;
     int height = 120;
@@ -41,7 +49,7 @@ struct FrameRequest {
     std::vector<std::string> saved = {};  // resources
     // Keeps every texture, so that all can be read and scanned.
     bool keepsAll = false;
-    // Memory starts as NaN, so that whoever reads what nobody wrote shows.
+    // Memory starts as NaN, so that reads of what was not written show.
     bool poison = false;
     // Renders for Purpose::audit: the renderer has records of all tracings.
     bool recordsTraces = false;
@@ -59,11 +67,13 @@ class Frame {
     [[nodiscard]] Renderer& renderer() { return *renderer_; }
     [[nodiscard]] const Renderer& renderer() const { return *renderer_; }
 
-    // The names of all textures of the graph.
-    [[nodiscard]] std::vector<std::string> textureNames() const;
-    // How many values of a texture, in all its layers, are not finite; of a list's texture those
-    // that it holds, and its list must have been kept.
-    [[nodiscard]] std::size_t countNotFinite(const std::string& texture) const;
+    // As the functions of these names.
+    [[nodiscard]] std::vector<std::string> textureNames() const {
+        return numerics::textureNames(*renderer_);
+    }
+    [[nodiscard]] std::size_t countNotFinite(const std::string& texture) const {
+        return numerics::countNotFinite(*renderer_, texture);
+    }
 
     // World position that a pixel centre sees at a view depth.
     [[nodiscard]] glm::dvec3 worldAt(int x, int y, double depth) const;

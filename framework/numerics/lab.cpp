@@ -49,6 +49,17 @@ void Lab::expectAtMost(const std::string& subject, const std::string& what, doub
     rows_.push_back({caseId_, subject, what, maximum, measured, 0.0, reason, Bound::atMost});
 }
 
+void Lab::expectRefused(const std::string& subject, const std::string& what,
+                        const std::function<void()>& render) {
+    bool isRefused = false;
+    try {
+        render();
+    } catch (const ConfigError&) {
+        isRefused = true;
+    }
+    expect(subject, fmt::format("is it refused: {}", what), 1.0, isRefused ? 1.0 : 0.0, kExactly);
+}
+
 std::vector<std::string> Lab::nodesOf(const std::string& stage) const {
     std::vector<std::string> nodes;
     for (const Registry::Node& node : registry_.nodes()) {
@@ -80,9 +91,9 @@ TracerReach Lab::tracerReach(const Choice& tracer) const {
     return registry_.traits<TraceStage>(tracer.subject.substr(dot + 1)).reach;
 }
 
-TracerReach Lab::tracerReach(const Technique& technique) const {
-    const std::string tracer = registry_.makeParams(technique).choice(TraceStage::name);
-    return registry_.traits<TraceStage>(tracer).reach;
+bool Lab::seesReceiversOnly(const Choice& tracer) const {
+    const std::size_t dot = tracer.subject.find('.');
+    return registry_.traits<TraceStage>(tracer.subject.substr(dot + 1)).onlyReceivers;
 }
 
 Frame Lab::render(const Technique& technique, const scene::Scene& scene, FrameRequest request) {

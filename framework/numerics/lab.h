@@ -2,6 +2,7 @@
 // What a case measures with: a device, the registry, and the rows that it writes.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,10 @@ class Lab {
     void expectAtMost(const std::string& subject, const std::string& what, double maximum,
                       double measured, const std::string& reason);
 
+    // That what `render` asks for is refused, in a sentence, before anything is rendered.
+    void expectRefused(const std::string& subject, const std::string& what,
+                       const std::function<void()>& render);
+
     // The nodes that answer a stage, and the settings that choose one: those of the first technique
     // that uses it, else of the first technique with this node put into it, and the filter that a
     // reconstruction needs.
@@ -64,13 +69,9 @@ class Lab {
 
     // What a tracer can find.
     [[nodiscard]] TracerReach tracerReach(const Choice& tracer) const;
-    [[nodiscard]] TracerReach tracerReach(const Technique& technique) const;
 
     // Whether it finds no specular surface at all.
-    [[nodiscard]] bool seesReceiversOnly(const Choice& tracer) const {
-        return tracerReach(tracer) == TracerReach::flatReceivers ||
-               tracerReach(tracer) == TracerReach::lightFront;
-    }
+    [[nodiscard]] bool seesReceiversOnly(const Choice& tracer) const;
     // Whether photons that enter a body go on from where they leave it.
     [[nodiscard]] bool goesThroughBodies(const Choice& specular) const;
 

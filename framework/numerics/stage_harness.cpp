@@ -10,6 +10,7 @@
 #include "framework/pipeline/photon_texels.h"
 #include "framework/pipeline/stage_params.h"
 #include "framework/scene/dielectrics.h"
+#include "framework/transport/primitives.h"
 
 namespace kaustik::numerics {
 namespace {
@@ -67,7 +68,7 @@ Hits inject(FrameBuilder& frame, const Batch& batch) {
             Photons photons =
                 Photons::create(setup, batch.width, batch.height, "", frame.usesBeams());
             photons.ledger =
-                setup.createBuffer<transport::LedgerEntry>("ledger", transport::kAccountCount);
+                setup.createBuffer<transport::LedgerEntry>("ledger", transport::kLedgerEntryCount);
             photons.store(setup);
             hits = Hits::create(setup, photons);
             hits.store(setup);

@@ -26,7 +26,7 @@ struct StagePhoton {
     double pathMeters = 0.0;  // scatterPhotons: to the receiver where its path ends; 0: it has none
 };
 
-// Where one arrived, or what it became.
+// The place where a photon arrived, or what it became.
 struct StageHit {
     glm::dvec3 position{0.0};
     double distanceMeters = 0.0;
@@ -70,7 +70,7 @@ struct Emitted {
 };
 [[nodiscard]] Emitted emitPhotons(Lab& lab, const Lab::Choice& emitter, const scene::Scene& scene,
                                   const Settings& settings);
-// The same, and what they become there.
+// Photons where they first hit a specular surface, and what they become there.
 struct Bent {
     Emitted before;
     Emitted after;
@@ -92,7 +92,7 @@ struct StoredFlux {
     int width = 0;
     int height = 0;
     std::vector<double> watts;
-    // Of texels of [x0, x1) x [y0, y1).
+    // The sum over texels of [x0, x1) x [y0, y1).
     [[nodiscard]] double in(int x0, int y0, int x1, int y1) const;
     [[nodiscard]] double all() const { return in(0, 0, width, height); }
 };

@@ -43,11 +43,11 @@ class Suite {
   public:
     // Adds measurements to a case; whoever comes first gives it its sentence.
     void add(const std::string& id, const std::string& sentence, std::function<void(Lab&)> measure);
-    // Textures of such names may hold what nobody wrote: memory that is only read where it was.
+    // Textures of such names may hold what was not written: memory that is only read where it was.
     // All others are scanned for what is not a number.
     void allowUnwritten(const std::string& namePrefix) { unwritten_.push_back(namePrefix); }
 
-    // By section, number and letter.
+    // The cases in the order of section, number and letter.
     [[nodiscard]] const std::vector<Case>& cases() const { return cases_; }
     [[nodiscard]] bool mayBeUnwritten(const std::string& name) const;
 

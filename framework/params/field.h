@@ -80,7 +80,7 @@ struct Field {
 
     // "float", "int", "bool", "WxH" or "choice".
     [[nodiscard]] std::string typeName() const;
-    // "[0.1, 8]", "a | b"; "" where everything of the type is allowed.
+    // "0.1 to 8", "1x1 to 64x64", "a | b", "true | false".
     [[nodiscard]] std::string rangeText() const;
     [[nodiscard]] std::string text() const;
     [[nodiscard]] nlohmann::json json() const;
@@ -130,7 +130,7 @@ template <class Params>
     return std::move(list.fields());
 }
 
-// For nodes without parameters.
+// The parameter struct of nodes that have no parameters.
 struct NoParams {
     template <class R>
     void reflect(R&) {}

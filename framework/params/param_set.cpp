@@ -180,9 +180,22 @@ bool ParamSet::isSetByUser(const std::string& fullName) const {
 
 std::vector<NamedField> ParamSet::all() const {
     std::vector<NamedField> result;
-    for (const auto& [fullName, defaultText] : defaults_) {
-        result.push_back({fullName, find(fullName), defaultText});
+    for (const auto& [key, value] : scopes_) {
+        const std::string scope = key.back() == '=' ? key.substr(0, key.size() - 1) : key;
+        for (Field& field : value->fields()) {
+            const std::string fullName = fullNameOf(scope, field);
+            result.push_back({fullName, std::move(field), defaults_.at(fullName)});
+        }
     }
+    // A stage's choice before what its nodes share, and these before what each has of its own.
+    const auto scopeOf = [](const NamedField& named) {
+        const std::size_t nameBytes = named.field.name.empty() ? 0 : named.field.name.size() + 1;
+        return std::pair(named.fullName.substr(0, named.fullName.size() - nameBytes),
+                         nameBytes != 0);
+    };
+    std::stable_sort(result.begin(), result.end(), [&](const NamedField& a, const NamedField& b) {
+        return scopeOf(a) < scopeOf(b);
+    });
     return result;
 }
 

@@ -51,7 +51,8 @@ class ParamSet {
         return static_cast<const Held<Params>&>(held(scope, typeid(Params))).value;
     }
     [[nodiscard]] std::string choice(const std::string& name) const;
-    // By its full name, pointing into this set; else throws ConfigError.
+    // The parameter of this full name, pointing into this set. Throws ConfigError where there is
+    // none.
     [[nodiscard]] Field find(const std::string& fullName) const;
 
     // Sets by full name or by a shorter form that is unique: the name's dotted parts must occur in
@@ -69,7 +70,8 @@ class ParamSet {
     [[nodiscard]] bool isSetByUser(const std::string& fullName) const;
     [[nodiscard]] const std::set<std::string>& setByUser() const { return setByUser_; }
 
-    // Every parameter in the order of the names.
+    // Every parameter, by the names of the scopes, and within one in the order of its declaration.
+    // A stage's choice of node comes before what its nodes share.
     [[nodiscard]] std::vector<NamedField> all() const;
     // {"full.name": value, ...}
     [[nodiscard]] nlohmann::json json() const;

@@ -38,6 +38,11 @@ bool FrameFacts::usesBeams() const {
     return areUsed && traits<EmitStage>().beams;
 }
 
+std::string FrameFacts::whyNoNeighbours() const {
+    const auto why = traits<DriverStage>().whyNoNeighbours;
+    return why == nullptr ? "" : why(*this);
+}
+
 std::string noCausticReason(const FrameFacts& facts) {
     if (facts.needs == nullptr) return "";
     if (facts.needs->lights == 0) return "the scene has no light";
@@ -62,25 +67,54 @@ std::string whyNothingSeenThrough(const FrameFacts& facts) {
                                                            : "";
 }
 
+ParameterName splitParameterName(const std::string& fullName) {
+    const std::size_t stageEnd = std::min(fullName.find('.'), fullName.size());
+    if (stageEnd == fullName.size()) return {fullName, "", ""};
+    const std::string rest = fullName.substr(stageEnd + 1);
+    const std::size_t nodeEnd = rest.find('.');
+    if (nodeEnd == std::string::npos) return {fullName.substr(0, stageEnd), "", rest};
+    return {fullName.substr(0, stageEnd), rest.substr(0, nodeEnd), rest.substr(nodeEnd + 1)};
+}
+
+bool isOfOtherNode(const ParameterName& name, const params::ParamSet& settings) {
+    return !name.node.empty() && settings.choice(name.stage) != name.node;
+}
+
 std::string whyNoEffect(const FrameFacts& facts, const std::string& name) {
     const params::Field field = facts.settings.find(name);
-    const auto dot = name.find('.');
-    const auto nodeEnd = dot == std::string::npos ? dot : name.find('.', dot + 1);
-    const std::string stage = name.substr(0, dot);
     if (!facts.isRead(name)) {
-        const std::string reason = whyStageIsIdle(facts, stage);
+        const ParameterName parts = splitParameterName(name);
+        const std::string reason = whyStageIsIdle(facts, parts.stage);
         if (!reason.empty()) return reason;
-        if (nodeEnd != std::string::npos) {
-            const std::string chosen = facts.settings.choice(stage);
-            if (chosen != name.substr(dot + 1, nodeEnd - dot - 1))
-                return fmt::format("with {}={}", stage, chosen);
-        }
+        if (isOfOtherNode(parts, facts.settings))
+            return fmt::format("with {}={}", parts.stage, facts.settings.choice(parts.stage));
     }
     for (const params::Condition& condition : field.conditions) {
         const std::string reason = condition(facts);
         if (!reason.empty()) return reason;
     }
     return field.obstacle;
+}
+
+std::string whyNoEffect(const FrameFacts& facts, const std::vector<graph::PassRecord>& passes,
+                        const std::string& name) {
+    const std::string reason = whyNoEffect(facts, name);
+    if (!reason.empty()) return reason;
+    const ParameterName parts = splitParameterName(name);
+    const auto hasRun = [&](const auto& isMeant) {
+        return std::any_of(passes.begin(), passes.end(), [&](const graph::PassRecord& pass) {
+            return pass.state == graph::PassState::ran && isMeant(pass.name);
+        });
+    };
+    const bool isOfAllLayers = parts.stage == LayersStage::name && parts.node.empty();
+    if (isOfAllLayers &&
+        !hasRun([](const std::string& pass) { return pass.starts_with("layers."); }))
+        return "nothing needs the layers of what the eye sees";
+    if (!isOfOtherNode(parts, facts.settings)) return "";
+    const std::string node = parts.stage + "." + parts.node;
+    const bool runs =
+        hasRun([&](const std::string& pass) { return pass == node || pass.ends_with("." + node); });
+    return runs ? "" : fmt::format("no pass of this frame is {}'s", node);
 }
 
 std::string sayNoEffect(const std::string& name, const std::string& reason) {

@@ -2,14 +2,17 @@
 #include "framework/pipeline/frame_builder.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstddef>
 
 #include "framework/core/error.h"
+#include "framework/core/names.h"
 #include "framework/pipeline/ledger.h"
 #include "framework/pipeline/stage_params.h"
 #include "framework/transport/photon_list.h"
+#include "framework/transport/primitives.h"
 
 namespace kaustik {
 
@@ -41,6 +44,34 @@ params::Extent FrameBuilder::photonsOfALight() const {
 
 int FrameBuilder::runsOf(const std::string& stage) const {
     return static_cast<int>(std::count(stagesRun_.begin(), stagesRun_.end(), stage));
+}
+
+void FrameBuilder::needsWayOut(const Photons& photons, const Surfaces& /*surfaces*/) const {
+    if (!photons.paths.insideBodies || !traits<TraceStage>().onlyReceivers) return;
+    std::vector<std::string> bodies;
+    for (const scene::Object& object : scene().objects) {
+        const bool isDielectric =
+            scene().materials[object.material].kind == scene::MaterialKind::dielectric;
+        if (isDielectric && !isOpen(scene(), object.material))
+            bodies.push_back("'" + object.name + "'");
+    }
+    const Registry& registry = inputs_.registry;
+    std::vector<std::string> choices;
+    for (const Registry::Node& node : registry.nodes()) {
+        if (node.stage == SpecularStage::name &&
+            registry.traits<SpecularStage>(node.name).throughBodies)
+            choices.push_back("specular=" + node.name);
+    }
+    for (const Registry::Node& node : registry.nodes()) {
+        if (node.stage == TraceStage::name && !registry.traits<TraceStage>(node.name).onlyReceivers)
+            choices.push_back("trace=" + node.name);
+    }
+    throw ConfigError(fmt::format(
+        "trace.{} finds receivers alone, and specular.{} would leave photons inside of {} to it, "
+        "all "
+        "of whose light would be lost; take {}.",
+        inputs_.params.choice(TraceStage::name), inputs_.params.choice(SpecularStage::name),
+        joinNames(bodies), fmt::join(choices, " or ")));
 }
 
 Hits FrameBuilder::recorded(const TraceStage::Build& build, const Photons& photons,
@@ -107,7 +138,8 @@ void setCells(gl::Command& command, const CellGrid& cells) {
     command.set("cellGrid", glm::ivec2(cells.width, cells.rows))
         .set("cellFirstRow", cells.firstRow)
         .set("cellLights", glm::ivec2(cells.firstLight, cells.lights))
-        .set("cellSplits", cells.splits);
+        .set("cellSplits", cells.splits)
+        .offer("cellOwnRows", glm::ivec2(cells.firstOwn, cells.endOwn));
 }
 
 void fillList(gl::PassContext& context, const Photons& photons) {
@@ -133,7 +165,7 @@ IrradianceMap skipCaustic(FrameBuilder& frame, const std::string& reason) {
             data.irradiance =
                 setup.create<IrradianceTexel>("caustic.irradiance", frame.width(), frame.height());
             data.ledger =
-                setup.createBuffer<transport::LedgerEntry>("ledger", transport::kAccountCount);
+                setup.createBuffer<transport::LedgerEntry>("ledger", transport::kLedgerEntryCount);
         },
         [](const IrradianceMap& data, gl::PassContext& context) {
             context.texture(data.irradiance).clear({0, 0, 0, 0});
@@ -172,7 +204,8 @@ FrameOutputs buildFrame(FrameBuilder& frame) {
             caustic.inScattered,
             shadows,
             caustic.map,
-            caustic.cells};
+            caustic.cells,
+            geometry};
 }
 
 }  // namespace kaustik

@@ -44,15 +44,16 @@ inline void dispatchOver(gl::Command&& command, const Photons& photons) {
 void drawOver(gl::Command& command);
 // Tells a command which cells a list is of: shaders include include/photons/cells.glsl.
 void setCells(gl::Command& command, const CellGrid& cells);
-// A list that fills its textures, in every texel a photon or nobody.
+// Sets a list's length to all texels of its textures, each of which then holds a photon or an empty
+// one.
 void fillList(gl::PassContext& context, const Photons& photons);
 
-// For a node that works on the screen alone: ConfigError where what it is given, `what`, is not in
-// the eye's view.
+// Throws ConfigError where `what`, which is given to a node that works on the screen alone, is not
+// in the eye's view.
 void needsEyesView(const std::string& node, const std::string& what, const Views& views);
 
 class FrameBuilder;
-// For a node that uses beams: ConfigError where the emitter does not make any.
+// Throws ConfigError where a node uses beams and the emitter does not make any.
 void needsBeams(FrameBuilder& frame, const std::string& node, const Photons& photons);
 
 class FrameBuilder {
@@ -72,12 +73,13 @@ class FrameBuilder {
         const Registry::Node& node = chosenNode(Stage::name);
         const auto& build = *static_cast<const typename Stage::Build*>(node.build.get());
         if constexpr (std::is_same_v<Stage, TraceStage>) {
+            needsWayOut(in...);
             if (recordsTraces_ && prefix_.empty()) return recorded(build, std::move(in)...);
         }
         return build(*this, std::move(in)...);
     }
     [[nodiscard]] const Registry::Node& chosenNode(const std::string& stage);
-    // Of the node that the settings choose for a stage, which is not run thereby.
+    // The traits of the node that the settings choose for a stage. The node is not run by this.
     template <class Stage>
     [[nodiscard]] const typename Stage::Traits& traits() const {
         return inputs_.registry.traits<Stage>(inputs_.params.choice(Stage::name));
@@ -148,7 +150,7 @@ class FrameBuilder {
     }
     // What the chosen tracer can find.
     [[nodiscard]] TracerReach tracerReach() const;
-    // Whether photons have beams: the emitter makes them, and somebody uses them.
+    // Whether photons have beams: the emitter makes them, and a chosen node uses them.
     [[nodiscard]] bool usesBeams() const;
     // Whether a batch is to know the cells next to it too.
     [[nodiscard]] bool joinsCells() const;
@@ -171,22 +173,32 @@ class FrameBuilder {
     // (photon_texels.h).
     void request(const Photons& photons);
     void request(const Hits& hits);
-    // For the report.
+    // Adds a warning to the report.
     void warn(std::string warning) { warnings_.push_back(std::move(warning)); }
     [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
     // Says that the frame depends on FrameInputs::seed.
     void usesRandomness() { isRandom_ = true; }
     [[nodiscard]] bool isRandom() const { return isRandom_; }
-    // Also for the report, where a frame is measured; the pass's name as it was given to pass().
+    // Has the report say after a frame that is measured whether a limit was reached. `limit.pass`
+    // is the pass's name as it was given to pass().
     void reportLimit(NodeLimit limit) {
         limit.pass = prefix_ + limit.pass;
         limits_.push_back(std::move(limit));
     }
     [[nodiscard]] const std::vector<NodeLimit>& limits() const { return limits_; }
+    // The same of what is no cap.
+    void warnIfFound(NodeWarning warning) {
+        warning.pass = prefix_ + warning.pass;
+        nodeWarnings_.push_back(std::move(warning));
+    }
+    [[nodiscard]] const std::vector<NodeWarning>& nodeWarnings() const { return nodeWarnings_; }
     // How often a stage has been run so far, the running one included.
     [[nodiscard]] int runsOf(const std::string& stage) const;
 
   private:
+    // ConfigError where some of the photons may be inside of bodies, and the tracer finds no
+    // surface there.
+    void needsWayOut(const Photons& photons, const Surfaces& surfaces) const;
     Hits recorded(const TraceStage::Build& build, const Photons& photons, const Surfaces& surfaces);
 
     graph::Graph& graph_;
@@ -201,6 +213,7 @@ class FrameBuilder {
     bool skipsCaustic_ = false;
     bool isRandom_ = false;
     std::vector<TraceRecord> traces_;
+    std::vector<NodeWarning> nodeWarnings_;
 };
 
 // The usual order of the stages, from which a technique differs only if it must.

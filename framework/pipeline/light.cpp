@@ -21,8 +21,8 @@ FluxMap FluxMap::deposit(graph::PassSetup& setup, const FluxMap& before, const R
                                           views->layers(map.wordsPerView()));
         setup.bypass(map.flux, {0, 0, 0, 0});
         if (sets.counts) {
-            map.counts = setup.create<PhotonCountTexel>(name + "_counts", views->width(),
-                                                        views->height(), views->layers(sets.flux));
+            map.counts = setup.create<PhotonCountTexel>(
+                name + "_counts", views->width(), views->height(), views->layers(sets.flux()));
             setup.bypass(map.counts, {0, 0, 0, 0});
         }
     }

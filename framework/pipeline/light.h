@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Handles of light that has arrived, and of what becomes of it.
+// Handles of light that has arrived at receivers, and of the images that are made of it.
 #pragma once
 
 #include <string>
@@ -10,20 +10,36 @@
 
 namespace kaustik {
 
-// What a map of flux holds of each view.
+// What the sets of a map are to each other, which whoever reads it has to know. one: all flux in
+// one set. sizes: all of it in each of four, of splats of four sizes (reconstruct.four_radii).
+// levels: two, the map's own resolution and all coarser ones side by side, each of which has all
+// flux (reconstruct.levels). sharedLevels: the same two, but each photon is in one level alone, so
+// that all of them together are all flux (reconstruct.multi_level).
+enum class SetLayout { one, sizes, levels, sharedLevels };
+
+// What is kept of light for glossy receivers, which irradiance alone does not tell. intensity: what
+// goes to the eye, W/sr; the eye's view alone. direction: the flux of all channels times 1 + the
+// direction in which it arrives, eye view space: its mean is what a glossy receiver needs where the
+// eye's is not known yet.
+enum class GlossySets { none, intensity, direction };
+
+// What a map of flux holds of each view: sets of flux, W, and where a receiver of the scene is
+// glossy as many more, each of which belongs to a set of flux.
 struct FluxSets {
-    // Maps of all the flux, where it is stored in several ways: a splat's sizes, levels of
-    // resolution.
-    int flux = 1;
-    int parts = 1;              // of these sets add up to all flux; the ledger counts them
-    bool counts = false;        // and how many photons each of them has by texel
-    bool hasIntensity = false;  // and what goes to the eye, W/sr; the eye's view alone
-    // And the flux of all channels times 1 + the direction in which it arrives, eye view space: its
-    // mean is what a glossy receiver needs where the eye's is not known yet.
-    bool hasDirection = false;
-    // Of the intensity or the direction.
-    [[nodiscard]] int last() const { return flux; }
-    [[nodiscard]] int perView() const { return flux + (hasIntensity || hasDirection ? 1 : 0); }
+    SetLayout layout = SetLayout::one;
+    GlossySets glossy = GlossySets::none;
+    bool counts = false;  // and how many photons each set of flux has by texel
+    [[nodiscard]] int flux() const {
+        if (layout == SetLayout::one) return 1;
+        return layout == SetLayout::sizes ? 4 : 2;
+    }
+    // How many of them, from the first, add up to all flux; the ledger counts those.
+    [[nodiscard]] int parts() const { return layout == SetLayout::sharedLevels ? 2 : 1; }
+    [[nodiscard]] bool isGlossy() const { return glossy != GlossySets::none; }
+    [[nodiscard]] bool hasIntensity() const { return glossy == GlossySets::intensity; }
+    [[nodiscard]] bool hasDirection() const { return glossy == GlossySets::direction; }
+    // The flux, and then, in the same order, what is kept for glossy receivers.
+    [[nodiscard]] int perView() const { return isGlossy() ? 2 * flux() : flux(); }
 };
 
 // Flux that has arrived, W a texel, on what some views see: sums that depend neither on the order
@@ -31,40 +47,45 @@ struct FluxSets {
 struct FluxMap {
     graph::Texture<FluxWord> flux;
     graph::Texture<PhotonCountTexel> counts;  // array, a layer a set of flux; where `sets` has them
-    // What a filter has made of it, in floats: a layer of flux a view, and one of what the last
-    // set holds; invalid before.
+    // What a filter has made of it, in floats: a layer of flux a view, W, and one of what is kept
+    // for glossy receivers, in the unit of its sets; invalid before.
     graph::Texture<FilteredTexel> filtered;
     FluxSets sets;
     ReceiverView on;
     int light = -1;      // whose photons alone it holds; -1: all lights'
     int generator = -1;  // the same of what they have left last; -1: of all
-    // Which of its light's maps: those after the first hold a part of the same light again, in
-    // finer texels, each map a part of the one before.
+    // The number of this map among those of its light. Those after the first hold a part of the
+    // same light again, in finer texels, each map a part of the one before.
     int cascade = 0;
+    // Whether there is one map of all flux to be looked up: a filter has made it, or no other was
+    // stored.
+    [[nodiscard]] bool isOne() const { return filtered.valid() || sets.layout == SetLayout::one; }
     // Layers of `filtered` and of `flux` that each view has.
-    [[nodiscard]] int filteredPerView() const { return 1 + sets.perView() - sets.flux; }
+    [[nodiscard]] int filteredPerView() const { return sets.isGlossy() ? 2 : 1; }
     [[nodiscard]] int wordsPerView() const {
         return static_cast<int>(transport::kFluxWords) * sets.perView();
     }
 
-    // For a pass that adds to what `before` holds, as the images "fluxSums" and, where there are
-    // counts, "photonCounts"; where `before` is invalid, to a new map, which the pass has to clear
-    // first.
+    // Declares what a pass does that adds to `before`, as the images "fluxSums" and, where there
+    // are counts, "photonCounts". Where `before` is invalid there is a new map, which the pass has
+    // to clear first.
     static FluxMap deposit(graph::PassSetup& setup, const FluxMap& before, const ReceiverView& on,
                            const FluxSets& sets, const std::string& name);
 };
 
-// All the light of a frame that has arrived: one map on the screen, or one of each light.
+// All the light of a frame that has arrived: one map on the screen, or one of each light or caustic
+// generator. All of them have the same sets.
 struct CausticMap {
     std::vector<FluxMap> maps;
     Ledger ledger;
 };
 
-// In screen space, at the eye buffer's receivers.
+// Caustic irradiance in screen space, at the eye buffer's receivers.
 struct IrradianceMap {
     graph::Texture<IrradianceTexel> irradiance;
     Ledger ledger;
-    // The same light toward the eye (transport/brdf.h); invalid where no receiver is glossy.
+    // The radiance that the same light has towards the eye (transport/brdf.h); invalid where no
+    // receiver is glossy.
     graph::Texture<RadianceTexel> radiance;
 };
 
@@ -80,7 +101,7 @@ struct InScattered {
     graph::Texture<FluxWord> sums;
 };
 
-// Which direct light reaches the receivers; invalid where the scene has no light.
+// The visibility of each light at the receivers; invalid where the scene has no light.
 struct Shadows {
     graph::Texture<VisibilityTexel> visibility;  // array, a layer a light
 };

@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include "framework/pipeline/limit.h"
 
-#include "framework/gl/executor.h"
+#include <algorithm>
+#include <utility>
 
 namespace kaustik {
 
-std::size_t countHits(const gl::Executor& executor, const Hits& hits, std::uint32_t fate,
-                      double fromShare) {
-    const std::size_t listed =
-        executor.buffer(hits.incoming.list).read<transport::PhotonList>().front().count;
-    const std::vector<float> texels = executor.texture(hits.flux).read();
-    std::size_t count = 0;
-    const auto first = static_cast<std::size_t>(fromShare * static_cast<double>(listed) + 0.5);
-    for (std::size_t i = first; i < listed; ++i)
-        count += static_cast<std::uint32_t>(texels[4 * i + 3]) == fate ? 1 : 0;
-    return count;
+ReachedLimit bothLimits(const ReachedLimit& one, const ReachedLimit& other) {
+    const bool isFarther = std::pair(other.value, other.needed) > std::pair(one.value, one.needed);
+    ReachedLimit both = isFarther ? other : one;
+    if (one.counted.empty() || one.counted != other.counted) return both;
+    both.count = one.count + other.count;
+    both.countedWatts = one.countedWatts + other.countedWatts;
+    // A lower bound is missed by what lies farther below it.
+    if (one.value == other.value && one.needed < one.value && other.needed < other.value)
+        both.needed = std::min(one.needed, other.needed);
+    return both;
 }
 
 }  // namespace kaustik

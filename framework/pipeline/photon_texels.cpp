@@ -38,7 +38,8 @@ std::vector<PhotonTexel> readPhotons(const Renderer& renderer, const Photons& ph
                    direction.word(i),
                    flux.xyz(i),
                    flux.word(i),
-                   {origin[4 * i], origin[4 * i + 1], origin[4 * i + 2], origin[4 * i + 3]}};
+                   {origin[4 * i], origin[4 * i + 1] & 0xffffU, origin[4 * i + 2],
+                    origin[4 * i + 3], origin[4 * i + 1] >> 16U}};
     }
     return list;
 }

@@ -14,7 +14,7 @@ namespace kaustik {
 // A word of a texel (a fate, a material, media) that is none.
 inline constexpr std::uint32_t kNoWord = ~0u;
 
-// As transport::Photon and transport::Hit.
+// A photon as it is read back: the fields of transport::Photon and transport::Hit.
 struct PhotonTexel {
     glm::vec3 position{0.0f};
     float footprintMeters = 0.0f;
@@ -36,7 +36,7 @@ struct HitTexel {
     }
 };
 
-// In the order of the list.
+// The photons in the order of the list.
 [[nodiscard]] std::vector<PhotonTexel> readPhotons(const Renderer& renderer,
                                                    const Photons& photons);
 [[nodiscard]] std::vector<HitTexel> readHits(const Renderer& renderer, const Hits& hits);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -21,18 +22,29 @@ struct ModelledPaths {
     bool transmissionOnly = false;  // at dielectrics the refracted branch, unless all is reflected
     int interactions = 0;           // most specular interactions of a photon
     bool end = false;               // whoever sent the photons on cannot do so again
+    // Some may be inside of closed dielectrics: only a tracer that finds specular surfaces has a
+    // way out for them.
+    bool insideBodies = false;
 };
 
 // The cells of lights' grids, or the vertices of a mesh's grid, that photons of a list stand for,
 // row by row: by them neighbours are found. PhotonOrigin::cell counts from the grid's first row.
 struct CellGrid {
-    int width = 0;  // cells; 0: nobody has neighbours
+    int width = 0;  // cells; 0: photons have no neighbours
     int firstRow = 0;
     int rows = 0;
     int firstLight = 0;
     int lights = 0;
+    // Rows that are the list's own, of the grid, from and before; what is around them other batches
+    // bring as well, and here it is only to be joined with.
+    int firstOwn = 0;
+    int endOwn = 0;
     int splits = 0;  // a cell may have 2^splits photons in the list, told apart by so many first
                      // interactions of their paths
+    [[nodiscard]] bool isOwn(std::uint32_t cell) const {
+        const auto row = width > 0 ? static_cast<int>(cell) / width : 0;
+        return width == 0 || (row >= firstOwn && row < endOwn);
+    }
     [[nodiscard]] std::size_t places() const {
         return (static_cast<std::size_t>(width) * static_cast<std::size_t>(rows) *
                 static_cast<std::size_t>(lights))
@@ -47,7 +59,7 @@ struct Photons {
     graph::Texture<PhotonDirection> direction;
     graph::Texture<PhotonFlux> flux;
     graph::Texture<OriginTexel> origin;
-    // Invalid where nobody uses beams (FrameBuilder::usesBeams).
+    // Both are invalid where no node uses beams (FrameBuilder::usesBeams).
     graph::Texture<BeamPlace> beamPlace;
     graph::Texture<BeamTurn> beamTurn;
     graph::Buffer<transport::PhotonList> list;
@@ -55,7 +67,8 @@ struct Photons {
     ModelledPaths paths;
     CellGrid cells;
     graph::Texture<CellExtentTexel> extents;  // by cell; invalid where each stands for itself
-    // Of the textures: room for so many photons. Only the device knows how many there are.
+    // The size of the textures, which have room for so many photons. Only the device knows how many
+    // there are.
     int width = 0;
     int height = 0;
     // Rows that suffice for those that go on: fewer where a list holds photons more than once.
@@ -68,21 +81,21 @@ struct Photons {
     // New textures, to be filled by the pass, and a new list, unless it is that of `cells`.
     static Photons create(graph::PassSetup& setup, int width, int height, const std::string& suffix,
                           bool hasBeams, const LightCells& cells = {});
-    // For a pass that reads photons: "photonPosition", "photonDirection", "photonFlux",
+    // Declares what a pass reads of photons: "photonPosition", "photonDirection", "photonFlux",
     // "photonOrigin" and the block "Photons"; with beams, for which the shaders of the pass are
-    // compiled as PHOTON_BEAMS, "photonBeamPlace" and "photonBeamTurn".
+    // compiled as PHOTON_BEAMS, also "photonBeamPlace" and "photonBeamTurn".
     void sample(graph::PassSetup& setup) const;
-    // For a pass that makes them: images under the same names with "next" instead of "photon", and
-    // the block "NextPhotons".
+    // Declares what a pass writes that makes photons: images under the same names with "next"
+    // instead of "photon", and the block "NextPhotons".
     void store(graph::PassSetup& setup) const;
-    // For a pass that goes on filling textures that one before has created.
+    // Declares that a pass goes on filling textures that an earlier pass has created.
     void rewrite(graph::PassSetup& setup);
     [[nodiscard]] std::vector<graph::ResourceRef> textures() const;
     // What all passes do that lose flux; block "LedgerEntries".
     void account(graph::PassSetup& setup);
 };
 
-// Where photons arrived, each at the texel that it has among `incoming`.
+// The places where photons arrived, each at the texel that the photon has in `incoming`.
 struct Hits {
     graph::Texture<HitPosition> position;
     graph::Texture<HitSurface> surface;
@@ -95,9 +108,9 @@ struct Hits {
     // makes them.
     void sample(graph::PassSetup& setup) const;
     void store(graph::PassSetup& setup) const;
-    // For a pass that goes on filling what one before has created.
+    // Declares that a pass goes on filling what an earlier pass has created.
     void rewrite(graph::PassSetup& setup);
-    // In the order of a fragment shader's outputs.
+    // The textures in the order of a fragment shader's outputs.
     [[nodiscard]] std::vector<graph::ResourceRef> textures() const;
 };
 

@@ -34,6 +34,14 @@ void Registry::technique(Technique technique) {
     techniques_.push_back(std::move(technique));
 }
 
+void Registry::paper(Paper paper) {
+    for (const Paper& other : papers_) {
+        if (other.name != paper.name) continue;
+        throw ConfigError(fmt::format("The paper '{}' is registered twice.", paper.name));
+    }
+    papers_.push_back(std::move(paper));
+}
+
 const Technique& Registry::findTechnique(const std::string& name) const {
     std::vector<std::string> names;
     for (const Technique& technique : techniques_) {
@@ -42,6 +50,20 @@ const Technique& Registry::findTechnique(const std::string& name) const {
     }
     throw ConfigError(fmt::format("There is no technique '{}'{}; there is {}.", name,
                                   didYouMean(name, names), joinNames(names)));
+}
+
+Technique Registry::findTechnique(const std::string& name, bool isAsPublished) const {
+    Technique technique = findTechnique(name);
+    if (!isAsPublished) return technique;
+    if (technique.asPublished.empty()) {
+        throw ConfigError(fmt::format(
+            "The technique '{}' is no paper's: it has no row as published.", technique.name));
+    }
+    // A later one counts more.
+    technique.defaults.insert(technique.defaults.end(), technique.asPublished.begin(),
+                              technique.asPublished.end());
+    technique.isAsPublished = true;
+    return technique;
 }
 
 const Registry::Node& Registry::findNode(const std::string& stage, const std::string& name) const {
@@ -69,7 +91,9 @@ params::ParamSet Registry::makeParams(const Technique& technique) const {
     for (const auto& declare : declarations_)
         declare(set);
     for (const auto& [name, value] : technique.defaults)
-        set.setDefault(name, value, fmt::format("technique '{}'", technique.name));
+        set.setDefault(name, value,
+                       fmt::format("technique '{}'{}", technique.name,
+                                   technique.isAsPublished ? " as published" : ""));
     return set;
 }
 

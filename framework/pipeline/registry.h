@@ -50,6 +50,12 @@ struct NodeDescription {
     std::vector<std::string> reads = {};
 };
 
+// A paper that descriptions cite by a short name, which `kaustik doc` spells out.
+struct Paper {
+    std::string name;      // "K06"
+    std::string citation;  // authors, title, where and when, in Markdown
+};
+
 // What a technique hands to the report, besides the picture.
 struct FrameOutputs {
     Picture picture;
@@ -62,6 +68,7 @@ struct FrameOutputs {
     Shadows shadows;
     CausticMap map;  // what was stored, filtered too; without maps where nothing is
     graph::Buffer<transport::CellCounts> cells;  // where the driver chooses its photons
+    Geometry geometry = {};
 };
 
 using BuildFrame = std::function<FrameOutputs(FrameBuilder&)>;
@@ -72,14 +79,18 @@ struct Technique {
     std::string source;
     // Its answers and other defaults: {"trace", "lines"}, {"emit.photons", "256x256"}.
     std::vector<std::pair<std::string, std::string>> defaults;
+    // What the paper's own row has in their place, or besides: its method to the letter, where the
+    // defaults are what is right. Empty where it is no paper's.
+    std::vector<std::pair<std::string, std::string>> asPublished = {};
     // How its stages are put together; empty: the usual order (buildFrame in frame_builder.h).
     BuildFrame build = {};
+    bool isAsPublished = false;  // `defaults` are the paper's row
 };
 
 class Registry {
   public:
-    // Says where a stage comes in lists: after those that were named before. One that nobody names
-    // comes with its first node.
+    // Says where a stage comes in lists: after those that were named before. One that is not
+    // named comes with its first node.
     template <class Stage>
     void stage() {
         addStage({Stage::name, Stage::question, Stage::takes, Stage::gives, Stage::whyIdle});
@@ -126,6 +137,7 @@ class Registry {
     }
 
     void technique(Technique technique);
+    void paper(Paper paper);
 
     // A folder of shaders that are not the project's own, for programs built elsewhere: a node of
     // theirs names a file in it, which includes the project's as any other
@@ -153,9 +165,13 @@ class Registry {
     };
     [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
     [[nodiscard]] const std::vector<Technique>& techniques() const { return techniques_; }
+    [[nodiscard]] const std::vector<Paper>& papers() const { return papers_; }
 
     // Throws ConfigError with the nearest name.
     [[nodiscard]] const Technique& findTechnique(const std::string& name) const;
+    // The same with its paper's row for its defaults, where that is asked for. Throws ConfigError
+    // too where the technique is no paper's.
+    [[nodiscard]] Technique findTechnique(const std::string& name, bool isAsPublished) const;
     [[nodiscard]] const Node& findNode(const std::string& stage, const std::string& name) const;
 
     // Throws ConfigError as findNode.
@@ -175,6 +191,7 @@ class Registry {
     std::vector<StageEntry> stages_;
     std::vector<Node> nodes_;
     std::vector<Technique> techniques_;
+    std::vector<Paper> papers_;
     std::vector<std::filesystem::path> shaderFolders_;
     std::vector<std::function<void(params::ParamSet&)>> declarations_;
 };

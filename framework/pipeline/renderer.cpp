@@ -160,6 +160,8 @@ graph::Compiled Renderer::compile(Purpose purpose, const std::vector<std::string
     const auto begin = std::chrono::steady_clock::now();
     FrameBuilder frame = declareFrame(purpose == Purpose::audit, purpose == Purpose::view);
     if (purpose != Purpose::picture) closedLedger_ = closeLedger(frame, outputs_);
+    if (purpose == Purpose::measurement || purpose == Purpose::audit)
+        closedLedger_ = addEmittable(frame, outputs_, closedLedger_);
     graph_->request(outputs_.picture.radiance, "the picture's radiance");
     graph_->request(outputs_.picture.display, "the picture");
     graph_->request(outputs_.caustic.irradiance, "the caustic's irradiance");
@@ -192,8 +194,9 @@ graph::Compiled Renderer::compile(Purpose purpose, const std::vector<std::string
         compiled = graph_->compile();
     }
     limits_.clear();
+    nodeWarnings_.clear();
     if (purpose == Purpose::measurement || purpose == Purpose::audit)
-        compiled = keepLimits(compiled, frame.limits());
+        compiled = keepFindings(compiled, frame);
     buildMilliseconds_ =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
     keptObjects_ = frame.releaseKeptObjects();
@@ -211,46 +214,37 @@ std::string Renderer::whyNoEffect(const std::string& name) const {
 }
 
 std::string Renderer::whyNoEffect(const std::string& name, const graph::Compiled& compiled) const {
-    const std::string reason = kaustik::whyNoEffect({registry_, settings_.params, &needs_}, name);
-    const auto dot = name.find('.');
-    const auto nodeEnd = dot == std::string::npos ? dot : name.find('.', dot + 1);
-    if (!reason.empty() || nodeEnd == std::string::npos) return reason;
-    const std::string node = name.substr(0, nodeEnd);
-    if (settings_.params.choice(name.substr(0, dot)) == node.substr(dot + 1)) return "";
-    // One that is not chosen may stand in for one that is: specular.split for specular.auto.
-    const bool hasRun = std::any_of(
-        compiled.records.begin(), compiled.records.end(), [&](const graph::PassRecord& pass) {
-            return pass.state == graph::PassState::ran &&
-                   (pass.name == node || pass.name.ends_with("." + node));
-        });
-    return hasRun ? "" : fmt::format("no pass of this frame is {}'s", node);
+    return kaustik::whyNoEffect({registry_, settings_.params, &needs_}, compiled.records, name);
 }
 
 // Only of passes that run: to ask for what others make would bring them back.
-graph::Compiled Renderer::keepLimits(const graph::Compiled& compiled,
-                                     const std::vector<NodeLimit>& limits) {
-    for (const NodeLimit& limit : limits) {
-        const bool runs = std::any_of(
-            compiled.records.begin(), compiled.records.end(), [&](const graph::PassRecord& pass) {
-                return pass.name == limit.pass && pass.state == graph::PassState::ran;
-            });
-        if (!runs) continue;
-        limits_.push_back(limit);
-        for (const graph::ResourceRef& handle : limit.counted)
-            graph_->request(handle);
-    }
+graph::Compiled Renderer::keepFindings(const graph::Compiled& compiled, const FrameBuilder& frame) {
+    const auto keep = [&](const auto& findings, auto& kept) {
+        for (const auto& finding : findings) {
+            const bool runs = std::any_of(compiled.records.begin(), compiled.records.end(),
+                                          [&](const graph::PassRecord& pass) {
+                                              return pass.name == finding.pass &&
+                                                     pass.state == graph::PassState::ran;
+                                          });
+            if (!runs) continue;
+            kept.push_back(finding);
+            for (const graph::ResourceRef& handle : finding.counted)
+                graph_->request(handle);
+        }
+    };
+    keep(frame.limits(), limits_);
+    keep(frame.nodeWarnings(), nodeWarnings_);
     return graph_->compile();
 }
 
-// What says where light went that was stored off the screen.
+// What says where light went that was stored off the screen, or that a filter has changed.
 void Renderer::requestForMaps() {
-    bool isOffScreen = false;
+    bool isAccounted = false;
     for (const FluxMap& map : outputs_.map.maps) {
-        if (map.on.views->isEyeView()) continue;
-        isOffScreen = true;
+        isAccounted = isAccounted || !map.on.views->isEyeView() || map.filtered.valid();
         if (map.filtered.valid()) graph_->request(map.filtered);
     }
-    if (isOffScreen) graph_->request(outputs_.eye.receiver);
+    if (isAccounted) graph_->request(outputs_.eye.receiver);
     if (outputs_.cells.valid()) graph_->request(outputs_.cells);
 }
 
@@ -299,17 +293,26 @@ EnergyLedger Renderer::ledger(const Ledger& handle) const {
 std::vector<ReachedLimit> Renderer::reachedLimits() const {
     std::vector<ReachedLimit> all;
     for (const NodeLimit& limit : limits_) {
-        const std::optional<ReachedLimit> reached = limit.reached(executor_);
+        const std::optional<ReachedLimit> reached =
+            limit.inLedger ? limit.inLedger(ledger()) : limit.reached(executor_);
         if (!reached) continue;
         const auto same = std::find_if(all.begin(), all.end(), [&](const ReachedLimit& other) {
             return other.parameter == reached->parameter;
         });
         if (same == all.end()) {
             all.push_back(*reached);
-        } else if (std::pair(reached->value, reached->needed) >
-                   std::pair(same->value, same->needed)) {
-            *same = *reached;
+        } else {
+            *same = bothLimits(*same, *reached);
         }
+    }
+    return all;
+}
+
+std::vector<std::string> Renderer::foundWarnings() const {
+    std::vector<std::string> all;
+    for (const NodeWarning& warning : nodeWarnings_) {
+        if (const std::optional<std::string> found = warning.found(executor_))
+            all.push_back(*found);
     }
     return all;
 }

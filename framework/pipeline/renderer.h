@@ -63,7 +63,7 @@ class Renderer {
     bool renderFrame(gl::PassTimer& timer,
                      const std::function<bool(std::size_t)>& shouldContinue = {});
 
-    // Of the last build.
+    // These give what the last build has made.
     [[nodiscard]] const graph::Graph& graph() const { return *graph_; }
     [[nodiscard]] const graph::Compiled& compiled() const { return executor_.compiled(); }
     [[nodiscard]] const FrameOutputs& outputs() const { return outputs_; }
@@ -75,14 +75,16 @@ class Renderer {
     // Whether the frame depends on the settings' seed.
     [[nodiscard]] bool isRandom() const { return isRandom_; }
 
-    // Of the last build for Purpose::audit.
+    // The traces of the last build for Purpose::audit.
     [[nodiscard]] const std::vector<TraceRecord>& traces() const { return traces_; }
 
     // What was rendered; these wait for the device. The first two and the layers' statistics need
     // Purpose::measurement.
     [[nodiscard]] EnergyLedger ledger() const;
-    // Those that nodes keep to; of several passes with one limit the one that went farthest.
+    // Those that nodes keep to, of several passes with one limit all together.
     [[nodiscard]] std::vector<ReachedLimit> reachedLimits() const;
+    // What nodes have found out of the frame, a sentence each; Purpose::measurement too.
+    [[nodiscard]] std::vector<std::string> foundWarnings() const;
     // A ledger as it stood where the handle was written.
     [[nodiscard]] EnergyLedger ledger(const Ledger& handle) const;
     [[nodiscard]] transport::LayerStatistics layerStatistics() const;
@@ -92,6 +94,7 @@ class Renderer {
     // Renders only what counts the fragments of each pixel and notes the result in needs().
     void measureDepthComplexity();
     [[nodiscard]] const scene::SceneNeeds& needs() const { return needs_; }
+    [[nodiscard]] const Registry& registry() const { return registry_; }
     [[nodiscard]] const scene::Scene& scene() const { return scene_; }
     [[nodiscard]] const render::RasterView& view() const { return view_; }
     [[nodiscard]] const render::GpuScene& gpuScene() const { return gpuScene_; }
@@ -108,8 +111,8 @@ class Renderer {
     void requestForMaps();
     void requestForAudit();
     void requestExits();
-    [[nodiscard]] graph::Compiled keepLimits(const graph::Compiled& compiled,
-                                             const std::vector<NodeLimit>& limits);
+    [[nodiscard]] graph::Compiled keepFindings(const graph::Compiled& compiled,
+                                               const FrameBuilder& frame);
 
     gl::Context& context_;
     const Registry& registry_;
@@ -136,6 +139,7 @@ class Renderer {
     double buildMilliseconds_ = 0.0;
     bool isRandom_ = false;
     bool hasLayerStatistics_ = false;
+    std::vector<NodeWarning> nodeWarnings_;
 };
 
 }  // namespace kaustik

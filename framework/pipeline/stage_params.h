@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "framework/pipeline/effect.h"
-#include "framework/transport/types.h"
 
 namespace kaustik {
 
@@ -26,7 +25,8 @@ struct EmitParams {
     void reflect(R& r) {
         const auto whyRefined = [](const FrameFacts& facts) -> std::string {
             if (!facts.traits<DriverStage>().refines) return "";
-            return facts.withChosen<DriverStage>() + "; refine.finest and refine.memory have";
+            return fmt::format("{}; {} have", facts.withChosen<DriverStage>(),
+                               facts.traits<DriverStage>().parameters);
         };
         r.field(photons, "photons", "Photons along each side of a light's grid", "",
                 params::range(1, 16384))
@@ -38,9 +38,9 @@ struct EmitParams {
             .when(whyRefined);
         r.field(
              batch, "batch",
-             "Most photons that are emitted at once, which bounds the memory of lists, 112 bytes "
-             "a photon and list, 160 with beams, or twice that with both branches; more follow "
-             "in batches of whole rows",
+             "Most photons that a list has room for, 112 bytes each, 160 with beams. So many are "
+             "emitted at once, or as many fewer as each may become by specular.split.levels; more "
+             "follow in batches of whole rows",
              "", params::range(1, 268435456))
             .when(whyRefined);
     }
@@ -72,6 +72,7 @@ enum class HitTest : int { crossing, epsilon, inOut };
 struct TraceParams {
     HitTest test = HitTest::crossing;
     float epsilonMeters = 0.01f;
+    int blockers = 512;
     template <class R>
     void reflect(R& r) {
         const auto whyUntested = [](const FrameFacts& facts) -> std::string {
@@ -93,67 +94,19 @@ struct TraceParams {
                 "m", params::range(1e-6f, 1e6f))
             .when(test != HitTest::crossing, "with trace.test=crossing")
             .when(whyUntested);
-    }
-};
-
-// Where light is stored.
-enum class StoreSpace : int { screen, light, cube };
-// What a light's map covers.
-enum class MapCover : int { seen, scene };
-
-struct ReconstructParams {
-    StoreSpace space = StoreSpace::screen;
-    int mapSize = 1024;
-    MapCover covers = MapCover::seen;
-    int cascades = 1;
-    int memoryMebibytes = 4096;
-    template <class R>
-    void reflect(R& r) {
-        const char* const onScreen =
-            space == StoreSpace::screen ? "light is stored on the screen" : "";
-        const char* const notOfLights =
-            space == StoreSpace::light ? "" : "reconstruct.space is not light";
-        // Others may look receivers up in such maps all the same.
-        const auto unlessRead = [](const char* name, const char* reason) {
-            return [=](const FrameFacts& facts) { return facts.isRead(name) ? "" : reason; };
-        };
-        r.choice(space, "space",
-                 "screen: by the eye's pixels; light: in a caustic map of each light, as it sees "
-                 "the receivers; cube: on six faces around each caustic generator",
-                 {"screen", "light", "cube"});
-        r.field(mapSize, "map_size",
-                "Side of a light's caustic map; half of it where six are needed, around a light or "
-                "a generator",
-                "texels", params::range(16, 8192))
-            .when(unlessRead("reconstruct.map_size", onScreen));
-        r.choice(covers, "map_covers",
-                 "seen: of a light's, the receivers within what the eye looks at; scene: all of "
-                 "them",
-                 {"seen", "scene"})
-            .when(unlessRead("reconstruct.map_covers", notOfLights));
-        r.field(
-             cascades, "map_cascades",
-             "Maps of each light: one of all that map_covers says, and further ones, of the same "
-             "size, of what the eye sees nearer and nearer by, where it looks more closely",
-             "", params::range(1, 1 + static_cast<int>(transport::kMaxViews)))
-            .when(unlessRead("reconstruct.map_cascades", notOfLights));
-        r.field(memoryMebibytes, "map_memory",
-                "Most memory of all caustic maps together and of what the lights see there; larger "
-                "ones are halved until they fit, and the report says so",
-                "MiB", params::range(1, 1048576))
-            .when(unlessRead("reconstruct.map_memory", onScreen));
-    }
-};
-
-struct ViewParams {
-    int samples = 1;
-    template <class R>
-    void reflect(R& r) {
-        r.field(samples, "samples",
-                "Rays of the eye a pixel, evenly spread over it, whose mean is shown where one of "
-                "them sees a specular surface; 1: through its middle. For each beside the middle "
-                "the scene's first surfaces are drawn once more",
-                "", params::range(1, 64));
+        r.field(blockers, "blockers",
+                "Side of each light's view of the specular surfaces in which a tracer that finds "
+                "receivers alone looks for what stops light that is on its way to one; 0: light "
+                "goes straight through whatever is there, as published",
+                "texels", params::range(0, 8192))
+            .when([](const FrameFacts& facts) -> std::string {
+                if (!facts.traits<TraceStage>().onlyReceivers)
+                    return facts.withChosen<TraceStage>();
+                if (facts.needs == nullptr) return "";
+                const scene::RepeatedHits& again = facts.needs->repeatedHits;
+                const bool isPossible = again.outside && (again.transmitted || again.reflected);
+                return isPossible ? "" : "no photon can hit a specular surface again";
+            });
     }
 };
 

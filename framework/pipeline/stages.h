@@ -20,7 +20,7 @@ namespace kaustik {
 // larger than a texel of the faces around the generator that the photon has left.
 enum class TracerReach { eyeLayers, everything, flatReceivers, lightFront, around };
 
-// Which of the lights' photons (FrameBuilder::photonsOfALight) are emitted at once: rows
+// The part of the lights' photons (FrameBuilder::photonsOfALight) that is emitted at once: rows
 // [firstRow, firstRow + rows) of each light's.
 struct Samples {
     int firstLight = 0;
@@ -30,7 +30,7 @@ struct Samples {
     std::string suffix;     // of this batch's resources; "" of the first
     Ledger ledger;          // of the batches before; invalid before the first
     LightCells cells = {};  // valid: these instead, of any light; the ledger is valid too
-    bool isProbe = false;   // PhotonOrigin::cell is to be the photon's number in the list
+    int borderRows = 0;     // next to these, brought along to be joined with (CellGrid::isOwn)
 };
 
 // What following photons leaves.
@@ -38,9 +38,16 @@ struct Caustic {
     Hits last;  // of the last tracing
     CausticMap map;
     InScattered inScattered;
-    // Where the driver chooses its photons: what that has come to, once all are done.
+    // What the choice of photons has come to once all are done; valid where the driver chooses
+    // them.
     graph::Buffer<transport::CellCounts> cells;
 };
+
+// Rows of cells beside a batch that a reconstruction needs to know to join its own with them, and
+// in how many rows at least a batch is cut, so that squares of cells which are drawn as one
+// (reconstruct.triangles.merge) are whole in one batch.
+constexpr int kJoinedRows = 2;
+constexpr int kJoinedSquare = 16;
 
 class FrameBuilder;
 
@@ -92,7 +99,12 @@ struct DriverStage : Stage<Caustic(Surfaces)> {
     static constexpr const char* gives =
         "map of flux, in-scattered light: runs the stages from `emit` to `media`";
     struct Traits {
-        bool refines = false;  // the stage refine says which photons there are, not emit.photons
+        bool refines = false;  // a stage of its own says which photons there are, not emit.photons
+        // The parameters by which it does: "refine.finest and refine.memory".
+        std::string parameters = {};
+        // Why its photons are nobody's neighbours, for a parameter's condition: they stand for
+        // several cells. "" where they are; none: they always are.
+        std::string (*whyNoNeighbours)(const FrameFacts&) = nullptr;
     };
     static constexpr auto whyIdle = &noCausticReason;
 };
@@ -103,7 +115,7 @@ struct EmitStage : Stage<Hits(Surfaces, Samples)> {
     static constexpr const char* gives =
         "hits: where the light of one batch first hits specular surfaces";
     struct Traits {
-        bool beams = false;       // its photons have beams where anybody uses them
+        bool beams = false;       // its photons have beams where a node uses them
         bool emitsCells = false;  // it can be given cells one by one (Samples::cells)
         // Rows and columns of one light's photons, where emit.photons does not say it.
         std::function<params::Extent(const FrameBuilder&)> photons = {};
@@ -118,7 +130,8 @@ struct SpecularStage : Stage<Photons(Hits, Surfaces)> {
     static constexpr const char* takes = "hits, surfaces";
     static constexpr const char* gives = "photons that go on, as a list without gaps";
     struct Traits {
-        // Photons that enter a body go on from where they leave it.
+        // Photons that enter a body go on from where they leave it; else one may be inside of a
+        // closed dielectric when it is traced (ModelledPaths::insideBodies).
         bool throughBodies = false;
     };
     static constexpr auto whyIdle = &noCausticReason;
@@ -130,6 +143,10 @@ struct TraceStage : Stage<Hits(Photons, Surfaces)> {
     static constexpr const char* gives = "hits of this list";
     struct Traits {
         TracerReach reach = TracerReach::eyeLayers;
+        // A photon may hit more than one surface with all of its flux: no energy balance holds.
+        bool multipliesLight = false;
+        // It finds no specular surface: photons inside of a body are lost to it, and are refused.
+        bool onlyReceivers = false;
     };
 };
 // Adds what arrives with these hits to what has arrived before.
@@ -139,14 +156,16 @@ struct ReconstructStage : Stage<CausticMap(Hits, Surfaces, CausticMap)> {
     static constexpr const char* takes = "hits, surfaces, map before";
     static constexpr const char* gives = "map of flux";
     struct Traits {
-        bool beams = false;       // it uses photons' beams
-        bool joinsCells = false;  // it joins what neighbouring cells bring, across batches too
+        bool beams = false;  // it uses photons' beams
+        // It joins what neighbouring cells bring, across batches too: what one does is known from
+        // those no more than kJoinedRows away.
+        bool joinsCells = false;
         // The filter that makes one map of the several that it stores; "" where it stores one.
         std::string filter = {};
     };
     static constexpr auto whyIdle = &noCausticReason;
 };
-// Once all light has been stored.
+// Runs once all light has been stored.
 struct FilterStage : Stage<CausticMap(CausticMap)> {
     static constexpr const char* name = "filter";
     static constexpr const char* question = "How is the map of flux smoothed?";
@@ -161,7 +180,8 @@ struct GatherStage : Stage<IrradianceMap(CausticMap, Surfaces)> {
     static constexpr const char* gives = "irradiance at the eye's receivers";
     static constexpr auto whyIdle = &noCausticReason;
 };
-// Once a frame, on what the eye's receivers get; what it remembers of earlier frames is its own.
+// Runs once a frame, on what the eye's receivers get. What it remembers of earlier frames is its
+// own.
 struct TemporalStage : Stage<IrradianceMap(IrradianceMap, EyeBuffer)> {
     static constexpr const char* name = "temporal";
     static constexpr const char* question = "How is irradiance smoothed over time?";

@@ -14,9 +14,9 @@ namespace kaustik {
 // The views that textures were rasterised in; those of cubes hold their faces one after the other.
 using Views = std::shared_ptr<const render::RasterViews>;
 
-// Where light can be stored: the first diffuse or glossy surface on each pixel's straight ray,
-// dielectrics being invisible to it; a pixel that ends on a mirror has none. 2D, or of a cube
-// arrays.
+// The surfaces on which light can be stored: the first diffuse or glossy surface on each pixel's
+// straight ray, dielectrics being invisible to it. A pixel that ends on a mirror has none. The
+// textures are 2D, or arrays for the faces of a cube.
 struct ReceiverView {
     graph::Texture<ReceiverTexel> receiver;
     graph::Texture<SurfaceTexel> receiverSurface;  // where the ray ends on a mirror, the mirror's
@@ -42,8 +42,8 @@ struct LayeredDepth {
     Views views;
 };
 
-// What a technique's nodes are given of the scene. A pass that nobody reads does not run: whoever
-// is handed a surface pays for those that it reads.
+// What a technique's nodes are given of the scene. A pass that is not read does not run: a node
+// that is handed surfaces pays only for those that it reads.
 struct Surfaces {
     Geometry geometry;
     EyeBuffer eye;

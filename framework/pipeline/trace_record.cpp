@@ -2,6 +2,7 @@
 #include "framework/pipeline/trace_record.h"
 
 #include "framework/pipeline/frame_builder.h"
+#include "framework/transport/primitives.h"
 
 namespace kaustik {
 
@@ -16,7 +17,7 @@ Ledger copyLedger(FrameBuilder& frame, const Ledger& ledger, const std::string& 
             [&](graph::PassSetup& setup, Data& data) {
                 data.from = setup.read(ledger);
                 data.to =
-                    setup.createBuffer<transport::LedgerEntry>(name, transport::kAccountCount);
+                    setup.createBuffer<transport::LedgerEntry>(name, transport::kLedgerEntryCount);
             },
             [](const Data& data, gl::PassContext& context) {
                 context.buffer(data.from).copyTo(context.buffer(data.to));

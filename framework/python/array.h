@@ -14,7 +14,7 @@ namespace kaustik::python {
 struct Array {
     std::vector<std::size_t> shape;  // three or four
     std::vector<float> values;       // without gaps, the last index fastest
-    // Made for a display: [0,1] and not linear.
+    // Whether the image was made for a display: its values are in [0,1] and not linear.
     bool isForDisplay = false;
 
     Array() = default;

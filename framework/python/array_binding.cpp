@@ -52,7 +52,7 @@ py::dict arrayInterface(Array& array) {
     return interface;
 }
 
-// Keeps the array for as long as anybody uses its memory.
+// Keeps the array for as long as its memory is used.
 struct Tensor {
     DLManagedTensor managed{};
     Holder array;

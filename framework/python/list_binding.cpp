@@ -19,16 +19,16 @@ void bindLists(py::module_& module) {
     module.def("techniques", [] { return toPython(run::listTechniques(registry())); });
     module.def(
         "nodes",
-        [](const std::string& technique) {
-            return toPython(run::listNodes(registry(), technique));
+        [](const std::string& technique, bool isAsPublished) {
+            return toPython(run::listNodes(registry(), technique, isAsPublished));
         },
-        py::arg("technique"));
+        py::arg("technique"), py::arg("as_published"));
     module.def(
         "params",
-        [](const std::string& technique) {
-            return toPython(run::listParams(registry(), technique));
+        [](const std::string& technique, bool isAsPublished) {
+            return toPython(run::listParams(registry(), technique, isAsPublished));
         },
-        py::arg("technique"));
+        py::arg("technique"), py::arg("as_published"));
 }
 
 }  // namespace kaustik::python

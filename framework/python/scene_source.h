@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where a scene comes from that Python names: a shipped one, a file, or a dict.
+// Finds the scene that Python names: a shipped one, a file, or a dict.
 #pragma once
 
 #include <pybind11/pybind11.h>

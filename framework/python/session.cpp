@@ -70,7 +70,8 @@ const Registry& registry() {
 Session::Session(const std::function<scene::Scene()>& loadScene, const SessionOptions& options,
                  const KeepWaiting& keepWaiting) {
     const auto open = [&](const ShouldContinue&) {
-        static_cast<void>(registry().findTechnique(options.technique));  // before long work
+        static_cast<void>(registry().findTechnique(options.technique,
+                                                   options.isAsPublished));  // before long work
         device_ = std::make_unique<Device>(loadScene(), options);
     };
     try {
@@ -296,6 +297,7 @@ Session::Json Session::state(const KeepWaiting& keepWaiting) {
             const RenderSettings& settings = device.session->settings();
             state = {{"scene", device.scene.name},
                      {"technique", settings.technique.name},
+                     {"as_published", settings.technique.isAsPublished},
                      {"size", {settings.width, settings.height}},
                      {"seed", settings.seed},
                      {"time_s", device.scene.timeSeconds},

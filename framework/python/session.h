@@ -33,9 +33,10 @@ struct SessionOptions {
     std::vector<std::string> disabled;            // passes
     std::optional<double> time;                   // s; the scene's own without
     std::uint64_t seed = 1;
-    bool isPrecise = false;  // finishes the device around each pass
-    bool debugs = false;     // OpenGL errors by pass, in the driver's words
-    std::string device;      // as gl::Context::createHeadless takes it
+    bool isPrecise = false;      // finishes the device around each pass
+    bool debugs = false;         // OpenGL errors by pass, in the driver's words
+    std::string device;          // as gl::Context::createHeadless takes it
+    bool isAsPublished = false;  // the technique's row is its paper's
 };
 
 struct StepRequest {
@@ -70,7 +71,8 @@ class Session {
 
     // Parameters by any unique short name. What does not go together is told by the next step.
     void set(const std::map<std::string, std::string>& settings, const KeepWaiting& keepWaiting);
-    // As run::describe(), with `value` ([w, h] of an extent), `default` as text, `is_set`.
+    // The parameter as run::describe() gives it, with `value` ([w, h] of an extent), `default` as
+    // text, and `is_set`.
     [[nodiscard]] Json param(const std::string& name, const KeepWaiting& keepWaiting);
     [[nodiscard]] Json params(const KeepWaiting& keepWaiting);
     // Switches exactly these passes off, at once: where that cannot be, nothing changes.
@@ -98,10 +100,11 @@ class Session {
     [[nodiscard]] Json resources(const KeepWaiting& keepWaiting);
     [[nodiscard]] Json needs(const KeepWaiting& keepWaiting);
     [[nodiscard]] std::string explain(const KeepWaiting& keepWaiting);
-    // As step() gives them, of all frames since something was changed; also `picture`, the resource
-    // that is the picture, and `is_stale`, whether something was changed after the last frame.
+    // Times as step() gives them, of all frames since something was changed; also `picture`, the
+    // resource that is the picture, and `is_stale`, whether something was changed after the last
+    // frame.
     [[nodiscard]] Json times(const KeepWaiting& keepWaiting);
-    // {scene, technique, size, seed, time_s, device, disabled}
+    // {scene, technique, as_published, size, seed, time_s, device, disabled}
     [[nodiscard]] Json state(const KeepWaiting& keepWaiting);
 
   private:

@@ -36,7 +36,7 @@ std::unique_ptr<Session> openSession(const py::object& scene, const std::string&
                                      const py::dict& settings,
                                      const std::vector<std::string>& disabled,
                                      std::optional<double> time, long long seed, bool precise,
-                                     bool debug, const std::string& device) {
+                                     bool debug, const std::string& device, bool isAsPublished) {
     const SceneSource source(scene, base);
     const SessionOptions options{technique,
                                  settingText("size", size),
@@ -46,7 +46,8 @@ std::unique_ptr<Session> openSession(const py::object& scene, const std::string&
                                  seedOf(seed),
                                  precise,
                                  debug,
-                                 device};
+                                 device,
+                                 isAsPublished};
     return waitFor([&](const KeepWaiting& keepWaiting) {
         return std::make_unique<Session>([&] { return source.load(); }, options, keepWaiting);
     });
@@ -94,7 +95,8 @@ void bindSession(py::module_& module) {
     py::class_<Session>(module, "Session")
         .def(py::init(&openSession), py::arg("scene"), py::arg("base"), py::arg("technique"),
              py::arg("size"), py::arg("settings"), py::arg("disabled"), py::arg("time"),
-             py::arg("seed"), py::arg("precise"), py::arg("debug"), py::arg("device"))
+             py::arg("seed"), py::arg("precise"), py::arg("debug"), py::arg("device"),
+             py::arg("as_published"))
         .def("close",
              [](Session& session) {
                  const py::gil_scoped_release noGil;

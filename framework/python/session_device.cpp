@@ -31,7 +31,8 @@ RenderSettings makeSettings(const SessionOptions& options) {
         run::makeSettings({.technique = options.technique,
                            .assignments = assignmentsOf(options.settings),
                            .disabledPasses = {options.disabled.begin(), options.disabled.end()},
-                           .seed = options.seed},
+                           .seed = options.seed,
+                           .isAsPublished = options.isAsPublished},
                           registry());
     run::setSize(settings, params::parsePictureSize(options.size, "open"));
     return settings;
@@ -43,7 +44,7 @@ void checkTime(double seconds) {
         fmt::format("time: {} is not from -1000000000 to 1000000000 seconds.", seconds));
 }
 
-// A folder for pictures that nobody asked for.
+// A folder for pictures that were not asked for.
 struct TemporaryFolder {
     TemporaryFolder() {
         std::string name = (fs::temp_directory_path() / "kaustik-XXXXXX").string();

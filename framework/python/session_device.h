@@ -9,7 +9,7 @@
 
 namespace kaustik::python {
 
-// Of the settings that Python hands over.
+// The assignments of the settings that Python hands over.
 [[nodiscard]] std::vector<params::Assignment> assignmentsOf(
     const std::map<std::string, std::string>& settings);
 

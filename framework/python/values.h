@@ -13,7 +13,7 @@
 
 namespace kaustik::python {
 
-// None, bool, int, float, str, list and dict.
+// Makes None, bool, int, float, str, list and dict of JSON.
 [[nodiscard]] pybind11::object toPython(const nlohmann::json& json);
 
 // A setting as it is written on the command line: true, 0.01, lines, 512x512 for (512, 512).

@@ -24,7 +24,8 @@ class Channel {
     Channel(const Channel&) = delete;
     Channel& operator=(const Channel&) = delete;
 
-    // From now on: nothing is waited for beyond `deadline`, and no more than `maxBytes` are taken.
+    // Sets limits that hold from now on: nothing is waited for beyond `deadline`, and no more than
+    // `maxBytes` are taken.
     void limit(std::optional<Clock::time_point> deadline, std::uint64_t maxBytes);
 
     // All of these throw ChannelEnd.

@@ -13,10 +13,11 @@ inline constexpr const char* kSecondsVariable = "KAUSTIK_READ_SECONDS";
 inline constexpr const char* kMemoryVariable = "KAUSTIK_READ_MEBIBYTES";
 
 struct ReadLimits {
-    // Of processor time, so that a busy machine makes no file an error. The dragon of 871 k
+    // Seconds of processor time, so that a busy machine makes no file an error. The dragon of 871 k
     // triangles takes 2 s.
     std::uint64_t seconds = 60;
-    // Of address space, libraries included. The largest image that is allowed takes 2 GiB.
+    // Mebibytes of address space, libraries included. The largest image that is allowed takes 2
+    // GiB.
     std::uint64_t mebibytes = 4096;
 
     // What passes by the clock until a reader that does not even compute is given up: one that

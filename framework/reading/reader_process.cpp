@@ -133,7 +133,8 @@ void ReaderProcess::exchange(const Request& request,
             if (answer == Answer::wrongRequest) throw ConfigError(message);
             throw IoError(message);
         } catch (const ChannelEnd& end) {
-            // One that was asked before may have ended by itself in the meantime: nobody's fault.
+            // One that was asked before may have ended by itself in the meantime, which is no
+            // fault.
             const bool mayHaveLeft =
                 wasRunning && isFirstTry && end == ChannelEnd::closed && channel_->received() == 0;
             if (!mayHaveLeft) fail(request.name, end);

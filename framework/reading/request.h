@@ -26,7 +26,7 @@ auto partsOf(R& request) {
     return std::tie(kind, name, file, bytes);
 }
 
-// After `done` follows what was read, after the others the message.
+// What was read follows after `done`, and the message after the others.
 enum class Answer : std::uint32_t { done, wrongRequest, damagedFile };
 
 // How a reader process ends by itself.

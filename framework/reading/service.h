@@ -30,7 +30,7 @@ void answer(Channel& channel, const Read& read) {
 }
 
 // Limits this process to what its command line says, then lets `handle` answer requests until
-// nobody asks any more. Gives the exit code.
+// there are no more. Gives the exit code.
 [[nodiscard]] int serve(int argc, const char* const* argv,
                         const std::function<void(const Request&, Channel&)>& handle);
 

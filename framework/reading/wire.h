@@ -36,7 +36,8 @@ void take(Channel& channel, T& value);
 
 namespace detail {
 
-// As many at a time: a length that lies costs no more memory than what follows it.
+// Bytes are taken in pieces of this size, so that a length that lies costs no more memory than what
+// follows it.
 inline constexpr std::size_t kPieceBytes = std::size_t{1} << 22;
 
 template <class List>
@@ -85,7 +86,7 @@ inline constexpr bool isVariant = false;
 template <class... T>
 inline constexpr bool isVariant<std::variant<T...>> = true;
 
-// Of a variant, the alternative with that number.
+// Takes the alternative of a variant that has the number `wanted`.
 template <class Variant, std::size_t index = 0>
 void takeAlternative(Channel& channel, Variant& value, std::size_t wanted) {
     if constexpr (index < std::variant_size_v<Variant>) {

@@ -11,7 +11,7 @@
 
 namespace kaustik::reference {
 
-// When to stop; what is reached first counts. At least one of them must be given.
+// The condition for stopping; what is reached first counts. At least one of them must be given.
 struct StopCondition {
     std::optional<std::uint64_t> batches;  // in all, those of earlier runs included
     std::optional<std::uint64_t> photons;  // in all, rounded up to whole batches, two at least

@@ -32,7 +32,7 @@ struct TriangleId {
     std::uint32_t triangle = RTC_INVALID_GEOMETRY_ID;
 };
 
-// Which sides of specular surfaces count.
+// The sides from which specular surfaces are hit.
 enum class SideRule : std::uint32_t {
     any,        // from a light: every surface from both sides
     transport,  // dielectrics by the medium, closed mirrors from outside, open ones from both sides
@@ -44,9 +44,10 @@ struct Ray {
     TriangleId start;
     MediaStack media;
     SideRule sides = SideRule::transport;
-    // For rays that know no triangle to start on: the side of an open mirror that they have left
-    // (transport::kLeft…), which they cannot hit from that side within this height above it, m;
-    // nor within it the end of a dielectric that overlaps the innermost.
+    // These two are for rays that know no triangle to start on. `leftSide` is the side of an open
+    // mirror that the ray has left (transport::kLeft…): within this height above the mirror, m, the
+    // ray does not hit it from that side, nor does it hit the end of a dielectric that overlaps the
+    // innermost.
     std::uint32_t leftSide = transport::kLeftNone;
     double reachMeters = 0.0;
     double fromMeters = 0.0;  // what is nearer is not hit
@@ -77,9 +78,9 @@ class EmbreeScene {
     // The first surface that the ray hits by its side rule; false: none.
     [[nodiscard]] bool intersect(const Ray& ray, SurfaceHit& hit) const;
 
-    // The same for light that leaves a point or spot light. A surface that the light lies in,
-    // within the rounding of coordinates, does not stand in its way: it is lit at grazing
-    // incidence, which is not at all, and throws no shadow.
+    // The first surface that is hit by light that leaves a point or spot light. A surface that the
+    // light lies in, within the rounding of coordinates, does not stand in its way: it is lit at
+    // grazing incidence, which is not at all, and throws no shadow.
     [[nodiscard]] bool intersectFromLight(const Ray& ray, SurfaceHit& hit) const;
 
     // The first receiver or mirror on the eye's straight ray, dielectrics being invisible to it.

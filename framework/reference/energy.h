@@ -12,9 +12,9 @@
 
 namespace kaustik::reference {
 
-// Watts as transport/watts.h counts them.
+// Watts as transport/watts.h counts them. The account after these is of papers' own rows alone.
 struct Energy {
-    std::array<double, transport::kAccountCount> watts{};
+    std::array<double, transport::kReferenceAccounts> watts{};
     // The part of what was deposited that a pixel of the picture sees; not part of the balance.
     double visibleWatts = 0.0;
 

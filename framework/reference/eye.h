@@ -56,7 +56,7 @@ class Eye {
                pixelsPerTangent_ * pixelsPerTangent_;
     }
 
-    // The same for a point that sends out an intensity: mean radiance over the pixel per W/sr.
+    // The mean radiance over the pixel per W/sr, for a point that sends out an intensity.
     [[nodiscard]] double coverageOfPoint(const glm::dvec3& position, double depth) const {
         return glm::length(position - position_) / (depth * depth * depth) * pixelsPerTangent_ *
                pixelsPerTangent_;

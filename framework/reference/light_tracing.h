@@ -41,7 +41,7 @@ inline constexpr int kIrradianceLayer = 0;
 [[nodiscard]] PixelSums makeLightTraceSums(const EmbreeScene& scene,
                                            const LightTraceSettings& settings);
 
-// The same for an estimator with another number of layers.
+// Makes empty sums for an estimator with another number of layers.
 [[nodiscard]] PixelSums makeEstimatorSums(const EmbreeScene& scene,
                                           const LightTraceSettings& settings, int layers);
 

@@ -21,9 +21,10 @@
 
 namespace kaustik::reference {
 
-// Which paths count: all, or only those that a technique claims to model.
+// The paths that count: all, or only those that a technique claims to model.
 struct PathFilter {
-    // Only the refracted branch at dielectrics; reflection at mirrors and when it is total.
+    // Follows only the refracted branch at dielectrics; light is still reflected at mirrors and
+    // where reflection is total.
     bool transmissionOnly = false;
     int maximumInteractions = 64;  // >= 1; what hits one more is lost to the bounce limit
     int splitInteractions = 1;     // 0 to kMaximumSplits; changes the noise, not the mean
@@ -53,17 +54,18 @@ struct NullSink {
     void emitted(const glm::dvec3&) {}
     void absorbed(const glm::dvec3&) {}
     void lost(unsigned /*account*/, const glm::dvec3&) {}
-    // After at least one interaction: the photon's path through the scene's medium to `distance`
-    // (infinite when it hits nothing), with the flux that it starts with and the extinction, 1/m.
+    // Is told, after at least one interaction, of the photon's path through the scene's medium to
+    // `distance` (infinite when it hits nothing), with the flux that it starts with and the
+    // extinction, 1/m.
     void passed(const PhotonState&, double /*distance*/, const glm::dvec3& /*extinction*/,
                 Random&) {}
     void leftScene(const PhotonState&) {}
     void arrived(const SurfaceHit&, const PhotonState&) {}
-    // Every interaction, before it happens.
+    // Is told of every interaction before it happens.
     void hitSurface(const SurfaceHit&, const PhotonState&) {}
 };
 
-// Where a photon may go from a specular surface.
+// The directions in which a photon may go on from a specular surface.
 struct Branches {
     double reflectance = 1.0;
     glm::dvec3 reflected{0.0};
@@ -115,7 +117,7 @@ class LightTransport {
     }
 
     // Follows a photon that leaves a light. A photon whose first surface is not specular, or lies
-    // beyond the light's range, is nobody's: no event tells of it.
+    // beyond the light's range, does not count: no event tells of it.
     template <class Sink>
     void follow(PhotonState photon, const LightReach& reach, Random& random, Sink& sink) const {
         Ray ray{photon.origin, photon.direction, {}, {}, SideRule::any};
@@ -155,7 +157,7 @@ class LightTransport {
         return decay(glm::dvec3(material.absorptionPerMeter), distance);
     }
 
-    // To the next specular surface; false when the photon has ended before.
+    // Follows the photon to the next specular surface; false when it has ended before.
     template <class Sink>
     bool advance(PhotonState& photon, SurfaceHit& hit, Random& random, Sink& sink) const {
         const std::uint32_t inner = photon.media.inner();
@@ -195,8 +197,8 @@ class LightTransport {
         double before;
         double behind;
     };
-    // Of refraction, at a surface of the material with that index; of no use at a mirror. The same
-    // twice where one dielectric ends inside of another.
+    // The indices of refraction before and behind a surface of the material with that index; of no
+    // use at a mirror. Both are the same where one dielectric ends inside of another.
     [[nodiscard]] Indices indicesAt(const MediaStack& media, std::uint32_t material,
                                     bool enters) const {
         const std::vector<scene::Material>& materials = scene_.scene().materials;
@@ -208,7 +210,7 @@ class LightTransport {
         return {before, media.inner() == material + 1 ? indexOf(media.outer()) : before};
     }
 
-    // At a specular surface; false when nothing goes on.
+    // Lets the photon interact at a specular surface; false when nothing goes on.
     template <class Sink>
     bool interact(PhotonState& photon, const SurfaceHit& hit, Random& random, Sink& sink) const {
         sink.hitSurface(hit, photon);

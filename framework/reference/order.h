@@ -12,7 +12,7 @@
 
 namespace kaustik::reference {
 
-// Of a reference that says nowhere where to stop.
+// The photon count of a reference for which no stop was given.
 inline constexpr long long kUsualPhotons = 1LL << 26;
 
 struct Order {

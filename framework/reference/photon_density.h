@@ -14,7 +14,8 @@ inline constexpr double kMinCosine = 0.7;
     return 1.0 / (std::numbers::pi * radiusSquared);
 }
 
-// The same, extrapolated: twice the density within half of the area, less that within all of it.
+// What a photon adds when the density is extrapolated: twice the density within half of the area,
+// less that within all of it.
 [[nodiscard]] inline double densityExtrapolated(double distanceSquared, double radiusSquared) {
     const double inner = distanceSquared <= 0.5 * radiusSquared ? 4.0 : 0.0;
     return (inner - 1.0) * densityWithin(radiusSquared);

@@ -57,7 +57,8 @@ class PixelSums {
     [[nodiscard]] int height() const { return height_; }
     [[nodiscard]] int layers() const { return layers_; }
 
-    // Of one value (the index within BatchResult::values); the error is infinite below two batches.
+    // The mean and its standard error of one value, by its index within BatchResult::values. The
+    // error is infinite below two batches.
     [[nodiscard]] double mean(std::size_t value) const;
     [[nodiscard]] double standardError(std::size_t value) const;
     [[nodiscard]] Image meanImage(int layer) const;
@@ -90,7 +91,7 @@ class PixelSums {
     std::vector<BatchRange> batches_;  // sorted, apart from each other
     std::vector<Int128> sums_;
     std::vector<Int128> squares_;
-    std::array<Int128, transport::kAccountCount + 1> energy_{};  // last: visible
+    std::array<Int128, transport::kReferenceAccounts + 1> energy_{};  // last: visible
 };
 
 }  // namespace kaustik::reference

@@ -25,7 +25,8 @@ struct ShardResult {
     bool wasComplete = false;  // nothing was left to compute
 };
 
-// Where a shard that is not finished keeps what it has: a part of its own, with fewer batches.
+// The file in which a shard that is not finished keeps what it has: a part of its own, with fewer
+// batches.
 [[nodiscard]] std::filesystem::path unfinishedPart(const std::filesystem::path& file);
 
 // Computes a shard and writes its part. What an earlier process of the same shard has left in

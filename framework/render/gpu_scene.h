@@ -13,7 +13,7 @@
 
 namespace kaustik::render {
 
-// Which surfaces a pass draws.
+// The surfaces that a pass draws.
 enum class DrawSet { all, receivers, mirrors, dielectrics, specular, nonDielectrics };
 
 // Placed meshes as one view sees them.
@@ -36,14 +36,14 @@ class GpuScene {
               const ViewInstances& view, DrawSet set, const gl::Buffer* commands = nullptr,
               std::size_t firstCommand = 0) const;
 
-    // The same for one command, of commandCount(): one object of the scene.
+    // Issues `command` for one command of the scene's commandCount(), which is one object.
     void drawOne(gl::Command& command, const gl::PassContext& context, const Geometry& geometry,
                  const ViewInstances& view, std::size_t index, const gl::Buffer* commands = nullptr,
                  std::size_t firstCommand = 0) const;
     [[nodiscard]] std::size_t objectOf(std::size_t command) const { return order_[command]; }
 
-    // For shaders that include include/surfaces/scene_triangle.glsl: the triangles of all objects.
-    // The pass reads `geometry`.
+    // Binds the triangles of all objects for shaders that include
+    // include/surfaces/scene_triangle.glsl. The pass reads `geometry`.
     void bindTriangles(gl::Command& command, const Geometry& geometry) const;
 
     [[nodiscard]] const gl::Buffer& materials() const { return materials_; }
@@ -86,8 +86,8 @@ class GpuScene {
     std::size_t heightFieldVertexCount_ = 0;
     std::size_t commandCount_ = 0;
     std::vector<GLuint> order_;  // objects by command
-    // By object: how many triangles are drawn before it, its first index, and its first vertex as
-    // InstanceData::material has it.
+    // For each object: how many triangles are drawn before it, its first index, and its first
+    // vertex as InstanceData::material has it.
     std::vector<glm::uvec3> firsts_;
     Group staticGroup_;
     Group heightFieldGroup_;

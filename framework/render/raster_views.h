@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Where surfaces are rasterised and light is stored: on the screen, in a light's view, or on the
-// faces of a cube. Passes that draw into views or look things up in them are written once for all:
-// shaders by include/views/view.glsl, C++ by asking here.
+// Views in which surfaces are rasterised and light is stored: on the screen, in a light's view, or
+// on the faces of a cube. Passes that draw into views or look things up in them are written once
+// for all: shaders by include/views/view.glsl, C++ by asking here.
 #pragma once
 
 #include <vector>
@@ -13,7 +13,7 @@
 namespace kaustik::render {
 
 enum class Space { screen, light, cube };
-// For messages: "on the screen".
+// The space as messages name it: "on the screen".
 [[nodiscard]] const char* describe(Space space);
 
 // One view, or the six faces of a cube; all of one size and projection. Textures of more than one

@@ -28,8 +28,8 @@ struct RasterView {
     [[nodiscard]] double footprintPerMeter() const { return 2.0 * halfExtent.y / height; }
 };
 
-// Where a point of a perspective view's space is seen, in pixels from the lower left corner, on the
-// screen or next to it; nothing where it is not in front of the eye.
+// The place where a point of a perspective view's space is seen, in pixels from the lower left
+// corner, on the screen or next to it. There is none where the point is not in front of the eye.
 [[nodiscard]] std::optional<glm::dvec2> pixelOf(const RasterView& view,
                                                 const glm::dvec3& positionVs);
 
@@ -44,13 +44,13 @@ struct RasterView {
 // Face 0 to 5 (+x, -x, +y, -y, +z, -z) of the cube around a point in world space, 90 degrees wide.
 [[nodiscard]] RasterView makeCubeFaceView(const glm::dvec3& center, int face);
 
-// The same view in so many pixels, widened along one axis until these are square.
+// Gives the same view so many pixels, and widens it along one axis until these are square.
 [[nodiscard]] RasterView inPixels(RasterView view, int width, int height);
 
 // `eye`: the view in whose space photons and hits are.
 [[nodiscard]] transport::ViewData viewData(const scene::Scene& scene, const RasterView& view,
                                            const RasterView& eye);
-// From one view's space to another's.
+// The transform from one view's space to another's.
 [[nodiscard]] glm::mat4 between(const RasterView& from, const RasterView& to);
 
 [[nodiscard]] transport::LightData lightData(const scene::Light& light, const RasterView& eye);

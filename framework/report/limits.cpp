@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
 #include "framework/pipeline/stage_params.h"
 #include "framework/scene/dielectrics.h"
 
@@ -42,6 +45,21 @@ std::vector<ReachedLimit> reachedLimits(const RunRecord& record, const Renderer&
                                       photons, shareOfEmitted(ledger, atLimit)),
                           atLimit});
     }
+    const bool splits =
+        std::any_of(renderer.compiled().records.begin(), renderer.compiled().records.end(),
+                    [](const graph::PassRecord& pass) {
+                        return pass.name == "specular.split" && pass.state == graph::PassState::ran;
+                    });
+    const std::uint64_t untraced = ledger.events[kAccountUntracedBranch];
+    if (splits && untraced > 0) {
+        const double lost = ledger.watts[kAccountUntracedBranch];
+        const auto levels = renderer.settings().params.find("specular.split.levels").json();
+        limits.push_back({"specular.split.levels", "levels", levels.get<double>(), 0.0,
+                          fmt::format("{} branches were left out for want of room, {:.3g}% of the "
+                                      "flux",
+                                      untraced, shareOfEmitted(ledger, lost)),
+                          lost});
+    }
     const std::uint64_t nested = ledger.events[kAccountNestingLimit];
     if (nested > 0) {
         const double lost = ledger.watts[kAccountNestingLimit];
@@ -53,7 +71,16 @@ std::vector<ReachedLimit> reachedLimits(const RunRecord& record, const Renderer&
                                       nested, shareOfEmitted(ledger, lost)),
                           lost});
     }
-    limits.insert(limits.end(), record.nodeLimits.begin(), record.nodeLimits.end());
+    for (const ReachedLimit& limit : record.nodeLimits) {
+        limits.push_back(limit);
+        if (limit.counted.empty()) continue;
+        const std::string share =
+            limit.countedWatts > 0.0
+                ? fmt::format(", {:.3g}% of the flux", shareOfEmitted(ledger, limit.countedWatts))
+                : "";
+        limits.back().sentence =
+            fmt::format("{} {}{}; {}", limit.count, limit.counted, share, limit.sentence);
+    }
     return limits;
 }
 

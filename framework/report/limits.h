@@ -10,7 +10,8 @@
 
 namespace kaustik::report {
 
-// From what was measured: the layers' statistics, the ledger and RunRecord::nodeLimits.
+// From what was measured: the layers' statistics, the ledger and RunRecord::nodeLimits. Their
+// sentences are whole: they say what is counted, too.
 [[nodiscard]] std::vector<ReachedLimit> reachedLimits(const RunRecord& record,
                                                       const Renderer& renderer);
 
@@ -28,6 +29,10 @@ void reflect(F& f, const LimitTable& table) {
                   "What would have been enough; null where that is not known");
     f.field("lost", limit.sentence, "What was lost, in words");
     f.field("lost_w", limit.lostWatts, "Flux that was lost");
+    f.field("count", limit.counted.empty() ? std::nullopt : std::optional(limit.count),
+            "How many of what `lost` speaks of, where that is counted, in all batches");
+    f.field("count_w", limit.countedWatts > 0.0 ? std::optional(limit.countedWatts) : std::nullopt,
+            "The flux that these carry, where that is counted");
 }
 
 }  // namespace kaustik::report

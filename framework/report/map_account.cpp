@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "framework/report/map_account.h"
 
+#include <fmt/format.h>
+
 #include <array>
+#include <cmath>
 #include <optional>
 
 #include "framework/core/json_schema.h"
 #include "framework/render/raster_views.h"
+#include "framework/transport/primitives.h"
 #include "framework/transport/watts.h"
 
 namespace kaustik::report {
@@ -29,7 +33,7 @@ void reflect(F& f, const StoredMap& map) {
 }
 
 struct MapTable {
-    bool isOfGenerators = false;
+    std::string space;
     std::vector<StoredMap> maps;
     double depositedWatts = 0.0;
     double arrivedWatts = 0.0;
@@ -38,9 +42,8 @@ struct MapTable {
 };
 template <class F>
 void reflect(F& f, const MapTable& table) {
-    f.choice("space", table.isOfGenerators ? "cube" : "light", {"light", "cube"},
-             "What the maps are views of");
-    f.field("maps", table.maps, "By light or generator");
+    f.choice("space", table.space, {"screen", "light", "cube"}, "reconstruct.space");
+    f.field("maps", table.maps, "By light or generator; of the screen one");
     const auto ratio = [&](const char* key, std::optional<double> part, double whole,
                            const char* sentence) {
         f.fieldOrNull(key, part && whole > 0.0 ? std::optional(*part / whole) : std::nullopt,
@@ -69,6 +72,9 @@ void reflect(F& f, const CellTable& table) {
 }
 
 namespace {
+
+// Of the flux, that a filter may take or add before a run says so.
+constexpr double kMaxBlendLoss = 0.1;
 
 constexpr auto kColors = static_cast<std::size_t>(transport::kChannels);
 
@@ -107,18 +113,22 @@ double seenWatts(const Renderer& renderer) {
 
 json mapAccount(const Renderer& renderer) {
     const std::vector<FluxMap>& maps = renderer.outputs().map.maps;
-    if (maps.empty() || maps.front().on.views->isEyeView()) return nullptr;
+    if (maps.empty()) return nullptr;
+    const bool isOnScreen = maps.front().on.views->isEyeView();
+    if (isOnScreen && !maps.front().filtered.valid()) return nullptr;
     const EnergyLedger ledger = renderer.ledger();
     MapTable table;
     table.depositedWatts = ledger.watts[transport::kAccountDeposited];
     table.arrivedWatts = ledger.watts[transport::kAccountArrived];
-    table.isOfGenerators = maps.front().generator >= 0;
+    const bool isOfGenerators = maps.front().generator >= 0;
+    table.space = isOnScreen ? "screen" : isOfGenerators ? "cube" : "light";
     table.filteredWatts = 0.0;
     for (const FluxMap& map : maps) {
         const render::RasterViews& views = *map.on.views;
         StoredMap& stored = table.maps.emplace_back();
-        (table.isOfGenerators ? stored.generator : stored.light) =
-            table.isOfGenerators ? map.generator : map.light;
+        if (!isOnScreen)
+            (isOfGenerators ? stored.generator : stored.light) =
+                isOfGenerators ? map.generator : map.light;
         stored.size = {views.width(), views.height()};
         stored.views = views.count();
         if (map.cascade > 0) {
@@ -133,6 +143,18 @@ json mapAccount(const Renderer& renderer) {
     return jsonOf(table);
 }
 
+std::optional<std::string> mapWarning(const json& account, const std::string& filter) {
+    if (!account.is_object() || !account.at("blend_energy_ratio").is_number()) return {};
+    const double ratio = account.at("blend_energy_ratio").get<double>();
+    if (std::abs(ratio - 1.0) < kMaxBlendLoss) return {};
+    return fmt::format(
+        "filter.{} has made {:.3g} of the flux that was deposited (map.blend_energy_ratio): what "
+        "it "
+        "takes from sizes or levels of splats, texel by texel, need not add up to all; take "
+        "reconstruct=lens or reconstruct=fixed with filter=none, which keep it.",
+        filter, ratio);
+}
+
 json mapSchema() {
     return jsonSchemaOf<MapTable>();
 }
@@ -145,6 +167,18 @@ json cellAccount(const Renderer& renderer) {
 
 json cellSchema() {
     return jsonSchemaOf<CellTable>();
+}
+
+PrimitiveFlux primitiveFlux(const Renderer& renderer) {
+    const auto entries = renderer.buffer(renderer.outputs().ledger).read<transport::LedgerEntry>();
+    const double quantum = static_cast<double>(ledgerQuantum(renderer.scene()));
+    const auto watts = [&](unsigned entry) {
+        if (entry >= entries.size()) return 0.0;
+        const double units = std::ldexp(static_cast<double>(entries[entry].high), 32) +
+                             static_cast<double>(entries[entry].low);
+        return units * quantum / transport::kChannels;
+    };
+    return {watts(transport::kSumTriangles), watts(transport::kSumBeams)};
 }
 
 }  // namespace kaustik::report

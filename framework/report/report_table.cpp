@@ -32,9 +32,11 @@ std::string viewLine(const json& view) {
     }
     if (!view.at("radiance").is_null()) {
         const json& radiance = view.at("radiance");
-        line += fmt::format("radiance RMSE {} W/m²/sr, relMSE {}, MAE {}, SSIM {}",
-                            number(radiance.at("rmse")), number(radiance.at("rel_mse")),
-                            number(radiance.at("mae")), number(radiance.at("ssim")));
+        line += fmt::format(
+            "radiance RMSE {} W/m²/sr, relMSE {}, SMAPE {}, MAE {}, SSIM {}, energy ratio {}",
+            number(radiance.at("rmse")), number(radiance.at("rel_mse")),
+            number(radiance.at("smape")), number(radiance.at("mae")), number(radiance.at("ssim")),
+            number(radiance.at("energy_ratio")));
     }
     return line + "\n";
 }
@@ -95,10 +97,10 @@ std::string referenceTable(const RunRecord& record) {
                                  ? errors.at("truth_noise").at("rmse").get<double>()
                                  : 0.0;
         table += fmt::format(
-            "{:<24}RMSE {} {} (the reference's own {:.2g}), relMSE {}, SSIM {}, FLIP {}, energy "
-            "ratio {}\n",
-            name, value("rmse"), unit, noise, value("rel_mse"), value("ssim"), value("flip_ldr"),
-            value("energy_ratio"));
+            "{:<24}RMSE {} {} (the reference's own {:.2g}), relMSE {}, SMAPE {}, SSIM {}, FLIP "
+            "{}, energy ratio {}\n",
+            name, value("rmse"), unit, noise, value("rel_mse"), value("smape"), value("ssim"),
+            value("flip_ldr"), value("energy_ratio"));
     };
     const auto errorLines = [&](const char* caustic, const char* inScattered, const json& error) {
         errorLine(caustic, error, "caustic_irradiance", "W/m²");
@@ -165,6 +167,15 @@ std::string makeTable(const RunRecord& record) {
             }
         }
         table += fmt::format("; balance {:.1e}\n", ledger.balance());
+        const double deposited = ledger.watts[kAccountDeposited];
+        const PrimitiveFlux& primitives = record.primitives;
+        if (deposited > 0.0 && primitives.trianglesWatts + primitives.beamsWatts > 0.0) {
+            table += fmt::format(
+                "spread by             triangles {:.2f}%, beams of cells that are not joined "
+                "{:.2f}% of what was deposited\n",
+                100.0 * primitives.trianglesWatts / deposited,
+                100.0 * primitives.beamsWatts / deposited);
+        }
     }
     table += referenceTable(record);
     return table;

@@ -99,6 +99,7 @@ void reflect(F& f, const PhotonsTable& table) {
     const std::uint64_t rest = hit + nan + events[kAccountBounceLimit];
     f.field("emitted", emitted, "That hit a specular surface");
     f.field("specular", emitted, "The same");
+    f.field("traced", table.ledger.traced, "That were traced, each once an interaction");
     f.field("hit", hit, "That arrived at a receiver");
     f.field("missed", emitted > rest ? emitted - rest : 0, "That arrived nowhere");
     f.field("nan", nan, "That are no numbers");
@@ -133,8 +134,29 @@ void reflect(F& f, const LossTable& table) {
     }
 }
 
+// Shares of the deposited flux.
+struct PrimitivesTable {
+    double trianglesWatts = 0.0;
+    double beamsWatts = 0.0;
+    double depositedWatts = 0.0;
+};
+template <class F>
+void reflect(F& f, const PrimitivesTable& table) {
+    const double splats = table.depositedWatts - table.trianglesWatts - table.beamsWatts;
+    const auto share = [&](const char* key, double watts, const char* sentence) {
+        // What lies between is what 64-bit sums round.
+        f.field(key, std::clamp(watts / table.depositedWatts, 0.0, 1.0), sentence);
+    };
+    share("triangles", table.trianglesWatts, "Between photons of neighbouring cells");
+    share("beams", table.beamsWatts,
+          "By what a photon's beam covers, next to cells that cannot be joined");
+    share("splats", splats > 1e-4 * table.depositedWatts ? splats : 0.0,
+          "By a splat a photon: all that is neither");
+}
+
 struct EnergyTable {
     EnergyLedger ledger;
+    PrimitiveFlux primitives;
 };
 template <class F>
 void reflect(F& f, const EnergyTable& table) {
@@ -144,6 +166,12 @@ void reflect(F& f, const EnergyTable& table) {
     f.field("absorbed_w", watts[kAccountAbsorbed], "In bodies, in the medium and at mirrors");
     f.field("left_scene_w", watts[kAccountLeftScene], "That hits nothing");
     f.field("lost_w", LossTable{table.ledger}, "By cause");
+    const double deposited = watts[kAccountDeposited];
+    f.field("primitives",
+            deposited > 0.0 ? std::optional(PrimitivesTable{table.primitives.trianglesWatts,
+                                                            table.primitives.beamsWatts, deposited})
+                            : std::nullopt,
+            "By what the deposited flux was spread");
     f.field("balance", table.ledger.balance(), "What all accounts leave of the emitted, over it");
 }
 
@@ -165,6 +193,7 @@ struct ReportTable {
     DeviceTable device;
     SceneTable scene;
     std::string technique;
+    bool isAsPublished = false;
     json parameters = json::object();
     std::vector<std::string> disabled;
     double timeSeconds = 0.0;
@@ -180,10 +209,12 @@ struct ReportTable {
     double startupMilliseconds = 0.0;
     std::vector<PassTable> passes;
     EnergyLedger ledger;
+    PrimitiveFlux primitives;
     LayersTable layers;
     MemoryTable memory;
     std::vector<LimitTable> limits;
     std::vector<std::string> warnings;
+    std::vector<std::string> violations;
 };
 template <class F>
 void reflect(F& f, const ReportTable& report) {
@@ -192,6 +223,7 @@ void reflect(F& f, const ReportTable& report) {
     f.field("device", report.device, "What it ran on");
     f.field("scene", report.scene, "What was rendered");
     f.field("technique", report.technique, "A name of 'kaustik list techniques'");
+    f.field("as_published", report.isAsPublished, "Whether its row is its paper's");
     f.field("parameters", report.parameters, "By full name");
     f.field("disabled", report.disabled, "Passes that were not to run");
     f.field("time_s", report.timeSeconds, "Of the animation in the last frame");
@@ -210,10 +242,11 @@ void reflect(F& f, const ReportTable& report) {
     f.field("passes", report.passes, "Every pass, in order");
     f.field("photons", PhotonsTable{report.ledger}, "What became of them");
     f.field("layers", report.layers, "The layered depth of what the eye sees");
-    f.field("energy", EnergyTable{report.ledger}, "The ledger, W");
+    f.field("energy", EnergyTable{report.ledger, report.primitives}, "The ledger, W");
     f.field("memory", report.memory, "On the device");
     f.field("limits", report.limits, "That were reached");
     f.field("warnings", report.warnings, "What else to know");
+    f.field("violations", report.violations, "What no light can do: the run is worth nothing");
 }
 
 namespace {
@@ -261,6 +294,7 @@ json makeReport(const RunRecord& record, const Renderer& renderer, const gl::Dev
                    triangleCount(renderer.scene()),
                    {renderer.needs(), record.layers.complexity}};
     table.technique = settings.technique.name;
+    table.isAsPublished = settings.technique.isAsPublished;
     table.parameters = settings.params.json();
     table.disabled.assign(settings.disabledPasses.begin(), settings.disabledPasses.end());
     table.timeSeconds = renderer.scene().timeSeconds;
@@ -276,12 +310,14 @@ json makeReport(const RunRecord& record, const Renderer& renderer, const gl::Dev
     table.startupMilliseconds = record.startupMilliseconds;
     table.passes = passTables(record);
     table.ledger = record.ledger;
+    table.primitives = record.primitives;
     table.layers = {record.layers, record.layersAllowed};
     table.memory = {record.textureBytes, record.bufferBytes, renderer.gpuScene().bytes(),
                     record.peakBytes};
     for (const ReachedLimit& limit : reachedLimits(record, renderer))
         table.limits.push_back({limit});
     table.warnings = record.warnings;
+    table.violations = record.violations;
     json report = jsonOf(table);
     for (const auto& [key, value] : {std::pair("map", &record.map),
                                      {"cells", &record.cells},

@@ -11,6 +11,7 @@
 #include "framework/gl/context.h"
 #include "framework/gl/timers.h"
 #include "framework/pipeline/renderer.h"
+#include "framework/report/map_account.h"
 
 namespace kaustik::report {
 
@@ -27,6 +28,7 @@ struct RunRecord {
     double startupMilliseconds = 0.0;
     double graphBuildMilliseconds = 0.0;
     EnergyLedger ledger;
+    PrimitiveFlux primitives;
     transport::LayerStatistics layers;
     int layersAllowed = 0;
     std::vector<ReachedLimit> nodeLimits;  // that nodes keep to; the report has all
@@ -39,6 +41,7 @@ struct RunRecord {
     nlohmann::json hits;      // null where no reference was asked for, as is the next
     nlohmann::json error;     //
     std::vector<std::string> warnings;
+    std::vector<std::string> violations;  // report/violations.h
 };
 
 // The times of one pass, its repeats in a frame added up.

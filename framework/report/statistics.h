@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Statistics of series of measured times.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -6,7 +7,7 @@
 
 namespace kaustik::report {
 
-// Of a series of samples, in their unit; all 0 for none.
+// A series of samples in a few numbers, in the samples' unit; all 0 where there are no samples.
 struct Summary {
     double median = 0.0;
     double mean = 0.0;

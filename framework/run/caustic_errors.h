@@ -33,7 +33,8 @@ struct Outputs {
     bool seesReceivers = false;
 };
 
-// Of the frame that was rendered last; waits for the device. eye.receiver must have been kept.
+// Reads the outputs of the frame that was rendered last; waits for the device. eye.receiver must
+// have been kept.
 [[nodiscard]] Outputs readOutputs(const Renderer& renderer);
 
 [[nodiscard]] measure::ImagePair pairOf(const Outputs& outputs, const Output& output,
@@ -61,7 +62,7 @@ struct Moment {
                                             const reference::Reference& laterReference,
                                             std::string& reason);
 
-// Where the image is wrong, as heat colours.
+// Shows where the image is wrong, as heat colours.
 [[nodiscard]] Image errorPicture(const measure::ImagePair& pair);
 
 }  // namespace kaustik::run

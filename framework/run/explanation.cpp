@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/gl/objects.h"
+#include "framework/pipeline/effect.h"
 
 namespace kaustik::run {
 namespace {
@@ -60,12 +61,7 @@ std::string effectText(const Renderer& renderer) {
     std::map<std::string, std::vector<std::string>> byReason;
     for (const params::NamedField& named : params.all()) {
         const std::string& name = named.fullName;
-        const auto dot = name.find('.');
-        const auto nodeEnd = dot == std::string::npos ? dot : name.find('.', dot + 1);
-        const bool isChosen =
-            nodeEnd == std::string::npos ||
-            params.choice(name.substr(0, dot)) == name.substr(dot + 1, nodeEnd - dot - 1);
-        if (!isChosen) continue;
+        if (isOfOtherNode(splitParameterName(name), params)) continue;
         const std::string reason = renderer.whyNoEffect(name);
         if (!reason.empty()) byReason[reason].push_back(name);
     }
@@ -80,7 +76,8 @@ std::string effectText(const Renderer& renderer) {
 
 std::string explain(const Renderer& renderer) {
     std::string text = needsText(renderer.scene(), renderer.needs());
-    text += fmt::format("technique {}\n", renderer.settings().technique.name);
+    text += fmt::format("technique {}{}\n", renderer.settings().technique.name,
+                        renderer.settings().technique.isAsPublished ? ", as published" : "");
     const std::vector<graph::PassRecord>& passes = renderer.compiled().records;
     std::size_t longest = 0;
     for (const graph::PassRecord& pass : passes)
@@ -99,8 +96,10 @@ std::string explain(const Renderer& renderer) {
                             describe(renderer.graph().descOf(renderer.graph().find(name))));
     }
     text += effectText(renderer);
-    for (const std::string& warning : renderer.warnings())
-        text += fmt::format("warning: {}\n", warning);
+    for (const auto* warnings : {&renderer.scene().warnings, &renderer.warnings()}) {
+        for (const std::string& warning : *warnings)
+            text += fmt::format("warning: {}\n", warning);
+    }
     return text;
 }
 

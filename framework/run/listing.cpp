@@ -1,28 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "framework/run/listing.h"
 
-#include <fmt/format.h>
-
-#include <cmath>
-#include <cstdint>
 #include <nlohmann/json.hpp>
 
+#include "framework/core/number_text.h"
+#include "framework/pipeline/effect.h"
 #include "framework/scene/files/scene_file.h"
 
 namespace kaustik::run {
 
 using nlohmann::json;
-
-namespace {
-
-// A limit as it was declared, in single precision.
-json shortest(double limit) {
-    if (std::abs(limit) < 1e15 && limit == std::round(limit))
-        return static_cast<std::int64_t>(limit);
-    return json::parse(fmt::format("{}", static_cast<float>(limit)));
-}
-
-}  // namespace
 
 json listScenes() {
     json entries = json::array();
@@ -40,19 +27,23 @@ json listTechniques(const Registry& registry) {
         json defaults = json::object();
         for (const auto& [name, value] : technique.defaults)
             defaults[name] = value;
+        json published = json::object();
+        for (const auto& [name, value] : technique.asPublished)
+            published[name] = value;
         entries.push_back({{"name", technique.name},
                            {"description", technique.sentence},
                            {"source", technique.source},
-                           {"defaults", defaults}});
+                           {"defaults", defaults},
+                           {"as_published", published}});
     }
     return entries;
 }
 
-json listNodes(const Registry& registry, const std::string& techniqueName) {
+json listNodes(const Registry& registry, const std::string& techniqueName, bool isAsPublished) {
     json entries = json::array();
     params::ParamSet params;
     if (!techniqueName.empty()) {
-        params = registry.makeParams(registry.findTechnique(techniqueName));
+        params = registry.makeParams(registry.findTechnique(techniqueName, isAsPublished));
     }
     for (const Registry::Node& node : registry.nodes()) {
         if (!techniqueName.empty() && params.choice(node.stage) != node.name) continue;
@@ -72,26 +63,21 @@ json describe(const params::NamedField& named) {
     if (!named.field.choices.empty()) {
         entry["choices"] = named.field.choices;
     } else if (entry["type"] != "bool") {
-        entry["minimum"] = shortest(named.field.minimum);
-        entry["maximum"] = shortest(named.field.maximum);
+        entry["minimum"] = json::parse(numberText(named.field.minimum));
+        entry["maximum"] = json::parse(numberText(named.field.maximum));
     }
     return entry;
 }
 
-json listParams(const Registry& registry, const std::string& techniqueName) {
+json listParams(const Registry& registry, const std::string& techniqueName, bool isAsPublished) {
     const std::string name =
         techniqueName.empty() ? registry.techniques().front().name : techniqueName;
-    const params::ParamSet params = registry.makeParams(registry.findTechnique(name));
+    const params::ParamSet params =
+        registry.makeParams(registry.findTechnique(name, isAsPublished));
     json entries = json::array();
     for (const params::NamedField& named : params.all()) {
-        const auto dot = named.fullName.find('.');
-        const auto secondDot = named.fullName.find('.', dot + 1);
-        const bool isOfNode = dot != std::string::npos && secondDot != std::string::npos;
-        if (isOfNode && !techniqueName.empty() &&
-            params.choice(named.fullName.substr(0, dot)) !=
-                named.fullName.substr(dot + 1, secondDot - dot - 1)) {
+        if (!techniqueName.empty() && isOfOtherNode(splitParameterName(named.fullName), params))
             continue;
-        }
         entries.push_back(describe(named));
     }
     return entries;

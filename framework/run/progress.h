@@ -17,7 +17,7 @@ class Progress {
     Progress& operator=(const Progress&) = delete;
     // `done` of the total are finished.
     void update(int done);
-    // The same for work that is not counted: a share in [0,1], and what has been reached.
+    // Reports work that is not counted: a share in [0,1], and what has been reached.
     void updateShare(double share, const std::string& reached);
 
   private:
@@ -38,7 +38,7 @@ struct Watch {
     std::function<void(double share, const std::string& reached)> tell;  // one call at a time
 };
 
-// From now on Ctrl-C and SIGTERM are noted instead of ending the program; a second one ends it.
+// Notes Ctrl-C and SIGTERM from now on instead of ending the program; a second one ends it.
 void catchInterrupts();
 [[nodiscard]] bool isInterrupted();
 // Throws Error when one was noted.

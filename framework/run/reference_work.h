@@ -15,12 +15,12 @@ namespace kaustik::run {
 // is none of them.
 [[nodiscard]] std::filesystem::path cacheFolder();
 
-// From the cache, or computed with its progress on standard error and cached. Throws Error when
-// interrupted; the next call goes on from there.
+// Takes the reference from the cache, or computes it with its progress on standard error and caches
+// it. Throws Error when interrupted; the next call goes on from there.
 [[nodiscard]] reference::Reference obtainReference(const reference::EmbreeScene& scene,
                                                    const reference::ReferenceRequest& request,
                                                    reference::RunOptions options);
-// The same for who watches it in another way.
+// Does the same for a caller that shows the progress in a way of its own.
 [[nodiscard]] reference::Reference obtainReference(const reference::EmbreeScene& scene,
                                                    const reference::ReferenceRequest& request,
                                                    reference::RunOptions options,

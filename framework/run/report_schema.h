@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Describes report.json to programs that read it.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

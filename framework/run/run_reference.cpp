@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -159,8 +160,8 @@ void RunReference::watchFlicker(std::optional<double> earlierSeconds, const Rend
     scene::Scene scene = renderer.scene();
     scene::setTime(scene, *earlierSeconds);
     ReferenceRequest request = requestFor(renderer);
-    // With one seed for both, photons that fall alike would give both the same noise, and nobody
-    // knows how much of it.
+    // With one seed for both, photons that fall alike would give both the same noise, and how
+    // much of it is not known.
     ++request.seed;
     flicker.earlier = loaded_->obtain(reference::EmbreeScene(scene), request);
 }
@@ -185,6 +186,16 @@ std::vector<fs::path> RunReference::judge(const Renderer& renderer, const fs::pa
     record.ledger = audit::resolveLedger(renderer, hits,
                                          loaded_->whole.energy.watts[transport::kAccountEmitted]);
     record.hits = audit::toJson(hits);
+    // Few are those whose bodies a pixel, or a texel, does not resolve.
+    const double through = static_cast<double>(hits.throughSpecular) /
+                           std::max(static_cast<double>(hits.photons), 1.0);
+    if (through > 0.01) {
+        record.warnings.push_back(fmt::format(
+            "{} of {} photons, {:.2g}%, went straight through a further specular surface, which "
+            "trace={} did not find.",
+            hits.throughSpecular, hits.photons, 100.0 * through,
+            renderer.settings().params.choice(TraceStage::name)));
+    }
     write("hits" + displayImageExtension(),
           audit::wrongPhotonsPicture(
               hits, readTexture(renderer.texture(renderer.outputs().picture.display), 0, 3)));

@@ -75,11 +75,11 @@ class Session {
     Session(gl::Context& context, const Registry& registry, scene::Scene& scene,
             RenderSettings settings, SessionOptions options = {});
 
-    // As asked for; the renderer's own have full names of passes.
+    // The settings as they were asked for; those of the renderer have full names of passes.
     [[nodiscard]] const RenderSettings& settings() const { return settings_; }
     // Other settings from the next frame on. Times of frames before are forgotten then.
     void change(RenderSettings settings);
-    // The same at once; where they cannot be, everything is as it was.
+    // Takes other settings over at once. Where they cannot be rendered, everything is as it was.
     void adopt(RenderSettings settings);
     // The scene is another one from the next frame on, in what Renderer::update() takes over.
     // Frames before are as good as those that follow and are timed with them, unless forgetTimes()
@@ -87,7 +87,7 @@ class Session {
     void noteSceneChange();
     void setTime(double seconds);
     void forgetTimes();
-    // As SessionOptions::isPrecise; what was timed in the other way is forgotten.
+    // Sets what SessionOptions::isPrecise says; what was timed in the other way is forgotten.
     void setPrecise(bool isPrecise);
     // Has frames keep these textures besides the outputs; those that the graph lacks are left out.
     void keep(std::set<std::string> textures);
@@ -111,7 +111,7 @@ class Session {
                           RunReference* reference = nullptr);
     // Whether the textures hold a whole frame of what was asked for last.
     [[nodiscard]] bool hasFrame() const { return hasFrame_; }
-    // The same frame once more, not timed. False: it was ended early.
+    // Renders the same frame once more, not timed. False: it was ended early.
     bool renderAgain(const ShouldContinue& shouldContinue = {});
     // A frame for another purpose and perhaps of another size, which is not timed; the next one is
     // as before.
@@ -121,7 +121,8 @@ class Session {
     // What is known of the frames since something was changed, without what only a measurement
     // finds.
     [[nodiscard]] const report::RunRecord& record() const { return record_; }
-    // The record with ledger, layers and limits, after a frame for Purpose::measurement.
+    // The record with ledger, layers, limits and violations, after a frame for
+    // Purpose::measurement.
     [[nodiscard]] report::RunRecord measured() const;
     // Renders one more frame at the last one's time, not timed, for ledger, pictures, the textures
     // `saved` and the reference's judgement, and completes the record but for that. None where it
@@ -129,7 +130,8 @@ class Session {
     [[nodiscard]] std::optional<report::RunRecord> measure(
         const RunReference& reference, const std::vector<std::string>& saved,
         const ShouldContinue& shouldContinue = {});
-    // The same, and the judgement; writes everything into `folder`: all of it or nothing.
+    // Measures and judges as measure() does, and writes everything into `folder`: all of it or
+    // nothing.
     [[nodiscard]] FinishedRun finish(const RunReference& reference,
                                      const std::filesystem::path& folder,
                                      const std::vector<std::string>& saved,
@@ -142,7 +144,8 @@ class Session {
 
   private:
     void update(const RenderSettings& settings);
-    // With other settings for what is rendered next alone, where there are such.
+    // Brings the renderer to the settings and the scene. `other` gives settings for what is
+    // rendered next alone.
     void bringUpToDate(const RenderSettings* other = nullptr);
     void forgetBuild();
     void restartRecord();

@@ -2,6 +2,7 @@
 // What a session's frames leave behind: the record that reports are made of, and files.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -9,19 +10,72 @@
 #include "framework/core/files.h"
 #include "framework/core/json_text.h"
 #include "framework/report/map_account.h"
+#include "framework/report/violations.h"
 #include "framework/run/output.h"
 #include "framework/run/progress.h"
 #include "framework/run/session.h"
 
 namespace kaustik::run {
 namespace fs = std::filesystem;
+namespace {
+
+// Total reflection that no light meets in truth: lost by a paper's approximation, or by a node that
+// looks bodies up in a view.
+void addReflectionWarnings(report::RunRecord& record, const Renderer& renderer) {
+    using namespace transport;
+    const EnergyLedger& ledger = record.ledger;
+    const double emitted = ledger.watts[kAccountEmitted];
+    if (!(emitted > 0.0)) return;
+    const std::string node = "specular." + renderer.settings().params.choice(SpecularStage::name);
+    const double published = ledger.watts[kAccountAsPublished] / emitted;
+    if (published > 0.0) {
+        record.warnings.push_back(fmt::format(
+            "{}: {:.3g}% of the light is lost as published: estimates of the distance inside have "
+            "it totally reflected, which it is in no ball ({}.distance=search loses none of it).",
+            node, 100.0 * published, node));
+    }
+    constexpr double kRounding = 5e-3;  // of texels at a silhouette, which know one normal each
+    const double reflected = ledger.watts[kAccountInternalReflectionLimit] / emitted;
+    if (record.photonsEnd && reflected > kRounding && scene::hasBallsAlone(renderer.scene())) {
+        record.warnings.push_back(fmt::format(
+            "{}: {:.3g}% of the light is booked as internal_reflection_limit, but no light that "
+            "has entered a ball is totally reflected in it.",
+            node, 100.0 * reflected));
+    }
+}
+
+// Of what lights send onto specular surfaces, what an emitter may miss without a word.
+constexpr double kUnspokenShare = 0.01;
+
+// "" where the emitter `node` has emitted what it should.
+std::string emissionMessage(const EnergyLedger& ledger, const std::string& node) {
+    const double wanted = ledger.watts[transport::kAccountEmitted];
+    const double missed = ledger.watts[transport::kAccountEmissionSampling];
+    if (std::abs(missed) <= kUnspokenShare * wanted) return "";
+    return fmt::format(
+        "emit={} emits {:.4g} W of the {:.4g} W that the lights send onto the specular surfaces "
+        "that they see: {:.3g}% {} (emission_sampling).",
+        node, wanted - missed, wanted, 100.0 * std::abs(missed) / wanted,
+        missed > 0.0 ? "are missing" : "are too much");
+}
+
+}  // namespace
 
 report::RunRecord Session::measured() const {
     report::RunRecord record = record_;
     record.ledger = renderer_.ledger();
+    if (record.ledger.events[transport::kAccountEmittable] > 0)
+        record.ledger.judgeEmission(record.ledger.watts[transport::kAccountEmittable]);
+    record.primitives = report::primitiveFlux(renderer_);
     record.layers = renderer_.layerStatistics();
     record.layersAllowed = renderer_.outputs().layers.layers;
     record.nodeLimits = renderer_.reachedLimits();
+    record.violations = report::violations(record.ledger, renderer_);
+    record.map = report::mapAccount(renderer_);
+    record.warnings = renderer_.foundWarnings();
+    const std::string filter = renderer_.settings().params.choice(FilterStage::name);
+    if (const std::optional<std::string> warning = report::mapWarning(record.map, filter))
+        record.warnings.push_back(*warning);
     return record;
 }
 
@@ -35,11 +89,25 @@ std::optional<report::RunRecord> Session::measure(const RunReference& reference,
     // What judges the frame may render another one, and what is kept may not be in this one.
     hasFrame_ = reference.purpose() == Purpose::measurement && saved == keptTextures();
     report::RunRecord record = measured();
-    record.map = report::mapAccount(renderer_);
     record.cells = report::cellAccount(renderer_);
     record.photonsEnd = renderer_.outputs().hits.incoming.paths.end;
-    for (const auto* warnings : {&renderer_.scene().warnings, &renderer_.warnings()})
-        record.warnings.insert(record.warnings.end(), warnings->begin(), warnings->end());
+    const std::uint64_t stopped = record.ledger.events[transport::kAccountBounceLimit];
+    if (record.photonsEnd && stopped > 0) {
+        const transport::uint bounce = transport::kAccountBounceLimit;
+        record.warnings.push_back(fmt::format(
+            "{} photons, {:.2g}% of the flux, came to a further specular surface, from where "
+            "specular={} sends nothing on ('bounce_limit' in the ledger); specular=split does, "
+            "with a tracer that finds specular surfaces.",
+            stopped,
+            100.0 * record.ledger.watts[bounce] / record.ledger.watts[transport::kAccountEmitted],
+            renderer_.settings().params.choice(SpecularStage::name)));
+    }
+    for (const auto* warnings : {&renderer_.warnings(), &renderer_.scene().warnings})
+        record.warnings.insert(record.warnings.begin(), warnings->begin(), warnings->end());
+    addReflectionWarnings(record, renderer_);
+    const std::string emission =
+        emissionMessage(record.ledger, renderer_.settings().params.choice(EmitStage::name));
+    if (!emission.empty()) record.warnings.push_back(emission);
     if (!renderer_.isRandom() && record.seed != report::RunRecord{}.seed) {
         record.warnings.push_back(fmt::format(
             "--seed {} has no effect: nothing in this frame is drawn at random.", record.seed));

@@ -5,7 +5,7 @@ namespace kaustik::run {
 
 RenderSettings makeSettings(const SettingsRequest& request, const Registry& registry) {
     RenderSettings settings;
-    settings.technique = registry.findTechnique(request.technique);
+    settings.technique = registry.findTechnique(request.technique, request.isAsPublished);
     settings.params = registry.makeParams(settings.technique);
     params::assign(settings.params, request.assignments);
     settings.disabledPasses = request.disabledPasses;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From what somebody asks for to the settings of a renderer.
+// Makes the settings of a renderer from what somebody asks for.
 #pragma once
 
 #include <set>
@@ -17,6 +17,7 @@ struct SettingsRequest {
     std::set<std::string> disabledPasses = {};
     std::string disabledBy = "--disable";  // what names them, for messages
     std::uint64_t seed = 1;
+    bool isAsPublished = false;  // the technique's row is its paper's
 };
 
 // Throws ConfigError for what the registry does not have or a parameter does not take.

@@ -10,8 +10,9 @@
 
 namespace kaustik::scene {
 
-// Where in the picture a direction (unit, world space) falls: (0, 0) is the lower left, (1, 1) the
-// upper right; x is in [0, 1). Straight up and straight down it is the middle of the edge, turned.
+// The place in the picture where a direction (unit, world space) falls: (0, 0) is the lower left,
+// (1, 1) the upper right; x is in [0, 1). Straight up and straight down it is the middle of the
+// edge, turned.
 [[nodiscard]] glm::dvec2 environmentPosition(const Scene& scene, const glm::dvec3& direction);
 
 // Pictures as a scene file names them. Linear RGB around 1, which the background radiance

@@ -149,6 +149,26 @@ bool isConvex(const Mesh& mesh) {
     return true;
 }
 
+// By its vertices, as they stand in the world.
+bool isBall(const Mesh& mesh, const glm::dmat4& toWorld) {
+    constexpr double kRound = 1e-3;
+    if (!mesh.closed) return false;
+    const auto placeOf = [&](const glm::vec3& position) {
+        return glm::dvec3(toWorld * glm::dvec4(glm::dvec3(position), 1.0));
+    };
+    glm::dvec3 low(std::numeric_limits<double>::infinity());
+    glm::dvec3 high = -low;
+    for (const glm::vec3& position : mesh.positions) {
+        low = glm::min(low, placeOf(position));
+        high = glm::max(high, placeOf(position));
+    }
+    const glm::dvec3 middle = 0.5 * (low + high);
+    const double radius = 0.5 * (high.y - low.y);
+    return std::all_of(mesh.positions.begin(), mesh.positions.end(), [&](const glm::vec3& p) {
+        return std::abs(glm::length(placeOf(p) - middle) - radius) <= kRound * radius;
+    });
+}
+
 }  // namespace
 
 bool isSheet(const Mesh& mesh) {
@@ -176,10 +196,12 @@ RepeatedHits repeatedHits(const Scene& scene) {
         const MaterialKind kind = scene.materials[object.material].kind;
         const Mesh& mesh = scene.meshes[object.mesh];
         if (isReceiver(kind) || mesh.triangles.empty()) continue;
-        if (sheet != nullptr || !isSheet(mesh)) return {true, true};
+        if (sheet != nullptr) return {true, true};
         sheet = &object;
     }
     if (sheet == nullptr) return {};
+    if (const Mesh& body = scene.meshes[sheet->mesh]; !isSheet(body))
+        return {true, true, !body.closed || !isConvex(body)};
     const Mesh& mesh = scene.meshes[sheet->mesh];
     const glm::dmat3 normalToWorld = glm::transpose(glm::inverse(glm::dmat3(sheet->toWorld)));
     const std::optional<Slopes> slopes = mesh.heightField
@@ -247,6 +269,24 @@ std::optional<std::string> concaveBody(const Scene& scene) {
         if (!isConvex(mesh)) return object.name;
     }
     return std::nullopt;
+}
+
+bool hasBallsAlone(const Scene& scene) {
+    std::vector<Bounds> balls;
+    for (const Object& object : scene.objects) {
+        const Mesh& mesh = scene.meshes[object.mesh];
+        const bool isDielectric = scene.materials[object.material].kind == MaterialKind::dielectric;
+        if (!isDielectric || mesh.triangles.empty() || isSheet(mesh)) continue;
+        if (!isBall(mesh, object.toWorld)) return false;
+        const Bounds bounds = objectBounds(scene, object);
+        for (const Bounds& other : balls) {
+            const bool isApart = glm::any(glm::lessThan(bounds.maximum, other.minimum)) ||
+                                 glm::any(glm::lessThan(other.maximum, bounds.minimum));
+            if (!isApart) return false;
+        }
+        balls.push_back(bounds);
+    }
+    return !balls.empty();
 }
 
 }  // namespace kaustik::scene

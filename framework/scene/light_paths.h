@@ -23,11 +23,14 @@ struct RepeatedHits {
     bool transmitted =
         false;               // where no branch is followed but the refracted one (or the only one)
     bool reflected = false;  // where the reflected one is, too
+    // False: not where the light is outside of all bodies.
+    bool outside = true;
 };
-// Neither, where the scene's only specular surface is a plane, or water on which light comes from
-// above and which is too flat to come into its path: a ray that leaves a surface more steeply than
-// the surface is anywhere does not come back to it. Both, where nothing forbids it. Waves count
-// with the sum of their slopes, so that this holds at every time.
+// Not from outside, where the scene's only specular surface bounds a convex body. Neither, where
+// its only one is a plane, or water on which light comes from above and which is too flat to come
+// into its path: a ray that leaves a surface more steeply than the surface is anywhere does not
+// come back to it. Both, where nothing forbids it. Waves count with the sum of their slopes, so
+// that this holds at every time.
 [[nodiscard]] RepeatedHits repeatedHits(const Scene& scene);
 
 // Light that a dielectric sheet, water say, sends back to a receiver.
@@ -45,5 +48,10 @@ struct ReflectedLight {
 // body light goes out where it first hits it from within, and loses to reflection twice; in any
 // other, as in a teapot, it comes to many interfaces, each of which parts off its share.
 [[nodiscard]] std::optional<std::string> concaveBody(const Scene& scene);
+
+// Whether the scene's dielectrics with an inside, one at least, are balls that do not touch each
+// other's boxes. Light that has entered a ball comes to its surface at the angle that it entered
+// by, and so is never reflected totally there.
+[[nodiscard]] bool hasBallsAlone(const Scene& scene);
 
 }  // namespace kaustik::scene

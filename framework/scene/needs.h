@@ -15,8 +15,8 @@ struct SceneNeeds {
     // a technique's own bounce limit says how many it follows.
     int specularInterfaces = 0;
     RepeatedHits repeatedHits;  // whether there are such repeated ones at all
-    // Which says that the reflected branch at dielectrics is seen; nothing: the other one is
-    // enough.
+    // The path that shows that the reflected branch at dielectrics is seen. There is none where the
+    // refracted branch is enough.
     std::optional<ReflectedLight> reflectedLight;
     std::optional<std::string> concaveBody;  // which says that much is reflected within, too
     int reflectors = 0;                      // objects that are mirrors

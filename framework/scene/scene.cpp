@@ -58,6 +58,18 @@ Bounds sceneBounds(const Scene& scene) {
     return bounds;
 }
 
+Bounds specularBounds(const Scene& scene) {
+    Bounds bounds;
+    for (const Object& object : scene.objects) {
+        if (isReceiver(scene.materials[object.material].kind)) continue;
+        const Bounds part = objectBounds(scene, object);
+        if (part.empty) continue;
+        bounds.include(part.minimum);
+        bounds.include(part.maximum);
+    }
+    return bounds;
+}
+
 std::size_t triangleCount(const Scene& scene) {
     std::size_t count = 0;
     for (const Object& object : scene.objects)

@@ -160,13 +160,15 @@ struct Bounds {
 // amplitudes, so that the bounds hold at every time.
 [[nodiscard]] Bounds objectBounds(const Scene& scene, const Object& object);
 [[nodiscard]] Bounds sceneBounds(const Scene& scene);
+// Of all that is no receiver.
+[[nodiscard]] Bounds specularBounds(const Scene& scene);
 [[nodiscard]] std::size_t triangleCount(const Scene& scene);
 
 // The top of the image of a light that shines in `direction` (unit), as near to `wanted` as the
 // image's plane allows; nothing where that is along the direction.
 [[nodiscard]] std::optional<glm::dvec3> topOfImage(const glm::dvec3& direction,
                                                    const glm::dvec3& wanted);
-// Where nothing is wanted: +Y, for a vertical light -Z.
+// The direction to the image's top where none is given: +Y, and -Z for a vertical light.
 [[nodiscard]] glm::dvec3 defaultTopOfImage(const glm::dvec3& direction);
 
 // The share of a spot's intensity that it sends at `cosine` from its direction: 1 inside the inner
@@ -174,9 +176,9 @@ struct Bounds {
 // KHR_lights_punctual recommends. Its flux is I 2π ((1 - cos inner) + (cos inner - cos outer)/3).
 [[nodiscard]] double spotFalloff(const Light& light, double cosine);
 
-// Where in its image a spot shines in `direction` (unit, from the light, less than 90 degrees from
-// its own): (0, 0) is the lower left, (1, 1) the upper right as someone sees the lit wall who
-// stands behind the light.
+// The place in its image that a spot shines in `direction` (unit, from the light, less than 90
+// degrees from its own): (0, 0) is the lower left, (1, 1) the upper right as someone sees the lit
+// wall who stands behind the light.
 [[nodiscard]] glm::dvec2 spotImagePosition(const Light& light, const glm::dvec3& direction);
 
 }  // namespace kaustik::scene

@@ -14,7 +14,7 @@
 namespace kaustik::scene {
 
 struct LightEdit {
-    // As written, of any length above 0: directional and spot.
+    // The direction of a directional or spot light as it is written, of any length above 0.
     std::optional<glm::dvec3> direction;
     std::optional<glm::dvec3> position;  // m; point and spot
     std::optional<float> powerFactor;    // on Light::power, >= 0

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// The handle of geometry that is made on the device in each frame.
 #pragma once
 
 #include "framework/graph/graph.h"

@@ -39,7 +39,7 @@ KAUSTIK_INLINE uint placeOf(uint stack, uint number, uint base) {
     }
     return 0u;
 }
-// Without the innermost `number`, which need not be the innermost of all.
+// The stack without the innermost `number`, which need not be the innermost of all.
 KAUSTIK_INLINE uint takeFrom(uint stack, uint number, uint base) {
     uint place = placeOf(stack, number, base);
     if (place == 0u) return stack;

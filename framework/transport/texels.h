@@ -95,10 +95,6 @@ struct DisplayTexel {  // rgb: display-encoded (sRGB), [0,1]
 struct VisibilityTexel {  // x: share of a light's direct light that reaches the receiver, [0, 1]
     static constexpr Format format = Format::r32f;
 };
-// Which layer of a texel is in which slot, four bits a slot from the lowest; 15: none.
-struct LayerOrderTexel {
-    static constexpr Format format = Format::r32ui;
-};
 struct ExitPosition {  // xyz: view space, m; w: specular surfaces that the eye's ray hit, 0 none
     static constexpr Format format = Format::rgba32f;
 };

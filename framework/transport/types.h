@@ -25,7 +25,8 @@ struct ViewData {
     mat4 fromEye;         // from the eye's view space to this view's, rigid
     vec4 farMeters;       // x: far plane where rays are parallel, m
     vec4 boundsCenterVs;  // of the scene's world-axis bounding box, m
-    // Along the world's axes, m; w: the margin in it that rays are cut with (viewData), m.
+    // Half of the box's extent along the world's axes, m; w: the margin in it that rays are cut
+    // with (viewData), m.
     vec4 boundsHalfExtent;
     vec4 background;        // radiance that comes from outside of the scene, W/m²/sr
     vec4 ambient;           // constant fill light for the picture, W/m²
@@ -35,23 +36,6 @@ struct ViewData {
 };
 
 const uint kMaxViews = 6u;  // of a block: the faces of a cube, a light's further maps
-
-// Along each side of such a map, of the side: what has arrived next to it is missing there, so that
-// the eye's receivers are looked up in the map before (maps/projection.frag).
-const float kBorderOfPart = 0.0625f;
-
-// The caustic generators of a scene, in a uniform block (std140): by them photons find the surfaces
-// that lie around what they have left last, and the map that stores them
-// (include/surfaces/generators.glsl).
-const uint kMaxGenerators = 32u;
-struct GeneratorsData {
-    mat4 eyeToWorld;  // rotation only
-    uvec4 count;      // x
-    // Boxes along the world's axes, from the eye, m.
-    vec4 centers[kMaxGenerators];
-    vec4 halfExtents[kMaxGenerators];
-    vec4 references[kMaxGenerators];  // points, the same way
-};
 
 // One placed mesh, for one view (std430).
 struct InstanceData {
@@ -120,8 +104,9 @@ const uint kLeftInside = 2u;
 const uint kLeftBothSides = 3u;
 
 // How many photons there are. They are texels 0, 1, ... of their textures, row by row from the
-// bottom; what lies beyond is of nobody. The last seven are the arguments of an indirect dispatch
-// of kPhotonGroup threads and of an indirect draw of an instance of four vertices a photon.
+// bottom; what lies beyond holds no photons. The last seven are the arguments of an indirect
+// dispatch of kPhotonGroup threads and of an indirect draw of an instance of four vertices a
+// photon.
 struct PhotonList {
     uint count;
     uint rowLength;  // texels
@@ -146,7 +131,6 @@ struct LightCell {
     // none of them: it carries the whole cell's. From bit 8 on: the light.
     uint lightAndQuarters;
 };
-const uint kMaxCellLevel = 19u;
 
 // What has become of an adaptive traversal, on the device.
 struct CellCounts {
@@ -155,7 +139,7 @@ struct CellCounts {
     uint waiting;      // cells
     uint taken;        // of them, in this round
     uint photons;      // of this batch
-    // In the whole frame.
+    // The counts from here on are of the whole frame.
     uint probes;
     uint emitted;    // photons
     uint merged;     // of them those that stand for several of a cell's quarters
@@ -165,23 +149,15 @@ struct CellCounts {
     uint batches;
 };
 
-// Where a probe's light arrives, by the view that a metric looks from.
-struct Landing {
-    // xy: where it arrives, continuous texels of the view; zw: of a path through a medium, where it
-    // begins.
-    vec4 ends;
-    uint seenBy;     // the view's number + 1; 0: nowhere that it sees
-    uint signature;  // of the probe's path: what it has met, and how it left that
-    uint unused0;
-    uint unused1;
-};
-
-// Where a photon comes from: one texel, RGBA32UI.
+// Where a photon comes from: one texel, RGBA32UI, which has `branch` above the light's 16 bits.
 struct PhotonOrigin {
     uint cell;  // of its light's grid, row by row; or the number that its emitter gave it
     uint light;
     uint path;    // a bit an interaction, the last one lowest: 1 reflected, 0 refracted, below a 1
     uint parent;  // in the list before its last interaction
+    // Of the photons that one emitted has become, by the byte: its number, and how many more than
+    // itself it may become (specular.split); the following ones' numbers follow its own.
+    uint branch;
 };
 const uint kEmittedPath = 1u;
 
@@ -197,8 +173,8 @@ struct Photon {
     uint media;  // the dielectrics around it, and the side that it has just left: media_stack.h
 };
 
-// Where a photon arrived: three RGBA32F textures, and a fourth where photons have beams, by the
-// photon's own texel.
+// The place where a photon arrived: three RGBA32F textures, and a fourth where photons have beams,
+// by the photon's own texel.
 struct Hit {
     vec3 positionVs;
     float distanceMeters;  // travelled since the last interaction
@@ -213,8 +189,9 @@ struct Hit {
 // How the eye's path through specular surfaces has ended; above 0 it has come out.
 const float kPathExited = 1.0f;
 const float kPathLost = 0.0f;
-// Beyond a cap: totally reflected too often; refracted as often as may be, but still inside of a
-// closed object, out of which it is taken to have come as it was.
+// The path has reached a cap. kPathReflectionLimit: it was totally reflected too often, or was
+// refracted as often as may be and is still inside of a closed object, out of which it is taken to
+// have come as it was.
 const float kPathReflectionLimit = -1.0f;
 const float kPathMirrorLimit = -2.0f;   // by mirrors; it is taken to see the environment
 const float kPathNestingLimit = -3.0f;  // in more dielectrics at once than a stack holds
@@ -235,19 +212,29 @@ const uint kAccountEdgeOn = 9u;
 const uint kAccountMissedByTracer = 10u;
 const uint kAccountInternalReflectionLimit = 11u;
 const uint kAccountBounceLimit = 12u;
-// Between photons that cannot be joined to triangles, where nothing else covers it.
+// Light between photons that cannot be joined to triangles, where nothing else covers it.
 const uint kAccountDiscardedTriangle = 13u;
 const uint kAccountOccludedSplat = 14u;
 const uint kAccountNotANumber = 15u;
 const uint kAccountUnresolved = 16u;
-// Not part of the balance: what arrived at receivers before it was reconstructed.
+// What arrived at receivers before it was reconstructed; this is not part of the balance.
 const uint kAccountArrived = 17u;
-// A dielectric inside of more others than a stack holds.
+// Light in a dielectric inside of more others than a stack holds.
 const uint kAccountNestingLimit = 18u;
-// Stored in another view than the eye's: what arrived next to it, and behind what it sees.
+// Light stored in another view than the eye's: what arrived next to that view, and behind what it
+// sees.
 const uint kAccountOutsideMap = 19u;
 const uint kAccountHiddenInMap = 20u;
-const uint kAccountCount = 21u;
+// Lost because a paper is followed to the letter, where no light is lost in truth.
+const uint kAccountAsPublished = 21u;
+// Those before this one are all that a reference has.
+const uint kReferenceAccounts = 21u;
+// Not part of the balance: what lights send onto what they see of specular surfaces, however it is
+// emitted; measured alone.
+const uint kAccountEmittable = 22u;
+// Not part of the balance: rays with more receivers than slots.
+const uint kAccountFullSlots = 23u;
+const uint kAccountCount = 24u;
 
 // A sum of watts in 64-bit fixed point, so that it neither drifts nor depends on the order:
 // watts = (high * 2^32 + low) * quantum. `events` counts the additions.
@@ -255,7 +242,7 @@ struct LedgerEntry {
     uint low;
     uint high;
     uint events;
-    uint unused;
+    uint traced;  // of the first account: photons of all lists that were handed to tracers
 };
 
 // A map of flux is summed the same way, three channels of two words each: layers 2c and 2c + 1 of
@@ -273,10 +260,15 @@ struct LayerStatistics {
     uint pixelsSkipped;  // pixels that have such fragments
 };
 
-// Lines or splats that were drawn narrower than their photons' footprints asked for.
-struct Narrowed {
+// Lines, splats or beams whose width is a bound and not what their photons asked for (std430). A
+// photon that several batches bring counts in one of them.
+struct Clamped {
     uint count;
-    uint widestBits;  // px, the bits of a float: those above 0 are ordered as their values are
+    // By which factor that differs at most, above 1; the bits of a float, which are ordered as
+    // their values are.
+    uint factorBits;
+    uint lowUnits;  // flux of all channels, as the ledger has it
+    uint highUnits;
 };
 
 #ifdef __cplusplus

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The cells that an adaptive traversal begins with: all of every light's. One thread a cell.
+#include "include/thread.glsl"
 #include "framework/transport/types.h"
-
-layout(local_size_x = 64) in;
 
 layout(std430) writeonly buffer WaitingCells {
     LightCell waitingCells[];
@@ -12,7 +11,7 @@ uniform uint level;
 uniform uint cellCount;
 
 void main() {
-    uint index = gl_GlobalInvocationID.x;
+    uint index = threadNumber();
     if (index >= cellCount) return;
     uint perLight = side * side;
     uint at = index % perLight;

@@ -13,6 +13,6 @@ void main() {
     if (index >= photons.count) return;
     ivec2 texel = ivec2(photonTexel(photons, index));
     if (uint(texelFetch(hitFlux, texel, 0).w) != kFateReceiver) return;
-    uint place = cellPlace(originAt(texel), ivec2(0));
+    uint place = cellPlace(originAt(texel));
     if (place != kNoCell) cellPhotons[place] = index + 1u;
 }

@@ -12,6 +12,7 @@ uniform int grids;   // lights and branches
 #ifdef FROM_PHOTONS
 #include "framework/transport/photon_list.h"
 #include "include/photons/hits.glsl"
+#include "techniques/light_cells/landing_data.h"
 layout(std430) readonly buffer CellPhotons {
     uint cellPhotons[];
 };

@@ -23,7 +23,7 @@ void main() {
     ivec2 texel = ivec2(photonTexel(photons, index));
     vec4 flux = texelFetch(hitFlux, texel, 0);
     float width = 1.0;
-    uint place = uint(flux.w) == kFateReceiver ? cellPlace(originAt(texel), ivec2(0)) : kNoCell;
+    uint place = uint(flux.w) == kFateReceiver ? cellPlace(originAt(texel)) : kNoCell;
     if (place != kNoCell) {
         atomicAdd(counting.probes, 1u);
         int perGrid = cellGrid.x * cellGrid.y;

@@ -27,7 +27,7 @@ vec3 fluxOf(LightData light, vec2 ndc, vec2 size, float reach, float transmittan
 }
 
 void store(uint index, ivec2 texel, CellOfLight cell, Photon photon, vec3 normal, uint material) {
-    storeNext(index, photon, PhotonOrigin(cell.number, uint(lightIndex), kEmittedPath, 0u));
+    storeNext(index, photon, PhotonOrigin(cell.number, uint(lightIndex), kEmittedPath, 0u, 0u));
     storeHit(texel, Hit(photon.positionVs, 0.0, normal, material, photon.fluxWatts, photon.fate,
                         vec3(0.0)));
 }

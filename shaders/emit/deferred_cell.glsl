@@ -31,11 +31,9 @@ CellOfLight cellOfPhoton(uint index) {
     cell.middle = (vec2(listed.x, listed.y) + 0.5) * cell.size - 1.0;
     cell.quarters = listed.lightAndQuarters & 15u;
     cell.isOwn = int(listed.lightAndQuarters >> 8u) == lightIndex;
-    // Whatever draws at random by it draws the same in every batch.
+    // Whatever draws at random by it draws the same in every batch, for a probe of a cell as for
+    // its photon.
     cell.number = (listed.y << 13u ^ listed.x) * 2654435761u + listed.level;
-#ifdef PROBES
-    cell.number = index;
-#endif
 #else
     uint row = index / uint(gridSize.x);
     ivec2 at = ivec2(int(index % uint(gridSize.x)), int(row) + firstRow);

@@ -108,7 +108,7 @@ struct Emitted {
 
 void store(ivec2 cell, ivec2 texel, Emitted emitted) {
     PhotonOrigin origin = PhotonOrigin(uint(cell.y) * uint(gridSize.x) + uint(cell.x),
-                                       uint(lightIndex), kEmittedPath, 0u);
+                                       uint(lightIndex), kEmittedPath, 0u, 0u);
     Photon photon = emitted.photon;
     storeNext(uint(texel.y * cellsHere.x + texel.x), photon, origin);
     storeHit(texel, Hit(photon.positionVs, 0.0, emitted.normal, emitted.material, photon.fluxWatts,

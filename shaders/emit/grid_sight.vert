@@ -12,8 +12,8 @@ const float kSnap = 1.0 / 256.0;
 void main() {
     object = vertexObject;
     vec4 clip = projection * (instances[vertexObject].modelToView * vec4(vertexPosition, 1.0));
-    // Snapped here, as the device would: in whichever rows of the view a batch draws, its vertices
-    // are the same, and so is the triangle that a cell's middle falls on.
+    // Snapped here, as the device would: in whichever rows of the view are drawn, its vertices are
+    // the same, and so is the triangle that a cell's middle falls on.
     if (clip.w > 0.0) {
         vec2 scale = 0.5 * sightSize / kSnap;
         clip.xy = round(clip.xy / clip.w * scale) / scale * clip.w;

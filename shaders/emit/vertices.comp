@@ -3,6 +3,7 @@
 // see first is nobody. ONLY_BEAMS: their beams and extents instead, since OpenGL grants a shader no
 // more than eight images. VERTEX_GRID: the mesh is a grid, whose vertices stand for quarters of its
 // cells.
+#include "include/thread.glsl"
 #include "include/photons/neighbour_batch.glsl"
 #include "include/photons/cell_extent.glsl"
 #include "include/views/light_depth.glsl"
@@ -10,8 +11,6 @@
 #include "include/surfaces/specular.glsl"
 #include "include/photons/store_hits.glsl"
 #include "include/photons/store_photons.glsl"
-
-layout(local_size_x = 64) in;
 
 layout(std430) readonly buffer Instances {
     InstanceData instances[];
@@ -195,7 +194,7 @@ bool isSeen(vec3 positionVs, vec3 normalVs) {
 }
 
 void main() {
-    uint vertex = gl_GlobalInvocationID.x;
+    uint vertex = threadNumber();
     if (vertex >= vertexCount) return;
     uint cell = firstCell + vertex;
     int inBatch = int(cell) - firstOfBatch;
@@ -242,7 +241,7 @@ void main() {
 #endif
 #else
     storeNext(slot, Photon(positionVs, footprint, direction, kFateSpecular, flux, media),
-              PhotonOrigin(cell, uint(lightIndex), kEmittedPath, 0u));
+              PhotonOrigin(cell, uint(lightIndex), kEmittedPath, 0u, 0u));
     vec3 shape = vec3(0.0);
 #ifdef PHOTON_BEAMS
     shape = shapeAround(vertex, normal);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // filter.blend: of splats of four sizes, the smallest that enough photons lie on (WD08, section
-// 4.1), and what lies between enough and too few.
+// 4.1), and what lies between enough and too few. What is kept for glossy receivers is mixed as the
+// flux is that it belongs to.
 #include "maps/filtered.glsl"
 
 uniform usampler2DArray photonCounts;
@@ -19,26 +20,42 @@ float sizeWeight(uint photons) {
 
 float brightness(vec3 flux) { return flux.r + flux.g + flux.b; }
 
-vec3 blended(vec3 flux[4], uint counts[4]) {
+// Of each size; their sum is 1.
+float[4] weightsOf(vec3 flux[4], uint counts[4]) {
+    float weights[4] = float[4](0.0, 0.0, 0.0, 0.0);
     // The smallest size of which there are enough, else the largest.
     int whole = 3;
     for (int i = 3; i >= 0; --i) {
         if (counts[i] >= uint(filter_blend_max_photons)) whole = i;
     }
+    weights[whole] = 1.0;
     if (filter_blend_interpolant == filter_blend_interpolant_linear) {
-        if (whole == 0) return flux[0];
-        return mix(flux[whole], flux[whole - 1], sizeWeight(counts[whole - 1]));
+        if (whole == 0) return weights;
+        weights[whole - 1] = sizeWeight(counts[whole - 1]);
+        weights[whole] = 1.0 - weights[whole - 1];
+        return weights;
     }
     // Smaller ones join where they are brighter: up to three sizes together.
-    vec3 sum = flux[whole];
-    float weights = 1.0;
+    float total = 1.0;
+    float mixed = brightness(flux[whole]);
     for (int i = whole - 1; i >= max(whole - 2, 0); --i) {
-        if (brightness(flux[i]) <= brightness(flux[whole])) continue;
+        if (brightness(flux[i]) <= mixed) continue;
         float weight = sizeWeight(counts[i]);
-        sum += weight * flux[i];
-        weights += weight;
+        if (filter_blend_interpolant == filter_blend_interpolant_bernstein) {
+            // Beside the 1 of the size that has enough, which this compares with.
+            weights[i] = weight;
+            total += weight;
+            continue;
+        }
+        // It takes over from what the larger ones give.
+        for (int larger = i + 1; larger <= whole; ++larger)
+            weights[larger] *= 1.0 - weight;
+        weights[i] = weight;
+        mixed += weight * (brightness(flux[i]) - mixed);
     }
-    return sum / weights;
+    for (int i = 0; i < 4; ++i)
+        weights[i] /= total;
+    return weights;
 }
 
 void main() {
@@ -48,10 +65,15 @@ void main() {
         vec3 flux[4];
         uint counts[4];
         for (int i = 0; i < 4; ++i) {
-            flux[i] = sumAt(texel, view * setsBefore + i);
+            flux[i] = sumAt(texel, firstSet(view, 0) + i);
             counts[i] = texelFetch(photonCounts, ivec3(texel, 4 * view + i), 0).x;
         }
-        storeFiltered(texel, view, 0, blended(flux, counts));
+        float weights[4] = weightsOf(flux, counts);
+        for (int kind = 0; kind < setsAfter; ++kind) {
+            vec3 sum = vec3(0.0);
+            for (int i = 0; i < 4; ++i)
+                sum += weights[i] * (kind == 0 ? flux[i] : sumAt(texel, firstSet(view, kind) + i));
+            storeFiltered(texel, view, kind, sum);
+        }
     }
-    keepLast(texel);
 }

@@ -10,10 +10,11 @@ void main() {
     ivec2 texel;
     if (!texelOfThread(texel)) return;
     for (int view = 0; view < views; ++view) {
-        vec3 sum = vec3(0.0);
-        for (int level = 0; level < levels; ++level)
-            sum += sampleLevel(texel, level, view);
-        storeFiltered(texel, view, 0, sum);
+        for (int kind = 0; kind < setsAfter; ++kind) {
+            vec3 sum = vec3(0.0);
+            for (int level = 0; level < levels; ++level)
+                sum += sampleLevel(texel, level, firstSet(view, kind));
+            storeFiltered(texel, view, kind, sum);
+        }
     }
-    keepLast(texel);
 }

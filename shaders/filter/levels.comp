@@ -20,7 +20,7 @@ void main() {
         for (int level = levels - 1; level >= 0; --level) {
             if (countAt(texel >> level, level, view) >= uint(filter_levels_min_photons)) chosen = level;
         }
-        storeFiltered(texel, view, 0, sampleLevel(texel, chosen, view));
+        for (int kind = 0; kind < setsAfter; ++kind)
+            storeFiltered(texel, view, kind, sampleLevel(texel, chosen, firstSet(view, kind)));
     }
-    keepLast(texel);
 }

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The vertices of a height field, y = sum of amplitude cos(k·x + phase), with exact normals. One
 // thread a vertex; rows along x from the corner with the least x and z.
+#include "include/thread.glsl"
 #include "framework/transport/types.h"
-
-layout(local_size_x = 64) in;
 
 layout(std430) writeonly buffer Vertices {
     VertexData vertices[];
@@ -19,7 +18,7 @@ uniform int waveCount;
 
 void main() {
     int columns = cells.x + 1;
-    int index = int(gl_GlobalInvocationID.x);
+    int index = int(threadNumber());
     if (index >= columns * (cells.y + 1)) return;
     vec2 corner = vec2(index % columns, index / columns) / vec2(cells);
     vec2 xz = (corner - 0.5) * sizeMeters;

@@ -2,12 +2,11 @@
 // The scene's indirect draws once a layer; those of layers beyond the measured depth complexity, of
 // the scene or of their own object, draw nothing, so that the processor need not wait for the
 // measurement. AFTER_LISTS: where lists hold all fragments none is drawn.
+#include "include/thread.glsl"
 #include "framework/transport/types.h"
 #ifdef AFTER_LISTS
 #include "layered_depth/fragment_lists_fit.glsl"
 #endif
-
-layout(local_size_x = 64) in;
 
 struct DrawCommand {
     uint indexCount;
@@ -36,7 +35,7 @@ uniform int layerCount;
 uniform int commandCount;
 
 void main() {
-    int index = int(gl_GlobalInvocationID.x);
+    int index = int(threadNumber());
     if (index >= commandCount * layerCount) return;
     DrawCommand command = sceneCommands[index % commandCount];
 #ifdef PER_OBJECT

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Where the light of probes arrives in the view that a metric looks from, and what they have met.
-// One thread a hit; PhotonOrigin::cell is the number of its probe. BY_PHOTON: an entry a photon.
+// One thread a hit. BY_PHOTON: an entry a photon.
 #include "include/photons/arriving.glsl"
 #include "include/surfaces/surface_data.glsl"
 #include "include/views/seen_receiver.glsl"
+#include "techniques/light_cells/landing_data.h"
 #ifdef PATHS
 #include "include/views/ray_segment.glsl"
 #endif
@@ -16,19 +17,32 @@ uniform int viewNumber;  // of the first of them
 uniform int needsSight;  // 1: what the view does not see has not landed
 uniform int isPart;      // 1: of a view that has been looked from; next to this one that holds
 #ifndef BY_PHOTON
-uniform int splits;
 uniform int branches;    // entries of a probe
+layout(std430) readonly buffer ProbeNumbers {
+    uint probeNumbers[];
+};
 #endif
 
-// Entries of a probe are told apart by the first interactions of its branches.
-uint entryOf(PhotonOrigin origin, uint index) {
+// Entries of a probe are the photons that it has become, as many as there are entries; the last one
+// is of all that are left over: the first of these is noted there, and what the others have met.
+// Whichever thread comes first, an entry becomes the same.
+uint entryOf(PhotonOrigin origin, uint index, out bool isNoted) {
+    isNoted = true;
 #ifdef BY_PHOTON
     return index;
 #else
-    int interactions = findMSB(origin.path);
-    uint branch = bitfieldExtract(origin.path, max(interactions - splits, 0), splits);
-    return origin.cell * uint(branches) + min(branch, uint(branches - 1));
+    uint branch = origin.branch & 0xffu;
+    uint last = uint(branches - 1);
+    isNoted = branch <= last;
+    return probeNumbers[index] * uint(branches) + min(branch, last);
 #endif
+}
+
+// Of a path and the surface at its end; sums of these tell paths apart, in any order.
+uint signatureOf(PhotonOrigin origin, uint material) {
+    uint number = origin.path * 747796405u + material * 2891336453u + 277803737u;
+    number = (number ^ (number >> 16u)) * 2246822519u;
+    return number ^ (number >> 13u);
 }
 
 #ifdef PATHS
@@ -60,12 +74,12 @@ void main() {
     ivec2 texel = ivec2(photonTexel(photons, index));
     uint fate = uint(texelFetch(hitFlux, texel, 0).w);
     PhotonOrigin origin = originAt(texel);
-    uint entry = entryOf(origin, index);
+    bool isNoted;
+    uint entry = entryOf(origin, index, isNoted);
     vec4 surface = texelFetch(hitSurface, texel, 0);
-    if (isFirst == 1 && fate != kFateNone) {
-        uint visited = landings[entry].signature * 31u + uint(surface.w) * 7u + origin.path;
-        landings[entry].signature = visited;
-    }
+    if (isFirst == 1 && fate != kFateNone)
+        atomicAdd(landings[entry].signature, signatureOf(origin, uint(surface.w)));
+    if (!isNoted) return;
 #ifdef PATHS
     if (uint(texelFetch(photonDirection, texel, 0).w) == kFateInFlight) storePathLanding(entry, texel, fate);
     return;

@@ -39,14 +39,19 @@ void main() {
             isEverywhere = isEverywhere && isSpecular;
         }
     }
-    uvec2 before = lightIndex == 0 ? uvec2(0u) : nextMask[entry];
-    nextMask[entry] = before | (uvec2(isSomewhere, isEverywhere) << uint(lightIndex));
+    uint word = entry + uint(lightIndex) / 32u;
+    uint bit = uint(lightIndex) % 32u;
+    uvec2 before = bit == 0u ? uvec2(0u) : nextMask[word];
+    nextMask[word] = before | (uvec2(isSomewhere, isEverywhere) << bit);
 #else
-    uvec2 mask = uvec2(0u, 0xffffffffu);
-    for (uint i = 0u; i < 4u; ++i) {
-        uvec2 part = nextMask[maskEntry(2u * cell.x + (i & 1u), 2u * cell.y + (i >> 1u), level + 1u)];
-        mask = uvec2(mask.x | part.x, mask.y & part.y);
+    for (uint word = 0u; word < maskWords; ++word) {
+        uvec2 mask = uvec2(0u, 0xffffffffu);
+        for (uint i = 0u; i < 4u; ++i) {
+            uvec2 part = nextMask[maskEntry(2u * cell.x + (i & 1u), 2u * cell.y + (i >> 1u),
+                                            level + 1u) + word];
+            mask = uvec2(mask.x | part.x, mask.y & part.y);
+        }
+        nextMask[entry + word] = mask;
     }
-    nextMask[entry] = mask;
 #endif
 }

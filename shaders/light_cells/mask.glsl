@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Where a light sees something specular, and nothing else, by cells of its view at every level up to
-// the mask's finest: a bit a light. A cell's number is that of those of coarser levels and of those
-// before it.
+// the mask's finest: a bit a light, 32 of them a word. A cell's number is that of those of coarser
+// levels and of those before it.
 #include "framework/transport/types.h"
 
 #ifdef MASK
@@ -10,9 +10,11 @@ layout(std430) readonly buffer SpecularMask {
 };
 #endif
 uniform uint maskLevel;  // the finest
+uniform uint maskWords;  // of a cell
 
+// Where the words of a cell begin.
 uint maskEntry(uint x, uint y, uint level) {
-    return ((1u << (2u * level)) - 1u) / 3u + (y << level) + x;
+    return (((1u << (2u * level)) - 1u) / 3u + (y << level) + x) * maskWords;
 }
 
 bool isMasked(uint level) { return level <= maskLevel; }
@@ -21,7 +23,7 @@ bool isMasked(uint level) { return level <= maskLevel; }
 uvec2 maskOf(LightCell cell) {
     uint up = cell.level > maskLevel ? cell.level - maskLevel : 0u;
     uint light = cell.lightAndQuarters >> 8u;
-    uvec2 mask = specularMask[maskEntry(cell.x >> up, cell.y >> up, cell.level - up)];
-    return (mask >> light) & 1u;
+    uint entry = maskEntry(cell.x >> up, cell.y >> up, cell.level - up);
+    return (specularMask[entry + light / 32u] >> (light % 32u)) & 1u;
 }
 #endif

@@ -2,6 +2,7 @@
 // What becomes of a cell of a light's view, by its four probes (WN09, sections 3.2.1 and 3.2.2).
 #include "light_cells/cell_lists.glsl"
 #include "light_cells/mask.glsl"
+#include "techniques/light_cells/landing_data.h"
 
 layout(std430) readonly buffer TakenCells {
     LightCell takenCells[];

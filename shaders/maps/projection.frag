@@ -1,13 +1,22 @@
 // SPDX-License-Identifier: MIT
 // gather.project, gather.cube: what the caustic map of a light or of a generator holds where the eye's
 // receivers lie. A pixel that spans several texels is the mean of several places of it.
-//   MAP_HAS_PARTS  parts of it are in finer maps, of what the eye sees nearer by
+//   MAP_HAS_PARTS        parts of it are in finer maps, of what the eye sees nearer by
+//   GLOSSY_RECEIVERS     also what glossy receivers reflect, of light from where the map is seen from
+//   USES_MEAN_DIRECTION  or from about the mean of the directions in which it arrives
 #include "include/views/view.glsl"
 #ifdef GLOSSY_RECEIVERS
+#ifdef USES_MEAN_DIRECTION
 #define MEAN_INCIDENCE
+#endif
 #include "include/surfaces/receiver_brdf.glsl"
 #endif
+#ifdef USES_MEAN_DIRECTION
+#include "include/maps/long_directions.glsl"
+#include "include/maps/mean_direction.glsl"
+#endif
 #include "include/maps/map_lookup.glsl"
+#include "techniques/raster_views/map_border.h"
 
 uniform sampler2D receiver;
 uniform sampler2D receiverSurface;
@@ -18,9 +27,6 @@ layout(std140) uniform MapParts {
 };
 uniform int partCount;
 uniform int part;  // that this map is, 0: the whole
-#endif
-#ifdef GLOSSY_RECEIVERS
-uniform int isFromCentre;  // all light from where the map is seen from, not its mean direction
 #endif
 
 layout(location = 0) out vec4 irradiance;
@@ -96,14 +102,18 @@ void main() {
     float overPlaces = 1.0 / float(places * places);
     irradiance = vec4(sum.irradiance * overPlaces, 0.0);
 #ifdef GLOSSY_RECEIVERS
-    float all = sum.irradiance.r + sum.irradiance.g + sum.irradiance.b;
+    float all = irradiance.r + irradiance.g + irradiance.b;
     if (all <= 0.0) return;
-    vec3 direction = sum.direction / all - 1.0;
-    if (isFromCentre == 1)
-        direction = mat3(transpose(mapViews[0].fromEye)) *
-                    (mapViews[0].fromEye * vec4(positionVs, 1.0)).xyz;
-    float size = length(direction);
-    if (!(size > 1e-6)) return;
-    radiance = vec4(irradiance.rgb * receiverReflection(pixel, surface, -direction / size), 0.0);
+#ifdef USES_MEAN_DIRECTION
+    MeanDirection mean = meanDirectionOf(sum.irradiance, sum.direction);
+    if (mean.resultant <= 0.0) return;
+    checkDirection(mean.resultant, all * texelFetch(receiver, pixel, 0).y);
+#else
+    vec3 fromCentre =
+        mat3(transpose(mapViews[0].fromEye)) * (mapViews[0].fromEye * vec4(positionVs, 1.0)).xyz;
+    MeanDirection mean = MeanDirection(-normalize(fromCentre), 1.0);
+#endif
+    radiance =
+        vec4(irradiance.rgb * meanReflection(pixel, surface, mean.towards, mean.resultant), 0.0);
 #endif
 }

@@ -5,7 +5,8 @@
 void main() {
     ivec2 texel;
     if (!texelOfThread(texel)) return;
-    for (int view = 0; view < views; ++view)
-        storeFiltered(texel, view, 0, sumAt(texel, view * setsBefore));
-    keepLast(texel);
+    for (int view = 0; view < views; ++view) {
+        for (int kind = 0; kind < setsAfter; ++kind)
+            storeFiltered(texel, view, kind, sumAt(texel, firstSet(view, kind)));
+    }
 }

@@ -9,13 +9,10 @@
 // exactly (hard case 36), whatever a device's rules for lines are (hard case 6). Across the line the
 // shares of a column's pixels add up to 1. One thread a photon, for so many of its columns.
 #include "include/maps/flux_sum.glsl"
+#include "include/photons/clamped.glsl"
 #include "include/photons/hits.glsl"
 #include "include/photons/photon_thread.glsl"
 #include "media/lines.glsl"
-
-layout(std430) buffer NarrowedLines {
-    Narrowed narrowed;
-};
 
 uniform sampler2D receiver;
 uniform float radianceScale;  // units of the sums are so many of the ledger's, 1/(m² sr)
@@ -77,6 +74,8 @@ vec2 partBefore(vec2 part, float depth) {
 bool setPath(ivec2 texel) {
     Photon photon = photonAt(texel);
     if (photon.fate != kFateInFlight || !isNumber(photon)) return false;
+    // Another batch brings it as well (include/photons/neighbour_batch.glsl).
+    if (dot(photon.fluxWatts, vec3(ledgerUnitsPerWatt)) < 0.25) return false;
     uint fate = uint(texelFetch(hitFlux, texel, 0).w);
     bool hasHit = fate == kFateReceiver || fate == kFateSpecular;
     float end = hasHit ? texelFetch(hitPosition, texel, 0).w : 3.0e38;
@@ -148,8 +147,8 @@ void main() {
     float wanted = max(wantedWidth(footprintAfter(pathEnds.z), pathEnds.x),
                        wantedWidth(footprintAfter(pathEnds.w), pathEnds.y));
     if (firstColumn == 0 && wanted > float(media_lines_maximum)) {
-        atomicAdd(narrowed.count, 1u);
-        atomicMax(narrowed.widestBits, floatBitsToUint(wanted));
+        vec3 flux = texelFetch(photonFlux, ivec2(photonTexel(photons, index)), 0).rgb;
+        countClamped(0u, wanted / float(media_lines_maximum), flux);
     }
     ivec2 size = ivec2(isSteep ? view.sizePixels.yx : view.sizePixels.xy);
     int first = max(int(floor(min(pathPixels.x, pathPixels.z))), 0) + firstColumn;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // interactAt for a list of cases: direction and index before, normal and index after.
+#include "include/thread.glsl"
 #include "include/surfaces/fresnel.glsl"
 
-layout(local_size_x = 64) in;
 layout(std430) readonly buffer Inputs {
     vec4 inputs[];
 };
@@ -12,7 +12,7 @@ layout(std430) writeonly buffer Outputs {
 uniform int caseCount;
 
 void main() {
-    int i = int(gl_GlobalInvocationID.x);
+    int i = int(threadNumber());
     if (i >= caseCount) return;
     vec4 a = inputs[2 * i];
     vec4 b = inputs[2 * i + 1];

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Photons and hits from a list, as texels of the transfer map.
+#include "include/thread.glsl"
 #include "include/photons/store_hits.glsl"
 #include "include/photons/store_photons.glsl"
-
-layout(local_size_x = 64) in;
 
 struct Injected {
     vec4 photonPosition;
@@ -18,11 +17,11 @@ layout(std430) readonly buffer InjectedPhotons {
 };
 
 void main() {
-    uint index = gl_GlobalInvocationID.x;
+    uint index = threadNumber();
     if (index >= nextPhotons.count) return;
     Injected one = injected[index];
     storeNext(index, unpackPhoton(one.photonPosition, one.photonDirection, one.photonFlux),
-              PhotonOrigin(index, 0u, kEmittedPath, 0u));
+              PhotonOrigin(index, 0u, kEmittedPath, 0u, 0u));
 #ifdef PHOTON_BEAMS
     storeNextBeam(index, Beam(mat2(one.photonPosition.w), mat2(0.0)));
 #endif

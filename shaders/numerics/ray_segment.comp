@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // clipRay for a list of rays, and the depth and parameter at an index along each.
+#include "include/thread.glsl"
 #include "include/views/ray_segment.glsl"
 
-layout(local_size_x = 64) in;
 layout(std430) readonly buffer Inputs {
     vec4 inputs[];  // origin, index; direction, count
 };
@@ -12,7 +12,7 @@ layout(std430) writeonly buffer Outputs {
 uniform int caseCount;
 
 void main() {
-    int i = int(gl_GlobalInvocationID.x);
+    int i = int(threadNumber());
     if (i >= caseCount) return;
     vec4 a = inputs[2 * i];
     vec4 b = inputs[2 * i + 1];

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // mediumTransmittance for a list of cases: medium, metres.
+#include "include/thread.glsl"
 #include "include/surfaces/surface_data.glsl"
 
-layout(local_size_x = 64) in;
 layout(std430) readonly buffer Inputs {
     vec4 inputs[];
 };
@@ -12,7 +12,7 @@ layout(std430) writeonly buffer Outputs {
 uniform int caseCount;
 
 void main() {
-    int i = int(gl_GlobalInvocationID.x);
+    int i = int(threadNumber());
     if (i >= caseCount) return;
     outputs[i] = vec4(mediumTransmittance(uint(inputs[i].x), inputs[i].y), 0.0);
 }

@@ -1,7 +1,17 @@
 // SPDX-License-Identifier: MIT
-// How many photons of every workgroup's go on, since they have hit a specular surface.
+// How many photons every workgroup's send on, since they have hit a specular surface. BRANCHES: two
+// where light parts and there is room for both, which is noted bit by bit, so that who sends them on
+// does as has been counted.
 #include "include/photons/hits.glsl"
 #include "include/photons/photon_thread.glsl"
+#ifdef BRANCHES
+#include "include/photons/branches.glsl"
+
+layout(std430) writeonly buffer NextParting {
+    uvec2 nextParting[];
+};
+shared uint partingBits[2];
+#endif
 
 layout(std430) writeonly buffer NextFirsts {
     uint nextFirsts[];
@@ -9,14 +19,30 @@ layout(std430) writeonly buffer NextFirsts {
 shared uint continuingCount;
 
 void main() {
-    if (gl_LocalInvocationIndex == 0u) continuingCount = 0u;
+    uint local = gl_LocalInvocationIndex;
+    if (local == 0u) continuingCount = 0u;
+#ifdef BRANCHES
+    if (local < 2u) partingBits[local] = 0u;
+#endif
     barrier();
     uint index = photonOfThread();
     if (index < photons.count) {
-        float fate = texelFetch(hitFlux, ivec2(photonTexel(photons, index)), 0).w;
-        if (uint(fate) == kFateSpecular) atomicAdd(continuingCount, 1u);
+        ivec2 texel = ivec2(photonTexel(photons, index));
+        if (uint(texelFetch(hitFlux, texel, 0).w) == kFateSpecular) {
+            uint count = 1u;
+#ifdef BRANCHES
+            if (branchRoomOf(originAt(texel)) > 1u && partsLight(photonAt(texel), hitAt(texel))) {
+                atomicOr(partingBits[local >> 5u], 1u << (local & 31u));
+                count = 2u;
+            }
+#endif
+            atomicAdd(continuingCount, count);
+        }
     }
     barrier();
-    if (gl_LocalInvocationIndex == 0u && workgroupNumber() * kPhotonGroup < photons.count)
-        nextFirsts[workgroupNumber()] = continuingCount;
+    if (local != 0u || workgroupNumber() * kPhotonGroup >= photons.count) return;
+    nextFirsts[workgroupNumber()] = continuingCount;
+#ifdef BRANCHES
+    nextParting[workgroupNumber()] = uvec2(partingBits[0], partingBits[1]);
+#endif
 }

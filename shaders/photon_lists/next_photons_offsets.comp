@@ -12,7 +12,6 @@ layout(std430) buffer NextFirsts {
 layout(std430) writeonly buffer NextPhotons {
     PhotonList nextPhotons;
 };
-uniform int branches;  // texels that a photon gets in the next list
 uniform int nextRowLength;
 shared uint sums[kThreads];
 
@@ -35,5 +34,5 @@ void main() {
         before += count;
     }
     if (gl_LocalInvocationIndex == kThreads - 1u)
-        nextPhotons = photonListOf(before * uint(branches), uint(nextRowLength));
+        nextPhotons = photonListOf(before, uint(nextRowLength));
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // reconstruct.triangles: a patch's flux onto the pixels that it covers, on every face that sees a
 // part of it. One thread a patch; those that cover many pixels go to a list of their own.
+#include "include/photons/clamped.glsl"
 #include "reconstruct/triangles_patch.glsl"
 #include "reconstruct/triangles_patch_deposit.glsl"
 
@@ -14,7 +15,11 @@ const int kMaxPixelsPerThread = 400;
 
 void cover(uint item) {
     Patch whole = patchOf(item);
-    uint material = uint(texelFetch(hitSurface, ivec2(photonTexel(photons, item / kPatchParts)), 0).w);
+    ivec2 photon = ivec2(photonTexel(photons, item / kPatchParts));
+    // What neighbours share out is covered in each of their batches, and counts in the photon's own.
+    if (whole.narrowing > 1.0 && !isFromOtherBatch(originAt(photon)))
+        countClamped(0u, whole.narrowing, whole.flux);
+    uint material = uint(texelFetch(hitSurface, photon, 0).w);
     if (isOpen(material - 1u) &&
         !seesLitSide(whole.corners[0], whole.normal, whole.direction)) {
         ledgerAdd(kAccountHidden, whole.flux);
@@ -47,8 +52,8 @@ void cover(uint item) {
         addParts(onto, parts);
     }
     // The faces of a cube see in all directions.
-    float total = account(whole, viewCount > 1 || onto.isWhole, parts);
-    if (total <= 0.0) depositNear(whole);
+    float total = account(item, whole, viewCount > 1 || onto.isWhole, parts);
+    if (total <= 0.0) depositNear(item, whole);
     if (parts.on <= 0.0) return;
     for (int face = 0; face < viewCount; ++face) {
         if ((faces & (1u << face)) == 0u) continue;

@@ -4,7 +4,6 @@
 #include "include/photons/cell_extent.glsl"
 #include "include/photons/cells.glsl"
 #include "include/photons/hits.glsl"
-#include "include/photons/ledger_unit.glsl"
 #include "include/photons/photon_thread.glsl"
 #include "include/views/view.glsl"
 
@@ -22,7 +21,7 @@ struct Arrival {
     mat2x3 spacing;  // to where the next cells' light arrives, along u and v, m
     vec2 farther;   // than this light flies, m
     float distance;
-    vec3 flux;      // W
+    vec3 flux;      // W, whole
     float density;  // the flux by what it stands for covers, W/m²
     uint material;  // index + 1
     uint path;
@@ -43,15 +42,12 @@ mat2x3 fromEye(mat2x3 offsets) {
     return mat2x3(directionFromEye(offsets[0]), directionFromEye(offsets[1]));
 }
 
-// Whether another batch of emission brings a photon as well, and here it is only to be joined with.
-bool isFromOtherBatch(vec3 flux) {
-    return (flux.r + flux.g + flux.b) * ledgerUnitsPerWatt < 0.25;
+// What a photon carries in the batch that it is of.
+vec3 wholeFlux(PhotonOrigin origin, vec3 flux) {
+    return isFromOtherBatch(origin) ? flux * (1.0 / kNegligible) : flux;
 }
 
-// Of all channels, in whichever batch it is.
-float wholeFlux(vec3 flux) {
-    return (flux.r + flux.g + flux.b) * (isFromOtherBatch(flux) ? 1.0 / kNegligible : 1.0);
-}
+float sumOfChannels(vec3 flux) { return flux.r + flux.g + flux.b; }
 
 Arrival arrivalOf(ivec2 texel) {
     Hit hit = hitAt(texel);
@@ -62,9 +58,10 @@ Arrival arrivalOf(ivec2 texel) {
     PhotonOrigin origin = originAt(texel);
     uvec2 extent = extentOf(origin);
     float area = length(cross(spacing[0], spacing[1])) * areaOfExtent(extent);
+    vec3 flux = wholeFlux(origin, hit.fluxWatts);
     return Arrival(pointFromEye(hit.positionVs), directionFromEye(hit.normalVs),
                    directionFromEye(photon.directionVs), fromEye(spacing), farther,
-                   hit.distanceMeters, hit.fluxWatts, wholeFlux(hit.fluxWatts) / max(area, 1e-30),
+                   hit.distanceMeters, flux, sumOfChannels(flux) / max(area, 1e-30),
                    hit.material, origin.path, extent);
 }
 

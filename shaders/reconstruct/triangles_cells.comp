@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-// reconstruct.triangles: which photon of the list arrives from each cell. One thread a photon.
+// reconstruct.triangles: which photon of the list arrives from each cell. One thread a photon. Those
+// that belong to other generators' maps too: where neighbours have left parts of one generator that
+// has several reference points, what lies between them is joined and goes to one of the maps.
 #include "include/photons/arriving.glsl"
 #include "include/photons/cells.glsl"
 
@@ -11,7 +13,7 @@ void main() {
     uint index = photonOfThread();
     if (index >= photons.count) return;
     ivec2 texel = ivec2(photonTexel(photons, index));
-    if (!hasArrived(texel)) return;
-    uint place = cellPlace(originAt(texel), ivec2(0));
+    if (!hasArrivedFromAny(texel)) return;
+    uint place = cellPlace(originAt(texel));
     if (place != kNoCell) cellPhotons[place] = index + 1u;
 }

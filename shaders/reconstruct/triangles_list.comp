@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // reconstruct.triangles: what there is to cover. A photon stands for a quarter of each of the four
 // quadrilaterals around it; those that are not joined it covers by its own beam, as far as light
-// comes that way. One thread a photon.
+// comes that way. What lies between photons of two batches is listed in the one that has the photon
+// at the lower left. One thread a photon.
 #include "include/photons/arriving.glsl"
 #include "include/photons/ledger.glsl"
 #include "reconstruct/triangles_crease.glsl"
@@ -46,8 +47,7 @@ void addAreas(PhotonOrigin origin, uint joined, inout VertexShares shares) {
 }
 
 bool isJoined(PhotonOrigin origin, ivec2 corner) {
-    uint place = cellPlace(origin, corner);
-    uint found = place == kNoCell ? 0u : cellPhotons[place];
+    uint found = neighbourAt(origin, corner);
     return found > 0u && cellJoins[found - 1u] == 1u;
 }
 
@@ -71,12 +71,13 @@ void main() {
     if (index >= photons.count) return;
     ivec2 texel = ivec2(photonTexel(photons, index));
     vec4 flux = texelFetch(hitFlux, texel, 0);
-    if (!hasArrived(texel)) return;
+    if (!hasArrivedFromAny(texel)) return;
+    // What other maps alone list and book may be a corner of what this one does.
+    float ofMap = arrivedShare(texel);
     PhotonOrigin origin = originAt(texel);
-    bool isOther = isFromOtherBatch(flux.rgb);
+    bool isOther = isFromOtherBatch(origin);
     Arrival own;
-    // By the corner: those that are joined, and what is listed of the rest. What four photons share
-    // out is listed in every batch that has one of them.
+    // By the corner: those that are joined, and what is listed of the rest.
     uint joined = 0u;
     uint parts[4];
     uint count = 0u;
@@ -96,7 +97,7 @@ void main() {
         isPlain = isPlain && !isCrease && own.extent == uvec2(0u);
         float area = areaOf(cornersOf(own, i));
         whole += area;
-        bool isListed = isCrease || (!isOther && area > 0.0);
+        bool isListed = isCrease || area > 0.0;
         if (reconstruct_triangles_unjoined == reconstruct_triangles_unjoined_discard) {
             discarded += area;
         } else if (isListed) {
@@ -108,8 +109,9 @@ void main() {
     if (reconstruct_triangles_shading == reconstruct_triangles_shading_vertices)
         addAreas(origin, joined, shares);
     photonShares[index] = shares;
+    if (ofMap <= 0.0 || isOther) return;
     if (discarded > 0.0)
-        ledgerAdd(kAccountDiscardedTriangle, flux.rgb * (shares.quarter * discarded));
+        ledgerAdd(kAccountDiscardedTriangle, flux.rgb * (ofMap * shares.quarter * discarded));
     // A cell of its own is covered at once.
     if (joined == 0u && isPlain && count == 4u) {
         parts[0] = kPatchBeam;

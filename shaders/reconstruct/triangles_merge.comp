@@ -50,8 +50,7 @@ void merge(uint index) {
     uint parts[4];
     PatchBlock whole = PatchBlock(vec4(0.0), vec4(3.0e38), vec4(-3.0e38));
     for (int i = 0; i < 4; ++i) {
-        uint place = cellPlace(origin, ivec2(i & 1, i >> 1) * int(side / 2u));
-        uint found = place == kNoCell ? 0u : cellPhotons[place];
+        uint found = neighbourAt(origin, ivec2(i & 1, i >> 1) * int(side / 2u));
         if (found == 0u) return;
         parts[i] = found - 1u;
         PatchBlock part = blocks[parts[i]];
@@ -74,7 +73,8 @@ void main() {
         blocks[index] = blockOfCell(index);
     } else if (mergeStep <= int(kMaxMerges)) {
         if (blocks[index].flux.w >= 0.0) merge(index);
-    } else if (blocks[index].flux.w >= 0.0) {
+    } else if (blocks[index].flux.w >= 0.0 && arrivedShare(ivec2(photonTexel(photons, index))) > 0.0 &&
+               !isFromOtherBatch(originAt(ivec2(photonTexel(photons, index))))) {
         uint merges = uint(blocks[index].flux.w);
         uint part = merges == 0u ? kPatchJoined : kPatchMerged + merges - 1u;
         patchList[atomicAdd(patches.count, 1u)] = index * kPatchParts + part;

@@ -6,6 +6,22 @@ layout(std430) readonly buffer CellPhotons {
     uint cellPhotons[];
 };
 
+// The photon that has taken the same path, of the cell that lies so many next to this photon's;
+// index + 1 in the list, 0 where there is none. It has this one's number nearly always: where it has
+// not, the room for branches was shared out otherwise.
+uint neighbourAt(PhotonOrigin origin, ivec2 neighbourOffset) {
+    uint numbers = 1u << cellSplits;
+    for (uint i = 0u; i < numbers; ++i) {
+        uint number = ((origin.branch & 0xffu) + i) & (numbers - 1u);
+        uint place = cellPlaceOf(origin, neighbourOffset, number);
+        if (place == kNoCell) return 0u;
+        uint found = cellPhotons[place];
+        if (found > 0u && originAt(ivec2(photonTexel(photons, found - 1u))).path == origin.path)
+            return found;
+    }
+    return 0u;
+}
+
 // By the corner: right, up: bits.
 struct ArrivalsAround {
     Arrival corners[4];
@@ -17,8 +33,7 @@ bool photonsAround(PhotonOrigin origin, uint own, out uint found[4]) {
     ivec2 first = -ivec2(own & 1u, own >> 1u);
     bool isWhole = true;
     for (uint i = 0u; i < 4u; ++i) {
-        uint place = cellPlace(origin, first + ivec2(i & 1u, i >> 1u));
-        found[i] = place == kNoCell ? 0u : cellPhotons[place];
+        found[i] = neighbourAt(origin, first + ivec2(i & 1u, i >> 1u));
         isWhole = isWhole && found[i] > 0u;
     }
     return isWhole;

@@ -4,6 +4,7 @@
 // densities at their corners. Whatever their shape, size and slant, the shares of all pixels add up
 // to one.
 #include "include/maps/coverage.glsl"
+#include "include/photons/arriving.glsl"
 #include "include/photons/ledger.glsl"
 #include "include/surfaces/surface_data.glsl"
 #include "reconstruct/triangles_crease.glsl"
@@ -14,9 +15,6 @@ layout(std430) buffer PatchCounts {
     PatchCount patches;
     PatchCount widePatches;
 };
-layout(std430) buffer NarrowedPatches {
-    Narrowed narrowed;
-};
 
 struct Patch {
     vec3 corners[4];  // around it
@@ -26,6 +24,7 @@ struct Patch {
     vec3 direction;
     vec3 flux;
     float tolerance;  // of the depths that pixels see, m, next to their own footprint
+    float narrowing;  // by which factor a beam is narrower than it was to be; 1: it is not
 };
 
 // What a beam covers between four places, in cells from its own and none farther than `farthest`
@@ -46,13 +45,13 @@ Patch patchOfBeam(Arrival at, vec2 ends[4], float farthest) {
     float widest = 2.0 * max(extent.x, extent.y) / pixelFootprint(depth);
 #endif
     float largest = float(reconstruct_triangles_maximum);
+    Patch made;
+    made.narrowing = 1.0;
     if (widest * scale > largest) {
         scale = largest / widest;
-        atomicAdd(narrowed.count, 1u);
-        atomicMax(narrowed.widestBits, floatBitsToUint(min(widest, 1e30)));
+        made.narrowing = widest / largest;
     }
     mat2x3 spacing = at.spacing * scale;
-    Patch made;
     for (int i = 0; i < 4; ++i) made.corners[i] = at.position + spacing * ends[i];
     made.densities = float[4](1.0, 1.0, 1.0, 1.0);
     made.first = 0.5;
@@ -87,7 +86,8 @@ void shareByAreas(inout Patch made, uint photonsOf[4]) {
     vec3 second = vec3(0.0);
     for (int i = 0; i < 4; ++i) {
         VertexShares shares = photonShares[photonsOf[i]];
-        vec3 flux = texelFetch(hitFlux, ivec2(photonTexel(photons, photonsOf[i])), 0).rgb *
+        ivec2 texel = ivec2(photonTexel(photons, photonsOf[i]));
+        vec3 flux = wholeFlux(originAt(texel), texelFetch(hitFlux, texel, 0).rgb) *
                     (shares.quarter * shares.cells);
         bool hasArea = shares.area > 0.0;
         vec2 part = hasArea ? areas / shares.area : vec2(1.0 / max(shares.triangles, 1.0));
@@ -104,6 +104,7 @@ void shareByAreas(inout Patch made, uint photonsOf[4]) {
 Patch patchBetween(Arrival a, Arrival b, Arrival c, Arrival d) {
     Patch made;
     made.first = 0.5;
+    made.narrowing = 1.0;
     made.corners = vec3[4](a.position, b.position, c.position, d.position);
     made.densities = float[4](a.density, b.density, c.density, d.density);
     made.normal = normalize(a.normal + b.normal + c.normal + d.normal);
@@ -117,7 +118,7 @@ Patch patchBetween(Arrival a, Arrival b, Arrival c, Arrival d) {
 }
 
 uint neighbourOf(PhotonOrigin origin, ivec2 neighbourOffset) {
-    return cellPhotons[cellPlace(origin, neighbourOffset)] - 1u;
+    return neighbourAt(origin, neighbourOffset) - 1u;
 }
 
 // With the flux of a quarter of its cell.
@@ -152,7 +153,7 @@ Patch patchAtCrease(PhotonOrigin origin, uint quarter) {
         flux += corner.flux * fluxShare(corner, found[i] - 1u, i ^ 3u);
         QuarterCorners corners =
             cornersOf(corner, quarterAtCrease(around, i), sideOfQuarter(i ^ 3u));
-        float weight = wholeFlux(corner.flux) * areaOf(corners);
+        float weight = sumOfChannels(corner.flux) * areaOf(corners);
         weights += weight;
         if (i != (quarter ^ 3u)) continue;
         ownWeight = weight;
@@ -192,7 +193,7 @@ Patch patchOfBlock(uint index, uint merges) {
 }
 #endif
 
-Patch patchOf(uint item) {
+Patch wholePatchOf(uint item) {
     uint index = item / kPatchParts;
     uint part = item % kPatchParts;
     ivec2 texel = ivec2(photonTexel(photons, index));
@@ -210,6 +211,13 @@ Patch patchOf(uint item) {
     own.flux *= fluxShare(own, index, part);
     // Photons at a border reach beyond their cells.
     return patchOfQuarter(own, cornersOf(own, part), own.extent == uvec2(0u) ? 0.5 : 1.0);
+}
+
+// With the share of its flux that this map takes.
+Patch patchOf(uint item) {
+    Patch made = wholePatchOf(item);
+    made.flux *= arrivedShare(ivec2(photonTexel(photons, item / kPatchParts)));
+    return made;
 }
 
 // One of a patch's two triangles on the screen.

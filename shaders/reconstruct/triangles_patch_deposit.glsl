@@ -1,6 +1,14 @@
 // SPDX-License-Identifier: MIT
 // What becomes of a patch's flux once it is known what the pixels show of it.
 #include "include/maps/deposit.glsl"
+#include "framework/transport/primitives.h"
+
+// By what primitive flux has gone to pixels.
+void bookDeposit(uint item, vec3 flux) {
+    uint part = item % kPatchParts;
+    bool isJoined = part == kPatchJoined || part >= kPatchMerged;
+    ledgerAdd(isJoined ? kSumTriangles : kSumBeams, flux);
+}
 
 void deposit(Patch whole, ivec2 pixel, float share) {
     depositFlux(pixel, whole.flux * share, directionToEye(whole.direction));
@@ -8,13 +16,14 @@ void deposit(Patch whole, ivec2 pixel, float share) {
 
 // What shares are divided by; 0 where no pixel shows any of it. Books what is hidden or next to the
 // view.
-float account(Patch whole, bool isWhole, PatchParts parts) {
+float account(uint item, Patch whole, bool isWhole, PatchParts parts) {
     float within = parts.on + parts.occluded;
     // All pixels' shares add up to 1 but for their rounding and the bend of perspective within one;
     // what is missing lies next to the view.
     float outside = isWhole ? 0.0 : max(1.0 - within - parts.outside, 0.0);
     float total = within + outside;
     if (total <= 0.0) return 0.0;
+    if (parts.on > 0.0) bookDeposit(item, whole.flux * (parts.on / total));
     if (parts.occluded > 0.0) ledgerAdd(kAccountHidden, whole.flux * (parts.occluded / total));
     if (outside > 0.0) ledgerAdd(kAccountOutside, whole.flux * (outside / total));
     return total;
@@ -22,7 +31,7 @@ float account(Patch whole, bool isWhole, PatchParts parts) {
 
 // No pixel under the patch shows its surface: the nearest that do get its flux, or else it is edge-on
 // or smaller than a pixel, or hidden by its own object.
-void depositNear(Patch whole) {
+void depositNear(uint item, Patch whole) {
     vec3 middle = 0.25 * (whole.corners[0] + whole.corners[1] + whole.corners[2] + whole.corners[3]);
 #ifdef MANY_VIEWS
     // The face that it lies on sees it at the largest depth.
@@ -67,7 +76,10 @@ void depositNear(Patch whole) {
         ivec2 pixel = ivec2(floor(at)) + ivec2(i % 3, i / 3) - 1;
         if (nearness[i] > 0.0) deposit(whole, pixel, nearness[i] / sum);
     }
-    if (sum > 0.0) return;
+    if (sum > 0.0) {
+        bookDeposit(item, whole.flux);
+        return;
+    }
     bool seesFront = dot(whole.normal, viewDirection(middle)) < 0.0;
     ledgerAdd(seesFront ? kAccountEdgeOn : kAccountHidden, whole.flux);
 }

@@ -17,8 +17,10 @@ void main() {
     PatchOnScreen onto;
     PatchParts parts = PatchParts(0.0, 0.0, 0.0);
     ivec2 local = ivec2(gl_LocalInvocationIndex & 7u, gl_LocalInvocationIndex >> 3u);
+    uint item = 0u;
     if (isHere) {
-        whole = patchOf(patchList[uint(firstWide) + index]);
+        item = patchList[uint(firstWide) + index];
+        whole = patchOf(item);
         for (int face = 0; face < viewCount; ++face) {
             if (!seenInFace(whole, face, there, onto)) continue;
             for (int row = onto.low.y + local.y; row <= onto.high.y; row += 8) {
@@ -39,8 +41,8 @@ void main() {
         }
         float total = 0.0;
         if (isHere) {
-            total = account(whole, viewCount > 1 || onto.isWhole, parts);
-            if (total <= 0.0) depositNear(whole);
+            total = account(item, whole, viewCount > 1 || onto.isWhole, parts);
+            if (total <= 0.0) depositNear(item, whole);
         }
         partsOfThreads[0].on = parts.on > 0.0 ? total : 0.0;
     }

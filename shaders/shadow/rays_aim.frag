@@ -35,5 +35,5 @@ void main() {
     rayDirection = photonDirectionTexel(ray);
     rayFlux = photonFluxTexel(ray);
     uint cell = uint(pixel.y) * uint(view.sizePixels.x) + uint(pixel.x);
-    rayOrigin = originTexel(PhotonOrigin(cell, uint(lightIndex), kEmittedPath, 0u));
+    rayOrigin = originTexel(PhotonOrigin(cell, uint(lightIndex), kEmittedPath, 0u, 0u));
 }

@@ -8,6 +8,7 @@ void main() {
     bool continues = index < photons.count &&
                   uint(texelFetch(hitFlux, texel, 0).w) == kFateSpecular;
     uint slot = nextSlot(continues);
+    countTraced();
     if (!continues) return;
     Hit hit = hitAt(texel);
     PhotonOrigin origin = originAt(texel);

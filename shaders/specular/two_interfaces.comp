@@ -86,7 +86,8 @@ void goThrough(Arrival arrival, Photon inside, PhotonOrigin origin) {
     Passage passage =
         throughBody(arrival.photon, arrival.hit, inside, specular_two_interfaces_steps,
                     specular_two_interfaces_distance, true);
-    PhotonOrigin beyond = PhotonOrigin(origin.cell, origin.light, origin.path << 1, origin.parent);
+    PhotonOrigin beyond = origin;
+    beyond.path <<= 1;
     if (!passage.isOut) {
         sendNothing(arrival.slot, passage.photon, beyond);
         return;
@@ -99,7 +100,7 @@ void goThrough(Arrival arrival, Photon inside, PhotonOrigin origin) {
     } else {
         beam = beamOf(throughLens(roundBeamAt(beam, arrival.photon, arrival.hit),
                                   meanCurvature(arrival.hit.shape),
-                                  meanCurvature(shapeAtExit(passage)), passage.way.length,
+                                  meanCurvature(shapeAtExit(passage)), passage.way.lengthMeters,
                                   passage.indices.x, passage.indices.y));
     }
     storeNextBeam(arrival.slot, beam);

@@ -4,16 +4,9 @@
 // 1989): its kernel integrated over the pixel, to second order. What is smaller than a pixel, or
 // thin as a line, keeps its flux.
 
-uniform int isRound;  // a disc of the same area instead
+#include "splats/pixel_on_plane.glsl"
 
-// What a pixel covers of the plane: to the next column and to the next row, m.
-mat2x3 pixelOnPlane(vec3 point, vec3 normal) {
-    vec3 ray = viewRay(pixelOf(point));
-    float facing = dot(normal, ray);
-    facing = (facing < 0.0 ? -1.0 : 1.0) * max(abs(facing), 1e-2 * length(ray));
-    mat2x3 across = mat2x3(vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0));
-    return (across - outerProduct(ray, (normal * across) / facing)) * splatFootprint(point);
-}
+uniform int isRound;  // a disc of the same area instead
 
 Sprite splatOf(ivec2 texel, out float wanted, out float largest) {
     Hit hit = hitAt(texel);
@@ -34,7 +27,8 @@ Sprite splatOf(ivec2 texel, out float wanted, out float largest) {
     if (wanted > largest) reach *= largest / wanted;
     sprite.radius = max(min(wanted, largest), splatFootprint(sprite.center));
 
-    mat2 pixel = transpose(sprite.tangents) * pixelOnPlane(sprite.center, sprite.normal);
+    mat2 pixel = transpose(sprite.tangents) *
+                 pixelOnPlane(sprite.center, sprite.normal, splatFootprint(sprite.center));
     // A kernel ends at three standard deviations; a pixel's variance is a twelfth of its square's.
     const float kPixel = 9.0 / 12.0;
     mat2 spread = reach * transpose(reach) + kPixel * (pixel * transpose(pixel));

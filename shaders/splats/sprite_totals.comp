@@ -3,6 +3,7 @@
 // next to it, goes to the ledger; the part that hangs off the surface's edge is redistributed on it.
 // One thread a photon.
 #include "include/photons/arriving.glsl"
+#include "include/photons/clamped.glsl"
 #include "include/photons/ledger.glsl"
 #include "include/surfaces/surface_data.glsl"
 #include "splats/splat.glsl"
@@ -10,10 +11,9 @@
 layout(std430) writeonly buffer SplatTotals {
     float splatTotals[];  // m²; 0: nothing is to be deposited
 };
-layout(std430) buffer CutSplats {
-    Narrowed cutOff;
-    Narrowed shrunk;
-};
+// Entries of the counts.
+const uint kCutOff = 0u;
+const uint kShrunk = 1u;
 
 // Whether the view looks at a surface's front.
 bool seesFront(Sprite sprite) {
@@ -88,15 +88,8 @@ float totalOf(ivec2 texel) {
         ledgerAdd(seesFront(sprite) ? kAccountEdgeOn : kAccountHidden, flux.rgb);
         return 0.0;
     }
-    if (wanted > largest) {
-        atomicAdd(shrunk.count, 1u);
-        atomicMax(shrunk.widestBits,
-                  floatBitsToUint(wanted / splatFootprint(sprite.center)));
-    }
-    if (farther > float(maxReach)) {
-        atomicAdd(cutOff.count, 1u);
-        atomicMax(cutOff.widestBits, floatBitsToUint(farther));
-    }
+    if (wanted > largest) countClamped(kShrunk, wanted / largest, flux.rgb);
+    if (farther > float(maxReach)) countClamped(kCutOff, farther / float(maxReach), flux.rgb);
     if (parts.occluded > 0.0) ledgerAdd(kAccountHidden, flux.rgb * (parts.occluded / total));
     if (parts.outside > 0.0) ledgerAdd(kAccountOutside, flux.rgb * (parts.outside / total));
     return parts.on > 0.0 ? total : 0.0;

@@ -14,20 +14,25 @@
 #include "maps/levels.glsl"
 #include "include/views/seen_receiver.glsl"
 #include "include/maps/deposit.glsl"
+#ifdef BEAM_WIDTHS
+#include "splats/pixel_on_plane.glsl"
+#endif
 
 uniform int mapsPerView;
-uniform int countsPerView;
+uniform int fluxSets;     // the first of them; what is kept for glossy receivers follows
 uniform float diameter;   // texels
 uniform int keepsEdges;   // 1: only texels that see the photon's own surface
 uniform int atTexels;     // 1: centred on the texel that the photon falls into
 uniform int level;
 #ifdef BEAM_WIDTHS
+#include "include/photons/clamped.glsl"
 uniform float widths;     // of a beam that a splat's diameter is
+uniform int isRound;      // as the beam is across, whatever the receiver's slant
 uniform float minimum;      // texels
 uniform float maximum;
-layout(std430) buffer CutSplats {
-    Narrowed narrowed;
-};
+// Entries of the counts.
+const uint kAboveMaximum = 0u;
+const uint kBelowMinimum = 1u;
 #endif
 #ifdef ONE_LEVEL
 uniform int levels;
@@ -47,7 +52,12 @@ struct Splat {
     vec2 center;  // of the level's texels
     vec3 position;
     vec3 normal;
-    float radius;  // texels
+    float radius;  // texels; of an ellipse along its longer axis
+#ifdef BEAM_WIDTHS
+    mat2 metric;  // 1/texel²: x · metric x is 1 at its edge
+    vec2 extent;  // texels, to each side
+    vec2 wanted;  // the shorter and the longer diameter that the beam asks for, texels
+#endif
 };
 
 float gaussian(float offset, float radius) {
@@ -66,6 +76,13 @@ WEIGHT weightAt(Splat splat, ivec2 texel) {
         weights[i] = farther <= radius ? gaussian(offset.x, radius) * gaussian(offset.y, radius) : 0.0;
     }
     return weights;
+#elif defined(BEAM_WIDTHS)
+    if (any(greaterThan(offset, max(splat.extent, vec2(0.5))))) return 0.0;
+    offset = vec2(texel) + 0.5 - splat.center;
+    float squared = dot(offset, splat.metric * offset);
+    // As the corners of a square; however small, it lies on the texel that it falls into.
+    if (squared > 2.0 && farther > 0.5) return 0.0;
+    return max(exp(-4.5 * squared), 1e-30);
 #else
     // However small, it lies on the texel that it falls into.
     if (farther > splat.radius && farther > 0.5) return 0.0;
@@ -104,41 +121,34 @@ struct Parts {
     WEIGHT clipped;
 };
 
-void add(ivec2 texel, int set, vec3 flux) {
-    sumAdd(placeOfLevel(level) + texel, viewIndex * mapsPerView + set + setOfLevel(level),
-           flux * ledgerUnitsPerWatt);
-}
-
-void count(ivec2 texel, int set) {
+// To a set of flux, with what belongs to it for glossy receivers.
+void add(ivec2 texel, int set, vec3 flux, vec3 direction) {
+    ivec2 place = placeOfLevel(level) + texel;
+    int first = set + setOfLevel(level);
+    sumAdd(place, viewIndex * mapsPerView + first, flux * ledgerUnitsPerWatt);
+    depositGlossy(place, viewIndex * mapsPerView + fluxSets + first, flux, direction);
 #ifdef COUNTS
-    imageAtomicAdd(photonCounts,
-                   ivec3(placeOfLevel(level) + texel,
-                         viewIndex * countsPerView + set + setOfLevel(level)), 1u);
+    imageAtomicAdd(photonCounts, ivec3(place, viewIndex * fluxSets + first), 1u);
 #endif
 }
 
 void deposit(Splat splat, ivec2 texel, WEIGHT share, vec3 flux, vec3 direction) {
 #ifdef FOUR_RADII
     for (int i = 0; i < 4; ++i) {
-        if (share[i] <= 0.0) continue;
-        add(texel, i, flux * share[i]);
-        count(texel, i);
+        if (share[i] > 0.0) add(texel, i, flux * share[i], direction);
     }
-    float widest = share[3];
 #else
-    add(texel, 0, flux * share);
-    count(texel, 0);
-    float widest = share;
+    add(texel, 0, flux * share, direction);
 #endif
-    if (level == 0)
-        depositGlossy(texel, viewIndex * mapsPerView + mapsPerView - 1, flux * widest, direction);
 }
 
-float reachOf(Splat splat) {
+vec2 reachOf(Splat splat) {
 #ifdef FOUR_RADII
-    return 7.5;
+    return vec2(7.5);
+#elif defined(BEAM_WIDTHS)
+    return max(splat.extent, vec2(0.5));
 #else
-    return max(splat.radius, 0.5);
+    return vec2(max(splat.radius, 0.5));
 #endif
 }
 // Of a cube's face no farther than it goes: the next one has the rest.
@@ -212,21 +222,48 @@ void splatInView(Splat splat, Parts parts, vec3 flux, vec3 direction) {
     }
 }
 
-float radiusOf(ivec2 texel, vec3 position) {
 #ifdef BEAM_WIDTHS
+// A round beam on the receiver, as the view's texels see it, or as round on them as it is.
+// `direction`: of the photon, in the current view.
+void shapeByBeam(inout Splat splat, ivec2 texel, vec3 direction) {
     Beam beam = beamAt(texel);
-    float width = sqrt(abs(determinant(beam.place +
-                                       texelFetch(hitPosition, texel, 0).w * beam.turn)));
-    float wanted = widths * width / pixelFootprint(-position.z);
-    if (wanted > maximum) {
-        atomicAdd(narrowed.count, 1u);
-        atomicMax(narrowed.widestBits, floatBitsToUint(wanted));
-    }
-    return 0.5 * clamp(wanted, minimum, maximum);
-#else
-    return 0.5 * diameter;
-#endif
+    float width =
+        sqrt(abs(determinant(beam.place + texelFetch(hitPosition, texel, 0).w * beam.turn)));
+    float footprint = pixelFootprint(-splat.position.z);
+    float radius = max(0.5 * widths * width, 1e-4 * footprint);  // m
+    mat2x3 pixel = pixelOnPlane(splat.position, splat.normal, footprint);
+    mat2x3 across = (pixel - outerProduct(direction, direction * pixel)) / radius;
+    if (isRound == 1) across = mat2x3(1.0, 0.0, 0.0, 0.0, 1.0, 0.0) * (footprint / radius);
+    // Its axes: eigenvectors of the metric, the shorter one first.
+    mat2 metric = transpose(across) * across;
+    float halfDifference = 0.5 * (metric[0][0] - metric[1][1]);
+    float larger = 0.5 * (metric[0][0] + metric[1][1]) +
+                   sqrt(halfDifference * halfDifference + metric[0][1] * metric[0][1]);
+    vec3 normal = cross(across[0], across[1]);
+    float smaller = dot(normal, normal) / larger;
+    float angle = metric[0][1] == 0.0 && halfDifference == 0.0
+                      ? 0.0
+                      : 0.5 * atan(metric[0][1], halfDifference);
+    mat2 axes = mat2(cos(angle), sin(angle), -sin(angle), cos(angle));
+    vec2 wanted = inversesqrt(max(vec2(larger, smaller), vec2(1e-12)));
+    splat.wanted = 2.0 * wanted;
+    vec2 halves = clamp(wanted, 0.5 * minimum, 0.5 * maximum);
+    splat.radius = halves.y;
+    splat.metric = axes * mat2(1.0 / (halves.x * halves.x), 0.0, 0.0, 1.0 / (halves.y * halves.y)) *
+                   transpose(axes);
+    vec2 squares = halves * halves;
+    splat.extent =
+        sqrt(vec2(dot(squares, vec2(axes[0].x, axes[1].x) * vec2(axes[0].x, axes[1].x)),
+                  dot(squares, vec2(axes[0].y, axes[1].y) * vec2(axes[0].y, axes[1].y))));
 }
+
+// `wanted`: the shorter and the longer diameter.
+void countBounds(vec2 wanted, vec3 flux) {
+    if (wanted.y > maximum) countClamped(kAboveMaximum, wanted.y / maximum, flux);
+    if (wanted.x < minimum)
+        countClamped(kBelowMinimum, minimum / max(wanted.x, 1e-6 * minimum), flux);
+}
+#endif
 
 // Of a photon that arrives at `positionVs`, in the current view; false where none of it lies there.
 // A splat at the edge of one face of a cube goes on in the next.
@@ -234,11 +271,15 @@ bool splatOf(ivec2 texel, vec3 positionVs, vec3 normalVs, out Splat splat) {
     splat.position = pointFromEye(positionVs);
     if (-splat.position.z <= view.frustum.z) return false;
     splat.normal = directionFromEye(normalVs);
-    splat.radius = radiusOf(texel, splat.position);
+#ifdef BEAM_WIDTHS
+    shapeByBeam(splat, texel, directionFromEye(texelFetch(photonDirection, texel, 0).xyz));
+#else
+    splat.radius = 0.5 * diameter;
+#endif
     splat.center = pixelOf(splat.position) / float(1 << level);
     if (atTexels == 1) splat.center = floor(splat.center) + 0.5;
     vec2 outside = max(-splat.center, splat.center - vec2(sizeOfLevel(level)));
-    return all(lessThan(outside, vec2(reachOf(splat))));
+    return all(lessThan(outside, reachOf(splat)));
 }
 
 // Whether the ledger counts what this level does not take.
@@ -283,6 +324,9 @@ void main() {
     Splat splat;
     bool isOwn = false;
     bool isLit = true;
+#ifdef BEAM_WIDTHS
+    vec2 wanted = vec2(minimum);
+#endif
     for (int face = 0; face < viewCount; ++face) {
 #ifdef MANY_VIEWS
         viewIndex = face;
@@ -295,6 +339,9 @@ void main() {
             bool isHidden = lookAt(splat, ivec2(floor(pixelOf(splat.position)))) == kSeenOccluded;
             account = isHidden || !isLit ? kAccountHidden : kAccountEdgeOn;
             if (!isLit) break;
+#ifdef BEAM_WIDTHS
+            wanted = splat.wanted;
+#endif
         }
         addParts(splat, parts);
     }
@@ -318,6 +365,9 @@ void main() {
         return;
     }
     if (isBooked()) countLost(parts, flux);
+#ifdef BEAM_WIDTHS
+    countBounds(wanted, flux);
+#endif
     for (int face = 0; face < viewCount; ++face) {
 #ifdef MANY_VIEWS
         viewIndex = face;

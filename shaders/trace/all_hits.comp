@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// trace.all_hits: one thread a photon, for one slot; slot 0 holds the first hit, the others the
+// trace.all_hits: the hits of one slot, a thread a photon; slot 0 holds the first hit, the others the
 // receivers that the ray would hit beyond it.
 #include "include/photons/photon_thread.glsl"
 #include "include/photons/store_hits.glsl"
@@ -54,12 +54,9 @@ void main() {
     if (photon.fate == kFateInFlight) {
         FirstHit found = hitNumber(photon, slot);
         if (slot == 0 || found.hit.layer >= 0) hit = deliver(photon, found);
+        bool isLast = slot == trace_all_hits_slots - 1;
+        if (isLast && hit.fate == kFateReceiver) ledgerAdd(kAccountFullSlots, hit.fluxWatts);
     }
-    if (slot > 0) photon.fate = kFateEnded;  // once on its way
     uint next = uint(slot) * photons.count + index;
-    storeNext(next, photon, originAt(texel));
-#ifdef PHOTON_BEAMS
-    storeNextBeam(next, beamAt(texel));
-#endif
     storeHit(ivec2(photonTexel(nextPhotons, next)), hit);
 }

@@ -5,6 +5,7 @@
 #include "include/photons/photon_thread.glsl"
 #include "include/views/plane_search.glsl"
 #include "include/photons/store_hits.glsl"
+#include "tracing/specular_ahead.glsl"
 #include "include/views/seen_receiver.glsl"
 
 uniform int lightIndex;
@@ -45,7 +46,7 @@ Found findInView(vec3 origin, vec3 direction, out uint cause) {
     return found;
 }
 
-Hit traced(Photon photon) {
+Hit traced(Photon photon, ivec2 texel) {
     if (!isNumber(photon)) {
         ledgerAdd(kAccountNotANumber, vec3(0.0));
         return emptyHit();
@@ -71,6 +72,7 @@ Hit traced(Photon photon) {
         }
         if (cause != kAccountUnresolved) causeOfMiss = cause;
     }
+    if (isStopped(texel, nearest.isHit ? nearest.t : 3.0e38)) return stoppedHit(photon, texel);
     if (!nearest.isHit) {
         ledgerAdd(causeOfMiss, photon.fluxWatts);
         return emptyHit();
@@ -90,6 +92,6 @@ void main() {
     if (int(originAt(texel).light) != lightIndex) return;
     Photon photon = photonAt(texel);
     Hit hit = emptyHit();
-    if (photon.fate == kFateInFlight) hit = traced(photon);
+    if (photon.fate == kFateInFlight) hit = traced(photon, texel);
     storeHit(texel, hit);
 }

@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: MIT
 // The last part of the reduce: the column of first hits becomes hits in the transfer map, or, for a
 // photon that hit nothing, an entry in the ledger. One thread a row.
+#include "include/thread.glsl"
 #include "include/photons/photons.glsl"
 #include "include/photons/store_hits.glsl"
 #include "include/photons/traced_photon.glsl"
 #include "trace/lines_row_extent.glsl"
 #include "trace/lines_row_texel.glsl"
 
-layout(local_size_x = 64) in;
-
 uniform sampler2D column;
 uniform int firstPhoton;
 uniform int rowsWidth;
 
 void main() {
-    int row = int(gl_GlobalInvocationID.x);
+    int row = int(threadNumber());
     uint index = uint(firstPhoton + row);
     if (index >= photons.count || row >= textureSize(column, 0).y) return;
     ivec2 texel = ivec2(photonTexel(photons, index));

@@ -3,6 +3,7 @@
 #include "include/photons/deliver.glsl"
 #include "include/photons/photon_thread.glsl"
 #include "include/photons/store_hits.glsl"
+#include "tracing/specular_ahead.glsl"
 #include "techniques/trace/plane_face.h"
 
 layout(std430) readonly buffer FlatFaces {
@@ -39,7 +40,7 @@ float intersectFace(FlatFace face, vec3 origin, vec3 direction) {
     return isInside ? t : nowhere;
 }
 
-Hit traceToPlanes(Photon photon) {
+Hit traceToPlanes(Photon photon, ivec2 texel) {
     if (!isNumber(photon)) {
         ledgerAdd(kAccountNotANumber, vec3(0.0));
         return emptyHit();
@@ -56,6 +57,7 @@ Hit traceToPlanes(Photon photon) {
         nearest = i;
         nearestT = t;
     }
+    if (isStopped(texel, nearest < 0 ? 3.0e38 : nearestT)) return stoppedHit(photon, texel);
     if (nearest < 0) {
         ledgerAdd(missAccount, photon.fluxWatts);
         return emptyHit();
@@ -70,6 +72,6 @@ void main() {
     ivec2 texel = ivec2(photonTexel(photons, index));
     Photon photon = photonAt(texel);
     Hit hit = emptyHit();
-    if (photon.fate == kFateInFlight) hit = traceToPlanes(photon);
+    if (photon.fate == kFateInFlight) hit = traceToPlanes(photon, texel);
     storeHit(texel, hit);
 }

@@ -2,26 +2,33 @@
 // What the eye sees in and through a caustic generator: its ray is followed among the layers around
 // that (U08, section 6: "when secondary reflective or refractive rays are traced" the cube map "can be
 // looked up" too), and where it ends, whether the picture shows that or not, the receiver is lit by
-// the lights past what casts shadows there, and by the light that is stored around the generator.
+// the lights past what casts shadows there, as the lights' own maps tell, and by the light that is
+// stored around the generator.
 // Radiance changes by T at every interface and by 1/n² where what is seen lies in a medium of index n
 // (hard case 28a), and is absorbed on the way. Fragments of other generators are left out.
+//   HAS_LIGHTS         the scene has any
 //   LIGHT_IS_STORED    there is a map of it
 //   GLOSSY_RECEIVERS   which knows where it comes from
 #include "tracing/secant.glsl"
-#include "framework/transport/brdf.h"
 #include "include/surfaces/environment.glsl"
 #include "include/views/first_surface.glsl"
 #include "include/surfaces/generators.glsl"
-#include "include/photons/lights.glsl"
+#ifdef HAS_LIGHTS
+#include "include/views/light_shadow.glsl"
+#endif
 #define MAP_IS_CUBE
 #ifdef GLOSSY_RECEIVERS
 #define MEAN_INCIDENCE
 #endif
 #include "include/maps/map_lookup.glsl"
+#include "include/maps/mean_direction.glsl"
+#include "include/surfaces/spread_lobe.glsl"
 
 uniform sampler2DArray mapAlbedo;
 uniform int generatorIndex;
+#ifdef HAS_LIGHTS
 uniform int lightCount;
+#endif
 uniform vec4 eyeFrustum;  // as ViewData has them
 uniform vec4 eyeSizePixels;
 
@@ -63,18 +70,18 @@ vec3 radianceOf(vec3 positionVs, vec3 direction, vec3 normal, uint material) {
     vec4 lobe = materials[material - 1u].specular;
     viewIndex = 0;
     vec3 sum = (albedo + lobe.rgb) * (1.0 / 3.14159265) * view.ambient.rgb;
+#ifdef HAS_LIGHTS
     for (int i = 0; i < lightCount; ++i) {
         vec3 toLight = -lightDirection(lights[i], positionVs);
         float cosine = dot(normal, toLight);
         vec3 irradiance = cosine > 0.0 ? lightIrradiance(lights[i], positionVs) : vec3(0.0);
         if (irradiance == vec3(0.0)) continue;
-        FirstHit blocker = firstAround(positionVs, toLight, withLeftSide(0u, kLeftBothSides));
-        bool isSun = uint(lights[i].positionVs.w) == kLightDirectional;
-        float reach = isSun ? 3.0e38 : length(lights[i].positionVs.xyz - positionVs);
-        if (blocker.hit.layer >= 0 && blocker.hit.t < reach) continue;
-        sum += irradiance * cosine *
+        // Everything specular blocks it: what passes through that is stored light.
+        float visible = visibleShare(shadowPlaceOf(positionVs, shadowLayersOf(i)), normal);
+        sum += irradiance * (visible * cosine) *
                receiverBrdf(albedo, lobe.rgb, lobe.w, normal, toLight, -direction);
     }
+#endif
 #ifdef LIGHT_IS_STORED
     Gathered stored = Gathered(vec3(0.0), vec3(0.0));
     for (int i = 0; i < int(generators.count.x); ++i) {
@@ -85,14 +92,12 @@ vec3 radianceOf(vec3 positionVs, vec3 direction, vec3 normal, uint material) {
     }
     float all = stored.irradiance.r + stored.irradiance.g + stored.irradiance.b;
     if (all > 0.0) {
-        vec3 from = normal;
+        MeanDirection mean = MeanDirection(normal, 1.0);
 #ifdef GLOSSY_RECEIVERS
-        from = -(stored.direction / all - 1.0);
-        float size = length(from);
-        from = size > 1e-6 ? from / size : normal;
+        mean = meanDirectionOf(stored.irradiance, stored.direction);
 #endif
-        sum += stored.irradiance *
-               receiverBrdf(albedo, lobe.rgb, lobe.w, normal, from, -direction);
+        sum += stored.irradiance * spreadBrdf(albedo, lobe.rgb, lobe.w, normal, mean.towards,
+                                              -direction, mean.resultant);
     }
 #endif
     return sum;

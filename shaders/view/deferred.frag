@@ -40,7 +40,7 @@ void goThroughBodies(inout EyePath path, ivec2 pixel, vec3 viewing, float depth,
                 through = distanceInside(entry, along, through, view_deferred_steps);
             InnerPath way = innerPath(entry, along, path.direction, normal, through, index,
                                       view_deferred_steps, view_deferred_distance);
-            path.throughput *= mediumTransmittance(material, way.length);
+            path.throughput *= mediumTransmittance(material, way.lengthMeters);
             path.origin = way.exit;
             path.interfaces += 1.0;
             Interface second = interactAt(path.direction, way.normal, index, 1.0);

@@ -14,7 +14,7 @@ void goThroughBodies(inout EyePath path, ivec2 pixel, vec3 viewing, float depth,
     float through = (back - depth) * length(viewing);
     InnerPath way = innerPath(viewing * depth, normalize(viewing), path.direction, surface.xyz,
                               through, index, view_image_space_steps, view_image_space_distance);
-    path.throughput *= mediumTransmittance(material, way.length);
+    path.throughput *= mediumTransmittance(material, way.lengthMeters);
     path.origin = way.exit;
     path.interfaces = 2.0;
     Interface second = interactAt(path.direction, way.normal, index, 1.0);

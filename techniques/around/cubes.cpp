@@ -39,7 +39,8 @@ struct CubesParams {
         r.choice(order, "order",
                  "smooth: what faces the same way on the same material is one layer; depth: the "
                  "nearest is the first",
-                 {"smooth", "depth"});
+                 {"smooth", "depth"})
+            .when(layers > 1, "with around.cubes.layers=1");
         r.field(memoryMebibytes, "memory",
                 "Most memory of all layers together; larger faces are halved until they fit, and "
                 "the report says so",

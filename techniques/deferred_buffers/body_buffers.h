@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "techniques/deferred_buffers/deferred_buffers.h"
+#include "techniques/raster_views/back_faces.h"
 
 namespace kaustik {
 
@@ -23,9 +24,9 @@ struct Body {
 // Coarsely sorted, by the nearest points of their boxes: from a point, or along a direction.
 [[nodiscard]] std::vector<Body> nearestFirst(std::vector<Body> bodies, const scene::Light& light);
 [[nodiscard]] std::vector<Body> nearestFirst(std::vector<Body> bodies, const glm::dvec3& eye);
-// "'a', 'b'"
+// The names in quotation marks and separated by commas: "'a', 'b'".
 [[nodiscard]] std::string quoted(const std::vector<std::string>& names);
-// Of what is left of them beyond the first so many; "" where nothing is.
+// Names the bodies beyond the first `maximum`, which are left out; "" where there are none.
 [[nodiscard]] std::string omittedNames(const std::vector<Body>& bodies, int maximum);
 void truncateBodies(std::vector<Body>& bodies, int maximum);
 
@@ -39,8 +40,9 @@ struct BodyBuffers {
     int bodies = 0;
     int boxes = 0;
     const gl::Buffer* boxData = nullptr;  // of deferred::BodyBox; lives as long as the frame
-    // For deferred_buffers/bodies.glsl: "bodyDepth", "bodySurface", "bodyShape"; shaders are
-    // compiled as BODIES, and of more than one as SEVERAL_BODIES.
+    // Declares what deferred_buffers/bodies.glsl reads: "bodyDepth", "bodySurface", "bodyShape".
+    // The pass's shaders are compiled as BODIES, and as SEVERAL_BODIES where there is more than
+    // one.
     void sample(graph::PassSetup& setup) const;
     // The block "BodyBoxes", "boxCount" and "bodyCount".
     void bindTo(gl::Command& command) const;
@@ -56,13 +58,17 @@ struct BodySearchParams {
         r.field(searchSteps, "search_steps",
                 "Even steps through a body's box in which its front is searched before what "
                 "iteration has found, or where it has found nothing",
-                "", params::range(0, 1024));
+                "", params::range(0, 1024))
+            .when(&whyNoOtherBody);
         r.renamed("looks", "search_steps");
         r.field(iterations, "iterations",
                 "Looks at the front that a ray may meet before the residual's test", "",
-                params::range(1, 64));
+                params::range(1, 64))
+            .when(&whyNoOtherBody);
         r.field(refinements, "refinements", "Bisections of the step in which a front was found", "",
-                params::range(0, 32));
+                params::range(0, 32))
+            .when(&whyNoOtherBody)
+            .when(searchSteps > 0, "no front is searched for, with search_steps=0");
     }
 };
 

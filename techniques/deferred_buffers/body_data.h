@@ -10,7 +10,7 @@ namespace kaustik::deferred {
 using glm::vec4;
 #endif
 
-// In a view's space, along the world's axes, m (std430). The centre's w: the body's number.
+// A box in a view's space, along the world's axes, m (std430). The centre's w is the body's number.
 struct BodyBox {
     vec4 centerVs;
     vec4 halfExtent;

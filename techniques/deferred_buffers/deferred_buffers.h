@@ -9,7 +9,7 @@
 
 namespace kaustik {
 
-// Which triangle a light sees. x: object's index + 1, 0 none; y: the triangle.
+// The triangle that a light sees. x: object's index + 1, 0 none; y: the triangle.
 struct TriangleTexel {
     static constexpr Format format = Format::rg32ui;
 };
@@ -33,7 +33,7 @@ struct DeferredBuffers {
 // Whether specular.deferred takes the backs of these buffers: of a scene's only body.
 [[nodiscard]] bool sharesBackFaces(const FrameBuilder& frame);
 
-// By light, drawn once a frame by the first who asks.
+// The buffers of each light, drawn once a frame by the first node that asks.
 [[nodiscard]] const std::vector<DeferredBuffers>& deferredBuffers(FrameBuilder& frame,
                                                                   const Geometry& geometry);
 

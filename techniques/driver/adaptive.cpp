@@ -7,7 +7,7 @@
 // is bounded by the rounds' size and the levels, and which photons there are depends on no limit.
 //
 // The nodes that emit, interact and trace serve probes and photons alike. What probes lose goes to
-// a ledger of their own, which nobody reads; metrics that do not ask where light arrives have
+// a ledger of their own, which is not read; metrics that do not ask where light arrives have
 // probes that end where they start. Where a medium scatters, a traversal of its own chooses photons
 // whose paths are drawn in it (WN09, section 6).
 #include <fmt/format.h>
@@ -20,10 +20,12 @@
 #include "framework/core/error.h"
 #include "framework/pipeline/frame_builder.h"
 #include "framework/pipeline/stage_params.h"
+#include "framework/transport/primitives.h"
 #include "techniques/light_cells/cell_lists.h"
 #include "techniques/light_cells/landing.h"
 #include "techniques/light_cells/refine_stage.h"
 #include "techniques/photon_lists/photon_paths.h"
+#include "techniques/specular/split.h"
 
 namespace kaustik {
 namespace {
@@ -93,9 +95,9 @@ Start start(FrameBuilder& frame, const Purpose& purpose) {
             t.photons =
                 makeList(setup, "photons" + t.suffix, "photons.list" + t.suffix, sizes.photons);
             data.ledger = setup.createBuffer<transport::LedgerEntry>("ledger" + t.suffix,
-                                                                     transport::kAccountCount);
+                                                                     transport::kLedgerEntryCount);
             data.scratch = setup.createBuffer<transport::LedgerEntry>(
-                "adaptive.probes_ledger" + t.suffix, transport::kAccountCount);
+                "adaptive.probes_ledger" + t.suffix, transport::kLedgerEntryCount);
         },
         [side, cells, level = sizes.startLevel](const Start& data, gl::PassContext& context) {
             context.buffer(data.ledger).clear();
@@ -150,24 +152,24 @@ CellTraversal probe(FrameBuilder& frame, CellTraversal traversal, const Surfaces
     Samples samples;
     samples.suffix = purpose.suffix + ".probes";
     samples.cells = traversal.probes;
-    samples.isProbe = true;
     samples.ledger = scratch;
     Hits hits = frame.run<EmitStage>(surfaces, samples);
     traversal.first = hits;
     scratch = hits.incoming.ledger;
     if (purpose.metric == RefineMetric::traversal) return traversal;
+    ProbeNumbers numbers;
     int interactions = 1;
     for (int i = 0; i < interactions; ++i) {
         const Photons photons = frame.run<SpecularStage>(hits, surfaces);
         interactions = interactionCount(frame, photons.paths);
         if (i == 0) {
-            traversal.branches = photons.cells.splits > 0 ? kMaxBranches : 1;
+            traversal.branches = 1 << branchLevels(frame);
             const CellTraversal before = traversal;
             traversal = frame.pass<CellTraversal>(
                 "landings", "nothing has landed yet",
                 [&](graph::PassSetup& setup, CellTraversal& data) {
                     data = before;
-                    data.landings = setup.createBuffer<transport::Landing>(
+                    data.landings = setup.createBuffer<light_cells::Landing>(
                         "adaptive.landings" + before.suffix,
                         static_cast<std::size_t>(before.probes.capacity() * before.branches));
                 },
@@ -177,8 +179,10 @@ CellTraversal probe(FrameBuilder& frame, CellTraversal traversal, const Surfaces
         }
         hits = frame.run<TraceStage>(photons, surfaces);
         scratch = hits.incoming.ledger;
-        traversal.landings = findLandings(frame, "land", traversal.landings, hits, surfaces,
-                                          purpose.metric, purpose.landing, traversal.branches);
+        numbers = followProbes(frame, "follow", numbers, hits);
+        traversal.landings =
+            findLandings(frame, "land", traversal.landings, hits, surfaces, purpose.metric,
+                         purpose.landing, numbers, traversal.branches);
     }
     return traversal;
 }
@@ -228,6 +232,13 @@ Caustic driveAdaptive(FrameBuilder& frame, const params::NoParams&, Surfaces sur
             inputs.params.choice(EmitStage::name)));
     }
     const auto& params = frame.params<RefineParams>("refine");
+    warnNothingJoined(frame);
+    if (params.isMetricUnasked()) {
+        frame.warn(fmt::format(
+            "refine.finest = {} is below refine.check = {}: refine.metric is never asked, and "
+            "all that holds something specular is split to the finest cells.",
+            params.finest, params.check));
+    }
     Purpose map{"", params.metric, LandingSource::probe, params.tolerance, sizesOf(frame, params),
                 {}};
     const bool scatters = frame.needs().scatteringMedium;
@@ -257,8 +268,10 @@ TraversalSizes sizesOf(const FrameBuilder& frame, const RefineParams& params) {
     sizes.startLevel = std::min(levelOf(powerOfTwo("start", params.start)), sizes.finestLevel) - 1;
     sizes.checkLevel = levelOf(powerOfTwo("check", params.check));
     // Two lists of photons and their hits at a time, of probes and of photons; cells, landings.
-    const double each = 2.0 * (frame.usesBeams() ? 160.0 : 112.0) * 2.0 + 3.0 * sizeof(LightCell) +
-                        kMaxBranches * sizeof(transport::Landing);
+    const double branches = std::exp2(branchLevels(frame));
+    const double each =
+        branches * (2.0 * (frame.usesBeams() ? 160.0 : 112.0) + sizeof(light_cells::Landing)) +
+        3.0 * sizeof(LightCell);
     const double maximum = static_cast<double>(params.memoryMebibytes) * 1048576.0 / each;
     // There are no more than there are finest cells; more at once would be no faster, and textures
     // have an end.
@@ -280,7 +293,13 @@ void registerDriverAdaptive(Registry& registry) {
          "It needs an emitter that makes photons cell by cell, emit=deferred, and refuses every "
          "other; emit.photons and emit.batch have no effect. What is thinner than a texel of "
          "emit.deferred.size is not found."},
-        {.refines = true}, &driveAdaptive);
+        {.refines = true,
+         .parameters = "refine.finest and refine.memory",
+         .whyNoNeighbours =
+             [](const FrameFacts&) {
+                 return std::string("photons of driver=adaptive are of cells of any size");
+             }},
+        &driveAdaptive);
 }
 
 }  // namespace kaustik

@@ -59,11 +59,11 @@ Merged mergeArriving(FrameBuilder& frame, const Hits& hits, const Surfaces& surf
             "driver.hierarchical needs photons of cells that are neighbours; take emit=grid or "
             "emit=deferred.");
     }
-    using Landings = graph::Buffer<transport::Landing>;
+    using Landings = graph::Buffer<light_cells::Landing>;
     Landings landings = frame.pass<Landings>(
         "driver.landings", "nothing has landed yet",
         [&](graph::PassSetup& setup, Landings& data) {
-            data = setup.createBuffer<transport::Landing>(
+            data = setup.createBuffer<light_cells::Landing>(
                 "hierarchy.landings" + photons.suffix,
                 static_cast<std::size_t>(photons.capacity()));
         },
@@ -71,7 +71,7 @@ Merged mergeArriving(FrameBuilder& frame, const Hits& hits, const Surfaces& surf
     landings =
         findLandings(frame, "driver.land", landings, hits, surfaces,
                      params.metric == RefineMetric::eye ? RefineMetric::eye : RefineMetric::map,
-                     LandingSource::photon, 1);
+                     LandingSource::photon);
     const HierarchyLayout layout(photons.cells);
     struct Data {
         Merged merged;
@@ -99,7 +99,7 @@ Merged mergeArriving(FrameBuilder& frame, const Hits& hits, const Surfaces& surf
                         "mergedTurn", setup.create<BeamTurn>("photons.spread" + photons.suffix,
                                                              photons.width, photons.height));
                 }
-                // Photons of several cells are nobody's neighbours.
+                // Photons of several cells have no neighbours.
                 if (params.tolerance > 0.0f) {
                     merged.hits.incoming.cells = {};
                     merged.hits.incoming.extents = {};
@@ -140,6 +140,7 @@ Merged mergeArriving(FrameBuilder& frame, const Hits& hits, const Surfaces& surf
 
 Caustic driveHierarchical(FrameBuilder& frame, const params::NoParams&, Surfaces surfaces) {
     const auto& params = frame.params<RefineParams>("refine");
+    warnNothingJoined(frame);
     frame.skip("refine." + frame.inputs().params.choice(RefineStage::name),
                "every cell has its photon already");
     using Counts = graph::Buffer<transport::CellCounts>;
@@ -150,7 +151,9 @@ Caustic driveHierarchical(FrameBuilder& frame, const params::NoParams&, Surfaces
         },
         [](const Counts& data, gl::PassContext& context) { context.buffer(data).clear(); });
     Caustic caustic;
-    for (const Samples& samples : batchesOfGrids(frame, 1 << kLevels)) {
+    // Whole squares; photons that stand for several cells are nobody's neighbours.
+    const bool joins = params.tolerance <= 0.0f;
+    for (const Samples& samples : batchesOfGrids(frame, 1 << kLevels, joins)) {
         PhotonUse use;
         use.arriving = [&](const Hits& hits) {
             const Merged merged = mergeArriving(frame, hits, surfaces, params, counts);
@@ -175,6 +178,11 @@ void registerDriverHierarchical(Registry& registry) {
          "refuses those that have none. Every photon is emitted and traced all the same: storing "
          "alone is saved.",
          {"refine.tolerance", "refine.metric"}},
+        {.whyNoNeighbours = [](const FrameFacts& facts) -> std::string {
+            if (facts.settings.get<RefineParams>(RefineStage::name).tolerance <= 0.0f) return "";
+            return "photons of driver=hierarchical stand for several cells; with "
+                   "refine.tolerance=0 they do not";
+        }},
         &driveHierarchical);
 }
 

@@ -14,18 +14,13 @@
 namespace kaustik {
 namespace {
 
-struct DeferredRows {
-    params::Extent grid;
-    int first = 0;
-    int count = 0;
-};
-
 // A thread a photon, for each light in turn.
 void dispatchOverLights(const FrameInputs& inputs, gl::PassContext& context, const Hits& hits,
                         const Geometry& geometry, const std::vector<DeferredBuffers>& buffers,
-                        const DeferredParams& params, const Samples& samples,
-                        const DeferredRows& rows, bool onlyBeams) {
+                        const DeferredParams& params, const Samples& samples, params::Extent grid,
+                        bool onlyBeams) {
     const bool isList = samples.cells.valid();
+    const CellGrid& cells = hits.incoming.cells;
     const int first = isList ? 0 : samples.firstLight;
     const int end =
         isList ? static_cast<int>(buffers.size())
@@ -36,16 +31,12 @@ void dispatchOverLights(const FrameInputs& inputs, gl::PassContext& context, con
             context.compute(onlyBeams ? "emit/deferred_beams.comp" : "emit/deferred.comp");
         if (isList) {
             command.define("CELL_LIST").storage("LightCells", samples.cells.cells);
-            if (samples.isProbe) command.define("PROBES");
         } else {
-            command.set("gridSize", glm::ivec2(rows.grid.width, rows.grid.height))
-                .set("firstRow", rows.first)
-                .set("rowsHere", rows.count)
+            command.set("gridSize", glm::ivec2(grid.width, grid.height))
+                .set("firstRow", cells.firstRow)
+                .set("rowsHere", cells.rows)
                 .set("firstLight", samples.firstLight);
-            if (!onlyBeams) {
-                command.set("ownRows",
-                            glm::ivec2(samples.firstRow, samples.firstRow + samples.rows));
-            }
+            if (!onlyBeams) command.set("ownRows", glm::ivec2(cells.firstOwn, cells.endOwn));
         }
         if (onlyBeams) {
             const Photons& photons = hits.incoming;
@@ -71,10 +62,7 @@ Hits emitDeferred(FrameBuilder& frame, const DeferredParams& params, Surfaces su
     const std::vector<DeferredBuffers>& buffers = deferredBuffers(frame, surfaces.geometry);
     const bool isList = samples.cells.valid();
     const params::Extent grid = frame.params<EmitParams>("emit").photons;
-    // Cells next to a batch are known to it where they are to be joined with.
-    const int borderRows = frame.joinsCells() ? 1 : 0;
-    DeferredRows rows{grid, std::max(samples.firstRow - borderRows, 0), 0};
-    rows.count = std::min(samples.firstRow + samples.rows + borderRows, grid.height) - rows.first;
+    const CellGrid cells = isList ? CellGrid{} : cellsOf(samples, grid);
     struct Data {
         Hits hits;
         Geometry geometry;
@@ -95,23 +83,20 @@ Hits emitDeferred(FrameBuilder& frame, const DeferredParams& params, Surfaces su
                     setup.read(samples.cells.list);
                 }
                 const int width = isList ? samples.cells.width : grid.width;
-                const int height = isList ? samples.cells.height : rows.count * samples.lights;
+                const int height = isList ? samples.cells.height : cells.rows * samples.lights;
                 Photons photons = Photons::create(setup, width, height, samples.suffix,
                                                   frame.usesBeams(), samples.cells);
-                if (!isList) {
-                    photons.cells = {grid.width,         rows.first,     rows.count,
-                                     samples.firstLight, samples.lights, 0};
-                }
+                photons.cells = cells;
                 data.hits = storeEmitted(setup, photons, samples);
             },
-            [&inputs = frame.inputs(), params, buffers, samples, rows](const Data& data,
+            [&inputs = frame.inputs(), params, buffers, samples, grid](const Data& data,
                                                                        gl::PassContext& context) {
                 const Photons& photons = data.hits.incoming;
                 beginEmission(context, photons, samples);
                 for (const bool onlyBeams : {false, true}) {
                     if (onlyBeams && !photons.hasBeams()) continue;
                     dispatchOverLights(inputs, context, data.hits, data.geometry, buffers, params,
-                                       samples, rows, onlyBeams);
+                                       samples, grid, onlyBeams);
                 }
             })
         .hits;

@@ -45,15 +45,31 @@ struct SightOfLight {
     static constexpr Format format = Format::rg32ui;
 };
 
+// Most parts of a light's view that are drawn at once.
+constexpr int kMaxSight = 4194304;
+
 // Cells of a batch: rows of the grids, with those next to it that its own are to be joined with.
 struct GridRows {
     params::Extent grid;
-    int first = 0;
-    int count = 0;
+    CellGrid cells;
     int subcells = 1;
+    // What a light sees is drawn in bands of the grid's rows that no batch has a part in: a
+    // rasteriser rounds by where in its window a triangle lies.
+    [[nodiscard]] int bandRows() const {
+        return std::clamp(kMaxSight / (grid.width * subcells * subcells), 1, grid.height);
+    }
     // A cell's extent depends on what the light sees no farther than two cells away.
-    [[nodiscard]] int firstSeen() const { return first - 2; }
-    [[nodiscard]] int seen() const { return count + 4; }
+    [[nodiscard]] int firstSeen(int band) const { return band * bandRows() - 2; }
+    [[nodiscard]] int seen() const { return bandRows() + 4; }
+    [[nodiscard]] int firstBand() const { return cells.firstRow / bandRows(); }
+    [[nodiscard]] int endBand() const { return (cells.firstRow + cells.rows - 1) / bandRows() + 1; }
+    // The rows of the batch that a band has.
+    [[nodiscard]] int firstIn(int band) const {
+        return std::max(cells.firstRow, band * bandRows());
+    }
+    [[nodiscard]] int rowsIn(int band) const {
+        return std::min(cells.firstRow + cells.rows, (band + 1) * bandRows()) - firstIn(band);
+    }
 };
 
 struct GridEmission {
@@ -64,46 +80,48 @@ struct GridEmission {
 };
 
 void drawSight(const FrameInputs& inputs, gl::PassContext& context, const GridEmission& data,
-               const LightSight& seen, const GridRows& rows) {
+               const LightSight& seen, const GridRows& rows, int band) {
     gl::Command command = context.shaders({"emit/grid_sight.vert", "emit/grid_sight.frag"});
     command.target(data.sight).clear();
     command.depth(data.depth, gl::DepthTest::nearerReversed).clear();
     const int width = rows.grid.width * rows.subcells;
     const int height = rows.grid.height * rows.subcells;
-    command.viewport(0, -rows.firstSeen() * rows.subcells, width, height)
+    command.viewport(0, -rows.firstSeen(band) * rows.subcells, width, height)
         .set("projection", seen.view.projection())
         .set("sightSize", glm::vec2(width, height));
     inputs.gpuScene.draw(command, context, data.geometry, *seen.instances, render::DrawSet::all);
 }
 
-// Of the cells of a light: shaders that include include/photons/light_grid.glsl.
+// Of the cells of a light in a band: shaders that include include/photons/light_grid.glsl.
 void dispatchOverCells(const FrameInputs& inputs, gl::Command command, const GridEmission& data,
-                       const LightSight& seen, const GridRows& rows, int light, int firstOfLight) {
+                       const LightSight& seen, const GridRows& rows, int band, int light,
+                       int firstOfLight) {
     command.texture("sight", data.sight)
         .storage("Instances", inputs.instances.instances)
         .storage("LightInstances", seen.instances->instances)
         .set("subcells", rows.subcells)
-        .set("sightFirstRow", rows.firstSeen())
+        .set("sightFirstRow", rows.firstSeen(band))
         .set("gridSize", glm::ivec2(rows.grid.width, rows.grid.height))
         .set("halfExtent", glm::vec2(seen.view.halfExtent))
         .set("lightIndex", light)
-        .set("cellsHere", glm::ivec2(rows.grid.width, rows.count))
-        .set("firstRow", rows.first)
-        .set("firstOfLight", firstOfLight);
+        .set("cellsHere", glm::ivec2(rows.grid.width, rows.rowsIn(band)))
+        .set("firstRow", rows.firstIn(band))
+        .set("firstOfLight", firstOfLight + rows.firstIn(band) - rows.cells.firstRow);
     inputs.gpuScene.bindTriangles(command, data.geometry);
-    command.dispatchOver(rows.grid.width, 8, rows.count, 8);
+    command.dispatchOver(rows.grid.width, 8, rows.rowsIn(band), 8);
 }
 
 void emitFrom(const FrameInputs& inputs, gl::PassContext& context, const GridEmission& data,
-              const LightSight& seen, const GridRows& rows, const Samples& samples, int light) {
+              const LightSight& seen, const GridRows& rows, const Samples& samples, int band,
+              int light) {
     const Photons& photons = data.hits.incoming;
-    const int firstOfLight = (light - samples.firstLight) * rows.count;
-    drawSight(inputs, context, data, seen, rows);
+    const int firstOfLight = (light - samples.firstLight) * rows.cells.rows;
+    drawSight(inputs, context, data, seen, rows, band);
     gl::Command emission = context.compute("emit/grid.comp");
-    emission.set("ownRows", glm::ivec2(samples.firstRow, samples.firstRow + samples.rows));
+    emission.set("ownRows", glm::ivec2(rows.cells.firstOwn, rows.cells.endOwn));
     if (photons.extents.valid())
         emission.define("CELL_EXTENTS").image("nextExtents", photons.extents);
-    dispatchOverCells(inputs, std::move(emission), data, seen, rows, light, firstOfLight);
+    dispatchOverCells(inputs, std::move(emission), data, seen, rows, band, light, firstOfLight);
     if (!photons.hasBeams()) return;
     gl::Command beams = context.compute("emit/grid_beams.comp");
     beams.texture("photonPosition", photons.position)
@@ -111,7 +129,7 @@ void emitFrom(const FrameInputs& inputs, gl::PassContext& context, const GridEmi
         .texture("photonFlux", photons.flux)
         .texture("startSurface", data.hits.surface)
         .set("lightToEye", glm::mat3(render::between(seen.view, inputs.view)));
-    dispatchOverCells(inputs, std::move(beams), data, seen, rows, light, firstOfLight);
+    dispatchOverCells(inputs, std::move(beams), data, seen, rows, band, light, firstOfLight);
 }
 
 Hits emitGrid(FrameBuilder& frame, const GridEmissionParams& params, Surfaces surfaces,
@@ -129,10 +147,7 @@ Hits emitGrid(FrameBuilder& frame, const GridEmissionParams& params, Surfaces su
         }
         return std::make_shared<std::vector<LightSight>>(sightsOfSpecular(frame));
     });
-    // Cells next to a batch are known to it where they are to be joined with.
-    const int borderRows = frame.joinsCells() ? 1 : 0;
-    GridRows rows{grid, std::max(samples.firstRow - borderRows, 0), 0, subcells};
-    rows.count = std::min(samples.firstRow + samples.rows + borderRows, grid.height) - rows.first;
+    const GridRows rows{grid, cellsOf(samples, grid), subcells};
     const std::string reason =
         grids->empty() ? "keeps the transfer map empty: no light, or nothing specular"
                        : fmt::format("{} photons a light, {} light{}", grid.width * grid.height,
@@ -143,11 +158,10 @@ Hits emitGrid(FrameBuilder& frame, const GridEmissionParams& params, Surfaces su
             [&](graph::PassSetup& setup, GridEmission& data) {
                 data.geometry = surfaces.geometry;
                 if (data.geometry.heightFields.valid()) setup.read(data.geometry.heightFields);
-                const int height = rows.count * samples.lights;
+                const int height = rows.cells.rows * samples.lights;
                 Photons photons =
                     Photons::create(setup, grid.width, height, samples.suffix, frame.usesBeams());
-                photons.cells = {grid.width,         rows.first,     rows.count,
-                                 samples.firstLight, samples.lights, 0};
+                photons.cells = rows.cells;
                 if (rows.subcells > 1) {
                     photons.extents = setup.create<CellExtentTexel>(
                         "photons.extents" + samples.suffix, grid.width, height);
@@ -167,8 +181,9 @@ Hits emitGrid(FrameBuilder& frame, const GridEmissionParams& params, Surfaces su
                 const int end =
                     std::min(samples.firstLight + samples.lights, static_cast<int>(grids->size()));
                 for (int light = samples.firstLight; light < end; ++light) {
-                    emitFrom(inputs, context, data, (*grids)[static_cast<std::size_t>(light)], rows,
-                             samples, light);
+                    const LightSight& seen = (*grids)[static_cast<std::size_t>(light)];
+                    for (int band = rows.firstBand(); band < rows.endBand(); ++band)
+                        emitFrom(inputs, context, data, seen, rows, samples, band, light);
                 }
                 if (grids->empty()) clearEmitted(context, data.hits);
             })

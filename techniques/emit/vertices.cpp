@@ -9,7 +9,7 @@
 // hit from within only by a light that is inside of it. Which vertices the light sees first is
 // decided by a depth image from the light, by the planes of its texels
 // (include/views/light_depth.glsl). A mesh too coarse for its shadows loses or gains light by them:
-// the sampling error of the reference's report. Out: photons that arrive (flux in W) and the hits
+// emission_sampling of the report. Out: photons that arrive (flux in W) and the hits
 // that they make; eye view space, m; cells number the vertices of the specular objects.
 #include <fmt/format.h>
 
@@ -239,14 +239,6 @@ params::Extent verticesOfALight(const FrameBuilder& frame) {
     return {width, (photons + width - 1) / width};
 }
 
-// Photons of a batch: rows of each light's, with those next to its own that they are to be joined
-// with.
-struct VertexRows {
-    int width = 0;
-    int first = 0;
-    int count = 0;
-};
-
 struct VertexEmission {
     Hits hits;
     Geometry geometry;
@@ -254,7 +246,7 @@ struct VertexEmission {
 
 // `part`: which outputs are written, as emit/vertices.comp has it.
 void emitObject(const FrameInputs& inputs, gl::PassContext& context, const VertexEmission& data,
-                const Emission& emission, const VertexRows& rows, const Samples& samples, int light,
+                const Emission& emission, const CellGrid& rows, const Samples& samples, int light,
                 const EmittingObject& emitting, const std::string& part) {
     const auto number = static_cast<std::size_t>(light);
     const LightSight& sight = emission.lights[number];
@@ -284,10 +276,10 @@ void emitObject(const FrameInputs& inputs, gl::PassContext& context, const Verte
         .set("firstVertex", emitting.firstVertex)
         .set("firstFan", emitting.firstFan)
         .set("firstCell", emitting.firstCell)
-        .set("batchCells", rows.count * rows.width)
-        .set("firstOfBatch", rows.first * rows.width)
-        .set("ownCells", rows.width * glm::ivec2(samples.firstRow, samples.firstRow + samples.rows))
-        .set("firstOfLight", (light - samples.firstLight) * rows.count * rows.width)
+        .set("batchCells", rows.rows * rows.width)
+        .set("firstOfBatch", rows.firstRow * rows.width)
+        .set("ownCells", rows.width * glm::ivec2(rows.firstOwn, rows.endOwn))
+        .set("firstOfLight", (light - samples.firstLight) * rows.rows * rows.width)
         .dispatchOver(static_cast<int>(emitting.vertices), 64);
 }
 
@@ -297,10 +289,9 @@ Hits emitVertices(FrameBuilder& frame, const VertexEmissionParams& params, Surfa
     const auto emission = frame.once<Emission>(
         "emit.vertices", [&] { return makeEmission(frame, params, surfaces.geometry); });
     const bool isGrid = emission->grid.has_value();
-    // Rows next to a batch are known to it where they are to be joined with.
-    const int borderRows = isGrid && frame.joinsCells() ? 1 : 0;
-    VertexRows rows{all.width, std::max(samples.firstRow - borderRows, 0), 0};
-    rows.count = std::min(samples.firstRow + samples.rows + borderRows, all.height) - rows.first;
+    // Vertices that lie in no grid are nobody's neighbours.
+    if (!isGrid) samples.borderRows = 0;
+    const CellGrid rows = cellsOf(samples, all);
     std::size_t vertices = 0;
     for (const EmittingObject& emitting : emission->objects)
         vertices += emitting.vertices;
@@ -314,13 +305,10 @@ Hits emitVertices(FrameBuilder& frame, const VertexEmissionParams& params, Surfa
                 data.geometry = surfaces.geometry;
                 if (data.geometry.heightFields.valid()) setup.read(data.geometry.heightFields);
                 setup.sample("lightDepths", emission->depths);
-                const int height = rows.count * samples.lights;
+                const int height = rows.rows * samples.lights;
                 Photons photons =
                     Photons::create(setup, rows.width, height, samples.suffix, frame.usesBeams());
-                if (isGrid) {
-                    photons.cells = {rows.width,         rows.first,     rows.count,
-                                     samples.firstLight, samples.lights, 0};
-                }
+                if (isGrid) photons.cells = rows;
                 if (isGrid && photons.hasBeams()) {
                     photons.extents = setup.create<CellExtentTexel>(
                         "photons.extents" + samples.suffix, rows.width, height);
@@ -332,7 +320,7 @@ Hits emitVertices(FrameBuilder& frame, const VertexEmissionParams& params, Surfa
                 const Photons& photons = data.hits.incoming;
                 beginEmission(context, photons, samples);
                 if (photons.extents.valid()) context.texture(photons.extents).clear({0, 0, 0, 0});
-                // Vertices that the light does not see are nobody.
+                // Vertices that the light does not see are no photons.
                 clearEmitted(context, data.hits);
                 const int end = std::min(samples.firstLight + samples.lights,
                                          static_cast<int>(emission->lights.size()));
@@ -358,7 +346,9 @@ void registerEmitVertices(Registry& registry) {
          "light that falls on the area around it.",
          "Shah, Konttinen, Pattanaik (SP05)",
          "Light is as fine as the mesh: a vertex is lit or not, so that shadows end between "
-         "vertices. Photons have neighbours only where a sheet with a grid of vertices is the only "
+         "vertices, and what a fine part of a body or a shadow takes is emitted or not "
+         "(emission_sampling). Photons have neighbours only where a sheet with a grid of vertices "
+         "is the only "
          "specular object."},
         {.beams = true, .photons = &verticesOfALight, .takes = "takes one photon a vertex"},
         &emitVertices);

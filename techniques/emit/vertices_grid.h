@@ -17,12 +17,12 @@ struct VertexGrid {
     bool isTurned = false;    // triangles run from a row to the next before they run along it
 };
 
-// Of a mesh whose cells of four vertices are split in two triangles each, all of them the same way
-// round; nothing where the mesh is no such grid.
+// The grid of a mesh whose cells of four vertices are split in two triangles each, all of them the
+// same way round. There is none where the mesh is no such grid.
 [[nodiscard]] std::optional<VertexGrid> gridOf(const scene::Mesh& mesh);
 
-// Of the scene's only specular object, where that is a sheet (scene/light_paths.h): a height field,
-// or a plane in cells.
+// The grid of the scene's only specular object, where that is a sheet (scene/light_paths.h): a
+// height field, or a plane in cells.
 [[nodiscard]] std::optional<VertexGrid> specularGrid(const scene::Scene& scene);
 
 }  // namespace kaustik

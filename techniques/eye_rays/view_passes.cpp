@@ -8,7 +8,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "framework/pipeline/stage_params.h"
+#include "techniques/eye_rays/view_params.h"
 
 namespace kaustik {
 namespace {

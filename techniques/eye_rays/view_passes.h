@@ -11,7 +11,7 @@
 
 namespace kaustik {
 
-// Where rays look for what they see.
+// The surfaces among which rays look for what they see.
 enum class LookSurfaces : int { receivers, layers };
 
 // How rays that have left the dielectrics look for what they see; the nodes share it.
@@ -28,12 +28,14 @@ struct SceneLookParams {
                 "paper's Fig. 10); off: only the environment");
         r.field(reflection, "reflection",
                 "The same for the reflection at the first interface and for mirrors; off: they see "
-                "the environment");
+                "the environment")
+            .when(scene, "with scene=false");
         r.choice(surfaces, "surfaces",
                  "receivers: the first receiver or mirror of every pixel; layers: the paper's, all "
                  "surfaces of the scene's layered depth, of which those that the picture does not "
                  "show are lit through the layers",
-                 {"receivers", "layers"});
+                 {"receivers", "layers"})
+            .when(scene, "with scene=false");
         r.field(stride, "stride",
                 "Pixels between two looks of a ray at the receivers; thinner ones may be missed. "
                 "Layers are looked at in every pixel",
@@ -41,7 +43,12 @@ struct SceneLookParams {
             .when(scene, "with scene=false")
             .when(surfaces == LookSurfaces::receivers, "with surfaces=layers");
         r.field(mirrors, "mirrors", "Most mirrors that a ray hits one after the other", "",
-                params::range(1, 64));
+                params::range(1, 64))
+            .when(scene, "with scene=false")
+            .when([](const FrameFacts& facts) {
+                const bool mayHit = facts.needs == nullptr || facts.needs->reflectors > 0;
+                return mayHit ? "" : "the scene has no mirror";
+            });
     }
 };
 
@@ -62,9 +69,9 @@ struct DielectricsBox {
 };
 [[nodiscard]] DielectricsBox boxOfDielectrics(const FrameBuilder& frame);
 
-// Where the rays of view.samples go through a pixel, px from its middle, within half a pixel:
-// `count` points of a rank-1 lattice, one in each of as many columns and rows, symmetric about the
-// middle, which is one of them where the count is odd; of 4 the rotated grid.
+// The points where the rays of view.samples go through a pixel, px from its middle, within half a
+// pixel: `count` points of a rank-1 lattice, one in each of as many columns and rows, symmetric
+// about the middle, which is one of them where the count is odd; of 4 the rotated grid.
 [[nodiscard]] std::vector<glm::vec2> samplesOfPixel(int count);
 
 // The first surfaces that rays next to the pixels' middles see, drawn anew for each sample.
@@ -106,7 +113,7 @@ using Tell = std::function<void(gl::Command&)>;
 // are those of the middle, whose ray is followed for them where it is not one of the samples.
 void drawSpecular(const FrameInputs& inputs, gl::PassContext& context, const ViewPass& pass,
                   const std::string& shader, const std::vector<Tell>& tells);
-// The same once, of a shader that is told besides what include/views/scene_look.glsl is.
+// Draws one shader, and also binds what include/views/scene_look.glsl needs.
 void drawLook(const FrameInputs& inputs, gl::PassContext& context, const ViewPass& pass,
               const SceneLookParams& look, const std::string& shader, const Tell& tell);
 

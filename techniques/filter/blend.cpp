@@ -5,11 +5,12 @@
 #include <utility>
 
 #include "techniques/maps/map_filters.h"
+#include "techniques/maps/map_needs.h"
 
 namespace kaustik {
 namespace {
 
-enum class Interpolant : int { bernstein, linear };
+enum class Interpolant : int { bernstein, nested, linear };
 
 struct BlendParams {
     Interpolant interpolant = Interpolant::bernstein;
@@ -17,10 +18,14 @@ struct BlendParams {
     int maxPhotons = 16;
     template <class R>
     void reflect(R& r) {
-        r.choice(interpolant, "interpolant",
-                 "bernstein: up to three sizes, smaller ones where they are brighter; linear: two, "
-                 "which rings",
-                 {"bernstein", "linear"});
+        r.choice(
+            interpolant, "interpolant",
+            "bernstein: up to three sizes, smaller ones where they are brighter, with weights that "
+            "are divided by their sum: the size that has enough keeps 1 of it, so that a smaller "
+            "one jumps from a half to all at max_photons; nested: the same weights, by each of "
+            "which a size takes over from what the larger ones give, so that nothing jumps; "
+            "linear: two, which rings",
+            {"bernstein", "nested", "linear"});
         r.field(minPhotons, "min_photons",
                 "Photons on a texel up to which a size of splat is not used", "",
                 params::range(0, 1000000));
@@ -33,7 +38,7 @@ struct BlendParams {
 };
 
 CausticMap blendSizes(FrameBuilder& frame, const BlendParams& params, CausticMap map) {
-    needsSets("filter.blend", map, 4, "reconstruct.four_radii");
+    needsMap("filter.blend", map, {SetLayout::sizes});
     return filterMaps(
         frame, "filter.blend", "each texel takes the splats that its photons are dense enough for",
         std::move(map),
@@ -54,7 +59,8 @@ void registerFilterBlend(Registry& registry) {
         "blend",
         {"Takes of four sizes of splats those that enough photons lie on.", "WD08, section 4.1",
          "It takes the maps of reconstruct=four_radii and refuses others. It does not keep the "
-         "flux, which map.blend_energy_ratio of the report states."},
+         "flux, which map.blend_energy_ratio of the report states. A size that is darker than the "
+         "larger ones has no part until it has enough photons, and then has all."},
         &blendSizes);
 }
 

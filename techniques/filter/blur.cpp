@@ -3,8 +3,8 @@
 // (WD06). Flux a texel, W, before and after, of which it loses none.
 #include <utility>
 
-#include "framework/core/error.h"
 #include "techniques/maps/map_filters.h"
+#include "techniques/maps/map_needs.h"
 
 namespace kaustik {
 namespace {
@@ -19,10 +19,7 @@ struct BlurParams {
 };
 
 CausticMap blurMap(FrameBuilder& frame, const BlurParams& params, CausticMap map) {
-    if (map.maps.front().sets.flux > 1)
-        throw ConfigError(
-            "filter.blur takes one map; reconstruct.four_radii and levels make "
-            "several: take filter=blend or filter=levels.");
+    needsMap("filter.blur", map, {});
     const int diameter = params.diameter - (params.diameter % 2 == 0 ? 1 : 0);
     return filterMaps(
         frame, "filter.blur", "points become what splats would be", std::move(map),

@@ -3,19 +3,15 @@
 // levels of reconstruct.multi_level; out: flux a texel, W, which is kept.
 #include <utility>
 
-#include "framework/core/error.h"
 #include "techniques/maps/levels.h"
 #include "techniques/maps/map_filters.h"
+#include "techniques/maps/map_needs.h"
 
 namespace kaustik {
 namespace {
 
 CausticMap addLevels(FrameBuilder& frame, const params::NoParams&, CausticMap map) {
-    if (map.maps.front().sets.parts != 2) {
-        throw ConfigError(
-            "filter.level_sum takes the maps of reconstruct.multi_level; take that, or "
-            "filter=none.");
-    }
+    needsMap("filter.level_sum", map, {SetLayout::sharedLevels});
     return filterMaps(
         frame, "filter.level_sum", "each place gets what every level holds of it", std::move(map),
         [](graph::PassSetup&, Filtered&) {},

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // filter.levels: of each place the finest level with enough photons (WD08, section 4, Fig. 4;
-// rejected there). In: the levels of reconstruct.levels, with counts, or the finest alone; out:
-// flux a texel, W. It does not keep the flux, which the report's blend_energy_ratio says.
+// rejected there). In: the levels of reconstruct.levels, with counts; out: flux a texel, W. It does
+// not keep the flux, which the report's blend_energy_ratio says.
 #include <utility>
 
 #include "techniques/maps/levels.h"
 #include "techniques/maps/map_filters.h"
+#include "techniques/maps/map_needs.h"
 
 namespace kaustik {
 namespace {
@@ -18,8 +19,8 @@ struct LevelFilterParams {
     template <class R>
     void reflect(R& r) {
         r.choice(from, "from",
-                 "splats: levels as reconstruct.levels has splatted them; mip: sums of four texels "
-                 "of the level before",
+                 "splats: levels as reconstruct.levels has splatted them; mip: only the finest as "
+                 "it has, and all others as sums of four texels of the level before",
                  {"splats", "mip"});
         r.field(minPhotons, "min_photons",
                 "Photons on a texel of a level from which on it is enough", "",
@@ -44,6 +45,7 @@ FluxMap makeMipChain(FrameBuilder& frame, const FluxMap& map) {
                 command.set("level", level)
                     .set("views", views->count())
                     .set("setsBefore", data.sets.perView())
+                    .set("fluxSets", data.sets.flux())
                     .dispatchOver((views->width() >> level) + 1, 8, (views->height() >> level) + 1,
                                   8);
             }
@@ -51,7 +53,7 @@ FluxMap makeMipChain(FrameBuilder& frame, const FluxMap& map) {
 }
 
 CausticMap pickLevels(FrameBuilder& frame, const LevelFilterParams& params, CausticMap map) {
-    needsSets("filter.levels", map, 2, "reconstruct.levels");
+    needsMap("filter.levels", map, {SetLayout::levels});
     if (params.from == LevelSource::mip) {
         for (FluxMap& one : map.maps)
             one = makeMipChain(frame, one);

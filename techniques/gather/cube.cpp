@@ -5,7 +5,7 @@
 // out: irradiance, W/m², and, where a receiver is glossy, radiance by its BRDF, W/m²/sr.
 #include <utility>
 
-#include "framework/core/error.h"
+#include "techniques/maps/map_needs.h"
 #include "techniques/maps/projection.h"
 
 namespace kaustik {
@@ -35,11 +35,7 @@ struct CubeParams {
 
 IrradianceMap gatherCubes(FrameBuilder& frame, const CubeParams& params, CausticMap map,
                           Surfaces surfaces) {
-    if (map.maps.front().generator < 0) {
-        throw ConfigError(
-            "gather.cube looks light up around caustic generators, but it is stored elsewhere; "
-            "take reconstruct.space=cube, or gather=screen or gather=project.");
-    }
+    needsMap("gather.cube", map, {SetLayout::one, StoreSpace::cube});
     return projectMaps(frame,
                        {"gather.cube",
                         "the light around each generator is looked up where the "
@@ -58,7 +54,8 @@ void registerGatherCube(Registry& registry) {
          "U08, section 4.3",
          "It takes maps around caustic generators and refuses light that is stored elsewhere. "
          "Receivers that the reference point does not see get nothing; where a receiver is glossy "
-         "all light of a texel counts as coming from one direction."},
+         "a texel's light counts as spread evenly about its mean direction, or with "
+         "incidence=centre as coming from one."},
         &gatherCubes);
 }
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // gather.project: the caustic map of each light projected onto the eye's receivers like a shadow
-// map (WD06), light by light. Where a receiver is glossy, all of a texel's light counts as coming
-// from its mean direction. In: flux a texel, W; out: irradiance, W/m², and radiance, W/m²/sr.
+// map (WD06), light by light. Where a receiver is glossy, a texel's light counts as coming from
+// about its mean direction, as widely spread as that is short. In: flux a texel, W; out:
+// irradiance, W/m², and radiance, W/m²/sr.
 #include <utility>
 
-#include "framework/core/error.h"
+#include "techniques/maps/map_needs.h"
 #include "techniques/maps/projection.h"
 
 namespace kaustik {
@@ -23,11 +24,7 @@ struct ProjectParams {
 
 IrradianceMap projectLightMaps(FrameBuilder& frame, const ProjectParams& params, CausticMap map,
                                Surfaces surfaces) {
-    if (map.maps.front().light < 0) {
-        throw ConfigError(
-            "gather.project looks light up in the lights' maps, but it is stored elsewhere; take "
-            "reconstruct.space=light, or gather=screen or gather=cube.");
-    }
+    needsMap("gather.project", map, {SetLayout::one, StoreSpace::light});
     return projectMaps(frame,
                        {"gather.project",
                         "each light's map is looked up where the eye's "
@@ -42,8 +39,8 @@ void registerGatherProject(Registry& registry) {
     registry.node<GatherStage>(
         "project",
         {"Looks each light's caustic map up at the eye's receivers, like a shadow map.", "WD06",
-         "It takes maps of lights and refuses light that is stored elsewhere. All light of a texel "
-         "counts as coming from its mean direction where a receiver is glossy."},
+         "It takes maps of lights and refuses light that is stored elsewhere. Where a receiver is "
+         "glossy, a texel's light counts as spread evenly about its mean direction."},
         &projectLightMaps);
 }
 

@@ -1,30 +1,24 @@
 // SPDX-License-Identifier: MIT
 // gather.screen: a map of flux that was stored by the eye's own pixels becomes irradiance over the
 // area of the receiver that each sees. In: flux, W (W/sr towards the eye); out: W/m² (W/m²/sr).
-#include <fmt/format.h>
-
-#include "framework/core/error.h"
 #include "framework/pipeline/frame_builder.h"
+#include "techniques/maps/directions.h"
+#include "techniques/maps/map_needs.h"
 
 namespace kaustik {
 namespace {
 
 IrradianceMap gatherOnScreen(FrameBuilder& frame, const params::NoParams&, CausticMap map,
                              Surfaces surfaces) {
+    needsMap("gather.screen", map, {SetLayout::one, StoreSpace::screen});
     const FluxMap& stored = map.maps.front();
-    if (!stored.on.views->isEyeView())
-        throw ConfigError(
-            fmt::format("gather.screen works on the screen, but the map of flux it is given is "
-                        "{}; take gather={}, or reconstruct.space=screen.",
-                        render::describe(stored.on.views->space()),
-                        stored.generator >= 0 ? "cube" : "project"));
-    if (stored.sets.flux > 1 && !stored.filtered.valid())
-        throw ConfigError(
-            "gather.screen takes one map, but the light is stored in several sizes or "
-            "levels; take filter=blend or filter=levels.");
-    return frame.pass<IrradianceMap>(
+    struct Data {
+        IrradianceMap gathered;
+        Directions directions;
+    };
+    const Data& data = frame.pass<Data>(
         "gather.screen", "what was deposited is spread over what each pixel sees",
-        [&](graph::PassSetup& setup, IrradianceMap& data) {
+        [&](graph::PassSetup& setup, Data& made) {
             if (stored.filtered.valid()) {
                 setup.sample("filteredFlux", stored.filtered);
                 setup.define("IS_FILTERED");
@@ -32,21 +26,33 @@ IrradianceMap gatherOnScreen(FrameBuilder& frame, const params::NoParams&, Caust
                 setup.sample("fluxSums", stored.flux);
             }
             setup.sample("receiver", surfaces.eye.receiver);
-            data.ledger = map.ledger;
-            data.irradiance =
+            IrradianceMap& gathered = made.gathered;
+            gathered.ledger = map.ledger;
+            gathered.irradiance =
                 setup.create<IrradianceTexel>("caustic.irradiance", frame.width(), frame.height());
-            setup.bypass(data.irradiance, {0, 0, 0, 0});
-            if (!stored.sets.hasIntensity) return;
-            data.radiance =
+            setup.bypass(gathered.irradiance, {0, 0, 0, 0});
+            if (!stored.sets.isGlossy()) return;
+            gathered.radiance =
                 setup.create<RadianceTexel>("caustic.radiance", frame.width(), frame.height());
-            setup.bypass(data.radiance, {0, 0, 0, 0});
+            setup.bypass(gathered.radiance, {0, 0, 0, 0});
+            if (!stored.sets.hasDirection()) return;
+            setup.sample("receiverSurface", surfaces.eye.receiverSurface);
+            setup.sample("receiverAlbedo", surfaces.eye.receiverAlbedo);
+            made.directions = Directions::count(setup, "");
         },
-        [](const IrradianceMap& data, gl::PassContext& context) {
+        [sets = stored.sets](const Data& made, gl::PassContext& context) {
             gl::Command command = context.fullscreen("gather/screen.frag");
-            command.target(data.irradiance);
-            if (data.radiance.valid()) command.define("HAS_INTENSITY").target(data.radiance);
+            command.target(made.gathered.irradiance);
+            if (sets.isGlossy()) command.target(made.gathered.radiance);
+            if (sets.hasIntensity()) command.define("HAS_INTENSITY");
+            if (sets.hasDirection()) {
+                command.define("HAS_DIRECTION");
+                made.directions.clear(context);
+            }
             command.draw();
         });
+    if (stored.sets.hasDirection()) warnOfDirections(frame, "gather.screen", data.directions);
+    return data.gathered;
 }
 
 }  // namespace

@@ -6,9 +6,14 @@
 #include <vector>
 
 #include "framework/pipeline/frame_builder.h"
-#include "framework/pipeline/stage_params.h"
+#include "techniques/raster_views/map_params.h"
 
 namespace kaustik {
+
+// Which layer of a texel is in which slot, four bits a slot from the lowest; 15: none.
+struct LayerOrderTexel {
+    static constexpr Format format = Format::r32ui;
+};
 
 // All surfaces around a caustic generator, as its reference point sees them (U08, section 3).
 struct SurfacesAround {
@@ -16,7 +21,7 @@ struct SurfacesAround {
     graph::Texture<LayerOrderTexel> order;  // array, a layer a face
 };
 
-// By generator (techniques/generators/generators.h).
+// The stage's answer has an entry for each generator (techniques/generators/generators.h).
 struct AroundStage : Stage<std::vector<SurfacesAround>(Geometry)> {
     static constexpr const char* name = "around";
     static constexpr const char* question = "Which surfaces lie around each caustic generator?";
@@ -30,7 +35,7 @@ struct AroundStage : Stage<std::vector<SurfacesAround>(Geometry)> {
     }
 };
 
-// As the node of the settings gives it, by generator; made once a frame.
+// The surfaces around each generator, from the node that the settings choose; made once a frame.
 [[nodiscard]] const std::vector<SurfacesAround>& surfacesAround(FrameBuilder& frame,
                                                                 const Geometry& geometry);
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "framework/pipeline/stage_params.h"
+#include "techniques/generators/reference_points.h"
 #include "techniques/raster_views/light_maps.h"
 #include "techniques/raster_views/receivers.h"
 
@@ -45,6 +46,11 @@ void unite(Generator& one, const Generator& other) {
     one.bounds.include(other.bounds.maximum);
 }
 
+// How far beyond its part of a shared generator a point's map takes light, ever less of it, m.
+double overlapOf(const Generator& part) {
+    return 0.2 * radiusOf(part.bounds);
+}
+
 // Joins the two nearest until none overlap and there are no more than `maximum`.
 void uniteNearest(std::vector<Generator>& all, std::size_t maximum) {
     while (all.size() > 1) {
@@ -64,103 +70,38 @@ void uniteNearest(std::vector<Generator>& all, std::size_t maximum) {
     }
 }
 
-// In two halves along its longest side, the larger ones first, until there are `points`.
-std::vector<Generator> split(const Generator& whole, std::size_t points) {
-    std::vector<Generator> parts{whole};
-    while (parts.size() < points) {
-        const auto largest = std::max_element(parts.begin(), parts.end(),
-                                              [](const Generator& a, const Generator& b) {
-                                                  return radiusOf(a.bounds) < radiusOf(b.bounds);
-                                              });
-        const glm::dvec3 extent = largest->bounds.maximum - largest->bounds.minimum;
-        const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0
-                         : extent.y >= extent.z                       ? 1
-                                                                      : 2;
-        Generator second = *largest;
-        const double middle = 0.5 * (largest->bounds.minimum[axis] + largest->bounds.maximum[axis]);
-        largest->bounds.maximum[axis] = middle;
-        second.bounds.minimum[axis] = middle;
-        parts.push_back(std::move(second));
-    }
-    return parts;
-}
+// More points than see so much of what a generator's light may reach are not taken.
+constexpr double kSeenShare = 0.93;
+constexpr int kMaxPoints = 16;
 
-// How far the nearest receiver is from a point, m.
-double distanceToReceivers(const scene::Scene& scene, const glm::dvec3& point) {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const scene::Object& object : scene.objects) {
-        if (!isReceiver(scene.materials[object.material].kind)) continue;
-        const scene::Mesh& mesh = scene.meshes[object.mesh];
-        for (const glm::uvec3& triangle : mesh.triangles) {
-            glm::dvec3 corners[3];
-            for (int i = 0; i < 3; ++i) {
-                corners[i] = glm::dvec3(
-                    object.toWorld *
-                    glm::dvec4(mesh.origin + glm::dvec3(mesh.positions[triangle[i]]), 1.0));
-            }
-            const glm::dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
-            const double size = glm::length(normal);
-            if (!(size > 0.0)) continue;
-            // Of its plane where the point lies over it, else of the nearest corner: near enough.
-            bool isOver = true;
-            for (int i = 0; i < 3; ++i) {
-                const glm::dvec3 edge = corners[(i + 1) % 3] - corners[i];
-                isOver = isOver && glm::dot(glm::cross(edge, point - corners[i]), normal) >= 0.0;
-                nearest = std::min(nearest, glm::length(point - corners[i]));
-            }
-            if (isOver)
-                nearest = std::min(nearest, std::abs(glm::dot(point - corners[0], normal)) / size);
-        }
+// The points of a generator: as many as asked for, or as see enough, if any do.
+ReferencePoints pointsOf(FrameBuilder& frame, const Generator& whole, int wanted, int room) {
+    const auto rays = frame.once<ReceiverRays>(
+        "generators.receiver_rays", [&] { return std::make_shared<ReceiverRays>(frame.scene()); });
+    const std::vector<ReachedPlace> reached = placesReached(frame.scene(), whole.bounds, *rays);
+    const auto from = [&](int points) {
+        return referencePoints(whole.bounds, reached, *rays, points);
+    };
+    ReferencePoints taken = from(std::min(std::max(wanted, 1), room));
+    ReferencePoints best = taken;
+    for (int points = 2; points <= kMaxPoints && best.seenShare < kSeenShare; points *= 2) {
+        if (points <= wanted) continue;
+        ReferencePoints more = from(points);
+        // Twice the maps are to see a fourth of what is missing.
+        if (more.seenShare > best.seenShare + 0.25 * (1.0 - best.seenShare)) best = std::move(more);
     }
-    return nearest;
-}
-
-// Where a generator is looked around from. A sheet has places that receivers leave free, nearest to
-// its middle first.
-glm::dvec3 referenceOf(const scene::Scene& scene, const scene::Bounds& bounds) {
-    const glm::dvec3 extent = bounds.maximum - bounds.minimum;
-    glm::dvec3 point = 0.5 * (bounds.minimum + bounds.maximum);
-    int thin = 0;
-    for (int axis = 1; axis < 3; ++axis) {
-        if (extent[axis] < extent[thin]) thin = axis;
-    }
-    const int along = (thin + 1) % 3;
-    const int across = (thin + 2) % 3;
-    const double wide = std::min(extent[along], extent[across]);
-    if (extent[thin] >= 0.1 * wide) return point;
-    point[thin] = bounds.maximum[thin] + 0.1 * wide;
-    // Of a sheet in or on a wall nothing is better.
-    glm::dvec3 best = point;
-    double farthest = distanceToReceivers(scene, point);
-    for (int i = 1; i < 25 && farthest < 0.1 * wide; ++i) {
-        // Rings of a spiral out to a quarter of the sheet.
-        const double turn = 2.399963229728653 * i;
-        const double reach = 0.25 * std::sqrt(i / 24.0);
-        glm::dvec3 other = point;
-        other[along] += reach * std::cos(turn) * extent[along];
-        other[across] += reach * std::sin(turn) * extent[across];
-        const double distance = distanceToReceivers(scene, other);
-        if (distance <= farthest) continue;
-        farthest = distance;
-        best = other;
-    }
-    return best;
-}
-
-// A generator much wider than its receivers are far is seen from one point at grazing angles.
-void warnLargeGenerators(FrameBuilder& frame, const std::vector<Generator>& generators,
-                         int points) {
-    for (const Generator& generator : generators) {
-        const double distance = distanceToReceivers(frame.scene(), generator.reference);
-        const double radius = radiusOf(generator.bounds);
-        if (!(radius > 4.0 * distance)) continue;
+    const auto count = static_cast<int>(best.parts.size());
+    if (wanted == 0 && count <= room) return best;
+    if (taken.seenShare < kSeenShare && best.seenShare > taken.seenShare) {
         frame.warn(fmt::format(
-            "Caustic generator '{}' reaches {:.3g} m around its reference point, {:.1f} times as "
-            "far as the nearest receiver is: what that point sees at grazing angles or not at all "
-            "is stored coarsely or lost (hidden_in_map); around.points = {} shares it among more.",
-            generator.name, radius, radius / std::max(distance, 1e-9), std::min(4 * points, 16)));
-        return;
+            "The {} reference point{} of caustic generator '{}' see{} {:.0f} % of what its light "
+            "may reach; the rest is stored coarsely or lost (hidden_in_map). around.points = {} "
+            "sees {:.0f} %.",
+            taken.parts.size(), taken.parts.size() == 1 ? "" : "s", whole.name,
+            taken.parts.size() == 1 ? "s" : "", 100.0 * taken.seenShare, count,
+            100.0 * best.seenShare));
     }
+    return taken;
 }
 
 // Where nothing is specular nothing leaves anything: rays are looked for from where the eye is.
@@ -189,18 +130,13 @@ std::vector<Generator> findGenerators(FrameBuilder& frame, const GeneratorParams
     if (lit.empty()) lit.push_back(eyeOf(scene));
     uniteNearest(lit, static_cast<std::size_t>(params.maxGenerators));
     std::vector<Generator> generators;
-    for (const Generator& whole : lit) {
-        const std::size_t room = transport::kMaxGenerators - generators.size();
-        for (Generator& part :
-             split(whole, std::clamp<std::size_t>(static_cast<std::size_t>(params.points), 1,
-                                                  std::max<std::size_t>(room, 1)))) {
-            if (generators.size() < transport::kMaxGenerators)
-                generators.push_back(std::move(part));
-        }
+    for (std::size_t i = 0; i < lit.size(); ++i) {
+        // Those that are still to come have one each.
+        const std::size_t others = generators.size() + lit.size() - i - 1;
+        const auto room = static_cast<int>(generators::kMaxGenerators - others);
+        for (const GeneratorPart& part : pointsOf(frame, lit[i], params.points, room).parts)
+            generators.push_back({lit[i].name, part.bounds, part.reference, i});
     }
-    for (Generator& generator : generators)
-        generator.reference = referenceOf(scene, generator.bounds);
-    warnLargeGenerators(frame, generators, params.points);
     return generators;
 }
 
@@ -238,7 +174,7 @@ const std::vector<ReceiverView>& generatorReceivers(FrameBuilder& frame, const G
 const gl::Buffer& generatorsBlock(FrameBuilder& frame) {
     return *frame.once<gl::Buffer>("generators.block", [&] {
         const glm::dmat4 toWorld = glm::inverse(frame.view().worldToView);
-        transport::GeneratorsData data{};
+        generators::GeneratorsData data{};
         data.eyeToWorld = glm::mat4(glm::mat3(toWorld));
         const std::vector<Generator>& generators = causticGenerators(frame);
         data.count.x = static_cast<unsigned>(generators.size());
@@ -246,11 +182,15 @@ const gl::Buffer& generatorsBlock(FrameBuilder& frame) {
             const scene::Bounds& box = generators[i].bounds;
             const glm::dvec3 eye(toWorld[3]);
             const glm::dvec3 middle = 0.5 * (box.minimum + box.maximum);
-            data.centers[i] = glm::vec4(glm::vec3(middle - eye), 0.0f);
+            // The fourth numbers are the part's generator, and how far its map reaches beyond it,
+            // m.
+            data.centers[i] =
+                glm::vec4(glm::vec3(middle - eye), static_cast<float>(generators[i].whole));
             data.references[i] = glm::vec4(glm::vec3(generators[i].reference - eye), 0.0f);
-            data.halfExtents[i] = glm::vec4(glm::vec3(0.5 * (box.maximum - box.minimum)), 0.0f);
+            data.halfExtents[i] = glm::vec4(glm::vec3(0.5 * (box.maximum - box.minimum)),
+                                            static_cast<float>(overlapOf(generators[i])));
         }
-        return std::make_shared<gl::Buffer>(std::vector<transport::GeneratorsData>{data},
+        return std::make_shared<gl::Buffer>(std::vector<generators::GeneratorsData>{data},
                                             "generators");
     });
 }

@@ -7,34 +7,41 @@
 #include <vector>
 
 #include "framework/pipeline/frame_builder.h"
+#include "techniques/generators/generators_data.h"
 
 namespace kaustik {
 
-// Which specular objects share a reference point; shared by all that asks for generators.
+// The parameters that decide which specular objects share a reference point. All nodes that ask for
+// generators share them.
 struct GeneratorParams {
     int maxGenerators = 8;
-    int points = 1;
+    int points = 0;
     template <class R>
     void reflect(R& r) {
         r.field(maxGenerators, "max_generators",
                 "Caustic generators: of more specular objects those nearest to one another share "
                 "one",
-                "", params::range(1, static_cast<int>(transport::kMaxGenerators)));
+                "", params::range(1, static_cast<int>(generators::kMaxGenerators)))
+            .when([](const FrameFacts& facts) {
+                const bool mayBeSeveral =
+                    facts.needs == nullptr || facts.needs->refractors + facts.needs->reflectors > 1;
+                return mayBeSeveral ? "" : "the scene has no more than one specular object";
+            });
         r.renamed("most", "max_generators");
         r.field(
             points, "points",
-            "Reference points of a generator, each in a part of its box; more for one too large "
-            "to be seen from one, such as water",
-            "", params::range(1, 16));
+            "Reference points of a generator, each in a part of its box; more for one that is not "
+            "seen from one, such as a tank around receivers. 0: as few as see what its light may "
+            "reach",
+            "", params::range(0, 16));
     }
 };
 
 struct Generator {
-    std::string name;      // of its objects
-    scene::Bounds bounds;  // world space, m
-    // The box's middle; of a sheet, which that would see edge-on, somewhat above it and away from
-    // receivers that stand in it.
-    glm::dvec3 reference{0.0};
+    std::string name;           // of its objects
+    scene::Bounds bounds;       // world space, m
+    glm::dvec3 reference{0.0};  // reference_points.h
+    std::size_t whole = 0;      // those that share a generator have the same
 };
 
 // Specular objects that no light can reach directly are left out, and those whose boxes overlap are
@@ -42,7 +49,7 @@ struct Generator {
 // any that is lit has all of them, one without any has the eye.
 [[nodiscard]] const std::vector<Generator>& causticGenerators(FrameBuilder& frame);
 
-// By generator: the receivers that its reference point sees, on the six faces of a cube; specular
+// The receivers that each generator's reference point sees, on the six faces of a cube; specular
 // objects hide nothing there.
 [[nodiscard]] const std::vector<ReceiverView>& generatorReceivers(FrameBuilder& frame,
                                                                   const Geometry& geometry);
@@ -50,7 +57,7 @@ struct Generator {
 // The block "Generators" of include/surfaces/generators.glsl, as long as the frame lives.
 [[nodiscard]] const gl::Buffer& generatorsBlock(FrameBuilder& frame);
 
-// "" of the first, for the names of a generator's resources.
+// The end of the names of a generator's resources; "" for the first generator.
 [[nodiscard]] std::string suffixOfGenerator(std::size_t generator);
 // The faces around its reference point.
 [[nodiscard]] std::vector<render::RasterView> facesAround(const Generator& generator, int side);

@@ -9,7 +9,7 @@
 
 namespace kaustik {
 
-// Which surfaces a layered depth image holds, and its resources' names ("layers" gives
+// What a layered depth image is to hold, and the name that its resources begin with ("layers" gives
 // "layers.depth").
 struct LayersRequest {
     std::string name;

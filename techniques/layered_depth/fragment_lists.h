@@ -37,8 +37,8 @@ struct ListsParams {
 // one as of the other.
 [[nodiscard]] bool prefersLists(FrameBuilder& frame, const LayersRequest& request);
 
-// For some of the scene's surfaces: by lists where `layers` is set to them, or to auto and they are
-// faster, and more than a few layers are asked for; else peeled.
+// Makes the layers of some of the scene's surfaces: by lists where `layers` is set to them, or to
+// auto and they are faster, and more than a few layers are asked for; else by peeling.
 [[nodiscard]] LayeredDepth makeLayers(FrameBuilder& frame, Geometry geometry,
                                       const LayersRequest& request);
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Adds to a layered depth image a pyramid of planes, by which tracers skip what a ray cannot hit.
 #pragma once
 
 #include "framework/pipeline/frame_builder.h"

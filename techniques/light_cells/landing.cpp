@@ -17,12 +17,32 @@ std::vector<Store> landingViews(FrameBuilder& frame, const Surfaces& surfaces, R
 
 }  // namespace
 
-graph::Buffer<transport::Landing> findLandings(FrameBuilder& frame, const std::string& pass,
-                                               graph::Buffer<transport::Landing> landings,
-                                               const Hits& hits, const Surfaces& surfaces,
-                                               RefineMetric metric, LandingSource source,
-                                               int branches) {
-    using Landings = graph::Buffer<transport::Landing>;
+ProbeNumbers followProbes(FrameBuilder& frame, const std::string& pass, const ProbeNumbers& before,
+                          const Hits& hits) {
+    return frame.pass<ProbeNumbers>(
+        pass, "photons are traced back to the probes that they come from",
+        [&](graph::PassSetup& setup, ProbeNumbers& data) {
+            hits.incoming.sample(setup);
+            if (before.valid()) {
+                setup.storage("ProbesBefore", before);
+                setup.define("PROBES_BEFORE");
+            }
+            data = setup.storage("ProbeNumbers",
+                                 setup.createBuffer<std::uint32_t>(
+                                     "adaptive.probe_numbers" + hits.incoming.suffix,
+                                     static_cast<std::size_t>(hits.incoming.capacity())));
+        },
+        [list = hits.incoming](const ProbeNumbers&, gl::PassContext& context) {
+            dispatchOver(context.compute("light_cells/probe_numbers.comp"), list);
+        });
+}
+
+graph::Buffer<light_cells::Landing> findLandings(FrameBuilder& frame, const std::string& pass,
+                                                 graph::Buffer<light_cells::Landing> landings,
+                                                 const Hits& hits, const Surfaces& surfaces,
+                                                 RefineMetric metric, LandingSource source,
+                                                 const ProbeNumbers& probes, int branches) {
+    using Landings = graph::Buffer<light_cells::Landing>;
     const scene::Bounds bounds = sceneBounds(frame.scene());
     const auto farthest =
         bounds.empty ? 1.0f : static_cast<float>(glm::length(bounds.maximum - bounds.minimum));
@@ -37,10 +57,10 @@ graph::Buffer<transport::Landing> findLandings(FrameBuilder& frame, const std::s
                 hits.incoming.sample(setup);
                 setup.sample("receiver", store.receivers.receiver);
                 setup.sample("receiverSurface", store.receivers.receiverSurface);
+                if (probes.valid()) setup.storage("ProbeNumbers", probes);
                 data = setup.storage("Landings", setup.write(before));
             },
             [store, number = static_cast<int>(i), metric, source, branches, farthest,
-             splits = hits.incoming.cells.splits,
              list = hits.incoming](const Landings&, gl::PassContext& context) {
                 gl::Command command = context.compute("light_cells/landing.comp");
                 bindStore(command, store)
@@ -55,7 +75,7 @@ graph::Buffer<transport::Landing> findLandings(FrameBuilder& frame, const std::s
                 if (source == LandingSource::photon) {
                     command.define("BY_PHOTON");
                 } else {
-                    command.set("splits", splits).set("branches", branches);
+                    command.set("branches", branches);
                 }
                 dispatchOver(command, list);
             });

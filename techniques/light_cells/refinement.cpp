@@ -21,15 +21,17 @@ SpecularMask makeMask(FrameBuilder& frame, const std::vector<DeferredBuffers>& b
         "mask", "cells in which a light sees nothing specular are dropped at once",
         [&](graph::PassSetup& setup, SpecularMask& data) {
             data.level = finest;
+            data.words = (buffers.size() + 31) / 32;
             for (const DeferredBuffers& seen : buffers)
                 seen.read(setup);
             const std::size_t entries = ((std::size_t{1} << (2 * (finest + 1))) - 1) / 3;
-            data.bits =
-                setup.storage("NextMask", setup.createBuffer<glm::uvec2>("adaptive.mask", entries));
+            data.bits = setup.storage(
+                "NextMask", setup.createBuffer<glm::uvec2>("adaptive.mask", entries * data.words));
         },
         [buffers](const SpecularMask& data, gl::PassContext& context) {
             const auto dispatch = [&](gl::Command command, int level) {
                 command.set("level", static_cast<unsigned>(level))
+                    .set("maskWords", static_cast<unsigned>(data.words))
                     .dispatchOver(1 << level, 8, 1 << level, 8);
             };
             for (std::size_t light = 0; light < buffers.size(); ++light) {
@@ -85,7 +87,10 @@ void setDecision(gl::Command& command, const Refined& data, const TraversalSizes
     command.set("checkLevel", static_cast<unsigned>(t.checkLevel))
         .set("finestLevel", static_cast<unsigned>(sizes.finestLevel));
     if (t.landings.valid()) command.set("branches", t.branches).set("tolerance", t.tolerance);
-    if (data.mask.bits.valid()) command.set("maskLevel", static_cast<unsigned>(data.mask.level));
+    if (data.mask.bits.valid()) {
+        command.set("maskLevel", static_cast<unsigned>(data.mask.level))
+            .set("maskWords", static_cast<unsigned>(data.mask.words));
+    }
 }
 
 void setCapacity(gl::Command& command, const TraversalSizes& sizes) {

@@ -3,6 +3,7 @@
 // sections 3.2.1 and 3.2.2).
 #pragma once
 
+#include <cstddef>
 #include <memory>
 
 #include "framework/pipeline/frame_builder.h"
@@ -12,13 +13,14 @@
 
 namespace kaustik {
 
-// By cell of each level, whether the light sees anything specular in it.
+// Whether the light sees anything specular in a cell, for every cell of each level.
 struct SpecularMask {
     graph::Buffer<glm::uvec2> bits;
-    int level = 0;  // the finest
+    int level = 0;          // the finest
+    std::size_t words = 1;  // of a cell: a bit a light
 };
 
-// Of all lights, made once a frame; none where refine.mask is off.
+// The mask of all lights, made once a frame; null where refine.mask is off.
 [[nodiscard]] std::shared_ptr<SpecularMask> specularMask(FrameBuilder& frame,
                                                          const RefineParams& params,
                                                          const CellTraversal& traversal);

@@ -5,7 +5,6 @@
 
 #include <utility>
 
-#include "framework/core/error.h"
 #include "techniques/generators/generators.h"
 
 namespace kaustik {
@@ -55,22 +54,14 @@ gl::Command filterCommand(gl::PassContext& context, const std::string& shader, c
     gl::Command command = context.compute(shader);
     command.set("setsBefore", map.sets.perView())
         .set("setsAfter", map.filteredPerView())
-        .set("lastIsIntensity", map.sets.hasIntensity ? 1 : 0)
+        .set("fluxSets", map.sets.flux())
+        .set("holdsIntensity", map.sets.hasIntensity() ? 1 : 0)
         .set("views", map.on.views->count());
     return command;
 }
 
 void dispatchOverMap(gl::Command& command, const FluxMap& map) {
     command.dispatchOver(map.on.views->width(), 8, map.on.views->height(), 8);
-}
-
-// A filter of maps that are not there.
-void needsSets(const std::string& node, const CausticMap& map, int sets,
-               const std::string& instead) {
-    const FluxSets& own = map.maps.front().sets;
-    if (own.flux == sets && own.counts) return;
-    throw ConfigError(
-        fmt::format("{} takes the maps of {}; take that, or filter=none.", node, instead));
 }
 
 CausticMap inFloats(FrameBuilder& frame, CausticMap map) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What filters make of maps of flux once all light has been stored. Flux a texel, W, before and
-// after; what a map holds besides, for glossy receivers, is kept.
+// after; what a map holds besides, for glossy receivers, becomes the same mixture of what belongs
+// to each set of flux.
 #pragma once
 
 #include <functional>
@@ -30,10 +31,6 @@ using FilterCommands = std::function<void(const Filtered&, gl::PassContext&)>;
 [[nodiscard]] gl::Command filterCommand(gl::PassContext& context, const std::string& shader,
                                         const FluxMap& map);
 void dispatchOverMap(gl::Command& command, const FluxMap& map);
-
-// ConfigError where the map has not so many sets, with counts; `instead`: the node that makes them.
-void needsSets(const std::string& node, const CausticMap& map, int sets,
-               const std::string& instead);
 
 // The maps as some filter has left them in FluxMap::filtered, or as they were stored.
 [[nodiscard]] CausticMap inFloats(FrameBuilder& frame, CausticMap map);

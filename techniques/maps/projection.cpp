@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "techniques/maps/projection.h"
 
+#include <string>
 #include <utility>
 
-#include "framework/core/error.h"
+#include "techniques/maps/directions.h"
 #include "techniques/maps/map_filters.h"
 
 namespace kaustik {
@@ -22,29 +23,32 @@ Views partsOf(FrameBuilder& frame, const std::vector<FluxMap>& maps, int light) 
 
 IrradianceMap projectMaps(FrameBuilder& frame, const Projection& projection, CausticMap map,
                           const Surfaces& surfaces) {
-    if (map.maps.front().sets.flux > 1 && !map.maps.front().filtered.valid()) {
-        throw ConfigError(projection.node +
-                          " takes one map, but the light is stored in several sizes "
-                          "or levels; take filter=blend or filter=levels.");
-    }
     map = inFloats(frame, std::move(map));
+    struct Data {
+        IrradianceMap gathered;
+        Directions directions;
+    };
     IrradianceMap result;
     result.ledger = map.ledger;
     Views parts;
     for (std::size_t i = 0; i < map.maps.size(); ++i) {
         const FluxMap& stored = map.maps[i];
         if (stored.cascade == 0) parts = partsOf(frame, map.maps, stored.light);
-        result = frame.pass<IrradianceMap>(
+        const bool isGlossy = stored.sets.hasDirection();
+        const bool usesMean = isGlossy && !projection.isFromCentre;
+        const Data& added = frame.pass<Data>(
             projection.node, projection.reason,
-            [&](graph::PassSetup& setup, IrradianceMap& data) {
+            [&](graph::PassSetup& setup, Data& made) {
+                IrradianceMap& data = made.gathered;
                 setup.sample("filteredFlux", stored.filtered);
                 setup.sample("mapReceiver", stored.on.receiver);
                 setup.sample("mapSurface", stored.on.receiverSurface);
                 setup.sample("receiver", surfaces.eye.receiver);
                 setup.sample("receiverSurface", surfaces.eye.receiverSurface);
                 data = result;
-                const bool isGlossy = stored.sets.hasDirection;
                 if (isGlossy) setup.sample("receiverAlbedo", surfaces.eye.receiverAlbedo);
+                if (usesMean)
+                    made.directions = Directions::count(setup, "_" + std::to_string(i + 1));
                 if (i > 0) {
                     data.irradiance = setup.write(result.irradiance);
                     setup.bypass(data.irradiance, result.irradiance);
@@ -62,8 +66,10 @@ IrradianceMap projectMaps(FrameBuilder& frame, const Projection& projection, Cau
                     setup.create<RadianceTexel>("caustic.radiance", frame.width(), frame.height());
                 setup.bypass(data.radiance, {0, 0, 0, 0});
             },
-            [projection, stored, parts, isFirst = i == 0](const IrradianceMap& data,
-                                                          gl::PassContext& context) {
+            [projection, stored, parts, usesMean, isFirst = i == 0](const Data& made,
+                                                                    gl::PassContext& context) {
+                const IrradianceMap& data = made.gathered;
+                if (usesMean) made.directions.clear(context);
                 const Views& views = stored.on.views;
                 gl::Command command = context.fullscreen("maps/projection.frag");
                 command.uniforms("MapViews", views->block())
@@ -80,13 +86,15 @@ IrradianceMap projectMaps(FrameBuilder& frame, const Projection& projection, Cau
                 }
                 command.target(data.irradiance);
                 if (isFirst) command.clear();
-                if (stored.sets.hasDirection) {
+                if (stored.sets.hasDirection()) {
                     command.define("GLOSSY_RECEIVERS").target(data.radiance);
-                    command.set("isFromCentre", projection.isFromCentre ? 1 : 0);
+                    if (usesMean) command.define("USES_MEAN_DIRECTION");
                     if (isFirst) command.clear();
                 }
                 command.blend(gl::Blend::add).draw();
             });
+        result = added.gathered;
+        if (usesMean) warnOfDirections(frame, projection.node, added.directions);
     }
     return result;
 }

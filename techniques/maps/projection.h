@@ -15,8 +15,8 @@ struct Projection {
     bool isFromCentre = false;  // where a receiver is glossy: light comes from where the map is
                                 // seen from; else from the mean direction of a texel's
 };
-// In: flux a texel of each map, W, in one set; out: the sum of all, irradiance in W/m² and, where a
-// receiver is glossy, radiance in W/m²/sr. ConfigError where there are several sets.
+// In: maps of which FluxMap::isOne() holds; out: the sum of all, irradiance in W/m² and, where a
+// receiver is glossy, radiance in W/m²/sr.
 [[nodiscard]] IrradianceMap projectMaps(FrameBuilder& frame, const Projection& projection,
                                         CausticMap map, const Surfaces& surfaces);
 

@@ -19,7 +19,7 @@
 #include <cmath>
 
 #include "framework/pipeline/frame_builder.h"
-#include "techniques/splats/narrowed.h"
+#include "techniques/splats/clamped.h"
 
 namespace kaustik {
 namespace {
@@ -73,7 +73,7 @@ InScattered drawGodRays(FrameBuilder& frame, const GodRayParams& params, Hits hi
     const int h = frame.height();
     struct Data {
         InScattered out;
-        graph::Buffer<transport::Narrowed> narrowed;
+        graph::Buffer<transport::Clamped> clamped;
     };
     const Data& drawn = frame.pass<Data>(
         "media.lines", "the medium scatters what photons carry",
@@ -90,17 +90,17 @@ InScattered drawGodRays(FrameBuilder& frame, const GodRayParams& params, Hits hi
                 setup.bypass(data.out.sums, before.sums);
             }
             setup.image("fluxSums", data.out.sums);
-            data.narrowed = setup.storage(
-                "NarrowedLines",
-                setup.createBuffer<transport::Narrowed>(
-                    run == 1 ? "media.narrowed" : fmt::format("media.narrowed_{}", run), 1));
-            setup.bypass(data.narrowed, {0, 0, 0, 0});
+            data.clamped = setup.storage(
+                "ClampedWidths",
+                setup.createBuffer<transport::Clamped>(
+                    run == 1 ? "media.clamped" : fmt::format("media.clamped_{}", run), 1));
+            setup.bypass(data.clamped, {0, 0, 0, 0});
         },
         [params, isFirst, w, h, list = hits.incoming, scale = radianceScaleOf(frame)](
             const Data& data, gl::PassContext& context) {
             if (!context.isRepeated()) {
                 if (isFirst) context.texture(data.out.sums).clear({0, 0, 0, 0});
-                context.buffer(data.narrowed).clear();
+                context.buffer(data.clamped).clear();
             }
             const int columns = columnsOf(params);
             for (int column = 0; column < std::max(w, h); column += columns) {
@@ -112,8 +112,11 @@ InScattered drawGodRays(FrameBuilder& frame, const GodRayParams& params, Hits hi
                              list);
             }
         });
-    reportWidthLimit(frame, "media.lines", drawn.narrowed, 0, "maximum", params.maximum,
-                     "lines are narrower than they were to be");
+    reportWidthLimit(
+        frame,
+        {"media.lines", "maximum", WidthBound::largest, static_cast<double>(params.maximum), "px",
+         "lines are narrower than they were to be"},
+        drawn.clamped, 0);
     InScattered out = drawn.out;
     out.radiance = frame.pass<graph::Texture<RadianceTexel>>(
         "media.sum", "what photons scatter becomes radiance",

@@ -1,15 +1,29 @@
 // SPDX-License-Identifier: MIT
 #include "techniques/photon_lists/emitted.h"
 
+#include <algorithm>
 #include <vector>
+#include "framework/transport/primitives.h"
 
 namespace kaustik {
+
+CellGrid cellsOf(const Samples& samples, const params::Extent& grid) {
+    CellGrid cells;
+    cells.width = grid.width;
+    cells.firstOwn = samples.firstRow;
+    cells.endOwn = std::min(samples.firstRow + samples.rows, grid.height);
+    cells.firstRow = std::max(cells.firstOwn - samples.borderRows, 0);
+    cells.rows = std::min(cells.endOwn + samples.borderRows, grid.height) - cells.firstRow;
+    cells.firstLight = samples.firstLight;
+    cells.lights = samples.lights;
+    return cells;
+}
 
 Hits storeEmitted(graph::PassSetup& setup, Photons photons, const Samples& samples) {
     photons.batch = samples.suffix;
     photons.ledger = samples.ledger.valid() ? setup.write(samples.ledger)
                                             : setup.createBuffer<transport::LedgerEntry>(
-                                                  "ledger", transport::kAccountCount);
+                                                  "ledger", transport::kLedgerEntryCount);
     photons.store(setup);
     Hits hits = Hits::create(setup, photons);
     hits.store(setup);

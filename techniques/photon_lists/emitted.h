@@ -6,13 +6,16 @@
 
 namespace kaustik {
 
+// The cells of a batch: its own rows of each light's grid, and those next to them.
+[[nodiscard]] CellGrid cellsOf(const Samples& samples, const params::Extent& grid);
+
 // Declares that a pass makes these photons, of a batch, and their first hits, on specular surfaces;
 // the ledger is that of the batches before, or a new one.
 [[nodiscard]] Hits storeEmitted(graph::PassSetup& setup, Photons photons, const Samples& samples);
 // The first that such a pass does: a new ledger has nothing in it, and the list is full, unless
-// the batch is of cells that somebody else has listed.
+// the batch is of cells that another pass has listed.
 void beginEmission(gl::PassContext& context, const Photons& photons, const Samples& samples);
-// Leaves nobody in any place of the list.
+// Leaves every place of the list without a photon.
 void clearEmitted(gl::PassContext& context, const Hits& hits);
 
 }  // namespace kaustik

@@ -3,9 +3,17 @@
 
 #include <fmt/format.h>
 
-namespace kaustik {
+#include <algorithm>
 
-NextPhotons allocateNext(FrameBuilder& frame, const Hits& hits, int branches) {
+namespace kaustik {
+namespace {
+
+// The shaders of a pass that may send on two photons of one are another variant.
+const char* const kBranchVariant = "BRANCHES";
+
+}  // namespace
+
+NextPhotons allocateNext(FrameBuilder& frame, const Hits& hits, int levels) {
     return frame.pass<NextPhotons>(
         "specular.list", "photons that end leave no gaps",
         [&](graph::PassSetup& setup, NextPhotons& data) {
@@ -14,14 +22,19 @@ NextPhotons allocateNext(FrameBuilder& frame, const Hits& hits, int branches) {
             before.sample(setup);
             ModelledPaths paths = before.paths;
             ++paths.interactions;
-            data.photons = Photons::create(setup, before.width, before.nextRows * branches,
+            paths.insideBodies =
+                frame.needs().closedDielectrics && !frame.traits<SpecularStage>().throughBodies;
+            // What can part twice as many has at most once more room for it.
+            CellGrid cells = before.cells;
+            cells.splits = std::max(cells.splits, std::min(cells.splits + 1, levels));
+            const int rows = before.nextRows << (cells.splits - before.cells.splits);
+            data.photons = Photons::create(setup, before.width, rows,
                                            fmt::format("{}_{}", before.batch, paths.interactions),
                                            before.hasBeams());
             data.photons.batch = before.batch;
             data.photons.paths = paths;
-            data.photons.cells = before.cells;
+            data.photons.cells = cells;
             data.photons.extents = before.extents;
-            if (branches > 1) ++data.photons.cells.splits;
             setup.storage("NextPhotons", data.photons.list);
             const auto groups =
                 (static_cast<std::size_t>(before.capacity()) + transport::kPhotonGroup - 1) /
@@ -29,11 +42,17 @@ NextPhotons allocateNext(FrameBuilder& frame, const Hits& hits, int branches) {
             data.firsts = setup.storage(
                 "NextFirsts",
                 setup.createBuffer<std::uint32_t>("photons.firsts" + data.photons.suffix, groups));
+            if (levels == 0) return;
+            data.parting = setup.storage(
+                "NextParting",
+                setup.createBuffer<glm::uvec2>("photons.parting" + data.photons.suffix, groups));
+            setup.define(kBranchVariant);
         },
-        [list = hits.incoming, branches](const NextPhotons& data, gl::PassContext& context) {
-            dispatchOver(context.compute("photon_lists/next_photons_blocks.comp"), list);
+        [list = hits.incoming, levels](const NextPhotons& data, gl::PassContext& context) {
+            gl::Command blocks = context.compute("photon_lists/next_photons_blocks.comp");
+            if (levels > 0) blocks.set("branchesOfAll", 1u << static_cast<unsigned>(levels));
+            dispatchOver(blocks, list);
             context.compute("photon_lists/next_photons_offsets.comp")
-                .set("branches", branches)
                 .set("nextRowLength", data.photons.width)
                 .dispatch(1);
         });
@@ -43,6 +62,10 @@ Photons bindNextPhotons(graph::PassSetup& setup, const Hits& hits, const NextPho
     hits.sample(setup);
     hits.incoming.sample(setup);
     setup.storage("NextFirsts", next.firsts);
+    if (next.parting.valid()) {
+        setup.storage("NextParting", next.parting);
+        setup.define(kBranchVariant);
+    }
     Photons photons = next.photons;
     photons.rewrite(setup);
     photons.store(setup);

@@ -9,11 +9,15 @@ namespace kaustik {
 
 struct NextPhotons {
     Photons photons;
-    graph::Buffer<std::uint32_t> firsts;  // by the workgroups of the list before
+    // By the workgroups of the list before.
+    graph::Buffer<std::uint32_t> firsts;
+    graph::Buffer<glm::uvec2> parting;  // bits: who sends on two; invalid where nobody does
 };
 
-// Adds the pass "specular.list", which makes room for `branches` photons of each that goes on.
-[[nodiscard]] NextPhotons allocateNext(FrameBuilder& frame, const Hits& hits, int branches);
+// Adds the pass "specular.list", which makes room for one photon of each that goes on, or, where
+// light parts and `levels` is more than 0, for two, as long as one emitted has become no more than
+// 2^levels (include/photons/branches.glsl).
+[[nodiscard]] NextPhotons allocateNext(FrameBuilder& frame, const Hits& hits, int levels = 0);
 
 // Declares that a pass sends photons on: what include/photons/next_photons.glsl reads and writes.
 // Its commands have a thread a photon of `hits.incoming`.

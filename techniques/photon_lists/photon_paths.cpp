@@ -8,6 +8,7 @@
 
 #include "framework/pipeline/ledger.h"
 #include "framework/pipeline/stage_params.h"
+#include "techniques/specular/split.h"
 
 namespace kaustik {
 
@@ -18,20 +19,23 @@ int interactionCount(const FrameBuilder& frame, const ModelledPaths& paths) {
     return canRepeat ? frame.params<SpecularParams>("specular").bounces : 1;
 }
 
-std::vector<Samples> batchesOfGrids(const FrameBuilder& frame, int together) {
-    const int maximum = frame.params<EmitParams>("emit").batch;
+std::vector<Samples> batchesOfGrids(const FrameBuilder& frame, int together, bool joins) {
+    const int border = joins && frame.joinsCells() ? kJoinedRows : 0;
+    if (border > 0) together = std::max(together, kJoinedSquare);
+    // Lists have room for all that these may become.
+    const int maximum = std::max(frame.params<EmitParams>("emit").batch >> branchLevels(frame), 1);
     const params::Extent photons = frame.photonsOfALight();
     const int lights = std::max(frame.needs().lights, 1);
     const std::int64_t all = std::int64_t{photons.width} * photons.height * lights;
     if (all <= maximum) return {{0, lights, 0, photons.height, "", {}}};
-    int rows = std::clamp(maximum / photons.width, 1, photons.height);
-    if (rows > together) rows -= rows % together;
+    const int rows = std::max(maximum / photons.width / together, 1) * together;
     std::vector<Samples> batches;
     for (int light = 0; light < lights; ++light) {
         for (int row = 0; row < photons.height; row += rows) {
             const std::string suffix =
                 batches.empty() ? "" : fmt::format(".{}", batches.size() + 1);
-            batches.push_back({light, 1, row, std::min(rows, photons.height - row), suffix, {}});
+            batches.push_back(
+                {light, 1, row, std::min(rows, photons.height - row), suffix, {}, {}, border});
         }
     }
     return batches;
@@ -59,6 +63,13 @@ void followPhotons(FrameBuilder& frame, const Surfaces& surfaces, Samples sample
     // What is still on its way is counted at once, so that the batch need not be kept.
     caustic.map.ledger = closeBatch(frame, hits, caustic.map.ledger);
     caustic.last = hits;
+}
+
+void warnNothingJoined(FrameBuilder& frame) {
+    const std::string reason = frame.facts().whyNoNeighbours();
+    if (reason.empty() || !frame.joinsCells()) return;
+    frame.warn(fmt::format("reconstruct={} joins nothing: {}.",
+                           frame.inputs().params.choice(ReconstructStage::name), reason));
 }
 
 void finishMedia(FrameBuilder& frame, Caustic& caustic) {

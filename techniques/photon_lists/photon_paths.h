@@ -15,8 +15,11 @@ namespace kaustik {
 [[nodiscard]] int interactionCount(const FrameBuilder& frame, const ModelledPaths& paths);
 
 // All photons of the lights' grids at once, or, where they are more than a batch may hold, whole
-// rows of one light's after the other; `together`: rows that one batch has, if it can.
-[[nodiscard]] std::vector<Samples> batchesOfGrids(const FrameBuilder& frame, int together = 1);
+// rows of one light's after the other. `together`: so many rows from the grid's first on are in one
+// batch, whatever emit.batch says. `joins`: a reconstruction that joins neighbouring cells is given
+// those next to a batch as well, and whole squares of them.
+[[nodiscard]] std::vector<Samples> batchesOfGrids(const FrameBuilder& frame, int together = 1,
+                                                  bool joins = true);
 
 // What photons are followed for.
 struct PhotonUse {
@@ -28,9 +31,12 @@ struct PhotonUse {
 
 // Emits these samples and follows them from interaction to interaction: what arrives, or is
 // scattered, is added to `caustic` at once. Photons that are stored have the ledger of `caustic`'s
-// map, others that of the samples, which nobody reads.
+// map, others that of the samples, which are not read.
 void followPhotons(FrameBuilder& frame, const Surfaces& surfaces, Samples samples, Caustic& caustic,
                    const PhotonUse& use = {});
+
+// Warns where a reconstruction is to join neighbouring photons, and those of this driver have none.
+void warnNothingJoined(FrameBuilder& frame);
 
 // After the last photons: smooths what a medium scatters, or says why there is none.
 void finishMedia(FrameBuilder& frame, Caustic& caustic);

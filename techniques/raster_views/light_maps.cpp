@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "framework/pipeline/stage_params.h"
+#include "techniques/raster_views/map_border.h"
+#include "techniques/raster_views/map_params.h"
 #include "techniques/raster_views/receivers.h"
 #include "techniques/raster_views/seen_part.h"
 
@@ -55,7 +56,7 @@ scene::Bounds coveredBounds(const FrameBuilder& frame, MapCover covers) {
 }
 
 // A further map goes beyond what the eye sees by its border, which is not looked up.
-const double kBorder = double{transport::kBorderOfPart};
+const double kBorder = double{kBorderOfPart};
 const double kBorderOfSeen = kBorder / (1.0 - 2.0 * kBorder);
 // Nothing is taken to be nearer than this share of the farthest: the box of a room that the eye is
 // in begins at the eye.

@@ -6,24 +6,10 @@
 #include <algorithm>
 
 namespace kaustik {
-namespace {
-
-scene::Bounds specularBounds(const scene::Scene& scene) {
-    scene::Bounds bounds;
-    for (const scene::Object& object : scene.objects) {
-        if (isReceiver(scene.materials[object.material].kind)) continue;
-        const scene::Bounds objects = objectBounds(scene, object);
-        bounds.include(objects.minimum);
-        bounds.include(objects.maximum);
-    }
-    return bounds;
-}
-
-}  // namespace
 
 std::vector<LightSight> sightsOfSpecular(FrameBuilder& frame) {
     const scene::Scene& scene = frame.scene();
-    const scene::Bounds target = specularBounds(scene);
+    const scene::Bounds target = scene::specularBounds(scene);
     std::vector<LightSight> sights;
     if (target.empty) return sights;
     for (const scene::Light& light : scene.lights) {
@@ -31,7 +17,7 @@ std::vector<LightSight> sightsOfSpecular(FrameBuilder& frame) {
         if (view.isClipped) {
             frame.warn(fmt::format(
                 "Light '{}' sees the specular objects wider than 160 degrees; photons outside of "
-                "that are not emitted and are in no account.",
+                "that are not emitted, which emission_sampling of the ledger says.",
                 light.name));
         }
         sights.push_back({view, &frame.keep(frame.gpuScene().makeInstances(view.worldToView))});

@@ -12,7 +12,7 @@ struct SeenPart {
     double farthestMeters = 0.0;
 };
 
-// Of `box` (world space, m) within the eye's frustum, as far as `farMeters` of depth.
+// The part of `box` (world space, m) within the eye's frustum, as far as `farMeters` of depth.
 [[nodiscard]] SeenPart seenPartOf(const scene::Bounds& box, const render::RasterView& eye,
                                   double farMeters = 1e30);
 

@@ -16,7 +16,8 @@ struct FixedParams {
                 params::range(1, 63));
         r.choice(edges, "edges", kEdgesSentence, {"kept", "crossed"});
         r.choice(center, "center", "photon: where it arrives; texel: the middle of its texel",
-                 {"photon", "texel"});
+                 {"photon", "texel"})
+            .when(diameter > 1, "with reconstruct.fixed.diameter=1");
     }
 };
 

@@ -20,7 +20,7 @@ CausticMap splatFourRadii(FrameBuilder& frame, const FourRadiiParams& params, Hi
     TexelSplats splats{.node = "reconstruct.four_radii",
                        .reason = "photons are splats of four sizes, counted by texel"};
     splats.edges = params.edges;
-    splats.flux = 4;
+    splats.layout = SetLayout::sizes;
     splats.counts = true;
     return splat(frame, splats, hits, surfaces, before);
 }

@@ -22,9 +22,8 @@ CausticMap splatLevels(FrameBuilder& frame, const LevelsParams& params, Hits hit
                        .reason = "photons are splats in every level of the map"};
     // Coarser levels' texels hold several surfaces, and cross edges all the same.
     splats.diameter = static_cast<float>(params.diameter);
-    splats.flux = 2;
+    splats.layout = SetLayout::levels;
     splats.counts = true;
-    splats.hasLevels = true;
     return splat(frame, splats, hits, surfaces, before);
 }
 

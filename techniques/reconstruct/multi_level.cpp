@@ -2,7 +2,6 @@
 // reconstruct.multi_level: photons as splats in that level of the map's resolution whose texels are
 // as wide as their beams (WN09, section 3.2.2; splats/texel_splats.h). filter.level_sum adds up all
 // levels.
-#include "framework/core/error.h"
 #include "techniques/splats/texel_splats.h"
 
 namespace kaustik {
@@ -23,16 +22,7 @@ CausticMap splatOneLevel(FrameBuilder& frame, const MultiLevelParams& params, Hi
     TexelSplats splats{.node = "reconstruct.multi_level",
                        .reason = "photons whose light spreads are splats in coarser levels"};
     splats.diameter = static_cast<float>(params.diameter);
-    splats.flux = 2;
-    splats.counts = true;
-    splats.hasLevels = true;
-    splats.intoOneLevel = true;
-    splats.parts = 2;
-    if (frame.needs().glossyReceivers) {
-        throw ConfigError(
-            "reconstruct.multi_level keeps no directions, which the scene's glossy receivers need; "
-            "take reconstruct=lens.");
-    }
+    splats.layout = SetLayout::sharedLevels;
     return splat(frame, splats, hits, surfaces, before);
 }
 
@@ -44,8 +34,8 @@ void registerReconstructMultiLevel(Registry& registry) {
         {"Splats each photon into that level of the map's resolution whose texels are "
          "as wide as its beam where it arrives; filter.level_sum adds up all of them.",
          "WN09, section 3.2.2, multi-resolution caustic map",
-         "It keeps no directions, so that scenes with glossy receivers are refused. Its levels are "
-         "added by filter=level_sum; a gather without it is refused."},
+         "Coarser levels see no edges: light leaks over them there. Its levels are added by "
+         "filter=level_sum; a gather without it is refused."},
         {.beams = true, .filter = "level_sum"}, &splatOneLevel);
 }
 

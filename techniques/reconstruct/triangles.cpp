@@ -15,7 +15,7 @@
 
 #include "framework/core/error.h"
 #include "framework/pipeline/frame_builder.h"
-#include "techniques/splats/narrowed.h"
+#include "techniques/splats/clamped.h"
 #include "techniques/stores/stores.h"
 
 namespace kaustik {
@@ -32,11 +32,13 @@ struct TrianglesParams {
     float merge = 0.0f;
     template <class R>
     void reflect(R& r) {
+        const auto whyNotJoined = [](const FrameFacts& facts) { return facts.whyNoNeighbours(); };
         r.field(
-            tolerance, "tolerance",
-            "Neighbours are joined where they arrive no farther from where their beams say than "
-            "this share of their distance",
-            "", params::range(0.01f, 10.0f));
+             tolerance, "tolerance",
+             "Neighbours are joined where they arrive no farther from where their beams say than "
+             "this share of their distance",
+             "", params::range(0.01f, 10.0f))
+            .when(whyNotJoined);
         r.field(maximum, "maximum",
                 "Longest side on the screen; wider cells are not joined, and beams shrink to it",
                 "px", params::range(1, 1024));
@@ -44,17 +46,19 @@ struct TrianglesParams {
                  "smooth: between the densities that the beams give at the corners; flat: the same "
                  "all over a triangle; vertices: between what each corner's photon has for a third "
                  "of all triangles there (U08)",
-                 {"smooth", "flat", "vertices"});
+                 {"smooth", "flat", "vertices"})
+            .when(whyNotJoined);
         r.choice(
             unjoined, "unjoined",
             "What becomes of light between photons that are not joined. beams: each covers its "
             "part by its own; discard: it is lost, and counted as discarded_triangle",
             {"beams", "discard"});
         r.field(
-            merge, "merge",
-            "Neighbouring cells, up to 16 along a side, that together span no more than this are "
-            "drawn as one, with their flux added; 0: none",
-            "px", params::range(0.0f, 64.0f));
+             merge, "merge",
+             "Neighbouring cells, up to 16 along a side, that together span no more than this are "
+             "drawn as one, with their flux added; 0: none",
+             "px", params::range(0.0f, 64.0f))
+            .when(whyNotJoined);
     }
 };
 
@@ -86,7 +90,7 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Hits& h
                const Store& store, const FluxMap& before) {
     const TrianglesParams params = forViews(wanted, *store.receivers.views);
     const FluxSets sets = setsIn(frame, store);
-    const bool isGlossy = sets.hasIntensity;
+    const bool isGlossy = sets.hasIntensity();
     struct Data {
         Stored stored;
         graph::Buffer<std::uint32_t> photonOfCell;
@@ -95,7 +99,7 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Hits& h
         graph::Buffer<std::uint32_t> patches;  // those of one thread, then those of a workgroup
         graph::Buffer<PatchBlock> blocks;      // where any are merged
         graph::Buffer<PatchCount> counts;
-        graph::Buffer<transport::Narrowed> narrowed;
+        graph::Buffer<transport::Clamped> clamped;
     };
     const std::string reason = hits.incoming.cells.width > 0
                                    ? "what neighbours bring is spread between them"
@@ -129,13 +133,13 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Hits& h
                 create(data.blocks, "PatchBlocks", "blocks", capacity);
             }
             create(data.counts, "PatchCounts", "counts", 2);
-            create(data.narrowed, "NarrowedPatches", "narrowed", 1);
+            create(data.clamped, "ClampedWidths", "clamped", 1);
         },
         [params, sets, store, list = hits.incoming](const Data& data, gl::PassContext& context) {
             clearIfFirst(context, data.stored);
             context.buffer(data.photonOfCell).clear();
             context.buffer(data.counts).clear();
-            if (!context.isRepeated()) context.buffer(data.narrowed).clear();
+            if (!context.isRepeated()) context.buffer(data.clamped).clear();
             const auto shader = [&](const char* name) {
                 gl::Command command = context.compute(name);
                 bindStore(command, store).params("reconstruct.triangles", params);
@@ -169,8 +173,11 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Hits& h
                                              offsetof(PatchCount, groupsX));
             }
         });
-    reportWidthLimit(frame, "reconstruct.triangles", covered.narrowed, 0, "maximum", params.maximum,
-                     "beams are narrower than they were to be");
+    reportWidthLimit(frame,
+                     {"reconstruct.triangles", "maximum", WidthBound::largest,
+                      static_cast<double>(params.maximum), "px",
+                      "beams are narrower than they were to be", store.cascade > 0},
+                     covered.clamped, 0);
     return covered.stored;
 }
 

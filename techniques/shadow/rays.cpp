@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "framework/core/error.h"
+#include "framework/transport/primitives.h"
 #include "techniques/tracing/hit_testing.h"
 
 namespace kaustik {
@@ -21,7 +22,7 @@ Photons aimAtLight(FrameBuilder& frame, const EyeBuffer& eye, int light) {
             const std::string suffix = fmt::format("_shadow_{}", light);
             rays = Photons::create(setup, frame.width(), frame.height(), suffix, false);
             rays.ledger = setup.createBuffer<transport::LedgerEntry>("ledger" + suffix,
-                                                                     transport::kAccountCount);
+                                                                     transport::kLedgerEntryCount);
         },
         [light](const Photons& rays, gl::PassContext& context) {
             context.buffer(rays.ledger).clear();

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// specular.auto: what the scene needs of the other two. specular.split where a sheet of water or
-// glass sends much of its light back to a receiver, or light within a body comes to so many of its
-// faces that much of it is reflected there (scene/light_paths.h); else specular.interface.
+// specular.auto: what the scene needs of the other two. specular.split where there are bodies, each
+// of whose faces reflects a share, outside and within, or where a sheet of water or glass sends
+// light back to a receiver (scene/light_paths.h); else specular.interface. What that costs and
+// brings: results/defaults.md.
 #include <fmt/format.h>
 
 #include <string>
@@ -23,8 +24,8 @@ Photons interactAuto(FrameBuilder& frame, const params::NoParams&, Hits hits, Su
     }
     if (isFirst) {
         frame.skip("specular.split",
-                   "no sheet reflects more than 4% of its light towards a receiver, and all "
-                   "bodies are convex; specular=split follows what is reflected all the same");
+                   "no sheet reflects more than 4% of its light towards a receiver, and there are "
+                   "no bodies; specular=split follows what is reflected all the same");
     }
     return interactAtInterface(frame, {}, hits, surfaces);
 }
@@ -34,11 +35,11 @@ Photons interactAuto(FrameBuilder& frame, const params::NoParams&, Hits hits, Su
 void registerSpecularAuto(Registry& registry) {
     registry.node<SpecularStage>(
         "auto",
-        {"Follows both Fresnel branches where water or a pane reflects "
-         "much light to a receiver, else the refracted one.",
+        {"Follows both Fresnel branches where there are bodies, or where water or a pane reflects "
+         "light to a receiver, else the refracted one.",
          "",
-         "It decides once for the whole scene, by its sheets' reflectance and by whether bodies "
-         "are convex. What it then leaves out is in the ledger as untraced_branch.",
+         "It decides once for the whole scene, by its bodies and its sheets' reflectance. What it "
+         "then leaves out is in the ledger as untraced_branch.",
          {"specular.split"}},
         &interactAuto);
 }

@@ -31,7 +31,7 @@ struct DeferredSpecularParams {
     int layers = 4;
     Incidence incidence = Incidence::ray;
     int steps = 12;
-    DistanceInside distance = DistanceInside::estimates;
+    DistanceInside distance = DistanceInside::search;
     BodySearchParams search;
     int size = 1024;
     DeferredGeometry geometry = DeferredGeometry::once;
@@ -40,12 +40,14 @@ struct DeferredSpecularParams {
         r.field(layers, "layers",
                 "Most bodies, those nearest to each light, that photons go through one after the "
                 "other",
-                "bodies", params::range(1, 8));
+                "bodies", params::range(1, 8))
+            .when(&whyNoOtherBody);
         r.choice(incidence, "incidence",
                  "How light comes to a body that it meets after another one. ray: as the photon's "
                  "ray does; light: as if it came from the light and had never been bent (WN09, "
                  "section 3.1.1)",
-                 {"ray", "light"});
+                 {"ray", "light"})
+            .when(&whyNoOtherBody);
         reflectDistance(r, distance, steps);
         search.reflect(r);
         r.field(size, "size",
@@ -139,7 +141,7 @@ Photons interactDeferred(FrameBuilder& frame, const DeferredSpecularParams& para
         "specular.sights",
         [&] { return std::make_shared<std::vector<LightSight>>(sightsOfSpecular(frame)); });
     if (frame.runsOf(SpecularStage::name) == 1) warnOmittedPaths(frame, params);
-    const NextPhotons next = allocateNext(frame, hits, 1);
+    const NextPhotons next = allocateNext(frame, hits);
     Photons photons = next.photons;
     photons.ledger = hits.incoming.ledger;
     const int bodies = std::min(static_cast<int>(bodiesOf(frame.scene()).size()), params.layers);
@@ -164,12 +166,14 @@ Photons interactDeferred(FrameBuilder& frame, const DeferredSpecularParams& para
                 data.paths.transmissionOnly = true;
                 data.paths.end = true;
             },
-            [params, light, list = hits.incoming, seen](const Photons&, gl::PassContext& context) {
+            [params, light, account = totalReflectionAccount(frame, params.distance),
+             list = hits.incoming, seen](const Photons&, gl::PassContext& context) {
                 gl::Command command = context.compute("specular/deferred.comp");
                 if (seen.views) {
                     seen.views->bindTo(command);
                     seen.bindTo(command);
                 }
+                if (seen.views) command.set("totalReflectionAccount", account);
                 command.params("specular.deferred", params)
                     .set("lightIndex", static_cast<int>(light));
                 dispatchOver(command, list);

@@ -10,7 +10,7 @@ namespace kaustik {
 
 Photons interactAtInterface(FrameBuilder& frame, const params::NoParams&, Hits hits,
                             Surfaces /*surfaces*/) {
-    const NextPhotons next = allocateNext(frame, hits, 1);
+    const NextPhotons next = allocateNext(frame, hits);
     return frame.pass<Photons>(
         "specular.interface", "photons hit specular surfaces",
         [&](graph::PassSetup& setup, Photons& data) {

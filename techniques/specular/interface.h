@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// The function of the node specular.interface, for nodes that choose between it and another one.
 #pragma once
 
 #include "framework/pipeline/frame_builder.h"

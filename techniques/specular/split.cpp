@@ -1,39 +1,16 @@
 // SPDX-License-Identifier: MIT
 // specular.split: reflects and refracts photons where they have hit a specular surface and follows
-// both Fresnel branches (K06, section 2.3). The first `levels` interactions double the transfer
-// map; from then on each photon follows one of the two branches, drawn by its share of the flux, so
-// that nothing is lost and nothing grows. Exact unpolarised Fresnel; eye view space, m and W.
+// both Fresnel branches (K06, section 2.3), until one emitted photon has become 2^levels: its room
+// is shared out among branches as the light is (include/photons/branches.glsl), so that weak ones
+// are not followed into ever weaker ones, and neighbours take the same paths. A photon without room
+// for two follows the stronger branch; the other's flux is in the ledger, as untraced_branch. Exact
+// unpolarised Fresnel; eye view space, m and W.
 #include <fmt/format.h>
 
 #include "techniques/photon_lists/next_photons.h"
 #include "techniques/specular/split.h"
 
 namespace kaustik {
-namespace {
-
-// Which photons follow one branch for want of room. Nothing is lost to it, and what is drawn is
-// noise.
-void reportLevelLimit(FrameBuilder& frame, const SplitParams& params, const Hits& before) {
-    frame.reportLimit(
-        {"specular.split",
-         {before.flux, before.incoming.list},
-         [levels = params.levels,
-          before](const gl::Executor& executor) -> std::optional<ReachedLimit> {
-             const std::size_t count = countHits(executor, before, transport::kFateSpecular);
-             if (count == 0) return {};
-             return ReachedLimit{
-                 "specular.split.levels",
-                 "interactions",
-                 static_cast<double>(levels),
-                 0.0,
-                 fmt::format("{} photons hit another specular surface and followed one branch, "
-                             "drawn by its share; no flux is lost to it",
-                             count),
-                 0.0};
-         }});
-}
-
-}  // namespace
 
 std::string whyBothBranches(const scene::SceneNeeds& needs) {
     if (needs.reflectedLight) {
@@ -41,36 +18,30 @@ std::string whyBothBranches(const scene::SceneNeeds& needs) {
                            100.0 * needs.reflectedLight->share, needs.reflectedLight->sheet,
                            needs.reflectedLight->receiver);
     }
-    if (needs.concaveBody) {
-        return fmt::format(
-            "'{}' is not convex, and each of its faces that light within comes to "
-            "reflects a share",
-            *needs.concaveBody);
-    }
+    if (needs.closedDielectrics)
+        return "bodies reflect a share of their light at every face, outside and within";
     return "";
+}
+
+int branchLevels(const FrameBuilder& frame) {
+    const std::string& node = frame.inputs().params.choice(SpecularStage::name);
+    const bool splits =
+        node == "split" || (node == "auto" && !whyBothBranches(frame.needs()).empty());
+    return splits ? frame.params<SplitParams>("specular.split").levels : 0;
 }
 
 Photons splitAtInterface(FrameBuilder& frame, const SplitParams& params, Hits hits,
                          Surfaces /*surfaces*/) {
-    const int run = hits.incoming.paths.interactions + 1;
-    const bool splits = run <= params.levels;
-    // Of the first batch alone: what is counted must be kept to the end of the frame.
-    if (run == params.levels + 1 && hits.incoming.batch.empty())
-        reportLevelLimit(frame, params, hits);
-    if (!splits) frame.usesRandomness();
-    const NextPhotons next = allocateNext(frame, hits, splits ? 2 : 1);
+    const NextPhotons next = allocateNext(frame, hits, params.levels);
     return frame.pass<Photons>(
         "specular.split",
-        splits ? "photons hit specular surfaces and follow both branches"
-               : "photons hit specular surfaces again and follow one branch",
+        params.levels > 0 ? "photons hit specular surfaces and follow both branches"
+                          : "photons hit specular surfaces and follow the stronger branch",
         [&](graph::PassSetup& setup, Photons& data) { data = bindNextPhotons(setup, hits, next); },
-        [&inputs = frame.inputs(), list = hits.incoming, splits](const Photons&,
-                                                                 gl::PassContext& context) {
-            dispatchOver(context.compute("specular/split.comp")
-                             .set("splits", splits ? 1 : 0)
-                             .set("seedLow", static_cast<unsigned>(inputs.seed))
-                             .set("seedHigh", static_cast<unsigned>(inputs.seed >> 32)),
-                         list);
+        [levels = params.levels, list = hits.incoming](const Photons&, gl::PassContext& context) {
+            gl::Command command = context.compute("specular/split.comp");
+            if (levels > 0) command.set("branchesOfAll", 1u << static_cast<unsigned>(levels));
+            dispatchOver(command, list);
         });
 }
 
@@ -78,9 +49,8 @@ void registerSpecularSplit(Registry& registry) {
     registry.node<SpecularStage>(
         "split",
         {"Refracts and reflects: follows both Fresnel branches.", "K06, section 2.3",
-         "Both branches are followed for the first specular.split.levels interactions. From then "
-         "on each photon follows one of them, drawn by its share of the flux: nothing is lost, but "
-         "there is noise."},
+         "An emitted photon becomes no more than 2^specular.split.levels: by then each follows the "
+         "stronger branch alone, and what the weaker ones had is booked as untraced_branch."},
         &splitAtInterface);
 }
 

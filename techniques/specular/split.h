@@ -12,12 +12,14 @@ namespace kaustik {
 [[nodiscard]] std::string whyBothBranches(const scene::SceneNeeds& needs);
 
 struct SplitParams {
-    int levels = 1;
+    int levels = 3;
     template <class R>
     void reflect(R& r) {
         r.field(levels, "levels",
-                "Interactions at which both branches are followed, which doubles the transfer map; "
-                "at later ones each photon takes one of them, drawn by its share",
+                "Both branches are followed until one emitted photon has become 2 to the power of "
+                "this, which is also how much longer lists may be. Room is shared out as the light "
+                "is, so that neighbours take the same paths; who has none left follows the "
+                "stronger branch",
                 "", params::range(0, 6))
             .when([](const FrameFacts& facts) -> std::string {
                 const bool isAuto = facts.settings.choice(SpecularStage::name) == "auto";
@@ -27,6 +29,10 @@ struct SplitParams {
             });
     }
 };
+
+// specular.split.levels where the frame's specular node follows both branches, else 0: a list has
+// room for 2^levels photons of each that is emitted.
+[[nodiscard]] int branchLevels(const FrameBuilder& frame);
 
 Photons splitAtInterface(FrameBuilder& frame, const SplitParams& params, Hits hits,
                          Surfaces surfaces);

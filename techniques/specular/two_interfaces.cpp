@@ -30,7 +30,7 @@ enum class FollowedBranch : int { refracted, reflected };
 
 struct TwoInterfacesParams {
     int steps = 12;
-    DistanceInside distance = DistanceInside::estimates;
+    DistanceInside distance = DistanceInside::search;
     int size = 1024;
     BeamModel lens = BeamModel::beam;
     FollowedBranch branch = FollowedBranch::refracted;
@@ -52,7 +52,8 @@ struct TwoInterfacesParams {
         r.choice(branch, "branch",
                  "Which photons of a dielectric's first interface go on; the others are in the "
                  "ledger's untraced_branch",
-                 {"refracted", "reflected"});
+                 {"refracted", "reflected"})
+            .when(&whyNoDielectric);
     }
 };
 
@@ -101,7 +102,7 @@ Photons interactTwoInterfaces(FrameBuilder& frame, const TwoInterfacesParams& pa
         const std::string sentence = omittedPathsMessage(frame, params);
         if (!sentence.empty()) frame.warn(sentence);
     }
-    const NextPhotons next = allocateNext(frame, hits, 1);
+    const NextPhotons next = allocateNext(frame, hits);
     Photons photons = next.photons;
     photons.ledger = hits.incoming.ledger;
     const bool hasBodies = frame.needs().closedDielectrics;
@@ -127,10 +128,11 @@ Photons interactTwoInterfaces(FrameBuilder& frame, const TwoInterfacesParams& pa
                 data.paths.transmissionOnly = true;
                 data.paths.end = true;
             },
-            [params, light, list = hits.incoming, views = faces.views](const Photons&,
-                                                                       gl::PassContext& context) {
+            [params, light, account = totalReflectionAccount(frame, params.distance),
+             list = hits.incoming, views = faces.views](const Photons&, gl::PassContext& context) {
                 gl::Command command = context.compute("specular/two_interfaces.comp");
                 if (views) views->bindTo(command);
+                if (views) command.set("totalReflectionAccount", account);
                 command.params("specular.two_interfaces", params)
                     .set("lightIndex", static_cast<int>(light));
                 dispatchOver(command, list);

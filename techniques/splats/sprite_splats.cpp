@@ -3,13 +3,14 @@
 
 #include <algorithm>
 
-#include "techniques/splats/narrowed.h"
+#include "techniques/splats/clamped.h"
 
 namespace kaustik {
 namespace {
 
-// Splats that a parameter has cut off, and those that one has made smaller.
-using CutSplats = graph::Buffer<transport::Narrowed>;
+// Splats that a parameter has cut off, and those that one has made smaller, as
+// shaders/splats/sprite_totals.comp has them.
+using ClampedSplats = graph::Buffer<transport::Clamped>;
 constexpr std::size_t kCutOff = 0;
 constexpr std::size_t kShrunk = 1;
 
@@ -24,12 +25,12 @@ Stored splatInto(FrameBuilder& frame, const Splatting& splatting, const Hits& hi
     const SpritesParams& params = splatting.params;
     const ReceiverView& receivers = store.receivers;
     const FluxSets sets = setsIn(frame, store);
-    const bool isGlossy = sets.hasIntensity;
+    const bool isGlossy = sets.hasIntensity();
     const int reach = receivers.views->count() == 1
                           ? params.reachPixels
                           : std::min(params.reachPixels, kMaxReachOnCubes);
     struct Data {
-        CutSplats cut;
+        ClampedSplats clamped;
         Stored stored;
     };
     const Data& splatted = frame.pass<Data>(
@@ -39,10 +40,10 @@ Stored splatInto(FrameBuilder& frame, const Splatting& splatting, const Hits& hi
                  : "photons deposit flux at the receivers",
         [&](graph::PassSetup& setup, Data& data) {
             data.stored = depositIn(setup, store, hits, before, sets);
-            data.cut = setup.storage("CutSplats",
-                                     setup.createBuffer<transport::Narrowed>(
-                                         "splats.cut" + store.suffix + hits.incoming.suffix, 2));
-            setup.bypass(data.cut, {0, 0, 0, 0});
+            data.clamped = setup.storage(
+                "ClampedWidths", setup.createBuffer<transport::Clamped>(
+                                     "splats.clamped" + store.suffix + hits.incoming.suffix, 2));
+            setup.bypass(data.clamped, {0, 0, 0, 0});
             setup.bypass(setup.storage("SplatTotals",
                                        setup.createBuffer<float>(
                                            "splats.totals" + store.suffix + hits.incoming.suffix,
@@ -51,7 +52,7 @@ Stored splatInto(FrameBuilder& frame, const Splatting& splatting, const Hits& hi
         },
         [splatting, reach, sets, store, list = hits.incoming](const Data& data,
                                                               gl::PassContext& context) {
-            if (!context.isRepeated()) context.buffer(data.cut).clear();
+            if (!context.isRepeated()) context.buffer(data.clamped).clear();
             clearIfFirst(context, data.stored);
             for (const char* shader : {"splats/sprite_totals.comp", "splats/sprites.comp"}) {
                 gl::Command command = context.compute(shader);
@@ -63,10 +64,18 @@ Stored splatInto(FrameBuilder& frame, const Splatting& splatting, const Hits& hi
                 dispatchOver(command, list);
             }
         });
-    reportWidthLimit(frame, splatting.node, splatted.cut, kCutOff, "reach", reach,
-                     "splats are cut off");
-    reportWidthLimit(frame, splatting.node, splatted.cut, kShrunk, "maximum", params.maximumPixels,
-                     "splats are smaller than they were to be");
+    WidthLimit limit{splatting.node,
+                     "reach",
+                     WidthBound::largest,
+                     static_cast<double>(reach),
+                     "px",
+                     "splats are cut off",
+                     store.cascade > 0};
+    reportWidthLimit(frame, limit, splatted.clamped, kCutOff);
+    limit.parameter = "maximum";
+    limit.value = static_cast<double>(params.maximumPixels);
+    limit.counted = "splats are smaller than they were to be";
+    reportWidthLimit(frame, limit, splatted.clamped, kShrunk);
     return splatted.stored;
 }
 

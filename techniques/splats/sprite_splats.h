@@ -66,7 +66,7 @@ struct Splatting {
 // to a new map.
 [[nodiscard]] Stored splatInto(FrameBuilder& frame, const Splatting& splatting, const Hits& hits,
                                const Store& store, const FluxMap& before);
-// The same wherever light is stored.
+// Splats what these hits bring in every store where light is stored.
 [[nodiscard]] CausticMap splat(FrameBuilder& frame, const Splatting& splatting, const Hits& hits,
                                const Surfaces& surfaces, const CausticMap& before);
 

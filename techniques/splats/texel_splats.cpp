@@ -4,38 +4,47 @@
 #include <algorithm>
 
 #include "techniques/maps/levels.h"
-#include "techniques/splats/narrowed.h"
+#include "techniques/splats/clamped.h"
 
 namespace kaustik {
 namespace {
 
+// Splats that are smaller, and that are larger than their beams asked for, as
+// shaders/splats/texel_splats.comp has them.
+constexpr std::size_t kAboveMaximum = 0;
+constexpr std::size_t kBelowMinimum = 1;
+
 struct Splatted {
     Stored stored;
-    graph::Buffer<transport::Narrowed> narrowed;  // of the lens's splats
+    graph::Buffer<transport::Clamped> clamped;  // of the lens's splats
 };
 
 void drawSplats(const TexelSplats& splats, const Store& store, const Splatted& data,
                 const Photons& list, gl::PassContext& context) {
     const FluxMap& map = data.stored.map;
     const render::RasterViews& views = *store.receivers.views;
-    const int levels = splats.hasLevels ? levelsOf(views.width(), views.height()) : 1;
+    const bool isShared = splats.layout == SetLayout::sharedLevels;
+    const bool hasLevels = isShared || splats.layout == SetLayout::levels;
+    const int levels = hasLevels ? levelsOf(views.width(), views.height()) : 1;
     for (int level = 0; level < levels; ++level) {
         gl::Command command = context.compute("splats/texel_splats.comp");
         bindStore(command, store);
         setLevelLayout(command, map);
         command.set("mapsPerView", map.sets.perView())
+            .set("fluxSets", map.sets.flux())
             .set("keepsEdges", splats.edges == SplatEdges::kept ? 1 : 0)
             .set("atTexels", splats.center == SplatCenter::texel ? 1 : 0)
             .set("level", level);
-        if (map.sets.counts) command.define("COUNTS").set("countsPerView", map.sets.flux);
+        if (map.sets.counts) command.define("COUNTS");
         setDeposit(command, map.sets);
-        if (splats.intoOneLevel) command.define("ONE_LEVEL").set("levels", levels);
+        if (isShared) command.define("ONE_LEVEL").set("levels", levels);
         if (splats.beams) {
             command.define("BEAM_WIDTHS")
                 .set("widths", splats.beams->widths)
+                .set("isRound", splats.beams->isRound ? 1 : 0)
                 .set("minimum", splats.beams->minimum)
                 .set("maximum", splats.beams->maximum);
-        } else if (splats.flux == 4) {
+        } else if (splats.layout == SetLayout::sizes) {
             command.define("FOUR_RADII");
         } else {
             command.set("diameter", splats.diameter);
@@ -52,30 +61,38 @@ Stored splatInto(FrameBuilder& frame, TexelSplats splats, const Hits& hits, cons
                  const FluxMap& before) {
     if (splats.beams && store.receivers.views->count() > 1)
         splats.beams->maximum = std::min(splats.beams->maximum, kMaxDiameterOnCubes);
-    FluxSets sets = setsIn(frame, store);
-    sets.flux = splats.flux;
-    sets.parts = splats.parts;
+    FluxSets sets = setsIn(frame, store, splats.layout);
     sets.counts = splats.counts;
     const Splatted& splatted = frame.pass<Splatted>(
         splats.node, splats.reason,
         [&](graph::PassSetup& setup, Splatted& data) {
             data.stored = depositIn(setup, store, hits, before, sets);
             if (splats.beams) {
-                data.narrowed = setup.storage(
-                    "CutSplats", setup.createBuffer<transport::Narrowed>(
-                                     "lens.narrowed" + store.suffix + hits.incoming.suffix, 1));
-                setup.bypass(data.narrowed, {0, 0, 0, 0});
+                data.clamped = setup.storage(
+                    "ClampedWidths", setup.createBuffer<transport::Clamped>(
+                                         "lens.clamped" + store.suffix + hits.incoming.suffix, 2));
+                setup.bypass(data.clamped, {0, 0, 0, 0});
             }
         },
         [splats, store, list = hits.incoming](const Splatted& data, gl::PassContext& context) {
             clearIfFirst(context, data.stored);
-            if (splats.beams && !context.isRepeated()) context.buffer(data.narrowed).clear();
+            if (splats.beams && !context.isRepeated()) context.buffer(data.clamped).clear();
             drawSplats(splats, store, data, list, context);
         });
     if (splats.beams) {
-        reportWidthLimit(frame, splats.node, splatted.narrowed, 0, "max_diameter",
-                         static_cast<int>(splats.beams->maximum),
-                         "splats are smaller than they were to be");
+        WidthLimit limit{splats.node,
+                         "max_diameter",
+                         WidthBound::largest,
+                         static_cast<double>(splats.beams->maximum),
+                         "texels",
+                         "splats are smaller than they were to be",
+                         store.cascade > 0};
+        reportWidthLimit(frame, limit, splatted.clamped, kAboveMaximum);
+        limit.parameter = "min_diameter";
+        limit.bound = WidthBound::smallest;
+        limit.value = static_cast<double>(splats.beams->minimum);
+        limit.counted = "splats are larger than they were to be";
+        reportWidthLimit(frame, limit, splatted.clamped, kBelowMinimum);
     }
     return splatted.stored;
 }

@@ -13,7 +13,7 @@
 
 namespace kaustik {
 
-// Which texels a splat lies on.
+// The texels that a splat lies on.
 enum class SplatEdges : int { kept, crossed };
 enum class SplatCenter : int { photon, texel };
 
@@ -24,6 +24,7 @@ constexpr const char* kEdgesSentence =
 // Diameters that follow the photons' beams, in widths of the beam; within these bounds, texels.
 struct BeamDiameters {
     float widths = 3.5f;
+    bool isRound = false;  // on the texels, whatever the receiver's slant; else on the receiver
     float minimum = 2.0f;
     float maximum = 96.0f;
 };
@@ -31,14 +32,11 @@ struct BeamDiameters {
 struct TexelSplats {
     std::string node;
     std::string reason;
-    int flux = 1;   // sets of it
-    int parts = 1;  // of these add up
+    SetLayout layout = SetLayout::one;
     bool counts = false;
     SplatEdges edges = SplatEdges::kept;
     SplatCenter center = SplatCenter::photon;
     float diameter = 7.0f;
-    bool hasLevels = false;
-    bool intoOneLevel = false;  // of the levels, as coarse as the photon's beam is wide
     std::optional<BeamDiameters> beams = {};  // instead of `diameter`
 };
 

@@ -3,9 +3,10 @@
 
 #include <fmt/format.h>
 
-#include "framework/pipeline/stage_params.h"
+#include "framework/transport/primitives.h"
 #include "techniques/generators/generators.h"
 #include "techniques/raster_views/light_maps.h"
+#include "techniques/raster_views/map_params.h"
 
 namespace kaustik {
 std::vector<Store> storesOf(FrameBuilder& frame, const Surfaces& surfaces) {
@@ -56,17 +57,21 @@ CausticMap storeEverywhere(FrameBuilder& frame, const Surfaces& surfaces, Hits h
     return map;
 }
 
-FluxSets setsIn(const FrameBuilder& frame, const Store& store) {
+FluxSets setsIn(const FrameBuilder& frame, const Store& store, SetLayout layout) {
     FluxSets sets;
-    // What goes to the eye only the eye's pixels know.
-    sets.hasIntensity = store.isEyeView() && frame.needs().glossyReceivers;
-    sets.hasDirection = !store.isEyeView() && frame.needs().glossyReceivers;
+    sets.layout = layout;
+    // What goes to the eye only the eye's pixels know, and no texel that holds several of them.
+    const bool hasLevels = layout == SetLayout::levels || layout == SetLayout::sharedLevels;
+    if (frame.needs().glossyReceivers) {
+        sets.glossy =
+            store.isEyeView() && !hasLevels ? GlossySets::intensity : GlossySets::direction;
+    }
     return sets;
 }
 
 void setDeposit(gl::Command& command, const FluxSets& sets) {
-    if (sets.hasIntensity) command.define("GLOSSY_RECEIVERS");
-    if (sets.hasDirection) command.define("MEAN_DIRECTION");
+    if (sets.hasIntensity()) command.define("GLOSSY_RECEIVERS");
+    if (sets.hasDirection()) command.define("MEAN_DIRECTION");
 }
 
 Stored depositIn(graph::PassSetup& setup, const Store& store, const Hits& hits,
@@ -75,7 +80,7 @@ Stored depositIn(graph::PassSetup& setup, const Store& store, const Hits& hits,
     hits.incoming.sample(setup);
     setup.sample("receiver", store.receivers.receiver);
     setup.sample("receiverSurface", store.receivers.receiverSurface);
-    if (sets.hasIntensity) setup.sample("receiverAlbedo", store.receivers.receiverAlbedo);
+    if (sets.hasIntensity()) setup.sample("receiverAlbedo", store.receivers.receiverAlbedo);
     Stored stored;
     stored.isFirst = !before.flux.valid();
     stored.map =
@@ -85,7 +90,7 @@ Stored depositIn(graph::PassSetup& setup, const Store& store, const Hits& hits,
         stored.ledger = setup.storage(
             "LedgerEntries",
             setup.createBuffer<transport::LedgerEntry>(
-                "ledger" + store.suffix + hits.incoming.suffix, transport::kAccountCount));
+                "ledger" + store.suffix + hits.incoming.suffix, transport::kLedgerEntryCount));
         setup.bypass(stored.ledger, {0, 0, 0, 0});
         return stored;
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where reconstructions store light (reconstruct.space): one code for the screen, a light's map and
-// the faces of a cube around a light or a caustic generator.
+// The stores into which reconstructions put light (reconstruct.space): one code for the screen, a
+// light's map and the faces of a cube around a light or a caustic generator.
 #pragma once
 
 #include <functional>
@@ -17,8 +17,8 @@ struct Store {
     std::string suffix;                      // of its resources
     int generator = -1;                      // what they must have left last; -1: anything
     const gl::Buffer* generators = nullptr;  // by which it is told; where there is one
-    // Which of its light's maps (reconstruct.map_cascades); those after the first hold again what
-    // that holds, and nothing of them is in the ledger.
+    // The number of the map among those of its light (reconstruct.map_cascades). Those after the
+    // first hold again what that holds, and nothing of them is in the ledger.
     int cascade = 0;
     [[nodiscard]] bool isEyeView() const { return receivers.views->isEyeView(); }
 };
@@ -38,11 +38,12 @@ using Deposit = std::function<Stored(const Store&, const Hits&, const FluxMap& b
 [[nodiscard]] CausticMap storeEverywhere(FrameBuilder& frame, const Surfaces& surfaces, Hits hits,
                                          const CausticMap& before, const Deposit& deposit);
 
-// What a map of one set of flux holds there besides: more where a receiver of the scene is glossy.
-[[nodiscard]] FluxSets setsIn(const FrameBuilder& frame, const Store& store);
+// What a map of this layout holds there: more where a receiver of the scene is glossy.
+[[nodiscard]] FluxSets setsIn(const FrameBuilder& frame, const Store& store,
+                              SetLayout layout = SetLayout::one);
 
-// For a pass that deposits: declares "fluxSums" and "LedgerEntries", what it reads of the hits and
-// of their photons, and "receiver" and "receiverSurface" of the store.
+// Declares what a pass does that deposits: "fluxSums" and "LedgerEntries", what it reads of the
+// hits and of their photons, and "receiver" and "receiverSurface" of the store.
 [[nodiscard]] Stored depositIn(graph::PassSetup& setup, const Store& store, const Hits& hits,
                                const FluxMap& before, const FluxSets& sets);
 // The first thing that such a pass does: a new map is empty.

@@ -3,10 +3,10 @@
 // (K06, section 2 and Fig. 3): the wrong picture that the reduce to first hits is for. The list
 // holds every photon once a slot, slot by slot. Light is made from nothing, and the ledger's
 // balance says how much.
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <memory>
 
+#include "framework/pipeline/ledger.h"
 #include "techniques/tracing/hit_testing.h"
 #include "techniques/tracing/ray_march.h"
 
@@ -23,25 +23,25 @@ struct AllHitsParams {
     }
 };
 
-// Which rays may have hit more receivers than they could keep.
-void reportSlotLimit(FrameBuilder& frame, const AllHitsParams& params, const Hits& hits) {
-    frame.reportLimit(
-        {"trace.all_hits",
-         {hits.flux, hits.incoming.list},
-         [slots = params.slots, hits](const gl::Executor& executor) -> std::optional<ReachedLimit> {
-             const std::size_t full = countHits(executor, hits, transport::kFateReceiver,
-                                                static_cast<double>(slots - 1) / slots);
-             if (full == 0) return {};
-             return ReachedLimit{
-                 "trace.all_hits.slots",
-                 "hits",
-                 static_cast<double>(slots),
-                 0.0,
-                 fmt::format("{} rays have filled all of their slots; what they hit "
-                             "beyond is not lit",
-                             full),
-                 0.0};
-         }});
+// Which rays may have hit more receivers than they could keep: shaders count them.
+void reportSlotLimit(FrameBuilder& frame, const AllHitsParams& params) {
+    const auto reached =
+        [slots = params.slots](const EnergyLedger& ledger) -> std::optional<ReachedLimit> {
+        const std::uint64_t full = ledger.events[transport::kAccountFullSlots];
+        if (full == 0) return {};
+        return ReachedLimit{"trace.all_hits.slots",
+                            "hits",
+                            static_cast<double>(slots),
+                            0.0,
+                            "what they hit beyond is not lit",
+                            0.0,
+                            "rays have filled all of their slots",
+                            full};
+    };
+    frame.once<bool>("trace.all_hits.limit", [&] {
+        frame.reportLimit({"trace.all_hits", {}, {}, reached});
+        return std::make_shared<bool>(true);
+    });
 }
 
 Hits traceAllHits(FrameBuilder& frame, const AllHitsParams& params, Photons photons,
@@ -60,6 +60,7 @@ Hits traceAllHits(FrameBuilder& frame, const AllHitsParams& params, Photons phot
                                             photons.suffix + "_all", photons.hasBeams());
             every.paths = photons.paths;
             every.nextRows = photons.nextRows;
+            every.cells.splits = photons.cells.splits;  // no neighbours, but the same room
             every.batch = photons.batch;
             every.ledger = photons.ledger;
             every.store(setup);
@@ -73,6 +74,9 @@ Hits traceAllHits(FrameBuilder& frame, const AllHitsParams& params, Photons phot
                 .set("slots", marching.slots)
                 .set("nextRowLength", hits.incoming.width)
                 .dispatch(1);
+            dispatchOver(
+                context.compute("trace/all_hits_photons.comp").set("slots", marching.slots),
+                photons);
             for (int slot = 0; slot < marching.slots; ++slot) {
                 gl::Command command = context.compute("trace/all_hits.comp");
                 setHitTesting(command, testing, layers)
@@ -81,7 +85,7 @@ Hits traceAllHits(FrameBuilder& frame, const AllHitsParams& params, Photons phot
                 dispatchOver(command, photons);
             }
         });
-    if (photons.batch.empty()) reportSlotLimit(frame, params, traced);
+    reportSlotLimit(frame, params);
     return traced;
 }
 
@@ -96,7 +100,7 @@ void registerTraceAllHits(Registry& registry) {
          "It is wrong on purpose: light is made from nothing, as the ledger's balance says. No "
          "more than trace.all_hits.slots hits of a ray are kept. It works on the screen alone, and "
          "refuses layers of another view."},
-        &traceAllHits);
+        {.multipliesLight = true}, &traceAllHits);
 }
 
 }  // namespace kaustik

@@ -2,14 +2,16 @@
 // trace.background: photons meet what their light sees of the receivers, by iteration in the
 // light's depths (SP05; WD08, section 3). Each look gives the plane of a texel, and the next
 // estimate is where the ray meets it; SP05's goes as far as the texel's surface is away. Only what
-// lies on the surface in the end, by the residual, is a hit. Iteration may jump over what lies
-// before, or end nowhere: the ray is searched in even steps for the first change from in front of
-// what the light sees to behind it. In: photons, eye view space, m; out: hits, W that arrive after
-// absorption. Misses: outside_map and hidden_in_map, or unresolved.
+// lies on the surface in the end, by the residual, is a hit, unless a specular surface stops the
+// light before (tracing/specular_ahead.h). Iteration may jump over what lies before, or end
+// nowhere: the ray is searched in even steps for the first change from in front of what the light
+// sees to behind it. In: photons, eye view space, m; out: hits, W that arrive after absorption.
+// Misses: outside_map and hidden_in_map, or unresolved.
 #include <fmt/format.h>
 
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/raster_views/light_maps.h"
+#include "techniques/tracing/specular_ahead.h"
 
 namespace kaustik {
 namespace {
@@ -40,7 +42,7 @@ struct BackgroundParams {
     }
 };
 
-// Receivers that turn away from a light, which nobody can store anything on in its map.
+// Receivers that turn away from a light, on which its map cannot store anything.
 std::vector<std::string> turnedAway(const scene::Scene& scene, const scene::Light& light) {
     std::vector<std::string> names;
     for (const scene::Object& object : scene.objects) {
@@ -89,6 +91,7 @@ void warnHiddenReceivers(FrameBuilder& frame) {
 Hits traceBackground(FrameBuilder& frame, const BackgroundParams& params, Photons photons,
                      Surfaces surfaces) {
     warnHiddenReceivers(frame);
+    const SpecularAhead ahead = findSpecularAhead(frame, photons, surfaces.geometry);
     const std::vector<ReceiverView>& lights = lightReceivers(frame, surfaces.geometry);
     Hits hits;
     for (std::size_t light = 0; light < lights.size(); ++light) {
@@ -97,6 +100,7 @@ Hits traceBackground(FrameBuilder& frame, const BackgroundParams& params, Photon
             "trace.background", "photons look for their surface in the light's depths",
             [&](graph::PassSetup& setup, Hits& data) {
                 photons.sample(setup);
+                ahead.sample(setup);
                 setup.sample("receiver", seen.receiver);
                 setup.sample("receiverSurface", seen.receiverSurface);
                 if (light == 0) {
@@ -130,9 +134,10 @@ void registerTraceBackground(Registry& registry) {
          "It finds the first receiver that each photon's light sees, to a texel: sides that are "
          "turned away, what another receiver hides and what lies outside of the light's map are "
          "missed, as hidden_in_map and outside_map. Iteration may jump over thin surfaces between "
-         "its even steps.",
+         "its even steps. It refuses photons inside of bodies, and of specular surfaces knows what "
+         "trace.blockers shows it.",
          {"reconstruct.map_size", "reconstruct.map_covers", "reconstruct.map_memory"}},
-        {TracerReach::lightFront}, &traceBackground);
+        {.reach = TracerReach::lightFront, .onlyReceivers = true}, &traceBackground);
 }
 
 }  // namespace kaustik

@@ -3,9 +3,8 @@
 // photon (K06, section 1.1: what was done before rays were traced on the screen; Fig. 2: a plane
 // and the faces of a box). Flat are planes and the faces of boxes, of either side
 // (scene/flat_faces.h). In: photons, eye view space, m; out: hits, W that arrive after absorption.
-// It finds what lies off the screen. It sees nothing else: neither curved receivers, which light
-// passes, nor specular surfaces; a photon inside of glass needs its far side, and is counted as
-// missed by the tracer.
+// It finds what lies off the screen. It sees nothing else: no curved receivers, which light passes,
+// and of specular surfaces what the lights see (tracing/specular_ahead.h), where light is stopped.
 #include <fmt/format.h>
 
 #include <string>
@@ -13,8 +12,8 @@
 #include "framework/core/names.h"
 #include "framework/pipeline/frame_builder.h"
 #include "framework/scene/flat_faces.h"
-#include "framework/scene/light_paths.h"
 #include "techniques/trace/plane_face.h"
+#include "techniques/tracing/specular_ahead.h"
 
 namespace kaustik {
 namespace {
@@ -50,42 +49,6 @@ std::string quoted(const std::vector<std::string>& names) {
     return joinNames(all);
 }
 
-// What of the scene the tracer does not see, in a sentence; "" where that is nothing that a photon
-// can hit.
-std::string unseenSurfacesMessage(const FrameBuilder& frame,
-                                  const std::vector<std::string>& curved) {
-    const scene::Scene& scene = frame.scene();
-    const scene::RepeatedHits& again = frame.needs().repeatedHits;
-    std::vector<std::string> bodies;
-    std::vector<std::string> sheets;
-    for (const scene::Object& object : scene.objects) {
-        const scene::Material& material = scene.materials[object.material];
-        const scene::Mesh& mesh = scene.meshes[object.mesh];
-        if (isReceiver(material.kind) || mesh.triangles.empty()) continue;
-        const bool isBody =
-            material.kind == scene::MaterialKind::dielectric && !isOpen(scene, object.material);
-        if (isBody) {
-            bodies.push_back(object.name);
-        } else if (again.transmitted || again.reflected) {
-            sheets.push_back(object.name);
-        }
-    }
-    std::vector<std::string> parts;
-    if (!curved.empty()) parts.push_back(fmt::format("light passes {}", quoted(curved)));
-    if (!sheets.empty()) {
-        parts.push_back(fmt::format("what would hit {} a second time does not", quoted(sheets)));
-    }
-    if (!bodies.empty()) {
-        parts.push_back(
-            fmt::format("what has entered {} is lost ('tracer' in the ledger)", quoted(bodies)));
-    }
-    if (parts.empty()) return "";
-    std::string sentence = "trace=plane sees flat receivers alone: ";
-    for (std::size_t i = 0; i < parts.size(); ++i)
-        sentence += (i == 0 ? "" : "; ") + parts[i];
-    return sentence + ".";
-}
-
 std::shared_ptr<Planes> makePlanes(FrameBuilder& frame) {
     const scene::FlatReceivers flat = scene::flatReceivers(frame.scene());
     std::vector<planar::FlatFace> faces;
@@ -95,16 +58,19 @@ std::shared_ptr<Planes> makePlanes(FrameBuilder& frame) {
     planes->count = static_cast<int>(faces.size());
     faces.push_back({});  // a block is never empty
     planes->faces = gl::Buffer(faces, "flat receivers");
-    const std::string notSeen = unseenSurfacesMessage(frame, flat.others);
-    if (!notSeen.empty()) {
-        frame.warn(notSeen);
-        planes->missAccount = transport::kAccountUnresolved;
+    // What would hit a specular surface again is stopped where the lights see that, if they do.
+    const scene::RepeatedHits& again = frame.needs().repeatedHits;
+    const bool mayMeetMore = again.outside && (again.transmitted || again.reflected);
+    if (mayMeetMore || !flat.others.empty()) planes->missAccount = transport::kAccountUnresolved;
+    if (!flat.others.empty()) {
+        frame.warn(fmt::format("trace=plane sees flat receivers alone: light passes {}.",
+                               quoted(flat.others)));
     }
     return planes;
 }
 
-Hits tracePlane(FrameBuilder& frame, const params::NoParams&, Photons photons,
-                Surfaces /*surfaces*/) {
+Hits tracePlane(FrameBuilder& frame, const params::NoParams&, Photons photons, Surfaces surfaces) {
+    const SpecularAhead ahead = findSpecularAhead(frame, photons, surfaces.geometry);
     const auto planes = frame.once<Planes>("trace.planes", [&] { return makePlanes(frame); });
     return frame.pass<Hits>(
         "trace.plane",
@@ -112,6 +78,7 @@ Hits tracePlane(FrameBuilder& frame, const params::NoParams&, Photons photons,
                     planes->count == 1 ? "" : "s"),
         [&](graph::PassSetup& setup, Hits& hits) {
             photons.sample(setup);
+            ahead.sample(setup);
             hits = Hits::create(setup, photons);
             hits.incoming.account(setup);
             hits.store(setup);
@@ -134,9 +101,9 @@ void registerTracePlane(Registry& registry) {
          "surface is seen.",
          "K06, section 1.1, Fig. 2",
          "It finds planes and the faces of boxes and nothing else: light passes curved receivers, "
-         "what would hit a specular surface a second time does not, and what has entered a body is "
-         "lost as tracer. A warning names them."},
-        {TracerReach::flatReceivers}, &tracePlane);
+         "which a warning names. It refuses photons inside of bodies, and of specular surfaces "
+         "knows what trace.blockers shows it."},
+        {.reach = TracerReach::flatReceivers, .onlyReceivers = true}, &tracePlane);
 }
 
 }  // namespace kaustik

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 // view.around: what the eye sees in and through specular surfaces, by rays that are searched in the
 // layers around the generator that they meet first: wherever they end, on the screen or next to it,
-// receivers are lit there, by the light that is stored around the generator too, so that caustics
-// are seen in mirrors and through glass (U08, section 6). In: the eye's first surfaces, layers and
-// maps around generators; out: radiance, W/m²/sr, and exits in eye view space, m.
+// receivers are lit there, by the lights past what the lights' shadow maps have, which know every
+// specular object whatever the reference point sees of it, and by the light that is stored around
+// the generator, so that caustics are seen in mirrors and through glass (U08, section 6). In: the
+// eye's first surfaces, layers and maps around generators, the lights' shadow maps; out: radiance,
+// W/m²/sr, and exits in eye view space, m.
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "framework/pipeline/frame_builder.h"
@@ -11,6 +15,7 @@
 #include "techniques/generators/around_stage.h"
 #include "techniques/generators/generators.h"
 #include "techniques/maps/map_filters.h"
+#include "techniques/raster_views/shadow_maps.h"
 #include "techniques/tracing/hit_testing.h"
 
 namespace kaustik {
@@ -40,8 +45,8 @@ struct AroundViewParams {
 std::vector<FluxMap> storedAround(FrameBuilder& frame, const AroundViewParams& params,
                                   const CausticMap& map) {
     if (map.maps.empty() || !params.caustics) return {};
-    const bool isOne = map.maps.front().sets.flux == 1 || map.maps.front().filtered.valid();
-    if (map.maps.front().generator >= 0 && isOne) return inFloats(frame, map).maps;
+    // The gather has refused maps of several sets.
+    if (map.maps.front().generator >= 0) return inFloats(frame, map).maps;
     frame.warn(
         "view.around sees caustics in what it looks at by maps around generators alone; take "
         "reconstruct.space=cube.");
@@ -104,6 +109,8 @@ View lookAround(FrameBuilder& frame, const AroundViewParams& params, Geometry ge
     const std::vector<ReceiverView>& seen = generatorReceivers(frame, geometry);
     const std::vector<FluxMap> stored = storedAround(frame, params, map);
     const Collected maps = stored.empty() ? Collected{} : collect(frame, seen, stored);
+    const int lights = frame.needs().lights;
+    const ShadowMaps fromLights = lights > 0 ? shadowMaps(frame, geometry) : ShadowMaps{};
     const View view =
         frame
             .pass<ViewPass>(
@@ -114,6 +121,7 @@ View lookAround(FrameBuilder& frame, const AroundViewParams& params, Geometry ge
                         setup.read(maps.surface);
                         setup.read(maps.flux);
                     }
+                    if (lights > 0) readShadowMaps(setup, fromLights);
                     look = declareLook(frame, setup, {}, geometry, eye, sceneLayers, receivers,
                                        shadows);
                     for (std::size_t i = 0; i < around.size(); ++i) {
@@ -125,10 +133,10 @@ View lookAround(FrameBuilder& frame, const AroundViewParams& params, Geometry ge
                         setup.read(seen[i].receiverAlbedo);
                     }
                 },
-                [&inputs = frame.inputs(), params, around, seen, stored, maps,
+                [&inputs = frame.inputs(), params, around, seen, stored, maps, lights, fromLights,
                  testing = hitTesting(frame), &block = generatorsBlock(frame),
-                 eyeView = viewData(frame.scene(), frame.view(), frame.view()),
-                 lights = frame.needs().lights](const ViewPass& look, gl::PassContext& context) {
+                 eyeView = viewData(frame.scene(), frame.view(), frame.view())](
+                    const ViewPass& look, gl::PassContext& context) {
                     std::vector<Tell> tells;
                     for (std::size_t i = 0; i < around.size(); ++i) {
                         tells.emplace_back([&, i](gl::Command& command) {
@@ -141,9 +149,12 @@ View lookAround(FrameBuilder& frame, const AroundViewParams& params, Geometry ge
                                 .uniforms("Generators", block)
                                 .set("mapCount", seen[i].views->count())
                                 .set("generatorIndex", static_cast<int>(i))
-                                .set("lightCount", lights)
                                 .set("eyeFrustum", eyeView.frustum)
                                 .set("eyeSizePixels", eyeView.sizePixels);
+                            if (lights > 0) {
+                                bindShadowMaps(command.define("HAS_LIGHTS"), fromLights)
+                                    .set("lightCount", lights);
+                            }
                             if (stored.empty()) {
                                 command.texture("mapReceiver", seen[i].receiver)
                                     .texture("mapSurface", seen[i].receiverSurface)
@@ -157,7 +168,7 @@ View lookAround(FrameBuilder& frame, const AroundViewParams& params, Geometry ge
                                 .uniforms("MapViews", maps.views->block())
                                 .set("setsPerView", stored[i].filteredPerView());
                             if (stored.size() > 1) command.define("SEVERAL_CUBES");
-                            if (stored[i].sets.hasDirection) command.define("GLOSSY_RECEIVERS");
+                            if (stored[i].sets.hasDirection()) command.define("GLOSSY_RECEIVERS");
                         });
                     }
                     drawSpecular(inputs, context, look, "view/around.frag", tells);
@@ -180,8 +191,8 @@ void registerViewAround(Registry& registry) {
          "It finds what the layers around a generator hold, and lights it by caustics only where "
          "light is stored on cubes (reconstruct.space=cube). Rays are followed to no more than "
          "view.around.interfaces specular surfaces after the first.",
-         {"trace.test", "trace.epsilon", "around", "reconstruct.map_size",
-          "reconstruct.map_memory"}},
+         {"trace.test", "trace.epsilon", "around", "reconstruct.map_size", "reconstruct.map_memory",
+          "shadow.map.size"}},
         &lookAround);
 }
 

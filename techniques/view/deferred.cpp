@@ -27,7 +27,7 @@ struct DeferredViewParams {
     int layers = 4;
     EyesIncidence incidence = EyesIncidence::ray;
     int steps = 12;
-    DistanceInside distance = DistanceInside::estimates;
+    DistanceInside distance = DistanceInside::search;
     BodySearchParams search;
     DeferredGeometry geometry = DeferredGeometry::once;
     SceneLookParams look;
@@ -35,11 +35,13 @@ struct DeferredViewParams {
     void reflect(R& r) {
         r.field(layers, "layers",
                 "Most bodies, those nearest to the eye, that rays go through one after the other",
-                "bodies", params::range(1, 8));
+                "bodies", params::range(1, 8))
+            .when(&whyNoOtherBody);
         r.choice(incidence, "incidence",
                  "How rays come to a body behind another one. ray: as they have left that; eye: as "
                  "if the eye saw it straight (WN09, section 3.1.1)",
-                 {"ray", "eye"});
+                 {"ray", "eye"})
+            .when(&whyNoOtherBody);
         reflectDistance(r, distance, steps);
         search.reflect(r);
         reflectGeometry(r, geometry);

@@ -18,7 +18,7 @@ namespace {
 
 struct ImageSpaceViewParams {
     int steps = 12;
-    DistanceInside distance = DistanceInside::estimates;
+    DistanceInside distance = DistanceInside::search;
     SceneLookParams look;
     template <class R>
     void reflect(R& r) {

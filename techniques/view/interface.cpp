@@ -5,6 +5,7 @@
 // radiance, W/m²/sr, and the refracted ray, view space, m.
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/eye_rays/view_passes.h"
+#include "techniques/raster_views/back_faces.h"
 
 namespace kaustik {
 namespace {
@@ -14,8 +15,8 @@ struct InterfaceViewParams {
     SceneLookParams look;
     template <class R>
     void reflect(R& r) {
-        r.field(refract, "refract",
-                "Bend the eye's ray at the surface; off: look straight through");
+        r.field(refract, "refract", "Bend the eye's ray at the surface; off: look straight through")
+            .when(&whyNoDielectric);
         look.reflect(r);
     }
 };

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "framework/measure/image_errors.h"
-#include "framework/reference/reference.h"
 #include "framework/scene/files/scene_file.h"
+#include "tests/audit/modelled_reference.h"
 #include "tests/gpu/fixture.h"
 
 namespace kaustik::test {
@@ -17,25 +17,13 @@ namespace {
 constexpr int kWidth = 96;
 constexpr int kHeight = 72;
 
-reference::Reference referenceOf(const scene::Scene& scene, const ModelledPaths& paths) {
-    const reference::EmbreeScene embree(scene);
-    reference::ReferenceRequest request;
-    request.width = kWidth;
-    request.height = kHeight;
-    request.filter.transmissionOnly = paths.transmissionOnly;
-    request.filter.maximumInteractions = paths.interactions;
-    reference::RunOptions options;
-    options.stop.photons = 6'000'000;
-    reference::PixelSums sums = makeSums(embree, request);
-    addBatches(embree, request, options, sums);
-    return makeReference(scene, request, sums, 0.0);
-}
-
 void expectReference(const scene::Scene& scene, const Settings& settings, double energyTolerance,
                      double errorTolerance) {
     const Frame frame(scene, kWidth, kHeight, settings);
     const FrameOutputs& outputs = frame.renderer().outputs();
-    const reference::Reference reference = referenceOf(scene, outputs.hits.incoming.paths);
+    const reference::EmbreeScene embree(scene);
+    const reference::Reference reference =
+        modelledReference(embree, outputs.hits.incoming.paths, kWidth, kHeight, 6'000'000);
     const Texels texels = frame.read(outputs.inScattered.radiance);
     Image image(texels.width, texels.height, 3);
     for (int y = 0; y < image.height; ++y) {

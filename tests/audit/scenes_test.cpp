@@ -10,8 +10,8 @@
 #include "framework/audit/hit_audit.h"
 #include "framework/core/files.h"
 #include "framework/measure/image_errors.h"
-#include "framework/reference/reference.h"
 #include "framework/scene/files/scene_file.h"
+#include "tests/audit/modelled_reference.h"
 #include "tests/audit/shipped_scenes.h"
 #include "tests/gpu/fixture.h"
 
@@ -37,18 +37,9 @@ Bounds boundsOf(const std::string& scene) {
     return {};
 }
 
-// The reference about the paths that the frame models; a batch of photons for a few each pixel.
+// A batch of photons for a few each pixel.
 reference::Reference referenceOf(const reference::EmbreeScene& scene, const ModelledPaths& paths) {
-    reference::ReferenceRequest request;
-    request.width = kWidth;
-    request.height = kHeight;
-    request.filter.transmissionOnly = paths.transmissionOnly;
-    request.filter.maximumInteractions = paths.interactions;
-    reference::RunOptions options;
-    options.stop.photons = 2'000'000;
-    reference::PixelSums sums = makeSums(scene, request);
-    addBatches(scene, request, options, sums);
-    return makeReference(scene.scene(), request, sums, 0.0);
+    return modelledReference(scene, paths, kWidth, kHeight, 2'000'000);
 }
 
 measure::ImageErrors causticErrors(const Renderer& renderer,

@@ -61,5 +61,33 @@ TEST_F(CausticMaps, SayWhatToSetBesidesTheirSpace) {
                   {"gather.screen", "gather=project", "reconstruct.space=screen"});
 }
 
+TEST_F(CausticMaps, AsPublishedSayWhatTheyLoseByThat) {
+    const auto renderBall = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments =
+            smallRun("glass-sphere", {"--technique", "caustic_map", "--out", "out"});
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const Outcome outcome = run(arguments);
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+        return outcome.out + outcome.err;
+    };
+    const std::string published = renderBall({"--as-published"});
+    EXPECT_EQ(report().at("as_published"), true);
+    EXPECT_EQ(report().at("parameters").at("reconstruct.fixed.edges"), "crossed");
+    EXPECT_GT(report().at("energy").at("lost_w").at("as_published"), 0.0);
+    EXPECT_NE(published.find("is lost as published"), std::string::npos) << published;
+    const std::string byDefault = renderBall({});
+    EXPECT_EQ(report().at("as_published"), false);
+    EXPECT_FALSE(report().at("energy").at("lost_w").contains("as_published"));
+    EXPECT_EQ(byDefault.find("as published"), std::string::npos) << byDefault;
+    EXPECT_EQ(byDefault.find("booked as internal_reflection_limit"), std::string::npos)
+        << byDefault;
+    // A technique that is no paper's has no such row.
+    expectFailure(run(smallRun("glass-sphere", {"--technique", "raytraced", "--as-published"})), 2,
+                  {"raytraced", "as published"});
+    const Outcome listed =
+        run({"list", "params", "--technique", "caustic_map", "--as-published", "--json"});
+    EXPECT_NE(listed.out.find("crossed"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace kaustik::test

@@ -41,14 +41,17 @@ TEST_F(Compare, GivesFiguresThatCanBeWorkedOutByHand) {
     EXPECT_NEAR(error.at("energy_ratio").get<double>(), 1.25, 1e-9);
     const double epsilon = error.at("formulas").at("rel_mse").at("epsilon").get<double>();
     EXPECT_NEAR(error.at("rel_mse").get<double>(), 0.25 / (4.0 + epsilon), 1e-9);
-    EXPECT_NE(run({"compare", "image.exr", "reference.exr"}).out.find("RMSE"), std::string::npos);
+    EXPECT_NEAR(error.at("smape").get<double>(), 0.5 / 4.5, 1e-9);
+    const std::string table = run({"compare", "image.exr", "reference.exr"}).out;
+    for (const char* name : {"RMSE", "relMSE", "SMAPE", "energy ratio"})
+        EXPECT_NE(table.find(name), std::string::npos) << name;
 }
 
 TEST_F(Compare, OfAnImageWithItselfIsPerfect) {
     write("reference.exr", 1.0f, 3.0f, 100);
     write("image.exr", 1.0f, 3.0f, 100);
     const json error = errors();
-    for (const char* key : {"rmse", "mae", "rel_mse", "flip_ldr", "flip_hdr"})
+    for (const char* key : {"rmse", "mae", "rel_mse", "smape", "flip_ldr", "flip_hdr"})
         EXPECT_NEAR(error.at(key).get<double>(), 0.0, 1e-12) << key;
     for (const char* key : {"ssim", "energy_ratio", "encircled_energy_radius_ratio"})
         EXPECT_NEAR(error.at(key).get<double>(), 1.0, 1e-9) << key;

@@ -145,6 +145,126 @@ TEST_F(Doc, SaysOfEachStageWhatTheTableInTheReadmeDoes) {
     EXPECT_EQ(written, declared);
 }
 
+// "- NAME: CITATION" of the chapter at a page's end; empty where there is none.
+std::map<std::string, std::string> papersOf(const std::string& text) {
+    std::map<std::string, std::string> papers;
+    const std::size_t begin = text.find("\n## Papers\n\n");
+    if (begin == std::string::npos) return papers;
+    std::istringstream lines(text.substr(begin + 12));
+    for (std::string line; std::getline(lines, line);) {
+        const std::size_t colon = line.find(": ");
+        if (!line.starts_with("- ") || colon == std::string::npos) continue;
+        papers[line.substr(2, colon - 2)] = line.substr(colon + 2);
+    }
+    return papers;
+}
+
+TEST_F(Doc, SpellsOutThePapersThatAPageCitesAsTheBibliographyDoes) {
+    const std::string text = readFile(projectRoot() / "techniques/papers.md");
+    std::map<std::string, std::string> bibliography;
+    for (const auto& [name, cells] : rowsOf(text.substr(text.find("\n## Bibliography\n")))) {
+        if (name != "name" && name != "---") bibliography[name] = cells.front();
+    }
+    EXPECT_GT(bibliography.size(), 5u);
+    writePages();
+    EXPECT_EQ(papersOf(contents("pages/index.md")), bibliography);
+    int citing = 0;
+    for (const json& node : list("nodes")) {
+        SCOPED_TRACE(node.at("name"));
+        const std::string whole = page(node.at("name"));
+        const std::string body = whole.substr(0, whole.find("\n## Papers\n"));
+        std::map<std::string, std::string> cited;
+        for (const auto& [name, citation] : bibliography) {
+            if (std::regex_search(body, std::regex("\\b" + name + "\\b"))) cited[name] = citation;
+        }
+        EXPECT_EQ(papersOf(whole), cited);
+        citing += cited.empty() ? 0 : 1;
+    }
+    EXPECT_GT(citing, 20);
+}
+
+TEST_F(Doc, NamesTheTechniquesWhoseRowChoosesTheNodeAndNoOther) {
+    writePages();
+    std::map<std::string, std::set<std::string>> rowsWith;  // by node
+    std::set<std::string> techniques;
+    for (const json& technique : list("techniques")) {
+        techniques.insert(technique.at("name"));
+        for (const auto& [name, value] : technique.at("defaults").items())
+            rowsWith[name + "." + value.get<std::string>()].insert(technique.at("name"));
+    }
+    std::map<std::string, int> defaults;  // by stage
+    for (const json& node : list("nodes")) {
+        SCOPED_TRACE(node.at("name"));
+        const std::string cell = rowsOf(page(node.at("name"))).at("in the row of").front();
+        std::set<std::string> named;
+        for (const std::string& technique : techniques) {
+            if (cell.find("`" + technique + "`") != std::string::npos) named.insert(technique);
+        }
+        EXPECT_EQ(named, rowsWith[node.at("name")]) << cell;
+        EXPECT_EQ(cell.find("no technique") != std::string::npos, named.empty()) << cell;
+        defaults[node.at("stage")] += cell.find("where a row says nothing") != std::string::npos;
+    }
+    for (const auto& [stage, count] : defaults)
+        EXPECT_EQ(count, 1) << stage;
+}
+
+TEST_F(Doc, WritesWholeNumbersWithAllTheirDigits) {
+    const std::string grid = run({"doc", "emit.grid"}).out;
+    EXPECT_NE(grid.find("| 1 to 268435456 |"), std::string::npos) << grid;
+    EXPECT_NE(run({"list", "params"}).out.find("[1 to 268435456]"), std::string::npos);
+    for (const json& parameter : list("params")) {
+        EXPECT_EQ(parameter.at("range").get<std::string>().find("e+"), std::string::npos)
+            << parameter;
+    }
+    expectFailure(run({"explain", "ring", "--set", "emit.batch=0"}), 2,
+                  {"emit.batch", "a whole number from 1 to 268435456"});
+}
+
+// "The same for the reflection …" is said after what it is the same as.
+TEST_F(Doc, HasParametersInTheOrderOfTheirDeclaration) {
+    const std::string text = run({"doc", "view.refraction"}).out;
+    const std::size_t scene = text.find("| `view.refraction.scene` |");
+    const std::size_t reflection = text.find("| `view.refraction.reflection` |");
+    ASSERT_NE(reflection, std::string::npos);
+    EXPECT_LT(scene, reflection);
+}
+
+// GitHub's rule: lower case, without punctuation, blanks as hyphens.
+std::string anchorOf(const std::string& heading) {
+    std::string anchor;
+    for (const char c : heading) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (c == ' ') anchor += '-';
+        if (std::isalnum(byte) != 0 || c == '-' || c == '_' || byte >= 0x80)
+            anchor += static_cast<char>(std::tolower(byte));
+    }
+    return anchor;
+}
+
+TEST(Documents, LinkToHeadingsThatTheyHave) {
+    int links = 0;
+    for (const char* folder : {".", "framework", "techniques", "experiments", "results"}) {
+        for (const auto& entry : std::filesystem::directory_iterator(projectRoot() / folder)) {
+            if (entry.path().extension() != ".md") continue;
+            const std::string text = readFile(entry.path());
+            std::set<std::string> anchors;
+            std::istringstream lines(text);
+            for (std::string line; std::getline(lines, line);) {
+                const std::size_t begin = line.find_first_not_of('#');
+                if (begin != 0 && begin != std::string::npos && line[begin] == ' ')
+                    anchors.insert(anchorOf(line.substr(begin + 1)));
+            }
+            const std::regex link("\\]\\(#([^)]+)\\)");
+            for (std::sregex_iterator found(text.begin(), text.end(), link), end; found != end;
+                 ++found) {
+                EXPECT_TRUE(anchors.contains((*found)[1])) << entry.path() << ": " << (*found)[1];
+                ++links;
+            }
+        }
+    }
+    EXPECT_GT(links, 5);
+}
+
 TEST(Papers, NameFilesThatAreThere) {
     const std::string text = readFile(projectRoot() / "techniques/papers.md");
     const std::regex file("`([a-z_/]+/[a-z0-9_]+\\.(cpp|h|glsl|comp|frag|vert|geom))`");

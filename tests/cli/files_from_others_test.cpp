@@ -91,6 +91,19 @@ TEST_F(FilesFromOthers, AreReadByAProcessThatLeavesNothingBehind) {
     EXPECT_EQ(files(), (std::set<std::string>{"scene.toml", "thing.ply"}));
 }
 
+TEST_F(FilesFromOthers, AreExplainedWithTheWarningsThatARunOfThemHas) {
+    static_cast<void>(folder.file("scene.toml", kSceneWithMesh));
+    std::string ply = kPly;
+    ply.replace(ply.find("face 1"), 6, "face 2");
+    static_cast<void>(folder.file("thing.ply", ply + "2 0 1\n"));
+    const std::string warning = "warning: thing.ply: 1 faces or strips with fewer";
+    for (const Outcome& outcome : {run({"explain", "scene.toml", "--size", "64x48"}),
+                                   run(smallRun("scene.toml", {"--out", "out"}))}) {
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+        EXPECT_NE(outcome.out.find(warning), std::string::npos) << outcome.out;
+    }
+}
+
 TEST_F(FilesFromOthers, MayTakeAsMuchAsTheUserAllows) {
     static_cast<void>(folder.file("scene.toml", kSceneWithMesh));
     static_cast<void>(folder.file("thing.ply", kPly));

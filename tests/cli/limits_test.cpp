@@ -223,18 +223,48 @@ TEST_F(Limits, CountLinesInTheMediumThatAreNarrowerThanTheyWereToBe) {
                            {"media.lines.maximum=" + std::to_string(static_cast<int>(enough))}));
 }
 
-TEST_F(Limits, CountPhotonsForWhichTheMapCouldNotGrow) {
+TEST_F(Limits, CountBranchesForWhichTheMapCouldNotGrow) {
     // Into the ball, out of it, and what is reflected in it again and again.
     const json limit =
         limitOf("specular.split.levels", "glass-sphere", {"specular=split", "split.levels=1"});
-    EXPECT_EQ(limit.at("unit"), "interactions");
+    EXPECT_EQ(limit.at("unit"), "levels");
     EXPECT_EQ(limit.at("value"), 1);
-    EXPECT_EQ(limit.at("lost_w"), 0.0);
+    EXPECT_GT(limit.at("lost_w"), 0.0);
+    // Batches count as what is emitted at once does.
+    const json batches = limitOf("specular.split.levels", "glass-sphere",
+                                 {"specular=split", "split.levels=1", "emit.batch=1024"});
+    EXPECT_EQ(batches.at("lost"), limit.at("lost"));
     // The light hits the water once.
     EXPECT_FALSE(
         isReached("specular.split.levels", "wavy.toml", {"specular=split", "split.levels=1"}));
     EXPECT_TRUE(
         isReached("specular.split.levels", "wavy.toml", {"specular=split", "split.levels=0"}));
+}
+
+TEST_F(Limits, CountThePhotonsOfAllBatches) {
+    const std::vector<std::string> drawn = {"specular=split", "split.levels=1"};
+    const json whole = limitOf("specular.split.levels", "glass-sphere", drawn);
+    std::vector<std::string> inBatches = drawn;
+    inBatches.emplace_back("emit.batch=100");
+    EXPECT_EQ(limitOf("specular.split.levels", "glass-sphere", inBatches), whole);
+}
+
+// Below a ball light converges, and its splats are no smaller than they may be.
+TEST_F(Limits, CountSplatsThatAreLargerThanTheyWereToBe) {
+    const std::vector<std::string> lens = {"emit=grid", "reconstruct=lens", "lens.widths=0.1"};
+    const json limit = limitOf("reconstruct.lens.min_diameter", "glass-sphere", lens);
+    EXPECT_EQ(limit.at("unit"), "texels");
+    EXPECT_EQ(limit.at("value"), 2);
+    EXPECT_LT(limit.at("needed"), 2.0);
+    EXPECT_EQ(limit.at("lost_w"), 0.0);
+    // A photon is one splat, and nearly all of those that arrive are as wide as that.
+    const json photons = report().at("photons");
+    EXPECT_LE(limit.at("count"), photons.at("hit"));
+    EXPECT_GT(limit.at("count").get<double>(), 0.8 * photons.at("hit").get<double>());
+    EXPECT_NE(limit.at("lost").get<std::string>().find("% of the flux"), std::string::npos);
+    const json energy = report().at("energy");
+    EXPECT_GT(limit.at("count_w").get<double>(), 0.0);
+    EXPECT_LE(limit.at("count_w").get<double>(), energy.at("deposited_w").get<double>() * 1.001);
 }
 
 TEST_F(Limits, CountRaysThatHitMoreThanTheyCanKeep) {

@@ -171,7 +171,7 @@ TEST_F(Reference, OfARunGivesHitsAndErrors) {
     EXPECT_GT(error.at("reference_stderr").get<double>(), 0.0);
     for (const json* of : {&error, &error.at("modelled_paths")}) {
         const json& caustic = of->at("caustic_irradiance");
-        for (const char* key : {"rmse", "rel_mse", "mae", "ssim", "flip_ldr", "flip_hdr",
+        for (const char* key : {"rmse", "rel_mse", "smape", "mae", "ssim", "flip_ldr", "flip_hdr",
                                 "energy_ratio", "encircled_energy_radius_ratio"}) {
             EXPECT_TRUE(caustic.at(key).is_number()) << key;
         }

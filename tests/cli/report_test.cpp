@@ -53,8 +53,9 @@ TEST_F(Report, HasTheKeysOfTheSchema) {
               (Keys{"renderer", "vendor", "gl", "platform", "uuid", "gl_debug", "cpu", "threads"}));
     EXPECT_EQ(keysOf(report.at("scene")), (Keys{"name", "triangles", "needs"}));
     EXPECT_EQ(keysOf(report.at("photons")), (Keys{"emitted", "specular", "hit", "missed", "nan"}));
-    EXPECT_EQ(keysOf(report.at("energy")), (Keys{"emitted_w", "deposited_w", "absorbed_w",
-                                                 "left_scene_w", "lost_w", "balance"}));
+    EXPECT_EQ(keysOf(report.at("energy")),
+              (Keys{"emitted_w", "deposited_w", "absorbed_w", "left_scene_w", "lost_w",
+                    "primitives", "balance"}));
     EXPECT_EQ(keysOf(report.at("memory")),
               (Keys{"texture_bytes", "buffer_bytes", "scene_bytes", "peak_bytes"}));
     for (const char* times : {"frame_ms", "bookkeeping_ms"}) {
@@ -107,6 +108,47 @@ TEST_F(Report, CountsPhotonsAndEnergyThatAddUp) {
     EXPECT_NEAR(energy.at("emitted_w").get<double>(), expected, expected * 4.0 / 32.0);
     // Each account is rounded to the ledger's quantum, a part in a million or less of the whole.
     EXPECT_LT(std::abs(energy.at("balance").get<double>()), 1e-5);
+}
+
+// Of a ring vertices see much less than the light does, and no reference is needed to know it.
+TEST_F(Report, SaysWithoutAReferenceWhatTheEmitterMisses) {
+    const auto judge = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{"--out", "out"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        EXPECT_EQ(run(smallRun("ring", arguments)).exitCode, 0);
+        const json energy = report().at("energy");
+        EXPECT_LT(std::abs(energy.at("balance").get<double>()), 1e-5);
+        std::string warnings;
+        for (const json& warning : report().at("warnings"))
+            warnings += warning.get<std::string>();
+        const bool isSaid = warnings.find("emission_sampling") != std::string::npos;
+        const double missed = energy.at("lost_w").at("emission_sampling").get<double>() /
+                              energy.at("emitted_w").get<double>();
+        EXPECT_EQ(isSaid, std::abs(missed) > 0.01) << warnings << missed;
+        return missed;
+    };
+    EXPECT_GT(judge({"--technique", "vertex_caustics"}), 0.2);
+    EXPECT_NE(report().at("warnings").dump().find("emit=vertices emits"), std::string::npos);
+    const double wanted = report().at("energy").at("emitted_w");
+    EXPECT_LT(std::abs(judge({"--set", "emit.photons=128x128"})), 0.01);
+    // However it is emitted.
+    EXPECT_EQ(report().at("energy").at("emitted_w"), wanted);
+}
+
+TEST_F(Report, SaysBySharesOfWhichPrimitivesLightWasSpread) {
+    const auto shares = [&](const std::vector<std::string>& settings) {
+        EXPECT_EQ(renderWater(settings).exitCode, 0);
+        const json primitives = report().at("energy").at("primitives");
+        EXPECT_EQ(keysOf(primitives), (Keys{"triangles", "beams", "splats"}));
+        return primitives;
+    };
+    const json joined = shares({"--set", "reconstruct=triangles"});
+    EXPECT_GT(joined.at("triangles").get<double>(), 0.8);
+    EXPECT_GT(joined.at("beams").get<double>(), 0.0);  // the border has no neighbours
+    // 64-bit sums of parts that are rounded to a unit of the ledger each.
+    EXPECT_NEAR(joined.at("triangles").get<double>() + joined.at("beams").get<double>(), 1.0, 1e-4);
+    EXPECT_EQ(joined.at("splats"), 0.0);
+    EXPECT_EQ(shares({"--set", "reconstruct=sprites"}).at("splats"), 1.0);
 }
 
 TEST_F(Report, PassesAndBookkeepingAddUpToTheFrameWhereTheDeviceIsFinishedAroundEach) {

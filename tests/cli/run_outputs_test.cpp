@@ -50,20 +50,6 @@ TEST_F(RunCommand, RendersTheDefaultSceneWhenNoneIsNamed) {
     EXPECT_GT(report().at("scene").at("triangles"), 69000);  // the bunny is in it
 }
 
-TEST_F(RunCommand, DrawsBySeed) {
-    const auto causticOf = [&](const std::string& seed) {
-        static_cast<void>(renderWater(
-            {"--seed", seed, "--set", "specular=split", "--set", "specular.split.levels=0"}));
-        EXPECT_TRUE(report().at("warnings").empty()) << report().at("warnings");
-        return readImage(folder / "out/caustic.exr").values;
-    };
-    const std::vector<float> first = causticOf("1");
-    EXPECT_EQ(first, causticOf("1"));
-    EXPECT_NE(first, causticOf("2"));
-    // Half of the seed's bits lie above the 32 that a word of the device has.
-    EXPECT_NE(first, causticOf("4294967297"));
-}
-
 TEST_F(RunCommand, SaysWhereASeedHasNoEffect) {
     const Outcome outcome = renderWater({"--seed", "7"});
     EXPECT_NE(outcome.out.find("warning: --seed 7 has no effect"), std::string::npos)

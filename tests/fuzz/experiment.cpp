@@ -6,7 +6,7 @@
 
 namespace {
 
-kaustik::params::ParamSet makeParams(const std::string& technique) {
+kaustik::params::ParamSet makeParams(const std::string& technique, bool /*isAsPublished*/) {
     if (technique != "wyman2008") throw kaustik::ConfigError("There is no such technique.");
     kaustik::params::ParamSet set;
     set.declareChoice("trace", "Where do photons land?", {"lines", "march"}, "lines");

@@ -168,7 +168,8 @@ TEST_F(ErrorPanel, TheErrorsAreThoseOfARunAgainstTheSameReference) {
     EXPECT_EQ(times(), before) << "the run takes the reference that the workbench has computed";
     const json error = readJson("judged/report.json").at("error");
     const auto expectSame = [&](const json& errors, const std::string& prefix) {
-        for (const char* key : {"rmse", "rel_mse", "mae", "ssim", "flip_hdr", "energy_ratio"}) {
+        for (const char* key :
+             {"rmse", "rel_mse", "smape", "mae", "ssim", "flip_hdr", "energy_ratio"}) {
             EXPECT_EQ(bench->value(prefix + key),
                       fmt::format("{:.4g}", errors.at("caustic_irradiance").at(key).get<double>()))
                 << prefix << key;

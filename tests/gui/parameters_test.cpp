@@ -132,5 +132,14 @@ TEST_F(ParametersPanel, OfRefinementAppearWithADriverThatRefines) {
     EXPECT_TRUE(bench->has("parameter.refine.tolerance"));
 }
 
+// As `explain` does: only the frame knows whether so few layers are made by lists.
+TEST_F(ParametersPanel, OfANodeThatTheFrameDoesWithoutAreNotThere) {
+    start();
+    EXPECT_TRUE(bench->has("parameter.layers.lists.memory"));
+    bench->typeInto("parameter.layers.count", "1", Entry::controlClick);
+    untilSettled();
+    EXPECT_FALSE(bench->has("parameter.layers.lists.memory"));
+}
+
 }  // namespace
 }  // namespace kaustik::test

@@ -50,6 +50,15 @@ class Settings(TestCase):
         self.assertEqual(r.get("emit.photons"), (32, 32))
         r.step()
 
+    def test_are_those_of_the_paper_where_that_is_asked_for(self):
+        r = kaustik.open("ring", technique="caustic_map", as_published=True, **SMALL)
+        self.assertTrue(r.as_published)
+        self.assertEqual(r.get("trace.background.steps"), 0)
+        self.assertFalse(self.open().as_published)
+        listed = {one["name"]: one for one in kaustik.techniques()}
+        self.assertEqual(listed["caustic_map"]["as_published"]["trace.background.steps"], "0")
+        self.assertEqual(listed["raytraced"]["as_published"], {})
+
     def test_that_do_not_go_together_are_told_by_the_step_and_can_be_taken_back(self):
         r = self.open()
         r.set("reconstruct.space", "light")

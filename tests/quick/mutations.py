@@ -4,13 +4,15 @@
 
     mutations.py [--count 60] [--seed 1] [--tree build/mutations]
 
-Draws `count` places in the C++ files and shaders, changes one thing at each (an operator, a number, a
-condition, a statement that goes), and for each change alone builds and runs the quick tests up to the first
-that fails. What these miss, the slow tests are run for: where they find nothing either, no test can
-see the change, or it changes nothing. Changes that do not compile are drawn again.
+Draws `count` of all small changes that there are to C++ files and shaders (an operator, a number, a condition,
+a statement that goes), each as likely as any other, and for each alone builds and runs the quick tests up to
+the first that fails. What these miss, the slow tests are run for: where they find nothing either, no test can
+see the change, or it changes nothing. What does not compile is replaced by the next that is drawn; of a
+shader, which is compiled when it is used, the output of the test that fails says so.
 
-It works in a clone, `tree`, with a build of its own; a line a mutation goes to tree/mutations.jsonl, and
-one that stands there already is not tried again. It can be interrupted. Prints a table and a ratio.
+It works in a clone, `tree`, at the commit that the working tree is at (what is not committed is not tested),
+with a build of its own. A line a mutation goes to tree/mutations.jsonl, and one that stands there already,
+of the same commit, is not tried again. It can be interrupted. Prints the commit, a table and a ratio.
 """
 
 import argparse
@@ -40,28 +42,27 @@ def blanked(text):
 
 
 def sites(files):
-    """By kind of change, every (file, offset, old, new)."""
-    kinds = {}
+    """Every change that there is: (file, offset, old, new)."""
+    found = []
     for file in files:
         text = blanked(file.read_text())
         for old, new in SWAPS:
             start = text.find(old)
             while start >= 0:
                 if not old[0].isalpha() or not (text[start - 1].isalnum() or text[start - 1] == "_"):
-                    kinds.setdefault(f"{old.strip()} to {new.strip()}", []).append((file, start, old, new))
+                    found.append((file, start, old, new))
                 start = text.find(old, start + 1)
         for match in NUMBER.finditer(text):
             value = match.group()
             new = str(int(value) + 1) if "." not in value else str(float(value) * 1.5 or 1.0)
-            kinds.setdefault("number", []).append((file, match.start(), value, new))
+            found.append((file, match.start(), value, new))
         offset = 0
         for line in text.splitlines(keepends=True):
             if CALL_OR_ASSIGNMENT.match(line.rstrip("\n")) and line.count("(") == line.count(")"):
                 statement = line.strip()
-                kinds.setdefault("statement goes", []).append(
-                    (file, offset + line.index(statement), statement, ";"))
+                found.append((file, offset + line.index(statement), statement, ";"))
             offset += len(line)
-    return kinds
+    return found
 
 
 def run(command, folder, log):
@@ -72,8 +73,29 @@ def run(command, folder, log):
     return code == 0, time.monotonic() - start
 
 
+def git(folder, *command):
+    return subprocess.run(["git", *command], cwd=folder, check=True, capture_output=True, text=True).stdout.strip()
+
+
+def update(source):
+    """Brings the clone to the commit of the working tree, without what a mutation has left. Gives the commit."""
+    if not source.exists():
+        subprocess.run(["git", "clone", "--quiet", str(ROOT), str(source)], check=True)
+    commit = git(ROOT, "rev-parse", "HEAD")
+    git(source, "fetch", "--quiet", str(ROOT), "HEAD")
+    git(source, "checkout", "--quiet", "--force", "--detach", commit)
+    if (ROOT / "meshes").is_dir():
+        subprocess.run(["cp", "-a", "--update", str(ROOT / "meshes"), str(source)], check=True)
+    return commit
+
+
+def is_uncompilable(file, log):
+    """Whether the tests have failed because the shader that was changed does not compile."""
+    return file.suffix != ".cpp" and re.search(r"does not (compile|link):$", log.read_text(errors="replace"), re.M)
+
+
 def failed(log):
-    match = re.search(r"^\s*\d+ - (\S+)", log.read_text(), re.M)
+    match = re.search(r"^\s*\d+ - (\S+)", log.read_text(errors="replace"), re.M)
     return match.group(1) if match else "?"
 
 
@@ -85,10 +107,8 @@ def main():
     arguments = parser.parse_args()
     base, source = arguments.tree.resolve(), arguments.tree.resolve() / "source"
     base.mkdir(parents=True, exist_ok=True)
-    if not source.exists():
-        subprocess.run(["git", "clone", "--quiet", str(ROOT), str(source)], check=True)
-        if (ROOT / "meshes").is_dir():
-            subprocess.run(["cp", "-a", str(ROOT / "meshes"), str(source)], check=True)
+    commit = update(source)
+    print(f"commit {commit}", flush=True)
     log = base / "log"
 
     def build():
@@ -98,7 +118,6 @@ def main():
         return run(["ctest", "--preset", "release", "--parallel", "2", "--stop-on-failure", *options], source,
                    log)
 
-    subprocess.run(["git", "checkout", "--quiet", "."], cwd=source, check=True)
     if not run(["experiments/set_up.sh", "release", "all"], source, log)[0]:
         sys.exit(f"mutations.py: the clone cannot be built; see {log}")
     passes, seconds = test("-LE", "^slow$")
@@ -106,33 +125,33 @@ def main():
         sys.exit(f"mutations.py: {failed(log)} fails without any mutation; see {log}")
     print(f"the quick tests: {seconds:.0f} s", flush=True)
 
-    kinds = sites(sorted(file for folder in ("framework", "techniques", "shaders")
+    drawn = sites(sorted(file for folder in ("framework", "techniques", "shaders")
                          for file in (source / folder).rglob("*")
                          if file.suffix in {".cpp", ".comp", ".vert", ".frag", ".geom", ".glsl"}))
-    draw = random.Random(arguments.seed)
+    random.Random(arguments.seed).shuffle(drawn)
     record_file = base / "mutations.jsonl"
     done = {}
     if record_file.exists():
-        done = {row["site"]: row for row in map(json.loads, record_file.read_text().splitlines())}
+        recorded = map(json.loads, record_file.read_text().splitlines())
+        done = {row["site"]: row for row in recorded if row.get("commit") == commit}
     rows = []
-    while len(rows) < arguments.count:
-        kind = draw.choice(sorted(kinds))
-        file, offset, old, new = draw.choice(kinds[kind])
+    while drawn and len(rows) < arguments.count:
+        file, offset, old, new = drawn.pop()
         original = file.read_text()
         name = f"{file.relative_to(source)}:{original.count(chr(10), 0, offset) + 1}"
         site = f"{name} {old.strip()} -> {new.strip()} @{offset}"
         row = done.get(site)
         if row is None:
-            row = {"site": site, "by": None}
+            row = {"commit": commit, "site": site, "by": None}
             try:
                 file.write_text(original[:offset] + new + original[offset + len(old):])
                 row["compiles"], row["build_s"] = build()
-                if row["compiles"]:
-                    passes, row["quick_s"] = test("-LE", "^slow$")
-                    row["quick"], row["by"] = not passes, None if passes else failed(log)
-                    if passes:
-                        passes, row["slow_s"] = test("-L", "^slow$")
-                        row["whole"], row["by"] = not passes, None if passes else failed(log)
+                for kind, option in (("quick", "-LE"), ("whole", "-L")):
+                    if not row["compiles"] or row["by"]:
+                        break
+                    passes, row[f"{kind}_s"] = test(option, "^slow$")
+                    row[kind], row["by"] = not passes, None if passes else failed(log)
+                    row["compiles"] = passes or not is_uncompilable(file, log)
             finally:
                 file.write_text(original)
             with record_file.open("a") as out:
@@ -145,7 +164,7 @@ def main():
 
     quick = sum(row["quick"] for row in rows)
     whole = quick + sum(row.get("whole", False) for row in rows)
-    print(f"\n{len(rows)} mutations: all tests catch {whole}, the quick ones {quick} of these "
+    print(f"\n{len(rows)} mutations of {commit}: all tests catch {whole}, the quick ones {quick} of these "
           f"({100 * quick / max(whole, 1):.0f} %)")
 
 

@@ -82,9 +82,10 @@ void drawTable(Bench& bench, const char* title, json ReferenceState::Judgement::
         const char* label;
         const char* key;
     };
-    static constexpr std::array<Row, 8> kRows = {
+    static constexpr std::array<Row, 9> kRows = {
         Row{"RMSE, W/m²", "rmse"},
         Row{"relMSE", "rel_mse"},
+        Row{"SMAPE", "smape"},
         Row{"MAE, W/m²", "mae"},
         Row{"SSIM", "ssim"},
         Row{"FLIP", "flip_ldr"},
@@ -152,6 +153,11 @@ void drawLedger(Bench& bench) {
         ImGui::EndTable();
     }
     bench.map.area("error.balance", 0, 0, 0, 0, fmt::format("{:.3g}", ledger.balance()));
+    for (const std::string& violation : result.violations) {
+        ImGui::PushTextWrapPos(0.0f);
+        ImGui::TextColored(ImVec4(1.0f, 0.45f, 0.4f, 1.0f), "%s", violation.c_str());
+        ImGui::PopTextWrapPos();
+    }
     for (const ReachedLimit& limit : result.limits) {
         ImGui::TextWrapped("Limit reached: %s = %g; %s.", limit.parameter.c_str(), limit.value,
                            limit.sentence.c_str());

@@ -78,6 +78,9 @@ void drawParameters(Bench& bench) {
         const scene::SceneNeeds* needs =
             bench.result && bench.result->scene ? &bench.result->scene->needs : nullptr;
         const FrameFacts facts{bench.registry, params, needs};
+        const std::vector<graph::PassRecord> noPasses;
+        const std::vector<graph::PassRecord>& passes =
+            bench.result ? bench.editedResult().passes : noPasses;
         ImGui::BeginChild("list");
         std::string stage;
         bool isTable = false;
@@ -88,7 +91,9 @@ void drawParameters(Bench& bench) {
         });
         for (const params::NamedField& named : fields) {
             if (named.fullName.find('.') == std::string::npos) continue;
-            const std::string reason = whyNoEffect(facts, named.fullName);
+            // Before there is a frame only what is declared can say so.
+            const std::string reason = passes.empty() ? whyNoEffect(facts, named.fullName)
+                                                      : whyNoEffect(facts, passes, named.fullName);
             // What a value next to it keeps from having an effect is shown all the same.
             if (!panels.showsAllParameters && reason != named.field.obstacle &&
                 !params.isSetByUser(named.fullName)) {

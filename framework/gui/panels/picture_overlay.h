@@ -11,7 +11,7 @@
 
 namespace kaustik::gui {
 
-// Where the picture lies in the window.
+// The place of the picture in the window.
 struct PictureFrame {
     ImVec2 corner;  // of the area
     ImVec2 size;

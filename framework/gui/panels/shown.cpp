@@ -15,6 +15,7 @@ ImVec4 colorOf(Shown::Kind kind) {
             return {0.5f, 0.7f, 1.0f, 1.0f};
         case Shown::Kind::preview:
             return {1.0f, 0.8f, 0.35f, 1.0f};
+        case Shown::Kind::impossible:
         case Shown::Kind::stale:
             break;
     }

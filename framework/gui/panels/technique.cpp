@@ -33,6 +33,14 @@ void drawTechniqueChoice(Bench& bench) {
     ImGui::PushTextWrapPos(0.0f);
     ImGui::TextDisabled("%s %s", technique.sentence.c_str(), technique.source.c_str());
     ImGui::PopTextWrapPos();
+    const bool hasPaper = !technique.asPublished.empty();
+    if (!hasPaper) bench.edited().isAsPublished = false;
+    ImGui::BeginDisabled(!hasPaper);
+    bool isAsPublished = bench.edited().isAsPublished;
+    if (checkbox(bench, "As published", isAsPublished, "technique.as_published"))
+        bench.edited().isAsPublished = isAsPublished;
+    ImGui::EndDisabled();
+    tooltip("The method as its paper has it to the letter, in place of what is right.");
 }
 
 void drawStage(Bench& bench, const params::ParamSet& params, const Registry::StageEntry& of) {

@@ -65,7 +65,7 @@ double account(const Frame& frame, unsigned which) {
 // W of a channel that are stored on these pixels: as irradiance says, or, where a filter makes one
 // map of several and keeps no sum, as the first of them does.
 double arrived(const Frame& frame, int x0, int y0, int x1, int y1) {
-    if (frame.renderer().outputs().map.maps.front().sets.flux > 1)
+    if (frame.renderer().outputs().map.maps.front().sets.layout != SetLayout::one)
         return readStored(frame).in(x0, y0, x1, y1);
     const Texels irradiance = frame.read(frame.renderer().outputs().caustic.irradiance);
     const Texels receiver = frame.read(frame.renderer().outputs().eye.receiver);

@@ -70,8 +70,8 @@ def compare(
     area: Optional[ImageLike] = None,
     pixels_per_degree: Optional[float] = None,
 ) -> Dict[str, Any]:
-    """How wrong an image is: rmse, mae, rel_mse, ssim, flip_ldr, flip_hdr, energy_ratio and
-    encircled_energy_radius_ratio, as `kaustik compare --json` has them under `error`.
+    """How wrong an image is: rmse, mae, rel_mse, smape, ssim, flip_ldr, flip_hdr, energy_ratio
+    and encircled_energy_radius_ratio, as `kaustik compare --json` has them under `error`.
 
     Image and reference are arrays of linear light, H x W or H x W x C, or image files; reference
     may be a Reference, whose standard error then says what its own noise would give. mask leaves

@@ -145,6 +145,11 @@ class Renderer:
         return str(self._session.state()["technique"])
 
     @property
+    def as_published(self) -> bool:
+        """Whether the technique is as its paper has it."""
+        return bool(self._session.state()["as_published"])
+
+    @property
     def device(self) -> str:
         """What renders, in the driver's words."""
         return str(self._session.state()["device"])
@@ -283,6 +288,7 @@ def open(
     *,
     size: Size = (800, 600),
     technique: str = "screen_space_photons",
+    as_published: bool = False,
     set: Optional[Mapping[str, Value]] = None,
     disable: Iterable[str] = (),
     time: Optional[float] = None,
@@ -294,8 +300,8 @@ def open(
 ) -> Renderer:
     """A renderer for a scene: a shipped one's name, a file, or a dict that says what a .toml would.
 
-    size is (width, height) in pixels, technique one of techniques(), set parameters by any unique
-    short name, disable passes to switch off, time that of the scene in s, seed that of everything
+    size is (width, height) in pixels, technique one of techniques(), with as_published as its paper
+    has it to the letter, set parameters by any unique short name, disable passes to switch off, time that of the scene in s, seed that of everything
     random. precise finishes the device around each pass instead of reading timestamps, which is
     what a software rasteriser wants; debug names the pass of an OpenGL error. device is a number or
     a UUID that `kaustik check` lists, or a part of a device's name; else the best that the job was
@@ -315,5 +321,6 @@ def open(
             precise,
             debug,
             str(device),
+            as_published,
         )
     )

@@ -17,7 +17,7 @@ namespace kaustik::scene {
 // out or approximated is in Scene::warnings.
 [[nodiscard]] Scene importGltf(const std::filesystem::path& path, reading::ReaderProcess& reader);
 
-// The same in a process for this file alone.
+// Imports the file in a process for this file alone.
 [[nodiscard]] Scene importGltf(const std::filesystem::path& path);
 
 }  // namespace kaustik::scene

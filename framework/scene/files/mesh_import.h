@@ -24,7 +24,7 @@ struct ImportedMesh {
 [[nodiscard]] ImportedMesh importMeshWithWarnings(const std::filesystem::path& path,
                                                   reading::ReaderProcess& reader);
 
-// The same without the warnings, in a process for this file alone.
+// Imports the file without its warnings, in a process for this file alone.
 [[nodiscard]] Mesh importMesh(const std::filesystem::path& path);
 
 }  // namespace kaustik::scene

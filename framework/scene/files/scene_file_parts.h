@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From the tables of a scene file to what they mean; scene_keys.h has their keys.
+// Makes the parts of a scene from the tables of a scene file, whose keys are in scene_keys.h.
 #pragma once
 
 #include <filesystem>
@@ -32,7 +32,7 @@ void readEnvironment(TableReader& reader, Scene& scene);
 
 // What a scene file that extends another one changes.
 [[nodiscard]] SceneEdits makeEdits(EditKeys keys);
-// The same of a table that has nothing else.
+// Reads edits from a table that has nothing else.
 [[nodiscard]] SceneEdits readEdits(TableReader& top);
 
 // The mesh of a shape; `reader` is the object's, for errors.

@@ -241,7 +241,7 @@ void reflect(R& r, SceneKeys& scene) {
     r.tables(scene.objects, {"object", "Meshes and shapes"});
 }
 
-// Of a file that says what is changed of another scene: scene_edits.h.
+// The keys of a file that says what is changed of another scene (scene_edits.h).
 struct LightEditKeys {
     std::string name;
     std::optional<glm::dvec3> direction;

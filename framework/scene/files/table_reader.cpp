@@ -9,6 +9,7 @@
 
 #include "framework/core/error.h"
 #include "framework/core/names.h"
+#include "framework/core/number_text.h"
 
 namespace kaustik::scene {
 namespace {
@@ -35,8 +36,9 @@ bool NumberRange::contains(double value) const {
 }
 
 std::string NumberRange::description() const {
-    return fmt::format("{} {:g} and {} {:g}", withoutMinimum ? "greater than" : "at least", minimum,
-                       withoutMaximum ? "less than" : "at most", maximum);
+    return fmt::format("{} {} and {} {}", withoutMinimum ? "greater than" : "at least",
+                       numberText(minimum), withoutMaximum ? "less than" : "at most",
+                       numberText(maximum));
 }
 
 TableReader::TableReader(const TomlNode& table, std::filesystem::path file, std::string subject)

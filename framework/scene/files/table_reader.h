@@ -46,7 +46,8 @@ inline constexpr NumberRange kPositive{kSmallestLength, kLargestNumber, false, f
 inline constexpr NumberRange kNotNegative{0.0, kLargestNumber, false, false};
 inline constexpr NumberRange kUnitInterval{0.0, 1.0, false, false};
 
-// Of length 1. `vector` is not zero, but may be tiny: it is divided before it is squared.
+// The vector made as long as 1. `vector` is not zero, but may be tiny: it is divided before it is
+// squared.
 [[nodiscard]] glm::dvec3 unitDirection(const glm::dvec3& vector);
 
 // What a key is called, what it means, and its unit.
@@ -80,7 +81,7 @@ struct Held<std::optional<T>> {
 template <class Value>
 using Choices = std::vector<std::pair<std::string, Value>>;
 
-// Of several keys no more than one may be there.
+// A rule that allows at most one of several keys.
 struct KeyRule {
     std::vector<const char*> keys;
     bool needsOne = false;
@@ -157,7 +158,7 @@ class TableReader {
     // Letters, digits, '-' and '_'.
     void folderName(std::string& value, const Key& key);
     void texts(std::vector<std::string>& values, const Key& key);
-    // Those of the names that are listed.
+    // Reads a list of names, and notes which of `names` are in it.
     template <std::size_t size>
     void subset(std::array<bool, size>& chosen, const Key& key,
                 const std::array<const char*, size>& names) {

@@ -89,7 +89,8 @@ class TableSchema {
         add(key, {{"enum", std::move(names)}}, held,
             Held<Value>::isOptional ? kOptional : presence);
     }
-    // Which of the kinds it is becomes the value.
+    // Describes one of the kinds, whose name is then the key's only value, and sets `value` to it,
+    // so that the keys of that kind follow.
     template <class Value>
     void kind(Value& value, const Key& key, const Choices<Value>& choices) {
         const std::size_t before = kinds_ - 1;

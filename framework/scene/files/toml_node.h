@@ -41,7 +41,7 @@ struct TomlNode {
     [[nodiscard]] const std::vector<TomlNode>* list() const;
     // The value of a key; null where this is no table or does not have it.
     [[nodiscard]] const TomlNode* find(std::string_view key) const;
-    // None where this is no table.
+    // The entries of a table; there are none where this is no table.
     [[nodiscard]] const std::vector<TomlEntry>& entries() const;
 };
 

@@ -41,7 +41,7 @@ class MeshBuilder {
     // The mesh, with `closed` found from its edges; inward: normals and triangles turned round.
     [[nodiscard]] Mesh finish(const std::string& name, bool inward = false);
 
-    // The same for a sheet that has a border, without a look at its edges.
+    // Finishes a sheet that has a border, without a look at its edges.
     [[nodiscard]] Mesh finishSheet(const std::string& name);
 
   private:

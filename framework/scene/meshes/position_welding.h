@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which vertices of a mesh lie at exactly the same position.
+// Finds vertices of a mesh that lie at exactly the same position.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace kaustik::scene {
 
-// For each position the index of the first equal one. Exact, so that it does not depend on the size
-// of the mesh; -0 equals 0.
+// The index of the first equal position, for each position. The comparison is exact, so that it
+// does not depend on the size of the mesh; -0 equals 0.
 [[nodiscard]] std::vector<std::uint32_t> weldPositions(const std::vector<glm::vec3>& positions);
 
 }  // namespace kaustik::scene

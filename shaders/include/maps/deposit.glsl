@@ -9,7 +9,8 @@
 #include "include/surfaces/receiver_brdf.glsl"
 #endif
 
-// To the set of the map that holds it. `directionVs`: unit, in which it arrives, in the eye's view.
+// To the set of the map that holds it. `texel`: of that, which of intensity is the eye's pixel;
+// `directionVs`: unit, in which it arrives, in the eye's view.
 void depositGlossy(ivec2 texel, int set, vec3 flux, vec3 directionVs) {
 #ifdef GLOSSY_RECEIVERS
     vec4 surface = texelFetch(receiverSurface, texel, 0);

@@ -12,13 +12,29 @@ uniform int lightOfMap;
 uniform int generatorOfMap;
 #endif
 
+// Whichever generator it has left.
+bool hasArrivedFromAny(ivec2 texel) {
+#ifdef ONE_LIGHT
+    if (int(originAt(texel).light) != lightOfMap) return false;
+#endif
+    return uint(texelFetch(hitFlux, texel, 0).w) == kFateReceiver;
+}
+
 bool hasArrived(ivec2 texel) {
     bool isOwn = true;
-#ifdef ONE_LIGHT
-    isOwn = int(originAt(texel).light) == lightOfMap;
-#endif
 #ifdef ONE_GENERATOR
     isOwn = generatorOf(texelFetch(photonPosition, texel, 0).xyz) == generatorOfMap;
 #endif
-    return isOwn && uint(texelFetch(hitFlux, texel, 0).w) == kFateReceiver;
+    return isOwn && hasArrivedFromAny(texel);
+}
+
+// Which share of a photon's light the map takes that reconstructions can divide: several maps may
+// have a part each.
+float arrivedShare(ivec2 texel) {
+    if (!hasArrivedFromAny(texel)) return 0.0;
+#ifdef ONE_GENERATOR
+    return shareOfGenerator(texelFetch(photonPosition, texel, 0).xyz, generatorOfMap);
+#else
+    return 1.0;
+#endif
 }

@@ -5,6 +5,7 @@
 
 uniform ivec2 cellGrid;    // columns and rows
 uniform int cellFirstRow;
+uniform ivec2 cellOwnRows; // of the grid, from and before: see isFromOtherBatch
 uniform ivec2 cellLights;  // the first, and how many
 uniform int cellSplits;
 
@@ -16,17 +17,27 @@ ivec2 cellOf(PhotonOrigin origin) {
            ivec2(0, cellFirstRow);
 }
 
-// Of a photon's cell and those next to it by so many; kNoCell where the grid has none. Photons that
-// have taken another branch where both were followed are neighbours of their own.
-uint cellPlace(PhotonOrigin origin, ivec2 neighbourOffset) {
+// Whether another batch of emission brings a photon as well, and here it is only to be joined with.
+bool isFromOtherBatch(PhotonOrigin origin) {
+    if (cellGrid.x == 0) return false;
+    int row = int(origin.cell / uint(cellGrid.x));
+    return row < cellOwnRows.x || row >= cellOwnRows.y;
+}
+
+// Of the photon with that number, of those that are of one cell, in a photon's cell or one that lies
+// so many next to it; kNoCell where the grid has none.
+uint cellPlaceOf(PhotonOrigin origin, ivec2 neighbourOffset, uint number) {
     if (cellGrid.x == 0) return kNoCell;
     ivec2 at = cellOf(origin) + neighbourOffset;
     int light = int(origin.light) - cellLights.x;
     bool isIn = all(greaterThanEqual(at, ivec2(0))) && all(lessThan(at, cellGrid)) && light >= 0 &&
                 light < cellLights.y;
-    if (!isIn) return kNoCell;
-    int interactions = findMSB(origin.path);
-    uint branch = bitfieldExtract(origin.path, max(interactions - cellSplits, 0), cellSplits);
-    uint grid = branch * uint(cellLights.y) + uint(light);
+    if (!isIn || number >= 1u << cellSplits) return kNoCell;
+    uint grid = number * uint(cellLights.y) + uint(light);
     return (grid * uint(cellGrid.y) + uint(at.y)) * uint(cellGrid.x) + uint(at.x);
+}
+
+// Of the photon itself.
+uint cellPlace(PhotonOrigin origin) {
+    return cellPlaceOf(origin, ivec2(0), origin.branch & 0xffu);
 }

@@ -32,6 +32,7 @@ bool arrivalOfThread(out Arrival arrival) {
     bool continues = arrival.index < photons.count &&
                   uint(texelFetch(hitFlux, arrival.texel, 0).w) == kFateSpecular;
     arrival.slot = nextSlot(continues);
+    if (lightIndex == 0) countTraced();
     if (!continues) return false;
     arrival.origin = originAt(arrival.texel);
     if (int(arrival.origin.light) != lightIndex) return false;

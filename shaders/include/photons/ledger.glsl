@@ -16,18 +16,15 @@ void ledgerAddUnits(uint account, uint lowUnits, uint highUnits) {
 }
 
 // Adds the flux of all channels to an account, as one event. What is not a number counts as an
-// event of its own account and adds nothing. Photons that another batch brings as well have flux
-// that no sum resolves (emit/grid.comp), and count there.
+// event of its own account and adds nothing.
 void ledgerAdd(uint account, vec3 fluxWatts) {
     float watts = fluxWatts.r + fluxWatts.g + fluxWatts.b;
     if (isnan(watts) || isinf(watts) || watts < 0.0) {
         atomicAdd(ledger[kAccountNotANumber].events, 1u);
         return;
     }
-    if (watts > 0.0 && watts * ledgerUnitsPerWatt < 0.25) return;
-    // A float has 24 bits, so that both halves are exact.
-    float units = floor(watts * ledgerUnitsPerWatt);
-    float high = floor(units * (1.0 / 4294967296.0));
-    ledgerAddUnits(account, uint(units - high * 4294967296.0), uint(high));
+    if (isOfOtherBatch(watts)) return;
+    uvec2 units = unitsOfWatts(watts);
+    ledgerAddUnits(account, units.x, units.y);
     atomicAdd(ledger[account].events, 1u);
 }

@@ -10,6 +10,24 @@ layout(std430) readonly buffer NextFirsts {
     uint nextFirsts[];
 };
 shared uint continuingBits[2];
+#ifdef BRANCHES
+layout(std430) readonly buffer NextParting {
+    uvec2 nextParting[];
+};
+
+// Whether the thread's photon sends on two, the second at the place after the first.
+bool isParting() {
+    uint local = gl_LocalInvocationIndex;
+    return (nextParting[workgroupNumber()][local >> 5u] >> (local & 31u) & 1u) == 1u;
+}
+#endif
+
+// How many of the workgroup's threads before this one have their bit set.
+uint bitsBefore(uint first, uint second) {
+    uint local = gl_LocalInvocationIndex;
+    uint below = bitfieldExtract(local < 32u ? first : second, 0, int(local & 31u));
+    return uint(bitCount(below)) + (local < 32u ? 0u : uint(bitCount(first)));
+}
 
 // To be called once by every thread of the workgroup; the place of this one's photon, where it goes
 // on.
@@ -19,14 +37,24 @@ uint nextSlot(bool continues) {
     barrier();
     if (continues) atomicOr(continuingBits[local >> 5u], 1u << (local & 31u));
     barrier();
-    uint below = bitfieldExtract(continuingBits[local >> 5u], 0, int(local & 31u));
-    uint slot = uint(bitCount(below)) + (local < 32u ? 0u : uint(bitCount(continuingBits[0])));
+    uint slot = bitsBefore(continuingBits[0], continuingBits[1]);
+#ifdef BRANCHES
+    uvec2 parting = nextParting[workgroupNumber()];
+    slot += bitsBefore(parting.x, parting.y);
+#endif
     return continues ? nextFirsts[workgroupNumber()] + slot : 0u;
+}
+
+// To be called in one pass of those that send on the same list: notes how long it is.
+void countTraced() {
+    if (workgroupNumber() == 0u && gl_LocalInvocationIndex == 0u)
+        atomicAdd(ledger[kAccountEmitted].traced, nextPhotons.count);
 }
 
 // Of a photon that is sent on by the thread's.
 PhotonOrigin nextPhotonOrigin(PhotonOrigin before, uint index, bool isReflected) {
-    return PhotonOrigin(before.cell, before.light, (before.path << 1) | uint(isReflected), index);
+    return PhotonOrigin(before.cell, before.light, (before.path << 1) | uint(isReflected), index,
+                        before.branch);
 }
 
 // Writes a branch of the thread's photon at its place in the next list.

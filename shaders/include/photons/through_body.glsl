@@ -4,6 +4,10 @@
 #include "include/photons/interaction.glsl"
 #include "include/views/two_interfaces.glsl"
 
+// Where total reflection is booked: kAccountInternalReflectionLimit, or, in bodies that have none,
+// kAccountAsPublished, where W05's estimates make it.
+uniform uint totalReflectionAccount;
+
 struct Passage {
     bool isOut;     // else it was totally reflected inside, and is in the ledger
     Photon photon;  // where it leaves, or, if it does not, where it has entered
@@ -35,16 +39,16 @@ Passage throughBody(Photon before, Hit hit, Photon inside, int steps, int distan
         // At the very rim the back faces are another texel's: no thickness, it goes straight on.
         onward = along;
     }
-    vec3 left = mediumTransmittance(hit.material, passage.way.length);
+    vec3 left = mediumTransmittance(hit.material, passage.way.lengthMeters);
     ledgerAdd(kAccountAbsorbed, inside.fluxWatts * (1.0 - left));
     inside.fluxWatts *= left;
     vec3 direction = directionToEye(onward);
     passage.exitNormal = directionToEye(passage.way.normal);
-    if (passage.way.length > 0.0) {
+    if (passage.way.lengthMeters > 0.0) {
         Interface second = interactAt(direction, passage.exitNormal, indices.y, indices.x);
         if (second.reflectance >= 1.0 || dot(direction, passage.exitNormal) <= 0.0) {
             // What is totally reflected inside is not followed (WD08, section 6).
-            ledgerAdd(kAccountInternalReflectionLimit, inside.fluxWatts);
+            ledgerAdd(totalReflectionAccount, inside.fluxWatts);
             passage.isOut = false;
             return passage;
         }
@@ -71,7 +75,7 @@ vec3 faceShapeToEye(ivec2 texel, int face, vec3 normalVs) {
 }
 
 vec3 shapeAtExit(Passage passage) {
-    if (!(passage.way.length > 0.0)) return vec3(0.0);
+    if (!(passage.way.lengthMeters > 0.0)) return vec3(0.0);
     return faceShapeToEye(passage.way.texel, kBackFace, passage.exitNormal);
 }
 
@@ -79,7 +83,7 @@ vec3 shapeAtExit(Passage passage) {
 Beam beamThrough(Beam beam, Photon before, Hit hit, Passage passage) {
     beam = propagatedBeam(beam, before.directionVs, hit.distanceMeters, hit.normalVs, hit.shape,
                       passage.within, passage.indices.x / passage.indices.y);
-    return propagatedBeam(beam, passage.within, passage.way.length, passage.exitNormal,
+    return propagatedBeam(beam, passage.within, passage.way.lengthMeters, passage.exitNormal,
                       shapeAtExit(passage), passage.photon.directionVs,
                       passage.indices.y / passage.indices.x);
 }

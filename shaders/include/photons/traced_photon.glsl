@@ -22,6 +22,25 @@ Photon photonInView(Photon photon) {
     return photon;
 }
 
+// How a surface that was hit first is crossed; `seen`: the photon in its view's space.
+Crossing crossingOf(Photon seen, FirstHit first, out uint material) {
+    vec4 surface = texelFetch(layerSurfaces, layerTexel(first.pixel, first.hit.layer), 0);
+    LayerSurface layer = layerAt(first.pixel, first.hit.layer);
+    material = uint(surface.w);
+    Crossing crossing = Crossing(first.hit.t, surface.xyz, layer.normal, mat3(0.0));
+    if (first.isExit) {
+        crossing = smoothCrossing(seen.positionVs, seen.directionVs, crossing.t, surface, layer);
+    } else if (!isReceiver(materialKind(material - 1u))) {
+        // The normal of one pixel alone would send all photons that hit it the same way. A receiver
+        // sends the light nowhere: its pixel's normal will do.
+        vec3 there = seen.positionVs + crossing.t * seen.directionVs;
+        SmoothSurface around = smoothSurfaceAt(there, surface, layer);
+        crossing.shading = around.normal;
+        crossing.turning = around.curving;
+    }
+    return crossing;
+}
+
 // The hit, or, where nothing was hit, the account of the reason.
 Hit deliver(Photon photon, FirstHit first) {
     Hit hit = emptyHit();
@@ -37,25 +56,12 @@ Hit deliver(Photon photon, FirstHit first) {
         ledgerAdd(clipRay(seen.positionVs, seen.directionVs).cause, photon.fluxWatts);
         return hit;
     }
-    vec4 surface = texelFetch(layerSurfaces, layerTexel(first.pixel, first.hit.layer), 0);
-    LayerSurface layer = layerAt(first.pixel, first.hit.layer);
-    uint material = uint(surface.w);
-    bool arrives = isReceiver(materialKind(material - 1u));
-    Crossing crossing = Crossing(first.hit.t, surface.xyz, layer.normal, mat3(0.0));
-    if (first.isExit) {
-        crossing = smoothCrossing(seen.positionVs, seen.directionVs, crossing.t, surface, layer);
-    } else if (!arrives) {
-        // The normal of one pixel alone would send all photons that hit it the same way. A receiver
-        // sends the light nowhere: its pixel's normal will do.
-        vec3 there = seen.positionVs + crossing.t * seen.directionVs;
-        SmoothSurface around = smoothSurfaceAt(there, surface, layer);
-        crossing.shading = around.normal;
-        crossing.turning = around.curving;
-    }
+    uint material;
+    Crossing crossing = crossingOf(seen, first, material);
     hit = deliverTo(photon, crossing.t, directionToEye(crossing.shading),
                     directionToEye(crossing.geometric), material);
 #ifdef PHOTON_BEAMS
-    if (!arrives) hit.shape = shapeOf(hit.normalVs, turningToEye(crossing.turning));
+    if (hit.fate == kFateSpecular) hit.shape = shapeOf(hit.normalVs, turningToEye(crossing.turning));
 #endif
     return hit;
 }

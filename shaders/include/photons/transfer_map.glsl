@@ -9,7 +9,7 @@ Photon unpackPhoton(vec4 position, vec4 direction, vec4 flux) {
 }
 
 PhotonOrigin unpackOrigin(uvec4 origin) {
-    return PhotonOrigin(origin.x, origin.y, origin.z, origin.w);
+    return PhotonOrigin(origin.x, origin.y & 0xffffu, origin.z, origin.w, origin.y >> 16u);
 }
 
 Hit unpackHit(vec4 position, vec4 surface, vec4 flux) {
@@ -29,7 +29,9 @@ bool isNumber(Photon photon) {
 vec4 photonPositionTexel(Photon p) { return vec4(p.positionVs, p.footprintMeters); }
 vec4 photonDirectionTexel(Photon p) { return vec4(p.directionVs, float(p.fate)); }
 vec4 photonFluxTexel(Photon p) { return vec4(p.fluxWatts, float(p.media)); }
-uvec4 originTexel(PhotonOrigin o) { return uvec4(o.cell, o.light, o.path, o.parent); }
+uvec4 originTexel(PhotonOrigin o) {
+    return uvec4(o.cell, o.light | o.branch << 16u, o.path, o.parent);
+}
 vec4 hitPositionTexel(Hit h) { return vec4(h.positionVs, h.distanceMeters); }
 vec4 hitSurfaceTexel(Hit h) { return vec4(h.normalVs, float(h.material)); }
 vec4 hitFluxTexel(Hit h) { return vec4(h.fluxWatts, float(h.fate)); }

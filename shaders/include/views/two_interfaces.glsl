@@ -43,7 +43,7 @@ float distanceInside(vec3 entry, vec3 direction, float through, int steps) {
 }
 
 struct InnerPath {
-    float length;  // m
+    float lengthMeters;
     vec3 exit;
     vec3 normal;   // of the back faces there, outward, unit
     ivec2 texel;   // of the back buffers that it is from

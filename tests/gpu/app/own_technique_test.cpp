@@ -10,6 +10,7 @@
 
 #include "example/techniques/points.cpp"
 #include "example/techniques/reconstruct/points.cpp"
+#include "framework/core/error.h"
 #include "framework/core/files.h"
 #include "framework/numerics/frame.h"
 #include "framework/scene/files/scene_file.h"
@@ -54,14 +55,15 @@ TEST_F(OwnTechnique, IsListedWithItsNodeAndParameters) {
 TEST_F(OwnTechnique, TakesSettingsAndIsTimed) {
     const TemporaryFolder folder;
     const std::string out = (folder / "out").string();
-    const auto run = [&](const char* gain) {
+    const auto run = [&](const char* gain, int exitCode) {
         const CommandResult result =
             command({"run", "flat-water", "--technique", "points", "--size", "64x48", "--set",
                      "photons=32x32", "--set", gain, "--frames", "2", "--out", out.c_str()});
-        EXPECT_EQ(result.exitCode, 0) << result.err;
+        EXPECT_EQ(result.exitCode, exitCode) << result.err;
         return nlohmann::json::parse(readFile(folder / "out/report.json"));
     };
-    const nlohmann::json report = run("points.gain=0.5");
+    // Half of the light is in no account, which no light can do; the report is there all the same.
+    const nlohmann::json report = run("points.gain=0.5", kExitImpossible);
     EXPECT_EQ(report.at("technique"), "points");
     EXPECT_EQ(report.at("parameters").at("reconstruct.points.gain"), 0.5);
     bool isTimed = false;
@@ -71,9 +73,14 @@ TEST_F(OwnTechnique, TakesSettingsAndIsTimed) {
                   pass.at("gpu_ms").at("median").get<double>() > 0.0;
     }
     EXPECT_TRUE(isTimed);
+    ASSERT_EQ(report.at("violations").size(), 1u);
+    const std::string violation = report.at("violations")[0];
+    EXPECT_NE(violation.find("not conserved"), std::string::npos) << violation;
+    EXPECT_NE(violation.find("reconstruct=points"), std::string::npos) << violation;
     // What it deposits follows its parameter, and the ledger sees it.
     const double half = report.at("energy").at("deposited_w").get<double>();
-    const double whole = run("points.gain=1").at("energy").at("deposited_w").get<double>();
+    const double whole =
+        run("points.gain=1", kExitDone).at("energy").at("deposited_w").get<double>();
     EXPECT_GT(half, 0.0);
     EXPECT_NEAR(whole / half, 2.0, 1e-4);
 }

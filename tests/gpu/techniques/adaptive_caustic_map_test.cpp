@@ -23,11 +23,16 @@ using glm::dvec3;
 
 const CameraText kAbove{{0.0, 3.0, 4.0}, {0.0, 0.0, 0.0}, 45.0, 0.01};
 
-std::string lamp(const std::string& name, const dvec3& position) {
+std::string lamp(const std::string& name, const dvec3& position, const dvec3& direction) {
     return fmt::format(
         "[[light]]\nname = \"{}\"\ntype = \"spot\"\nposition = {}\ndirection = {}\n"
         "inner_cone_degrees = 25\nouter_cone_degrees = 30\nintensity = 100\n",
-        name, numbers(position), numbers(-position));
+        name, numbers(position), numbers(direction));
+}
+
+// Towards the origin.
+std::string lamp(const std::string& name, const dvec3& position) {
+    return lamp(name, position, -position);
 }
 
 const std::string kFloor = floorPlane("floor", "grey", 6, {0, 0, 0});
@@ -112,6 +117,25 @@ TEST(AdaptivePhotons, DependNeitherOnBatchesNorOnTheWayInWhichTheyAreChosen) {
         EXPECT_EQ(whole.words(), captured.words());
         EXPECT_EQ(entriesOf(whole), entriesOf(captured));
         EXPECT_LE(std::abs(parts.renderer().ledger().balance()), 1e-6);
+    }
+}
+
+// What is drawn at random is drawn by the cell, of a probe as of a photon.
+TEST(AdaptivePhotons, ThatDrawAtRandomDependOnNoBatchesEither) {
+    const scene::Scene scene =
+        ballScene(lamp("lamp", {0.5, 3.0, 0.3}) + lamp("other", {-1.0, 2.5, 0.8}));
+    for (const char* levels : {"1", "3"}) {
+        SCOPED_TRACE(levels);
+        const Settings drawn = {
+            {"specular", "split"}, {"specular.split.levels", levels}, {"trace", "hierarchical"}};
+        const MapFrame whole = adaptive(scene, drawn);
+        EXPECT_EQ(countsOf(whole).batches, 1u);
+        const MapFrame parts = adaptive(scene, with(drawn, {{"refine.memory", "1"}}));
+        EXPECT_GT(countsOf(parts).batches, 2u);
+        EXPECT_EQ(countsOf(whole).emitted, countsOf(parts).emitted);
+        EXPECT_EQ(countsOf(whole).merged, countsOf(parts).merged);
+        EXPECT_EQ(whole.words(), parts.words());
+        EXPECT_EQ(whole.renderer().ledger().watts, parts.renderer().ledger().watts);
     }
 }
 
@@ -205,6 +229,24 @@ TEST(AdaptivePhotons, OfSeveralLightsLieInTheirOwnMaps) {
     const dvec3 aloneToo = storedIn(adaptive(litToo, {})).sum();
     EXPECT_NEAR(ofFirst.sum().g, alone.g, 1e-6 * alone.g);
     EXPECT_NEAR(ofSecond.sum().g, aloneToo.g, 1e-6 * aloneToo.g);
+}
+
+// Of more lights than a word has bits each has a mask of its own: here one that shines on
+// the ball, first or last among many that shine on the floor alone.
+TEST(AdaptivePhotons, OfManyLightsDoNotDependOnTheirOrder) {
+    constexpr int kDark = 33;
+    std::string dark;
+    for (int i = 0; i < kDark; ++i)
+        dark += lamp(fmt::format("dark {}", i), {1.8, 1.0 + 0.01 * i, 1.8}, {0.0, -1.0, 0.0});
+    const std::string bright = lamp("bright", {0.5, 3.0, 0.3});
+    const Settings coarse = {
+        {"refine.finest", "64"}, {"emit.deferred.size", "64"}, {"reconstruct.map_size", "64"}};
+    const CellCounts first = countsOf(adaptive(ballScene(bright + dark), coarse));
+    const CellCounts last = countsOf(adaptive(ballScene(dark + bright), coarse));
+    EXPECT_GT(first.emitted, 100u);
+    EXPECT_EQ(first.emitted, last.emitted);
+    EXPECT_EQ(first.probes, last.probes);
+    EXPECT_EQ(first.discarded, last.discarded);
 }
 
 // Between texels of coarse buffers photons start on the triangles that these see, or on a smooth
@@ -322,7 +364,7 @@ TEST(AdaptivePhotons, SayWhatTheyCannotDo) {
     };
     EXPECT_NE(messageOf({{"refine.finest", "1000"}}).find("512 and 1024 are"), std::string::npos);
     EXPECT_NE(messageOf({{"emit", "grid"}}).find("take emit=deferred"), std::string::npos);
-    EXPECT_NE(messageOf({{"filter", "level_sum"}}).find("reconstruct.multi_level"),
+    EXPECT_NE(messageOf({{"filter", "level_sum"}}).find("reconstruct=multi_level"),
               std::string::npos);
 }
 

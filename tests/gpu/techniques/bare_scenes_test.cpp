@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "tests/gpu/fixture.h"
+#include "tests/gpu/techniques/scene_parts.h"
 
 namespace kaustik::test {
 namespace {
@@ -15,17 +16,7 @@ type = "directional"
 direction = [0, -1, 0]
 irradiance = 1000
 )";
-const std::string kFloor = R"(
-[[material]]
-name = "grey"
-type = "lambertian"
-albedo = 0.5
-[[object]]
-name = "floor"
-shape = "plane"
-material = "grey"
-size = [4, 4]
-)";
+const std::string kFloor = greyFloor(4.0);
 const std::string kWater = R"(
 [[material]]
 name = "water"

@@ -10,6 +10,7 @@
 
 #include "framework/numerics/cases/scene_text.h"
 #include "tests/gpu/techniques/caustic_map_frame.h"
+#include "tests/gpu/techniques/scene_parts.h"
 
 namespace kaustik::test {
 
@@ -29,12 +30,8 @@ inline std::string floorOf(double side) {
 
 // Light of some structure, a part of which falls next to the map of what the eye sees.
 inline scene::Scene waves() {
-    return numerics::makeScene(
-        kAbove, numerics::sun({0.2, -1.0, 0.1}) +
-                    numerics::object("water", "water", "water", {0, 0, 0},
-                                     "size = [2, 1.5]\ncells = [96, 72]\n"
-                                     "waves = [{amplitude = 0.02, wavelength = 0.6}]") +
-                    floorOf(3.0));
+    return numerics::makeScene(kAbove,
+                               numerics::sun({0.2, -1.0, 0.1}) + rippledWater() + floorOf(3.0));
 }
 inline scene::Scene uniform() {
     return numerics::makeScene(kAbove, numerics::sun({0, -1, 0}) + sheet(2.0) + floorOf(4.0));

@@ -14,6 +14,7 @@
 #include "framework/core/json_number.h"
 #include "framework/core/json_text.h"
 #include "framework/core/names.h"
+#include "framework/core/number_text.h"
 
 namespace kaustik {
 namespace {
@@ -211,6 +212,16 @@ TEST(WholeNumber, IsOneThatItsTypeHoldsOrAnError) {
             << text;
     }
     EXPECT_THROW(static_cast<void>(wholeNumber<std::uint64_t>(json(-1))), json::exception);
+}
+
+TEST(NumberText, HasAllDigitsOfAWholeNumberAndTheFewestOfAnother) {
+    EXPECT_EQ(numberText(268435456.0), "268435456");
+    EXPECT_EQ(numberText(-1e9), "-1000000000");
+    EXPECT_EQ(numberText(0.0), "0");
+    EXPECT_EQ(numberText(double{0.01f}), "0.01");
+    EXPECT_EQ(numberText(double{1e-6f}), "1e-06");
+    EXPECT_EQ(numberText(2.5), "2.5");
+    EXPECT_EQ(numberText(1e30), "1e+30");
 }
 
 TEST(TomlString, EscapesWhatWouldEndOrBreakIt) {

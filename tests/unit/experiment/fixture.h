@@ -41,7 +41,7 @@ class Experiment : public testing::Test {
   protected:
     Experiment() { static_cast<void>(folder.file("empty.toml", "name = 'empty'\ntime = 0.5\n")); }
 
-    static params::ParamSet makeParams(const std::string& technique) {
+    static params::ParamSet makeParams(const std::string& technique, bool /*isAsPublished*/) {
         if (technique != "screen" && technique != "cube") {
             throw ConfigError("There is no technique '" + technique + "'.");
         }

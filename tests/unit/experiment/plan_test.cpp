@@ -136,6 +136,22 @@ TEST_F(Settings, ArePassedOnOnlyWhereTheExperimentSetsThem) {
                                                           "--reference=none", "--precise"}));
 }
 
+TEST_F(Settings, TakeAPapersRowAsAnAxis) {
+    const Plan both = plan("name = 'x'\n[permute]\nas_published = [false, true]\n");
+    ASSERT_EQ(both.runs.size(), 2u);
+    EXPECT_EQ(both.runs[0].axes.at("as_published"), false);
+    EXPECT_EQ(both.runs[1].axes.at("as_published"), true);
+    const auto isAsked = [](const PlannedRun& run) {
+        return std::count(run.sceneArguments.begin(), run.sceneArguments.end(), "--as-published");
+    };
+    EXPECT_EQ(isAsked(both.runs[0]), 0);
+    EXPECT_EQ(isAsked(both.runs[1]), 1);
+    // Studies of the default rows keep the folders that they have.
+    EXPECT_EQ(both.runs[0].hash, plan("name = 'x'\n").runs[0].hash);
+    EXPECT_NE(problem("name = 'x'\n[base]\nas_published = 1\n").find("as_published"),
+              std::string::npos);
+}
+
 TEST_F(Hash, IsThatOfTheCanonicalSettings) {
     const PlannedRun run = plan("name = 'x'\n").runs[0];
     EXPECT_EQ(run.hash.size(), 32u);

@@ -18,9 +18,11 @@ class ExperimentFile : public testing::Test {
     [[nodiscard]] experiment::Plan plan(const std::filesystem::path& file) const {
         const experiment::RunDefaults defaults{
             "pool", "screen_space_photons", "800x600", 8, 1, 1, "none", 1000};
-        return makePlan(experiment::readSpec(file), defaults, [this](const std::string& technique) {
-            return registry_.makeParams(registry_.findTechnique(technique));
-        });
+        return makePlan(
+            experiment::readSpec(file), defaults,
+            [this](const std::string& technique, bool isAsPublished) {
+                return registry_.makeParams(registry_.findTechnique(technique, isAsPublished));
+            });
     }
     kaustik::test::TemporaryFolder folder_;
     Registry registry_ = registerAll();

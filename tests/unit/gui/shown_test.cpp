@@ -46,6 +46,14 @@ TEST_F(ShownTest, IsWhatWasAskedFor) {
     EXPECT_TRUE(isRendered(requested(), result));
 }
 
+TEST_F(ShownTest, IsRedOverWhatNoLightCanDo) {
+    result.variants[0].violations = {"Energy is not conserved."};
+    EXPECT_EQ(shown().kind, Shown::Kind::impossible);
+    EXPECT_TRUE(says("Energy is not conserved."));
+    // It can still be done again elsewhere.
+    EXPECT_TRUE(isRendered(requested(), result));
+}
+
 TEST_F(ShownTest, IsOfBeforeUntilTheNewestOrderIsRendered) {
     result.order = kOrder - 1;
     result.variants[0].order = kOrder - 1;

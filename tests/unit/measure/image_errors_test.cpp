@@ -16,9 +16,9 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-constexpr const char* kKeys[] = {
-    "rmse",     "rel_mse",  "mae",          "ssim",
-    "flip_ldr", "flip_hdr", "energy_ratio", "encircled_energy_radius_ratio"};
+constexpr const char* kKeys[] = {"rmse",     "rel_mse",      "smape",
+                                 "mae",      "ssim",         "flip_ldr",
+                                 "flip_hdr", "energy_ratio", "encircled_energy_radius_ratio"};
 
 TEST(ImageErrors, InJsonAreAllMeasuresEachWithItsFormula) {
     const Image image = randomImage(24, 20, 1, 0.0f, 5.0f);
@@ -37,6 +37,8 @@ TEST(ImageErrors, InJsonAreAllMeasuresEachWithItsFormula) {
     const ReferenceScale scale = referenceScale(pair);
     const json& formulas = errors.at("formulas");
     EXPECT_EQ(formulas.at("rel_mse").at("epsilon"), 0.01 * scale.typical * scale.typical);
+    EXPECT_EQ(formulas.at("smape").at("lit_pixels"), 480);
+    EXPECT_EQ(errors.at("smape"), symmetricRelativeError(pair, litPixels(pair)));
     EXPECT_EQ(formulas.at("ssim").at("white"), scale.white);
     EXPECT_EQ(formulas.at("flip_ldr").at("pixels_per_degree"), 67.0);
     EXPECT_EQ(formulas.at("flip_hdr").at("exposures").at("count"), defaultExposures(scale).count);
@@ -46,7 +48,7 @@ TEST(ImageErrors, InJsonAreAllMeasuresEachWithItsFormula) {
 TEST(ImageErrors, OfEqualImagesAreNone) {
     const Image image = randomImage(24, 20, 1, 0.0f, 5.0f);
     const json errors = toJson(measureErrors(pairOf(image, image)));
-    for (const char* key : {"rmse", "rel_mse", "mae", "flip_ldr", "flip_hdr"})
+    for (const char* key : {"rmse", "rel_mse", "smape", "mae", "flip_ldr", "flip_hdr"})
         EXPECT_EQ(errors.at(key), 0.0) << key;
     for (const char* key : {"energy_ratio", "encircled_energy_radius_ratio"})
         EXPECT_EQ(errors.at(key), 1.0) << key;
@@ -58,14 +60,14 @@ TEST(ImageErrors, AgainstABlackReferenceAreNullWithAReasonWhereTheyHaveNoMeaning
         toJson(measureErrors(pairOf(greyImage(16, 16, 2.0f), greyImage(16, 16, 0.0f))));
     EXPECT_EQ(errors.at("rmse"), 2.0);
     EXPECT_EQ(errors.at("mae"), 2.0);
-    for (const char* key : {"rel_mse", "ssim", "flip_ldr", "flip_hdr", "energy_ratio",
+    for (const char* key : {"rel_mse", "smape", "ssim", "flip_ldr", "flip_hdr", "energy_ratio",
                             "encircled_energy_radius_ratio"}) {
         EXPECT_TRUE(errors.at(key).is_null()) << key;
         EXPECT_NE(errors.at("reasons").at(key), "") << key;
     }
     EXPECT_THAT(errors.at("reasons").at("flip_hdr").get<std::string>(), HasSubstr("black"));
     // Nothing that is not a number has become null on the way out without a reason.
-    EXPECT_EQ(errors.at("reasons").size(), 6u);
+    EXPECT_EQ(errors.at("reasons").size(), 7u);
 }
 
 TEST(ImageErrors, OfAnImageTooSmallForSsimSayWhy) {
@@ -102,6 +104,17 @@ TEST(ImageErrors, HaveTheReferencesNoiseBesideThem) {
     EXPECT_DOUBLE_EQ(noise.at("energy_ratio"), 0.25 / 16.0);
     EXPECT_NEAR(noise.at("mae"), 0.25 * 0.7978845608, 1e-9);
     EXPECT_NEAR(noise.at("rel_mse"), 0.0625 / 1.01, 1e-9);
+    EXPECT_NEAR(noise.at("smape"), 0.125 * 0.7978845608, 1e-9);
+}
+
+TEST(ImageErrors, OfAReferenceThatIsNoiseAloneSayThatNothingIsLit) {
+    const Image image = greyImage(16, 16, 1.0f);
+    const Image sigma = greyImage(16, 16, 0.5f);
+    const ImagePair pair({.image = image, .reference = image, .standardError = &sigma});
+    const json errors = toJson(measureErrors(pair));
+    EXPECT_TRUE(errors.at("smape").is_null());
+    EXPECT_THAT(errors.at("reasons").at("smape").get<std::string>(), HasSubstr("noise"));
+    EXPECT_TRUE(errors.at("truth_noise").at("smape").is_null());
 }
 
 TEST(HeatMapScale, DependsOnTheReferenceAloneUnlessThatIsBlack) {

@@ -68,6 +68,16 @@ struct CountParams {
     }
 };
 
+struct LargeParams {
+    int count = 1;
+    float power = 1.0f;
+    template <class R>
+    void reflect(R& r) {
+        r.field(count, "count", "Photons", "", range(1, 1 << 28));
+        r.field(power, "power", "Power", "W", range(1e-6f, 1e6f));
+    }
+};
+
 ParamSet makeSet() {
     ParamSet set;
     set.declareChoice("trace", "Which tracer", {"lines", "march"}, "lines");
@@ -178,6 +188,27 @@ TEST(ParamSet, WritesFullNamesAndNumbersThatReadBackAsTheSameFloat) {
     EXPECT_EQ(json.at("reconstruct.sprites.grid"), "256x256");
     EXPECT_EQ(json.at("reconstruct.sprites.kernel"), "linear");
     EXPECT_EQ(json.size(), 7u);
+}
+
+TEST(ParamSet, ListsScopesByNameAndTheirParametersInTheOrderOfDeclaration) {
+    std::vector<std::string> names;
+    for (const NamedField& named : makeSet().all())
+        names.push_back(named.fullName);
+    EXPECT_EQ(names,
+              (std::vector<std::string>{"reconstruct.sprites.width", "reconstruct.sprites.kernel",
+                                        "reconstruct.sprites.grid", "trace", "trace.epsilon",
+                                        "trace.lines.width", "trace.lines.blur"}));
+}
+
+TEST(ParamSet, SaysLimitsThatAreWholeNumbersWithAllTheirDigits) {
+    ParamSet set;
+    set.declare<LargeParams>("emit");
+    EXPECT_EQ(set.find("emit.count").rangeText(), "1 to 268435456");
+    EXPECT_EQ(set.find("emit.power").rangeText(), "1e-06 to 1000000");
+    EXPECT_NE(messageOf(set, "count=0").find("a whole number from 1 to 268435456."),
+              std::string::npos);
+    EXPECT_NE(messageOf(set, "power=0").find("a number from 1e-06 to 1000000 W."),
+              std::string::npos);
 }
 
 TEST(ParamSet, ATechniquesDefaultIsNotCountedAsTheUsers) {

@@ -74,6 +74,21 @@ TEST(RepeatedHits, AreNoneWithoutASpecularSurfaceAndAtASinglePlane) {
     }
 }
 
+TEST(RepeatedHits, AreNotFromOutsideOfAConvexBodyAlone) {
+    for (const MaterialKind kind : {MaterialKind::dielectric, MaterialKind::mirror}) {
+        Scene scene;
+        add(scene, makeSphere({}), kind);
+        EXPECT_TRUE(repeatedHits(scene).transmitted);
+        EXPECT_FALSE(repeatedHits(scene).outside);
+        Scene two = scene;
+        add(two, makeSphere({}), kind, glm::translate(glm::dmat4(1.0), {3.0, 0.0, 0.0}));
+        EXPECT_TRUE(repeatedHits(two).outside);
+        Scene ring;
+        add(ring, makeTorus({}), kind);
+        EXPECT_TRUE(repeatedHits(ring).outside);
+    }
+}
+
 TEST(RepeatedHits, AreThereInABodyEvenIfItsMeshIsOpen) {
     for (const Mesh& ball : {makeSphere({}), withoutATriangle(makeSphere({}))}) {
         Scene scene;
@@ -200,6 +215,25 @@ TEST(ConcaveBody, IsOneWithACornerBeforeOneOfItsFaces) {
     EXPECT_FALSE(concaveBody(others));
     EXPECT_FALSE(concaveBody(loadScene("glass-sphere")));
     EXPECT_TRUE(concaveBody(loadScene("concave-glass")));
+}
+
+TEST(Balls, AreTheBodiesThatReflectNothingTotally) {
+    const auto sceneOf = [](const Mesh& mesh, const glm::dmat4& toWorld = glm::dmat4(1.0)) {
+        Scene scene;
+        add(scene, mesh, MaterialKind::dielectric, toWorld);
+        return scene;
+    };
+    EXPECT_TRUE(hasBallsAlone(sceneOf(makeSphere({}))));
+    EXPECT_TRUE(hasBallsAlone(loadScene("glass-sphere")));
+    EXPECT_FALSE(hasBallsAlone(sceneOf(makeBox({.size = {1.0, 1.0, 1.0}}))));
+    EXPECT_FALSE(hasBallsAlone(
+        sceneOf(makeSphere({}), glm::scale(glm::dmat4(1.0), glm::dvec3(1.0, 0.9, 1.0)))));
+    EXPECT_FALSE(hasBallsAlone(loadScene("glossy-table")));  // there is a ring too
+    EXPECT_FALSE(hasBallsAlone(Scene()));
+    // Which may lie in one another.
+    Scene two = sceneOf(makeSphere({}));
+    add(two, makeSphere({}));
+    EXPECT_FALSE(hasBallsAlone(two));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "tests/gpu/fixture.h"
+#include "tests/gpu/techniques/scene_parts.h"
 
 namespace kaustik::test {
 namespace {
@@ -11,17 +12,8 @@ namespace {
 // A grey floor below the light `light`, as TOML, and whatever else.
 scene::Scene lit(const std::string& light, double eyeHeight, const std::string& rest = "") {
     return sceneFromText("name = 'floor'\n[camera]\nposition = [0, " + std::to_string(eyeHeight) +
-                         ", 0.01]\ntarget = [0, 0, 0]\n[[light]]\nname = 'light'\n" + light + R"(
-[[material]]
-name = "grey"
-type = "lambertian"
-albedo = 0.5
-[[object]]
-name = "floor"
-shape = "plane"
-material = "grey"
-size = [4, 4]
-)" + rest);
+                         ", 0.01]\ntarget = [0, 0, 0]\n[[light]]\nname = 'light'\n" + light + "\n" +
+                         greyFloor(4.0) + rest);
 }
 
 double shownInTheMiddle(const scene::Scene& scene, const std::string& technique) {

@@ -13,6 +13,7 @@
 #include "techniques/layered_depth/pyramid.h"
 #include "techniques/register_all.h"
 #include "tests/gpu/fixture.h"
+#include "tests/gpu/techniques/scene_parts.h"
 
 namespace kaustik::test {
 namespace {
@@ -144,17 +145,7 @@ irradiance = 1000
 name = "glass"
 type = "dielectric"
 ior = 1.5
-[[material]]
-name = "grey"
-type = "lambertian"
-albedo = 0.5
-[[object]]
-name = "floor"
-shape = "plane"
-material = "grey"
-size = [9, 9]
-position = [0, -2, 0]
-)";
+)" + greyFloor(9.0, -2.0);
     for (int i = 0; i < 20; ++i) {
         text += "[[object]]\nname = \"shell " + std::to_string(i) +
                 "\"\nshape = \"sphere\"\nsegments = 24\nmaterial = \"" +

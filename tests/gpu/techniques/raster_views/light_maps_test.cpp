@@ -173,7 +173,8 @@ TEST(MapCascades, ThatWouldBeNoFinerAreLeftOutAndSaid) {
         makeScene({{0, 3, 0.01}, {0, -1, 0}},
                   sun({0, -1, 0}) + object("ball", "sphere", "glass", {0, 0, 0}, "radius = 0.3") +
                       floorPlane("floor", "grey", 2, {0, -1, 0}));
-    const MapFrame frame = cascades(scene, 4, {{"trace", "background"}, {"specular", "auto"}});
+    const MapFrame frame =
+        cascades(scene, 4, {{"trace", "background"}, {"specular", "two_interfaces"}});
     EXPECT_EQ(frame.renderer().outputs().map.maps.size(), 1u);
     const auto& said = frame.renderer().warnings();
     EXPECT_TRUE(std::any_of(said.begin(), said.end(), [](const std::string& warning) {

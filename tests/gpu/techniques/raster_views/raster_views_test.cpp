@@ -265,11 +265,11 @@ TEST(ANodeInASpaceThatItCannotServe, SaysSo) {
         return refusalOf([&] { static_cast<void>(render(registry, scene, "elsewhere", {})); });
     };
     EXPECT_EQ(refusal(storingIn(sun, "screen")),
-              "gather.screen works on the screen, but the map of flux it is given is in a light's "
-              "view; take gather=project, or reconstruct.space=screen.");
+              "gather.screen looks light up by the eye's pixels, but it is stored in the lights' "
+              "maps; take gather=project, or reconstruct.space=screen.");
     EXPECT_EQ(refusal(storingIn(cube, "screen")),
-              "gather.screen works on the screen, but the map of flux it is given is on the faces "
-              "of a cube; take gather=project, or reconstruct.space=screen.");
+              "gather.screen looks light up by the eye's pixels, but it is stored in the lights' "
+              "maps; take gather=project, or reconstruct.space=screen.");
     EXPECT_EQ(refusal(tracingIn(sun, "lines")),
               "trace.lines works on the screen, but the layers it is given are in a light's view.");
     EXPECT_EQ(refusal(tracingIn(cube, "all_hits")),

@@ -9,6 +9,7 @@
 
 #include "framework/render/view.h"
 #include "tests/gpu/fixture.h"
+#include "tests/gpu/techniques/scene_parts.h"
 
 namespace kaustik::test {
 namespace {
@@ -22,16 +23,7 @@ name = "sun"
 type = "directional"
 irradiance = 100
 direction = [0, -1, 0]
-[[material]]
-name = "grey"
-type = "lambertian"
-albedo = 0.5
-[[object]]
-name = "floor"
-shape = "plane"
-material = "grey"
-size = [4, 4]
-)" + objects);
+)" + greyFloor(4.0) + objects);
 }
 
 constexpr double kBallRadius = 0.5;

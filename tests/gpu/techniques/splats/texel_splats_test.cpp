@@ -22,11 +22,7 @@ using glm::dvec3;
 TEST(BlurredPoints, AreSplatsByLinearity) {
     // A floor that is smaller than what the water lights, so that light lies at the map's border.
     const scene::Scene scene =
-        makeScene(kAbove, sun({0.2, -1.0, 0.1}) +
-                              object("water", "water", "water", {0, 0, 0},
-                                     "size = [2, 1.5]\ncells = [96, 72]\n"
-                                     "waves = [{amplitude = 0.02, wavelength = 0.6}]") +
-                              floorOf(1.0));
+        makeScene(kAbove, sun({0.2, -1.0, 0.1}) + rippledWater() + floorOf(1.0));
     for (const auto& [blur, diameter] : {std::pair{"7", "7"}, {"3", "3"}, {"15", "15"}}) {
         SCOPED_TRACE(blur);
         const MapFrame splats(scene, "caustic_map",
@@ -68,6 +64,10 @@ class MadeUpPhotons : public ::testing::Test {
     numerics::Frame store(const scene::Scene& scene, const render::RasterView& view,
                           const std::vector<dvec2>& texels, double depth,
                           const Settings& settings) {
+        return reconstruct(scene, photonsAt(view, texels, depth), settings);
+    }
+    static std::vector<StagePhoton> photonsAt(const render::RasterView& view,
+                                              const std::vector<dvec2>& texels, double depth) {
         std::vector<StagePhoton> photons;
         for (const dvec2& texel : texels) {
             StagePhoton photon;
@@ -77,8 +77,9 @@ class MadeUpPhotons : public ::testing::Test {
             photon.startMaterial = kGrey;
             photons.push_back(photon);
         }
-        return reconstruct(scene, photons, settings);
+        return photons;
     }
+    [[nodiscard]] Lab& lab() { return lab_; }
     numerics::Frame reconstruct(const scene::Scene& scene, const std::vector<StagePhoton>& photons,
                                 const Settings& settings) {
         return reconstructHits(lab_, lab_.choose(ReconstructStage::name, "fixed"), scene, photons,
@@ -302,7 +303,7 @@ TEST_P(Uniform, LightOfFewPhotonsIsSoInTheBlendToo) {
     EXPECT_NEAR(account["flux_ratio"].get<double>(), 1.0, 1e-6);
 }
 
-INSTANTIATE_TEST_SUITE_P(By, Uniform, ::testing::Values("bernstein", "linear"),
+INSTANTIATE_TEST_SUITE_P(By, Uniform, ::testing::Values("bernstein", "nested", "linear"),
                          [](const auto& tested) { return std::string(tested.param); });
 
 class Blend : public ::testing::TestWithParam<const char*> {};
@@ -355,7 +356,7 @@ TEST_P(Blend, TakesTheSmallestSizeThatHasEnoughAndLiesBetweenSizes) {
             ++enough;
         if (counts[enough - 1][i] <= 8) {
             ASSERT_TRUE(same(value, sets[static_cast<std::size_t>(enough)].flux[i].g));
-        } else if (std::string(GetParam()) == "bernstein") {
+        } else if (std::string(GetParam()) != "linear") {
             // Never darker than the size that has enough.
             ASSERT_GE(value, sets[static_cast<std::size_t>(enough)].flux[i].g * (1.0 - 1e-6));
             ++mixed;
@@ -370,8 +371,49 @@ TEST_P(Blend, TakesTheSmallestSizeThatHasEnoughAndLiesBetweenSizes) {
     EXPECT_GT(mixed, 100);
 }
 
-INSTANTIATE_TEST_SUITE_P(By, Blend, ::testing::Values("bernstein", "linear"),
+INSTANTIATE_TEST_SUITE_P(By, Blend, ::testing::Values("bernstein", "nested", "linear"),
                          [](const auto& tested) { return std::string(tested.param); });
+
+// Photons in the middle of a texel, with others around it that larger splats reach alone: of the
+// smallest size as many lie on the texel as are in its middle, of all others enough.
+TEST_F(MadeUpPhotons, TakeOverFromLargerSplatsWithoutAJumpButInASumOfWeights) {
+    const render::RasterView view = mapViewOf(reconstruct(floor_, {}, {}));
+    const auto weightOf = [&](const char* interpolant, int photons) {
+        std::vector<dvec2> texels(static_cast<std::size_t>(photons), dvec2(64.5, 64.5));
+        for (int i = 0; i < 16; ++i) {
+            const double angle = 2.0 * 3.14159265358979 * i / 16.0;
+            texels.push_back(dvec2(64.5 + 2.6 * std::cos(angle), 64.5 + 2.6 * std::sin(angle)));
+        }
+        Lab& lab = this->lab();
+        std::vector<StagePhoton> made = photonsAt(view, texels, depthOfFloor(view));
+        const numerics::Frame frame =
+            reconstructHits(lab, lab.choose(ReconstructStage::name, "four_radii"), floor_, made,
+                            {{"reconstruct.space", "light"},
+                             {"gather", "project"},
+                             {"filter.blend.interpolant", interpolant},
+                             {"reconstruct.map_size", "128"},
+                             {"reconstruct.map_covers", "scene"}});
+        const FluxMap& map = frame.renderer().outputs().map.maps.front();
+        const double blended = frame.read(map.filtered).rgb(64, 64).g;
+        const double smallest = storedIn(frame, 0).at(64, 64).g;
+        const double next = storedIn(frame, 1).at(64, 64).g;
+        EXPECT_GT(smallest, 1.5 * next);
+        return (blended - next) / (smallest - next);
+    };
+    // B(t) = 3 t² (1 - t) + t³ at t = (n - 8)/8.
+    const auto bernstein = [](int photons) {
+        const double t = (photons - 8.0) / 8.0;
+        return 3.0 * t * t * (1.0 - t) + t * t * t;
+    };
+    for (const int photons : {8, 9, 12, 15, 16}) {
+        const double own = bernstein(photons);
+        EXPECT_NEAR(weightOf("nested", photons), own, 1e-5) << photons;
+        EXPECT_NEAR(weightOf("bernstein", photons), photons == 16 ? 1.0 : own / (1.0 + own), 1e-5)
+            << photons;
+    }
+    EXPECT_NEAR(weightOf("bernstein", 15), 0.489, 1e-3);
+    EXPECT_NEAR(weightOf("nested", 15), 0.957, 1e-3);
+}
 
 }  // namespace
 }  // namespace kaustik::test

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#include "techniques/generators/receiver_rays.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace kaustik {
+namespace {
+
+constexpr std::size_t kTrianglesOfLeaf = 4;
+
+// Where a ray enters the box, m; beyond `farthest` where it does not.
+double distanceToBox(const glm::dvec3& minimum, const glm::dvec3& maximum, const glm::dvec3& origin,
+                     const glm::dvec3& inverse, double farthest) {
+    const glm::dvec3 one = (minimum - origin) * inverse;
+    const glm::dvec3 other = (maximum - origin) * inverse;
+    const glm::dvec3 near = glm::min(one, other);
+    const glm::dvec3 far = glm::max(one, other);
+    const double begin = std::max({near.x, near.y, near.z, 0.0});
+    const double end = std::min({far.x, far.y, far.z, farthest});
+    return begin <= end ? begin : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+ReceiverRays::ReceiverRays(const scene::Scene& scene) {
+    for (const scene::Object& object : scene.objects) {
+        if (!isReceiver(scene.materials[object.material].kind)) continue;
+        const scene::Mesh& mesh = scene.meshes[object.mesh];
+        for (const glm::uvec3& indices : mesh.triangles) {
+            glm::dvec3 corners[3];
+            for (int i = 0; i < 3; ++i) {
+                corners[i] = glm::dvec3(
+                    object.toWorld *
+                    glm::dvec4(mesh.origin + glm::dvec3(mesh.positions[indices[i]]), 1.0));
+            }
+            triangles_.push_back({corners[0], {corners[1] - corners[0], corners[2] - corners[0]}});
+        }
+    }
+    if (!triangles_.empty()) addNode(0, triangles_.size());
+}
+
+void ReceiverRays::addNode(std::size_t begin, std::size_t end) {
+    const std::size_t index = nodes_.size();
+    Node node{glm::dvec3(std::numeric_limits<double>::infinity()),
+              glm::dvec3(-std::numeric_limits<double>::infinity())};
+    for (std::size_t i = begin; i < end; ++i) {
+        const Triangle& triangle = triangles_[i];
+        for (const glm::dvec3& corner : {triangle.corner, triangle.corner + triangle.edges[0],
+                                         triangle.corner + triangle.edges[1]}) {
+            node.minimum = glm::min(node.minimum, corner);
+            node.maximum = glm::max(node.maximum, corner);
+        }
+    }
+    const bool isLeaf = end - begin <= kTrianglesOfLeaf;
+    node.first = static_cast<std::uint32_t>(begin);
+    node.count = isLeaf ? static_cast<std::uint32_t>(end - begin) : 0;
+    nodes_.push_back(node);
+    if (isLeaf) return;
+    const glm::dvec3 extent = node.maximum - node.minimum;
+    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0
+                     : extent.y >= extent.z                       ? 1
+                                                                  : 2;
+    const auto middleOf = [axis](const Triangle& triangle) {
+        return 3.0 * triangle.corner[axis] + triangle.edges[0][axis] + triangle.edges[1][axis];
+    };
+    const std::size_t middle = begin + (end - begin) / 2;
+    const auto at = [&](std::size_t i) {
+        return triangles_.begin() + static_cast<std::ptrdiff_t>(i);
+    };
+    std::nth_element(at(begin), at(middle), at(end), [&](const Triangle& a, const Triangle& b) {
+        return middleOf(a) < middleOf(b);
+    });
+    addNode(begin, middle);
+    nodes_[index].first = static_cast<std::uint32_t>(nodes_.size());
+    addNode(middle, end);
+}
+
+std::optional<ReceiverRays::Hit> ReceiverRays::first(const glm::dvec3& origin,
+                                                     const glm::dvec3& direction,
+                                                     double farthest) const {
+    const glm::dvec3 inverse = 1.0 / direction;
+    std::optional<Hit> nearest;
+    std::vector<std::uint32_t> open;
+    if (!nodes_.empty()) open.push_back(0);
+    while (!open.empty()) {
+        const std::uint32_t index = open.back();
+        const Node& node = nodes_[index];
+        open.pop_back();
+        if (distanceToBox(node.minimum, node.maximum, origin, inverse, farthest) > farthest)
+            continue;
+        if (node.count == 0) {
+            open.push_back(node.first);
+            open.push_back(index + 1);
+            continue;
+        }
+        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+            const Triangle& triangle = triangles_[i];
+            const glm::dvec3 cross = glm::cross(direction, triangle.edges[1]);
+            const double determinant = glm::dot(triangle.edges[0], cross);
+            if (determinant == 0.0) continue;
+            const glm::dvec3 offset = origin - triangle.corner;
+            const double u = glm::dot(offset, cross) / determinant;
+            const glm::dvec3 across = glm::cross(offset, triangle.edges[0]);
+            const double v = glm::dot(direction, across) / determinant;
+            const double distance = glm::dot(triangle.edges[1], across) / determinant;
+            if (u < 0.0 || v < 0.0 || u + v > 1.0 || !(distance > 0.0) || distance >= farthest)
+                continue;
+            farthest = distance;
+            nearest = {distance, origin + distance * direction,
+                       glm::normalize(glm::cross(triangle.edges[0], triangle.edges[1]))};
+        }
+    }
+    return nearest;
+}
+
+}  // namespace kaustik

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// The first receiver on a ray, on the processor: for what is decided about a scene before a frame
+// of it is made. A tree of boxes over all receivers' triangles.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "framework/scene/scene.h"
+
+namespace kaustik {
+
+class ReceiverRays {
+  public:
+    explicit ReceiverRays(const scene::Scene& scene);
+
+    // World space, m; the normal is of the triangle, unit, and points to either side.
+    struct Hit {
+        double distance = 0.0;
+        glm::dvec3 position{0.0};
+        glm::dvec3 normal{0.0};
+    };
+    // `direction`: unit. Nothing where no receiver is nearer than `farthest`.
+    [[nodiscard]] std::optional<Hit> first(
+        const glm::dvec3& origin, const glm::dvec3& direction,
+        double farthest = std::numeric_limits<double>::infinity()) const;
+
+  private:
+    struct Triangle {
+        glm::dvec3 corner;
+        glm::dvec3 edges[2];  // to the other corners
+    };
+    struct Node {
+        glm::dvec3 minimum;
+        glm::dvec3 maximum;
+        std::uint32_t first = 0;  // of a leaf its first triangle, else its second child
+        std::uint32_t count = 0;  // of a leaf's triangles; 0: the first child is the next node
+    };
+    void addNode(std::size_t begin, std::size_t end);
+
+    std::vector<Triangle> triangles_;
+    std::vector<Node> nodes_;
+};
+
+}  // namespace kaustik

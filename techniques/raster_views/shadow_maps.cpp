@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include "techniques/raster_views/shadow_maps.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "techniques/raster_views/shadow_view.h"
+
+namespace kaustik {
+namespace {
+
+// One face for a light with a direction, six around one with a place.
+std::vector<LightSight> sightsOf(FrameBuilder& frame, const scene::Light& light) {
+    const scene::Bounds bounds = sceneBounds(frame.scene());
+    const int faces = light.kind == scene::LightKind::directional ? 1 : 6;
+    std::vector<LightSight> sights;
+    for (int face = 0; face < faces; ++face) {
+        const render::RasterView view = faces == 1 ? render::makeLightView(light, bounds, bounds)
+                                                   : render::makeCubeFaceView(light.position, face);
+        sights.push_back({view, &frame.keep(frame.gpuScene().makeInstances(view.worldToView))});
+    }
+    return sights;
+}
+
+ShadowMaps drawShadowMaps(FrameBuilder& frame, const Geometry& geometry) {
+    std::vector<LightSight> sights;
+    bool hasCube = false;
+    for (const scene::Light& light : frame.scene().lights) {
+        const std::vector<LightSight> own = sightsOf(frame, light);
+        sights.insert(sights.end(), own.begin(), own.end());
+        hasCube = hasCube || own.size() > 1;
+    }
+    std::vector<ShadowView> views;
+    views.reserve(sights.size());
+    for (const LightSight& sight : sights)
+        views.push_back({render::between(frame.view(), sight.view), sight.view.projection()});
+    // All maps lie in one array. Faces of 90 degrees see the scene larger than one map of all of
+    // it.
+    const int size = frame.params<ShadowMapParams>("shadow.map").size;
+    const int lights = frame.needs().lights;
+    return {
+        drawLightDepths(frame,
+                        {"shadow.map", fmt::format("{} light{}", lights, lights == 1 ? "" : "s"),
+                         "shadow.maps", "shadow.depth_buffer"},
+                        sights, hasCube ? size / 2 : size, geometry),
+        &frame.keep(gl::Buffer(views, "shadow.views"))};
+}
+
+}  // namespace
+
+const ShadowMaps& shadowMaps(FrameBuilder& frame, const Geometry& geometry) {
+    return *frame.once<ShadowMaps>("shadow.maps", [&] {
+        return std::make_shared<ShadowMaps>(drawShadowMaps(frame, geometry));
+    });
+}
+
+void readShadowMaps(graph::PassSetup& setup, const ShadowMaps& maps) {
+    setup.sample("shadowMap", maps.depths.map);
+}
+
+gl::Command& bindShadowMaps(gl::Command& command, const ShadowMaps& maps) {
+    return command.storage("ShadowViews", *maps.views);
+}
+
+}  // namespace kaustik

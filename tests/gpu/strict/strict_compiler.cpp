@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: MIT
+#include "tests/gpu/strict/strict_compiler.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+#include <utility>
+
+#include "framework/core/files.h"
+#include "framework/core/process.h"
+#include "tests/gpu/strict/driver_limits.h"
+
+namespace kaustik::test {
+namespace {
+namespace fs = std::filesystem;
+
+// What a tool has said, in a file of the folder; its exit code is 0 where all is well.
+int run(const std::vector<std::string>& words, const fs::path& folder, const std::string& output) {
+    const int file =
+        ::open((folder / output).c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+    Process process;
+    const int problem = process.start({.program = words.front(),
+                                       .words = words,
+                                       .standard = {kNoDescriptor, file, file},
+                                       .folder = folder});
+    const ProcessEnd end = problem == 0 ? process.wait() : ProcessEnd{127, 0};
+    ::close(file);
+    return end.signal != 0 ? -end.signal : end.exitCode;
+}
+
+// glslang names a line by its number: with it goes what stands there.
+std::string withLines(const std::string& log, const RecordedProgram& program) {
+    std::string shown;
+    std::istringstream lines(log);
+    for (std::string line; std::getline(lines, line);) {
+        const bool isProblem = line.starts_with("ERROR") || line.starts_with("error");
+        if (!isProblem) continue;
+        shown += "\n    " + line;
+        const std::size_t number = line.find(':', line.find(':') + 1);
+        if (number == std::string::npos || program.size() != 1) continue;
+        const int wanted = std::atoi(line.c_str() + number + 1);
+        std::istringstream source(program.front().text);
+        std::string text;
+        for (int i = 0; i < wanted; ++i)
+            std::getline(source, text);
+        if (wanted > 0) shown += "\n        " + text;
+    }
+    return shown.empty() ? "\n    " + log : shown;
+}
+
+// Sizes of what a module declares in workgroup memory and as uniforms outside of blocks, neither of
+// which spirv-cross lists. (SPIR-V 1.0, section 3.32.)
+class ModuleSizes {
+  public:
+    explicit ModuleSizes(const fs::path& file) {
+        const std::string bytes = readFile(file);
+        words_.resize(bytes.size() / sizeof(std::uint32_t));
+        std::copy_n(bytes.data(), words_.size() * sizeof(std::uint32_t),
+                    reinterpret_cast<char*>(words_.data()));
+        constexpr std::size_t kHeader = 5;
+        for (std::size_t i = kHeader; i < words_.size(); i += std::max(words_[i] >> 16U, 1U)) {
+            const std::uint32_t code = words_[i] & 0xffffU;
+            if (code >= kTypeVoid && code <= kTypePointer) types_[words_[i + 1]] = i;
+            if (code == kConstant) constants_[words_[i + 2]] = words_[i + 3];
+            if (code != kVariable) continue;
+            const std::size_t pointer = types_.at(words_[i + 1]);
+            const std::uint32_t size = components(words_[pointer + 3]);
+            if (words_[i + 3] == kWorkgroup) shared_ += size;
+            if (words_[i + 3] == kUniformConstant) uniforms_ += size;
+        }
+    }
+    [[nodiscard]] int sharedBytes() const { return static_cast<int>(4 * shared_); }
+    [[nodiscard]] int uniformComponents() const { return static_cast<int>(uniforms_); }
+
+  private:
+    static constexpr std::uint32_t kTypeVoid = 19;
+    static constexpr std::uint32_t kTypeBool = 20;
+    static constexpr std::uint32_t kTypeInt = 21;
+    static constexpr std::uint32_t kTypeFloat = 22;
+    static constexpr std::uint32_t kTypeVector = 23;
+    static constexpr std::uint32_t kTypeMatrix = 24;
+    static constexpr std::uint32_t kTypeArray = 28;
+    static constexpr std::uint32_t kTypeStruct = 30;
+    static constexpr std::uint32_t kTypePointer = 32;
+    static constexpr std::uint32_t kConstant = 43;
+    static constexpr std::uint32_t kVariable = 59;
+    static constexpr std::uint32_t kUniformConstant = 0;
+    static constexpr std::uint32_t kWorkgroup = 4;
+
+    // Of 4 bytes each; images and samplers have none.
+    [[nodiscard]] std::uint32_t components(std::uint32_t type) const {
+        const std::size_t at = types_.at(type);
+        switch (words_[at] & 0xffffU) {
+            case kTypeBool:
+                return 1;
+            case kTypeInt:
+            case kTypeFloat:
+                return words_[at + 2] / 32U;
+            case kTypeVector:
+            case kTypeMatrix:
+                return components(words_[at + 2]) * words_[at + 3];
+            case kTypeArray:
+                return components(words_[at + 2]) * constants_.at(words_[at + 3]);
+            case kTypeStruct: {
+                std::uint32_t sum = 0;
+                for (std::size_t member = at + 2; member < at + (words_[at] >> 16U); ++member)
+                    sum += components(words_[member]);
+                return sum;
+            }
+            default:
+                return 0;
+        }
+    }
+
+    std::vector<std::uint32_t> words_;
+    std::map<std::uint32_t, std::size_t> types_;        // where each stands
+    std::map<std::uint32_t, std::uint32_t> constants_;  // the first word of each
+    std::uint32_t shared_ = 0;
+    std::uint32_t uniforms_ = 0;
+};
+
+StageResources resourcesOf(const std::string& kind, const nlohmann::json& reflected,
+                           const ModuleSizes& sizes) {
+    // An array takes as many as it has elements.
+    const auto count = [&](const char* resource) {
+        int sum = 0;
+        for (const nlohmann::json& entry : reflected.value(resource, nlohmann::json::array())) {
+            int elements = 1;
+            for (const nlohmann::json& length : entry.value("array", nlohmann::json::array()))
+                elements *= length.get<int>();
+            sum += elements;
+        }
+        return sum;
+    };
+    StageResources found;
+    found.kind = kind;
+    found.images = count("images");
+    found.storageBlocks = count("ssbos");
+    found.uniformBlocks = count("ubos");
+    found.samplers = count("textures");
+    if (kind == "frag") found.outputs = count("outputs");
+    found.uniformComponents = sizes.uniformComponents();
+    found.sharedBytes = sizes.sharedBytes();
+    const nlohmann::json& entry = reflected.at("entryPoints").at(0);
+    if (entry.contains("workgroup_size")) {
+        for (std::size_t i = 0; i < 3; ++i)
+            found.groupThreads[i] = entry.at("workgroup_size").at(i).get<int>();
+    }
+    return found;
+}
+
+CheckedProgram check(const RecordedProgram& program, const fs::path& folder) {
+    CheckedProgram checked;
+    std::vector<std::string> files;
+    for (const RecordedStage& stage : program) {
+        files.push_back("shader." + stage.kind);
+        std::ofstream(folder / files.back()) << stage.text;
+    }
+    const auto isWell = [&](const std::vector<std::string>& words) {
+        if (run(words, folder, "log") == 0) return true;
+        checked.problem =
+            fmt::format("{}: {}", words.front(), withLines(readFile(folder / "log"), program));
+        return false;
+    };
+    // All stages together: GLSL's rules, and SPIR-V's besides. What GLSL lets a program number
+    // later gets its number here.
+    std::vector<std::string> words = {"glslangValidator", "-G", "--amb", "--aml"};
+    words.insert(words.end(), files.begin(), files.end());
+    if (!isWell(words)) return checked;
+    for (const RecordedStage& stage : program) {
+        const std::string module = stage.kind + ".spv";
+        if (!isWell({"spirv-val", "--target-env", "opengl4.5", module})) return checked;
+        if (!isWell({"spirv-cross", "--reflect", "--remove-unused-variables", "--output",
+                     "reflected", module}))
+            return checked;
+        checked.stages.push_back(resourcesOf(
+            stage.kind, nlohmann::json::parse(readFile(folder / "reflected"), nullptr, true),
+            ModuleSizes(folder / module)));
+    }
+    return checked;
+}
+
+}  // namespace
+
+std::vector<std::string> missingTools() {
+    std::vector<std::string> missing;
+    for (const char* tool : {"glslangValidator", "spirv-val", "spirv-cross"}) {
+        if (run({tool, "--help"}, fs::temp_directory_path(), "kaustik-tool-help") == 127)
+            missing.emplace_back(tool);
+    }
+    return missing;
+}
+
+RecordedProgram withoutUnused(RecordedProgram program) {
+    for (RecordedStage& stage : program) {
+        std::istringstream lines(stage.text);
+        std::string kept;
+        std::vector<std::pair<std::string, std::string>> declared;  // name and line
+        std::string line;
+        std::getline(lines, kept);  // #version
+        while (std::getline(lines, line)) {
+            std::istringstream words(line);
+            std::string first;
+            std::string name;
+            words >> first >> name;
+            if (first == "uniform" || first == "const") words >> name;
+            if (first != "uniform" && first != "const" && first != "#define") break;
+            declared.emplace_back(name.substr(0, name.find(';')), line);
+        }
+        const std::string rest =
+            line + "\n" + std::string(std::istreambuf_iterator<char>(lines), {});
+        for (const auto& [name, text] : declared) {
+            if (rest.find(name) != std::string::npos) kept += "\n" + text;
+        }
+        stage.text = kept + "\n" + rest;
+    }
+    return program;
+}
+
+std::vector<CheckedProgram> checkPrograms(const std::vector<RecordedProgram>& programs) {
+    const fs::path folder =
+        fs::temp_directory_path() / fmt::format("kaustik-programs-{}", ::getpid());
+    std::vector<CheckedProgram> checked(programs.size());
+    std::atomic<std::size_t> next = 0;
+    std::vector<std::thread> threads;
+    for (unsigned i = 0; i < std::max(std::thread::hardware_concurrency(), 1U); ++i) {
+        threads.emplace_back([&, own = folder / std::to_string(i)] {
+            fs::create_directories(own);
+            for (std::size_t at = next++; at < programs.size(); at = next++) {
+                try {
+                    checked[at] = check(programs[at], own);
+                } catch (const std::exception& error) {
+                    checked[at].problem = error.what();
+                }
+            }
+        });
+    }
+    for (std::thread& thread : threads)
+        thread.join();
+    fs::remove_all(folder);
+    return checked;
+}
+
+std::vector<std::string> beyondDriverLimits(const std::vector<StageResources>& stages) {
+    std::vector<std::string> beyond;
+    const auto compare = [&](const std::string& limit, int used, int axis = -1) {
+        const int least = driverLimit(limit, axis).least();
+        if (used > least)
+            beyond.push_back(fmt::format("{} is {} where {} are used", limit, least, used));
+    };
+    StageResources all;
+    for (const StageResources& stage : stages) {
+        const std::string upper = stage.kind == "comp"   ? "COMPUTE"
+                                  : stage.kind == "vert" ? "VERTEX"
+                                  : stage.kind == "geom" ? "GEOMETRY"
+                                                         : "FRAGMENT";
+        compare(fmt::format("MAX_{}_IMAGE_UNIFORMS", upper), stage.images);
+        compare(fmt::format("MAX_{}_SHADER_STORAGE_BLOCKS", upper), stage.storageBlocks);
+        compare(fmt::format("MAX_{}_UNIFORM_BLOCKS", upper), stage.uniformBlocks);
+        compare(stage.kind == "frag" ? std::string("MAX_TEXTURE_IMAGE_UNITS")
+                                     : fmt::format("MAX_{}_TEXTURE_IMAGE_UNITS", upper),
+                stage.samplers);
+        compare(fmt::format("MAX_{}_UNIFORM_COMPONENTS", upper), stage.uniformComponents);
+        if (stage.kind == "frag") compare("MAX_DRAW_BUFFERS", stage.outputs);
+        if (stage.kind == "comp") {
+            for (int axis = 0; axis < 3; ++axis)
+                compare("MAX_COMPUTE_WORK_GROUP_SIZE", stage.groupThreads[axis], axis);
+            compare("MAX_COMPUTE_WORK_GROUP_INVOCATIONS",
+                    stage.groupThreads[0] * stage.groupThreads[1] * stage.groupThreads[2]);
+            compare("MAX_COMPUTE_SHARED_MEMORY_SIZE", stage.sharedBytes);
+        }
+        all.images += stage.images;
+        all.storageBlocks += stage.storageBlocks;
+        all.uniformBlocks += stage.uniformBlocks;
+        all.samplers += stage.samplers;
+        all.outputs += stage.outputs;
+    }
+    // What several stages use counts in each.
+    compare("MAX_IMAGE_UNITS", all.images);
+    compare("MAX_COMBINED_IMAGE_UNIFORMS", all.images);
+    compare("MAX_COMBINED_SHADER_STORAGE_BLOCKS", all.storageBlocks);
+    compare("MAX_SHADER_STORAGE_BUFFER_BINDINGS", all.storageBlocks);
+    compare("MAX_COMBINED_UNIFORM_BLOCKS", all.uniformBlocks);
+    compare("MAX_COMBINED_TEXTURE_IMAGE_UNITS", all.samplers);
+    compare("MAX_COMBINED_SHADER_OUTPUT_RESOURCES", all.images + all.storageBlocks + all.outputs);
+    return beyond;
+}
+
+}  // namespace kaustik::test

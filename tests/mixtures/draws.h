@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// Many mixtures drawn at random, and what was found.
+#pragma once
+
+#include <cstdint>
+
+#include "tests/mixtures/bench.h"
+
+namespace kaustik::mixtures {
+
+struct Draws {
+    std::uint64_t seed = 1;
+    int first = 0;  // the number of the first mixture
+    int count = 100;
+    int checks = 2;           // of a mixture that take further frames
+    bool minimises = false;   // what is found
+    int minimisedAtMost = 3;  // of each kind of check
+};
+
+// Prints each find as a line of the command line, and how often each check was made. Gives the
+// number of finds that are not known.
+[[nodiscard]] int runDraws(Bench& bench, const Draws& draws);
+
+}  // namespace kaustik::mixtures

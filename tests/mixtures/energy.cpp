@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "tests/mixtures/energy.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "framework/core/error.h"
+#include "framework/measure/pointwise.h"
+
+namespace kaustik::mixtures {
+namespace {
+
+constexpr double kEnergy = 0.03;
+// Of the reference, and how certain the verdict is to be: one of 700 is wrong for its noise.
+constexpr double kStandardErrors = 3.0;
+// Outputs of which the picture shows hardly anything are not judged: a few photons are all of them.
+constexpr double kLeastShare = 0.02;
+
+// Whether fewer photons, cells or texels than a small mixture's stand for the light: then the
+// energy is that of where a few of them happen to lie.
+bool isCoarse(const Mixture& mixture, const Shot& shot) {
+    const params::ParamSet params = paramsOf(mixture);
+    const Settings& small = smallMixture(mixture.scene).settings;
+    return std::any_of(small.begin(), small.end(), [&](const auto& setting) {
+        const auto& [name, least] = setting;
+        if (shot.idle.count(name) > 0 || name == "refine.start" || name == "refine.check")
+            return false;
+        std::istringstream own(params.find(name).text());
+        std::istringstream wanted(least);
+        int side = 0;
+        int leastSide = 0;
+        char between = ' ';
+        while (own >> side && wanted >> leastSide) {
+            if (side < leastSide) return true;
+            own >> between;
+            wanted >> between;
+        }
+        return false;
+    });
+}
+
+struct Energy {
+    bool isJudged = false;
+    std::string problem;
+};
+
+Energy energyOf(Bench& bench, const Mixture& mixture, const Shot& shot) {
+    if (shot.paths.interactions == 0 || !shot.outputs.seesReceivers) return {};
+    if (isCoarse(mixture, shot)) return {};
+    const reference::Reference& reference = bench.referenceOf(mixture.scene, shot.paths);
+    if (reference.energy.visibleWatts <
+        kLeastShare * reference.energy.watts[transport::kAccountEmitted])
+        return {};
+    Energy energy;
+    for (const run::Output& output : shot.outputs.images) {
+        if ((reference.*output.groundTruth).values.empty()) continue;
+        const measure::ImagePair pair = run::pairOf(shot.outputs, output, reference);
+        if (totalFlux(pair, pair.reference()) <= 0.0) continue;
+        energy.isJudged = true;
+        const double ratio = energyRatio(pair);
+        const double noise =
+            referenceNoise(pair, 0.0, std::vector<unsigned char>(pair.pixelCount(), 1)).energyRatio;
+        if (std::abs(ratio - 1.0) <= kEnergy + kStandardErrors * noise) continue;
+        energy.problem = fmt::format(
+            "{} has {:.1f} ± {:.1f} % of the energy of the paths that it "
+            "models",
+            output.name, 100.0 * ratio, 100.0 * noise);
+        return energy;
+    }
+    return energy;
+}
+
+// What the report says that would help: settings that warnings name, and limits that were reached.
+Settings remediesOf(const Shot& shot) {
+    Settings settings;
+    for (const std::string& warning : shot.warnings) {
+        for (auto& setting : advised(warning))
+            settings.push_back(std::move(setting));
+    }
+    for (const ReachedLimit& limit : shot.limits) {
+        const double value = limit.needed > limit.value ? limit.needed : 4.0 * limit.value;
+        settings.emplace_back(limit.parameter, fmt::format("{:.0f}", std::ceil(value)));
+        for (auto& setting : advised(limit.sentence))
+            settings.push_back(std::move(setting));
+    }
+    return settings;
+}
+
+bool isRightWith(Bench& bench, Mixture mixture, const Settings& settings) {
+    try {
+        for (const auto& [name, value] : settings)
+            mixture.set(name, value);
+        const Shot shot = bench.render(mixture);
+        return energyOf(bench, mixture, shot).problem.empty();
+    } catch (const Error&) {
+        return false;
+    }
+}
+
+}  // namespace
+
+Verdict energyVerdict(Bench& bench, const Rendered& rendered) {
+    const Energy energy = energyOf(bench, rendered.mixture, rendered.shot);
+    if (energy.problem.empty()) return {energy.isJudged};
+    const params::ParamSet params = paramsOf(rendered.mixture);
+    Settings remedies = remediesOf(rendered.shot);
+    std::erase_if(remedies, [&](const auto& setting) {
+        return params.find(setting.first).text() == setting.second;
+    });
+    for (const auto& remedy : remedies) {
+        if (isRightWith(bench, rendered.mixture, {remedy})) return {};
+    }
+    if (remedies.size() > 1 && isRightWith(bench, rendered.mixture, remedies)) return {};
+    std::string tried;
+    for (const auto& [name, value] : remedies)
+        tried +=
+            fmt::format("{}{}={}", tried.empty() ? "; what the report names does not help: " : ", ",
+                        name, value);
+    return {true, energy.problem + (tried.empty() ? "; the report names no setting" : tried)};
+}
+
+}  // namespace kaustik::mixtures
