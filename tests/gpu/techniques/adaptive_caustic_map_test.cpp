@@ -239,8 +239,10 @@ TEST(AdaptivePhotons, OfManyLightsDoNotDependOnTheirOrder) {
     for (int i = 0; i < kDark; ++i)
         dark += lamp(fmt::format("dark {}", i), {1.8, 1.0 + 0.01 * i, 1.8}, {0.0, -1.0, 0.0});
     const std::string bright = lamp("bright", {0.5, 3.0, 0.3});
-    const Settings coarse = {
-        {"refine.finest", "64"}, {"emit.deferred.size", "64"}, {"reconstruct.map_size", "64"}};
+    const Settings coarse = {{"refine.finest", "64"},
+                             {"emit.deferred.size", "64"},
+                             {"reconstruct.map_size", "64"},
+                             {"shadow.map.size", "64"}};
     const CellCounts first = countsOf(adaptive(ballScene(bright + dark), coarse));
     const CellCounts last = countsOf(adaptive(ballScene(dark + bright), coarse));
     EXPECT_GT(first.emitted, 100u);
