@@ -10,10 +10,10 @@
 #define MEAN_INCIDENCE
 #endif
 #include "include/surfaces/receiver_brdf.glsl"
+#include "include/maps/mean_direction.glsl"
 #endif
 #ifdef USES_MEAN_DIRECTION
 #include "include/maps/long_directions.glsl"
-#include "include/maps/mean_direction.glsl"
 #endif
 #include "include/maps/map_lookup.glsl"
 #include "techniques/raster_views/map_border.h"
