@@ -34,7 +34,7 @@ void addReflectionWarnings(report::RunRecord& record, const Renderer& renderer) 
             "it totally reflected, which it is in no ball ({}.distance=search loses none of it).",
             node, 100.0 * published, node));
     }
-    constexpr double kRounding = 5e-3;  // of texels at a silhouette, which know one normal each
+    constexpr double kRounding = 1e-4;  // of texels at a silhouette
     const double reflected = ledger.watts[kAccountInternalReflectionLimit] / emitted;
     if (record.photonsEnd && reflected > kRounding && scene::hasBallsAlone(renderer.scene())) {
         record.warnings.push_back(fmt::format(

@@ -204,7 +204,7 @@ TEST_F(GltfImport, AChunkOfAGlbThatIsLongerThanTheFileIsAnError) {
     }
 }
 
-TEST_F(GltfImport, JsonThatIsNestedAMillionDeepIsOneRefusalWhateverBecomesOfItsReader) {
+TEST_F(GltfImport, RefusesJsonThatIsNestedAMillionDeep) {
     constexpr std::size_t kDepth = 1000000;
     const std::string opened(kDepth, '[');
     const std::string closed(kDepth, ']');

@@ -107,7 +107,7 @@ TEST(ImageErrors, HaveTheReferencesNoiseBesideThem) {
     EXPECT_NEAR(noise.at("smape"), 0.125 * 0.7978845608, 1e-9);
 }
 
-TEST(ImageErrors, OfAReferenceThatIsNoiseAloneSayThatNothingIsLit) {
+TEST(ImageErrors, NoiseAloneLightsNoPixel) {
     const Image image = greyImage(16, 16, 1.0f);
     const Image sigma = greyImage(16, 16, 0.5f);
     const ImagePair pair({.image = image, .reference = image, .standardError = &sigma});

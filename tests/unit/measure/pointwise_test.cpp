@@ -57,7 +57,7 @@ TEST(Pointwise, EqualImagesHaveNoErrorAndTheWholeEnergy) {
 }
 
 // A bright pixel that is right and nine weak ones, a millionth as bright, of which all is missing.
-TEST(Pointwise, SmapeSeesWeakLightThatIsMissingWhereOthersSeeNothing) {
+TEST(Pointwise, SmapeSeesMissingWeakLight) {
     Image reference = greyImage(10, 1, 1e-3f);
     for (std::size_t i = 0; i < 3; ++i)
         reference.values[i] = 1e3f;
