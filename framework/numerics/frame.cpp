@@ -97,9 +97,13 @@ std::size_t countNotFinite(const Renderer& renderer, const std::string& texture)
     // What lies beyond a list of photons nobody writes, or reads.
     for (const char* listed : {"photons.", "hits."}) {
         if (!texture.starts_with(listed)) continue;
-        const std::size_t suffix = texture.find_first_of("._", std::string(listed).size());
-        const graph::ResourceRef list =
-            graph.find(kListName + texture.substr(std::min(suffix, texture.size())));
+        // The list has the same suffix, behind a name that may have underscores of its own.
+        std::size_t suffix = std::string(listed).size();
+        graph::ResourceRef list;
+        while (!list.valid() && suffix < texture.size()) {
+            suffix = std::min(texture.find_first_of("._", suffix + 1), texture.size());
+            list = graph.find(kListName + texture.substr(suffix));
+        }
         if (!list.valid()) continue;
         const auto count = renderer.buffer(list).read<transport::PhotonList>().front().count;
         values.resize(std::min<std::size_t>(values.size(), 4 * std::size_t{count}));

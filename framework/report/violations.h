@@ -16,8 +16,8 @@ namespace kaustik::report {
 inline constexpr double kLargestBalance = 1e-5;
 
 // A sentence each; none where all is well. `ledger`: of a whole frame of the renderer's settings.
-// Where the tracer may hit with one photon more than once (TraceStage::Traits::multipliesLight) no
-// balance is asked for.
+// Where the tracer may hit with one photon more than once (TraceStage::Traits::multipliesLight), or
+// passes that light goes through may be switched off, no balance is asked for.
 [[nodiscard]] std::vector<std::string> violations(const EnergyLedger& ledger,
                                                   const Renderer& renderer);
 

@@ -79,7 +79,12 @@ void ReceiverRays::addNode(std::size_t begin, std::size_t end) {
 std::optional<ReceiverRays::Hit> ReceiverRays::first(const glm::dvec3& origin,
                                                      const glm::dvec3& direction,
                                                      double farthest) const {
-    const glm::dvec3 inverse = 1.0 / direction;
+    // Finite: on a face of a box nothing times infinity would be no number.
+    constexpr double kNoSlope = 1e-200;
+    const glm::dvec3 inverse =
+        1.0 / glm::mix(direction, glm::dvec3(kNoSlope), glm::equal(direction, glm::dvec3(0.0)));
+    // A ray through the edge between two triangles hits one at least.
+    constexpr double kEdge = 1e-12;
     std::optional<Hit> nearest;
     std::vector<std::uint32_t> open;
     if (!nodes_.empty()) open.push_back(0);
@@ -104,7 +109,8 @@ std::optional<ReceiverRays::Hit> ReceiverRays::first(const glm::dvec3& origin,
             const glm::dvec3 across = glm::cross(offset, triangle.edges[0]);
             const double v = glm::dot(direction, across) / determinant;
             const double distance = glm::dot(triangle.edges[1], across) / determinant;
-            if (u < 0.0 || v < 0.0 || u + v > 1.0 || !(distance > 0.0) || distance >= farthest)
+            if (u < -kEdge || v < -kEdge || u + v > 1.0 + kEdge || !(distance > 0.0) ||
+                distance >= farthest)
                 continue;
             farthest = distance;
             nearest = {distance, origin + distance * direction,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 namespace kaustik {
@@ -28,7 +29,8 @@ bool contains(const scene::Bounds& outer, const scene::Bounds& inner) {
 
 struct SurfaceTriangle {
     glm::dvec3 corners[3];
-    bool isOpen = false;    // light comes from both of its sides
+    bool isOpen = false;    // light leaves it where it has come to it, else anywhere
+    bool isMirror = false;
     double areaUpTo = 0.0;  // of all triangles up to this one, m²
 };
 
@@ -51,6 +53,8 @@ std::vector<SurfaceTriangle> surfaceOf(const scene::Scene& scene, const scene::B
                                                  triangle.corners[2] - triangle.corners[0]));
             triangle.areaUpTo = area;
             triangle.isOpen = !mesh.closed;
+            triangle.isMirror =
+                scene.materials[object.material].kind == scene::MaterialKind::mirror;
             triangles.push_back(triangle);
         }
     }
@@ -72,6 +76,31 @@ glm::dvec3 aroundNormal(const glm::dvec3& normal, double u, double v) {
     return sine * std::cos(turn) * along + sine * std::sin(turn) * glm::cross(normal, along) +
            std::sqrt(1.0 - u) * normal;
 }
+
+// Where light comes from to a point, unit; nothing where receivers keep it from all lights.
+std::optional<glm::dvec3> towardsLight(const glm::dvec3& point, const scene::Scene& scene,
+                                       const ReceiverRays& receivers) {
+    for (const scene::Light& light : scene.lights) {
+        if (light.kind == scene::LightKind::directional) {
+            if (!receivers.first(point, -light.direction)) return -light.direction;
+            continue;
+        }
+        const glm::dvec3 offset = light.position - point;
+        const double distance = glm::length(offset);
+        if (!(distance > 0.0)) continue;
+        const glm::dvec3 direction = offset / distance;
+        if (light.kind == scene::LightKind::spot &&
+            glm::dot(-direction, light.direction) <
+                std::cos(static_cast<double>(light.outerConeRadians))) {
+            continue;
+        }
+        if (!receivers.first(point, direction, distance)) return direction;
+    }
+    return std::nullopt;
+}
+
+// Of light that a dielectric sheet sends on, how much is looked for where it reflects it.
+constexpr double kReflectedShare = 0.125;
 
 bool sees(const glm::dvec3& point, const ReachedPlace& place, const ReceiverRays& receivers) {
     const glm::dvec3 offset = place.position - point;
@@ -176,9 +205,14 @@ std::vector<ReachedPlace> placesReached(const scene::Scene& scene, const scene::
                                 root * share * corners[2];
         const glm::dvec3 cross = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
         if (!(glm::length(cross) > 0.0)) continue;
-        const double side = found->isOpen && evenly(i, 3) < 0.5 ? -1.0 : 1.0;
-        const glm::dvec3 direction =
-            aroundNormal(side * glm::normalize(cross), evenly(i, 4), evenly(i, 5));
+        glm::dvec3 normal = glm::normalize(cross);
+        if (found->isOpen) {
+            const std::optional<glm::dvec3> light = towardsLight(from, scene, receivers);
+            if (!light) continue;
+            const bool isReflected = found->isMirror || evenly(i, 3) < kReflectedShare;
+            if ((glm::dot(normal, *light) > 0.0) != isReflected) normal = -normal;
+        }
+        const glm::dvec3 direction = aroundNormal(normal, evenly(i, 4), evenly(i, 5));
         if (const auto hit = receivers.first(from, direction))
             places.push_back({from, hit->position, hit->normal});
     }

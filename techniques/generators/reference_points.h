@@ -18,8 +18,9 @@ struct ReachedPlace {
     glm::dvec3 position;
     glm::dvec3 normal;
 };
-// From the surfaces of all specular objects that lie in the box: points spread evenly, rays by
-// Lambert's cosine, the same ones every time. Places in world space, m.
+// From the surfaces of all specular objects that lie in the box: points spread evenly, of sheets
+// those that a light sees, rays by Lambert's cosine about the side to which it goes on, the same
+// ones every time. Places in world space, m.
 [[nodiscard]] std::vector<ReachedPlace> placesReached(const scene::Scene& scene,
                                                       const scene::Bounds& generator,
                                                       const ReceiverRays& receivers);

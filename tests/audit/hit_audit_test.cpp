@@ -69,8 +69,9 @@ class Audited {
         ledger = audit::resolveLedger(*renderer_, hits, emittedWatts);
         const EnergyLedger traced = audit::bookedByTracers(*renderer_);
         for (const unsigned account :
-             {transport::kAccountOffScreen, transport::kAccountBehindEye,
-              transport::kAccountUnresolved, transport::kAccountMissedByTracer}) {
+             {transport::kAccountLeftScene, transport::kAccountOffScreen,
+              transport::kAccountBehindEye, transport::kAccountUnresolved,
+              transport::kAccountMissedByTracer}) {
             lostByTracersWatts += traced.watts[account];
         }
     }
@@ -248,12 +249,13 @@ TEST(HitAudit, JudgesATracerOfPlanesByFlatReceiversWhereverTheyAre) {
     EXPECT_GT(ball.hits.reachable, ball.hits.photons / 2);
     EXPECT_EQ(ball.hits.rightReachable, ball.hits.reachable);
     EXPECT_EQ(ball.ledger.watts[transport::kAccountMissedByTracer], 0.0);
-    EXPECT_EQ(ball.ledger.watts[transport::kAccountOffScreen], 0.0);
+    // Whether or not the eye sees it there.
+    EXPECT_EQ(ball.hits.missedWatts[transport::kAccountOffScreen], 0.0);
 }
 
 // Light that a ring has reflected comes to it again; the light's view shows where.
 TEST(HitAudit, CountsPhotonsThatGoStraightThroughFurtherSurfaces) {
-    const scene::Scene scene = scene::loadScene("ring");
+    const scene::Scene scene = scene::loadScene("glass-bunny");
     const auto audited = [&](const char* blockers) {
         return Audited(scene, {{"specular", "two_interfaces"},
                                {"trace", "background"},

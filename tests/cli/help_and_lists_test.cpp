@@ -102,7 +102,9 @@ INSTANTIATE_TEST_SUITE_P(
     Every, ListOf,
     testing::Values(
         Kind{"scenes", {"name", "description", "file"}, "pool"},
-        Kind{"techniques", {"name", "description", "source", "defaults"}, "screen_space_photons"},
+        Kind{"techniques",
+             {"name", "description", "source", "defaults", "as_published"},
+             "screen_space_photons"},
         Kind{"nodes", {"name", "stage", "description", "source", "limits"}, "trace.lines"},
         Kind{"params",
              {"name", "type", "default", "unit", "range", "description"},

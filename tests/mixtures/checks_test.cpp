@@ -30,6 +30,9 @@ Fault brighter(float factor) {
     return [factor](Shot& shot) {
         for (float& value : irradianceOf(shot).values)
             value *= factor;
+        // Another frame does not have this fault: no advice is to seem to mend it.
+        shot.warnings.clear();
+        shot.limits.clear();
     };
 }
 
@@ -100,7 +103,7 @@ TEST(ARefusal, IsOneSentenceWithASettingThatHelps) {
     EXPECT_TRUE(isFaulty("gather.project takes maps of lights; take something else."));
     EXPECT_TRUE(isFaulty("It does not go. Really. Do take gather=screen."));
     // The same refusal again.
-    EXPECT_TRUE(isFaulty(refusal.message + " Or take filter=none."));
+    EXPECT_TRUE(isFaulty(refusal.message + " Or take layers.count=3."));
     EXPECT_EQ(faultOf(testBench(), mixture, {"The device has no memory.", true, false}), "");
     EXPECT_NE(faultOf(testBench(), mixture, {"A shader does not compile.", false, false}), "");
 }

@@ -62,7 +62,7 @@ class Settings(TestCase):
     def test_that_do_not_go_together_are_told_by_the_step_and_can_be_taken_back(self):
         r = self.open()
         r.set("reconstruct.space", "light")
-        self.assert_fails(kaustik.ConfigError, ["gather.screen", "light's view"], r.step)
+        self.assert_fails(kaustik.ConfigError, ["gather.screen", "lights' maps"], r.step)
         r.set("reconstruct.space", "screen")
         r.step()
 

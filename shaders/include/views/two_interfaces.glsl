@@ -59,7 +59,7 @@ const int kSearch = 1;     // along the ray itself, as if the back faces were al
 InnerPath innerPath(vec3 entry, vec3 along, vec3 onward, vec3 normal, float through, float index,
                     int steps, int distances) {
     float inside = through;
-    if (distances == kSearch) {
+    if (steps > 0 && distances == kSearch) {
         inside = distanceInside(entry, onward, through, steps);
     } else if (steps > 0) {
         float cosI = clamp(-dot(along, normal), 0.0, 1.0);

@@ -182,12 +182,14 @@ CheckedProgram check(const RecordedProgram& program, const fs::path& folder) {
     for (const RecordedStage& stage : program) {
         const std::string module = stage.kind + ".spv";
         if (!isWell({"spirv-val", "--target-env", "opengl4.5", module})) return checked;
-        if (!isWell({"spirv-cross", "--reflect", "--remove-unused-variables", "--output",
-                     "reflected", module}))
+        // What is declared and not used takes nothing.
+        if (!isWell({"spirv-opt", "--eliminate-dead-functions", "--eliminate-dead-variables",
+                     "-o", "used.spv", module}) ||
+            !isWell({"spirv-cross", "used.spv", "--output", "reflected", "--reflect"}))
             return checked;
         checked.stages.push_back(resourcesOf(
             stage.kind, nlohmann::json::parse(readFile(folder / "reflected"), nullptr, true),
-            ModuleSizes(folder / module)));
+            ModuleSizes(folder / "used.spv")));
     }
     return checked;
 }
@@ -196,7 +198,7 @@ CheckedProgram check(const RecordedProgram& program, const fs::path& folder) {
 
 std::vector<std::string> missingTools() {
     std::vector<std::string> missing;
-    for (const char* tool : {"glslangValidator", "spirv-val", "spirv-cross"}) {
+    for (const char* tool : {"glslangValidator", "spirv-val", "spirv-opt", "spirv-cross"}) {
         if (run({tool, "--help"}, fs::temp_directory_path(), "kaustik-tool-help") == 127)
             missing.emplace_back(tool);
     }

@@ -300,7 +300,7 @@ Case ball(const std::string& name, const std::string& light) {
 Case ballWithin() {
     Case what = ball("BallWithReflections", kSun);
     what.interactions = 3;
-    what.settings = {{"specular", "split"}, {"specular.split.levels", "3"}};
+    what.settings = {{"specular", "split"}, {"specular.split.levels", "5"}};
     what.photons = 24;
     what.inLayers = {2e-3, 0.1};
     return what;
