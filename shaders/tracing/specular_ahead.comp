@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The first specular surface on the way of each photon of one light, in layers of what is specular
 // in the light's view, a texel a step. One thread a photon.
+// Rays come to bodies at their outlines more than elsewhere: what leaves another one near its rim.
+#define MAX_SLOPE 64.0
 #include "include/photons/photon_thread.glsl"
 #include "trace/march.glsl"
 

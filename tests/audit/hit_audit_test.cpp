@@ -264,7 +264,8 @@ TEST(HitAudit, CountsPhotonsThatGoStraightThroughFurtherSurfaces) {
     const Audited passed = audited("0");
     const Audited stopped = audited("512");
     EXPECT_GT(passed.hits.throughSpecular, passed.hits.photons / 50);
-    EXPECT_LT(stopped.hits.throughSpecular, passed.hits.throughSpecular / 10);
+    // Some leave the bunny where another part of it is, and are inside of that from the start.
+    EXPECT_LT(stopped.hits.throughSpecular, passed.hits.throughSpecular / 4);
     EXPECT_GT(stopped.hits.right, passed.hits.right);
     for (const Audited* one : {&passed, &stopped})
         EXPECT_LT(std::abs(one->ledger.balance()), 1e-6);

@@ -129,7 +129,10 @@ float pixelDepthExtent(vec3 ray, float depth, vec3 normalVs) {
 // the silhouette of something thin, which ends within the pixel: without a bound rays hit its
 // plane far in front of it and beyond (cornell-bunny: 99.0 % of the photons right without, 99.4 %
 // with 8, 98.8 % with 3).
-const float kMaxSlope = 8.0;
+#ifndef MAX_SLOPE
+#define MAX_SLOPE 8.0
+#endif
+const float kMaxSlope = MAX_SLOPE;
 float depthMargin(vec3 ray, float depth, vec3 normalVs) {
     float footprint = pixelFootprint(depth);
     float extent = pixelDepthExtent(ray, depth, normalVs);

@@ -42,13 +42,14 @@ TEST(AsPublished, LosesABallsLightToItsEstimatesAndSaysSo) {
             technique == std::string("caustic_map") ? "two_interfaces" : "deferred";
         const MapFrame frame(scene, technique,
                              {{"specular." + node + ".distance", distance},
-                              {"emit.photons", "64x64"},
+                              {"emit.photons", "128x128"},
                               {"specular." + node + ".size", "256"}});
         return frame.watts(account) / frame.watts(kAccountEmitted);
     };
     for (const char* technique : {"caustic_map", "hierarchical_caustic_map"}) {
         SCOPED_TRACE(technique);
-        // 15.6 % at 512² photons.
+        // 15.6 % at 512² photons. Next to the rim, where all but all is reflected, a few cells are
+        // totally reflected by the search too.
         EXPECT_NEAR(lost(technique, "estimates", kAccountAsPublished), 0.156, 0.02);
         EXPECT_EQ(lost(technique, "estimates", kAccountInternalReflectionLimit), 0.0);
         EXPECT_EQ(lost(technique, "search", kAccountAsPublished), 0.0);

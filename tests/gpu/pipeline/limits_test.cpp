@@ -114,6 +114,7 @@ INSTANTIATE_TEST_SUITE_P(
                           {"refine.start", "16"},
                           {"reconstruct", "sprites"},
                           {"filter", "none"},
+                          {"reconstruct.sprites.radius", "4"},
                           {"reconstruct.sprites.maximum", "1"}},
                          "reconstruct.sprites.maximum",
                          "refine.memory",

@@ -301,7 +301,7 @@ Case ballWithin() {
     Case what = ball("BallWithReflections", kSun);
     what.interactions = 3;
     what.settings = {{"specular", "split"}, {"specular.split.levels", "5"}};
-    what.photons = 24;
+    what.photons = 36;
     what.inLayers = {2e-3, 0.1};
     return what;
 }

@@ -336,7 +336,8 @@ TEST(DeferredBodies, BeyondThoseKeptAreNamedAndInTheLedger) {
     EXPECT_TRUE(names(two));
     all.expectBalance();
     two.expectBalance();
-    EXPECT_EQ(all.watts(kAccountBounceLimit), 0.0);
+    // Of what the other two send, all but none comes to it.
+    EXPECT_LT(all.watts(kAccountBounceLimit), 1e-3 * all.watts(kAccountEmitted));
     EXPECT_EQ(two.watts(kAccountEmitted), all.watts(kAccountEmitted));
     // What enters it: E π r² times the mean of T over the disc.
     double entering = 0.0;
