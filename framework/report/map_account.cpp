@@ -149,9 +149,8 @@ std::optional<std::string> mapWarning(const json& account, const std::string& fi
     if (std::abs(ratio - 1.0) < kMaxBlendLoss) return {};
     return fmt::format(
         "filter.{} has made {:.3g} of the flux that was deposited (map.blend_energy_ratio): what "
-        "it "
-        "takes from sizes or levels of splats, texel by texel, need not add up to all; take "
-        "reconstruct=lens or reconstruct=fixed with filter=none, which keep it.",
+        "it takes from sizes or levels of splats, texel by texel, need not add up to all; take "
+        "reconstruct=fixed and filter=none, which keep it.",
         filter, ratio);
 }
 

@@ -5,9 +5,6 @@
 #include "reconstruct/triangles_patch.glsl"
 #include "reconstruct/triangles_patch_deposit.glsl"
 
-layout(std430) buffer Patches {
-    uint patchList[];
-};
 uniform int firstWide;  // where those of a workgroup begin
 
 // Pixels of the rectangles around a patch for one thread.

@@ -5,13 +5,14 @@
 
 layout(local_size_x = 1) in;
 
-layout(std430) buffer PatchCounts {
-    PatchCount patches;
-    PatchCount widePatches;
-};
-uniform int isWide;
+uniform int isWide;  // below 0: there are none yet
 
 void main() {
+    if (isWide < 0) {
+        patches.count = 0u;
+        widePatches.count = 0u;
+        return;
+    }
     uint groups = isWide == 1 ? widePatches.count : (patches.count + 63u) / 64u;
     uvec3 size = uvec3(min(groups, kMaxGroupsX), (groups + kMaxGroupsX - 1u) / kMaxGroupsX, 1u);
     if (isWide == 1) {

@@ -11,15 +11,8 @@
 layout(std430) readonly buffer CellJoins {
     uint cellJoins[];
 };
-layout(std430) buffer PatchCounts {
-    PatchCount patches;
-    PatchCount widePatches;
-};
 layout(std430) writeonly buffer PhotonShares {
     VertexShares photonShares[];
-};
-layout(std430) writeonly buffer Patches {
-    uint patchList[];
 };
 
 // The areas of the triangles that the photon is a corner of, in cells that are joined: bits by the

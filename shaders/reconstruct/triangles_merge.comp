@@ -8,9 +8,6 @@
 layout(std430) readonly buffer CellJoins {
     uint cellJoins[];
 };
-layout(std430) writeonly buffer Patches {
-    uint patchList[];
-};
 uniform int mergeStep;
 
 // Texels from one to the other are their difference.

@@ -11,10 +11,6 @@
 #include "reconstruct/triangles_patch_list.glsl"
 #include "include/views/seen_receiver.glsl"
 
-layout(std430) buffer PatchCounts {
-    PatchCount patches;
-    PatchCount widePatches;
-};
 
 struct Patch {
     vec3 corners[4];  // around it

@@ -8,6 +8,11 @@ struct PatchCount {
     uint groupsY;
     uint groupsZ;
 };
+layout(std430) buffer Patches {
+    PatchCount patches;      // of one thread each
+    PatchCount widePatches;  // of a workgroup each
+    uint patchList[];
+};
 
 const uint kPatchQuarter = 0u;  // 0 to 3: of its beam, by the cell next to it: right, up: bits
 const uint kPatchBeam = 4u;     // all of its beam

@@ -3,9 +3,6 @@
 #include "reconstruct/triangles_patch.glsl"
 #include "reconstruct/triangles_patch_deposit.glsl"
 
-layout(std430) readonly buffer Patches {
-    uint patchList[];
-};
 uniform int firstWide;
 shared PatchParts partsOfThreads[64];
 

@@ -51,7 +51,7 @@ void dispatchOverLights(const FrameInputs& inputs, gl::PassContext& context, con
         command.params("emit.deferred", params)
             .set("lightIndex", light)
             .storage("Instances", inputs.instances.instances)
-            .storage("LightInstances", seen.views->instances(0).instances);
+            .set("lightFromEye", render::between(inputs.view, seen.views->view(0)));
         inputs.gpuScene.bindTriangles(command, geometry);
         dispatchOver(command, hits.incoming);
     }

@@ -98,7 +98,7 @@ void dispatchOverCells(const FrameInputs& inputs, gl::Command command, const Gri
                        int firstOfLight) {
     command.texture("sight", data.sight)
         .storage("Instances", inputs.instances.instances)
-        .storage("LightInstances", seen.instances->instances)
+        .set("lightFromEye", render::between(inputs.view, seen.view))
         .set("subcells", rows.subcells)
         .set("sightFirstRow", rows.firstSeen(band))
         .set("gridSize", glm::ivec2(rows.grid.width, rows.grid.height))

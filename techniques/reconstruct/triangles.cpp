@@ -66,6 +66,7 @@ struct TrianglesParams {
 struct PatchCount {
     std::uint32_t count, groupsX, groupsY, groupsZ;
 };
+constexpr std::size_t kPatchCountWords = 2 * sizeof(PatchCount) / sizeof(std::uint32_t);
 struct VertexShares {
     float quarter, area, triangles, cells;
 };
@@ -96,9 +97,8 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Hits& h
         graph::Buffer<std::uint32_t> photonOfCell;
         graph::Buffer<std::uint32_t> joins;
         graph::Buffer<VertexShares> shares;
-        graph::Buffer<std::uint32_t> patches;  // those of one thread, then those of a workgroup
+        graph::Buffer<std::uint32_t> patches;  // counts; those of one thread, of a workgroup
         graph::Buffer<PatchBlock> blocks;      // where any are merged
-        graph::Buffer<PatchCount> counts;
         graph::Buffer<transport::Clamped> clamped;
     };
     const std::string reason = hits.incoming.cells.width > 0
@@ -127,18 +127,16 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Hits& h
                    std::max<std::size_t>(hits.incoming.cells.places(), 1));
             create(data.joins, "CellJoins", "joins", capacity);
             create(data.shares, "PhotonShares", "shares", capacity);
-            create(data.patches, "Patches", "patches", 8 * capacity);
+            create(data.patches, "Patches", "patches", kPatchCountWords + 8 * capacity);
             if (params.merge > 0.0f) {
                 setup.define("MERGES");
                 create(data.blocks, "PatchBlocks", "blocks", capacity);
             }
-            create(data.counts, "PatchCounts", "counts", 2);
             create(data.clamped, "ClampedWidths", "clamped", 1);
         },
         [params, sets, store, list = hits.incoming](const Data& data, gl::PassContext& context) {
             clearIfFirst(context, data.stored);
             context.buffer(data.photonOfCell).clear();
-            context.buffer(data.counts).clear();
             if (!context.isRepeated()) context.buffer(data.clamped).clear();
             const auto shader = [&](const char* name) {
                 gl::Command command = context.compute(name);
@@ -151,6 +149,7 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Hits& h
                     .set("isWide", isWide)
                     .dispatch(1);
             };
+            countGroups(-1);
             for (const char* name :
                  {"reconstruct/triangles_cells.comp", "reconstruct/triangles_join.comp",
                   "reconstruct/triangles_list.comp"}) {
@@ -168,7 +167,7 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Hits& h
                                                          : "reconstruct/triangles.comp");
                 setDeposit(command, sets);
                 command.set("firstWide", 4 * list.capacity());
-                command.dispatchIndirect(data.counts,
+                command.dispatchIndirect(data.patches,
                                          static_cast<std::size_t>(isWide) * sizeof(PatchCount) +
                                              offsetof(PatchCount, groupsX));
             }

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "framework/report/limits.h"
+#include "framework/report/map_account.h"
 #include "framework/run/output.h"
 #include "framework/scene/files/scene_file.h"
 #include "framework/transport/watts.h"
@@ -94,6 +95,11 @@ Shot shotOf(const Renderer& renderer, bool keptAll) {
     shot.display = run::readTexture(renderer.texture(renderer.outputs().picture.display), 0, 3);
     shot.ledger = renderer.ledger();
     shot.warnings = renderer.warnings();
+    for (std::string& warning : renderer.foundWarnings())
+        shot.warnings.push_back(std::move(warning));
+    if (auto warning = report::mapWarning(report::mapAccount(renderer),
+                                          renderer.settings().params.choice(FilterStage::name)))
+        shot.warnings.push_back(std::move(*warning));
     report::RunRecord record;
     record.ledger = shot.ledger;
     record.layers = renderer.layerStatistics();

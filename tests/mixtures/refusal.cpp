@@ -21,7 +21,7 @@ bool helps(Bench& bench, Mixture mixture, const Settings& settings, const std::s
         return true;
     } catch (const ConfigError& error) {
         const std::string next = error.what();
-        if (next == message) return false;
+        if (message.find(next) != std::string::npos) return false;
         const Settings instead = advised(next);
         return std::none_of(instead.begin(), instead.end(), [&](const auto& setting) {
             return settings.size() == 1 && setting.first == settings.front().first &&

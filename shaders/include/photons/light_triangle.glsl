@@ -5,9 +5,7 @@
 layout(std430) readonly buffer Instances {
     InstanceData instances[];  // in the eye's view
 };
-layout(std430) readonly buffer LightInstances {
-    InstanceData lightInstances[];
-};
+uniform mat4 lightFromEye;  // from the eye's view space to the light's
 
 // A point of a triangle, in the eye's view.
 struct PointOnTriangle {
@@ -55,7 +53,7 @@ PointOnTriangle pointOnTriangle(uvec2 seen, vec2 place, bool isParallel, out flo
         VertexData corner = cornerOfTriangle(instances[object], seen.y, i);
         positions[i] = (instances[object].modelToView * vec4(corner.position, 1.0)).xyz;
         normals[i] = mat3(instances[object].normalToView) * corner.normal;
-        ofLight[i] = (lightInstances[object].modelToView * vec4(corner.position, 1.0)).xyz;
+        ofLight[i] = (lightFromEye * vec4(positions[i], 1.0)).xyz;
     }
     vec3 weights = weightsOnRay(ofLight, place, isParallel);
     minimum = min(weights.x, min(weights.y, weights.z));

@@ -39,7 +39,9 @@ Passage throughBody(Photon before, Hit hit, Photon inside, int steps, int distan
         // At the very rim the back faces are another texel's: no thickness, it goes straight on.
         onward = along;
     }
-    vec3 left = mediumTransmittance(hit.material, passage.way.lengthMeters);
+    // The scene's medium is in bodies, too.
+    vec3 left = transmittanceOver(view.mediumExtinction.rgb + mediumAbsorption(hit.material),
+                                  passage.way.lengthMeters);
     ledgerAdd(kAccountAbsorbed, inside.fluxWatts * (1.0 - left));
     inside.fluxWatts *= left;
     vec3 direction = directionToEye(onward);

@@ -56,6 +56,14 @@ struct Recording::Hooks {
             if (groups[i] > largest.groups) largest = {groups[i], current->names_[current->used_]};
         }
     }
+    // Of one texel, which costs no time: nothing is stored in them.
+    static void textureStorage2D(GLuint texture, GLsizei, GLenum format, GLsizei, GLsizei) {
+        current->storage2D_(texture, 1, format, 1, 1);
+    }
+    static void textureStorage3D(GLuint texture, GLsizei, GLenum format, GLsizei, GLsizei,
+                                 GLsizei layers) {
+        current->storage3D_(texture, 1, format, 1, 1, layers);
+    }
     static void succeeded(GLuint, GLenum, GLint* value) { *value = GL_TRUE; }
     static GLint noLocation(GLuint, const GLchar*) { return -1; }
     static GLuint noIndex(GLuint, const GLchar*) { return GL_INVALID_INDEX; }
@@ -76,7 +84,24 @@ void doNothing(In...) {}
 Recording::Recording() {
     assert(current == nullptr);
     current = this;
+    // libepoxy looks a function up when it is first called, by the pointer that is replaced below.
+    const GLuint shader = glCreateShader(GL_VERTEX_SHADER);
+    GLint type = 0;
+    glGetShaderiv(shader, GL_SHADER_TYPE, &type);
+    glDeleteShader(shader);
     getShader_ = glGetShaderiv;
+    for (const GLenum target : {GL_TEXTURE_2D, GL_TEXTURE_2D_ARRAY}) {
+        GLuint texture = 0;
+        glCreateTextures(target, 1, &texture);
+        if (target == GL_TEXTURE_2D) {
+            glTextureStorage2D(texture, 1, GL_R8, 1, 1);
+        } else {
+            glTextureStorage3D(texture, 1, GL_R8, 1, 1, 1);
+        }
+        glDeleteTextures(1, &texture);
+    }
+    storage2D_ = glTextureStorage2D;
+    storage3D_ = glTextureStorage3D;
     const auto replace = [this]<class Function>(Function& function, Function by) {
         restores_.emplace_back([&function, before = function] { function = before; });
         function = by;
@@ -85,6 +110,8 @@ Recording::Recording() {
     replace(glAttachShader, &Hooks::attachShader);
     replace(glObjectLabel, &Hooks::objectLabel);
     replace(glUseProgram, &Hooks::useProgram);
+    replace(glTextureStorage2D, &Hooks::textureStorage2D);
+    replace(glTextureStorage3D, &Hooks::textureStorage3D);
     replace(glCompileShader, &doNothing<GLuint>);
     replace(glLinkProgram, &doNothing<GLuint>);
     replace(glDetachShader, &doNothing<GLuint, GLuint>);
@@ -103,6 +130,16 @@ Recording::Recording() {
     replace(glClearTexImage, &doNothing<GLuint, GLint, GLenum, GLenum, const void*>);
     replace(glClearNamedBufferData, &doNothing<GLuint, GLenum, GLenum, GLenum, const void*>);
     replace(glClearNamedFramebufferfv, &doNothing<GLuint, GLenum, GLint, const GLfloat*>);
+    replace(glTextureSubImage2D,
+            &doNothing<GLuint, GLint, GLint, GLint, GLsizei, GLsizei, GLenum, GLenum, const void*>);
+    replace(glTextureSubImage3D, &doNothing<GLuint, GLint, GLint, GLint, GLint, GLsizei, GLsizei,
+                                            GLsizei, GLenum, GLenum, const void*>);
+    replace(glCopyImageSubData,
+            &doNothing<GLuint, GLenum, GLint, GLint, GLint, GLint, GLuint, GLenum, GLint, GLint,
+                       GLint, GLint, GLsizei, GLsizei, GLsizei>);
+    replace(glGetTextureImage, &doNothing<GLuint, GLint, GLenum, GLenum, GLsizei, void*>);
+    replace(glGetTextureSubImage, &doNothing<GLuint, GLint, GLint, GLint, GLint, GLsizei, GLsizei,
+                                             GLsizei, GLenum, GLenum, GLsizei, void*>);
     replace(glMemoryBarrier, &doNothing<GLbitfield>);
     replace(glBeginTransformFeedback, &doNothing<GLenum>);
     replace(glEndTransformFeedback, &doNothing<>);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Stands between the framework and the driver: while it lives, OpenGL compiles, draws and
-// dispatches nothing, and what it was given to compile is noted. So the programs of hundreds of
+// Stands between the framework and the driver: while it lives, OpenGL compiles, draws,
+// dispatches and stores nothing, and what it was given to compile is noted. So the programs of hundreds of
 // frames are known in seconds, as the very texts that a driver would have been handed.
 #pragma once
 
@@ -50,7 +50,10 @@ class Recording {
     std::map<GLuint, RecordedProgram> attached_;  // by program
     std::map<GLuint, std::string> names_;         // by program
     GLuint used_ = 0;
-    PFNGLGETSHADERIVPROC getShader_ = nullptr;     // the driver's own
+    // The driver's own.
+    PFNGLGETSHADERIVPROC getShader_ = nullptr;
+    PFNGLTEXTURESTORAGE2DPROC storage2D_ = nullptr;
+    PFNGLTEXTURESTORAGE3DPROC storage3D_ = nullptr;
     std::vector<std::function<void()>> restores_;  // of what is replaced
 };
 

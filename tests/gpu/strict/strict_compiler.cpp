@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
@@ -14,7 +13,9 @@
 #include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
+#include <stdexcept>
 #include <thread>
 #include <utility>
 
@@ -161,35 +162,47 @@ StageResources resourcesOf(const std::string& kind, const nlohmann::json& reflec
     return found;
 }
 
-CheckedProgram check(const RecordedProgram& program, const fs::path& folder) {
-    CheckedProgram checked;
-    std::vector<std::string> files;
+// What is run in each program's folder; "failed" names the tool that does not take it, "log" is
+// what it says. By a shell, since a process with the memory of many frames takes its time to start
+// one.
+constexpr const char* kTools = R"(
+cd "$1" || exit 1
+take() { "$@" > log 2>&1 || { echo "$1" > failed; exit 0; }; }
+# All stages together: GLSL's rules, and SPIR-V's besides. What GLSL lets a program number later gets
+# its number here.
+take glslangValidator -G --amb --aml shader.*
+for module in comp vert geom frag; do
+    [ -e "$module.spv" ] || continue
+    take spirv-val --target-env opengl4.5 "$module.spv"
+    # What is declared and not used takes nothing.
+    take spirv-opt --eliminate-dead-functions --eliminate-dead-variables -o "$module.used" \
+        "$module.spv"
+    take spirv-cross "$module.used" --output "$module.json" --reflect
+done
+)";
+
+void write(const RecordedProgram& program, const fs::path& folder) {
+    fs::create_directories(folder);
     for (const RecordedStage& stage : program) {
-        files.push_back("shader." + stage.kind);
-        std::ofstream(folder / files.back()) << stage.text;
+        // A uniform that is a bool is GLSL, but SPIR-V has none.
+        static const std::regex flag("uniform bool ([A-Za-z_0-9]+);");
+        std::ofstream(folder / ("shader." + stage.kind))
+            << std::regex_replace(stage.text, flag, "uniform int $1_;\n#define $1 ($1_ != 0)");
     }
-    const auto isWell = [&](const std::vector<std::string>& words) {
-        if (run(words, folder, "log") == 0) return true;
-        checked.problem =
-            fmt::format("{}: {}", words.front(), withLines(readFile(folder / "log"), program));
-        return false;
-    };
-    // All stages together: GLSL's rules, and SPIR-V's besides. What GLSL lets a program number
-    // later gets its number here.
-    std::vector<std::string> words = {"glslangValidator", "-G", "--amb", "--aml"};
-    words.insert(words.end(), files.begin(), files.end());
-    if (!isWell(words)) return checked;
+}
+
+CheckedProgram checkedIn(const fs::path& folder, const RecordedProgram& program) {
+    CheckedProgram checked;
+    if (fs::exists(folder / "failed")) {
+        std::string tool = readFile(folder / "failed");
+        tool.erase(tool.find_last_not_of('\n') + 1);
+        checked.problem = fmt::format("{}: {}", tool, withLines(readFile(folder / "log"), program));
+        return checked;
+    }
     for (const RecordedStage& stage : program) {
-        const std::string module = stage.kind + ".spv";
-        if (!isWell({"spirv-val", "--target-env", "opengl4.5", module})) return checked;
-        // What is declared and not used takes nothing.
-        if (!isWell({"spirv-opt", "--eliminate-dead-functions", "--eliminate-dead-variables",
-                     "-o", "used.spv", module}) ||
-            !isWell({"spirv-cross", "used.spv", "--output", "reflected", "--reflect"}))
-            return checked;
         checked.stages.push_back(resourcesOf(
-            stage.kind, nlohmann::json::parse(readFile(folder / "reflected"), nullptr, true),
-            ModuleSizes(folder / "used.spv")));
+            stage.kind, nlohmann::json::parse(readFile(folder / (stage.kind + ".json"))),
+            ModuleSizes(folder / (stage.kind + ".used"))));
     }
     return checked;
 }
@@ -234,23 +247,26 @@ RecordedProgram withoutUnused(RecordedProgram program) {
 std::vector<CheckedProgram> checkPrograms(const std::vector<RecordedProgram>& programs) {
     const fs::path folder =
         fs::temp_directory_path() / fmt::format("kaustik-programs-{}", ::getpid());
-    std::vector<CheckedProgram> checked(programs.size());
-    std::atomic<std::size_t> next = 0;
-    std::vector<std::thread> threads;
-    for (unsigned i = 0; i < std::max(std::thread::hardware_concurrency(), 1U); ++i) {
-        threads.emplace_back([&, own = folder / std::to_string(i)] {
-            fs::create_directories(own);
-            for (std::size_t at = next++; at < programs.size(); at = next++) {
-                try {
-                    checked[at] = check(programs[at], own);
-                } catch (const std::exception& error) {
-                    checked[at].problem = error.what();
-                }
-            }
-        });
+    fs::create_directories(folder);
+    std::ofstream(folder / "tools.sh") << kTools;
+    std::string names;
+    for (std::size_t i = 0; i < programs.size(); ++i) {
+        write(programs[i], folder / std::to_string(i));
+        names += std::to_string(i) + "\n";
     }
-    for (std::thread& thread : threads)
-        thread.join();
+    std::ofstream(folder / "names") << names;
+    const std::string workers = std::to_string(std::max(std::thread::hardware_concurrency(), 1U));
+    const int code =
+        run({"xargs", "-a", "names", "-P", workers, "-n", "1", "sh", "tools.sh"}, folder, "log");
+    std::vector<CheckedProgram> checked(programs.size());
+    for (std::size_t i = 0; i < programs.size(); ++i) {
+        try {
+            if (code != 0) throw std::runtime_error("xargs did not run the tools");
+            checked[i] = checkedIn(folder / std::to_string(i), programs[i]);
+        } catch (const std::exception& error) {
+            checked[i].problem = error.what();
+        }
+    }
     fs::remove_all(folder);
     return checked;
 }

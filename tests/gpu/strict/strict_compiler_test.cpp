@@ -35,8 +35,7 @@ class StrictCompiler : public testing::Test {
     }
 };
 
-// Switched off: its frames take gigabytes on a software rasteriser before they end.
-TEST_F(StrictCompiler, DISABLED_TakesEveryProgramOfEveryMixture) {
+TEST_F(StrictCompiler, TakesEveryProgramOfEveryMixture) {
     static_cast<void>(context());
     std::map<RecordedProgram, std::string> distinct;
     MixtureCount count;
