@@ -52,7 +52,7 @@ void FrameBuilder::needsWayOut(const Photons& photons, const Surfaces& /*surface
     for (const scene::Object& object : scene().objects) {
         const bool isDielectric =
             scene().materials[object.material].kind == scene::MaterialKind::dielectric;
-        if (isDielectric && !isOpen(scene(), object.material))
+        if (isDielectric && scene().meshes[object.mesh].closed)
             bodies.push_back("'" + object.name + "'");
     }
     const Registry& registry = inputs_.registry;
@@ -68,8 +68,7 @@ void FrameBuilder::needsWayOut(const Photons& photons, const Surfaces& /*surface
     }
     throw ConfigError(fmt::format(
         "trace.{} finds receivers alone, and specular.{} would leave photons inside of {} to it, "
-        "all "
-        "of whose light would be lost; take {}.",
+        "all of whose light would be lost; take {}.",
         inputs_.params.choice(TraceStage::name), inputs_.params.choice(SpecularStage::name),
         joinNames(bodies), fmt::join(choices, " or ")));
 }

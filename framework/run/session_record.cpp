@@ -9,6 +9,7 @@
 #include "framework/core/error.h"
 #include "framework/core/files.h"
 #include "framework/core/json_text.h"
+#include "framework/report/loss_advice.h"
 #include "framework/report/map_account.h"
 #include "framework/report/violations.h"
 #include "framework/run/output.h"
@@ -81,6 +82,8 @@ report::RunRecord Session::measured() const {
     const std::string filter = renderer_.settings().params.choice(FilterStage::name);
     if (const std::optional<std::string> warning = report::mapWarning(record.map, filter))
         record.warnings.push_back(*warning);
+    for (const std::string& advice : report::lossAdvice(record.ledger, renderer_))
+        record.warnings.push_back(advice);
     return record;
 }
 

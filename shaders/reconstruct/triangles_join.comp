@@ -2,11 +2,47 @@
 // reconstruct.triangles: whether a photon and its neighbours to the right, above and between are
 // joined: light of one path that arrives on one surface, each where the others' beams say, so that
 // what lies between them arrives in between. One thread a photon.
+#include "include/photons/arriving.glsl"
 #include "reconstruct/triangles_neighbours.glsl"
 
 layout(std430) writeonly buffer CellJoins {
     uint cellJoins[];  // by the photon at the lower left: 1 joined
 };
+
+#ifdef MANY_VIEWS
+// Whether four photons arrive at no more than so many texels from one to the other, seen from
+// `point`, eye view space: by the angle from the first, of which any two are no farther apart than
+// twice.
+bool areNarrowFrom(vec3 point, uint found[4]) {
+    float texel = 2.0 * view.sizePixels.z;
+    float widest = 0.5 * float(reconstruct_triangles_maximum) * texel;
+    vec3 middle = vec3(0.0);
+    for (uint i = 0u; i < 4u; ++i) {
+        vec3 position = texelFetch(hitPosition, ivec2(photonTexel(photons, found[i] - 1u)), 0).xyz;
+        vec3 direction = normalize(position - point);
+        if (i == 0u) middle = direction;
+        if (!(length(direction - middle) <= 2.0 * sin(0.5 * widest))) return false;
+    }
+    return true;
+}
+
+// Of a generator that has several reference points, whose maps share its light out, seen from each
+// of them: what one map joins the others do.
+bool areNarrow(uint found[4]) {
+#ifdef ONE_GENERATOR
+    mat3 toEye = transpose(mat3(generators.eyeToWorld));
+    float whole = generators.centers[generatorOfMap].w;
+    for (int i = 0; i < int(generators.count.x); ++i) {
+        if (generators.centers[i].w == whole &&
+            !areNarrowFrom(toEye * generators.references[i].xyz, found))
+            return false;
+    }
+    return true;
+#else
+    return areNarrowFrom(-(transpose(mat3(view.fromEye)) * view.fromEye[3].xyz), found);
+#endif
+}
+#endif
 
 bool isJoined(uint index) {
     PhotonOrigin origin = originAt(ivec2(photonTexel(photons, index)));
@@ -14,14 +50,7 @@ bool isJoined(uint index) {
     if (!photonsAround(origin, 0u, found) || found[0] != index + 1u) return false;
     ArrivalsAround around = arrivalsOf(found);
 #ifdef MANY_VIEWS
-    // By the angle from the first, of which any two are no farther apart than twice.
-    float texel = 2.0 * view.sizePixels.z;
-    float widest = 0.5 * float(reconstruct_triangles_maximum) * texel;
-    vec3 middle = normalize(around.corners[0].position);
-    for (uint i = 1u; i < 4u; ++i) {
-        vec3 off = normalize(around.corners[i].position) - middle;
-        if (!(length(off) <= 2.0 * sin(0.5 * widest))) return false;
-    }
+    if (!areNarrow(found)) return false;
 #else
     vec2 minimum = vec2(1e30);
     vec2 maximum = vec2(-1e30);

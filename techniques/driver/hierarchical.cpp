@@ -55,6 +55,12 @@ Merged mergeArriving(FrameBuilder& frame, const Hits& hits, const Surfaces& surf
                      const RefineParams& params, graph::Buffer<transport::CellCounts> counts) {
     const Photons& photons = hits.incoming;
     if (photons.cells.width == 0) {
+        if (frame.traits<TraceStage>().multipliesLight) {
+            throw ConfigError(fmt::format(
+                "driver.hierarchical needs a photon a cell, and trace.{} makes several of one; "
+                "take trace=hierarchical.",
+                frame.inputs().params.choice(TraceStage::name)));
+        }
         throw ConfigError(
             "driver.hierarchical needs photons of cells that are neighbours; take emit=grid or "
             "emit=deferred.");

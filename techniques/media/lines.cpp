@@ -65,8 +65,22 @@ float radianceScaleOf(const FrameBuilder& frame) {
     return static_cast<float>(std::exp2(std::round(std::log2(1024.0 / (pixel * pixel)))));
 }
 
+// A node that takes photons through a body at once hands on no light inside of it.
+void warnOfDarkBodies(FrameBuilder& frame) {
+    if (!frame.needs().closedDielectrics || !frame.traits<SpecularStage>().throughBodies) return;
+    frame.once<bool>("media.lines.dark_bodies", [&] {
+        frame.warn(fmt::format(
+            "media.lines scatters what photons have before them, and specular={} takes them "
+            "through bodies at once: nothing is scattered inside of these; take "
+            "specular=interface.",
+            frame.inputs().params.choice(SpecularStage::name)));
+        return std::make_shared<bool>(true);
+    });
+}
+
 InScattered drawGodRays(FrameBuilder& frame, const GodRayParams& params, Hits hits, EyeBuffer eye,
                         InScattered before) {
+    warnOfDarkBodies(frame);
     const bool isFirst = !before.sums.valid();
     const int run = frame.runsOf(MediaStage::name);
     const int w = frame.width();

@@ -92,8 +92,10 @@ std::string omittedPathsMessage(const FrameBuilder& frame) {
         needs.repeatedHits.transmitted)
         paths.emplace_back("from a sheet to another specular object");
     if (paths.empty()) return "";
-    return fmt::format("specular=deferred: this technique cannot form paths {}.",
-                       fmt::join(paths, "; nor "));
+    return fmt::format(
+        "specular=deferred: this technique cannot form paths {}; specular=split with "
+        "trace=hierarchical does.",
+        fmt::join(paths, "; nor "));
 }
 
 void warnOmittedPaths(FrameBuilder& frame, const DeferredSpecularParams& params) {

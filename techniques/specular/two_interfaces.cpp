@@ -74,8 +74,10 @@ std::string omittedPathsMessage(const FrameBuilder& frame, const TwoInterfacesPa
     if (needs.reflectors + needs.refractors > 1 && needs.repeatedHits.transmitted)
         paths.emplace_back("from one specular object to another");
     if (paths.empty()) return "";
-    return fmt::format("specular=two_interfaces: this technique cannot form paths {}.",
-                       fmt::join(paths, "; nor "));
+    return fmt::format(
+        "specular=two_interfaces: this technique cannot form paths {}; specular=split with "
+        "trace=hierarchical does.",
+        fmt::join(paths, "; nor "));
 }
 
 // What one light sees of the backs of bodies; drawn once a frame.

@@ -4,12 +4,26 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 
 namespace kaustik {
 
-HitTesting hitTesting(const FrameBuilder& frame) {
-    return {frame.params<TraceParams>("trace"), frame.needs().closedDielectrics,
-            frame.needs().nestedBodies};
+HitTesting hitTesting(FrameBuilder& frame) {
+    const auto params = frame.params<TraceParams>("trace");
+    constexpr double kWide = 0.05;  // of the scene's extent
+    const scene::Bounds bounds = sceneBounds(frame.scene());
+    const double extent = bounds.empty ? 0.0 : glm::length(bounds.maximum - bounds.minimum);
+    const auto epsilon = static_cast<double>(params.epsilonMeters);
+    if (params.test != HitTest::crossing && epsilon > kWide * extent) {
+        frame.once<bool>("trace.epsilon", [&] {
+            frame.warn(fmt::format(
+                "trace.epsilon = {:.3g} m is {:.0f}% of the scene's extent: rays hit what they "
+                "pass at that distance; trace.test=crossing needs none.",
+                epsilon, 100.0 * epsilon / extent));
+            return std::make_shared<bool>(true);
+        });
+    }
+    return {params, frame.needs().closedDielectrics, frame.needs().nestedBodies};
 }
 
 void reportStepLimit(FrameBuilder& frame, const std::string& pass, const std::string& parameter,

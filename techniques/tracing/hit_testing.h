@@ -12,7 +12,8 @@ struct HitTesting {
     bool hasInside = false;    // the scene has closed dielectrics
     bool mayBeNested = false;  // with something in them
 };
-[[nodiscard]] HitTesting hitTesting(const FrameBuilder& frame);
+// Warns of a trace.epsilon that reaches through the scene.
+[[nodiscard]] HitTesting hitTesting(FrameBuilder& frame);
 
 // Says that the pass `pass` asks a ray in so many steps at most, its parameter `parameter`, where
 // that is fewer than the picture's longer side has pixels.

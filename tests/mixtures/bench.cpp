@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "framework/report/limits.h"
+#include "framework/report/loss_advice.h"
 #include "framework/report/map_account.h"
 #include "framework/run/output.h"
 #include "framework/scene/files/scene_file.h"
@@ -100,6 +101,8 @@ Shot shotOf(const Renderer& renderer, bool keptAll) {
     if (auto warning = report::mapWarning(report::mapAccount(renderer),
                                           renderer.settings().params.choice(FilterStage::name)))
         shot.warnings.push_back(std::move(*warning));
+    for (std::string& advice : report::lossAdvice(shot.ledger, renderer))
+        shot.warnings.push_back(std::move(advice));
     report::RunRecord record;
     record.ledger = shot.ledger;
     record.layers = renderer.layerStatistics();

@@ -26,11 +26,11 @@ constexpr double kOrder = 1e-6;
 constexpr double kExact = 1e-6;
 // Others round every length anew: photons next to an edge or a pixel's border fall on the other
 // side. Of 4096 photons a few do.
-constexpr double kScaledEnergy = 0.01;
+constexpr double kScaledEnergy = 0.02;
 constexpr double kScaledBlocks = 0.04;
 // Besides, grids of lights and faces around generators may lie otherwise.
 constexpr double kTurnedEnergy = 0.03;
-constexpr double kTurnedBlocks = 0.25;
+constexpr double kTurnedBlocks = 0.35;
 
 // trace.all_hits says that it lights every surface that a ray passes.
 bool makesLight(const Mixture& mixture) {

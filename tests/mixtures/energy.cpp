@@ -24,6 +24,8 @@ constexpr double kLeastShare = 0.02;
 // Whether fewer photons, cells or texels than a small mixture's stand for the light: then the
 // energy is that of where a few of them happen to lie.
 bool isCoarse(const Mixture& mixture, const Shot& shot) {
+    constexpr std::uint64_t kFewPhotons = 1000;
+    if (shot.ledger.events[transport::kAccountEmitted] < kFewPhotons) return true;
     const params::ParamSet params = paramsOf(mixture);
     const Settings& small = smallMixture(mixture.scene).settings;
     return std::any_of(small.begin(), small.end(), [&](const auto& setting) {

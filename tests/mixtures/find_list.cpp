@@ -5,12 +5,26 @@ namespace kaustik::mixtures {
 
 // One that no longer fails is taken out, by a test.
 const std::vector<KnownFind>& knownFinds() {
-    static const std::vector<KnownFind> finds = {};
+    static const std::vector<KnownFind> finds = {
+        {"lights --set emit.photons=64x64",
+         "scale 128",
+         "of the scene in 2^7 times its size 149 pixels of 19,200 differ, by 4e-4 of the brightest",
+         {{"scene", "lights"}}}};
     return finds;
 }
 
 const std::vector<MendedFind>& mendedFinds() {
-    static const std::vector<MendedFind> finds = {};
+    static const std::vector<MendedFind> finds = {
+        // The scene's medium was not in bodies that photons go through at once: 118 %.
+        {"medium --set emit.photons=64x64 --set specular=two_interfaces", "energy"},
+        {"medium --set emit.photons=64x64 --set specular=deferred", "energy"},
+        // One map joined cells that another one of the same generator did not.
+        {"mixed --set emit.photons=64x64 --set around.cubes.size=64 --set reconstruct.space=cube "
+         "--set gather=cube --set around.points=16",
+         "balance"},
+        // The refusal named what was taken already.
+        {"ball --set emit.photons=64x64 --set driver=hierarchical --set trace=all_hits",
+         "refusal"}};
     return finds;
 }
 

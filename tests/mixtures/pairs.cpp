@@ -50,8 +50,9 @@ bool hasWork(const Answer& answer, const std::vector<Answer>& chosen, const std:
 
 // What glossy receivers need, one keeps no account of.
 bool isOfScene(const Answer& answer, const std::string& scene) {
-    return answer != Answer{ReconstructStage::name, "multi_level"} ||
-           (scene != "glossy" && scene != "mixed");
+    const bool isOfLevels = answer == Answer{ReconstructStage::name, "multi_level"} ||
+                            answer == Answer{FilterStage::name, "level_sum"};
+    return !isOfLevels || (scene != "glossy" && scene != "mixed");
 }
 
 class Covering {
@@ -176,6 +177,16 @@ std::vector<Apart> answersApart() {
     for (const std::string& trace : nodesOf(TraceStage::name)) {
         if (registry().traits<TraceStage>(trace).reach != TracerReach::eyeLayers)
             apart.push_back({{ShadowStage::name, "rays"}, {TraceStage::name, trace}});
+    }
+    // What is inside of bodies some tracers do not see, and of a photon others make several.
+    for (const std::string& trace : nodesOf(TraceStage::name)) {
+        const auto& traits = registry().traits<TraceStage>(trace);
+        for (const std::string& specular : nodesOf(SpecularStage::name)) {
+            if (traits.onlyReceivers && !registry().traits<SpecularStage>(specular).throughBodies)
+                apart.push_back({{TraceStage::name, trace}, {SpecularStage::name, specular}});
+        }
+        if (traits.multipliesLight)
+            apart.push_back({{DriverStage::name, "hierarchical"}, {TraceStage::name, trace}});
     }
     // But for a sheet that is a grid of vertices, as no scene here but one has it alone.
     apart.push_back({{DriverStage::name, "hierarchical"}, {EmitStage::name, "vertices"}});
