@@ -102,6 +102,9 @@ struct Hits {
     graph::Texture<HitFlux> flux;
     graph::Texture<HitShape> shape;  // where the photons have beams
     Photons incoming;                // the photons that made them
+    // Where one tile of the screen was searched alone.
+    graph::Texture<HitStep> step;
+    graph::Buffer<transport::TileCount> tileCounts;
 
     static Hits create(graph::PassSetup& setup, const Photons& incoming);
     // "hitPosition", "hitSurface", "hitFlux", "hitShape": to read, or as images of the pass that

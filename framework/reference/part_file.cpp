@@ -14,7 +14,7 @@
 #include "framework/core/files.h"
 #include "framework/core/json_number.h"
 #include "framework/core/json_text.h"
-#include "framework/reference/content_hash.h"
+#include "framework/core/content_hash.h"
 #include "framework/reference/request_json.h"
 
 namespace kaustik::reference {

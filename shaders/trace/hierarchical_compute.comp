@@ -10,9 +10,11 @@ void main() {
     ivec2 texel = ivec2(photonTexel(photons, index));
     Photon photon = photonAt(texel);
     Hit hit = emptyHit();
+    FirstHit first = noHit();
     if (photon.fate == kFateInFlight) {
-        hit = deliver(photon, traverse(photon, trace_hierarchical_compute_minimum,
-                                       trace_hierarchical_compute_steps));
+        first = traverse(photon, trace_hierarchical_compute_minimum, trace_hierarchical_compute_steps);
+        hit = deliver(photon, first);
     }
+    storeStep(texel, photon, first, hit);
     storeHit(texel, hit);
 }
