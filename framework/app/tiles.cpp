@@ -12,10 +12,10 @@ namespace kaustik::app {
 namespace {
 
 void print(const run::TileCost& cost) {
-    fmt::print("{} pixels, {} with the border, {} layer fragments, {} photons, {} steps, {} "
-               "squares\n",
-               cost.ownPixels, cost.shownPixels, cost.fragments, cost.photons, cost.steps,
-               cost.squares);
+    fmt::print(
+        "{} pixels, {} with the border, {} layer fragments, {} photons, {} steps, {} "
+        "squares\n",
+        cost.ownPixels, cost.shownPixels, cost.fragments, cost.photons, cost.steps, cost.squares);
 }
 
 }  // namespace
@@ -53,9 +53,9 @@ void traceTileCommand(const RunOptions& options, const Registry& registry) {
                    options.tiles);
         return;
     }
-    fmt::print("{}, {}x{}, round {}, tile {}/{}: {} hits in {} bytes\n", scene.name,
-               settings.width, settings.height, traced->head.round, tile.number, tile.count,
-               traced->hits, traced->bytes);
+    fmt::print("{}, {}x{}, round {}, tile {}/{}: {} hits in {} bytes\n", scene.name, settings.width,
+               settings.height, traced->head.round, tile.number, tile.count, traced->hits,
+               traced->bytes);
     print(traced->head.cost);
     fmt::print("{} {}\n", traced->wasThere ? "it was there already:" : "wrote",
                traced->file.string());
@@ -64,10 +64,11 @@ void traceTileCommand(const RunOptions& options, const Registry& registry) {
 void tilesCommand(const std::string& folder) {
     const std::optional<run::MergedRound> merged = run::mergeTiles(folder);
     if (merged) {
-        fmt::print("round {} of {} tiles: {} of {} photons hit something, {} of them a specular "
-                   "surface; {} bytes were exchanged\n",
-                   merged->head.round, merged->head.count, merged->hits, merged->photons,
-                   merged->specularHits, merged->bytes);
+        fmt::print(
+            "round {} of {} tiles: {} of {} photons hit something, {} of them a specular "
+            "surface; {} bytes were exchanged\n",
+            merged->head.round, merged->head.count, merged->hits, merged->photons,
+            merged->specularHits, merged->bytes);
         for (std::size_t i = 0; i < merged->costs.size(); ++i) {
             fmt::print("tile {}: ", i + 1);
             print(merged->costs[i]);

@@ -114,8 +114,7 @@ Hits FrameBuilder::hitsOfTiles(const TraceStage::Build& build, const Photons& ph
     const std::size_t round = tracingsOfBatch_[photons.batch]++;
     if (round < rounds.size()) {
         const auto known = rounds[round].find(photons.suffix);
-        return loadHits(*this, photons,
-                        known == rounds[round].end() ? FirstHits{} : known->second);
+        return loadHits(*this, photons, known == rounds[round].end() ? FirstHits{} : known->second);
     }
     // After the last round nothing is on its way.
     if (!tile()) return loadHits(*this, photons, FirstHits{});

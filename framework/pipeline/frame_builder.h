@@ -30,8 +30,8 @@ struct FrameInputs {
     const render::GpuScene& gpuScene;
     const scene::SceneNeeds& needs;
     const render::RasterView& view;
-    const render::ViewInstances& instances;  // as the eye sees them
-    const std::uint64_t& seed;               // of whatever a node draws at random
+    const render::ViewInstances& instances;         // as the eye sees them
+    const std::uint64_t& seed;                      // of whatever a node draws at random
     const std::shared_ptr<const TileFrame>& tiles;  // null where there are none
 };
 

@@ -103,7 +103,7 @@ struct Hits {
     graph::Texture<HitShape> shape;  // where the photons have beams
     Photons incoming;                // the photons that made them
     // Where one tile of the screen was searched alone.
-    graph::Texture<HitStep> step;
+    graph::Texture<HitOrder> order;
     graph::Buffer<transport::TileCount> tileCounts;
 
     static Hits create(graph::PassSetup& setup, const Photons& incoming);

@@ -106,8 +106,8 @@ Renderer::Renderer(gl::Context& context, const Registry& registry, const scene::
       instances_(gpuScene_.makeInstances(view_.worldToView)),
       needs_(sceneNeeds(scene)),
       ledgerQuantumWatts_(ledgerQuantum(scene)),
-      inputs_{registry_,  settings_.params, gpuScene_,      needs_,
-              view_,      instances_,       settings_.seed, settings_.tiles},
+      inputs_{registry_, settings_.params, gpuScene_,      needs_,
+              view_,     instances_,       settings_.seed, settings_.tiles},
       programs_(registry.shaderFolders()),
       executor_(context, programs_) {
     bindToAll();
@@ -217,7 +217,7 @@ graph::Compiled Renderer::compileTile(FrameBuilder& frame) {
     maxRounds_ = frame.maxRounds();
     for (const Hits& hits : tileHits_) {
         frame.request(hits);
-        graph_->request(hits.step);
+        graph_->request(hits.order);
         graph_->request(hits.tileCounts);
     }
     hasLayerStatistics_ = outputs_.layers.statistics.valid();

@@ -152,7 +152,8 @@ struct TraceStage : Stage<Hits(Photons, Surfaces)> {
         bool multipliesLight = false;
         // It finds no specular surface: photons inside of a body are lost to it, and are refused.
         bool onlyReceivers = false;
-        // It can search the part of each ray that is on one tile of the screen (LayeredDepth::tile).
+        // It can search the part of each ray that is on one tile of the screen
+        // (LayeredDepth::tile).
         bool tiles = false;
     };
 };

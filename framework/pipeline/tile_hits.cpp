@@ -90,15 +90,17 @@ FirstHits readFirstHits(const Renderer& renderer, const Hits& hits) {
     };
     found.rays = raysOf(found.photons,
                         {read(photons.position), read(photons.direction), read(photons.flux)});
-    const std::vector<std::uint32_t> steps = renderer.texture(hits.step).readWords();
+    const std::vector<std::uint32_t> orders = renderer.texture(hits.order).readWords();
     const std::vector<glm::vec4> position = read(hits.position);
     const std::vector<glm::vec4> surface = read(hits.surface);
     const std::vector<glm::vec4> flux = read(hits.flux);
     const std::vector<glm::vec4> shape =
         hits.shape.valid() ? read(hits.shape) : std::vector<glm::vec4>(position.size());
     for (std::uint32_t i = 0; i < found.photons; ++i) {
-        if (steps[i] == 0) continue;
-        found.hits.push_back({i, steps[i] - 1, position[i], surface[i], flux[i], shape[i]});
+        const std::uint32_t order = orders[2 * i];
+        if (order == 0) continue;
+        found.hits.push_back(
+            {i, order, orders[2 * i + 1], position[i], surface[i], flux[i], shape[i]});
     }
     return found;
 }

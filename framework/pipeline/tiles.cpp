@@ -14,8 +14,8 @@ namespace {
 std::uint64_t columnsOf(std::uint64_t count, int width, int height) {
     std::uint64_t best = 0;
     double shortest = std::numeric_limits<double>::infinity();
-    for (std::uint64_t columns = 1; columns <= count && columns <= static_cast<std::uint64_t>(width);
-         ++columns) {
+    for (std::uint64_t columns = 1;
+         columns <= count && columns <= static_cast<std::uint64_t>(width); ++columns) {
         const std::uint64_t rows = count / columns;
         if (rows * columns != count || rows > static_cast<std::uint64_t>(height)) continue;
         const double around = static_cast<double>(width) / static_cast<double>(columns) +

@@ -39,7 +39,8 @@ struct ScreenTile {
 // One photon's first hit, as the textures of Hits have it.
 struct FirstHitTexels {
     std::uint32_t photon = 0;  // place in its list
-    std::uint32_t step = 0;    // of the ray on the screen; of several hits the lowest is the first
+    std::uint32_t order = 0;   // of several tiles' hits the one of the least is the first, …
+    std::uint32_t step = 0;  // … or, where that is the same, that on the earlier step of the ray
     glm::vec4 position{0.0f};
     glm::vec4 surface{0.0f};
     glm::vec4 flux{0.0f};

@@ -34,7 +34,7 @@ bool hasShapes(const FirstHits& list) {
 }
 
 std::size_t bytesOfHit(bool hasShape) {
-    return 2 * sizeof(std::uint32_t) + (hasShape ? 4 : 3) * sizeof(glm::vec4);
+    return 3 * sizeof(std::uint32_t) + (hasShape ? 4 : 3) * sizeof(glm::vec4);
 }
 
 std::string bodyOf(const RoundOfHits& hits) {
@@ -46,6 +46,7 @@ std::string bodyOf(const RoundOfHits& hits) {
         const bool hasShape = hasShapes(list);
         for (const FirstHitTexels& hit : list.hits) {
             add(hit.photon);
+            add(hit.order);
             add(hit.step);
             add(hit.position);
             add(hit.surface);
@@ -129,6 +130,7 @@ FirstHits listFromBytes(const json& from, Bytes& bytes, const fs::path& file) {
     std::uint32_t next = 0;
     for (FirstHitTexels& hit : list.hits) {
         bytes.take(hit.photon);
+        bytes.take(hit.order);
         bytes.take(hit.step);
         bytes.take(hit.position);
         bytes.take(hit.surface);

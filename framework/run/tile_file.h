@@ -22,18 +22,18 @@ struct TileCost {
     std::uint64_t shownPixels = 0;  // with the border
     std::uint64_t fragments = 0;    // of the layers, with the border
     std::uint64_t photons = 0;      // whose rays cross the tile
-    std::uint64_t steps = 0;        // of rays that were asked; where squares are skipped, of a layer
-    std::uint64_t squares = 0;      // that were asked whether they can be skipped
+    std::uint64_t steps = 0;    // of rays that were asked; where squares are skipped, of a layer
+    std::uint64_t squares = 0;  // that were asked whether they can be skipped
 };
 
 struct TileHead {
-    nlohmann::json subject;      // what the hits depend on besides the tile: all of it must agree
-    std::optional<Shard> tile;   // none: the first hits of all
-    std::uint64_t count = 1;     // tiles of the screen
-    int round = 1;               // after so many interactions of each photon
-    int maxRounds = 1;           // after so many no photon goes on
-    bool isComplete = false;     // of all tiles: no photon goes on after this round
-    TileCost cost;               // of one tile
+    nlohmann::json subject;     // what the hits depend on besides the tile: all of it must agree
+    std::optional<Shard> tile;  // none: the first hits of all
+    std::uint64_t count = 1;    // tiles of the screen
+    int round = 1;              // after so many interactions of each photon
+    int maxRounds = 1;          // after so many no photon goes on
+    bool isComplete = false;    // of all tiles: no photon goes on after this round
+    TileCost cost;              // of one tile
 };
 
 struct TileFile {

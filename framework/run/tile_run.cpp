@@ -108,9 +108,10 @@ std::vector<fs::path> findTiles(const fs::path& folder, int round) {
         if (!std::regex_match(file, match, name)) continue;
         const std::uint64_t of = std::stoull(match[2]);
         if (count != 0 && of != count) {
-            throw ConfigError(fmt::format("{}: round {} has tiles of {} and of {}; delete those "
-                                          "that are not meant.",
-                                          folder.string(), round, count, of));
+            throw ConfigError(
+                fmt::format("{}: round {} has tiles of {} and of {}; delete those "
+                            "that are not meant.",
+                            folder.string(), round, count, of));
         }
         count = of;
         found[std::stoull(match[1])] = entry.path();
@@ -137,7 +138,7 @@ std::vector<fs::path> findTiles(const fs::path& folder, int round) {
     return files;
 }
 
-// Adds the hits of another tile: of two hits of one photon that on the earlier step stays.
+// Adds the hits of another tile: of two hits of one photon the first stays.
 void mergeHits(FirstHits& all, const FirstHits& more) {
     std::vector<FirstHitTexels> merged;
     auto a = all.hits.begin();
@@ -145,7 +146,8 @@ void mergeHits(FirstHits& all, const FirstHits& more) {
     while (a != all.hits.end() || b != more.hits.end()) {
         const bool hasBoth = a != all.hits.end() && b != more.hits.end();
         if (hasBoth && a->photon == b->photon) {
-            merged.push_back(a->step <= b->step ? *a : *b);
+            const bool isFirst = std::pair(a->order, a->step) <= std::pair(b->order, b->step);
+            merged.push_back(isFirst ? *a : *b);
             ++a;
             ++b;
         } else if (b == more.hits.end() || (hasBoth && a->photon < b->photon)) {
@@ -164,9 +166,10 @@ void mergeRound(RoundOfHits& all, const RoundOfHits& more, const fs::path& file)
         const auto own = all.find(suffix);
         if (own == all.end() || own->second.photons != list.photons ||
             own->second.rays != list.rays) {
-            throw ConfigError(fmt::format("{} is of other photons than tile 1; trace both on "
-                                          "devices that compute alike.",
-                                          file.string()));
+            throw ConfigError(
+                fmt::format("{} is of other photons than tile 1; trace both on "
+                            "devices that compute alike.",
+                            file.string()));
         }
         mergeHits(own->second, list);
     }

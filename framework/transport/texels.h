@@ -70,8 +70,8 @@ struct HitSurface {  // xyz: outward normal; w: material + 1
 struct HitShape {
     static constexpr Format format = Format::rgba32f;
 };
-struct HitStep {  // that of the ray on which it was hit + 1; 0: nothing was
-    static constexpr Format format = Format::r32ui;
+struct HitOrder {  // x: of a ray's hits the first has the least, 0: nothing was hit; y: its step
+    static constexpr Format format = Format::rg32ui;
 };
 struct HitFlux {  // rgb: W that arrive; w: fate
     static constexpr Format format = Format::rgba32f;

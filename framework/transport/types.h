@@ -277,7 +277,7 @@ struct TileCount {
     uint high;
 };
 const uint kTilePhotons = 0u;  // of which any step was asked
-const uint kTileSteps = 1u;    // steps that were asked; where squares are skipped, of one layer each
+const uint kTileSteps = 1u;  // steps that were asked; where squares are skipped, of one layer each
 const uint kTileSquares = 2u;  // squares that were asked whether they can be skipped
 const uint kTileStrayed = 3u;  // hits whose surroundings lie beyond the tile's border
 const uint kTileCounts = 4u;

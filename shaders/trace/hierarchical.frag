@@ -19,7 +19,7 @@ void main() {
         first = traverse(photon, trace_hierarchical_minimum, trace_hierarchical_steps);
         hit = deliver(photon, first);
     }
-    storeStep(ivec2(gl_FragCoord.xy), photon, first, hit);
+    storeOrder(ivec2(gl_FragCoord.xy), photon, first, hit, uint(first.step) + 1u);
     hitPosition = hitPositionTexel(hit);
     hitSurface = hitSurfaceTexel(hit);
     hitFlux = hitFluxTexel(hit);

@@ -15,6 +15,6 @@ void main() {
         first = traverse(photon, trace_hierarchical_compute_minimum, trace_hierarchical_compute_steps);
         hit = deliver(photon, first);
     }
-    storeStep(texel, photon, first, hit);
+    storeOrder(texel, photon, first, hit, uint(first.step) + 1u);
     storeHit(texel, hit);
 }

@@ -15,6 +15,6 @@ void main() {
         first = march(photon, trace_march_compute_minimum, trace_march_compute_steps);
         hit = deliver(photon, first);
     }
-    storeStep(texel, photon, first, hit);
+    storeOrder(texel, photon, first, hit, uint(first.step) + 1u);
     storeHit(texel, hit);
 }

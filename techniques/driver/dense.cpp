@@ -25,8 +25,7 @@ void registerDriverDense(Registry& registry) {
          "It follows as many photons as the emitter makes, wherever their light goes: no more "
          "where "
          "it converges, and no fewer where the eye sees nothing of it."},
-        {.tiles = true},
-        &driveDense);
+        {.tiles = true}, &driveDense);
 }
 
 }  // namespace kaustik

@@ -34,8 +34,7 @@ void registerLayersAuto(Registry& registry) {
          "It decides by the number of triangles, of layers and of pixels alone; no time is "
          "measured on the device.",
          {"layers.lists"}},
-        {.tiles = true},
-        &chooseLayers);
+        {.tiles = true}, &chooseLayers);
 }
 
 }  // namespace kaustik

@@ -26,12 +26,11 @@ struct PeelParams {
 
 LayeredDepth peelLayers(FrameBuilder& frame, const PeelParams& params, Geometry geometry) {
     const int layers = frame.params<LayersParams>("layers").count;
-    return addPyramid(
-        frame, peel(frame, geometry,
-                    {.name = "layers",
-                     .layers = layers,
-                     .reducesCounts = params.counting == Counting::reduce,
-                     .tile = frame.tile()}));
+    return addPyramid(frame, peel(frame, geometry,
+                                  {.name = "layers",
+                                   .layers = layers,
+                                   .reducesCounts = params.counting == Counting::reduce,
+                                   .tile = frame.tile()}));
 }
 
 }  // namespace
@@ -45,8 +44,7 @@ void registerLayersPeel(Registry& registry) {
          "Surfaces that the view does not show are not in the layers: those edge-on, smaller than "
          "a pixel or off the screen, and those beyond layers.count, which are counted. All "
          "geometry is drawn once for each layer."},
-        {.tiles = true},
-        &peelLayers);
+        {.tiles = true}, &peelLayers);
 }
 
 }  // namespace kaustik

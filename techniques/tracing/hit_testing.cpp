@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "framework/core/error.h"
+
 namespace kaustik {
 
 HitTesting hitTesting(const FrameBuilder& frame) {
@@ -28,6 +30,33 @@ void reportStepLimit(FrameBuilder& frame, const std::string& pass, const std::st
     frame.reportLimit({pass, {}, [limit](const gl::Executor&) { return limit; }});
 }
 
+void createTileOutput(graph::PassSetup& setup, const LayeredDepth& layers, Hits& hits) {
+    if (!layers.tile) return;
+    const Photons& photons = hits.incoming;
+    hits.order = setup.image("hitOrder", setup.create<HitOrder>("hits.order" + photons.suffix,
+                                                                photons.width, photons.height));
+    hits.tileCounts = setup.storage(
+        "TileCounts", setup.createBuffer<transport::TileCount>("hits.tile_counts" + photons.suffix,
+                                                               transport::kTileCounts));
+    setup.define("TILE_SEARCH");
+}
+
+void rewriteTileOutput(graph::PassSetup& setup, const LayeredDepth& layers, Hits& hits) {
+    if (!layers.tile) return;
+    hits.order = setup.image("hitOrder", setup.write(hits.order));
+    hits.tileCounts = setup.storage("TileCounts", setup.write(hits.tileCounts));
+    setup.define("TILE_SEARCH");
+}
+
+void requireEveryPixel(const std::string& parameter, int steps, const LayeredDepth& layers) {
+    const int longerSide = std::max(layers.views->width(), layers.views->height());
+    if (!layers.tile || steps >= longerSide) return;
+    throw ConfigError(fmt::format(
+        "--tile: {} = {} lets rays skip pixels of the picture, whose longer side has {}; set it "
+        "to 0.",
+        parameter, steps, longerSide));
+}
+
 void readLayers(graph::PassSetup& setup, const LayeredDepth& layers) {
     setup.sample("layerDepths", layers.depth);
     setup.sample("layerSurfaces", layers.surface);
@@ -42,6 +71,11 @@ gl::Command& setHitTesting(gl::Command& command, const HitTesting& testing,
         command.define("CLOSED_DIELECTRICS");
     if (testing.mayBeNested) command.define("NESTED_BODIES");
     if (layers.views) layers.views->bindTo(command);
+    if (layers.tile) {
+        const ScreenTile& tile = *layers.tile;
+        command.offer("tileOwn", glm::vec4(tile.own.first, tile.own.end))
+            .offer("tileShown", glm::vec4(tile.shown.first, tile.shown.end));
+    }
     return command.params("trace", testing.params).set("layerCount", layers.layers);
 }
 
