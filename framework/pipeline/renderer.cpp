@@ -218,7 +218,6 @@ graph::Compiled Renderer::compileTile(FrameBuilder& frame) {
     for (const Hits& hits : tileHits_) {
         frame.request(hits);
         graph_->request(hits.order);
-        graph_->request(hits.tileCounts);
     }
     hasLayerStatistics_ = outputs_.layers.statistics.valid();
     if (hasLayerStatistics_) graph_->request(outputs_.layers.statistics);

@@ -97,12 +97,27 @@ FirstHits readFirstHits(const Renderer& renderer, const Hits& hits) {
     const std::vector<glm::vec4> shape =
         hits.shape.valid() ? read(hits.shape) : std::vector<glm::vec4>(position.size());
     for (std::uint32_t i = 0; i < found.photons; ++i) {
-        const std::uint32_t order = orders[2 * i];
+        const std::uint32_t order = orders[4 * std::size_t{i}];
         if (order == 0) continue;
-        found.hits.push_back(
-            {i, order, orders[2 * i + 1], position[i], surface[i], flux[i], shape[i]});
+        const std::uint32_t step = orders[4 * std::size_t{i} + 1] & ~transport::kStrayed;
+        found.hits.push_back({i, order, step, position[i], surface[i], flux[i], shape[i]});
     }
     return found;
+}
+
+TileSearch readTileSearch(const Renderer& renderer, const Hits& hits) {
+    TileSearch search;
+    const auto count =
+        renderer.buffer(hits.incoming.list).read<transport::PhotonList>().front().count;
+    const std::vector<std::uint32_t> orders = renderer.texture(hits.order).readWords();
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint32_t* const words = &orders[4 * i];
+        search.photons += words[2] + words[3] > 0 ? 1 : 0;
+        search.steps += words[2];
+        search.squares += words[3];
+        search.strayed += (words[1] & transport::kStrayed) != 0 ? 1 : 0;
+    }
+    return search;
 }
 
 }  // namespace kaustik

@@ -14,7 +14,14 @@ class Renderer;
 // is not the one that was traced.
 [[nodiscard]] Hits loadHits(FrameBuilder& frame, const Photons& photons, const FirstHits& known);
 
-// What the tile's tracer has found of one list; waits for the device.
+// What the tile's tracer has found of one list, and what it took; these wait for the device.
 [[nodiscard]] FirstHits readFirstHits(const Renderer& renderer, const Hits& hits);
+struct TileSearch {
+    std::uint64_t photons = 0;  // whose rays cross the tile
+    std::uint64_t steps = 0;    // as HitOrder counts them
+    std::uint64_t squares = 0;
+    std::uint64_t strayed = 0;  // hits whose surroundings lie beyond the tile's border
+};
+[[nodiscard]] TileSearch readTileSearch(const Renderer& renderer, const Hits& hits);
 
 }  // namespace kaustik

@@ -49,18 +49,17 @@ std::uint64_t pixelsOf(const PixelRegion& region) {
     return static_cast<std::uint64_t>(extent.x) * static_cast<std::uint64_t>(extent.y);
 }
 
-using TileCounts = std::vector<std::uint64_t>;
-
 // Over all lists.
-TileCounts readCounts(const Renderer& renderer) {
-    TileCounts counts(transport::kTileCounts, 0);
+TileSearch readSearch(const Renderer& renderer) {
+    TileSearch all;
     for (const Hits& hits : renderer.tileHits()) {
-        const std::vector<transport::TileCount> words =
-            renderer.buffer(hits.tileCounts).read<transport::TileCount>();
-        for (std::size_t i = 0; i < counts.size(); ++i)
-            counts[i] += (std::uint64_t{words[i].high} << 32U) + words[i].low;
+        const TileSearch search = readTileSearch(renderer, hits);
+        all.photons += search.photons;
+        all.steps += search.steps;
+        all.squares += search.squares;
+        all.strayed += search.strayed;
     }
-    return counts;
+    return all;
 }
 
 // Renders the tile with a border wide enough, and fills `content`.
@@ -74,18 +73,14 @@ void renderTile(gl::Context& context, const Registry& registry, const scene::Sce
         renderer.build(Purpose::picture);
         gl::PassTimer timer(gl::TimerMode::finish);
         renderer.renderFrame(timer);
-        const TileCounts counts = readCounts(renderer);
-        if (counts[transport::kTileStrayed] > 0 && border < settings.width + settings.height)
-            continue;
+        const TileSearch search = readSearch(renderer);
+        if (search.strayed > 0 && border < settings.width + settings.height) continue;
         for (const Hits& hits : renderer.tileHits())
             content.hits[hits.incoming.suffix] = readFirstHits(renderer, hits);
         content.head.maxRounds = renderer.maxRounds();
-        content.head.cost = {pixelsOf(tile.own),
-                             pixelsOf(tile.shown),
-                             renderer.layerStatistics().fragments,
-                             counts[transport::kTilePhotons],
-                             counts[transport::kTileSteps],
-                             counts[transport::kTileSquares]};
+        content.head.cost = {
+            pixelsOf(tile.own), pixelsOf(tile.shown), renderer.layerStatistics().fragments,
+            search.photons,     search.steps,         search.squares};
         return;
     }
 }

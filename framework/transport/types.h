@@ -271,16 +271,8 @@ struct Clamped {
     uint highUnits;
 };
 
-// What tracing one tile of the screen took (shaders/tracing/tile_search.glsl): high * 2^32 + low.
-struct TileCount {
-    uint low;
-    uint high;
-};
-const uint kTilePhotons = 0u;  // of which any step was asked
-const uint kTileSteps = 1u;  // steps that were asked; where squares are skipped, of one layer each
-const uint kTileSquares = 2u;  // squares that were asked whether they can be skipped
-const uint kTileStrayed = 3u;  // hits whose surroundings lie beyond the tile's border
-const uint kTileCounts = 4u;
+// In the word of a hit's step (HitOrder): its surroundings lie beyond the border of the tile.
+const uint kStrayed = 0x80000000u;
 
 #ifdef __cplusplus
 }  // namespace kaustik::transport

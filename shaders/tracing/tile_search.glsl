@@ -7,10 +7,7 @@
 
 #ifdef TILE_SEARCH
 uniform vec4 tileShown;  // pixels whose layers are there, the tile's and a border: first, end
-layout(rg32ui) writeonly uniform uimage2D hitOrder;  // HitOrder
-layout(std430) buffer TileCounts {
-    TileCount tileCounts[];
-};
+layout(rgba32ui) writeonly uniform uimage2D hitOrder;
 
 uint askedSteps = 0u;
 uint askedSquares = 0u;
@@ -32,23 +29,17 @@ bool isShownAround(vec3 pointVs) {
            all(lessThan(vec2(high), tileShown.zw));
 }
 
-void addCount(uint which, uint count) {
-    uint before = atomicAdd(tileCounts[which].low, count);
-    if (before + count < before) atomicAdd(tileCounts[which].high, 1u);
-}
-
-// `order`: which of a ray's hits is the first, the one of the least.
+// `order`: of a ray's hits the first has the least.
 void storeOrder(ivec2 texel, Photon photon, FirstHit first, Hit hit, uint order) {
-    imageStore(hitOrder, texel,
-               first.hit.layer < 0 ? uvec4(0u) : uvec4(order, uint(first.step), 0u, 0u));
-    Photon seen = photonInView(photon);
-    bool isBent = first.hit.layer >= 0 && (first.isExit || hit.fate == kFateSpecular);
-    if (isBent && !isShownAround(seen.positionVs + first.hit.t * seen.directionVs))
-        addCount(kTileStrayed, 1u);
-    if (askedSteps + askedSquares == 0u) return;
-    addCount(kTilePhotons, 1u);
-    addCount(kTileSteps, askedSteps);
-    addCount(kTileSquares, askedSquares);
+    uvec2 place = uvec2(0u);
+    if (first.hit.layer >= 0) {
+        place = uvec2(order, first.step);
+        Photon seen = photonInView(photon);
+        bool isBent = first.isExit || hit.fate == kFateSpecular;
+        if (isBent && !isShownAround(seen.positionVs + first.hit.t * seen.directionVs))
+            place.y |= kStrayed;
+    }
+    imageStore(hitOrder, texel, uvec4(place, askedSteps, askedSquares));
 }
 #else
 void countSteps(uint count) {}

@@ -213,7 +213,6 @@ Reduced reduceRows(FrameBuilder& frame, const LinesParams& params, const Layered
                 source = target;
                 std::swap(target, spare);
             }
-            if (batch == 0 && layers.tile) context.buffer(data.hits.tileCounts).clear();
             gl::Command command = context.compute("trace/lines_resolve.comp");
             setHitTesting(command, testing, layers)
                 .params("trace.lines", params)

@@ -35,16 +35,12 @@ void createTileOutput(graph::PassSetup& setup, const LayeredDepth& layers, Hits&
     const Photons& photons = hits.incoming;
     hits.order = setup.image("hitOrder", setup.create<HitOrder>("hits.order" + photons.suffix,
                                                                 photons.width, photons.height));
-    hits.tileCounts = setup.storage(
-        "TileCounts", setup.createBuffer<transport::TileCount>("hits.tile_counts" + photons.suffix,
-                                                               transport::kTileCounts));
     setup.define("TILE_SEARCH");
 }
 
 void rewriteTileOutput(graph::PassSetup& setup, const LayeredDepth& layers, Hits& hits) {
     if (!layers.tile) return;
     hits.order = setup.image("hitOrder", setup.write(hits.order));
-    hits.tileCounts = setup.storage("TileCounts", setup.write(hits.tileCounts));
     setup.define("TILE_SEARCH");
 }
 

@@ -43,7 +43,6 @@ Hits marchRays(FrameBuilder& frame, const RayMarch& march, const MarchParams& wa
                                       ? context.compute(shader)
                                       : context.shaders({"framework/photon_rows.vert", shader});
             setHitTesting(command, testing, layers).params(name, params);
-            if (hits.tileCounts.valid()) context.buffer(hits.tileCounts).clear();
             if (isThread) return dispatchOver(command, hits.incoming);
             for (const graph::ResourceRef& texture : hits.textures())
                 command.target(texture);
