@@ -13,7 +13,7 @@ import pathlib
 import re
 import sys
 
-FOLDER = re.compile(r"(.+)-(hierarchical|march|lines)-(\d+)\.tiles")
+FOLDER = re.compile(r"(.+)-(hierarchical|lines)-(\d+)\.tiles")
 FILE = re.compile(r"round-(\d+)-tile-(\d+)-of-\d+\.hits")
 COUNTS = ["own_pixels", "shown_pixels", "fragments", "photons", "steps", "squares"]
 
@@ -34,7 +34,8 @@ def rows_of(folder):
         head = head_of(file)
         lists = head["lists"]
         rows.append({
-            "scene": scene, "tracer": tracer, "tiles": int(tiles),
+            "scene": scene, "tracer": tracer, "size": head["subject"]["size"],
+            "tiles": int(tiles),
             "round": int(match[1]), "tile": int(match[2]),
             **{name: head["cost"][name] for name in COUNTS},
             "traced": sum(one["photons"] for one in lists),
@@ -65,8 +66,8 @@ def main(out):
         writer = csv.DictWriter(stream, all_rows[0].keys(), lineterminator="\n")
         writer.writeheader()
         writer.writerows(all_rows)
-    print("| scene | tracer | tiles | rounds | fragments, sum | slowest | steps, sum | slowest |"
-          " squares, sum | slowest | exchanged, MB |")
+    print("| scene | tracer | tiles | rounds | fragments, all | largest | steps, all | largest |"
+          " squares, all | largest | exchanged, MB |")
     print("|---|---|" + "---:|" * 9)
     for scene, tracer in sorted({(row["scene"], row["tracer"]) for row in all_rows}):
         own = [row for row in all_rows if (row["scene"], row["tracer"]) == (scene, tracer)]

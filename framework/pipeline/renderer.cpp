@@ -153,6 +153,12 @@ std::vector<std::string> Renderer::forgetAbsentPasses() {
 FrameBuilder Renderer::declareFrame(bool recordsTraces, bool skipsCaustic) {
     graph_ = std::make_unique<graph::Graph>();
     FrameBuilder frame(*graph_, inputs_, recordsTraces, skipsCaustic);
+    if (settings_.tiles && settings_.technique.build) {
+        throw ConfigError(fmt::format(
+            "--tiles: {} puts its stages together in a way of its own; take a technique that does "
+            "not, such as screen_space_photons.",
+            settings_.technique.name));
+    }
     outputs_ = settings_.technique.build ? settings_.technique.build(frame) : buildFrame(frame);
     return frame;
 }

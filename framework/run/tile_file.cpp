@@ -19,6 +19,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr const char* kFormat = "kaustik.tile/1";
+constexpr const char* kSceneContent = "scene_content";  // of a subject, a fingerprint
 static_assert(std::endian::native == std::endian::little);
 
 [[noreturn]] void failDamaged(const fs::path& file, const std::string& what) {
@@ -218,9 +219,12 @@ std::string differenceOf(const json& there, const json& here) {
     for (const auto& [name, value] : names.items()) {
         const std::string before = inWords(thereFlat, name);
         const std::string now = inWords(hereFlat, name);
-        if (before != now) return fmt::format("{} is {} there and {} here", name, before, now);
+        // It says nothing to people; what has changed may have a name.
+        if (name == kSceneContent || before == now) continue;
+        return fmt::format("{} is {} there and {} here", name, before, now);
     }
-    return "";
+    if (inWords(thereFlat, kSceneContent) == inWords(hereFlat, kSceneContent)) return "";
+    return "what is in the scene is not the same there and here";
 }
 
 }  // namespace kaustik::run

@@ -68,8 +68,8 @@ TEST_F(TilesOfTheScreen, ThatCannotBeAreRefused) {
     expectRefused({"--tile", "1/2"}, {"--tile", "--tiles"});
     expectRefused({"--tile", "1/2", "--tiles", "t", "--out", "out"}, {"--tile", "no picture"});
     expectRefused({"--tile", "1/2", "--tiles", "t", "--disable", "layers.pyramid"}, {"--tiles"});
-    expectRefused({"--tile", "1/2", "--tiles", "t", "--set", "trace=lines"},
-                  {"trace=lines", "trace=hierarchical"});
+    expectRefused({"--tile", "1/2", "--tiles", "t", "--set", "trace=plane"},
+                  {"trace=plane", "trace=hierarchical"});
     expectRefused({"--tile", "1/2", "--tiles", "t", "--set", "layers=per_object"},
                   {"layers=per_object", "layers=peel"});
     expectRefused({"--tile", "1/2", "--tiles", "t", "--set", "hierarchical.steps=16"},

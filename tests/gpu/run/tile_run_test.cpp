@@ -17,8 +17,7 @@ namespace kaustik::test {
 namespace {
 
 // A scene by its name, the water of wavy_water.h; a tracer; a number of tiles.
-class Tiles
-    : public testing::TestWithParam<std::tuple<const char*, const char*, std::uint64_t>> {
+class Tiles : public testing::TestWithParam<std::tuple<const char*, const char*, std::uint64_t>> {
   protected:
     struct Finished {
         std::vector<float> irradiance;
@@ -66,8 +65,8 @@ TEST_P(Tiles, GiveTheBitsOfTheWholePicture) {
     int rounds = 0;
     for (bool goesOn = true; goesOn; ++rounds) {
         for (std::uint64_t number = 1; number <= count; ++number)
-            ASSERT_TRUE(run::traceTile(context(), registry_, scene, settings, folder,
-                                       {number, count}));
+            ASSERT_TRUE(
+                run::traceTile(context(), registry_, scene, settings, folder, {number, count}));
         const std::optional<run::MergedRound> merged = run::mergeTiles(folder);
         ASSERT_TRUE(merged);
         EXPECT_EQ(merged->head.round, rounds + 1);
@@ -106,7 +105,7 @@ INSTANTIATE_TEST_SUITE_P(Ball, Tiles,
 INSTANTIATE_TEST_SUITE_P(Tracers, Tiles,
                          testing::Combine(testing::Values("glass-sphere"),
                                           testing::Values("hierarchical_compute", "march",
-                                                          "march_compute"),
+                                                          "march_compute", "lines"),
                                           testing::Values(2)),
                          nameOf);
 
