@@ -12,7 +12,8 @@ void main() {
     Hit hit = emptyHit();
     FirstHit first = noHit();
     if (photon.fate == kFateInFlight) {
-        first = traverse(photon, trace_hierarchical_compute_minimum, trace_hierarchical_compute_steps);
+        first = traverse(photon, trace_hierarchical_compute_minimum,
+                         trace_hierarchical_compute_steps);
         hit = deliver(photon, first);
     }
     storeOrder(texel, photon, first, hit, uint(first.step) + 1u);

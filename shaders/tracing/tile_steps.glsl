@@ -15,8 +15,8 @@ uniform vec4 tileOwn;  // pixels: first, end
 // Positions on the screen are off by less, px.
 const float kTileMargin = 0.25;
 
-// Cuts [first, end], in steps, to where a position that starts at `from` px and moves by `by` a step
-// lies within two bounds.
+// Cuts [first, end], in steps, to where a position that starts at `from` px and moves by `by` a
+// step lies within two bounds.
 void cutToBounds(float from, float by, float low, float high, inout float first, inout float end) {
     if (by == 0.0) {
         if (from < low || from > high) end = first - 1.0;
