@@ -11,8 +11,8 @@ fail() {
     exit 2
 }
 
-# read_command ARGUMENT... : those of the undivided command.
-read_command() {
+# read_arguments ARGUMENT... : those of the undivided command, whatever it is.
+read_arguments() {
     arguments=()
     out=
     while (($# > 0)); do
@@ -23,13 +23,23 @@ read_command() {
                 shift
                 ;;
             --out=*) out=${1#--out=} ;;
-            --shard | --shard=* | --merge | --merge=*) fail "${1%%=*} is this script's to give" ;;
+            --shard | --shard=* | --tile | --tile=* | --tiles | --tiles=*) fail "${1%%=*} is this script's to give" ;;
+            --merge | --merge=*)
+                # Of `run` it is a file of settings.
+                [[ ${arguments[0]:-} == run ]] || fail "${1%%=*} is this script's to give"
+                arguments+=("$1")
+                ;;
             *) arguments+=("$1") ;;
         esac
         shift
     done
     [[ -x $kaustik ]] || fail "$kaustik is not there; build it (experiments/quickstart.sh), or say where with KAUSTIK"
     [[ -n $out ]] || fail "name with --out what the whole command would write"
+}
+
+# read_command ARGUMENT... : of a reference or a study.
+read_command() {
+    read_arguments "$@"
     case ${arguments[0]:-}:${arguments[1]:-} in
         reference:*)
             kind=reference

@@ -209,6 +209,15 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry,
     runApp->add_option("--tev", run.viewer,
                        "HOST or HOST:PORT of a running tev, which is sent the pictures");
     runApp->add_option("--out", run.out, "Folder for what is written");
+    runApp->add_option("--tile", run.tile,
+                       "K/N: only traces photons on the K-th of N tiles of the screen; no picture");
+    runApp->add_option("--tiles", run.tiles,
+                       "Folder of the tiles' hits; without --tile the picture is made of them");
+
+    std::string tilesFolder;
+    CLI::App* tilesApp = app.add_subcommand(
+        "tiles", "Takes of all tiles' hits the first, and says whether there is another round");
+    tilesApp->add_option("folder", tilesFolder, "That of 'run --tile'")->required();
 
     ListOptions list;
     CLI::App* listApp = app.add_subcommand("list", "Prints what there is");
@@ -328,6 +337,7 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry,
             mergeSettings(run, givenOptions(*runApp), registry);
             runCommand(run, registry);
         }
+        if (tilesApp->parsed()) tilesCommand(tilesFolder);
         if (listApp->parsed()) listCommand(list, registry);
         if (docApp->parsed()) docCommand(doc, registry);
         if (explainApp->parsed()) {

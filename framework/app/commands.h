@@ -11,6 +11,11 @@
 namespace kaustik::app {
 
 void runCommand(const RunOptions& options, const Registry& registry);
+// What `run` does with --tile, and `kaustik tiles`. The first throws ConfigError for options of
+// `run` that do not go with tiles.
+void checkTileOptions(const RunOptions& options);
+void traceTileCommand(const RunOptions& options, const Registry& registry);
+void tilesCommand(const std::string& folder);
 void listCommand(const ListOptions& options, const Registry& registry);
 void docCommand(const DocOptions& options, const Registry& registry);
 void explainCommand(const ExplainOptions& options, const Registry& registry);

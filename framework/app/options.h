@@ -39,6 +39,8 @@ struct RunOptions {
     bool captures = false;                   // a frame for RenderDoc
     std::optional<std::string> viewer;       // address of a tev that pictures are sent to
     std::string out;                         // "" for results/runs/<scene>-<technique>
+    std::string tile;                        // K/N: traces one tile of the screen alone
+    std::string tiles;                       // folder of all tiles' hits
 };
 
 struct ReferenceOptions {

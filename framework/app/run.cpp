@@ -15,6 +15,7 @@
 #include "framework/run/output.h"
 #include "framework/run/progress.h"
 #include "framework/run/session.h"
+#include "framework/run/tile_run.h"
 #include "framework/scene/shapes/height_field.h"
 
 namespace kaustik::app {
@@ -42,6 +43,8 @@ void showPictures(TevClient& viewer, const std::vector<fs::path>& files, const s
 }  // namespace
 
 void runCommand(const RunOptions& options, const Registry& registry) {
+    checkTileOptions(options);
+    if (!options.tile.empty()) return traceTileCommand(options, registry);
     using Clock = std::chrono::steady_clock;
     const Clock::time_point begin = Clock::now();
     run::FrameSeries series = seriesOf(options);
@@ -64,6 +67,8 @@ void runCommand(const RunOptions& options, const Registry& registry) {
     if (options.viewer) viewer.emplace(*options.viewer);
 
     const std::unique_ptr<gl::Context> context = gl::Context::createHeadless(options.scene.glDebug);
+    if (!options.tiles.empty())
+        settings.tiles = run::loadTiles(options.tiles, run::tileSubject(*context, scene, settings));
     run::Session session(*context, registry, scene, std::move(settings),
                          {.isPrecise = options.precise});
     session.check(options.saved);

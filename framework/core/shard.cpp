@@ -10,7 +10,7 @@
 
 namespace kaustik {
 
-Shard parseShard(const std::string& text, const std::string& option) {
+Shard parseShard(const std::string& text, const std::string& option, const std::string& part) {
     Shard shard{0, 0};
     const char* const end = text.data() + text.size();
     const auto number = std::from_chars(text.data(), end, shard.number);
@@ -21,15 +21,15 @@ Shard parseShard(const std::string& text, const std::string& option) {
     }
     if (!isRead) {
         throw ConfigError(fmt::format(
-            "{}: '{}' is not K/N, such as 2/8 for the second of eight shards.", option, text));
+            "{}: '{}' is not K/N, such as 2/8 for the second of eight {}s.", option, text, part));
     }
     if (shard.count < 1 || shard.count > kMaxShards) {
-        throw ConfigError(fmt::format("{}: {} is not a number of shards from 1 to {}.", option,
-                                      shard.count, kMaxShards));
+        throw ConfigError(fmt::format("{}: {} is not a number of {}s from 1 to {}.", option,
+                                      shard.count, part, kMaxShards));
     }
     if (shard.number < 1 || shard.number > shard.count) {
-        throw ConfigError(fmt::format("{}: there is no shard {} of {}; they count from 1 to {}.",
-                                      option, shard.number, shard.count, shard.count));
+        throw ConfigError(fmt::format("{}: there is no {} {} of {}; they count from 1 to {}.",
+                                      option, part, shard.number, shard.count, shard.count));
     }
     return shard;
 }

@@ -17,8 +17,10 @@ struct Shard {
 
 inline constexpr std::uint64_t kMaxShards = 1'000'000;
 
-// "K/N" with K from 1 to N; throws ConfigError that names `option` for anything else.
-[[nodiscard]] Shard parseShard(const std::string& text, const std::string& option);
+// "K/N" with K from 1 to N; throws ConfigError that names `option` for anything else, and calls the
+// parts `part`.
+[[nodiscard]] Shard parseShard(const std::string& text, const std::string& option,
+                               const std::string& part = "shard");
 
 // [first, end) of `items` that are numbered from 0. The shards of a count hold every item once, and
 // as many as each other but for one; where there are fewer items than shards, some have none.

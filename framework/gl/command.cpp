@@ -216,6 +216,11 @@ Command& Command::viewport(int x, int y, int width, int height) {
     return *this;
 }
 
+Command& Command::scissor(glm::ivec2 first, glm::ivec2 end) {
+    scissor_ = glm::ivec4(first, end - first);
+    return *this;
+}
+
 Program& Command::bind() {
     Program& program = context_.programs().get(key_);
     std::vector<Access> accesses = accesses_;
@@ -298,6 +303,7 @@ void Command::bindTargets() {
         targets_[i].clear = false;  // a command may draw more than once
     }
     if (depth_.clear) {
+        glDisable(GL_SCISSOR_TEST);
         glDepthMask(GL_TRUE);
         glClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, depth_.value.data());
         depth_.clear = false;
@@ -311,7 +317,12 @@ void Command::bindTargets() {
 
 void Command::bindState() {
     glDisable(GL_CULL_FACE);
-    glDisable(GL_SCISSOR_TEST);
+    if (scissor_) {
+        glEnable(GL_SCISSOR_TEST);
+        glScissor(scissor_->x, scissor_->y, scissor_->z, scissor_->w);
+    } else {
+        glDisable(GL_SCISSOR_TEST);
+    }
     if (depthTest_ == DepthTest::none) {
         glDisable(GL_DEPTH_TEST);
     } else {

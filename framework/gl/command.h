@@ -80,6 +80,8 @@ class Command {
     Command& blend(Blend blend);
     // Default: the whole of the first target.
     Command& viewport(int x, int y, int width, int height);
+    // Draws to these pixels alone; all of a target is cleared nevertheless. Default: no bounds.
+    Command& scissor(glm::ivec2 first, glm::ivec2 end);
 
     // The last calls. A draw without a target is a GraphError.
     void draw();  // fullscreen
@@ -145,6 +147,7 @@ class Command {
     DepthTest depthTest_ = DepthTest::none;
     Blend blend_ = Blend::none;
     glm::ivec4 viewport_{0, 0, -1, -1};
+    std::optional<glm::ivec4> scissor_;
     bool lastIsDepth_ = false;
     bool offers_ = false;
 };

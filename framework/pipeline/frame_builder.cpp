@@ -11,6 +11,7 @@
 #include "framework/core/names.h"
 #include "framework/pipeline/ledger.h"
 #include "framework/pipeline/stage_params.h"
+#include "framework/pipeline/tile_hits.h"
 #include "framework/transport/photon_list.h"
 #include "framework/transport/primitives.h"
 
@@ -71,6 +72,64 @@ void FrameBuilder::needsWayOut(const Photons& photons, const Surfaces& /*surface
         "all of whose light would be lost; take {}.",
         inputs_.params.choice(TraceStage::name), inputs_.params.choice(SpecularStage::name),
         joinNames(bodies), fmt::join(choices, " or ")));
+}
+
+std::optional<ScreenTile> FrameBuilder::tile() const {
+    return inputs_.tiles ? inputs_.tiles->tile : std::nullopt;
+}
+
+bool FrameBuilder::endsTile(int interaction, int interactions) {
+    maxRounds_ = std::max(maxRounds_, interactions);
+    return tile() && static_cast<std::size_t>(interaction) > inputs_.tiles->rounds.size();
+}
+
+void FrameBuilder::requireTileNodes() const {
+    if (!inputs_.tiles) return;
+    const std::string obstacle = noCausticReason(facts());
+    if (!obstacle.empty())
+        throw ConfigError(fmt::format("--tiles: there is nothing to trace, {}.", obstacle));
+    requireTiles<DriverStage>();
+    requireTiles<LayersStage>();
+    requireTiles<TraceStage>();
+}
+
+// Throws ConfigError where the node that is chosen cannot take part in tiles.
+template <class Stage>
+void FrameBuilder::requireTiles() const {
+    if (traits<Stage>().tiles) return;
+    std::vector<std::string> choices;
+    for (const Registry::Node& node : inputs_.registry.nodes()) {
+        if (node.stage == Stage::name && inputs_.registry.traits<Stage>(node.name).tiles)
+            choices.push_back(fmt::format("{}={}", Stage::name, node.name));
+    }
+    throw ConfigError(fmt::format("--tiles: {}={} does not work in tiles of the screen; take {}.",
+                                  Stage::name, inputs_.params.choice(Stage::name),
+                                  fmt::join(choices, " or ")));
+}
+
+Hits FrameBuilder::hitsOfTiles(const TraceStage::Build& build, const Photons& photons,
+                               const Surfaces& surfaces) {
+    const std::vector<RoundOfHits>& rounds = inputs_.tiles->rounds;
+    const std::size_t round = tracingsOfBatch_[photons.batch]++;
+    if (round < rounds.size()) {
+        const auto known = rounds[round].find(photons.suffix);
+        return loadHits(*this, photons, known == rounds[round].end() ? FirstHits{} : known->second);
+    }
+    // After the last round nothing is on its way.
+    if (!tile()) return loadHits(*this, photons, FirstHits{});
+    tileHits_.push_back(build(*this, photons, surfaces));
+    return tileHits_.back();
+}
+
+Hits FrameBuilder::traced(const TraceStage::Build& build, const Photons& photons,
+                          const Surfaces& surfaces) {
+    TraceStage::Build tracer = build;
+    if (inputs_.tiles) {
+        tracer = [this, &build](FrameBuilder&, const Photons& list, const Surfaces& seen) {
+            return hitsOfTiles(build, list, seen);
+        };
+    }
+    return recordsTraces_ ? recorded(tracer, photons, surfaces) : tracer(*this, photons, surfaces);
 }
 
 Hits FrameBuilder::recorded(const TraceStage::Build& build, const Photons& photons,
@@ -175,9 +234,16 @@ IrradianceMap skipCaustic(FrameBuilder& frame, const std::string& reason) {
 }  // namespace
 
 FrameOutputs buildFrame(FrameBuilder& frame) {
+    frame.requireTileNodes();
     const Geometry geometry = frame.run<GeometryStage>();
     const EyeBuffer eye = frame.run<EyeStage>(geometry);
     const LayeredDepth layers = frame.run<LayersStage>(geometry);
+    if (frame.tile()) {
+        frame.run<DriverStage>(Surfaces{geometry, eye, layers});
+        FrameOutputs outputs;
+        outputs.layers = layers;
+        return outputs;
+    }
     const Shadows shadows = frame.run<ShadowStage>(geometry, eye, layers);
     const std::string obstacle = frame.skipsCaustic() ? "what the eye sees is judged without it"
                                                       : noCausticReason(frame.facts());

@@ -30,8 +30,9 @@ struct FrameInputs {
     const render::GpuScene& gpuScene;
     const scene::SceneNeeds& needs;
     const render::RasterView& view;
-    const render::ViewInstances& instances;  // as the eye sees them
-    const std::uint64_t& seed;               // of whatever a node draws at random
+    const render::ViewInstances& instances;         // as the eye sees them
+    const std::uint64_t& seed;                      // of whatever a node draws at random
+    const std::shared_ptr<const TileFrame>& tiles;  // null where there are none
 };
 
 // Issues a compute thread a photon of the list: shaders include include/photons/photon_thread.glsl.
@@ -74,7 +75,7 @@ class FrameBuilder {
         const auto& build = *static_cast<const typename Stage::Build*>(node.build.get());
         if constexpr (std::is_same_v<Stage, TraceStage>) {
             needsWayOut(in...);
-            if (recordsTraces_ && prefix_.empty()) return recorded(build, std::move(in)...);
+            if (prefix_.empty()) return traced(build, std::move(in)...);
         }
         return build(*this, std::move(in)...);
     }
@@ -192,6 +193,16 @@ class FrameBuilder {
         nodeWarnings_.push_back(std::move(warning));
     }
     [[nodiscard]] const std::vector<NodeWarning>& nodeWarnings() const { return nodeWarnings_; }
+    // The tile of the screen that is traced alone, without a picture (framework/pipeline/tiles.h).
+    [[nodiscard]] std::optional<ScreenTile> tile() const;
+    // Throws ConfigError where there are tiles, and the scene or a chosen node is none for them.
+    void requireTileNodes() const;
+    // Whether the tile is traced after this interaction of a photon, from 1 on, and then no more.
+    // `interactions`: how often those of the batch may interact.
+    [[nodiscard]] bool endsTile(int interaction, int interactions);
+    // What the tile's tracings have found, and after how many interactions there may be one.
+    [[nodiscard]] const std::vector<Hits>& tileHits() const { return tileHits_; }
+    [[nodiscard]] int maxRounds() const { return maxRounds_; }
     // How often a stage has been run so far, the running one included.
     [[nodiscard]] int runsOf(const std::string& stage) const;
 
@@ -199,7 +210,13 @@ class FrameBuilder {
     // ConfigError where some of the photons may be inside of bodies, and the tracer finds no
     // surface there.
     void needsWayOut(const Photons& photons, const Surfaces& surfaces) const;
+    Hits traced(const TraceStage::Build& build, const Photons& photons, const Surfaces& surfaces);
     Hits recorded(const TraceStage::Build& build, const Photons& photons, const Surfaces& surfaces);
+    // Of tiles: those that are known, or that the tile's tracer finds.
+    Hits hitsOfTiles(const TraceStage::Build& build, const Photons& photons,
+                     const Surfaces& surfaces);
+    template <class Stage>
+    void requireTiles() const;
 
     graph::Graph& graph_;
     const FrameInputs& inputs_;
@@ -214,6 +231,9 @@ class FrameBuilder {
     bool isRandom_ = false;
     std::vector<TraceRecord> traces_;
     std::vector<NodeWarning> nodeWarnings_;
+    std::map<std::string, std::size_t> tracingsOfBatch_;
+    std::vector<Hits> tileHits_;
+    int maxRounds_ = 0;
 };
 
 // The usual order of the stages, from which a technique differs only if it must.

@@ -102,6 +102,7 @@ struct Hits {
     graph::Texture<HitFlux> flux;
     graph::Texture<HitShape> shape;  // where the photons have beams
     Photons incoming;                // the photons that made them
+    graph::Texture<HitOrder> order;  // where one tile of the screen was searched alone
 
     static Hits create(graph::PassSetup& setup, const Photons& incoming);
     // "hitPosition", "hitSurface", "hitFlux", "hitShape": to read, or as images of the pass that

@@ -106,7 +106,8 @@ Renderer::Renderer(gl::Context& context, const Registry& registry, const scene::
       instances_(gpuScene_.makeInstances(view_.worldToView)),
       needs_(sceneNeeds(scene)),
       ledgerQuantumWatts_(ledgerQuantum(scene)),
-      inputs_{registry_, settings_.params, gpuScene_, needs_, view_, instances_, settings_.seed},
+      inputs_{registry_, settings_.params, gpuScene_,      needs_,
+              view_,     instances_,       settings_.seed, settings_.tiles},
       programs_(registry.shaderFolders()),
       executor_(context, programs_) {
     bindToAll();
@@ -152,6 +153,12 @@ std::vector<std::string> Renderer::forgetAbsentPasses() {
 FrameBuilder Renderer::declareFrame(bool recordsTraces, bool skipsCaustic) {
     graph_ = std::make_unique<graph::Graph>();
     FrameBuilder frame(*graph_, inputs_, recordsTraces, skipsCaustic);
+    if (settings_.tiles && settings_.technique.build) {
+        throw ConfigError(fmt::format(
+            "--tiles: {} puts its stages together in a way of its own; take a technique that does "
+            "not, such as screen_space_photons.",
+            settings_.technique.name));
+    }
     outputs_ = settings_.technique.build ? settings_.technique.build(frame) : buildFrame(frame);
     return frame;
 }
@@ -159,6 +166,7 @@ FrameBuilder Renderer::declareFrame(bool recordsTraces, bool skipsCaustic) {
 graph::Compiled Renderer::compile(Purpose purpose, const std::vector<std::string>& resources) {
     const auto begin = std::chrono::steady_clock::now();
     FrameBuilder frame = declareFrame(purpose == Purpose::audit, purpose == Purpose::view);
+    if (frame.tile()) return compileTile(frame);
     if (purpose != Purpose::picture) closedLedger_ = closeLedger(frame, outputs_);
     if (purpose == Purpose::measurement || purpose == Purpose::audit)
         closedLedger_ = addEmittable(frame, outputs_, closedLedger_);
@@ -207,6 +215,21 @@ graph::Compiled Renderer::compile(Purpose purpose, const std::vector<std::string
     }
     isRandom_ = frame.isRandom();
     return compiled;
+}
+
+// Only what one tile of the screen gives: the first hits of its round, and counts of the work.
+graph::Compiled Renderer::compileTile(FrameBuilder& frame) {
+    tileHits_ = frame.tileHits();
+    maxRounds_ = frame.maxRounds();
+    for (const Hits& hits : tileHits_) {
+        frame.request(hits);
+        graph_->request(hits.order);
+    }
+    hasLayerStatistics_ = outputs_.layers.statistics.valid();
+    if (hasLayerStatistics_) graph_->request(outputs_.layers.statistics);
+    keptObjects_ = frame.releaseKeptObjects();
+    warnings_ = frame.warnings();
+    return graph_->compile();
 }
 
 std::string Renderer::whyNoEffect(const std::string& name) const {

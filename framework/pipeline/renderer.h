@@ -25,6 +25,8 @@ struct RenderSettings {
     int width = 800;
     int height = 600;
     std::uint64_t seed = 1;  // of everything random; equal ones give equal bits
+    // Null unless the first hits of photons are, or are to be, found on tiles of the screen.
+    std::shared_ptr<const TileFrame> tiles = {};
 };
 
 // What a frame is asked for.
@@ -78,6 +80,11 @@ class Renderer {
     // The traces of the last build for Purpose::audit.
     [[nodiscard]] const std::vector<TraceRecord>& traces() const { return traces_; }
 
+    // What the last build traces on one tile of the screen, and after how many interactions there
+    // may be a tracing.
+    [[nodiscard]] const std::vector<Hits>& tileHits() const { return tileHits_; }
+    [[nodiscard]] int maxRounds() const { return maxRounds_; }
+
     // What was rendered; these wait for the device. The first two and the layers' statistics need
     // Purpose::measurement.
     [[nodiscard]] EnergyLedger ledger() const;
@@ -111,6 +118,7 @@ class Renderer {
     void requestForMaps();
     void requestForAudit();
     void requestExits();
+    [[nodiscard]] graph::Compiled compileTile(FrameBuilder& frame);
     [[nodiscard]] graph::Compiled keepFindings(const graph::Compiled& compiled,
                                                const FrameBuilder& frame);
 
@@ -139,6 +147,8 @@ class Renderer {
     double buildMilliseconds_ = 0.0;
     bool isRandom_ = false;
     bool hasLayerStatistics_ = false;
+    std::vector<Hits> tileHits_;
+    int maxRounds_ = 0;
     std::vector<NodeWarning> nodeWarnings_;
 };
 

@@ -90,6 +90,9 @@ struct LayersStage : Stage<LayeredDepth(Geometry)> {
     static constexpr const char* question = "Which surfaces lie along each eye ray?";
     static constexpr const char* takes = "geometry";
     static constexpr const char* gives = "layered depth: all surfaces along every pixel's ray";
+    struct Traits {
+        bool tiles = false;  // it can make those of one tile of the screen alone
+    };
 };
 // Drives the stages from emit to media: which photons are emitted, and when.
 struct DriverStage : Stage<Caustic(Surfaces)> {
@@ -105,6 +108,8 @@ struct DriverStage : Stage<Caustic(Surfaces)> {
         // Why its photons are nobody's neighbours, for a parameter's condition: they stand for
         // several cells. "" where they are; none: they always are.
         std::string (*whyNoNeighbours)(const FrameFacts&) = nullptr;
+        // Its photons are known before any is traced, so that tiles of the screen can be apart.
+        bool tiles = false;
     };
     static constexpr auto whyIdle = &noCausticReason;
 };
@@ -147,6 +152,9 @@ struct TraceStage : Stage<Hits(Photons, Surfaces)> {
         bool multipliesLight = false;
         // It finds no specular surface: photons inside of a body are lost to it, and are refused.
         bool onlyReceivers = false;
+        // It can search the part of each ray that is on one tile of the screen
+        // (LayeredDepth::tile).
+        bool tiles = false;
     };
 };
 // Adds what arrives with these hits to what has arrived before.

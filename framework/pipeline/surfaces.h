@@ -3,7 +3,9 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
+#include "framework/pipeline/tiles.h"
 #include "framework/render/raster_views.h"
 #include "framework/transport/geometry.h"
 #include "framework/transport/texels.h"
@@ -40,6 +42,7 @@ struct LayeredDepth {
     graph::Buffer<transport::LayerStatistics> statistics;
     int layers = 0;
     Views views;
+    std::optional<ScreenTile> tile = {};  // of the screen, beyond whose border they are empty
 };
 
 // What a technique's nodes are given of the scene. A pass that is not read does not run: a node

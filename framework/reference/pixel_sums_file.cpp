@@ -6,9 +6,9 @@
 #include <cstring>
 #include <string_view>
 
+#include "framework/core/content_hash.h"
 #include "framework/core/error.h"
 #include "framework/image/image_limits.h"
-#include "framework/reference/content_hash.h"
 #include "framework/reference/pixel_sums.h"
 
 namespace kaustik::reference {

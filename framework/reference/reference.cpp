@@ -3,12 +3,12 @@
 
 #include <algorithm>
 
+#include "framework/core/content_hash.h"
 #include "framework/core/error.h"
-#include "framework/core/files.h"
-#include "framework/reference/content_hash.h"
 #include "framework/reference/light_sampling.h"
 #include "framework/reference/light_tracing.h"
 #include "framework/reference/photon_mapping.h"
+#include "framework/scene/scene_hash.h"
 
 namespace kaustik::reference {
 namespace {
@@ -26,50 +26,12 @@ PhotonMappingSettings mappingSettings(const ReferenceRequest& request) {
             request.alpha, request.causticView};
 }
 
-// Field by field: structs may have padding.
-void addScene(ContentHash& hash, const scene::Scene& scene) {
-    const scene::Camera& camera = scene.camera;
-    hash.add(camera.position).add(camera.target).add(camera.up);
-    hash.add(camera.verticalFovDegrees).add(camera.nearMeters);
-    hash.add(scene.lights.size());
-    for (const scene::Light& light : scene.lights) {
-        hash.add(light.kind).add(light.position).add(light.direction).add(light.power);
-        hash.add(light.innerConeRadians).add(light.outerConeRadians).add(light.rangeMeters);
-        hash.add(light.image).add(light.up);
-    }
-    hash.add(scene.materials.size());
-    for (const scene::Material& material : scene.materials) {
-        hash.add(material.kind).add(material.albedo).add(material.pattern);
-        hash.add(material.patternAlbedo).add(material.uvScale).add(material.image);
-        hash.add(material.ior).add(material.absorptionPerMeter);
-        hash.add(material.specular).add(material.exponent);
-    }
-    hash.add(scene.images.size());
-    for (const scene::TextureImage& image : scene.images) {
-        hash.addBytes(image.file.empty() ? image.bytes : readFile(image.file));
-        hash.add(static_cast<std::uint8_t>(image.srgb));
-    }
-    hash.add(scene.meshes.size());
-    for (const scene::Mesh& mesh : scene.meshes) {
-        hash.add(mesh.origin).add(static_cast<std::uint8_t>(mesh.closed));
-        hash.addAll(mesh.positions).addAll(mesh.normals).addAll(mesh.uvs).addAll(mesh.triangles);
-    }
-    hash.add(scene.objects.size());
-    for (const scene::Object& object : scene.objects)
-        hash.add(object.mesh).add(object.material).add(object.toWorld);
-    hash.add(static_cast<std::uint8_t>(scene.medium.has_value()));
-    if (scene.medium) {
-        hash.add(scene.medium->scatteringPerMeter).add(scene.medium->absorptionPerMeter);
-        hash.add(scene.medium->anisotropy);
-    }
-}
-
 }  // namespace
 
 std::string referenceKey(const scene::Scene& scene, const ReferenceRequest& request) {
     ContentHash hash;
     hash.addBytes("kaustik.reference").add(kEstimatorVersion);
-    addScene(hash, scene);
+    scene::addTo(hash, scene);
     hash.add(request.estimator).add(request.width).add(request.height);
     hash.add(request.seed).add(request.photonsPerBatch);
     hash.add(static_cast<std::uint8_t>(request.filter.transmissionOnly));

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "framework/core/content_hash.h"
 #include "framework/core/error.h"
 #include "framework/core/files.h"
 #include "framework/core/json_number.h"
 #include "framework/core/json_text.h"
-#include "framework/reference/content_hash.h"
 #include "framework/reference/reference.h"
 #include "framework/reference/request_json.h"
 

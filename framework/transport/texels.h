@@ -70,6 +70,12 @@ struct HitSurface {  // xyz: outward normal; w: material + 1
 struct HitShape {
     static constexpr Format format = Format::rgba32f;
 };
+// What a tracer that searches one tile of the screen says of a ray. x: of several tiles' hits the
+// first has the least, 0: nothing was hit; y: the hit's step, with kStrayed; z, w: how many steps,
+// where squares are skipped of one layer each, and how many squares were asked.
+struct HitOrder {
+    static constexpr Format format = Format::rgba32ui;
+};
 struct HitFlux {  // rgb: W that arrive; w: fate
     static constexpr Format format = Format::rgba32f;
 };

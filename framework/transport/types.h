@@ -271,6 +271,9 @@ struct Clamped {
     uint highUnits;
 };
 
+// In the word of a hit's step (HitOrder): its surroundings lie beyond the border of the tile.
+const uint kStrayed = 0x80000000u;
+
 #ifdef __cplusplus
 }  // namespace kaustik::transport
 #endif

@@ -6,6 +6,7 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
+uniform ivec2 firstPixel;  // of those that are asked for
 layout(r32ui) readonly uniform uimage2D heads;
 layout(rgba32f) writeonly uniform image2DArray layerDepths;
 layout(rgba32f) writeonly uniform image2DArray layerSurfaces;
@@ -34,7 +35,7 @@ void store(ivec2 pixel, int layer, uint place) {
 }
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = firstPixel + ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, imageSize(heads))) || !listsFit()) return;
     float reached = -kNoDepth;  // the depth of the last layer that is stored
     int layer = 0;

@@ -13,13 +13,14 @@ layout(rgba32f) uniform image2DArray pyramid;
 layout(rgba32f) readonly uniform image2DArray layerDepths;
 uniform int layerCount;
 uniform int level;
+uniform ivec2 firstSquare;  // of those that are asked for
 #ifdef MANY_VIEWS
 uniform int face;
 #endif
 
 void main() {
     ivec2 pixels = imageSize(layerDepths).xy;
-    ivec2 square = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 square = firstSquare + ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(square, pyramidSize(pixels, level)))) return;
     ivec2 to = pyramidOffset(pixels, level) + square;
     ivec2 from = level == 1 ? ivec2(0) : pyramidOffset(pixels, level - 1);

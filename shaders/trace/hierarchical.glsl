@@ -3,7 +3,7 @@
 // over squares of 64, 16 and 4 pixels planes through the layers, with how far these stray from
 // them, say so. What is left is asked step by step, by the test of all tracers, so that the hits
 // are those of a march over every step.
-#include "include/photons/traced_photon.glsl"
+#include "tracing/tile_search.glsl"
 #include "layered_depth/pyramid_layout.glsl"
 
 uniform sampler2DArray layerPyramid;
@@ -119,16 +119,20 @@ FirstHit traverseView(Photon photon, int minimumSteps, int maximumSteps) {
     uint medium = ray.around.x;
     bool mayComeOut = medium != 0u && !isOpen(medium - 1u);
 #endif
+    StepRange asked = stepsToAsk(segment, steps);
+    // A hit may have the step after it asked too, which need not be in the range.
+    int last = min(asked.end + 1, steps);
     int level = kPyramidLevels;
-    int end = steps;
+    int end = asked.end;
     int firstStep = -1;  // that of `first`
-    int i = 0;
+    int i = asked.first;
     StepQuery query = StepQuery(0, 0, uvec2(0u));
     uvec2 layers = uvec2(0u);  // that step i is still to be asked about
     while (i < end) {
         while (i < end && i >= query.end) {
             ivec2 square = texelOfStep(segment, i, steps) >> (2 * level);
-            int beyond = stepBeyond(screenRay, square, level, i, steps);
+            int beyond = stepBeyond(screenRay, square, level, i, last);
+            countSquares(1u);
             StepQuery found = candidateSteps(screenRay, square, level, i, beyond);
 #ifdef CLOSED_DIELECTRICS
             // What is inside at the square's last step came out nowhere in it, nor in.
@@ -165,6 +169,7 @@ FirstHit traverseView(Photon photon, int minimumSteps, int maximumSteps) {
         while (i < min(query.end, end) && t <= 0.0) {
             step = i;
             if (layers != uvec2(0u)) {
+                countSteps(1u);
                 layer = popLowest(layers);
                 RayStep at = rayStep(segment, i, steps);
                 surface = layerAt(at.texel, layer);
@@ -182,8 +187,9 @@ FirstHit traverseView(Photon photon, int minimumSteps, int maximumSteps) {
                     }
 #endif
                     if (solid.layer >= 0 && (first.hit.layer < 0 || solid.t < first.hit.t)) {
-                        if (first.hit.layer < 0) end = min(end, i + 2);
-                        first = FirstHit(solid, texelOfStep(segment, there, steps), true, viewIndex);
+                        if (first.hit.layer < 0) end = min(last, i + 2);
+                        first = FirstHit(solid, texelOfStep(segment, there, steps), true, viewIndex,
+                                         i);
                         firstStep = i;
                     }
                 }
@@ -206,8 +212,8 @@ FirstHit traverseView(Photon photon, int minimumSteps, int maximumSteps) {
                 // The next step's surfaces are hit at most half a step before it begins.
                 float next = parameterAtIndex(segment, float(step) + 2.0, float(steps));
                 bool mayBeNearer = t > at.tEnd - 0.51 * (next - at.tEnd) - 2e-6 * at.zEnd;
-                end = min(end, mayBeNearer ? step + 2 : step + 1);
-                first = FirstHit(LayerHit(t, layer), at.texel, false, viewIndex);
+                end = min(isFirst ? last : end, mayBeNearer ? step + 2 : step + 1);
+                first = FirstHit(LayerHit(t, layer), at.texel, false, viewIndex, step);
                 firstStep = step;
             }
         }

@@ -10,9 +10,12 @@ void main() {
     ivec2 texel = ivec2(photonTexel(photons, index));
     Photon photon = photonAt(texel);
     Hit hit = emptyHit();
+    FirstHit first = noHit();
     if (photon.fate == kFateInFlight) {
-        hit = deliver(photon, traverse(photon, trace_hierarchical_compute_minimum,
-                                       trace_hierarchical_compute_steps));
+        first = traverse(photon, trace_hierarchical_compute_minimum,
+                         trace_hierarchical_compute_steps);
+        hit = deliver(photon, first);
     }
+    storeOrder(texel, photon, first, hit, uint(first.step) + 1u);
     storeHit(texel, hit);
 }

@@ -9,13 +9,14 @@ flat in vec4 ends;
 flat in vec3 rayOrigin;
 flat in vec3 rayDirection;
 flat in int steps;
+flat in ivec2 asked;
 flat in int photonIndex;
 
 layout(location = 0) out vec4 rowTexel;
 
 void main() {
-    int i = int(gl_FragCoord.x);
-    if (i >= steps) discard;
+    int i = asked.x + int(gl_FragCoord.x);
+    if (i >= asked.y) discard;
     RaySegment segment;
     segment.nearPixel = endPixels.xy;
     segment.farPixel = endPixels.zw;

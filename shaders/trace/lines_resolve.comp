@@ -4,13 +4,13 @@
 #include "include/thread.glsl"
 #include "include/photons/photons.glsl"
 #include "include/photons/store_hits.glsl"
-#include "include/photons/traced_photon.glsl"
+#include "tracing/tile_search.glsl"
 #include "trace/lines_row_extent.glsl"
 #include "trace/lines_row_texel.glsl"
 
 uniform sampler2D column;
 uniform int firstPhoton;
-uniform int rowsWidth;
+uniform int maxSteps;
 
 void main() {
     int row = int(threadNumber());
@@ -19,6 +19,7 @@ void main() {
     ivec2 texel = ivec2(photonTexel(photons, index));
     Photon photon = photonAt(texel);
     if (photon.fate != kFateInFlight) {
+        storeOrder(texel, photon, noHit(), emptyHit(), 0u);
         storeHit(texel, emptyHit());
         return;
     }
@@ -27,10 +28,16 @@ void main() {
     int stepIndex;
     vec2 found = rowExtents[batch] > 0u ? texelFetch(column, ivec2(0, row), 0).xy : vec2(0.0);
     unpackRowTexel(found, first.hit, stepIndex, first.isExit);
-    if (first.hit.layer >= 0) {
-        RaySegment segment = clipRay(photon.positionVs, photon.directionVs);
-        int steps = stepCount(segment, trace_lines_minimum, rowsWidth);
-        first.pixel = texelOfStep(segment, stepIndex, steps);
+    RaySegment segment = clipRay(photon.positionVs, photon.directionVs);
+    if (segment.visible) {
+        int steps = stepCount(segment, trace_lines_minimum, maxSteps);
+        StepRange asked = stepsToAsk(segment, steps);
+        countSteps(uint(max(asked.end - asked.first, 0)));
+        if (first.hit.layer >= 0) first.pixel = texelOfStep(segment, stepIndex, steps);
     }
-    storeHit(texel, deliver(photon, first));
+    first.step = stepIndex;
+    Hit hit = deliver(photon, first);
+    // All steps of a row are asked, and the nearest hit counts.
+    storeOrder(texel, photon, first, hit, floatBitsToUint(first.hit.t));
+    storeHit(texel, hit);
 }

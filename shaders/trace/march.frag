@@ -14,8 +14,12 @@ void main() {
     if (!isPhotonHere()) discard;
     Photon photon = photonAt(ivec2(gl_FragCoord.xy));
     Hit hit = emptyHit();
-    if (photon.fate == kFateInFlight)
-        hit = deliver(photon, march(photon, trace_march_minimum, trace_march_steps));
+    FirstHit first = noHit();
+    if (photon.fate == kFateInFlight) {
+        first = march(photon, trace_march_minimum, trace_march_steps);
+        hit = deliver(photon, first);
+    }
+    storeOrder(ivec2(gl_FragCoord.xy), photon, first, hit, uint(first.step) + 1u);
     hitPosition = hitPositionTexel(hit);
     hitSurface = hitSurfaceTexel(hit);
     hitFlux = hitFluxTexel(hit);

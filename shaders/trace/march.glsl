@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: MIT
 // Follows one photon's ray over the screen, a pixel a step, to its first hit (K06, section 2.1:
 // what the lines are compared with).
-#include "include/photons/traced_photon.glsl"
+#include "tracing/tile_search.glsl"
 
 FirstHit marchView(Photon photon, int minimumSteps, int maximumSteps) {
     if (!isNumber(photon)) return noHit();
     RaySegment segment = clipRay(photon.positionVs, photon.directionVs);
     if (!segment.visible) return noHit();
     TracedRay ray = tracedRay(photon.positionVs, photon.directionVs, photon.media);
-    return firstHitOfSteps(segment, ray, stepCount(segment, minimumSteps, maximumSteps));
+    int steps = stepCount(segment, minimumSteps, maximumSteps);
+    StepRange asked = stepsToAsk(segment, steps);
+    uint count;
+    FirstHit first = firstHitOfSteps(segment, ray, asked.first, asked.end, steps, count);
+    countSteps(count);
+    return first;
 }
 
 // The same in all views.

@@ -10,9 +10,11 @@ void main() {
     ivec2 texel = ivec2(photonTexel(photons, index));
     Photon photon = photonAt(texel);
     Hit hit = emptyHit();
+    FirstHit first = noHit();
     if (photon.fate == kFateInFlight) {
-        hit = deliver(photon, march(photon, trace_march_compute_minimum,
-                                       trace_march_compute_steps));
+        first = march(photon, trace_march_compute_minimum, trace_march_compute_steps);
+        hit = deliver(photon, first);
     }
+    storeOrder(texel, photon, first, hit, uint(first.step) + 1u);
     storeHit(texel, hit);
 }

@@ -55,7 +55,7 @@ FirstHit searchBetweenLayers(RaySegment segment, TracedRay ray, int passed, int 
                     continue;
                 }
                 return FirstHit(LayerHit(parameterAtIndex(segment, float(i), count), layer), before,
-                                true, viewIndex);
+                                true, viewIndex, i);
             }
         }
         int layer = -1;
@@ -75,7 +75,7 @@ FirstHit searchBetweenLayers(RaySegment segment, TracedRay ray, int passed, int 
         bool isNear = t >= from && t <= to;
         if (!isNear && view_refraction_stop == view_refraction_stop_crossing) continue;
         t = clamp(t, from, to);
-        return FirstHit(LayerHit(t, layer), texel, false, viewIndex);
+        return FirstHit(LayerHit(t, layer), texel, false, viewIndex, i);
     }
     return noHit();
 }

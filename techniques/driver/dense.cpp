@@ -12,7 +12,7 @@ Caustic driveDense(FrameBuilder& frame, const params::NoParams&, Surfaces surfac
     Caustic caustic;
     for (const Samples& samples : batchesOfGrids(frame))
         followPhotons(frame, surfaces, samples, caustic);
-    finishMedia(frame, caustic);
+    if (!frame.tile()) finishMedia(frame, caustic);
     return caustic;
 }
 
@@ -25,7 +25,7 @@ void registerDriverDense(Registry& registry) {
          "It follows as many photons as the emitter makes, wherever their light goes: no more "
          "where "
          "it converges, and no fewer where the eye sees nothing of it."},
-        &driveDense);
+        {.tiles = true}, &driveDense);
 }
 
 }  // namespace kaustik

@@ -58,6 +58,10 @@ void reduceCounts(const Complexity& data, gl::PassContext& context, int layers, 
 
 }  // namespace
 
+void drawTo(gl::Command& command, const LayersRequest& request) {
+    if (request.tile) command.scissor(request.tile->shown.first, request.tile->shown.end);
+}
+
 graph::Buffer<transport::LayerStatistics> measureComplexity(FrameBuilder& frame, Geometry geometry,
                                                             const LayersRequest& request) {
     return frame
@@ -83,6 +87,8 @@ graph::Buffer<transport::LayerStatistics> measureComplexity(FrameBuilder& frame,
             [&inputs = frame.inputs(), request](const Complexity& data, gl::PassContext& context) {
                 const int w = data.views->width();
                 const int h = data.views->height();
+                const PixelRegion pixels = request.pixels(*data.views);
+                const glm::ivec2 extent = pixels.end - pixels.first;
                 if (!request.reducesCounts) context.buffer(data.statistics).clear();
                 for (int face = 0; face < data.views->count(); ++face) {
                     gl::Command count =
@@ -91,6 +97,7 @@ graph::Buffer<transport::LayerStatistics> measureComplexity(FrameBuilder& frame,
                         .target(data.counts)
                         .clear()
                         .blend(gl::Blend::add);
+                    drawTo(count, request);
                     inputs.gpuScene.draw(count, context, data.geometry, data.views->instances(face),
                                          request.set);
                     if (request.reducesCounts) {
@@ -101,7 +108,8 @@ graph::Buffer<transport::LayerStatistics> measureComplexity(FrameBuilder& frame,
                         .texture("counts", data.counts)
                         .storage("Statistics", data.statistics)
                         .set("layerCount", request.layers)
-                        .dispatchOver(w, 8, h, 8);
+                        .set("firstPixel", pixels.first)
+                        .dispatchOver(extent.x, 8, extent.y, 8);
                 }
             })
         .statistics;
@@ -113,6 +121,7 @@ Peeling Peeling::create(FrameBuilder& frame, graph::PassSetup& setup, Geometry g
     peeling.geometry = geometry;
     if (geometry.heightFields.valid()) setup.read(geometry.heightFields);
     peeling.layers.layers = request.layers;
+    peeling.layers.tile = request.tile;
     peeling.layers.views = request.views ? request.views : frame.eyeViews();
     const render::RasterViews& views = *peeling.layers.views;
     const int w = views.width();
@@ -143,6 +152,7 @@ void peelView(const FrameInputs& inputs, const Peeling& peeling, gl::PassContext
         command.target(peeling.layers.depth, index).clear();
         command.target(peeling.layers.surface, index).clear();
         command.depth(peeling.depth, gl::DepthTest::nearer).clear({1, 0, 0, 0});
+        drawTo(command, request);
         inputs.gpuScene.draw(command, context, peeling.geometry, views.instances(face), request.set,
                              &context.buffer(peeling.commands, gl::Use::drawCommands),
                              static_cast<std::size_t>(layer) * inputs.gpuScene.commandCount());

@@ -2,6 +2,7 @@
 // Depth peeling (K06, section 2.2), for whoever needs layers of some of the scene's surfaces.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "framework/pipeline/frame_builder.h"
@@ -18,7 +19,14 @@ struct LayersRequest {
     bool reducesCounts = false;               // by a texture reduce instead of atomics
     std::string reader = "the tracer needs";  // that needs them, for people
     Views views = nullptr;                    // the eye's
+    // Of the eye's view only what this tile of the screen shows; the rest stays empty.
+    std::optional<ScreenTile> tile = {};
+    [[nodiscard]] PixelRegion pixels(const render::RasterViews& of) const {
+        return tile ? tile->shown : PixelRegion{{0, 0}, {of.width(), of.height()}};
+    }
 };
+// Draws a command to the pixels that are asked for.
+void drawTo(gl::Command& command, const LayersRequest& request);
 // Adds the pass that counts the fragments of every pixel (K06, section 2.2).
 [[nodiscard]] graph::Buffer<transport::LayerStatistics> measureComplexity(
     FrameBuilder& frame, Geometry geometry, const LayersRequest& request);

@@ -152,12 +152,16 @@ void listView(const FrameInputs& inputs, const Lists& data, gl::PassContext& con
         .target(data.counts)
         .clear()
         .blend(gl::Blend::add);
+    drawTo(list, request);
     inputs.gpuScene.draw(list, context, peeling.geometry, views.instances(face), request.set);
+    const PixelRegion pixels = request.pixels(views);
+    const glm::ivec2 extent = pixels.end - pixels.first;
     context.compute("layered_depth/peel_statistics.comp")
         .texture("counts", data.counts)
         .storage("Statistics", peeling.layers.statistics)
         .set("layerCount", request.layers)
-        .dispatchOver(views.width(), 8, views.height(), 8);
+        .set("firstPixel", pixels.first)
+        .dispatchOver(extent.x, 8, extent.y, 8);
 
     const auto commandCount = static_cast<int>(inputs.gpuScene.commandCount());
     gl::Command commands = context.compute("layered_depth/peel_commands.comp");
@@ -173,7 +177,8 @@ void listView(const FrameInputs& inputs, const Lists& data, gl::PassContext& con
     setListCapacity(sort, data, capacity, face);
     sort.image("layerDepths", peeling.layers.depth)
         .image("layerSurfaces", peeling.layers.surface)
-        .dispatchOver(views.width(), 8, views.height(), 8);
+        .set("firstPixel", pixels.first)
+        .dispatchOver(extent.x, 8, extent.y, 8);
 }
 
 }  // namespace

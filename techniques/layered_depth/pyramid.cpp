@@ -36,6 +36,7 @@ LayeredDepth addPyramid(FrameBuilder& frame, const LayeredDepth& layers, const s
                                           layers.views->layers(layers.layers)));
         },
         [w, h](const LayeredDepth& data, gl::PassContext& context) {
+            const PixelRegion pixels = data.tile ? data.tile->shown : PixelRegion{{0, 0}, {w, h}};
             // Empty: a square's layers behind its last, and the corners next to the levels.
             context.texture(data.pyramid).clear({0, 0, 0, 0});
             for (int level = 1; level <= kLevels; ++level) {
@@ -43,7 +44,11 @@ LayeredDepth addPyramid(FrameBuilder& frame, const LayeredDepth& layers, const s
                     gl::Command command = context.compute("layered_depth/pyramid.comp");
                     data.views->bindTo(command).set("layerCount", data.layers).set("level", level);
                     if (data.views->count() > 1) command.set("face", face);
-                    command.dispatchOver(squares(w, level), 8, squares(h, level), 8);
+                    const glm::ivec2 first = pixels.first >> (2 * level);
+                    const glm::ivec2 end(squares(pixels.end.x, level),
+                                         squares(pixels.end.y, level));
+                    command.set("firstSquare", first)
+                        .dispatchOver(end.x - first.x, 8, end.y - first.y, 8);
                 }
             }
         });

@@ -13,7 +13,8 @@ namespace {
 
 LayeredDepth chooseLayers(FrameBuilder& frame, const params::NoParams&, Geometry geometry) {
     const LayersRequest request{.name = "layers",
-                                .layers = frame.params<LayersParams>("layers").count};
+                                .layers = frame.params<LayersParams>("layers").count,
+                                .tile = frame.tile()};
     const bool lists = prefersLists(frame, request);
     frame.skip(lists ? "layers.peel" : "layers.lists",
                fmt::format("{} triangles for each of {} layers are {} than {} pixels",
@@ -33,7 +34,7 @@ void registerLayersAuto(Registry& registry) {
          "It decides by the number of triangles, of layers and of pixels alone; no time is "
          "measured on the device.",
          {"layers.lists"}},
-        &chooseLayers);
+        {.tiles = true}, &chooseLayers);
 }
 
 }  // namespace kaustik

@@ -11,8 +11,9 @@ namespace {
 
 LayeredDepth listLayers(FrameBuilder& frame, const ListsParams& params, Geometry geometry) {
     const int layers = frame.params<LayersParams>("layers").count;
-    return addPyramid(frame,
-                      listFragments(frame, geometry, {.name = "layers", .layers = layers}, params));
+    return addPyramid(
+        frame, listFragments(frame, geometry,
+                             {.name = "layers", .layers = layers, .tile = frame.tile()}, params));
 }
 
 }  // namespace
@@ -26,7 +27,7 @@ void registerLayersLists(Registry& registry) {
          "It shows the same surfaces as layers.peel and shares its limits. A view with more "
          "fragments than fit into layers.lists.memory, or with a list longer than a thread can "
          "walk, is peeled instead, and the report says so."},
-        &listLayers);
+        {.tiles = true}, &listLayers);
 }
 
 }  // namespace kaustik

@@ -26,9 +26,11 @@ struct PeelParams {
 
 LayeredDepth peelLayers(FrameBuilder& frame, const PeelParams& params, Geometry geometry) {
     const int layers = frame.params<LayersParams>("layers").count;
-    return addPyramid(
-        frame, peel(frame, geometry,
-                    {"layers", render::DrawSet::all, layers, params.counting == Counting::reduce}));
+    return addPyramid(frame, peel(frame, geometry,
+                                  {.name = "layers",
+                                   .layers = layers,
+                                   .reducesCounts = params.counting == Counting::reduce,
+                                   .tile = frame.tile()}));
 }
 
 }  // namespace
@@ -42,7 +44,7 @@ void registerLayersPeel(Registry& registry) {
          "Surfaces that the view does not show are not in the layers: those edge-on, smaller than "
          "a pixel or off the screen, and those beyond layers.count, which are counted. All "
          "geometry is drawn once for each layer."},
-        &peelLayers);
+        {.tiles = true}, &peelLayers);
 }
 
 }  // namespace kaustik

@@ -43,7 +43,10 @@ std::vector<Samples> batchesOfGrids(const FrameBuilder& frame, int together, boo
 
 void followPhotons(FrameBuilder& frame, const Surfaces& surfaces, Samples samples, Caustic& caustic,
                    const PhotonUse& use) {
-    const bool scatters = use.scatters && frame.needs().scatteringMedium;
+    // Of a tile of the screen nothing is wanted but first hits.
+    const bool isTile = frame.tile().has_value();
+    const bool stores = use.stores && !isTile;
+    const bool scatters = use.scatters && !isTile && frame.needs().scatteringMedium;
     if (use.stores) samples.ledger = caustic.map.ledger;
     Hits hits = frame.run<EmitStage>(surfaces, samples);
     int interactions = 1;
@@ -51,7 +54,9 @@ void followPhotons(FrameBuilder& frame, const Surfaces& surfaces, Samples sample
         const Photons photons = frame.run<SpecularStage>(hits, surfaces);
         interactions = interactionCount(frame, photons.paths);
         hits = frame.run<TraceStage>(photons, surfaces);
-        if (use.stores) {
+        if (isTile) caustic.map.ledger = hits.incoming.ledger;
+        if (frame.endsTile(i + 1, interactions)) return;
+        if (stores) {
             const Hits stored = use.arriving ? use.arriving(hits) : hits;
             caustic.map = frame.run<ReconstructStage>(stored, surfaces, caustic.map);
             hits.incoming.ledger = caustic.map.ledger;
@@ -59,7 +64,7 @@ void followPhotons(FrameBuilder& frame, const Surfaces& surfaces, Samples sample
         if (scatters)
             caustic.inScattered = frame.run<MediaStage>(hits, surfaces.eye, caustic.inScattered);
     }
-    if (!use.stores) return;
+    if (!stores) return;
     // What is still on its way is counted at once, so that the batch need not be kept.
     caustic.map.ledger = closeBatch(frame, hits, caustic.map.ledger);
     caustic.last = hits;

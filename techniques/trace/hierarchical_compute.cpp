@@ -24,7 +24,7 @@ void registerTraceHierarchicalCompute(Registry& registry) {
          "It finds what the layers of the view hold and nothing else: not "
          "what is outside of that view, edge-on, smaller than a pixel or "
          "beyond the last layer. Its hits are those of trace.march."},
-        &traceHierarchicalCompute);
+        {.tiles = true}, &traceHierarchicalCompute);
 }
 
 }  // namespace kaustik

@@ -67,7 +67,8 @@ int halved(int width) {
 }
 
 struct Layout {
-    int width;
+    int width;  // texels of a row
+    int steps;  // most of a ray; of one tile of the screen a row has those on it
     int rows;
     int batches;
     ReachedLimit limit;  // what makes more than one batch
@@ -75,10 +76,20 @@ struct Layout {
 
 constexpr int kMaxRows = 16384;  // of a texture, on every device of OpenGL 4.5
 
+// Steps of a ray on a tile: none is longer than a pixel, and they are shorter only where there are
+// no more of them than of pixels and one.
+int stepsOnTile(const PixelRegion& tile) {
+    const glm::ivec2 extent = tile.end - tile.first;
+    return std::max(extent.x, extent.y) + 4;
+}
+
 Layout makeLayout(const FrameBuilder& frame, const LinesParams& params, int photonCount) {
-    const int width = params.width > 0 ? params.width
+    const int steps = params.width > 0 ? params.width
                                        : std::clamp(std::max(frame.width(), frame.height()),
                                                     params.minimum, kMaxRows);
+    const std::optional<ScreenTile> tile = frame.tile();
+    const int width =
+        tile ? std::min(steps, std::max(stepsOnTile(tile->own), params.minimum)) : steps;
     const auto bytesPerRow =
         static_cast<std::size_t>(width + halved(width) + halved(halved(width))) *
         graph::bytesPerTexel(RowTexel::format);
@@ -99,7 +110,7 @@ Layout makeLayout(const FrameBuilder& frame, const LinesParams& params, int phot
         "trace.lines.memory", "MiB", static_cast<double>(params.memoryMebibytes),
         std::ceil(mebibytes), lost,  0.0};
     const bool isByRows = rows == wanted || rows == kMaxRows;
-    return {width, rows, batches, isByRows ? byRows : byMemory};
+    return {width, steps, rows, batches, isByRows ? byRows : byMemory};
 }
 
 // `run` counts the tracings of a frame: after each specular interaction there is one.
@@ -134,6 +145,7 @@ RowTextures rasterizeLines(FrameBuilder& frame, const LinesParams& params, const
                 data.extents = setup.write(textures.extents);
             }
             setup.storage("RowExtents", data.extents);
+            if (layers.tile) setup.define("TILE_SEARCH");
         },
         [params, testing, layout, layers, batch](const RowTextures& data,
                                                  gl::PassContext& context) {
@@ -148,6 +160,7 @@ RowTextures rasterizeLines(FrameBuilder& frame, const LinesParams& params, const
                 .set("batch", batch)
                 .set("firstPhoton", batch * layout.rows)
                 .set("rowsSize", glm::ivec2(layout.width, layout.rows))
+                .set("maxSteps", layout.steps)
                 .target(data.rows)
                 .clear()
                 .drawArrays(isMade ? GL_POINTS : GL_LINES, isMade ? layout.rows : 2 * layout.rows);
@@ -174,8 +187,10 @@ Reduced reduceRows(FrameBuilder& frame, const LinesParams& params, const Layered
             data.hits = hits;
             if (batch == 0) {
                 data.hits = Hits::create(setup, hits.incoming);
+                createTileOutput(setup, layers, data.hits);
             } else {
                 data.hits.rewrite(setup);
+                rewriteTileOutput(setup, layers, data.hits);
             }
             data.hits.store(setup);
             data.hits.incoming.account(setup);
@@ -204,7 +219,7 @@ Reduced reduceRows(FrameBuilder& frame, const LinesParams& params, const Layered
                 .set("batch", batch)
                 .texture("column", source)
                 .set("firstPhoton", batch * layout.rows)
-                .set("rowsWidth", layout.width)
+                .set("maxSteps", layout.steps)
                 .dispatchOver(layout.rows, 64);
         });
 }
@@ -215,7 +230,8 @@ Hits traceLines(FrameBuilder& frame, const LinesParams& params, Photons photons,
     needsEyesView("trace.lines", "the layers", layers.views);
     // The device alone knows how many there are: rows for as many as there may be.
     const Layout layout = makeLayout(frame, params, photons.capacity());
-    reportStepLimit(frame, "trace.lines", "trace.lines.width", layout.width, layers);
+    reportStepLimit(frame, "trace.lines", "trace.lines.width", layout.steps, layers);
+    requireEveryPixel("trace.lines.width", layout.steps, layers);
     if (layout.batches > 1)
         frame.reportLimit({"trace.lines", {}, [=](const gl::Executor&) { return layout.limit; }});
     RowTextures textures;
@@ -242,7 +258,7 @@ void registerTraceLines(Registry& registry) {
          "It finds what the eye's layers hold and nothing else: not what is off the screen, "
          "edge-on, smaller than a pixel or beyond the last layer. It works on the screen alone, "
          "and refuses layers of another view."},
-        &traceLines);
+        {.tiles = true}, &traceLines);
 }
 
 }  // namespace kaustik

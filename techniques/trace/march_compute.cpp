@@ -20,7 +20,7 @@ void registerTraceMarchCompute(Registry& registry) {
          "K06, section 2.1, the comparison",
          "It finds what the layers of the view hold and nothing else: not what is outside of that "
          "view, edge-on, smaller than a pixel or beyond the last layer."},
-        &traceMarchCompute);
+        {.tiles = true}, &traceMarchCompute);
 }
 
 }  // namespace kaustik

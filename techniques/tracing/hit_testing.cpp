@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <memory>
 
+#include "framework/core/error.h"
+
 namespace kaustik {
 
 HitTesting hitTesting(FrameBuilder& frame) {
@@ -42,6 +44,29 @@ void reportStepLimit(FrameBuilder& frame, const std::string& pass, const std::st
     frame.reportLimit({pass, {}, [limit](const gl::Executor&) { return limit; }});
 }
 
+void createTileOutput(graph::PassSetup& setup, const LayeredDepth& layers, Hits& hits) {
+    if (!layers.tile) return;
+    const Photons& photons = hits.incoming;
+    hits.order = setup.image("hitOrder", setup.create<HitOrder>("hits.order" + photons.suffix,
+                                                                photons.width, photons.height));
+    setup.define("TILE_SEARCH");
+}
+
+void rewriteTileOutput(graph::PassSetup& setup, const LayeredDepth& layers, Hits& hits) {
+    if (!layers.tile) return;
+    hits.order = setup.image("hitOrder", setup.write(hits.order));
+    setup.define("TILE_SEARCH");
+}
+
+void requireEveryPixel(const std::string& parameter, int steps, const LayeredDepth& layers) {
+    const int longerSide = std::max(layers.views->width(), layers.views->height());
+    if (!layers.tile || steps >= longerSide) return;
+    throw ConfigError(fmt::format(
+        "--tile: {} = {} lets rays skip pixels of the picture, whose longer side has {}; set it "
+        "to 0.",
+        parameter, steps, longerSide));
+}
+
 void readLayers(graph::PassSetup& setup, const LayeredDepth& layers) {
     setup.sample("layerDepths", layers.depth);
     setup.sample("layerSurfaces", layers.surface);
@@ -56,6 +81,11 @@ gl::Command& setHitTesting(gl::Command& command, const HitTesting& testing,
         command.define("CLOSED_DIELECTRICS");
     if (testing.mayBeNested) command.define("NESTED_BODIES");
     if (layers.views) layers.views->bindTo(command);
+    if (layers.tile) {
+        const ScreenTile& tile = *layers.tile;
+        command.offer("tileOwn", glm::vec4(tile.own.first, tile.own.end))
+            .offer("tileShown", glm::vec4(tile.shown.first, tile.shown.end));
+    }
     return command.params("trace", testing.params).set("layerCount", layers.layers);
 }
 

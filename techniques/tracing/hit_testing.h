@@ -23,6 +23,15 @@ void reportStepLimit(FrameBuilder& frame, const std::string& pass, const std::st
 // Declares that a pass looks these layers up, under the names of include/views/hit_test.glsl, and
 // tells its command how.
 void readLayers(graph::PassSetup& setup, const LayeredDepth& layers);
+// Where the layers are those of one tile of the screen, what a tracer that searches it gives
+// besides hits: a pass that makes them, in the first of several batches, and one that goes on.
+// Shaders are compiled as TILE_SEARCH (shaders/tracing/tile_search.glsl).
+void createTileOutput(graph::PassSetup& setup, const LayeredDepth& layers, Hits& hits);
+void rewriteTileOutput(graph::PassSetup& setup, const LayeredDepth& layers, Hits& hits);
+// Throws ConfigError where rays of so many steps at most, `parameter`, skip pixels: then they could
+// skip a tile's border as well.
+void requireEveryPixel(const std::string& parameter, int steps, const LayeredDepth& layers);
+// Sets which layers there are, and of which tile.
 gl::Command& setHitTesting(gl::Command& command, const HitTesting& testing,
                            const LayeredDepth& layers);
 

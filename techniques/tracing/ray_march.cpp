@@ -24,6 +24,7 @@ Hits marchRays(FrameBuilder& frame, const RayMarch& march, const MarchParams& wa
     const MarchParams params = withSteps(layers, wanted);
     const bool isThread = march.shader.ends_with(".comp");
     reportStepLimit(frame, name, name + ".steps", params.steps, layers);
+    requireEveryPixel(name + ".steps", params.steps, layers);
     return frame.pass<Hits>(
         name,
         isThread ? "one thread a photon follows its ray" : "one fragment a photon follows its ray",
@@ -34,6 +35,7 @@ Hits marchRays(FrameBuilder& frame, const RayMarch& march, const MarchParams& wa
             hits = Hits::create(setup, photons);
             hits.incoming.account(setup);
             if (isThread) hits.store(setup);
+            createTileOutput(setup, layers, hits);
         },
         [testing = hitTesting(frame), name, shader = march.shader, params, isThread, layers](
             const Hits& hits, gl::PassContext& context) {

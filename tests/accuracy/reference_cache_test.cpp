@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "framework/core/content_hash.h"
 #include "framework/core/error.h"
 #include "framework/core/files.h"
-#include "framework/reference/content_hash.h"
 #include "framework/reference/reference.h"
 #include "framework/scene/files/scene_file.h"
 #include "tests/unit/temporary_folder.h"

@@ -81,3 +81,16 @@ refuses "--jobs: 'x'" local_sh --shards 2 --jobs x -- "${reference[@]}" --out a.
 refuses "--per-task: '0'" "$root/experiments/cluster/slurm.sh" --shards 2 --per-task 0 -- \
     "${reference[@]}" --out a.exr
 expect "something was written" test ! -e a.exr -a ! -e a.shards
+
+# One picture on tiles of the screen, which needs no GNU parallel.
+tiles_sh() { "$root/experiments/cluster/tiles.sh" "$@"; }
+picture=(run glass-sphere --size 32x24 --frames 1 --warmup 0 --set photons=16x16
+    --set specular.bounces=2 --set shadow.map.size=64)
+"$KAUSTIK" "${picture[@]}" --out whole
+tiles_sh --tiles 3 --jobs 2 -- "${picture[@]}" --out "in tiles"
+for file in caustic.exr beauty.exr; do
+    expect "$file of tiles is another" cmp "whole/$file" "in tiles/$file"
+done
+refuses "--tiles: 'x'" tiles_sh --tiles x -- "${picture[@]}" --out a
+refuses "run SCENE" tiles_sh --tiles 2 -- "${reference[@]}" --out a.exr
+refuses "--tile is this script's" tiles_sh --tiles 2 -- "${picture[@]}" --tile 1/2 --out a

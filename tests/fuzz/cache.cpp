@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The sums of a reference in the cache. They end in a checksum, which no mutation would hit: the
 // fuzzer's bytes are what comes before it, and what is made of them must be usable.
-#include "framework/reference/content_hash.h"
+#include "framework/core/content_hash.h"
 #include "framework/reference/pixel_sums.h"
 #include "tests/fuzz/seeds.h"
 #include "tests/fuzz/target.h"
@@ -10,7 +10,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
     using namespace kaustik;
     using reference::PixelSums;
     const std::string content(fuzz::text(bytes, size));
-    const std::string whole = content + reference::ContentHash().addBytes(content).hex();
+    const std::string whole = content + ContentHash().addBytes(content).hex();
     return fuzz::tryToRead([&] {
         PixelSums sums = PixelSums::fromBytes(whole, fuzz::kSumsKey, "input");
         for (int layer = 0; layer < sums.layers(); ++layer) {

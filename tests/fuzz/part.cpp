@@ -3,7 +3,7 @@
 // line is what comes before it, and the sums are what follows.
 #include "framework/reference/part_file.h"
 
-#include "framework/reference/content_hash.h"
+#include "framework/core/content_hash.h"
 #include "tests/fuzz/target.h"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
@@ -12,7 +12,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
     const std::size_t end = std::min(input.find('\n'), input.size());
     const std::string head(input.substr(0, end));
     const std::string content = "kaustik.part/1\n" + head + "\n" +
-                                reference::ContentHash().addBytes(head).hex() + "\n" +
+                                ContentHash().addBytes(head).hex() + "\n" +
                                 std::string(input.substr(std::min(end + 1, input.size())));
     return fuzz::tryToRead([&] {
         const auto file = fuzz::inputFile(

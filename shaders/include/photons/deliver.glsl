@@ -19,7 +19,13 @@ vec3 receiverNormal(vec3 positionVs, vec3 direction, vec3 shading, vec3 geometri
     return sameLight && sameEye ? shading : geometric;
 }
 
-// Accounts for what was absorbed on the way and what arrives at a receiver. `shading`, `geometric`:
+// Accounts for what was absorbed on the way, of which `left` is left, and what arrives at a receiver.
+void accountForHit(Photon photon, vec3 left, vec3 arrivingWatts, bool arrives) {
+    ledgerAdd(kAccountAbsorbed, photon.fluxWatts * (1.0 - left));
+    if (arrives) ledgerAdd(kAccountArrived, arrivingWatts);
+}
+
+// The hit at a distance, accounted for. `shading`, `geometric`:
 // unit, outward; `material`: index + 1.
 Hit deliverTo(Photon photon, float distance, vec3 shading, vec3 geometric, uint material) {
     Hit hit = emptyHit();
@@ -33,8 +39,7 @@ Hit deliverTo(Photon photon, float distance, vec3 shading, vec3 geometric, uint 
     // Asking whether there is a medium would cost more than adding its zeros.
     vec3 left = transmittanceOver(extinctionAround(photon.media), hit.distanceMeters);
     hit.fluxWatts = photon.fluxWatts * left;
-    ledgerAdd(kAccountAbsorbed, photon.fluxWatts * (1.0 - left));
     hit.fate = arrives ? kFateReceiver : kFateSpecular;
-    if (arrives) ledgerAdd(kAccountArrived, hit.fluxWatts);
+    accountForHit(photon, left, hit.fluxWatts, arrives);
     return hit;
 }

@@ -139,17 +139,18 @@ struct FirstHit {
     ivec2 pixel;
     bool isExit;  // the photon came out, or in, between two pixels
     int face;     // of many views, the one that it was hit in
+    int step;     // of the ray
 };
 
 FirstHit noHit() {
-    return FirstHit(LayerHit(0.0, -1), ivec2(0), false, viewIndex);
+    return FirstHit(LayerHit(0.0, -1), ivec2(0), false, viewIndex, 0);
 }
 
 // What one step of a ray hits: a layer's plane, or, where the scene has closed dielectrics, the
 // way out of one, or into a body that lies in it, that no plane shows. Every tracer asks here.
 FirstHit hitOfStep(RaySegment segment, TracedRay ray, int i, int n) {
     FirstHit found =
-        FirstHit(testStep(segment, ray, i, n), texelOfStep(segment, i, n), false, viewIndex);
+        FirstHit(testStep(segment, ray, i, n), texelOfStep(segment, i, n), false, viewIndex, i);
 #ifdef CLOSED_DIELECTRICS
     if (found.hit.layer < 0) {
         found.hit = testExit(segment, ray, i, n);
@@ -166,22 +167,29 @@ FirstHit hitOfStep(RaySegment segment, TracedRay ray, int i, int n) {
     return found;
 }
 
-// Asks the steps of a ray in order. A hit may lie half a step beyond its own, and the next step
+// Asks the steps [begin, end) of a ray of `n`, in order. A hit may lie half a step beyond its own, and the next step
 // know a nearer one: it is asked too, as the reduce of all steps does.
-FirstHit firstHitOfSteps(RaySegment segment, TracedRay ray, int n) {
+// `asked`: how many they were.
+FirstHit firstHitOfSteps(RaySegment segment, TracedRay ray, int begin, int end, int n,
+                         out uint asked) {
     FirstHit first = noHit();
-    int end = n;
-    for (int i = 0; i < end; ++i) {
+    asked = 0u;
+    for (int i = begin; i < end; ++i) {
+        ++asked;
         FirstHit found = hitOfStep(segment, ray, i, n);
         if (found.hit.layer < 0) continue;
         if (first.hit.layer < 0) {
-            end = min(end, i + 2);
+            end = min(n, i + 2);
         } else if (found.hit.t >= first.hit.t) {
             continue;
         }
         first = found;
     }
     return first;
+}
+FirstHit firstHitOfSteps(RaySegment segment, TracedRay ray, int n) {
+    uint asked;
+    return firstHitOfSteps(segment, ray, 0, n, n, asked);
 }
 
 #ifdef MANY_VIEWS

@@ -7,9 +7,12 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <iostream>
 #include <map>
 
+#include "framework/run/settings.h"
+#include "framework/scene/files/scene_file.h"
 #include "tests/gpu/fixture.h"
 #include "tests/gpu/strict/driver_limits.h"
 #include "tests/gpu/strict/mixtures.h"
@@ -54,6 +57,45 @@ TEST_F(StrictCompiler, TakesEveryProgramOfEveryMixture) {
     std::cout << fmt::format("  {} programs of {} mixtures ({} refused); {} pairs, {} never meet\n",
                              programs.size(), count.frames, count.refused, count.pairs,
                              count.apart);
+    const std::vector<CheckedProgram> checked = checkPrograms(programs);
+    for (std::size_t i = 0; i < programs.size(); ++i) {
+        EXPECT_EQ(checked[i].problem, "") << names[i];
+        EXPECT_EQ(joined(beyondDriverLimits(checked[i].stages)), "") << names[i];
+    }
+}
+
+// Those of a tile of the screen and of a frame that takes its hits, by tracer.
+TEST_F(StrictCompiler, TakesTheProgramsOfTiles) {
+    const Registry registry = registerAll();
+    const scene::Scene scene = scene::loadScene("glass-sphere");
+    static_cast<void>(context());
+    std::map<RecordedProgram, std::string> distinct;
+    {
+        const Recording recording;
+        for (const char* tracer :
+             {"hierarchical", "hierarchical_compute", "march", "march_compute", "lines"}) {
+            RenderSettings settings = run::makeSettings(
+                {.technique = "screen_space_photons",
+                 .assignments = {{"trace", tracer, "test"}, {"emit.photons", "32x32", "test"}}},
+                registry);
+            run::setSize(settings, {64, 48});
+            const ScreenTile tile = withBorder(tileOf({1, 2}, 64, 48), 4, 64, 48);
+            settings.tiles = std::make_shared<TileFrame>(TileFrame{{RoundOfHits{}}, tile});
+            Renderer renderer(context(), registry, scene, settings);
+            renderer.build(Purpose::picture);
+            gl::PassTimer timer(gl::TimerMode::finish);
+            renderer.renderFrame(timer);
+        }
+        for (const auto& [program, name] : recording.programs())
+            distinct.emplace(withoutUnused(program), name);
+    }
+    std::vector<RecordedProgram> programs;
+    std::vector<std::string> names;
+    for (const auto& [program, name] : distinct) {
+        programs.push_back(program);
+        names.push_back(name);
+    }
+    EXPECT_NE(std::find(names.begin(), names.end(), "framework/tile_hits.comp"), names.end());
     const std::vector<CheckedProgram> checked = checkPrograms(programs);
     for (std::size_t i = 0; i < programs.size(); ++i) {
         EXPECT_EQ(checked[i].problem, "") << names[i];

@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace kaustik::reference {
+namespace kaustik {
 
 class ContentHash {
   public:
@@ -32,4 +32,4 @@ class ContentHash {
     std::uint64_t b_ = 0xbb67ae8584caa73bu;
 };
 
-}  // namespace kaustik::reference
+}  // namespace kaustik

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "framework/reference/content_hash.h"
+#include "framework/core/content_hash.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <bit>
 #include <cstring>
 
-namespace kaustik::reference {
+namespace kaustik {
 namespace {
 
 // The finishing step of MurmurHash3.
@@ -41,4 +41,4 @@ std::string ContentHash::hex() const {
     return fmt::format("{:016x}{:016x}", mix(a_ + b_), mix(b_ ^ std::rotl(a_, 17)));
 }
 
-}  // namespace kaustik::reference
+}  // namespace kaustik

@@ -1,0 +1,53 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Makes one picture whose photons are traced on N tiles of the screen, a process each, round by round
+# (K06, section 6): to the bit the picture of the whole screen. Started again, it does what is left.
+#   tiles.sh --tiles N [--jobs J] -- run SCENE … --out FOLDER
+# J tiles are traced at a time, as many as there are processors; within an allocation of Slurm's
+# (sbatch --ntasks=N, salloc) each is a task of its own. What tiles exchange lies in FOLDER.tiles.
+#   tiles.sh --tiles 4 -- run glass-bunny --out out/bunny
+#   sbatch --ntasks=4 --wrap 'experiments/cluster/tiles.sh --tiles 4 --jobs 4 -- run pool --out out/pool'
+set -euo pipefail
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+# shellcheck source=command.sh
+source "$root/experiments/cluster/command.sh"
+
+tiles= jobs=$(nproc)
+while (($# > 0)); do
+    case $1 in
+        -h | --help)
+            sed -n '3,10s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"
+            exit 0
+            ;;
+        --tiles) tiles=${2:-} && shift ;;
+        --jobs) jobs=${2:-} && shift ;;
+        --)
+            shift
+            break
+            ;;
+        *) fail "there is no option '$1'; the command comes after --" ;;
+    esac
+    (($# > 0)) && shift
+done
+is_whole_number "$tiles" || fail "--tiles: '$tiles' is not a number of tiles"
+is_whole_number "$jobs" || fail "--jobs: '$jobs' is not a number of tiles at a time"
+read_arguments "$@"
+[[ ${arguments[0]:-} == run ]] || fail "after -- comes 'run SCENE …'"
+
+exchange=$out.tiles
+mkdir -p "$exchange"
+task=()
+[[ -z ${SLURM_JOB_ID:-} ]] || task=(srun --ntasks=1 --exact --quiet)
+# Mesa's software rasteriser would take every core of the machine.
+processors=$(nproc)
+export LP_NUM_THREADS=${LP_NUM_THREADS:-$((processors > jobs ? processors / jobs : 1))}
+more=yes
+while [[ -n $more ]]; do
+    seq "$tiles" | xargs -P "$jobs" -I '{}' "${task[@]}" \
+        "$kaustik" "${arguments[@]}" --tile '{}'"/$tiles" --tiles "$exchange"
+    said=$("$kaustik" tiles "$exchange")
+    echo "$said"
+    [[ $said == *"another round"* ]] || more=
+done
+"$kaustik" "${arguments[@]}" --tiles "$exchange" --out "$out"
