@@ -64,7 +64,9 @@ void FrameBuilder::needsWayOut(const Photons& photons, const Surfaces& /*surface
             choices.push_back("specular=" + node.name);
     }
     for (const Registry::Node& node : registry.nodes()) {
-        if (node.stage == TraceStage::name && !registry.traits<TraceStage>(node.name).onlyReceivers)
+        if (node.stage != TraceStage::name) continue;
+        const auto& tracer = registry.traits<TraceStage>(node.name);
+        if (!tracer.onlyReceivers && !tracer.multipliesLight)
             choices.push_back("trace=" + node.name);
     }
     throw ConfigError(fmt::format(

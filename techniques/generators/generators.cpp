@@ -196,7 +196,7 @@ const gl::Buffer& generatorsBlock(FrameBuilder& frame) {
 }
 
 std::string suffixOfGenerator(std::size_t generator) {
-    return generator == 0 ? "" : fmt::format(".{}", generator + 1);
+    return generator == 0 ? "" : fmt::format(".cube_{}", generator + 1);
 }
 
 std::vector<render::RasterView> facesAround(const Generator& generator, int side) {

@@ -22,6 +22,10 @@ const std::vector<MendedFind>& mendedFinds() {
         {"mixed --set emit.photons=64x64 --set around.cubes.size=64 --set reconstruct.space=cube "
          "--set gather=cube --set around.points=16",
          "balance"},
+        // Batches of one generator's map and the next generator's map had one name.
+        {"lights --set emit.photons=64x64 --set around.cubes.size=64 --set reconstruct=lens "
+         "--set reconstruct.space=cube --set gather=cube --set around.points=2",
+         "bits emit.batch=512"},
         // The refusal named what was taken already.
         {"ball --set emit.photons=64x64 --set driver=hierarchical --set trace=all_hits",
          "refusal"}};
