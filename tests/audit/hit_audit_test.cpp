@@ -257,7 +257,8 @@ TEST(HitAudit, JudgesATracerOfPlanesByFlatReceiversWhereverTheyAre) {
 TEST(HitAudit, CountsPhotonsThatGoStraightThroughFurtherSurfaces) {
     const scene::Scene scene = scene::loadScene("glass-bunny");
     const auto audited = [&](const char* blockers) {
-        return Audited(scene, {{"specular", "two_interfaces"},
+        return Audited(scene, {{"emit.photons", "128x128"},
+                               {"specular", "two_interfaces"},
                                {"trace", "background"},
                                {"trace.blockers", blockers}});
     };

@@ -236,7 +236,7 @@ SEEDS = {
                       b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\0\0\0\0"),
     "settings": lambda: ('{"view": {"a": ' + "[" * 70 + "]" * 70 + "}}",),
     "reference": lambda: ('{"images": ' + "[" * 70 + "]" * 70 + "}",),
-    "cache": lambda: (), "part": lambda: (), "study": studies,
+    "cache": lambda: (), "part": lambda: (), "tile": lambda: (), "study": studies,
 }
 
 # Whose texts a target's reader compares with.
@@ -246,6 +246,7 @@ SOURCES = {
     "ply": ["importers/ply.cpp"], "3ds": [], "gzip": [], "pfm": [], "image": [],
     "settings": ["gui/document.cpp", "gui/state.cpp"], "reference": ["reference/*_file.cpp"],
     "cache": [], "part": ["reference/part_file.cpp", "reference/request_json.cpp"],
+    "tile": ["run/tile_file.cpp"],
     "study": ["experiment/merge.cpp", "experiment/run_folder.cpp", "experiment/results.cpp"],
 }
 

@@ -8,6 +8,7 @@
 #include "framework/gui/state.h"
 #include "framework/image/image.h"
 #include "framework/reference/part_file.h"
+#include "framework/run/tile_file.h"
 #include "tests/fuzz/seeds.h"
 
 int main(int argc, char** argv) {
@@ -34,6 +35,18 @@ int main(int argc, char** argv) {
     std::getline(std::getline(std::getline(lines, format), first), checksum);
     writeFileWhole(part,
                    first + "\n" + lines.str().substr(static_cast<std::size_t>(lines.tellg())));
+
+    run::TileFile tile;
+    tile.head.subject = {{"scene", "smallest"}};
+    tile.head.tile = Shard{1, 2};
+    tile.head.count = 2;
+    tile.hits["_1"] = {3, "rays", {FirstHitTexels{.photon = 1}}};
+    const std::filesystem::path hits = folder / "tile/seed";
+    run::writeTileFile(hits, tile);
+    std::istringstream tileLines(readFile(hits));
+    std::getline(std::getline(std::getline(tileLines, format), first), checksum);
+    writeFileWhole(
+        hits, first + "\n" + tileLines.str().substr(static_cast<std::size_t>(tileLines.tellg())));
 
     constexpr std::size_t kChecksumBytes = 32;  // which the target adds
     const std::string sums = fuzz::smallSums().toBytes(fuzz::kSumsKey);

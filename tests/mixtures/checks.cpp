@@ -159,8 +159,10 @@ Check scaleOf(double factor) {
         [factor](Bench& bench, const Rendered& rendered) -> Verdict {
             Variation variation;
             variation.scale = factor;
+            const bool isExact = std::exp2(std::round(std::log2(factor))) == factor;
+            if (!isExact && isCoarse(rendered.mixture, rendered.shot)) return {false};
             const Shot scaled = bench.render(rendered.mixture, variation);
-            if (std::exp2(std::round(std::log2(factor))) == factor) {
+            if (isExact) {
                 return {true, differenceInValues(rendered.shot, scaled, 1.0,
                                                  1.0 / (factor * factor), kExact)};
             }
@@ -171,6 +173,7 @@ Check scaleOf(double factor) {
 Check turnOf(double degrees) {
     return {fmt::format("turn {}", degrees),
             [degrees](Bench& bench, const Rendered& rendered) -> Verdict {
+                if (isCoarse(rendered.mixture, rendered.shot)) return {false};
                 Variation variation;
                 variation.turnDegrees = degrees;
                 return {true,
@@ -199,8 +202,15 @@ std::vector<Check> checksOfAFrame() {
 std::vector<Check> drawnChecks(Random& random, const Rendered& rendered) {
     const params::ParamSet params = paramsOf(rendered.mixture);
     std::vector<Check> bits = {bitsOf("nothing")};
+    // A node that has settings of its own has no twin.
+    const auto isBare = [&](const std::string& stage) {
+        const std::string own = stage + "." + params.choice(stage) + ".";
+        return std::none_of(rendered.mixture.settings.begin(), rendered.mixture.settings.end(),
+                            [&](const auto& setting) { return setting.first.starts_with(own); });
+    };
     for (const Neutral& neutral : neutralSettings()) {
         const std::string value = random.of(neutral.values);
+        if (neutral.isChoice && !isBare(neutral.name)) continue;
         const bool hasEffect = neutral.isChoice
                                    ? std::find(neutral.values.begin(), neutral.values.end(),
                                                params.choice(neutral.name)) != neutral.values.end()

@@ -79,7 +79,7 @@ TEST(EveryCheck, SeesAFaultOfItsKind) {
     expectSeen("scale 0.125", ball, brighterInOneValue(1.00001f));
     expectSeen("scale 0.125", ball,
                [](Shot& shot) { shot.ledger.watts[transport::kAccountAbsorbed] += 1.0; });
-    expectSeen("scale 100", ball, brighter(1.02f));
+    expectSeen("scale 100", ball, brighter(1.04f));
     expectSeen("turn 33", ball, brighter(1.05f));
     // The light of one half of the picture in the other one.
     expectSeen("turn 33", ball, [](Shot& shot) {

@@ -21,31 +21,6 @@ constexpr double kStandardErrors = 3.0;
 // Outputs of which the picture shows hardly anything are not judged: a few photons are all of them.
 constexpr double kLeastShare = 0.02;
 
-// Whether fewer photons, cells or texels than a small mixture's stand for the light: then the
-// energy is that of where a few of them happen to lie.
-bool isCoarse(const Mixture& mixture, const Shot& shot) {
-    constexpr std::uint64_t kFewPhotons = 1000;
-    if (shot.ledger.events[transport::kAccountEmitted] < kFewPhotons) return true;
-    const params::ParamSet params = paramsOf(mixture);
-    const Settings& small = smallMixture(mixture.scene).settings;
-    return std::any_of(small.begin(), small.end(), [&](const auto& setting) {
-        const auto& [name, least] = setting;
-        if (shot.idle.count(name) > 0 || name == "refine.start" || name == "refine.check")
-            return false;
-        std::istringstream own(params.find(name).text());
-        std::istringstream wanted(least);
-        int side = 0;
-        int leastSide = 0;
-        char between = ' ';
-        while (own >> side && wanted >> leastSide) {
-            if (side < leastSide) return true;
-            own >> between;
-            wanted >> between;
-        }
-        return false;
-    });
-}
-
 struct Energy {
     bool isJudged = false;
     std::string problem;
@@ -91,8 +66,10 @@ std::vector<Settings> remediesOf(const Rendered& rendered) {
             std::find(remedies.begin(), remedies.end(), settings) == remedies.end())
             remedies.push_back(std::move(settings));
     };
-    for (const std::string& warning : rendered.shot.warnings)
-        add(advised(warning));
+    for (const std::string& warning : rendered.shot.warnings) {
+        // What would make use of a setting is no advice about the light.
+        if (warning.find("has no effect") == std::string::npos) add(advised(warning));
+    }
     for (const ReachedLimit& limit : rendered.shot.limits) {
         const double value = limit.needed > limit.value ? limit.needed : 4.0 * limit.value;
         add({{limit.parameter, fmt::format("{:.0f}", std::ceil(value))}});
@@ -113,6 +90,29 @@ bool isRightWith(Bench& bench, Mixture mixture, const Settings& settings) {
 }
 
 }  // namespace
+
+bool isCoarse(const Mixture& mixture, const Shot& shot) {
+    constexpr std::uint64_t kFewPhotons = 1000;
+    if (shot.ledger.events[transport::kAccountEmitted] < kFewPhotons) return true;
+    const params::ParamSet params = paramsOf(mixture);
+    const Settings& small = smallMixture(mixture.scene).settings;
+    return std::any_of(small.begin(), small.end(), [&](const auto& setting) {
+        const auto& [name, least] = setting;
+        if (shot.idle.count(name) > 0 || name == "refine.start" || name == "refine.check")
+            return false;
+        std::istringstream own(params.find(name).text());
+        std::istringstream wanted(least);
+        int side = 0;
+        int leastSide = 0;
+        char between = ' ';
+        while (own >> side && wanted >> leastSide) {
+            if (side < leastSide) return true;
+            own >> between;
+            wanted >> between;
+        }
+        return false;
+    });
+}
 
 Verdict energyVerdict(Bench& bench, const Rendered& rendered) {
     const Energy energy = energyOf(bench, rendered.mixture, rendered.shot);

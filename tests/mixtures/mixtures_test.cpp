@@ -69,7 +69,8 @@ TEST(AnswersThatDoNotFit, AreRefusedWithASettingThatHelps) {
     }
 }
 
-TEST(EveryCostlyEnd, IsRenderedOrRefusedForMemory) {
+// Takes minutes: run with --gtest_also_run_disabled_tests.
+TEST(EveryCostlyEnd, DISABLED_IsRenderedOrRefusedForMemory) {
     for (const Mixture& mixture : mixturesAtCostlyEnds()) {
         Refusal refusal;
         const std::optional<Rendered> rendered = renderForChecks(testBench(), mixture, refusal);

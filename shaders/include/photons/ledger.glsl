@@ -16,14 +16,15 @@ void ledgerAddUnits(uint account, uint lowUnits, uint highUnits) {
 }
 
 // Adds the flux of all channels to an account, as one event. What is not a number counts as an
-// event of its own account and adds nothing; nothing is no event.
+// event of its own account and adds nothing; nothing is no event but there.
 void ledgerAdd(uint account, vec3 fluxWatts) {
     float watts = fluxWatts.r + fluxWatts.g + fluxWatts.b;
     if (isnan(watts) || isinf(watts) || watts < 0.0) {
         atomicAdd(ledger[kAccountNotANumber].events, 1u);
         return;
     }
-    if (watts == 0.0 || isOfOtherBatch(watts)) return;
+    if (watts == 0.0 && account != kAccountNotANumber) return;
+    if (isOfOtherBatch(watts)) return;
     uvec2 units = unitsOfWatts(watts);
     ledgerAddUnits(account, units.x, units.y);
     atomicAdd(ledger[account].events, 1u);
