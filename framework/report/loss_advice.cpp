@@ -34,6 +34,13 @@ std::vector<std::string> lossAdvice(const EnergyLedger& ledger, const Renderer& 
             "looked for or stored (hidden_in_map, outside_map); {} loses none of it to that.",
             100.0 * hidden, instead));
     }
+    const double discarded = ledger.watts[kAccountDiscardedTriangle] / emitted;
+    if (emitted > 0.0 && discarded > kLossWithoutAWord) {
+        advice.push_back(fmt::format(
+            "{:.3g}% of the light lies between photons that are not joined (discarded_triangle); "
+            "reconstruct.triangles.unjoined=beams covers it.",
+            100.0 * discarded));
+    }
     return advice;
 }
 

@@ -22,6 +22,8 @@ const std::vector<MendedFind>& mendedFinds() {
         {"mixed --set emit.photons=64x64 --set around.cubes.size=64 --set reconstruct.space=cube "
          "--set gather=cube --set around.points=16",
          "balance"},
+        // Half of the light was discarded without a word.
+        {"mirror --set emit.photons=64x64 --set reconstruct.triangles.unjoined=discard", "energy"},
         // Batches of one generator's map and the next generator's map had one name.
         {"lights --set emit.photons=64x64 --set around.cubes.size=64 --set reconstruct=lens "
          "--set reconstruct.space=cube --set gather=cube --set around.points=2",
