@@ -27,8 +27,8 @@ std::vector<std::string> violations(const EnergyLedger& ledger, const Renderer& 
     const FrameFacts facts{renderer.registry(), settings, &renderer.needs()};
     std::vector<std::string> found;
     const double balance = ledger.balance();
-    const bool hasBalance = !facts.traits<TraceStage>().multipliesLight &&
-                            renderer.settings().disabledPasses.empty();
+    const bool hasBalance =
+        !facts.traits<TraceStage>().multipliesLight && renderer.settings().disabledPasses.empty();
     if (hasBalance && !(std::abs(balance) <= kLargestBalance)) {
         found.push_back(fmt::format(
             "Energy is not conserved: of {:.4g} W emitted, {:.3g}% {} (balance {:.1e}); one of the "
