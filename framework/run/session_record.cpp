@@ -35,8 +35,9 @@ void addReflectionWarnings(report::RunRecord& record, const Renderer& renderer) 
             "it totally reflected, which it is in no ball ({}.distance=search loses none of it).",
             node, 100.0 * published, node));
     }
-    // Of texels at a silhouette, where light grazes the ball: there it all but is totally reflected.
-    // In a grid that is the same from eight sides eight photons are there alike, whatever they carry.
+    // Of texels at a silhouette, where light grazes the ball: there it all but is totally
+    // reflected. In a grid that is the same from eight sides eight photons are there alike,
+    // whatever they carry.
     constexpr double kRounding = 1e-4;
     constexpr std::uint64_t kGrazing = 8;
     const double reflected = ledger.watts[kAccountInternalReflectionLimit] / emitted;

@@ -29,7 +29,7 @@ bool contains(const scene::Bounds& outer, const scene::Bounds& inner) {
 
 struct SurfaceTriangle {
     glm::dvec3 corners[3];
-    bool isOpen = false;    // light leaves it where it has come to it, else anywhere
+    bool isOpen = false;  // light leaves it where it has come to it, else anywhere
     bool isMirror = false;
     double areaUpTo = 0.0;  // of all triangles up to this one, m²
 };

@@ -68,10 +68,9 @@ class Audited {
         emittedWatts = renderer_->ledger().watts[transport::kAccountEmitted];
         ledger = audit::resolveLedger(*renderer_, hits, emittedWatts);
         const EnergyLedger traced = audit::bookedByTracers(*renderer_);
-        for (const unsigned account :
-             {transport::kAccountLeftScene, transport::kAccountOffScreen,
-              transport::kAccountBehindEye, transport::kAccountUnresolved,
-              transport::kAccountMissedByTracer}) {
+        for (const unsigned account : {transport::kAccountLeftScene, transport::kAccountOffScreen,
+                                       transport::kAccountBehindEye, transport::kAccountUnresolved,
+                                       transport::kAccountMissedByTracer}) {
             lostByTracersWatts += traced.watts[account];
         }
     }

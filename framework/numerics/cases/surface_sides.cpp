@@ -250,8 +250,9 @@ void shadingNormalOfATracedHit(Lab& lab) {
                        "photons that come to the wall behind a mirrored ball or do not, otherwise "
                        "than exact rays",
                        0, otherwise,
-                       {9, "of 900, those that pass the ball's outline within a texel of where its "
-                           "light sees it"});
+                       {9,
+                        "of 900, those that pass the ball's outline within a texel of where its "
+                        "light sees it"});
             continue;
         }
         lab.expect(tracer.subject, "hits of a coarse mirrored ball that reflect into it", 0, wrong,

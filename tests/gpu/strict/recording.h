@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Stands between the framework and the driver: while it lives, OpenGL compiles, draws,
-// dispatches and stores nothing, and what it was given to compile is noted. So the programs of hundreds of
-// frames are known in seconds, as the very texts that a driver would have been handed.
+// dispatches and stores nothing, and what it was given to compile is noted. So the programs of
+// hundreds of frames are known in seconds, as the very texts that a driver would have been handed.
 #pragma once
 
 #include <epoxy/gl.h>

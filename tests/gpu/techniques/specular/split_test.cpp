@@ -50,8 +50,8 @@ segments = 192
 )");
 }
 
-// How many pixels are darker than `factor` of the least of their neighbours, where all of these have
-// more than `lit`, W/m².
+// How many pixels are darker than `factor` of the least of their neighbours, where all of these
+// have more than `lit`, W/m².
 int gapsIn(const Texels& irradiance, double factor, double lit) {
     int gaps = 0;
     int judged = 0;

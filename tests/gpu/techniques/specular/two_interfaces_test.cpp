@@ -153,8 +153,8 @@ TEST_P(Slab, ByEstimatesGoesAsFarAsTheirWeightsSay) {
     const double weight = slant.inside() / slant.angle();
     // d_V: along the sun's own ray; d_N: along the normal, the slab's thickness.
     const double expected = weight * straight + (1.0 - weight) * kThickness;
-    const Worst worst = worstOf(
-        render(scene, {{"specular.two_interfaces.distance", "estimates"}}), expected);
+    const Worst worst =
+        worstOf(render(scene, {{"specular.two_interfaces.distance", "estimates"}}), expected);
     expectParallel(worst);
     const double known =
         0.5 * texel * (weight * std::tan(slant.angle()) + (1.0 - weight) * std::sin(slant.angle()));
