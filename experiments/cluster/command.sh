@@ -11,6 +11,32 @@ fail() {
     exit 2
 }
 
+# read_options NAME ARGUMENT... : of `--NAME N [--jobs J] -- COMMAND…` N goes to `count`, J to `jobs`
+# ("" where it is not given) and the rest to `undivided`; --help prints the head of the calling script.
+read_options() {
+    local name=$1
+    shift
+    count= jobs=
+    while (($# > 0)); do
+        case $1 in
+            -h | --help)
+                sed -n '3,10s/^# \{0,1\}//p' "${BASH_SOURCE[1]}"
+                exit 0
+                ;;
+            "--$name") count=${2:-} && shift ;;
+            --jobs) jobs=${2:-} && shift ;;
+            --)
+                shift
+                break
+                ;;
+            *) fail "there is no option '$1'; the command comes after --" ;;
+        esac
+        (($# > 0)) && shift
+    done
+    undivided=("$@")
+    is_whole_number "$count" || fail "--$name: '$count' is not a number of $name"
+}
+
 # read_arguments ARGUMENT... : those of the undivided command, whatever it is.
 read_arguments() {
     arguments=()

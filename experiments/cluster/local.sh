@@ -13,24 +13,9 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 # shellcheck source=command.sh
 source "$root/experiments/cluster/command.sh"
 
-shards= jobs=
-while (($# > 0)); do
-    case $1 in
-        -h | --help)
-            sed -n '3,10s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"
-            exit 0
-            ;;
-        --shards) shards=${2:-} && shift ;;
-        --jobs) jobs=${2:-} && shift ;;
-        --)
-            shift
-            break
-            ;;
-        *) fail "there is no option '$1'; the command comes after --" ;;
-    esac
-    (($# > 0)) && shift
-done
-is_whole_number "$shards" || fail "--shards: '$shards' is not a number of shards"
+read_options shards "$@"
+set -- "${undivided[@]}"
+shards=$count
 read_command "$@"
 processors=$(nproc)
 [[ -n $jobs ]] || jobs=$([[ $kind == reference ]] && echo "$processors" || echo 1)

@@ -13,24 +13,10 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 # shellcheck source=command.sh
 source "$root/experiments/cluster/command.sh"
 
-tiles= jobs=$(nproc)
-while (($# > 0)); do
-    case $1 in
-        -h | --help)
-            sed -n '3,10s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"
-            exit 0
-            ;;
-        --tiles) tiles=${2:-} && shift ;;
-        --jobs) jobs=${2:-} && shift ;;
-        --)
-            shift
-            break
-            ;;
-        *) fail "there is no option '$1'; the command comes after --" ;;
-    esac
-    (($# > 0)) && shift
-done
-is_whole_number "$tiles" || fail "--tiles: '$tiles' is not a number of tiles"
+read_options tiles "$@"
+set -- "${undivided[@]}"
+tiles=$count
+[[ -n $jobs ]] || jobs=$(nproc)
 is_whole_number "$jobs" || fail "--jobs: '$jobs' is not a number of tiles at a time"
 read_arguments "$@"
 [[ ${arguments[0]:-} == run ]] || fail "after -- comes 'run SCENE …'"

@@ -27,7 +27,7 @@ struct TileCost {
 };
 
 struct TileHead {
-    nlohmann::json subject;     // what the hits depend on besides the tile: all of it must agree
+    nlohmann::json subject;     // what the hits depend on but for the tile: all of it must agree
     std::optional<Shard> tile;  // none: the first hits of all
     std::uint64_t count = 1;    // tiles of the screen
     int round = 1;              // after so many interactions of each photon

@@ -15,7 +15,7 @@
 
 namespace kaustik::run {
 
-// What first hits depend on besides the tile.
+// What first hits depend on but for the tile.
 [[nodiscard]] nlohmann::json tileSubject(const gl::Context& context, const scene::Scene& scene,
                                          const RenderSettings& settings);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a tracer says besides hits where it asks the steps of one tile of the screen alone
+// What a tracer says next to hits where it asks the steps of one tile of the screen alone
 // (TILE_SEARCH; K06, section 6): each hit's place in the order of the ray, so that of several
 // tiles' hits the first is known, and counts of the work.
 #include "include/photons/traced_photon.glsl"

@@ -24,7 +24,7 @@ void reportStepLimit(FrameBuilder& frame, const std::string& pass, const std::st
 // tells its command how.
 void readLayers(graph::PassSetup& setup, const LayeredDepth& layers);
 // Where the layers are those of one tile of the screen, what a tracer that searches it gives
-// besides hits: a pass that makes them, in the first of several batches, and one that goes on.
+// next to hits: a pass that makes them, in the first of several batches, and one that goes on.
 // Shaders are compiled as TILE_SEARCH (shaders/tracing/tile_search.glsl).
 void createTileOutput(graph::PassSetup& setup, const LayeredDepth& layers, Hits& hits);
 void rewriteTileOutput(graph::PassSetup& setup, const LayeredDepth& layers, Hits& hits);

@@ -2,10 +2,14 @@
 #include "tests/mixtures/draws.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <chrono>
 #include <iostream>
 #include <map>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "framework/core/error.h"
 #include "tests/mixtures/finds.h"
@@ -104,6 +108,27 @@ void runOne(Bench& bench, const Draws& draws, int number, Tally& tally) {
 }
 
 }  // namespace
+
+int runEnds(Bench& bench) {
+    int found = 0;
+    for (const Mixture& mixture : mixturesAtCostlyEnds()) {
+        std::vector<std::string> problems;
+        Refusal refusal;
+        const std::optional<Rendered> rendered = renderForChecks(bench, mixture, refusal);
+        if (!rendered) problems.push_back(faultOf(bench, mixture, refusal));
+        for (const Check& check : checksOfAFrame()) {
+            if (rendered && check.name != "energy")
+                problems.push_back(check.run(bench, *rendered).problem);
+        }
+        std::erase(problems, "");
+        found += problems.empty() ? 0 : 1;
+        std::cout << fmt::format("{}\n  {}", lineOf(mixture),
+                                 problems.empty() ? rendered ? "holds" : "refused"
+                                                  : fmt::format("{}", fmt::join(problems, "; ")))
+                  << std::endl;
+    }
+    return found;
+}
 
 int runDraws(Bench& bench, const Draws& draws) {
     Tally tally(bench, draws);

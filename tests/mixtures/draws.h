@@ -21,4 +21,8 @@ struct Draws {
 // number of finds that are not known.
 [[nodiscard]] int runDraws(Bench& bench, const Draws& draws);
 
+// The same of mixtures at the costly ends of ranges, each of which takes its time, or is refused
+// for memory; an end need not be of use, so that energy is not asked for.
+[[nodiscard]] int runEnds(Bench& bench);
+
 }  // namespace kaustik::mixtures

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The tests of mixtures, or, with --count or --line, mixtures that are drawn at random, or one:
 //     mixtures --count 1000 --seed 7 --minimise
+//     mixtures --ends
 //     mixtures --line "ball --set trace=background" --check "scale 100"
 // Ends with 1 where something is found that is not known.
 #include <gtest/gtest.h>
@@ -51,14 +52,17 @@ int main(int argc, char** argv) {
     app.add_option("--first", draws.first, "The number of the first one");
     app.add_option("--checks", draws.checks, "Checks of each that take further frames");
     app.add_flag("--minimise", draws.minimises, "Drops what a find does not need");
+    bool ends = false;
+    app.add_flag("--ends", ends, "Costly ends of ranges instead");
     app.add_option("--line", line, "Checks this mixture instead");
     app.add_option("--check", checks, "Of the line; without, those that take no further frame");
     CLI11_PARSE(app, argc, argv);
     try {
         const std::unique_ptr<gl::Context> context = gl::Context::createHeadless(true);
         Bench bench(*context);
-        const int found =
-            line.empty() ? runDraws(bench, draws) : checkLine(bench, line, checks, draws.minimises);
+        const int found = ends           ? runEnds(bench)
+                          : line.empty() ? runDraws(bench, draws)
+                                         : checkLine(bench, line, checks, draws.minimises);
         return found > 0 ? 1 : 0;
     } catch (const Error& error) {
         std::cerr << error.what() << '\n';

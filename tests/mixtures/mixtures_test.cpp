@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What must hold for any mixture of nodes and settings, of mixtures that have all pairs of nodes,
-// of costly ends of ranges, and of what mixtures drawn at random have been found to do wrong. More
-// are drawn by `mixtures --count 1000`.
+// What must hold for any mixture of nodes and settings, of mixtures that have all pairs of nodes
+// and of what others have been found to do wrong. More are drawn by `mixtures --count 1000`, and
+// costly ends of ranges tried by `mixtures --ends`.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -66,23 +66,6 @@ TEST(AnswersThatDoNotFit, AreRefusedWithASettingThatHelps) {
         Refusal refusal;
         EXPECT_FALSE(renderForChecks(testBench(), mixture, refusal)) << lineOf(mixture);
         expectNoProblem(mixture, "refusal", faultOf(testBench(), mixture, refusal));
-    }
-}
-
-// Takes minutes: run with --gtest_also_run_disabled_tests.
-TEST(EveryCostlyEnd, DISABLED_IsRenderedOrRefusedForMemory) {
-    for (const Mixture& mixture : mixturesAtCostlyEnds()) {
-        Refusal refusal;
-        const std::optional<Rendered> rendered = renderForChecks(testBench(), mixture, refusal);
-        if (!rendered) {
-            expectNoProblem(mixture, "refusal", faultOf(testBench(), mixture, refusal));
-            continue;
-        }
-        for (const Check& check : checksOfAFrame()) {
-            // An end need not be of use.
-            if (check.name == "energy") continue;
-            expectNoProblem(mixture, check.name, check.run(testBench(), *rendered).problem);
-        }
     }
 }
 

@@ -167,7 +167,8 @@ FirstHit hitOfStep(RaySegment segment, TracedRay ray, int i, int n) {
     return found;
 }
 
-// Asks the steps [begin, end) of a ray of `n`, in order. A hit may lie half a step beyond its own, and the next step
+// Asks the steps [begin, end) of a ray of `n`, in order. A hit may lie half a step beyond its own,
+// and the next step
 // know a nearer one: it is asked too, as the reduce of all steps does.
 // `asked`: how many they were.
 FirstHit firstHitOfSteps(RaySegment segment, TracedRay ray, int begin, int end, int n,

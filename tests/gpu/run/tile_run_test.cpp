@@ -63,14 +63,14 @@ TEST_P(Tiles, GiveTheBitsOfTheWholePicture) {
     const std::filesystem::path folder = folder_ / "tiles";
     std::filesystem::create_directories(folder);
     int rounds = 0;
-    for (bool goesOn = true; goesOn; ++rounds) {
+    for (bool isComplete = false; !isComplete; ++rounds) {
         for (std::uint64_t number = 1; number <= count; ++number)
             ASSERT_TRUE(
                 run::traceTile(context(), registry_, scene, settings, folder, {number, count}));
         const std::optional<run::MergedRound> merged = run::mergeTiles(folder);
         ASSERT_TRUE(merged);
         EXPECT_EQ(merged->head.round, rounds + 1);
-        goesOn = !merged->head.isComplete;
+        isComplete = merged->head.isComplete;
     }
     EXPECT_EQ(rounds, std::string(name) == "wavy" ? 1 : 2);
     EXPECT_FALSE(run::traceTile(context(), registry_, scene, settings, folder, {1, count}))

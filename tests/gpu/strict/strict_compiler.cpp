@@ -168,7 +168,7 @@ StageResources resourcesOf(const std::string& kind, const nlohmann::json& reflec
 constexpr const char* kTools = R"(
 cd "$1" || exit 1
 take() { "$@" > log 2>&1 || { echo "$1" > failed; exit 0; }; }
-# All stages together: GLSL's rules, and SPIR-V's besides. What GLSL lets a program number later gets
+# All stages together: GLSL's rules, and SPIR-V's. What GLSL lets a program number later gets
 # its number here.
 take glslangValidator -G --amb --aml shader.*
 for module in comp vert geom frag; do

@@ -36,32 +36,33 @@ class StrictCompiler : public testing::Test {
             checkPrograms({{{"comp", "#version 450 core\n" + text}}}).front();
         return checked.problem + joined(beyondDriverLimits(checked.stages));
     }
+    // All programs that were recorded; their names.
+    static std::vector<std::string> expectTaken(const Recording& recording) {
+        std::map<RecordedProgram, std::string> distinct;
+        for (const auto& [program, name] : recording.programs())
+            distinct.emplace(withoutUnused(program), name);
+        std::vector<RecordedProgram> programs;
+        std::vector<std::string> names;
+        for (const auto& [program, name] : distinct) {
+            programs.push_back(program);
+            names.push_back(name);
+        }
+        const std::vector<CheckedProgram> checked = checkPrograms(programs);
+        for (std::size_t i = 0; i < programs.size(); ++i) {
+            EXPECT_EQ(checked[i].problem, "") << names[i];
+            EXPECT_EQ(joined(beyondDriverLimits(checked[i].stages)), "") << names[i];
+        }
+        return names;
+    }
 };
 
 TEST_F(StrictCompiler, TakesEveryProgramOfEveryMixture) {
     static_cast<void>(context());
-    std::map<RecordedProgram, std::string> distinct;
-    MixtureCount count;
-    {
-        const Recording recording;
-        count = renderMixtures();
-        for (const auto& [program, name] : recording.programs())
-            distinct.emplace(withoutUnused(program), name);
-    }
-    std::vector<RecordedProgram> programs;
-    std::vector<std::string> names;
-    for (const auto& [program, name] : distinct) {
-        programs.push_back(program);
-        names.push_back(name);
-    }
+    const Recording recording;
+    const MixtureCount count = renderMixtures();
+    const std::vector<std::string> names = expectTaken(recording);
     std::cout << fmt::format("  {} programs of {} mixtures ({} refused); {} pairs, {} never meet\n",
-                             programs.size(), count.frames, count.refused, count.pairs,
-                             count.apart);
-    const std::vector<CheckedProgram> checked = checkPrograms(programs);
-    for (std::size_t i = 0; i < programs.size(); ++i) {
-        EXPECT_EQ(checked[i].problem, "") << names[i];
-        EXPECT_EQ(joined(beyondDriverLimits(checked[i].stages)), "") << names[i];
-    }
+                             names.size(), count.frames, count.refused, count.pairs, count.apart);
 }
 
 // Those of a tile of the screen and of a frame that takes its hits, by tracer.
@@ -69,38 +70,23 @@ TEST_F(StrictCompiler, TakesTheProgramsOfTiles) {
     const Registry registry = registerAll();
     const scene::Scene scene = scene::loadScene("glass-sphere");
     static_cast<void>(context());
-    std::map<RecordedProgram, std::string> distinct;
-    {
-        const Recording recording;
-        for (const char* tracer :
-             {"hierarchical", "hierarchical_compute", "march", "march_compute", "lines"}) {
-            RenderSettings settings = run::makeSettings(
-                {.technique = "screen_space_photons",
-                 .assignments = {{"trace", tracer, "test"}, {"emit.photons", "32x32", "test"}}},
-                registry);
-            run::setSize(settings, {64, 48});
-            const ScreenTile tile = withBorder(tileOf({1, 2}, 64, 48), 4, 64, 48);
-            settings.tiles = std::make_shared<TileFrame>(TileFrame{{RoundOfHits{}}, tile});
-            Renderer renderer(context(), registry, scene, settings);
-            renderer.build(Purpose::picture);
-            gl::PassTimer timer(gl::TimerMode::finish);
-            renderer.renderFrame(timer);
-        }
-        for (const auto& [program, name] : recording.programs())
-            distinct.emplace(withoutUnused(program), name);
+    const Recording recording;
+    for (const char* tracer :
+         {"hierarchical", "hierarchical_compute", "march", "march_compute", "lines"}) {
+        RenderSettings settings = run::makeSettings(
+            {.technique = "screen_space_photons",
+             .assignments = {{"trace", tracer, "test"}, {"emit.photons", "32x32", "test"}}},
+            registry);
+        run::setSize(settings, {64, 48});
+        const ScreenTile tile = withBorder(tileOf({1, 2}, 64, 48), 4, 64, 48);
+        settings.tiles = std::make_shared<TileFrame>(TileFrame{{RoundOfHits{}}, tile});
+        Renderer renderer(context(), registry, scene, settings);
+        renderer.build(Purpose::picture);
+        gl::PassTimer timer(gl::TimerMode::finish);
+        renderer.renderFrame(timer);
     }
-    std::vector<RecordedProgram> programs;
-    std::vector<std::string> names;
-    for (const auto& [program, name] : distinct) {
-        programs.push_back(program);
-        names.push_back(name);
-    }
+    const std::vector<std::string> names = expectTaken(recording);
     EXPECT_NE(std::find(names.begin(), names.end(), "framework/tile_hits.comp"), names.end());
-    const std::vector<CheckedProgram> checked = checkPrograms(programs);
-    for (std::size_t i = 0; i < programs.size(); ++i) {
-        EXPECT_EQ(checked[i].problem, "") << names[i];
-        EXPECT_EQ(joined(beyondDriverLimits(checked[i].stages)), "") << names[i];
-    }
 }
 
 TEST_F(StrictCompiler, TakesAPlainProgram) {
