@@ -146,15 +146,59 @@ float turn(inout AroundPath path, vec3 positionVs, vec3 normal, uint material,
     return interaction.reflectance;
 }
 
+// Reflected parts of the eye's ray that wait to be followed.
+const int kMaxBranches = 8;
+AroundPath waiting[kMaxBranches];
+int waitingCount = 0;
+int branchCount = 1;  // of this ray of the eye, the refracted one included
+
+// Whether the branch will be followed: there is room for `view.around.branches` of a ray.
+bool keepForLater(AroundPath branch) {
+    if (branchCount >= view_around_branches) return false;
+    ++branchCount;
+    waiting[waitingCount] = branch;
+    ++waitingCount;
+    return true;
+}
+
+// At a specular surface, where the refracted part goes on and the reflected one waits. Without room
+// for both the stronger is followed, unless the path is the one that exits are told of
+// (`isRefracted`), which is refracted unless all is reflected.
+void part(inout AroundPath path, vec3 positionVs, vec3 normal, uint material, bool isRefracted) {
+    AroundPath reflected = path;
+    float reflectance = turn(path, positionVs, normal, material, reflected.direction);
+    if (reflectance <= 0.0) return;
+    reflected.origin = positionVs;
+    reflected.share *= reflectance;
+    reflected.media = withLeftSide(reflected.media, kLeftNone);
+    ++reflected.hits;
+    if (!keepForLater(reflected) && !isRefracted && reflectance > 0.5) path = reflected;
+}
+
+// Of a path that comes to nothing that the layers show. In the open that is the environment; within
+// water or between walls it is something that the reference points do not see, of which the receiver
+// straight behind the pixel's surface is what is known (as include/views/scene_look.glsl has it).
+vec3 radianceOfUnseen(AroundPath path, ivec2 pixel) {
+    uint medium = innerMedium(path.media);
+    if (medium != 0u && isOpen(medium - 1u)) {
+        float behind = texelFetch(receiver, pixel, 0).x + path.origin.z;
+        if (behind > 0.0) {
+            float length = behind / max(-path.direction.z, 0.1);
+            return texelFetch(receiverRadiance, pixel, 0).rgb * mediumTransmittance(medium, length);
+        }
+    }
+    return environmentRadiance(directionFromEye(path.direction)) *
+           mediumTransmittance(medium, 1e30);
+}
+
 // What the path sees at last, W/m²/sr, with what is left of it.
-vec3 follow(inout AroundPath path) {
+vec3 follow(inout AroundPath path, ivec2 pixel, bool isRefracted) {
     for (int i = 0; i <= view_around_interfaces && path.ending > kPathLost; ++i) {
         FirstHit first = firstAround(path.origin, path.direction, path.media);
         if (first.hit.layer < 0) {
             if (isInsideClosed(path.media)) path.ending = kPathLost;
             viewIndex = 0;
-            return path.share * environmentRadiance(directionFromEye(path.direction)) *
-                   mediumTransmittance(innerMedium(path.media), 1e30);
+            return path.share * radianceOfUnseen(path, pixel);
         }
         viewIndex = first.face;
         vec4 surface = texelFetch(layerSurfaces, layerTexel(first.pixel, first.hit.layer), 0);
@@ -172,8 +216,7 @@ vec3 follow(inout AroundPath path) {
         vec3 shading =
             directionToEye(smoothSurfaceAt(pointFromEye(there), surface, layer).normal);
         vec3 normal = bendingNormal(path.direction, shading, geometric, material, path.media);
-        vec3 unused;
-        turn(path, there, normal, material, unused);
+        part(path, there, normal, material, isRefracted);
     }
     if (path.ending > kPathLost) path.ending = kPathEndedInside;
     viewIndex = 0;
@@ -204,19 +247,17 @@ void main() {
     AroundPath path =
         AroundPath(vec3(0.0), direction, mediumTransmittance(innerMedium(mediaAtEye), length(entry)),
                    mediaAtEye, 0, kPathExited);
-    vec3 reached = path.share;
     vec3 normal = bendingNormal(direction, surface.xyz, surface.xyz, material, mediaAtEye);
-    vec3 reflectedDirection;
-    float reflectance = turn(path, entry, normal, material, reflectedDirection);
-    vec3 seen = follow(path);
+    part(path, entry, normal, material, true);
+    vec3 seen = follow(path, pixel, true);
     exitPosition = vec4(path.origin, float(path.hits));
     exitDirection = vec4(path.direction, path.ending);
     seen *= solidAngles(mediaAtEye, path.media);
-    if (reflectance > 0.0) {
-        AroundPath reflected = AroundPath(entry, reflectedDirection, reached * reflectance,
-                                          withLeftSide(mediaAtEye, kLeftNone), 1, kPathExited);
-        vec3 also = follow(reflected);
-        seen += also * solidAngles(mediaAtEye, reflected.media);
+    while (waitingCount > 0) {
+        --waitingCount;
+        AroundPath branch = waiting[waitingCount];
+        vec3 reflected = follow(branch, pixel, false);
+        seen += reflected * solidAngles(mediaAtEye, branch.media);
     }
     radiance = vec4(seen, 1.0);
     weigh(radiance);

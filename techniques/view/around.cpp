@@ -23,6 +23,7 @@ namespace {
 
 struct AroundViewParams {
     int interfaces = 8;
+    int branches = 4;
     bool caustics = true;
     float stride = 4.0f;
     int maxSteps = 256;
@@ -32,6 +33,10 @@ struct AroundViewParams {
         r.field(interfaces, "interfaces",
                 "Specular surfaces that a ray of the eye is followed to after the first", "",
                 params::range(1, 16));
+        r.field(branches, "branches",
+                "Parts of a ray that are followed at most: the refracted one, and what surfaces "
+                "reflect; where there is no room for a reflected one the stronger goes on",
+                "", params::range(1, 8));
         r.field(caustics, "caustics", "Light what rays end at by what is stored around generators");
         r.field(stride, "stride", "As trace.secant.stride", "texels", params::range(0.1f, 64.0f));
         r.field(maxSteps, "max_steps", "As trace.secant.max_steps", "", params::range(2, 4096));
