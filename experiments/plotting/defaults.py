@@ -42,8 +42,8 @@ def main() -> int:
     scenes = defaultdict(list)
     for row in rows:
         scenes[row["scene"]].append(row)
-    print("| scene | `specular` | traced | relMSE | HDR FLIP | energy ratio | not followed |")
-    print("| --- " * 7 + "|")
+    print("| scene | `specular` | traced | relMSE | SMAPE | HDR FLIP | energy ratio | not followed |")
+    print("| --- " * 8 + "|")
     for scene, runs in sorted(scenes.items()):
         for row in sorted(runs, key=name_of):
             emitted = float(row.get("energy.emitted_w") or 0.0)
@@ -51,7 +51,8 @@ def main() -> int:
             share = f"{100.0 * untraced / emitted:.2f} %" if emitted > 0.0 else ""
             error = "error.caustic_irradiance."
             print(f"| `{scene}` | `{name_of(row)}` | {number(row, 'photons.traced', ',.0f')} | "
-                  f"{number(row, error + 'rel_mse', '.2g')} | {number(row, error + 'flip_hdr', '.3f')} | "
+                  f"{number(row, error + 'rel_mse', '.2g')} | "
+                  f"{number(row, error + 'smape', '.3f')} | {number(row, error + 'flip_hdr', '.3f')} | "
                   f"{number(row, error + 'energy_ratio', '.3f')} | {share} |")
     return 0
 
