@@ -1,0 +1,115 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""One table of a study: a row a run, what differs between the runs, and what was measured.
+
+    table.py RESULTS [--csv FILE]
+
+RESULTS is a folder of `kaustik experiment run`, or one of its runs.csv. Prints Markdown; --csv writes the
+same columns, unrounded. Errors of the caustic are against all light, but those named "modelled", which are
+against the paths that the run's photons can take. ms: of all passes of the caustic, from emission to gather, and of
+those of what the eye sees through specular surfaces (view). A run that failed has its message instead.
+"""
+
+import argparse
+import csv
+import sys
+from pathlib import Path
+
+CAUSTIC = ("geometry.", "driver.", "emit.", "refine.", "around.", "generator.", "specular.", "light.",
+           "trace.", "reconstruct.", "filter.", "gather.", "temporal.", "layers.", "media.")
+ERROR = "error.caustic_irradiance."
+MODELLED = "error.modelled_paths.caustic_irradiance."
+VIEW = "error.view.radiance."
+
+
+def number(row: dict, key: str) -> float | None:
+    text = row.get(key) or ""
+    try:
+        return float(text)
+    except ValueError:
+        return None
+
+
+def sum_of_passes(row: dict, starts: tuple) -> float | None:
+    times = [number(row, key) for key in row if key.startswith("pass:") and key[5:].startswith(starts)]
+    found = [time for time in times if time is not None]
+    return sum(found) if found else None
+
+
+def share(row: dict, key: str) -> float | None:
+    emitted, part = number(row, "energy.emitted_w"), number(row, key)
+    return 100.0 * part / emitted if emitted and part is not None else None
+
+
+# Name, how it is printed, and how it is got from a row.
+MEASURED = [
+    ("emitted", ",.0f", lambda row: number(row, "photons.emitted")),
+    ("traced", ",.0f", lambda row: number(row, "photons.traced")),
+    ("hits right", ".4f", lambda row: number(row, "hits.agreement")),
+    ("of seen", ".4f", lambda row: number(row, "hits.agreement_reachable")),
+    ("relMSE", ".3g", lambda row: number(row, ERROR + "rel_mse")),
+    ("SMAPE", ".3f", lambda row: number(row, ERROR + "smape")),
+    ("HDR FLIP", ".3f", lambda row: number(row, ERROR + "flip_hdr")),
+    ("energy", ".3f", lambda row: number(row, ERROR + "energy_ratio")),
+    ("relMSE, modelled", ".3g", lambda row: number(row, MODELLED + "rel_mse")),
+    ("SMAPE, modelled", ".3f", lambda row: number(row, MODELLED + "smape")),
+    ("energy, modelled", ".3f", lambda row: number(row, MODELLED + "energy_ratio")),
+    ("not followed, %", ".2f", lambda row: share(row, "energy.lost_w.untraced_branch")),
+    ("view relMSE", ".3g", lambda row: number(row, VIEW + "rel_mse")),
+    ("view energy", ".3f", lambda row: number(row, VIEW + "energy_ratio")),
+    ("view lost", ".4f", lambda row: number(row, "error.view.lost")),
+    ("ms", ".0f", lambda row: sum_of_passes(row, CAUSTIC)),
+    ("view ms", ".0f", lambda row: sum_of_passes(row, ("view.",))),
+]
+
+
+def settings_of(rows: list[dict]) -> list[str]:
+    """The study's settings, which stand between `message` and the times, as far as they differ."""
+    keys = list(rows[0])
+    own = keys[keys.index("message") + 1:keys.index("frame_ms.max")]
+    return [key for key in own if len({row[key] for row in rows}) > 1]
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("results", type=Path)
+    parser.add_argument("--csv", type=Path)
+    arguments = parser.parse_args()
+    table = arguments.results / "runs.csv" if arguments.results.is_dir() else arguments.results
+    if not table.is_file():
+        print(f"table: '{table}' is not there; is '{arguments.results}' the results of "
+              "'kaustik experiment run'?", file=sys.stderr)
+        return 1
+    with table.open(newline="") as lines:
+        rows = list(csv.DictReader(lines))
+    if not rows or "message" not in rows[0] or "frame_ms.max" not in rows[0]:
+        print(f"table: '{table}' has no runs of a study", file=sys.stderr)
+        return 1
+    settings = settings_of(rows)
+    rows.sort(key=lambda row: row.get("scene") or "")  # otherwise in the study's own order
+    measured = [m for m in MEASURED if any(m[2](row) is not None for row in rows)]
+    header = settings + [name for name, _, _ in measured]
+    print("| " + " | ".join(f"`{key}`" if key in settings else key for key in header) + " |")
+    print("| --- " * len(header) + "|")
+    for row in rows:
+        cells = [f"`{row[key]}`" if row[key] else "–" for key in settings]
+        if row["status"] == "done":
+            values = [(form, get(row)) for _, form, get in measured]
+            cells += [format(value, form) if value is not None else "–" for form, value in values]
+        else:
+            cells += [row["message"]] + [""] * (len(measured) - 1)
+        print("| " + " | ".join(cells) + " |")
+    if arguments.csv:
+        with arguments.csv.open("w", newline="", encoding="utf-8") as stream:
+            writer = csv.writer(stream, lineterminator="\n")
+            writer.writerow(settings + ["status", "message"] + [name for name, _, _ in measured] +
+                            ["device", "version"])
+            for row in rows:
+                writer.writerow([row[key] for key in settings] + [row["status"], row["message"]] +
+                                ["" if get(row) is None else get(row) for _, _, get in measured] +
+                                [row.get("device", ""), row.get("version", "")])
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
