@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace kaustik::report {
 namespace {
 
@@ -17,30 +19,53 @@ std::string otherView(const params::ParamSet& settings) {
         instead += fmt::format("{}reconstruct.space=screen and gather=screen",
                                instead.empty() ? "" : " with ");
     }
-    return instead;
+    return instead.empty() ? "" : instead + " loses none of it to that";
+}
+
+// What finds more than the tracer does; "" where it finds all.
+std::string otherTracer(const params::ParamSet& settings) {
+    const std::string tracer = settings.choice(TraceStage::name);
+    if (tracer == "raytraced") return "";
+    if (tracer == "background" || tracer == "plane")
+        return "trace=hierarchical looks among all that the eye sees";
+    if (tracer != "secant" && settings.find("trace.test").text() != "crossing")
+        return "trace.test=crossing finds more, trace=raytraced all";
+    return "trace=raytraced finds all";
+}
+
+// What follows more branches; "" where another node is needed, whose photons are others.
+std::string moreBranches(const params::ParamSet& settings) {
+    const std::string specular = settings.choice(SpecularStage::name);
+    if (specular == "interface") return "specular=split follows both";
+    if (specular != "split") return "";
+    const int levels = std::stoi(settings.find("specular.split.levels").text());
+    return fmt::format("specular.split.levels={} follows more", std::max(levels + 2, 3));
 }
 
 }  // namespace
 
 std::vector<std::string> lossAdvice(const EnergyLedger& ledger, const Renderer& renderer) {
-    std::vector<std::string> advice;
     const double emitted = ledger.watts[kAccountEmitted];
-    const double hidden =
-        (ledger.watts[kAccountHiddenInMap] + ledger.watts[kAccountOutsideMap]) / emitted;
-    const std::string instead = otherView(renderer.settings().params);
-    if (emitted > 0.0 && hidden > kLossWithoutAWord && !instead.empty()) {
-        advice.push_back(fmt::format(
-            "{:.3g}% of the light comes to receivers that are not in the view in which it is "
-            "looked for or stored (hidden_in_map, outside_map); {} loses none of it to that.",
-            100.0 * hidden, instead));
-    }
-    const double discarded = ledger.watts[kAccountDiscardedTriangle] / emitted;
-    if (emitted > 0.0 && discarded > kLossWithoutAWord) {
-        advice.push_back(fmt::format(
-            "{:.3g}% of the light lies between photons that are not joined (discarded_triangle); "
-            "reconstruct.triangles.unjoined=beams covers it.",
-            100.0 * discarded));
-    }
+    if (!(emitted > 0.0)) return {};
+    std::vector<std::string> advice;
+    const params::ParamSet& settings = renderer.settings().params;
+    const auto say = [&](double watts, const std::string& instead, const std::string& sentence) {
+        const double share = watts / emitted;
+        if (share <= kLossWithoutAWord || instead.empty()) return;
+        advice.push_back(
+            fmt::format("{:.3g}% of the light {}; {}.", 100.0 * share, sentence, instead));
+    };
+    const auto& watts = ledger.watts;
+    say(watts[kAccountHiddenInMap] + watts[kAccountOutsideMap], otherView(settings),
+        "comes to receivers that are not in the view in which it is looked for or stored "
+        "(hidden_in_map, outside_map)");
+    say(watts[kAccountDiscardedTriangle], "reconstruct.triangles.unjoined=beams covers it",
+        "lies between photons that are not joined (discarded_triangle)");
+    say(watts[kAccountMissedByTracer] + watts[kAccountEdgeOn], otherTracer(settings),
+        fmt::format("comes to surfaces that trace={} does not find (tracer, edge_on)",
+                    settings.choice(TraceStage::name)));
+    say(watts[kAccountUntracedBranch], moreBranches(settings),
+        "is in branches that are not followed (untraced_branch)");
     return advice;
 }
 

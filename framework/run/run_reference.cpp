@@ -192,7 +192,7 @@ std::vector<fs::path> RunReference::judge(const Renderer& renderer, const fs::pa
     if (through > 0.01) {
         record.warnings.push_back(fmt::format(
             "{} of {} photons, {:.2g}%, went straight through a further specular surface, which "
-            "trace={} did not find.",
+            "trace={} did not find; trace=raytraced does.",
             hits.throughSpecular, hits.photons, 100.0 * through,
             renderer.settings().params.choice(TraceStage::name)));
     }

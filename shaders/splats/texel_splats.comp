@@ -110,7 +110,9 @@ int fateOfPart(Splat splat, ivec2 texel) {
         return kSeenOffScreen;
 #endif
     }
-    if (keepsEdges == 0 || level > 0) return kSeenOn;
+    if (level > 0) return kSeenOn;
+    // Across edges only on to what receives light: where nothing does, nothing would show it.
+    if (keepsEdges == 0) return receiverAt(texel).x > 0.0 ? kSeenOn : kSeenOutside;
     return lookAt(splat, texel);
 }
 
