@@ -32,7 +32,8 @@ void reflect(F& f, const StoredMap& map) {
     f.field("light", map.light, "The light whose view it is in");
     f.field("size", map.size, "Width and height in texels");
     f.field("views", map.views, "Pictures that it has, such as a cube's six faces");
-    f.field("cascade", map.cascade, "Of a further map of a part of the light's view, which of them it is");
+    f.field("cascade", map.cascade,
+            "Of a further map of a part of the light's view, which of them it is");
 }
 
 struct MapTable {
