@@ -2,7 +2,8 @@
 // Hierarchical caustic maps: Wyman 2008 (W08), as WN09 describe them. Its parts by section:
 // papers.md.
 // As published: one photon a cell of a grid, two interfaces by W05's estimates, no search once the
-// iteration has ended, splats wherever they lie.
+// iteration has ended, paths told apart by where they end alone, and a map of several resolutions,
+// the coarser of which hold the photons that diverge, wherever their splats lie.
 #include "framework/pipeline/registry.h"
 
 namespace kaustik {
@@ -27,7 +28,10 @@ void registerHierarchicalCausticMap(Registry& registry) {
                          {"specular", "two_interfaces"},
                          {"specular.two_interfaces.distance", "estimates"},
                          {"trace.background.steps", "0"},
-                         {"reconstruct.fixed.edges", "crossed"},
+                         {"refine.signature", "off"},
+                         {"reconstruct", "multi_level"},
+                         {"reconstruct.multi_level.edges", "crossed"},
+                         {"filter", "level_sum"},
                          {"view.image_space.distance", "estimates"}}});
 }
 

@@ -5,7 +5,10 @@
 
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "framework/core/json_schema.h"
 #include "framework/render/raster_views.h"
@@ -29,7 +32,8 @@ void reflect(F& f, const StoredMap& map) {
     f.field("light", map.light, "The light whose view it is in");
     f.field("size", map.size, "Width and height in texels");
     f.field("views", map.views, "Pictures that it has, such as a cube's six faces");
-    f.field("cascade", map.cascade, "Of a map of what the eye sees nearer by, which of them it is");
+    f.field("cascade", map.cascade,
+            "Of a further map of a part of the light's view, which of them it is");
 }
 
 struct MapTable {
@@ -58,6 +62,7 @@ void reflect(F& f, const MapTable& table) {
 
 struct CellTable {
     transport::CellCounts counts{};
+    std::optional<std::vector<unsigned>> squares;  // where a driver walks over them
 };
 template <class F>
 void reflect(F& f, const CellTable& table) {
@@ -69,6 +74,10 @@ void reflect(F& f, const CellTable& table) {
     f.field("deepest_level", counts.deepest, "Of a photon's cell");
     f.field("rounds", counts.rounds, "In which cells were split");
     f.field("batches", counts.batches, "In which photons were followed");
+    f.field(
+        "squares", table.squares,
+        "Of `hierarchical`: squares of 2^i by 2^i cells that the walk from the top of the mip map "
+        "has looked at, by i; the first are cells by themselves");
 }
 
 namespace {
@@ -161,7 +170,12 @@ json mapSchema() {
 json cellAccount(const Renderer& renderer) {
     const graph::Buffer<transport::CellCounts>& cells = renderer.outputs().cells;
     if (!cells.valid()) return nullptr;
-    return jsonOf(CellTable{renderer.buffer(cells).read<transport::CellCounts>().front()});
+    CellTable table{renderer.buffer(cells).read<transport::CellCounts>().front(), {}};
+    std::vector<unsigned> squares(std::begin(table.counts.squares), std::end(table.counts.squares));
+    while (!squares.empty() && squares.back() == 0)
+        squares.pop_back();
+    if (!squares.empty()) table.squares = std::move(squares);
+    return jsonOf(table);
 }
 
 json cellSchema() {

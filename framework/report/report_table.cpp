@@ -150,6 +150,14 @@ std::string makeTable(const RunRecord& record) {
             "{}, {} rounds, {} batches\n",
             count("photons"), count("merged"), count("probes"), count("deepest_level"),
             count("rounds"), count("batches"));
+        if (record.cells.contains("squares")) {
+            table += "squares looked at    ";
+            // From the top of the mip map down.
+            const auto& squares = record.cells["squares"];
+            for (std::size_t level = squares.size(); level-- > 0;)
+                table += fmt::format(" {}", squares[level].get<unsigned>());
+            table += "\n";
+        }
     }
     const EnergyLedger& ledger = record.ledger;
     const double emitted = ledger.watts[kAccountEmitted];

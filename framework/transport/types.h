@@ -133,6 +133,7 @@ struct LightCell {
 };
 
 // What has become of an adaptive traversal, on the device.
+const uint kSquareLevels = 16u;
 struct CellCounts {
     uint moreCells;    // not 0: there are cells to look at and room for what comes of them
     uint moreBatches;  // not 0: there are cells left once the batch's photons are done
@@ -147,6 +148,8 @@ struct CellCounts {
     uint deepest;    // level of a photon's cell
     uint rounds;
     uint batches;
+    // Of a mip map of photons those that a walk from its top has looked at, of 2^i by 2^i cells.
+    uint squares[kSquareLevels];
 };
 
 // Where a photon comes from: one texel, RGBA32UI, which has `branch` above the light's 16 bits.

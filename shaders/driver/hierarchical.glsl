@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Squares of cells whose photons arrive together (W08). A level's squares lie row by row, for one
-// light and branch after the other.
+// light and branch after the other; the last level has one square of each.
+#include "framework/transport/photon_list.h"
 #include "framework/transport/types.h"
 
 struct HierarchyNode {
@@ -13,21 +14,22 @@ struct HierarchyNode {
     uint signature;  // of all
 };
 const uint kMixed = 0xffffffffu;
+// A photon of the list that arrived, and the square that it stands for.
+struct StoredPhoton {
+    uint photon;
+    uint node;   // + 1; 0: for itself
+    uint level;  // of the square
+};
 
 layout(std430) buffer HierarchyNodes {
     HierarchyNode nodes[];
 };
+// How many photons are stored of each square.
+layout(std430) buffer HierarchyStored {
+    uint storedOf[];
+};
 
 const HierarchyNode kNoNode = HierarchyNode(vec2(3.0e38), vec2(-3.0e38), vec4(0.0), 0u, 0u, 0u, 0u);
-
-// With what another square holds.
-HierarchyNode joined(HierarchyNode a, HierarchyNode b) {
-    if (a.first == 0u) return b;
-    if (b.first == 0u) return a;
-    bool isOne = a.state == b.state && a.signature == b.signature;
-    return HierarchyNode(min(a.low, b.low), max(a.high, b.high), a.flux + b.flux, a.first, a.middle,
-                         isOne ? a.state : kMixed, a.signature);
-}
 
 // Whether one photon will do; none of what no view sees.
 bool isOnePhoton(HierarchyNode node, float tolerance) {

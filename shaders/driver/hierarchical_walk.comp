@@ -1,58 +1,57 @@
 // SPDX-License-Identifier: MIT
-// From the coarsest squares of cells that one photon will do for: the middle photon of each carries
-// all of its flux, as wide as the square, the others none. One thread a photon.
+// A step of the walk from the top of the mip map (W08). Of the squares of a level that it has come
+// to, one that a photon will do for is stored as its middle photon; of the others those of the four
+// squares below that hold photons are the next level's, or their own photons are stored. One thread
+// a square.
 #include "light_cells/cell_lists.glsl"
-#include "driver/hierarchical.glsl"
-#include "include/photons/cells.glsl"
-#include "include/photons/hits.glsl"
-#include "include/photons/photon_thread.glsl"
+#include "driver/hierarchical_walk.glsl"
+#include "include/thread.glsl"
 
-layout(rgba32f) writeonly uniform image2D mergedFlux;
-#ifdef PHOTON_BEAMS
-layout(rgba32f) writeonly uniform image2D mergedPlace;
-layout(rgba32f) writeonly uniform image2D mergedTurn;
-#endif
-uniform int levels;
+layout(std430) readonly buffer CellPhotons {
+    uint cellPhotons[];  // + 1
+};
+layout(std430) writeonly buffer StoredPhotons {
+    StoredPhoton storedPhotons[];
+};
+uniform int level;
+uniform ivec2 size;  // of the level, squares
+uniform ivec2 sizeBelow;
+uniform int first;   // node of the level
+uniform int firstBelow;
+uniform int merges;  // 1: squares of this level may be one photon
 uniform float tolerance;
 
-int nodesOf(ivec2 size) { return size.x * size.y * cellLights.y << cellSplits; }
-
 void main() {
-    uint index = photonOfThread();
-    if (index >= photons.count) return;
-    ivec2 texel = ivec2(photonTexel(photons, index));
-    vec4 flux = texelFetch(hitFlux, texel, 0);
-    float width = 1.0;
-    uint place = uint(flux.w) == kFateReceiver ? cellPlace(originAt(texel)) : kNoCell;
-    if (place != kNoCell) {
-        atomicAdd(counting.probes, 1u);
-        int perGrid = cellGrid.x * cellGrid.y;
-        int grid = int(place) / perGrid;
-        ivec2 cell = ivec2(int(place) % cellGrid.x, int(place) % perGrid / cellGrid.x);
-        int first = 0;
-        ivec2 size = cellGrid;
-        HierarchyNode found = kNoNode;
-        for (int level = 1; level <= levels; ++level) {
-            size = (size + 1) / 2;
-            ivec2 here = cell >> level;
-            HierarchyNode node = nodes[first + (grid * size.y + here.y) * size.x + here.x];
-            // Squares around one that will do may do too: the coarsest counts.
-            if (isOnePhoton(node, tolerance)) {
-                found = node;
-                width = float(1 << level);
-            }
-            first += nodesOf(size);
-        }
-        if (found.first != 0u) {
-            bool isMiddle = found.middle == index + 1u;
-            flux = isMiddle ? vec4(found.flux.rgb, flux.w) : vec4(vec3(0.0), float(kFateEnded));
-            if (isMiddle) atomicAdd(counting.merged, 1u);
-        }
-        if (uint(flux.w) == kFateReceiver) atomicAdd(counting.emitted, 1u);
+    uint index = threadNumber();
+    if (index >= walkLists[level].count) return;
+    WalkSquare square = squares[uint(first) + index];
+    HierarchyNode node = nodes[uint(first) + square.node];
+    if (merges == 1 && isOnePhoton(node, tolerance)) {
+        storedPhotons[square.first] =
+            StoredPhoton(node.middle - 1u, uint(first) + square.node + 1u, uint(level));
+        atomicAdd(counting.merged, 1u);
+        return;
     }
-    imageStore(mergedFlux, texel, flux);
-#ifdef PHOTON_BEAMS
-    imageStore(mergedPlace, texel, width * texelFetch(photonBeamPlace, texel, 0));
-    imageStore(mergedTurn, texel, width * texelFetch(photonBeamTurn, texel, 0));
-#endif
+    int perGrid = size.x * size.y;
+    int grid = int(square.node) / perGrid;
+    ivec2 here = ivec2(int(square.node) % size.x, int(square.node) % perGrid / size.x);
+    uint place = square.first;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 child = 2 * here + ivec2(i & 1, i >> 1);
+        if (any(greaterThanEqual(child, sizeBelow))) continue;
+        int at = (grid * sizeBelow.y + child.y) * sizeBelow.x + child.x;
+        if (level == 1) {
+            uint photon = cellPhotons[at];
+            if (photon == 0u) continue;
+            storedPhotons[place++] = StoredPhoton(photon - 1u, 0u, 0u);
+            atomicAdd(counting.squares[0], 1u);
+            continue;
+        }
+        uint own = storedOf[firstBelow + at];
+        if (own == 0u) continue;
+        // In any order: what is stored of it has its place already.
+        uint listed = atomicAdd(walkLists[level - 1].count, 1u);
+        squares[uint(firstBelow) + listed] = WalkSquare(uint(at), place);
+        place += own;
+    }
 }

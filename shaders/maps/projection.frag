@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // gather.project, gather.cube: what the caustic map of a light or of a generator holds where the eye's
 // receivers lie. A pixel that spans several texels is the mean of several places of it.
-//   MAP_HAS_PARTS        parts of it are in finer maps, of what the eye sees nearer by
+//   MAP_HAS_PARTS        parts of it are in finer maps (reconstruct.map_cascades)
 //   GLOSSY_RECEIVERS     also what glossy receivers reflect, of light from where the map is seen from
 //   USES_MEAN_DIRECTION  or from about the mean of the directions in which it arrives
 #include "include/views/view.glsl"
@@ -68,10 +68,10 @@ bool isCoveredBy(ViewData map, vec3 positionVs) {
            all(lessThan(at, vec2(1.0 - kBorderOfPart)));
 }
 
-// Of all maps one is looked up in a pixel: the finest that has its middle, with all before it.
+// Of all maps one is looked up in a pixel: the finest that has its middle, which is the last.
 bool isOwn(vec3 positionVs) {
-    int finest = 0;
-    while (finest < partCount && isCoveredBy(mapParts[finest], positionVs)) ++finest;
+    int finest = partCount;
+    while (finest > 0 && !isCoveredBy(mapParts[finest - 1], positionVs)) --finest;
     return finest == part;
 }
 #else

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "techniques/raster_views/magnified_parts.h"
 #include "techniques/raster_views/map_border.h"
 #include "techniques/raster_views/map_params.h"
 #include "techniques/raster_views/receivers.h"
@@ -133,6 +134,7 @@ int sideOfFaces(int side) {
 struct PlannedMaps {
     std::vector<render::RasterView> whole;                // by light
     std::vector<std::vector<render::RasterView>> nearer;  // by light, coarsest first
+    std::vector<std::string> chosenBy;                    // by light, what its further maps are for
     int side = 0;
 };
 
@@ -166,6 +168,38 @@ std::vector<render::RasterView> finerViews(FrameBuilder& frame, const scene::Lig
     return views;
 }
 
+// The views of a light's whole map, with as many pixels as they have texels.
+std::vector<render::RasterView> viewsOfWhole(const scene::Light& light,
+                                             const render::RasterView& view, int side) {
+    if (needsCube(view))
+        return render::makeCube(light.position, view.nearMeters, sideOfFaces(side));
+    return {render::inPixels(view, side, side)};
+}
+
+void addMagnifiedParts(FrameBuilder& frame, PlannedMaps& planned, int cascades) {
+    const std::vector<SeenPlace> places = seenPlaces(frame.scene(), frame.view());
+    for (std::size_t light = 0; light < planned.whole.size(); ++light) {
+        const scene::Light& source = frame.scene().lights[light];
+        const MagnifiedParts parts =
+            magnifiedParts(places, viewsOfWhole(source, planned.whole[light], planned.side),
+                           planned.side, cascades - 1);
+        planned.nearer[light] = parts.views;
+        planned.chosenBy[light] = fmt::format(
+            "; along a side a texel of its map covers {:.3g} pixels (median; 95 %: {:.3g}), with "
+            "{} "
+            "further map{} {:.3g} ({:.3g})",
+            parts.before.x, parts.before.y, parts.views.size(), parts.views.size() == 1 ? "" : "s",
+            parts.after.x, parts.after.y);
+        const auto requested = static_cast<std::size_t>(cascades - 1);
+        if (parts.views.size() < requested) {
+            frame.warn(fmt::format(
+                "reconstruct.map_cascades = {}: {} of the further maps of light '{}' would make "
+                "hardly a texel smaller on the screen; they are left out.",
+                cascades, requested - parts.views.size(), source.name));
+        }
+    }
+}
+
 const PlannedMaps& plannedMaps(FrameBuilder& frame) {
     return *frame.once<PlannedMaps>("light.maps", [&] {
         const auto& params = frame.params<ReconstructParams>("reconstruct");
@@ -173,24 +207,30 @@ const PlannedMaps& plannedMaps(FrameBuilder& frame) {
         auto planned = std::make_shared<PlannedMaps>();
         const int cascades = params.space == StoreSpace::light ? params.cascades : 1;
         double maps = 0.0;  // in sides of the size asked for
+        const bool isMeasured = params.cascadesBy == CascadeChoice::magnification;
         for (const scene::Light& light : frame.scene().lights) {
             planned->whole.push_back(
                 render::makeLightView(light, target, sceneBounds(frame.scene())));
-            planned->nearer.push_back(finerViews(frame, light, planned->whole.back(), cascades));
             maps += needsCube(planned->whole.back()) ? kMapsOfCube : 1.0;
-            maps += static_cast<double>(planned->nearer.back().size());
+            planned->chosenBy.emplace_back();
+            planned->nearer.emplace_back();
+            if (!isMeasured)
+                planned->nearer.back() = finerViews(frame, light, planned->whole.back(), cascades);
+            maps += isMeasured ? cascades - 1 : static_cast<double>(planned->nearer.back().size());
         }
         planned->side = sideOfMaps(frame, params, static_cast<int>(std::ceil(maps)));
+        if (isMeasured && cascades > 1) addMagnifiedParts(frame, *planned, cascades);
         return planned;
     });
 }
 
 ReceiverView drawReceivers(FrameBuilder& frame, const Geometry& geometry, std::size_t light,
-                           const Views& views, const std::string& suffix) {
+                           const Views& views, const std::string& suffix,
+                           const std::string& chosenBy = "") {
     const std::string name = (light == 0 ? "light" : fmt::format("light.{}", light + 1)) + suffix;
     return renderReceivers(frame, geometry, views, name,
-                           fmt::format("light '{}' stores caustics where it sees receivers",
-                                       frame.scene().lights[light].name),
+                           fmt::format("light '{}' stores caustics where it sees receivers{}",
+                                       frame.scene().lights[light].name, chosenBy),
                            render::DrawSet::receivers)
         .receivers;
 }
@@ -208,13 +248,9 @@ const std::vector<ReceiverView>& lightReceivers(FrameBuilder& frame, const Geome
         auto receivers = std::make_shared<std::vector<ReceiverView>>();
         for (std::size_t light = 0; light < planned.whole.size(); ++light) {
             const render::RasterView& view = planned.whole[light];
-            const int side = planned.side;
             const Views made =
-                needsCube(view)
-                    ? frame.makeViews(render::Space::cube,
-                                      render::makeCube(frame.scene().lights[light].position,
-                                                       view.nearMeters, sideOfFaces(side)))
-                    : frame.makeViews(render::Space::light, {render::inPixels(view, side, side)});
+                frame.makeViews(needsCube(view) ? render::Space::cube : render::Space::light,
+                                viewsOfWhole(frame.scene().lights[light], view, planned.side));
             receivers->push_back(drawReceivers(frame, geometry, light, made, ""));
         }
         return receivers;
@@ -233,7 +269,8 @@ const std::vector<std::vector<ReceiverView>>& nearerReceivers(FrameBuilder& fram
                     render::Space::light, {render::inPixels(view, planned.side, planned.side)});
                 std::vector<ReceiverView>& own = (*receivers)[light];
                 own.push_back(drawReceivers(frame, geometry, light, made,
-                                            fmt::format(".cascade_{}", own.size() + 2)));
+                                            fmt::format(".cascade_{}", own.size() + 2),
+                                            planned.chosenBy[light]));
             }
         }
         return receivers;

@@ -16,8 +16,9 @@ namespace kaustik {
 [[nodiscard]] const std::vector<ReceiverView>& lightReceivers(FrameBuilder& frame,
                                                               const Geometry& geometry);
 
-// The further views of each light that reconstruct.map_cascades asks for, coarsest first: each of
-// what the eye sees nearer by, in as many texels. There is none where it would be hardly finer.
+// The further views of each light that reconstruct.map_cascades asks for, coarsest first, in as
+// many texels each: of what the eye sees nearer by, or of what it sees magnified (map_cascades_by).
+// There is none where it would be hardly finer.
 [[nodiscard]] const std::vector<std::vector<ReceiverView>>& nearerReceivers(
     FrameBuilder& frame, const Geometry& geometry);
 

@@ -13,11 +13,15 @@ enum class StoreSpace : int { screen, light, cube };
 // What a light's map covers.
 enum class MapCover : int { seen, scene };
 
+// By what the further maps of a light are chosen.
+enum class CascadeChoice : int { depth, magnification };
+
 struct ReconstructParams {
     StoreSpace space = StoreSpace::screen;
     int mapSize = 1024;
     MapCover covers = MapCover::seen;
     int cascades = 1;
+    CascadeChoice cascadesBy = CascadeChoice::depth;
     int memoryMebibytes = 4096;
     template <class R>
     void reflect(R& r) {
@@ -46,9 +50,17 @@ struct ReconstructParams {
         r.field(
              cascades, "map_cascades",
              "Maps of each light: one of all that map_covers says, and further ones, of the same "
-             "size, of what the eye sees nearer and nearer by, where it looks more closely",
+             "size, of what the eye sees nearer and nearer by, where it looks more closely, or of "
+             "what it sees magnified (map_cascades_by)",
              "", params::range(1, 1 + static_cast<int>(transport::kMaxViews)))
             .when(unlessRead("reconstruct.map_cascades", notOfLights));
+        r.choice(cascadesBy, "map_cascades_by",
+                 "depth: further maps are of what is nearer and nearer to the eye; magnification: "
+                 "of those parts of the light's view whose texels are the largest on the screen, "
+                 "measured where the eye sees receivers",
+                 {"depth", "magnification"})
+            .when(unlessRead("reconstruct.map_cascades_by", notOfLights))
+            .when(cascades > 1, "with reconstruct.map_cascades=1");
         r.field(memoryMebibytes, "map_memory",
                 "Most memory of all caustic maps together and of what the lights see there; larger "
                 "ones are halved until they fit, and the report says so",

@@ -2,6 +2,8 @@
 // reconstruct.multi_level: photons as splats in that level of the map's resolution whose texels are
 // as wide as their beams (WN09, section 3.2.2; splats/texel_splats.h). filter.level_sum adds up all
 // levels.
+#include <string>
+
 #include "techniques/splats/texel_splats.h"
 
 namespace kaustik {
@@ -9,10 +11,14 @@ namespace {
 
 struct MultiLevelParams {
     int diameter = 3;
+    SplatEdges edges = SplatEdges::kept;
     template <class R>
     void reflect(R& r) {
         r.field(diameter, "diameter", "Of a splat, in texels of its photon's level; 1: points",
                 "texels", params::range(1, 15));
+        r.choice(edges, "edges",
+                 std::string("At the finest level; coarser ones see none. ") + kEdgesSentence,
+                 {"kept", "crossed"});
     }
 };
 
@@ -22,6 +28,7 @@ CausticMap splatOneLevel(FrameBuilder& frame, const MultiLevelParams& params, Hi
     TexelSplats splats{.node = "reconstruct.multi_level",
                        .reason = "photons whose light spreads are splats in coarser levels"};
     splats.diameter = static_cast<float>(params.diameter);
+    splats.edges = params.edges;
     splats.layout = SetLayout::sharedLevels;
     return splat(frame, splats, hits, surfaces, before);
 }

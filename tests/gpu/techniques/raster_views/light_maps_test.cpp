@@ -4,12 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <utility>
 #include <vector>
 
 #include "framework/numerics/cases/scene_text.h"
+#include "techniques/raster_views/magnified_parts.h"
 #include "tests/gpu/techniques/caustic_map_frame.h"
 
 namespace kaustik::test {
@@ -79,9 +81,13 @@ Off offFrom(const MapFrame& frame, const std::function<double(const dvec3&)>& ex
 TEST(MapCascades, HaveNoSeamsInUniformLight) {
     if (lacksExactTracer()) GTEST_SKIP() << "built without Embree";
     const scene::Scene scene = uniform(sun({0, -1, 0}, kIrradiance));
-    for (const char* way : {"triangles", "beams"}) {
+    for (const auto& [way, by] : {std::pair("triangles", "depth"), std::pair("beams", "depth"),
+                                  std::pair("triangles", "magnification")}) {
         SCOPED_TRACE(way);
-        const MapFrame frame = cascades(scene, 4, {{"trace", "raytraced"}, {"reconstruct", way}});
+        SCOPED_TRACE(by);
+        const MapFrame frame = cascades(
+            scene, 4,
+            {{"trace", "raytraced"}, {"reconstruct", way}, {"reconstruct.map_cascades_by", by}});
         ASSERT_EQ(frame.renderer().outputs().map.maps.size(), 4u);
         // The sheet ends before the map's widest texels, of 0.3 m, tell.
         const Off off = offFrom(
@@ -131,9 +137,14 @@ TEST(MapCascades, LeaveTheLedgerAsItIs) {
                               {"filter", filter}};
         const MapFrame one = cascades(scene, 1, chosen);
         const MapFrame three = cascades(scene, 3, chosen);
+        Settings measured = chosen;
+        measured.emplace_back("reconstruct.map_cascades_by", "magnification");
+        const MapFrame parts = cascades(scene, 3, measured);
         EXPECT_GT(one.watts(kAccountDeposited), 0.0);
-        for (std::uint32_t account = 0; account < kAccountCount; ++account)
+        for (std::uint32_t account = 0; account < kAccountCount; ++account) {
             EXPECT_EQ(one.watts(account), three.watts(account)) << account;
+            EXPECT_EQ(one.watts(account), parts.watts(account)) << account;
+        }
         three.expectBalance();
     }
 }
@@ -165,6 +176,116 @@ TEST(MapCascades, AreFinerWhereTheEyeLooksClosely) {
     EXPECT_LT(texels[1], 0.25 * texels[0]);
     EXPECT_GT(blurred[0], 20.0);
     EXPECT_LT(blurred[1], 0.6 * blurred[0]);
+}
+
+// A lamp next to what is near shines on a wall far off: there its texels are the largest.
+scene::Scene farWall() {
+    return makeScene({{0.0, 1.1, 3.0}, {0.0, 0.9, 0.0}, 40.0, 0.01},
+                     lampAt({0, 0.75, 1.2}) +
+                         object("ball", "sphere", "glass", {0, 0.8, 0.3}, "radius = 0.2") +
+                         object("table", "plane", "grey", {0, 0, 1.5}, "size = [2.5, 3]") +
+                         object("wall", "plane", "grey", {0, 1.2, -4},
+                                "size = [5, 4]\nrotation_degrees = [90, 0, 0]"));
+}
+
+// Texels along a side of a pixel in the finest map that looks it up, at each pixel whose neighbours
+// see the same surface: from where the corners of the pixel are, not from any formula.
+std::vector<double> texelsPerPixel(const MapFrame& frame) {
+    const auto& maps = frame.renderer().outputs().map.maps;
+    const Texels receiver = frame.read("eye.receiver");
+    std::vector<double> found;
+    for (int y = 0; y + 1 < receiver.height; ++y) {
+        for (int x = 0; x + 1 < receiver.width; ++x) {
+            const auto depth = double{receiver.at(x, y, 0)};
+            const auto right = double{receiver.at(x + 1, y, 0)};
+            const auto above = double{receiver.at(x, y + 1, 0)};
+            if (depth <= 0.0 || std::abs(right / depth - 1.0) > 0.05 || above <= 0.0 ||
+                std::abs(above / depth - 1.0) > 0.05)
+                continue;
+            double finest = 0.0;
+            for (const FluxMap& map : maps) {
+                const render::RasterViews& views = *map.on.views;
+                const double border = map.cascade > 0 ? 0.0625 * views.width() : 0.0;
+                for (int view = 0; view < views.count(); ++view) {
+                    const render::RasterView& seen = views.view(view);
+                    const glm::dvec2 at = texelOn(seen, frame.worldAt(x, y, depth));
+                    const glm::dvec3 p(seen.worldToView *
+                                       glm::dvec4(frame.worldAt(x, y, depth), 1.0));
+                    if (p.z >= 0.0 || std::min(at.x, at.y) < border ||
+                        std::max(at.x, at.y) > views.width() - border)
+                        continue;
+                    const glm::dvec2 u = texelOn(seen, frame.worldAt(x + 1, y, right)) - at;
+                    const glm::dvec2 v = texelOn(seen, frame.worldAt(x, y + 1, above)) - at;
+                    // The last that has it is looked up.
+                    finest = std::sqrt(std::abs(u.x * v.y - u.y * v.x));
+                }
+            }
+            if (finest > 0.0) found.push_back(finest);
+        }
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
+TEST(MapCascades, ByMagnificationLieWhereTexelsAreLargestOnTheScreen) {
+    const Settings chosen{
+        {"trace", "background"}, {"specular", "two_interfaces"}, {"reconstruct.map_size", "32"}};
+    const auto with = [&](const char* by, int count) {
+        Settings settings = chosen;
+        settings.emplace_back("reconstruct.map_cascades_by", by);
+        return cascades(farWall(), count, settings);
+    };
+    const std::vector<double> one = texelsPerPixel(with("depth", 1));
+    const std::vector<double> byDepth = texelsPerPixel(with("depth", 4));
+    const MapFrame parts = with("magnification", 4);
+    const std::vector<double> byMagnification = texelsPerPixel(parts);
+    ASSERT_EQ(one.size(), byMagnification.size());
+    ASSERT_GT(one.size(), 1000u);
+    EXPECT_EQ(parts.renderer().outputs().map.maps.size(), 4u);
+    // What is near has no larger texels than the rest, and most of the picture is the wall.
+    const std::size_t middle = one.size() / 2;
+    EXPECT_LT(byDepth[middle], 1.1 * one[middle]);
+    EXPECT_GT(byMagnification[middle], 1.8 * one[middle]);
+    // Nowhere are they larger than without.
+    for (std::size_t i = 0; i < one.size(); i += 50)
+        EXPECT_GE(byMagnification[i], 0.999 * one[i]);
+    parts.expectBalance();
+}
+
+const std::string kSlantedSun =
+    "[[light]]\nname = \"slanted\"\ntype = \"directional\"\ndirection = [0.8, -0.6, 0]\n"
+    "irradiance = 100\n";
+
+// A pixel and a texel straight above one another: both are squares of known sides.
+TEST(MapCascades, MeasureHowManyPixelsATexelCovers) {
+    const scene::Scene scene =
+        makeScene({{0, 3, 0.0005}, {0, -1, 0}, 60.0, 0.01},
+                  sun({0, -1, 0}) + lampAt({0, 1, 0}) + kSlantedSun +
+                      floorPlane("floor", "grey", 8, {0, -1, 0}) +
+                      object("ball", "sphere", "glass", {0, 0, 0}, "radius = 0.3"));
+    const render::RasterView eye = render::makeEyeView(scene.camera, 80, 60);
+    const std::vector<SeenPlace> places = seenPlaces(scene, eye);
+    ASSERT_EQ(places.size(), 80u * 60u);
+    const scene::Bounds bounds = scene::sceneBounds(scene);
+    const double pixel = 2.0 * std::tan(glm::radians(30.0)) * 4.0 / 60.0;
+    for (std::size_t light = 0; light < 3; ++light) {
+        const render::RasterView map =
+            render::inPixels(render::makeLightView(scene.lights[light], bounds, bounds), 100, 100);
+        // The lamp is 2 m above the floor; of the slanted sun's texels only one side is longer.
+        const std::array<double, 3> longer{1.0, 2.0, 1.0 / std::sqrt(0.6)};
+        const double texel = map.footprintPerMeter() * longer[light];
+        int seen = 0;
+        for (const SeenPlace& place : places) {
+            ASSERT_NEAR(place.place.y, -1.0, 1e-6);
+            // Each pixel and each texel of a view that looks straight down covers as much of a
+            // floor as the one in the middle.
+            const double pixels = pixelsPerTexel(place, map);
+            if (!(pixels > 0.0)) continue;
+            ++seen;
+            EXPECT_NEAR(pixels, texel / pixel, 1e-3 * texel / pixel);
+        }
+        EXPECT_GT(seen, 1000) << light;
+    }
 }
 
 TEST(MapCascades, ThatWouldBeNoFinerAreLeftOutAndSaid) {
