@@ -2,13 +2,14 @@
 # SPDX-License-Identifier: MIT
 """Tables of the studies of caustic triangles (experiments/umenhoffer2008_*.toml), in Markdown.
 
-    umenhoffer2008.py steps|error|reach|secant|grazing|merge|seen RESULTS
+    umenhoffer2008.py steps|error|reach|secant|grazing|points|merge|seen RESULTS
 
 steps:   ms of every step of a frame, median over the repeats with their spread.
 error:   relMSE and time from emission to gather, and who is on the front of error against time.
 reach:   by scene, shares of the emitted flux that a cube around each generator cannot reach, by cause.
 secant:  photons that the secant search has right, and how far off, by size, layers and their order.
 grazing: error by the angle of the receiver, and light where the truth has none.
+points:  points of one texel, splats of several sizes and triangles: errors by the number of photons.
 merge:   time and error over the size up to which cells are merged.
 seen:    caustics in a mirror and through glass, as experiments/umenhoffer2008_seen.sh has rendered them.
 """
@@ -179,6 +180,33 @@ def grazing(rows: list[dict], results: Path) -> None:
         print(line([f"`{scene}`"] + cells))
 
 
+def points(rows: list[dict]) -> None:
+    def kind(row: dict) -> str:
+        if value(row, "reconstruct") == "triangles":
+            return "triangles"
+        diameter = value(row, "reconstruct.fixed.diameter")
+        return "points" if diameter == 1 else f"splats of {diameter}"
+
+    names = sorted({kind(row) for row in rows}, key=lambda n: (n == "triangles", n != "points", len(n), n))
+    counts = sorted({row["emit.photons"] for row in rows}, key=lambda c: int(c.split("x")[0]))
+    print("relMSE; SMAPE; FLIP; energy ratio, all against the modelled paths; **bold**: the least relMSE of "
+          "points and splats, the size that is right")
+    for scene in dict.fromkeys(scene_of(row) for row in rows):
+        print(f"\n`{scene}`\n")
+        print(head(["photons"] + names))
+        for count in counts:
+            found = {kind(row): error_of(row) for row in rows
+                     if scene_of(row) == scene and row["emit.photons"] == count}
+            best = min((one["rel_mse"], name) for name, one in found.items() if name != "triangles")[1]
+            cells = []
+            for name in names:
+                one = found[name]
+                text = (f"{one['rel_mse']:.2g}; {one['smape']:.2f}; {one['flip_hdr']:.3f}; "
+                        f"{one['energy_ratio']:.3f}")
+                cells.append(f"**{text}**" if name == best else text)
+            print(line([count] + cells))
+
+
 def merge(rows: list[dict]) -> None:
     sizes = sorted({value(row, "reconstruct.triangles.merge") for row in rows})
     print("ms of `reconstruct.triangles`; relMSE against the modelled paths; stored by what has arrived, less 1\n")
@@ -218,7 +246,7 @@ def seen(results: Path) -> None:
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("table", choices=["steps", "error", "reach", "secant", "grazing", "merge", "seen"])
+    parser.add_argument("table", choices=["steps", "error", "reach", "secant", "grazing", "points", "merge", "seen"])
     parser.add_argument("results", type=Path)
     arguments = parser.parse_args()
     if arguments.table == "seen":
@@ -232,7 +260,8 @@ def main() -> int:
     if arguments.table == "grazing":
         grazing(rows, arguments.results)
     else:
-        {"steps": steps, "error": error, "reach": reach, "secant": secant, "merge": merge}[arguments.table](rows)
+        {"steps": steps, "error": error, "reach": reach, "secant": secant, "points": points,
+         "merge": merge}[arguments.table](rows)
     return 0
 
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -18,20 +17,6 @@ namespace {
 
 double radiusOf(const scene::Bounds& bounds) {
     return 0.5 * glm::length(bounds.maximum - bounds.minimum);
-}
-
-// Whether direct light may come to a ball around the box; true where that is not certain.
-bool mayLight(const scene::Light& light, const scene::Bounds& bounds) {
-    if (light.kind == scene::LightKind::directional) return true;
-    const glm::dvec3 offset = 0.5 * (bounds.minimum + bounds.maximum) - light.position;
-    const double distance = glm::length(offset);
-    const double radius = radiusOf(bounds);
-    const auto range = static_cast<double>(light.rangeMeters);
-    if (range > 0.0 && distance - radius > range) return false;
-    if (light.kind == scene::LightKind::point || distance <= radius) return true;
-    const double angle =
-        std::acos(std::clamp(glm::dot(offset, light.direction) / distance, -1.0, 1.0));
-    return angle - std::asin(radius / distance) <= static_cast<double>(light.outerConeRadians);
 }
 
 double distanceBetween(const scene::Bounds& a, const scene::Bounds& b) {
@@ -115,16 +100,19 @@ Generator eyeOf(const scene::Scene& scene) {
 
 std::vector<Generator> findGenerators(FrameBuilder& frame, const GeneratorParams& params) {
     const scene::Scene& scene = frame.scene();
+    const CulledObjects& culled = culledObjects(frame);
+    const auto holds = [](const std::vector<std::size_t>& list, std::size_t object) {
+        return std::find(list.begin(), list.end(), object) != list.end();
+    };
     std::vector<Generator> lit;
     std::vector<Generator> all;
-    for (const scene::Object& object : scene.objects) {
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        const scene::Object& object = scene.objects[i];
         const scene::Bounds bounds = objectBounds(scene, object);
         if (isReceiver(scene.materials[object.material].kind) || bounds.empty) continue;
+        if (holds(culled.unseen, i)) continue;
         all.push_back({object.name, bounds});
-        if (std::any_of(scene.lights.begin(), scene.lights.end(),
-                        [&](const scene::Light& light) { return mayLight(light, bounds); })) {
-            lit.push_back(all.back());
-        }
+        if (!holds(culled.unlit, i)) lit.push_back(all.back());
     }
     if (lit.empty()) lit = all;
     if (lit.empty()) lit.push_back(eyeOf(scene));

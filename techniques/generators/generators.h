@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "framework/pipeline/frame_builder.h"
+#include "techniques/generators/culling.h"
 #include "techniques/generators/generators_data.h"
 
 namespace kaustik {
@@ -16,6 +17,7 @@ namespace kaustik {
 struct GeneratorParams {
     int maxGenerators = 8;
     int points = 0;
+    GeneratorCulling cull = GeneratorCulling::eye;
     template <class R>
     void reflect(R& r) {
         r.field(maxGenerators, "max_generators",
@@ -34,6 +36,18 @@ struct GeneratorParams {
             "seen from one, such as a tank around receivers. 0: as few as see what its light may "
             "reach",
             "", params::range(0, 16));
+        r.choice(
+             cull, "cull",
+             "Which specular objects are no generators. light: those that no light can reach "
+             "directly; eye: those, too, whose light cannot come to what the eye sees since a "
+             "flat receiver stands in every way, or light is on the other side of it: it is not "
+             "followed, and off_screen in the ledger; none: all are",
+             {"none", "light", "eye"})
+            .when([](const FrameFacts& facts) {
+                const bool hasSome =
+                    facts.needs == nullptr || facts.needs->refractors + facts.needs->reflectors > 0;
+                return hasSome ? "" : "the scene has no specular object";
+            });
     }
 };
 
@@ -44,9 +58,9 @@ struct Generator {
     std::size_t whole = 0;      // those that share a generator have the same
 };
 
-// Specular objects that no light can reach directly are left out, and those whose boxes overlap are
-// one. Made once a frame, by the first who asks. A scene without
-// any that is lit has all of them, one without any has the eye.
+// Those that around.cull leaves out are not among them, and those whose boxes overlap are one. Made
+// once a frame, by the first who asks. A scene without any that is lit has all whose light may be
+// seen, one without any of these has the eye.
 [[nodiscard]] const std::vector<Generator>& causticGenerators(FrameBuilder& frame);
 
 // The receivers that each generator's reference point sees, on the six faces of a cube; specular

@@ -8,6 +8,7 @@
 
 #include "framework/pipeline/ledger.h"
 #include "framework/pipeline/stage_params.h"
+#include "techniques/generators/culling.h"
 #include "techniques/specular/split.h"
 
 namespace kaustik {
@@ -51,6 +52,7 @@ void followPhotons(FrameBuilder& frame, const Surfaces& surfaces, Samples sample
     Hits hits = frame.run<EmitStage>(surfaces, samples);
     int interactions = 1;
     for (int i = 0; i < interactions; ++i) {
+        hits = endAtUnseen(frame, hits);
         const Photons photons = frame.run<SpecularStage>(hits, surfaces);
         interactions = interactionCount(frame, photons.paths);
         hits = frame.run<TraceStage>(photons, surfaces);

@@ -241,6 +241,57 @@ TEST_F(MadeUpPhotons, AddUpInATexelWithoutDrift) {
     EXPECT_NEAR(storedIn(frame).at(64, 64).g, expected, 1e-7 * expected);
 }
 
+// On the faces of a cube (U08, Fig. 9b): light falls straight down through a sheet that bends
+// nothing, onto a floor that the reference point sees through the bottom face and the sides'.
+TEST(PointsOnACube, AreTheTexelsThatPhotonsFallIntoAndNoOthers) {
+    scene::Scene scene = makeScene({{0.0, 1.8, 2.5}, {0.0, 0.0, 0.0}},
+                                   sun({0, -1, 0}) + floorPlane("floor", "grey", 12, {0, 0, 0}) +
+                                       floorPlane("air", "water", 6, {0, 2, 0}));
+    scene.materials[kWater - 1].ior = 1.0f;
+    const Registry registry = registerAll();
+    FrameRequest request{64,
+                         48,
+                         {{"reconstruct", "fixed"},
+                          {"reconstruct.fixed.diameter", "1"},
+                          {"emit.photons", "62x66"},
+                          {"reconstruct.map_size", "256"}}};
+    request.keepsAll = request.recordsTraces = true;
+    const numerics::Frame frame(context(), registry, scene,
+                                registry.findTechnique("caustic_triangles"), request);
+    ASSERT_EQ(frame.renderer().outputs().map.maps.size(), 1u);
+    const std::vector<HitTexel> hits =
+        readHits(frame.renderer(), frame.renderer().traces().front().hits);
+    std::size_t arrived = 0;
+    std::size_t facesHit = 0;
+    for (int face = 0; face < 6; ++face) {
+        const render::RasterView& view = mapViewOf(frame, face);
+        const MapTexels map = storedIn(frame, 0, face);
+        std::vector<double> expected(map.flux.size(), 0.0);
+        std::size_t here = 0;
+        for (const HitTexel& hit : hits) {
+            if (hit.fate != kFateReceiver) continue;
+            const dvec3 world = frame.toWorld(dvec3(hit.position));
+            if ((view.worldToView * glm::dvec4(world, 1.0)).z >= 0.0) continue;
+            const dvec2 texel = glm::floor(texelOn(view, world));
+            if (glm::any(glm::lessThan(texel, dvec2(0.0))) || texel.x >= map.width ||
+                texel.y >= map.height)
+                continue;
+            expected[static_cast<std::size_t>(texel.y) * static_cast<std::size_t>(map.width) +
+                     static_cast<std::size_t>(texel.x)] += double{hit.fluxWatts.g};
+            ++here;
+        }
+        std::size_t wrong = 0;
+        for (std::size_t i = 0; i < expected.size(); ++i)
+            wrong += std::abs(map.flux[i].g - expected[i]) <= 1e-6 * expected[i] ? 0 : 1;
+        // Of a photon on a border two texels, by rounding.
+        EXPECT_LE(wrong, 2 * here / 1000) << face;
+        arrived += here;
+        facesHit += here > 0 ? 1 : 0;
+    }
+    EXPECT_EQ(arrived, 62u * 66u);
+    EXPECT_EQ(facesHit, 5u);
+}
+
 class Uniform : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(Uniform, LightIsSoInAllSizesAndInTheirBlend) {
