@@ -170,10 +170,23 @@ Check scaleOf(double factor) {
         }};
 }
 
+// What another direction of view finds is other light where layers end too early.
+bool lacksLayers(const Shot& shot) {
+    return std::any_of(shot.limits.begin(), shot.limits.end(),
+                       [](const ReachedLimit& limit) { return limit.parameter == "layers.count"; });
+}
+// Which of its sizes such a filter takes is decided texel by texel.
+bool blendsSizes(const Mixture& mixture) {
+    const std::string filter = paramsOf(mixture).choice(FilterStage::name);
+    return filter == "blend" || filter == "levels";
+}
+
 Check turnOf(double degrees) {
     return {fmt::format("turn {}", degrees),
             [degrees](Bench& bench, const Rendered& rendered) -> Verdict {
-                if (isCoarse(rendered.mixture, rendered.shot)) return {false};
+                if (isCoarse(rendered.mixture, rendered.shot) || makesLight(rendered.mixture) ||
+                    lacksLayers(rendered.shot) || blendsSizes(rendered.mixture))
+                    return {false};
                 Variation variation;
                 variation.turnDegrees = degrees;
                 return {true,

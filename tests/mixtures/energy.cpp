@@ -95,6 +95,13 @@ bool isCoarse(const Mixture& mixture, const Shot& shot) {
     constexpr std::uint64_t kFewPhotons = 1000;
     if (shot.ledger.events[transport::kAccountEmitted] < kFewPhotons) return true;
     const params::ParamSet params = paramsOf(mixture);
+    // Splats that are asked to be as wide as the scene, or much wider than their light.
+    const auto isWide = [&](const char* name, double widest) {
+        return shot.idle.count(name) == 0 && std::stod(params.find(name).text()) > widest;
+    };
+    if (isWide("reconstruct.sprites.radius", 0.1) || isWide("reconstruct.lens.widths", 4.0) ||
+        isWide("reconstruct.sprites.footprints", 8.0))
+        return true;
     const Settings& small = smallMixture(mixture.scene).settings;
     return std::any_of(small.begin(), small.end(), [&](const auto& setting) {
         const auto& [name, least] = setting;
