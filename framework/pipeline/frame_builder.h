@@ -3,6 +3,7 @@
 // needs, and the view.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -175,7 +176,10 @@ class FrameBuilder {
     void request(const Photons& photons);
     void request(const Hits& hits);
     // Adds a warning to the report.
-    void warn(std::string warning) { warnings_.push_back(std::move(warning)); }
+    void warn(std::string warning) {
+        if (std::find(warnings_.begin(), warnings_.end(), warning) == warnings_.end())
+            warnings_.push_back(std::move(warning));
+    }
     [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
     // Says that the frame depends on FrameInputs::seed.
     void usesRandomness() { isRandom_ = true; }

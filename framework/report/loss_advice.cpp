@@ -37,9 +37,36 @@ std::string otherTracer(const params::ParamSet& settings) {
 std::string moreBranches(const params::ParamSet& settings) {
     const std::string specular = settings.choice(SpecularStage::name);
     if (specular == "interface") return "specular=split follows both";
-    if (specular != "split") return "";
+    if (specular != "split" && specular != "auto") return "";
     const int levels = std::stoi(settings.find("specular.split.levels").text());
-    return fmt::format("specular.split.levels={} follows more", std::max(levels + 2, 3));
+    return fmt::format("specular=split and specular.split.levels={} follow more",
+                       std::max(levels + 2, 3));
+}
+
+// Of what lights send onto specular surfaces, what an emitter may miss without a word.
+constexpr double kUnspokenShare = 0.01;
+
+// What misses less of it; "" where no setting does.
+std::string betterEmission(const params::ParamSet& settings) {
+    if (settings.choice(EmitStage::name) != "deferred") return "";
+    if (settings.choice(DriverStage::name) == "adaptive" &&
+        settings.find("refine.mask").text() == "off")
+        return "; refine.mask=on misses less";
+    const int size = std::stoi(settings.find("emit.deferred.size").text());
+    return fmt::format("; emit.deferred.size={} misses less", 4 * size);
+}
+
+// "" where the emitter has emitted what it should.
+std::string emissionMessage(const EnergyLedger& ledger, const params::ParamSet& settings) {
+    const double wanted = ledger.watts[kAccountEmitted];
+    const double missed = ledger.watts[kAccountEmissionSampling];
+    if (std::abs(missed) <= kUnspokenShare * wanted) return "";
+    return fmt::format(
+        "emit={} emits {:.4g} W of the {:.4g} W that the lights send onto the specular surfaces "
+        "that they see: {:.3g}% {} (emission_sampling){}.",
+        settings.choice(EmitStage::name), wanted - missed, wanted,
+        100.0 * std::abs(missed) / wanted, missed > 0.0 ? "are missing" : "are too much",
+        missed > 0.0 ? betterEmission(settings) : "");
 }
 
 }  // namespace
@@ -61,11 +88,16 @@ std::vector<std::string> lossAdvice(const EnergyLedger& ledger, const Renderer& 
         "(hidden_in_map, outside_map)");
     say(watts[kAccountDiscardedTriangle], "reconstruct.triangles.unjoined=beams covers it",
         "lies between photons that are not joined (discarded_triangle)");
-    say(watts[kAccountMissedByTracer] + watts[kAccountEdgeOn], otherTracer(settings),
-        fmt::format("comes to surfaces that trace={} does not find (tracer, edge_on)",
+    // With the default test what is not found is what the scene's bounds have none of, as a rule.
+    const double unresolved =
+        settings.find("trace.test").text() == "crossing" ? 0.0 : watts[kAccountUnresolved];
+    say(watts[kAccountMissedByTracer] + watts[kAccountEdgeOn] + unresolved, otherTracer(settings),
+        fmt::format("comes to nothing that trace={} finds (tracer, edge_on, unresolved)",
                     settings.choice(TraceStage::name)));
     say(watts[kAccountUntracedBranch], moreBranches(settings),
         "is in branches that are not followed (untraced_branch)");
+    const std::string emission = emissionMessage(ledger, settings);
+    if (!emission.empty()) advice.push_back(emission);
     return advice;
 }
 

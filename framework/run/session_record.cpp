@@ -51,32 +51,6 @@ void addReflectionWarnings(report::RunRecord& record, const Renderer& renderer) 
     }
 }
 
-// Of what lights send onto specular surfaces, what an emitter may miss without a word.
-constexpr double kUnspokenShare = 0.01;
-
-// What misses less of it; "" where no setting does.
-std::string betterEmission(const params::ParamSet& settings) {
-    if (settings.choice(EmitStage::name) != "deferred") return "";
-    if (settings.choice(DriverStage::name) == "adaptive" &&
-        settings.find("refine.mask").text() == "off")
-        return "; refine.mask=on misses less";
-    const int size = std::stoi(settings.find("emit.deferred.size").text());
-    return fmt::format("; emit.deferred.size={} misses less", 4 * size);
-}
-
-// "" where the emitter has emitted what it should.
-std::string emissionMessage(const EnergyLedger& ledger, const params::ParamSet& settings) {
-    const double wanted = ledger.watts[transport::kAccountEmitted];
-    const double missed = ledger.watts[transport::kAccountEmissionSampling];
-    if (std::abs(missed) <= kUnspokenShare * wanted) return "";
-    return fmt::format(
-        "emit={} emits {:.4g} W of the {:.4g} W that the lights send onto the specular surfaces "
-        "that they see: {:.3g}% {} (emission_sampling){}.",
-        settings.choice(EmitStage::name), wanted - missed, wanted,
-        100.0 * std::abs(missed) / wanted, missed > 0.0 ? "are missing" : "are too much",
-        missed > 0.0 ? betterEmission(settings) : "");
-}
-
 }  // namespace
 
 report::RunRecord Session::measured() const {
@@ -125,8 +99,6 @@ std::optional<report::RunRecord> Session::measure(const RunReference& reference,
     for (const auto* warnings : {&renderer_.warnings(), &renderer_.scene().warnings})
         record.warnings.insert(record.warnings.begin(), warnings->begin(), warnings->end());
     addReflectionWarnings(record, renderer_);
-    const std::string emission = emissionMessage(record.ledger, renderer_.settings().params);
-    if (!emission.empty()) record.warnings.push_back(emission);
     if (!renderer_.isRandom() && record.seed != report::RunRecord{}.seed) {
         record.warnings.push_back(fmt::format(
             "--seed {} has no effect: nothing in this frame is drawn at random.", record.seed));

@@ -26,8 +26,9 @@ NextPhotons allocateNext(FrameBuilder& frame, const Hits& hits, int levels) {
                 frame.needs().closedDielectrics && !frame.traits<SpecularStage>().throughBodies;
             // What can part twice as many has at most once more room for it.
             CellGrid cells = before.cells;
-            cells.splits = std::max(cells.splits, std::min(cells.splits + 1, levels));
-            const int rows = before.nextRows << (cells.splits - before.cells.splits);
+            // A branch may have any of its numbers from the first parting on.
+            cells.splits = std::max(cells.splits, levels);
+            const int rows = before.nextRows << (paths.interactions <= levels ? 1 : 0);
             data.photons = Photons::create(setup, before.width, rows,
                                            fmt::format("{}_{}", before.batch, paths.interactions),
                                            before.hasBeams());

@@ -24,7 +24,7 @@ Photons interactAuto(FrameBuilder& frame, const params::NoParams&, Hits hits, Su
     }
     if (isFirst) {
         frame.skip("specular.split",
-                   "no sheet reflects more than 4% of its light towards a receiver, and there are "
+                   "no sheet reflects more than 1% of its light towards a receiver, and there are "
                    "no bodies; specular=split follows what is reflected all the same");
     }
     return interactAtInterface(frame, {}, hits, surfaces);

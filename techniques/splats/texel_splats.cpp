@@ -101,6 +101,12 @@ Stored splatInto(FrameBuilder& frame, TexelSplats splats, const Hits& hits, cons
 
 CausticMap splat(FrameBuilder& frame, const TexelSplats& splats, const Hits& hits,
                  const Surfaces& surfaces, const CausticMap& before) {
+    if (splats.edges == SplatEdges::crossed) {
+        frame.warn(fmt::format(
+            "{0}.edges=crossed lets light lie on what is next to its surface on the map, in front "
+            "of it or behind; {0}.edges=kept does not.",
+            splats.node));
+    }
     return storeEverywhere(frame, surfaces, hits, before,
                            [&](const Store& store, const Hits& own, const FluxMap& former) {
                                return splatInto(frame, splats, own, store, former);

@@ -29,8 +29,19 @@ const std::vector<MendedFind>& mendedFinds() {
          "--set reconstruct.space=cube --set gather=cube --set around.points=2",
          "bits emit.batch=512"},
         // The refusal named what was taken already.
-        {"ball --set emit.photons=64x64 --set driver=hierarchical --set trace=all_hits",
-         "refusal"}};
+        {"ball --set emit.photons=64x64 --set driver=hierarchical --set trace=all_hits", "refusal"},
+        // Branches whose numbers had no place among their cells' were not stored.
+        {"glossy --set emit.photons=64x64 --set driver=hierarchical", "balance"},
+        // Splats lay on pixels that show no receiver.
+        {"water --set emit.photons=64x64 --set reconstruct=lens --set "
+         "reconstruct.lens.edges=crossed",
+         "stored"},
+        // What was lost was said without a setting that finds it.
+        {"lights --set emit.photons=64x64 --set trace.test=epsilon", "energy"},
+        {"mixed --set emit.photons=64x64 --set refine.start=16 --set driver=adaptive "
+         "--set emit=deferred --set refine.mask=off",
+         "energy"},
+        {"glossy --set emit.photons=64x64 --set specular.split.levels=0", "energy"}};
     return finds;
 }
 
