@@ -24,8 +24,8 @@
 #include "techniques/light_cells/cell_lists.h"
 #include "techniques/light_cells/landing.h"
 #include "techniques/light_cells/refine_stage.h"
+#include "techniques/photon_lists/branches.h"
 #include "techniques/photon_lists/photon_paths.h"
-#include "techniques/specular/split.h"
 
 namespace kaustik {
 namespace {

@@ -9,7 +9,7 @@
 #include "framework/pipeline/ledger.h"
 #include "framework/pipeline/stage_params.h"
 #include "techniques/generators/culling.h"
-#include "techniques/specular/split.h"
+#include "techniques/photon_lists/branches.h"
 
 namespace kaustik {
 

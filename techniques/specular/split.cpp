@@ -5,30 +5,11 @@
 // are not followed into ever weaker ones, and neighbours take the same paths. A photon without room
 // for two follows the stronger branch; the other's flux is in the ledger, as untraced_branch. Exact
 // unpolarised Fresnel; eye view space, m and W.
-#include <fmt/format.h>
-
-#include "techniques/photon_lists/next_photons.h"
 #include "techniques/specular/split.h"
 
+#include "techniques/photon_lists/next_photons.h"
+
 namespace kaustik {
-
-std::string whyBothBranches(const scene::SceneNeeds& needs) {
-    if (needs.reflectedLight) {
-        return fmt::format("{:.0f}% of the light on '{}' is reflected, and '{}' lies in its path",
-                           100.0 * needs.reflectedLight->share, needs.reflectedLight->sheet,
-                           needs.reflectedLight->receiver);
-    }
-    if (needs.closedDielectrics)
-        return "bodies reflect a share of their light at every face, outside and within";
-    return "";
-}
-
-int branchLevels(const FrameBuilder& frame) {
-    const std::string& node = frame.inputs().params.choice(SpecularStage::name);
-    const bool splits =
-        node == "split" || (node == "auto" && !whyBothBranches(frame.needs()).empty());
-    return splits ? frame.params<SplitParams>("specular.split").levels : 0;
-}
 
 Photons splitAtInterface(FrameBuilder& frame, const SplitParams& params, Hits hits,
                          Surfaces /*surfaces*/) {
