@@ -221,6 +221,11 @@ Command& Command::scissor(glm::ivec2 first, glm::ivec2 end) {
     return *this;
 }
 
+Command& Command::bounds(glm::ivec2 first, glm::ivec2 end) {
+    clearsInScissor_ = true;
+    return scissor(first, end);
+}
+
 Program& Command::bind() {
     Program& program = context_.programs().get(key_);
     std::vector<Access> accesses = accesses_;
@@ -295,15 +300,23 @@ void Command::bindTargets() {
     }
     const GLuint framebuffer = context_.framebuffer(attachments);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    const auto boundClear = [&] {
+        if (!clearsInScissor_) {
+            glDisable(GL_SCISSOR_TEST);
+            return;
+        }
+        glEnable(GL_SCISSOR_TEST);
+        glScissor(scissor_->x, scissor_->y, scissor_->z, scissor_->w);
+    };
     for (std::size_t i = 0; i < targets_.size(); ++i) {
         if (!targets_[i].clear) continue;
-        glDisable(GL_SCISSOR_TEST);
+        boundClear();
         glClearNamedFramebufferfv(framebuffer, GL_COLOR, static_cast<GLint>(i),
                                   targets_[i].value.data());
         targets_[i].clear = false;  // a command may draw more than once
     }
     if (depth_.clear) {
-        glDisable(GL_SCISSOR_TEST);
+        boundClear();
         glDepthMask(GL_TRUE);
         glClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, depth_.value.data());
         depth_.clear = false;

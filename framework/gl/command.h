@@ -82,6 +82,8 @@ class Command {
     Command& viewport(int x, int y, int width, int height);
     // Draws to these pixels alone; all of a target is cleared nevertheless. Default: no bounds.
     Command& scissor(glm::ivec2 first, glm::ivec2 end);
+    // The same, and clears these pixels alone: what lies around them stays as it is.
+    Command& bounds(glm::ivec2 first, glm::ivec2 end);
 
     // The last calls. A draw without a target is a GraphError.
     void draw();  // fullscreen
@@ -148,6 +150,7 @@ class Command {
     Blend blend_ = Blend::none;
     glm::ivec4 viewport_{0, 0, -1, -1};
     std::optional<glm::ivec4> scissor_;
+    bool clearsInScissor_ = false;
     bool lastIsDepth_ = false;
     bool offers_ = false;
 };

@@ -14,11 +14,13 @@ layout(std430) readonly buffer Complexities {
 uniform int object;
 uniform int layer;
 uniform int layerCount;
+uniform ivec2 firstPixel;
+uniform ivec2 endPixel;
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = firstPixel + ivec2(gl_GlobalInvocationID.xy);
     if (uint(layer) >= complexities[object]) return;
-    if (any(greaterThanEqual(pixel, textureSize(objectSurface, 0)))) return;
+    if (any(greaterThanEqual(pixel, endPixel))) return;
     vec4 depth = texelFetch(objectDepths, ivec3(pixel, layer % 2), 0);
     if (depth.x <= 0.0) return;
     vec4 surface = texelFetch(objectSurface, pixel, 0);

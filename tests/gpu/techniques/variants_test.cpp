@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "framework/numerics/cases/scene_text.h"
 #include "framework/pipeline/ledger.h"
 #include "framework/scene/files/scene_file.h"
 #include "framework/transport/types.h"
@@ -27,22 +28,58 @@ void expectSame(const Frame& a, const Frame& b, const std::string& name, int lay
     EXPECT_EQ(different, 0u) << name << ", layer " << layer;
 }
 
-TEST(PerObjectLayers, AreThoseOfAllObjectsTogether) {
+// Objects next to the picture, partly in it, around the eye and behind one another.
+scene::Scene manyObjects() {
+    std::string parts = numerics::sun({0.2, -1, -0.1}) +
+                        numerics::floorPlane("floor", "grey", 12, {0, -1, 0}) +
+                        numerics::object("around the eye", "sphere", "glass", {0, 0, 0},
+                                         "radius = 2\nsegments = 24");
+    for (int i = 0; i < 8; ++i) {
+        parts += numerics::object(fmt::format("ball {}", i), "sphere", "white",
+                                  {1.5 * (i % 4) - 2.5, 0.2 * (i % 3), -3.0 - 0.8 * i},
+                                  "radius = 0.7\nsegments = 16");
+    }
+    parts += numerics::object("next to it", "box", "white", {20, 0, -3}, "size = [1, 1, 1]");
+    return numerics::makeScene({}, parts);
+}
+
+void expectThoseOfPeeling(const scene::Scene& scene, int width, int height,
+                          const std::string& count) {
     const std::vector<std::string> saved = {"layers.depth", "layers.surface"};
-    for (const char* name : {"glass-sphere", "ring", "pool-reflections"}) {
+    const auto render = [&](const char* node) {
+        return Frame(scene, width, height,
+                     {{"emit.photons", "16x16"}, {"layers", node}, {"layers.count", count}}, saved,
+                     true);
+    };
+    const Frame together = render("peel");
+    const Frame apart = render("per_object");
+    for (const std::string& texture : saved) {
+        for (int layer = 0; layer < std::stoi(count); ++layer)
+            expectSame(together, apart, texture, layer);
+    }
+    const transport::LayerStatistics a = together.renderer().layerStatistics();
+    const transport::LayerStatistics b = apart.renderer().layerStatistics();
+    EXPECT_GT(a.fragments, 0u);
+    EXPECT_EQ(a.complexity, b.complexity);
+    EXPECT_EQ(a.fragments, b.fragments);
+    EXPECT_EQ(a.skipped, b.skipped);
+    EXPECT_EQ(a.pixelsSkipped, b.pixelsSkipped);
+}
+
+TEST(PerObjectLayers, AreThoseOfAllObjectsTogether) {
+    for (const char* name : {"glass-sphere", "ring", "pool-reflections", "water-from-below"}) {
         SCOPED_TRACE(name);
-        const scene::Scene scene = scene::loadScene(name);
-        const Settings settings = {{"emit.photons", "16x16"}};
-        Settings perObject = settings;
-        perObject.emplace_back("layers", "per_object");
-        const Frame together(scene, 160, 120, settings, saved);
-        const Frame apart(scene, 160, 120, perObject, saved);
-        for (const std::string& texture : saved) {
-            for (int layer = 0; layer < 8; ++layer)
-                expectSame(together, apart, texture, layer);
+        expectThoseOfPeeling(scene::loadScene(name), 160, 120, "8");
+    }
+}
+
+TEST(PerObjectLayers, AreSoAtAnySizeAndWithFewerLayersThanThereAre) {
+    const scene::Scene scene = manyObjects();
+    for (const auto& [width, height] : {std::pair(160, 120), std::pair(37, 23), std::pair(1, 1)}) {
+        for (const char* count : {"1", "3", "32"}) {
+            SCOPED_TRACE(testing::Message() << width << "x" << height << ", " << count);
+            expectThoseOfPeeling(scene, width, height, count);
         }
-        EXPECT_EQ(together.renderer().layerStatistics().complexity,
-                  apart.renderer().layerStatistics().complexity);
     }
 }
 
