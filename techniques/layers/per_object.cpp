@@ -75,6 +75,7 @@ void countObjects(const FrameInputs& inputs, const PeeledObjects& data, gl::Pass
                   const std::vector<PixelRegion>& regions) {
     context.buffer(data.complexities).clear();
     context.buffer(data.layers.statistics).clear();
+    context.texture(data.counts).clear({0, 0, 0, 0});
     context.texture(data.allCounts).clear({0, 0, 0, 0});
     for (std::size_t object = 0; object < regions.size(); ++object) {
         const PixelRegion& region = regions[object];
@@ -189,10 +190,14 @@ LayeredDepth peelObjects(FrameBuilder& frame, const params::NoParams&, Geometry 
                         .set("commandCount", commandCount)
                         .set("layerCount", layers)
                         .dispatchOver(commandCount * layers, 64);
+                    // Beyond an object's own pixels nothing is drawn or cleared.
                     for (const graph::ResourceRef& handle :
-                         std::initializer_list<graph::ResourceRef>{data.layers.depth,
-                                                                   data.layers.surface})
+                         std::initializer_list<graph::ResourceRef>{
+                             data.layers.depth, data.layers.surface, data.objectDepth,
+                             data.objectSurface}) {
                         context.texture(handle).clear({0, 0, 0, 0});
+                    }
+                    context.texture(data.depth).clear({1, 0, 0, 0});
                     for (std::size_t object = 0; object < regions.size(); ++object)
                         peelObject(inputs, data, context, regions, object);
                 })

@@ -54,7 +54,7 @@ mkdir slurm
 facts() { python3 -B "$here/facts.py" "$1"; }
 
 step "the undivided reference"
-reference=(reference flat-water --size 64x48 --photons 12000000)
+reference=(reference flat-water --size 64x48 --photons 24000000)
 KAUSTIK_CACHE=$folder/cache "$KAUSTIK" "${reference[@]}" --threads 1 --out whole.exr
 
 step "Slurm starts"

@@ -95,6 +95,8 @@ Shot shotOf(const Renderer& renderer, bool keptAll) {
     shot.picture = run::readTexture(renderer.texture(renderer.outputs().picture.radiance), 0, 3);
     shot.display = run::readTexture(renderer.texture(renderer.outputs().picture.display), 0, 3);
     shot.ledger = renderer.ledger();
+    if (shot.ledger.events[transport::kAccountEmittable] > 0)
+        shot.ledger.judgeEmission(shot.ledger.watts[transport::kAccountEmittable]);
     shot.warnings = renderer.warnings();
     for (std::string& warning : renderer.foundWarnings())
         shot.warnings.push_back(std::move(warning));
