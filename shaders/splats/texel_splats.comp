@@ -110,9 +110,7 @@ int fateOfPart(Splat splat, ivec2 texel) {
         return kSeenOffScreen;
 #endif
     }
-    if (level > 0) return kSeenOn;
-    // Across edges only on to what receives light: where nothing does, nothing would show it.
-    if (keepsEdges == 0) return receiverAt(texel).x > 0.0 ? kSeenOn : kSeenOutside;
+    if (keepsEdges == 0 || level > 0) return kSeenOn;
     return lookAt(splat, texel);
 }
 

@@ -32,10 +32,6 @@ const std::vector<MendedFind>& mendedFinds() {
         {"ball --set emit.photons=64x64 --set driver=hierarchical --set trace=all_hits", "refusal"},
         // Branches whose numbers had no place among their cells' were not stored.
         {"glossy --set emit.photons=64x64 --set driver=hierarchical", "balance"},
-        // Splats lay on pixels that show no receiver.
-        {"water --set emit.photons=64x64 --set reconstruct=lens --set "
-         "reconstruct.lens.edges=crossed",
-         "stored"},
         // What was lost was said without a setting that finds it.
         {"lights --set emit.photons=64x64 --set trace.test=epsilon", "energy"},
         {"mixed --set emit.photons=64x64 --set refine.start=16 --set driver=adaptive "
