@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace kaustik::report {
 namespace {
@@ -38,9 +39,11 @@ std::string moreBranches(const params::ParamSet& settings) {
     const std::string specular = settings.choice(SpecularStage::name);
     if (specular == "interface") return "specular=split follows both";
     if (specular != "split" && specular != "auto") return "";
+    constexpr int kMaxLevels = 6;  // of the parameter's range
     const int levels = std::stoi(settings.find("specular.split.levels").text());
+    if (levels >= kMaxLevels) return "";
     return fmt::format("specular=split and specular.split.levels={} follow more",
-                       std::max(levels + 2, 3));
+                       std::clamp(levels + 2, 3, kMaxLevels));
 }
 
 // Of what lights send onto specular surfaces, what an emitter may miss without a word.
@@ -52,8 +55,10 @@ std::string betterEmission(const params::ParamSet& settings) {
     if (settings.choice(DriverStage::name) == "adaptive" &&
         settings.find("refine.mask").text() == "off")
         return "; refine.mask=on misses less";
+    constexpr int kMaxSize = 8192;  // of the parameter's range
     const int size = std::stoi(settings.find("emit.deferred.size").text());
-    return fmt::format("; emit.deferred.size={} misses less", 4 * size);
+    if (size >= kMaxSize) return "";
+    return fmt::format("; emit.deferred.size={} misses less", std::min(4 * size, kMaxSize));
 }
 
 // "" where the emitter has emitted what it should.
@@ -88,7 +93,7 @@ std::vector<std::string> lossAdvice(const EnergyLedger& ledger, const Renderer& 
         "(hidden_in_map, outside_map)");
     say(watts[kAccountDiscardedTriangle], "reconstruct.triangles.unjoined=beams covers it",
         "lies between photons that are not joined (discarded_triangle)");
-    // With the default test what is not found is what the scene's bounds have none of, as a rule.
+    // What trace.test=crossing does not find has left the scene, as a rule.
     const double unresolved =
         settings.find("trace.test").text() == "crossing" ? 0.0 : watts[kAccountUnresolved];
     say(watts[kAccountMissedByTracer] + watts[kAccountEdgeOn] + unresolved, otherTracer(settings),

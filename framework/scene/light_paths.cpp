@@ -2,12 +2,12 @@
 #include "framework/scene/light_paths.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <limits>
 #include <optional>
 
+#include "framework/scene/receiver_rays.h"
 #include "framework/scene/shapes/height_field.h"
 
 namespace kaustik::scene {
@@ -126,42 +126,23 @@ bool canReach(const Bounds& moving, const Bounds& there, const glm::dvec3& direc
     return first > 0.0 && first < last;
 }
 
-// Whether a ray meets a triangle, on either side, beyond its origin.
-bool meets(const glm::dvec3& origin, const glm::dvec3& direction,
-           const std::array<glm::dvec3, 3>& corners) {
-    const glm::dvec3 u = corners[1] - corners[0];
-    const glm::dvec3 v = corners[2] - corners[0];
-    const glm::dvec3 across = glm::cross(direction, v);
-    const double volume = glm::dot(u, across);
-    if (std::abs(volume) < 1e-30) return false;
-    const glm::dvec3 offset = origin - corners[0];
-    const glm::dvec3 turned = glm::cross(offset, u);
-    const double a = glm::dot(offset, across) / volume;
-    const double b = glm::dot(direction, turned) / volume;
-    return a >= 0.0 && b >= 0.0 && a + b <= 1.0 && glm::dot(v, turned) / volume > 1e-9;
-}
-
-// Whether rays that leave nine points of a box in a direction meet an object around it: the walls
-// of a room, whose own box says nothing of what lies within. Not of meshes of many triangles.
-bool isWithinReach(const Bounds& from, const Scene& scene, const Object& object,
-                   const glm::dvec3& direction) {
-    constexpr std::size_t kMaxTriangles = 1024;
-    const Mesh& mesh = scene.meshes[object.mesh];
-    if (mesh.triangles.size() > kMaxTriangles) return false;
+// A receiver that a box comes upon as it moves along a unit `direction`: by its box or, of what
+// that is within, as it is in a room, by rays from nine points of it; null: there is none.
+const Object* receiverReached(const Scene& scene, const ReceiverRays& rays, const Bounds& from,
+                              const glm::dvec3& direction) {
+    for (const Object& receiver : scene.objects) {
+        if (!isReceiver(scene.materials[receiver.material].kind)) continue;
+        const Bounds to = objectBounds(scene, receiver);
+        if (!to.empty && canReach(from, to, direction)) return &receiver;
+    }
     const glm::dvec3 middle = 0.5 * (from.minimum + from.maximum);
     const glm::dvec3 reach = 0.25 * (from.maximum - from.minimum);
-    for (const glm::uvec3& triangle : mesh.triangles) {
-        std::array<glm::dvec3, 3> corners;
-        for (glm::length_t c = 0; c < 3; ++c) {
-            const glm::dvec4 position(glm::dvec3(mesh.positions[triangle[c]]), 1.0);
-            corners[static_cast<std::size_t>(c)] = glm::dvec3(object.toWorld * position);
-        }
-        for (int i = 0; i < 9; ++i) {
-            const glm::dvec3 step(i % 3 - 1, 0, i / 3 - 1);
-            if (meets(middle + step * reach, direction, corners)) return true;
-        }
+    for (int i = 0; i < 9; ++i) {
+        const glm::dvec3 step(i % 3 - 1, 0, i / 3 - 1);
+        if (const auto hit = rays.first(middle + step * reach, direction))
+            return &scene.objects[hit->object];
     }
-    return false;
+    return nullptr;
 }
 
 // By samples: a corner that lies before a triangle by more than a mesh's noise says that it is not.
@@ -273,6 +254,7 @@ std::optional<ReflectedLight> reflectedLight(const Scene& scene) {
     // light (results/defaults.md).
     constexpr double kMinShare = 0.01;
     std::optional<ReflectedLight> largest;
+    std::optional<ReceiverRays> rays;  // where a sheet reflects enough
     for (const Object& sheet : scene.objects) {
         const Material& material = scene.materials[sheet.material];
         const Mesh& mesh = scene.meshes[sheet.mesh];
@@ -290,15 +272,9 @@ std::optional<ReflectedLight> reflectedLight(const Scene& scene) {
             const double share = reflectance(cosine, static_cast<double>(material.ior));
             if (share <= std::max(kMinShare, largest ? largest->share : 0.0)) continue;
             const glm::dvec3 reflected = direction + 2.0 * cosine * up;
-            for (const Object& receiver : scene.objects) {
-                if (!isReceiver(scene.materials[receiver.material].kind)) continue;
-                const Bounds to = objectBounds(scene, receiver);
-                if (to.empty || (!canReach(from, to, reflected) &&
-                                 !isWithinReach(from, scene, receiver, reflected)))
-                    continue;
-                largest = ReflectedLight{sheet.name, receiver.name, share};
-                break;
-            }
+            if (!rays) rays.emplace(scene);
+            if (const Object* receiver = receiverReached(scene, *rays, from, reflected))
+                largest = ReflectedLight{sheet.name, receiver->name, share};
         }
     }
     return largest;

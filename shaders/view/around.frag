@@ -175,16 +175,17 @@ void part(inout AroundPath path, vec3 positionVs, vec3 normal, uint material, bo
     if (!keepForLater(reflected) && !isRefracted && reflectance > 0.5) path = reflected;
 }
 
-// Of a path that comes to nothing that the layers show. In the open that is the environment; within
-// water or between walls it is something that the reference points do not see, of which the receiver
-// straight behind the pixel's surface is what is known (as include/views/scene_look.glsl has it).
+// Of a path that comes to nothing that the layers show, W/m²/sr. Outside of water that is the
+// environment; water ends at something, which the reference points do not see, and of which the
+// receiver straight behind the pixel is what is known (as include/views/scene_look.glsl has it).
 vec3 radianceOfUnseen(AroundPath path, ivec2 pixel) {
     uint medium = innerMedium(path.media);
     if (medium != 0u && isOpen(medium - 1u)) {
         float behind = texelFetch(receiver, pixel, 0).x + path.origin.z;
         if (behind > 0.0) {
-            float length = behind / max(-path.direction.z, 0.1);
-            return texelFetch(receiverRadiance, pixel, 0).rgb * mediumTransmittance(medium, length);
+            // Along a ray that hardly goes away from the eye no farther than ten times that.
+            float meters = behind / max(-path.direction.z, 0.1);
+            return texelFetch(receiverRadiance, pixel, 0).rgb * mediumTransmittance(medium, meters);
         }
     }
     return environmentRadiance(directionFromEye(path.direction)) *

@@ -2,10 +2,13 @@
 #include "techniques/generators/reference_points.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
 #include <utility>
+
+#include "framework/scene/triangles.h"
 
 namespace kaustik {
 namespace {
@@ -28,7 +31,7 @@ bool contains(const scene::Bounds& outer, const scene::Bounds& inner) {
 }
 
 struct SurfaceTriangle {
-    glm::dvec3 corners[3];
+    std::array<glm::dvec3, 3> corners;
     bool isOpen = false;  // light leaves it where it has come to it, else anywhere
     bool isMirror = false;
     double areaUpTo = 0.0;  // of all triangles up to this one, m²
@@ -44,11 +47,7 @@ std::vector<SurfaceTriangle> surfaceOf(const scene::Scene& scene, const scene::B
         const scene::Mesh& mesh = scene.meshes[object.mesh];
         for (const glm::uvec3& indices : mesh.triangles) {
             SurfaceTriangle triangle;
-            for (int i = 0; i < 3; ++i) {
-                triangle.corners[i] = glm::dvec3(
-                    object.toWorld *
-                    glm::dvec4(mesh.origin + glm::dvec3(mesh.positions[indices[i]]), 1.0));
-            }
+            triangle.corners = scene::cornersOf(mesh, indices, object.toWorld);
             area += 0.5 * glm::length(glm::cross(triangle.corners[1] - triangle.corners[0],
                                                  triangle.corners[2] - triangle.corners[0]));
             triangle.areaUpTo = area;
@@ -79,7 +78,7 @@ glm::dvec3 aroundNormal(const glm::dvec3& normal, double u, double v) {
 
 // Where light comes from to a point, unit; nothing where receivers keep it from all lights.
 std::optional<glm::dvec3> towardsLight(const glm::dvec3& point, const scene::Scene& scene,
-                                       const ReceiverRays& receivers) {
+                                       const scene::ReceiverRays& receivers) {
     for (const scene::Light& light : scene.lights) {
         if (light.kind == scene::LightKind::directional) {
             if (!receivers.first(point, -light.direction)) return -light.direction;
@@ -102,7 +101,8 @@ std::optional<glm::dvec3> towardsLight(const glm::dvec3& point, const scene::Sce
 // Of light that a dielectric sheet sends on, how much is looked for where it reflects it.
 constexpr double kReflectedShare = 0.125;
 
-bool sees(const glm::dvec3& point, const ReachedPlace& place, const ReceiverRays& receivers) {
+bool sees(const glm::dvec3& point, const ReachedPlace& place,
+          const scene::ReceiverRays& receivers) {
     const glm::dvec3 offset = place.position - point;
     const double distance = glm::length(offset);
     if (!(distance > 0.0)) return false;
@@ -115,7 +115,7 @@ bool sees(const glm::dvec3& point, const ReachedPlace& place, const ReceiverRays
 }
 
 double seenShare(const glm::dvec3& point, const std::vector<ReachedPlace>& places,
-                 const ReceiverRays& receivers) {
+                 const scene::ReceiverRays& receivers) {
     if (places.empty()) return 1.0;
     const auto seen = std::count_if(places.begin(), places.end(), [&](const ReachedPlace& place) {
         return sees(point, place, receivers);
@@ -188,7 +188,7 @@ bool isIn(const scene::Bounds& bounds, const glm::dvec3& point) {
 }  // namespace
 
 std::vector<ReachedPlace> placesReached(const scene::Scene& scene, const scene::Bounds& generator,
-                                        const ReceiverRays& receivers) {
+                                        const scene::ReceiverRays& receivers) {
     const std::vector<SurfaceTriangle> triangles = surfaceOf(scene, generator);
     std::vector<ReachedPlace> places;
     if (triangles.empty()) return places;
@@ -198,7 +198,7 @@ std::vector<ReachedPlace> placesReached(const scene::Scene& scene, const scene::
             triangles.begin(), triangles.end(), area,
             [](const SurfaceTriangle& triangle, double upTo) { return triangle.areaUpTo < upTo; });
         if (found == triangles.end()) continue;
-        const glm::dvec3(&corners)[3] = found->corners;
+        const std::array<glm::dvec3, 3>& corners = found->corners;
         const double root = std::sqrt(evenly(i, 1));
         const double share = evenly(i, 2);
         const glm::dvec3 from = (1.0 - root) * corners[0] + root * (1.0 - share) * corners[1] +
@@ -221,7 +221,7 @@ std::vector<ReachedPlace> placesReached(const scene::Scene& scene, const scene::
 
 ReferencePoints referencePoints(const scene::Bounds& generator,
                                 const std::vector<ReachedPlace>& reached,
-                                const ReceiverRays& receivers, int pointCount) {
+                                const scene::ReceiverRays& receivers, int pointCount) {
     ReferencePoints result;
     double seen = 0.0;
     std::vector<ReachedPlace> left = reached;

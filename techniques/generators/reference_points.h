@@ -8,7 +8,7 @@
 
 #include <vector>
 
-#include "techniques/generators/receiver_rays.h"
+#include "framework/scene/receiver_rays.h"
 
 namespace kaustik {
 
@@ -23,7 +23,7 @@ struct ReachedPlace {
 // ones every time. Places in world space, m.
 [[nodiscard]] std::vector<ReachedPlace> placesReached(const scene::Scene& scene,
                                                       const scene::Bounds& generator,
-                                                      const ReceiverRays& receivers);
+                                                      const scene::ReceiverRays& receivers);
 
 // The part of a generator that is looked at from one point.
 struct GeneratorPart {
@@ -39,6 +39,6 @@ struct ReferencePoints {
 // the best place nearby.
 [[nodiscard]] ReferencePoints referencePoints(const scene::Bounds& generator,
                                               const std::vector<ReachedPlace>& reached,
-                                              const ReceiverRays& receivers, int pointCount);
+                                              const scene::ReceiverRays& receivers, int pointCount);
 
 }  // namespace kaustik

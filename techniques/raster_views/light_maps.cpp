@@ -186,8 +186,7 @@ void addMagnifiedParts(FrameBuilder& frame, PlannedMaps& planned, int cascades) 
         planned.nearer[light] = parts.views;
         planned.chosenBy[light] = fmt::format(
             "; along a side a texel of its map covers {:.3g} pixels (median; 95 %: {:.3g}), with "
-            "{} "
-            "further map{} {:.3g} ({:.3g})",
+            "{} further map{} {:.3g} ({:.3g})",
             parts.before.x, parts.before.y, parts.views.size(), parts.views.size() == 1 ? "" : "s",
             parts.after.x, parts.after.y);
         const auto requested = static_cast<std::size_t>(cascades - 1);

@@ -11,6 +11,7 @@
 #include <tuple>
 #include <utility>
 
+#include "framework/scene/triangles.h"
 #include "techniques/raster_views/map_border.h"
 
 namespace kaustik {
@@ -229,12 +230,7 @@ std::vector<SeenPlace> seenPlaces(const scene::Scene& scene, const render::Raste
         const scene::Mesh& mesh = scene.meshes[object.mesh];
         const glm::dmat4 toView = eye.worldToView * object.toWorld;
         for (const glm::uvec3& triangle : mesh.triangles) {
-            std::array<dvec3, 3> corners;
-            for (int i = 0; i < 3; ++i) {
-                corners[static_cast<std::size_t>(i)] =
-                    dvec3(toView * dvec4(mesh.origin + dvec3(mesh.positions[triangle[i]]), 1.0));
-            }
-            grid.add(corners, isReceiver(kind));
+            grid.add(scene::cornersOf(mesh, triangle, toView), isReceiver(kind));
         }
     }
     return grid.places();

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "framework/pipeline/frame_builder.h"
+#include "framework/scene/triangles.h"
 #include "techniques/raster_views/light_maps.h"
 #include "techniques/tracing/specular_ahead.h"
 
@@ -51,12 +52,7 @@ std::vector<std::string> turnedAway(const scene::Scene& scene, const scene::Ligh
         double away = 0.0;
         double all = 0.0;
         for (const glm::uvec3& triangle : mesh.triangles) {
-            glm::dvec3 corners[3];
-            for (int i = 0; i < 3; ++i) {
-                corners[i] = glm::dvec3(
-                    object.toWorld *
-                    glm::dvec4(mesh.origin + glm::dvec3(mesh.positions[triangle[i]]), 1.0));
-            }
+            const auto corners = scene::cornersOf(mesh, triangle, object.toWorld);
             const glm::dvec3 area =
                 0.5 * glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
             const glm::dvec3 along = light.kind == scene::LightKind::directional

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "techniques/generators/receiver_rays.h"
+#include "framework/scene/receiver_rays.h"
 
 #include <algorithm>
 #include <utility>
 
-namespace kaustik {
+#include "framework/scene/triangles.h"
+
+namespace kaustik::scene {
 namespace {
 
 constexpr std::size_t kTrianglesOfLeaf = 4;
@@ -23,18 +25,15 @@ double distanceToBox(const glm::dvec3& minimum, const glm::dvec3& maximum, const
 
 }  // namespace
 
-ReceiverRays::ReceiverRays(const scene::Scene& scene) {
-    for (const scene::Object& object : scene.objects) {
+ReceiverRays::ReceiverRays(const Scene& scene) {
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        const Object& object = scene.objects[i];
         if (!isReceiver(scene.materials[object.material].kind)) continue;
-        const scene::Mesh& mesh = scene.meshes[object.mesh];
+        const Mesh& mesh = scene.meshes[object.mesh];
         for (const glm::uvec3& indices : mesh.triangles) {
-            glm::dvec3 corners[3];
-            for (int i = 0; i < 3; ++i) {
-                corners[i] = glm::dvec3(
-                    object.toWorld *
-                    glm::dvec4(mesh.origin + glm::dvec3(mesh.positions[indices[i]]), 1.0));
-            }
-            triangles_.push_back({corners[0], {corners[1] - corners[0], corners[2] - corners[0]}});
+            const auto corners = cornersOf(mesh, indices, object.toWorld);
+            triangles_.push_back(
+                {corners[0], {corners[1] - corners[0], corners[2] - corners[0]}, i});
         }
     }
     if (!triangles_.empty()) addNode(0, triangles_.size());
@@ -114,10 +113,11 @@ std::optional<ReceiverRays::Hit> ReceiverRays::first(const glm::dvec3& origin,
                 continue;
             farthest = distance;
             nearest = {distance, origin + distance * direction,
-                       glm::normalize(glm::cross(triangle.edges[0], triangle.edges[1]))};
+                       glm::normalize(glm::cross(triangle.edges[0], triangle.edges[1])),
+                       triangle.object};
         }
     }
     return nearest;
 }
 
-}  // namespace kaustik
+}  // namespace kaustik::scene

@@ -3,6 +3,7 @@
 // of it is made. A tree of boxes over all receivers' triangles.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <limits>
@@ -11,17 +12,18 @@
 
 #include "framework/scene/scene.h"
 
-namespace kaustik {
+namespace kaustik::scene {
 
 class ReceiverRays {
   public:
-    explicit ReceiverRays(const scene::Scene& scene);
+    explicit ReceiverRays(const Scene& scene);
 
     // World space, m; the normal is of the triangle, unit, and points to either side.
     struct Hit {
         double distance = 0.0;
         glm::dvec3 position{0.0};
         glm::dvec3 normal{0.0};
+        std::size_t object = 0;  // its place in the scene
     };
     // `direction`: unit. Nothing where no receiver is nearer than `farthest`.
     [[nodiscard]] std::optional<Hit> first(
@@ -32,6 +34,7 @@ class ReceiverRays {
     struct Triangle {
         glm::dvec3 corner;
         glm::dvec3 edges[2];  // to the other corners
+        std::size_t object = 0;
     };
     struct Node {
         glm::dvec3 minimum;
@@ -45,4 +48,4 @@ class ReceiverRays {
     std::vector<Node> nodes_;
 };
 
-}  // namespace kaustik
+}  // namespace kaustik::scene
