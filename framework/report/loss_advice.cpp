@@ -34,6 +34,14 @@ std::string otherTracer(const params::ParamSet& settings) {
     return "trace=raytraced finds all";
 }
 
+// Whether photons are those that a body's front reflects, and are looked for in what lights see.
+bool followsReflectedAlone(const params::ParamSet& settings) {
+    const std::string tracer = settings.choice(TraceStage::name);
+    return (tracer == "background" || tracer == "plane") &&
+           settings.choice(SpecularStage::name) == "two_interfaces" &&
+           settings.find("specular.two_interfaces.branch").text() == "reflected";
+}
+
 // What follows more branches; "" where another node is needed, whose photons are others.
 std::string moreBranches(const params::ParamSet& settings) {
     const std::string specular = settings.choice(SpecularStage::name);
@@ -96,6 +104,16 @@ std::vector<std::string> lossAdvice(const EnergyLedger& ledger, const Renderer& 
     // What trace.test=crossing does not find has left the scene, as a rule.
     const double unresolved =
         settings.find("trace.test").text() == "crossing" ? 0.0 : watts[kAccountUnresolved];
+    if (followsReflectedAlone(settings)) {
+        const double followed = emitted - watts[kAccountUntracedBranch];
+        if (watts[kAccountUnresolved] > kLossWithoutAWord * followed) {
+            advice.push_back(fmt::format(
+                "{:.3g}% of what is reflected comes to nothing that trace={} finds, which looks "
+                "where the light sees receivers (unresolved): it leaves the scene, or "
+                "trace=hierarchical with reconstruct.space=screen and gather=screen finds more.",
+                100.0 * watts[kAccountUnresolved] / followed, settings.choice(TraceStage::name)));
+        }
+    }
     say(watts[kAccountMissedByTracer] + watts[kAccountEdgeOn] + unresolved, otherTracer(settings),
         fmt::format("comes to nothing that trace={} finds (tracer, edge_on, unresolved)",
                     settings.choice(TraceStage::name)));

@@ -7,8 +7,8 @@
 #include <limits>
 #include <optional>
 
-#include "framework/scene/receiver_rays.h"
 #include "framework/scene/shapes/height_field.h"
+#include "framework/scene/surface_rays.h"
 
 namespace kaustik::scene {
 namespace {
@@ -128,7 +128,7 @@ bool canReach(const Bounds& moving, const Bounds& there, const glm::dvec3& direc
 
 // A receiver that a box comes upon as it moves along a unit `direction`: by its box or, of what
 // that is within, as it is in a room, by rays from nine points of it; null: there is none.
-const Object* receiverReached(const Scene& scene, const ReceiverRays& rays, const Bounds& from,
+const Object* receiverReached(const Scene& scene, const SurfaceRays& rays, const Bounds& from,
                               const glm::dvec3& direction) {
     for (const Object& receiver : scene.objects) {
         if (!isReceiver(scene.materials[receiver.material].kind)) continue;
@@ -254,7 +254,7 @@ std::optional<ReflectedLight> reflectedLight(const Scene& scene) {
     // light (results/defaults.md).
     constexpr double kMinShare = 0.01;
     std::optional<ReflectedLight> largest;
-    std::optional<ReceiverRays> rays;  // where a sheet reflects enough
+    std::optional<SurfaceRays> rays;  // where a sheet reflects enough
     for (const Object& sheet : scene.objects) {
         const Material& material = scene.materials[sheet.material];
         const Mesh& mesh = scene.meshes[sheet.mesh];
@@ -272,7 +272,7 @@ std::optional<ReflectedLight> reflectedLight(const Scene& scene) {
             const double share = reflectance(cosine, static_cast<double>(material.ior));
             if (share <= std::max(kMinShare, largest ? largest->share : 0.0)) continue;
             const glm::dvec3 reflected = direction + 2.0 * cosine * up;
-            if (!rays) rays.emplace(scene);
+            if (!rays) rays.emplace(scene, receiversOf(scene));
             if (const Object* receiver = receiverReached(scene, *rays, from, reflected))
                 largest = ReflectedLight{sheet.name, receiver->name, share};
         }

@@ -39,9 +39,10 @@ struct ReflectedLight {
     std::string receiver;
     double share = 0.0;  // of the light, by Fresnel's equations where the sheet is level
 };
-// The largest share above 4 % (that of glass at normal incidence) for which a receiver lies in the
-// path of the beam that the sheet, taken for level, reflects; by the boxes of both, so that waves
-// and corners may decide otherwise. Closed dielectrics send light everywhere and are not asked.
+// The largest share above 1 % (water reflects 2 % of what comes straight down) for which a receiver
+// lies in the path of the beam that the sheet, taken for level, reflects: by the boxes of both, or,
+// of a receiver around the sheet, by rays from nine points of it. Waves may decide otherwise.
+// Closed dielectrics send light everywhere and are not asked.
 [[nodiscard]] std::optional<ReflectedLight> reflectedLight(const Scene& scene);
 
 // The name of a dielectric with an inside that is not convex; nothing where all are. From a convex

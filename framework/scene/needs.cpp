@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "framework/scene/needs.h"
 
+#include "framework/scene/connected_bodies.h"
+
 #include <algorithm>
 #include <vector>
 
@@ -66,6 +68,7 @@ SceneNeeds sceneNeeds(const Scene& scene) {
     needs.repeatedHits = repeatedHits(scene);
     needs.reflectedLight = reflectedLight(scene);
     needs.concaveBody = concaveBody(scene);
+    needs.bodies = connectedBodies(scene);
     needs.nestedBodies = needs.closedDielectrics && hasNestedBodies(scene);
     needs.lights = static_cast<int>(scene.lights.size());
     const glm::vec3 none(0.0f);

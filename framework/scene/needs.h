@@ -3,6 +3,9 @@
 // "Only what a scene needs").
 #pragma once
 
+#include <cstddef>
+#include <vector>
+
 #include "framework/scene/light_paths.h"
 #include "framework/scene/scene.h"
 
@@ -22,6 +25,9 @@ struct SceneNeeds {
     int reflectors = 0;                      // objects that are mirrors
     int refractors = 0;                      // objects that are dielectrics
     bool closedDielectrics = false;  // one of these has an inside: glass, not a water surface
+    // Dielectrics with an inside, by their places in the scene's objects; those that meet or lie in
+    // one another are one (connected_bodies.h).
+    std::vector<std::vector<std::size_t>> bodies;
     // A body's box overlaps that of a dielectric with an inside: it may lie in it.
     bool nestedBodies = false;
     bool medium = false;            // one that scatters or absorbs

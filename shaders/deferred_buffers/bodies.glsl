@@ -39,20 +39,47 @@ vec3 faceShape(ivec2 texel, int face) {
 }
 #endif
 
-// On whose surface a point lies; -1: on that of none that is kept.
+// How far a point lies outside of a box, m; negative within.
+float outsideOfBox(vec3 positionVs, BodyBox box) {
+    vec3 offset = mat3(view.viewToWorld) * (positionVs - box.centerVs.xyz);
+    vec3 beyond = abs(offset) - box.halfExtent.xyz;
+    return max(beyond.x, max(beyond.y, beyond.z));
+}
+
+// Between a point's depth and the next of the body's fronts that are seen in its texel and in those
+// around it, m; of a body without buffers, as far as a front that is seen at a slant may be.
+float distanceToFront(vec3 positionVs, int body) {
+    ivec2 middle = texelAt(positionVs);
+    if (body >= bodyCount) {
+        const float slope = 4.0;
+        return slope * distance(viewPoint(vec2(middle), -positionVs.z),
+                                viewPoint(vec2(middle + 1), -positionVs.z));
+    }
+    ivec2 last = textureSize(bodyDepth, 0).xy - 1;
+    float minimum = 3.0e38;
+    for (int i = 0; i < 9; ++i) {
+        ivec2 texel = clamp(middle + ivec2(i % 3, i / 3) - 1, ivec2(0), last);
+        float front = texelFetch(bodyDepth, ivec3(texel, 2 * body), 0).x;
+        if (front > 0.0) minimum = min(minimum, abs(front + positionVs.z));
+    }
+    return minimum;
+}
+
+// On whose front a point lies that this view sees, by boxes and, where these overlap, by fronts;
+// -1: on that of none that is kept.
 int bodyAround(vec3 positionVs) {
     int nearest = -1;
-    float minimum = 0.0;
+    float minimum = 3.4e38;
     for (int i = 0; i < boxCount; ++i) {
-        vec3 offset = mat3(view.viewToWorld) * (positionVs - boxes[i].centerVs.xyz);
-        vec3 beyond = abs(offset) - boxes[i].halfExtent.xyz;
-        float farthest = max(beyond.x, max(beyond.y, beyond.z));
-        if (farthest <= 0.0 && farthest < minimum) {
-            minimum = farthest;
-            nearest = int(boxes[i].centerVs.w);
+        if (outsideOfBox(positionVs, boxes[i]) > 0.0) continue;
+        int body = int(boxes[i].centerVs.w);
+        float away = boxCount > 1 ? distanceToFront(positionVs, body) : 0.0;
+        if (away < minimum) {
+            minimum = away;
+            nearest = body;
         }
     }
-    return nearest;
+    return nearest < bodyCount ? nearest : -1;
 }
 
 #ifdef SEVERAL_BODIES
@@ -97,7 +124,7 @@ BodyHit nextBody(vec3 origin, vec3 direction, uint visited, PlaneSearch how) {
     BodyHit nearest = BodyHit(-1, 3.0e38, ivec2(0), vec3(0.0), 0u);
     for (int i = 0; i < boxCount; ++i) {
         int body = int(boxes[i].centerVs.w);
-        if (((visited >> uint(body)) & 1u) != 0u) continue;
+        if (body >= bodyCount || ((visited >> uint(body)) & 1u) != 0u) continue;
         RaySegment segment = clipToBox(origin, direction, boxes[i]);
         if (!segment.visible || segment.nearT >= nearest.t) continue;
         bodyIndex = body;

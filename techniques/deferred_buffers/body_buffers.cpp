@@ -9,42 +9,10 @@
 #include <limits>
 #include <utility>
 
-#include "framework/scene/light_paths.h"
 #include "techniques/deferred_buffers/body_data.h"
 
 namespace kaustik {
 namespace {
-
-// By more than rounding: boxes may touch.
-bool overlap(const scene::Bounds& a, const scene::Bounds& b) {
-    const glm::dvec3 shared = glm::min(a.maximum, b.maximum) - glm::max(a.minimum, b.minimum);
-    const double maximum =
-        1e-6 * glm::length(glm::min(a.maximum - a.minimum, b.maximum - b.minimum));
-    return glm::all(glm::greaterThan(shared, glm::dvec3(maximum)));
-}
-
-bool overlap(const Body& a, const Body& b) {
-    return std::any_of(a.boxes.begin(), a.boxes.end(), [&](const scene::Bounds& one) {
-        return std::any_of(b.boxes.begin(), b.boxes.end(),
-                           [&](const scene::Bounds& other) { return overlap(one, other); });
-    });
-}
-
-void unite(Body& one, const Body& other) {
-    one.objects.insert(one.objects.end(), other.objects.begin(), other.objects.end());
-    one.names.insert(one.names.end(), other.names.begin(), other.names.end());
-    one.boxes.insert(one.boxes.end(), other.boxes.begin(), other.boxes.end());
-}
-
-// Adds an object to those that it overlaps, which become one.
-void add(std::vector<Body>& bodies, Body body) {
-    std::erase_if(bodies, [&](const Body& other) {
-        const bool isOfIt = overlap(body, other);
-        if (isOfIt) unite(body, other);
-        return isOfIt;
-    });
-    bodies.push_back(std::move(body));
-}
 
 double distanceFrom(const glm::dvec3& point, const scene::Bounds& box) {
     return glm::length(point - glm::clamp(point, box.minimum, box.maximum));
@@ -156,14 +124,17 @@ void draw(const FrameInputs& inputs, gl::PassContext& context, const Drawing& da
 
 }  // namespace
 
-std::vector<Body> bodiesOf(const scene::Scene& scene) {
+std::vector<Body> bodiesOf(const FrameBuilder& frame) {
+    const scene::Scene& scene = frame.scene();
     std::vector<Body> bodies;
-    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-        const scene::Object& object = scene.objects[i];
-        if (scene.materials[object.material].kind != scene::MaterialKind::dielectric) continue;
-        const scene::Bounds bounds = objectBounds(scene, object);
-        if (bounds.empty || isOpen(scene, object.material)) continue;
-        add(bodies, {{i}, {object.name}, {bounds}});
+    for (const std::vector<std::size_t>& objects : frame.needs().bodies) {
+        Body body;
+        body.objects = objects;
+        for (const std::size_t i : objects) {
+            body.names.push_back(scene.objects[i].name);
+            body.boxes.push_back(objectBounds(scene, scene.objects[i]));
+        }
+        bodies.push_back(std::move(body));
     }
     return bodies;
 }
@@ -191,11 +162,6 @@ std::string omittedNames(const std::vector<Body>& bodies, int maximum) {
     return quoted(names);
 }
 
-void truncateBodies(std::vector<Body>& bodies, int maximum) {
-    if (bodies.size() > static_cast<std::size_t>(maximum))
-        bodies.erase(bodies.begin() + maximum, bodies.end());
-}
-
 void BodyBuffers::sample(graph::PassSetup& setup) const {
     setup.sample("bodyDepth", depth);
     setup.sample("bodySurface", surface);
@@ -217,6 +183,7 @@ void setBoxes(FrameBuilder& frame, const std::vector<Body>& bodies, const std::s
 
 BodyBuffers drawBodies(FrameBuilder& frame, const Geometry& geometry, const Views& views,
                        const std::vector<Body>& bodies, const BodyBuffersPass& pass) {
+    const std::vector<Body> drawn(bodies.begin(), bodies.begin() + pass.bodies);
     return frame
         .pass<Drawing>(
             pass.name, pass.reason,
@@ -225,11 +192,10 @@ BodyBuffers drawBodies(FrameBuilder& frame, const Geometry& geometry, const View
                 if (geometry.heightFields.valid()) setup.read(geometry.heightFields);
                 const int w = views->width();
                 const int h = views->height();
-                const int layers =
-                    2 * static_cast<int>(bodies.size()) + (bodies.size() > 1 ? 1 : 0);
+                const int layers = 2 * pass.bodies + (pass.bodies > 1 ? 1 : 0);
                 BodyBuffers& made = data.buffers;
                 made.views = views;
-                made.bodies = static_cast<int>(bodies.size());
+                made.bodies = pass.bodies;
                 setBoxes(frame, bodies, pass.prefix, made);
                 made.depth = setup.create<ViewDepth>(pass.prefix + "body_depth", w, h, layers);
                 made.surface =
@@ -239,9 +205,9 @@ BodyBuffers drawBodies(FrameBuilder& frame, const Geometry& geometry, const View
                 data.depthBuffer =
                     setup.create<DepthBuffer>(pass.prefix + "body_depth_buffer", w, h, layers);
             },
-            [&inputs = frame.inputs(), bodies, how = pass.geometry](const Drawing& data,
-                                                                    gl::PassContext& context) {
-                draw(inputs, context, data, bodies, how);
+            [&inputs = frame.inputs(), drawn, how = pass.geometry](const Drawing& data,
+                                                                   gl::PassContext& context) {
+                draw(inputs, context, data, drawn, how);
             })
         .buffers;
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Fronts and backs of each body by itself, so that rays go from one to another (WN09, section
 // 3.1.1): normals, depths and materials, and where photons have beams how the normals turn. A body
-// is an object, or several whose boxes overlap, of which none is told from the others. Each is
-// drawn once for both.
+// is an object, or several that meet or lie in one another, of which none is told from the others
+// (scene/connected_bodies.h). Each is drawn once for both.
 #pragma once
 
 #include <string>
@@ -13,13 +13,13 @@
 
 namespace kaustik {
 
-// Closed dielectrics, one or those whose boxes overlap. World space, m.
+// Closed dielectrics, one or those that are connected. World space, m.
 struct Body {
     std::vector<std::size_t> objects;
     std::vector<std::string> names;
-    std::vector<scene::Bounds> boxes;  // of the objects; overlap no other body's
+    std::vector<scene::Bounds> boxes;  // of the objects; may overlap another body's
 };
-[[nodiscard]] std::vector<Body> bodiesOf(const scene::Scene& scene);
+[[nodiscard]] std::vector<Body> bodiesOf(const FrameBuilder& frame);
 
 // Coarsely sorted, by the nearest points of their boxes: from a point, or along a direction.
 [[nodiscard]] std::vector<Body> nearestFirst(std::vector<Body> bodies, const scene::Light& light);
@@ -28,7 +28,6 @@ struct Body {
 [[nodiscard]] std::string quoted(const std::vector<std::string>& names);
 // Names the bodies beyond the first `maximum`, which are left out; "" where there are none.
 [[nodiscard]] std::string omittedNames(const std::vector<Body>& bodies, int maximum);
-void truncateBodies(std::vector<Body>& bodies, int maximum);
 
 // Arrays: the front and the back of body i are layers 2i and 2i + 1, and after those of all the
 // first surface that is no dielectric.
@@ -72,12 +71,13 @@ struct BodySearchParams {
     }
 };
 
-// A deferred::BodyBox an object of these, for `buffers` of one view.
+// A deferred::BodyBox an object of these, drawn or not, for `buffers` of one view.
 void setBoxes(FrameBuilder& frame, const std::vector<Body>& bodies, const std::string& prefix,
               BodyBuffers& buffers);
 
 // What the pass is called, and the names of its textures begin with.
 struct BodyBuffersPass {
+    int bodies = 1;  // that are drawn: the first ones
     std::string name;
     std::string reason;
     std::string prefix;

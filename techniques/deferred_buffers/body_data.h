@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // An object of a body as shaders know it that go from one body to another: the box that holds it,
-// and nothing of other bodies. C++ and GLSL both read this file.
+// and parts of other bodies where boxes overlap. C++ and GLSL both read this file.
 #pragma once
 
 #include "framework/transport/types.h"
@@ -10,7 +10,8 @@ namespace kaustik::deferred {
 using glm::vec4;
 #endif
 
-// A box in a view's space, along the world's axes, m (std430). The centre's w is the body's number.
+// A box in a view's space, along the world's axes, m (std430). The centre's w is the body's number,
+// and from bodyCount on it has no buffers.
 struct BodyBox {
     vec4 centerVs;
     vec4 halfExtent;

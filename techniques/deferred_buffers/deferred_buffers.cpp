@@ -151,7 +151,7 @@ void DeferredBuffers::bindTo(gl::Command& command) const {
 bool sharesBackFaces(const FrameBuilder& frame) {
     const params::ParamSet& params = frame.inputs().params;
     return params.choice(EmitStage::name) == "deferred" &&
-           params.choice(SpecularStage::name) == "deferred" && bodiesOf(frame.scene()).size() == 1;
+           params.choice(SpecularStage::name) == "deferred" && bodiesOf(frame).size() == 1;
 }
 
 const std::vector<DeferredBuffers>& deferredBuffers(FrameBuilder& frame, const Geometry& geometry) {

@@ -61,8 +61,9 @@ constexpr int kMaxPoints = 16;
 
 // The points of a generator: as many as asked for, or as see enough, if any do.
 ReferencePoints pointsOf(FrameBuilder& frame, const Generator& whole, int wanted, int room) {
-    const auto rays = frame.once<scene::ReceiverRays>("generators.receiver_rays", [&] {
-        return std::make_shared<scene::ReceiverRays>(frame.scene());
+    const auto rays = frame.once<scene::SurfaceRays>("generators.receiver_rays", [&] {
+        return std::make_shared<scene::SurfaceRays>(frame.scene(),
+                                                    scene::receiversOf(frame.scene()));
     });
     const std::vector<ReachedPlace> reached = placesReached(frame.scene(), whole.bounds, *rays);
     const auto from = [&](int points) {

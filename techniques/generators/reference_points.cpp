@@ -78,7 +78,7 @@ glm::dvec3 aroundNormal(const glm::dvec3& normal, double u, double v) {
 
 // Where light comes from to a point, unit; nothing where receivers keep it from all lights.
 std::optional<glm::dvec3> towardsLight(const glm::dvec3& point, const scene::Scene& scene,
-                                       const scene::ReceiverRays& receivers) {
+                                       const scene::SurfaceRays& receivers) {
     for (const scene::Light& light : scene.lights) {
         if (light.kind == scene::LightKind::directional) {
             if (!receivers.first(point, -light.direction)) return -light.direction;
@@ -101,8 +101,7 @@ std::optional<glm::dvec3> towardsLight(const glm::dvec3& point, const scene::Sce
 // Of light that a dielectric sheet sends on, how much is looked for where it reflects it.
 constexpr double kReflectedShare = 0.125;
 
-bool sees(const glm::dvec3& point, const ReachedPlace& place,
-          const scene::ReceiverRays& receivers) {
+bool sees(const glm::dvec3& point, const ReachedPlace& place, const scene::SurfaceRays& receivers) {
     const glm::dvec3 offset = place.position - point;
     const double distance = glm::length(offset);
     if (!(distance > 0.0)) return false;
@@ -115,7 +114,7 @@ bool sees(const glm::dvec3& point, const ReachedPlace& place,
 }
 
 double seenShare(const glm::dvec3& point, const std::vector<ReachedPlace>& places,
-                 const scene::ReceiverRays& receivers) {
+                 const scene::SurfaceRays& receivers) {
     if (places.empty()) return 1.0;
     const auto seen = std::count_if(places.begin(), places.end(), [&](const ReachedPlace& place) {
         return sees(point, place, receivers);
@@ -188,7 +187,7 @@ bool isIn(const scene::Bounds& bounds, const glm::dvec3& point) {
 }  // namespace
 
 std::vector<ReachedPlace> placesReached(const scene::Scene& scene, const scene::Bounds& generator,
-                                        const scene::ReceiverRays& receivers) {
+                                        const scene::SurfaceRays& receivers) {
     const std::vector<SurfaceTriangle> triangles = surfaceOf(scene, generator);
     std::vector<ReachedPlace> places;
     if (triangles.empty()) return places;
@@ -221,7 +220,7 @@ std::vector<ReachedPlace> placesReached(const scene::Scene& scene, const scene::
 
 ReferencePoints referencePoints(const scene::Bounds& generator,
                                 const std::vector<ReachedPlace>& reached,
-                                const scene::ReceiverRays& receivers, int pointCount) {
+                                const scene::SurfaceRays& receivers, int pointCount) {
     ReferencePoints result;
     double seen = 0.0;
     std::vector<ReachedPlace> left = reached;

@@ -8,7 +8,7 @@
 
 #include <vector>
 
-#include "framework/scene/receiver_rays.h"
+#include "framework/scene/surface_rays.h"
 
 namespace kaustik {
 
@@ -23,7 +23,7 @@ struct ReachedPlace {
 // ones every time. Places in world space, m.
 [[nodiscard]] std::vector<ReachedPlace> placesReached(const scene::Scene& scene,
                                                       const scene::Bounds& generator,
-                                                      const scene::ReceiverRays& receivers);
+                                                      const scene::SurfaceRays& receivers);
 
 // The part of a generator that is looked at from one point.
 struct GeneratorPart {
@@ -39,6 +39,6 @@ struct ReferencePoints {
 // the best place nearby.
 [[nodiscard]] ReferencePoints referencePoints(const scene::Bounds& generator,
                                               const std::vector<ReachedPlace>& reached,
-                                              const scene::ReceiverRays& receivers, int pointCount);
+                                              const scene::SurfaceRays& receivers, int pointCount);
 
 }  // namespace kaustik

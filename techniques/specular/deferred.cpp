@@ -59,13 +59,6 @@ struct DeferredSpecularParams {
     }
 };
 
-std::vector<Body> nearestBodies(const FrameBuilder& frame, const DeferredSpecularParams& params,
-                                const scene::Light& light) {
-    std::vector<Body> bodies = nearestFirst(bodiesOf(frame.scene()), light);
-    truncateBodies(bodies, params.layers);
-    return bodies;
-}
-
 // Paths that the scene has and this cannot form, in a sentence; "" where it has none.
 std::string omittedPathsMessage(const FrameBuilder& frame) {
     const scene::SceneNeeds& needs = frame.needs();
@@ -79,11 +72,11 @@ std::string omittedPathsMessage(const FrameBuilder& frame) {
                                     *needs.concaveBody));
     }
     int closed = 0;
-    for (const Body& body : bodiesOf(frame.scene())) {
+    for (const Body& body : bodiesOf(frame)) {
         closed += static_cast<int>(body.objects.size());
         if (body.objects.size() > 1) {
             paths.push_back(
-                fmt::format("from one to another of {}, whose boxes overlap", quoted(body.names)));
+                fmt::format("from one to another of {}, which meet", quoted(body.names)));
         }
     }
     if (needs.reflectors > 0 && needs.repeatedHits.reflected)
@@ -102,7 +95,7 @@ void warnOmittedPaths(FrameBuilder& frame, const DeferredSpecularParams& params)
     const std::string sentence = omittedPathsMessage(frame);
     if (!sentence.empty()) frame.warn(sentence);
     for (const scene::Light& light : frame.scene().lights) {
-        const std::vector<Body> bodies = nearestFirst(bodiesOf(frame.scene()), light);
+        const std::vector<Body> bodies = nearestFirst(bodiesOf(frame), light);
         const std::string names = omittedNames(bodies, params.layers);
         if (names.empty()) continue;
         frame.warn(fmt::format(
@@ -122,18 +115,19 @@ BodyBuffers bodiesSeenFrom(FrameBuilder& frame, const DeferredSpecularParams& pa
             const DeferredBuffers& shared = deferredBuffers(frame, surfaces.geometry)[light];
             auto own = std::make_shared<BodyBuffers>();
             *own = {shared.depth, shared.surface, shared.shape, shared.views, 1};
-            setBoxes(frame, bodiesOf(frame.scene()), "light" + suffix + ".", *own);
+            setBoxes(frame, bodiesOf(frame), "light" + suffix + ".", *own);
             return own;
         }
         const Views views = frame.makeViews(
             render::Space::light, {render::inPixels(sight.view, params.size, params.size)});
-        const std::vector<Body> bodies = nearestBodies(frame, params, frame.scene().lights[light]);
-        return std::make_shared<BodyBuffers>(drawBodies(
-            frame, surfaces.geometry, views, bodies,
-            {"specular.body_buffers",
-             fmt::format("photons go through {} bod{} of light '{}'", bodies.size(),
-                         bodies.size() == 1 ? "y" : "ies", frame.scene().lights[light].name),
-             "light" + suffix + ".", hasShape, params.geometry}));
+        const std::vector<Body> bodies = nearestFirst(bodiesOf(frame), frame.scene().lights[light]);
+        const int drawn = std::min(static_cast<int>(bodies.size()), params.layers);
+        return std::make_shared<BodyBuffers>(
+            drawBodies(frame, surfaces.geometry, views, bodies,
+                       {drawn, "specular.body_buffers",
+                        fmt::format("photons go through {} bod{} of light '{}'", drawn,
+                                    drawn == 1 ? "y" : "ies", frame.scene().lights[light].name),
+                        "light" + suffix + ".", hasShape, params.geometry}));
     });
 }
 
@@ -146,7 +140,7 @@ Photons interactDeferred(FrameBuilder& frame, const DeferredSpecularParams& para
     const NextPhotons next = allocateNext(frame, hits);
     Photons photons = next.photons;
     photons.ledger = hits.incoming.ledger;
-    const int bodies = std::min(static_cast<int>(bodiesOf(frame.scene()).size()), params.layers);
+    const int bodies = std::min(static_cast<int>(bodiesOf(frame).size()), params.layers);
     if (bodies == 0)
         frame.skip("specular.body_buffers", "no dielectric of the scene has an inside");
     for (std::size_t light = 0; light < sights.size(); ++light) {
@@ -193,7 +187,8 @@ void registerSpecularDeferred(Registry& registry) {
          "backs that the light sees; reflects them at mirrors.",
          "WN09, section 3.1.1; W05",
          "It knows of each body the front and the back that the light sees, of no more than "
-         "specular.deferred.layers bodies; objects whose boxes overlap count as one. Total "
+         "specular.deferred.layers bodies; objects that meet or lie in one another count as one. "
+         "Total "
          "reflection inside is not followed, and what a medium scatters between two bodies is "
          "taken as absorbed. A warning names the paths of the scene that it cannot form."},
         {.throughBodies = true}, &interactDeferred);

@@ -9,6 +9,7 @@
 // reflect nothing is seen, and what is totally reflected inside goes on unbent.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -51,7 +52,7 @@ struct DeferredViewParams {
 
 BodyBuffers bodiesSeenByEye(FrameBuilder& frame, const DeferredViewParams& params,
                             const Geometry& geometry) {
-    std::vector<Body> bodies = nearestFirst(bodiesOf(frame.scene()), frame.scene().camera.position);
+    const std::vector<Body> bodies = nearestFirst(bodiesOf(frame), frame.scene().camera.position);
     if (bodies.empty()) {
         frame.skip("view.body_buffers", "no dielectric of the scene has an inside");
         return {};
@@ -63,12 +64,12 @@ BodyBuffers bodiesSeenByEye(FrameBuilder& frame, const DeferredViewParams& param
             "through {} (view.deferred.layers).",
             params.layers, bodies.size(), names));
     }
-    truncateBodies(bodies, params.layers);
-    return drawBodies(frame, geometry, frame.eyeViews(), bodies,
-                      {"view.body_buffers",
-                       fmt::format("the eye's rays go through {} bod{}", bodies.size(),
-                                   bodies.size() == 1 ? "y" : "ies"),
-                       "view.", false, params.geometry});
+    const int drawn = std::min(static_cast<int>(bodies.size()), params.layers);
+    return drawBodies(
+        frame, geometry, frame.eyeViews(), bodies,
+        {drawn, "view.body_buffers",
+         fmt::format("the eye's rays go through {} bod{}", drawn, drawn == 1 ? "y" : "ies"),
+         "view.", false, params.geometry});
 }
 
 View refractDeferred(FrameBuilder& frame, const DeferredViewParams& params, Geometry geometry,

@@ -176,6 +176,15 @@ Check scaleOf(double factor) {
         }};
 }
 
+// What is lost to a tracer's steps or to paths that end early depends on where grids and views lie;
+// what the eye does not see, and branches that are not followed, do not.
+bool losesMuch(const Shot& shot) {
+    using namespace transport;
+    const auto& watts = shot.ledger.watts;
+    const double lost = shot.ledger.lostWatts() - watts[kAccountOffScreen] -
+                        watts[kAccountBehindEye] - watts[kAccountUntracedBranch];
+    return lost > kTurnedEnergy * watts[kAccountDeposited];
+}
 // What another direction of view finds is other light where layers end too early.
 bool lacksLayers(const Shot& shot) {
     return std::any_of(shot.limits.begin(), shot.limits.end(),
@@ -191,7 +200,8 @@ Check turnOf(double degrees) {
     return {fmt::format("turn {}", degrees),
             [degrees](Bench& bench, const Rendered& rendered) -> Verdict {
                 if (isCoarse(rendered.mixture, rendered.shot) || makesLight(rendered.mixture) ||
-                    lacksLayers(rendered.shot) || blendsSizes(rendered.mixture))
+                    lacksLayers(rendered.shot) || losesMuch(rendered.shot) ||
+                    blendsSizes(rendered.mixture))
                     return {false};
                 Variation variation;
                 variation.turnDegrees = degrees;

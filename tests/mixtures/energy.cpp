@@ -20,6 +20,8 @@ constexpr double kBlended = 0.1;
 constexpr double kStandardErrors = 3.0;
 // Outputs of which the picture shows hardly anything are not judged: a few photons are all of them.
 constexpr double kLeastShare = 0.02;
+// How often what a report names is taken, and the report of that is read.
+constexpr int kRounds = 3;
 
 struct Energy {
     bool isJudged = false;
@@ -71,8 +73,9 @@ std::vector<Settings> remediesOf(const Rendered& rendered) {
         if (warning.find("has no effect") == std::string::npos) add(advised(warning));
     }
     for (const ReachedLimit& limit : rendered.shot.limits) {
-        const double value = limit.needed > limit.value ? limit.needed : 4.0 * limit.value;
-        add({{limit.parameter, fmt::format("{:.0f}", std::ceil(value))}});
+        const double wanted = limit.needed > limit.value ? limit.needed : 4.0 * limit.value;
+        const double value = std::min(std::ceil(wanted), params.find(limit.parameter).maximum);
+        add({{limit.parameter, fmt::format("{:.0f}", value)}});
         add(advised(limit.sentence));
     }
     return remedies;
@@ -100,7 +103,10 @@ bool isCoarse(const Mixture& mixture, const Shot& shot) {
         return shot.idle.count(name) == 0 && std::stod(params.find(name).text()) > widest;
     };
     if (isWide("reconstruct.sprites.radius", 0.1) || isWide("reconstruct.lens.widths", 4.0) ||
-        isWide("reconstruct.sprites.footprints", 8.0))
+        isWide("reconstruct.sprites.footprints", 8.0) ||
+        isWide("reconstruct.fixed.diameter", 8.0) ||
+        isWide("reconstruct.multi_level.diameter", 8.0) ||
+        isWide("reconstruct.lens.min_diameter", 8.0))
         return true;
     const Settings& small = smallMixture(mixture.scene).settings;
     return std::any_of(small.begin(), small.end(), [&](const auto& setting) {
@@ -124,22 +130,33 @@ bool isCoarse(const Mixture& mixture, const Shot& shot) {
 Verdict energyVerdict(Bench& bench, const Rendered& rendered) {
     const Energy energy = energyOf(bench, rendered.mixture, rendered.shot);
     if (energy.problem.empty()) return {energy.isJudged};
-    const std::vector<Settings> remedies = remediesOf(rendered);
-    // Either of what a sentence names, or all of it.
-    Settings all;
-    for (const Settings& settings : remedies) {
-        all.insert(all.end(), settings.begin(), settings.end());
-        if (isRightWith(bench, rendered.mixture, settings)) return {};
-        for (const auto& setting : settings) {
-            if (settings.size() > 1 && isRightWith(bench, rendered.mixture, {setting})) return {};
-        }
-    }
-    if (remedies.size() > 1 && isRightWith(bench, rendered.mixture, all)) return {};
     std::string tried;
-    for (const auto& [name, value] : all)
-        tried +=
-            fmt::format("{}{}={}", tried.empty() ? "; what the report names does not help: " : ", ",
-                        name, value);
+    Rendered advanced = rendered;
+    for (int round = 0; round < kRounds; ++round) {
+        const std::vector<Settings> remedies = remediesOf(advanced);
+        if (remedies.empty()) break;
+        // Either of what a sentence names, or all of it.
+        Mixture all = advanced.mixture;
+        for (const Settings& settings : remedies) {
+            for (const auto& [name, value] : settings) {
+                all.set(name, value);
+                tried += fmt::format(
+                    "{}{}={}", tried.empty() ? "; what the report names does not help: " : ", ",
+                    name, value);
+            }
+            if (isRightWith(bench, advanced.mixture, settings)) return {};
+            for (const auto& setting : settings) {
+                if (settings.size() > 1 && isRightWith(bench, advanced.mixture, {setting}))
+                    return {};
+            }
+        }
+        if (remedies.size() > 1 && isRightWith(bench, all, {})) return {};
+        // Of several causes the next is seen when the first is gone.
+        Refusal refusal;
+        const std::optional<Rendered> next = renderForChecks(bench, all, refusal);
+        if (!next) break;
+        advanced = *next;
+    }
     return {true, energy.problem + (tried.empty() ? "; the report names no setting" : tried)};
 }
 

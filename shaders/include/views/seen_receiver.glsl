@@ -51,7 +51,9 @@ int seenAt(ivec2 pixel, float depth, vec3 normal, float tolerance, inout float a
     if (seenDepth == 0.0) return kSeenOutside;
     if (seenDepth < depth - tolerance) return kSeenOccluded;
     if (isMirror || seenDepth > depth + tolerance) return kSeenOutside;
-    if (dot(receiverSurfaceAt(pixel).xyz, normal) <= 0.0) return kSeenOutside;
+    // A floor's light is not a wall's: of normals at right angles rounding would decide.
+    const float kSameSide = 1e-4;
+    if (dot(receiverSurfaceAt(pixel).xyz, normal) <= kSameSide) return kSeenOutside;
     area = seen.y;
     return kSeenOn;
 }

@@ -9,7 +9,7 @@
 #include <algorithm>
 
 #include "framework/numerics/cases/scene_text.h"
-#include "framework/scene/receiver_rays.h"
+#include "framework/scene/surface_rays.h"
 #include "techniques/generators/light_reach.h"
 #include "tests/gpu/fixture.h"
 
@@ -131,7 +131,7 @@ TEST(LightReach, IsNeverLessThanWhatRaysFind) {
         const render::RasterView view = render::makeEyeView(scene.camera, 64, 64);
         if (mayReachPicture(scene, view).back()) continue;
         ++culled;
-        const scene::ReceiverRays rays(scene);
+        const scene::SurfaceRays rays(scene, scene::receiversOf(scene));
         const scene::Bounds box = objectBounds(scene, scene.objects.back());
         const glm::dvec3 eye = scene.camera.position;
         for (int i = 0; i < 400; ++i) {

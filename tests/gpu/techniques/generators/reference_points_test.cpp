@@ -19,7 +19,7 @@ TEST(ReferencePoints, OfABallAreItsMiddle) {
     const scene::Scene scene =
         makeScene({}, sun({0, -1, 0}) + kFloor +
                           object("ball", "sphere", "glass", {0, 1, 0}, "radius = 0.3"));
-    const scene::ReceiverRays rays(scene);
+    const scene::SurfaceRays rays(scene, scene::receiversOf(scene));
     const scene::Bounds bounds = objectBounds(scene, scene.objects[1]);
     const ReferencePoints points =
         referencePoints(bounds, placesReached(scene, bounds, rays), rays, 1);
@@ -32,7 +32,7 @@ TEST(ReferencePoints, OfASheetAroundABlockAreNotInIt) {
     const scene::Scene scene =
         makeScene({}, sun({0, -1, 0}) + kFloor + floorPlane("pond", "water", 4, {0, 1, 0}) +
                           object("pillar", "box", "white", {0, 1.5, 0}, "size = [1.2, 3, 1.2]"));
-    const scene::ReceiverRays rays(scene);
+    const scene::SurfaceRays rays(scene, scene::receiversOf(scene));
     const scene::Bounds bounds = objectBounds(scene, scene.objects[1]);
     const auto reached = placesReached(scene, bounds, rays);
     const ReferencePoints one = referencePoints(bounds, reached, rays, 1);

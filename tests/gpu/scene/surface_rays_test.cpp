@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which receivers rays find on the processor.
-#include "framework/scene/receiver_rays.h"
+// Which surfaces rays find on the processor.
+#include "framework/scene/surface_rays.h"
 
 #include <gtest/gtest.h>
 
@@ -20,9 +20,10 @@ std::string block(const glm::dvec3& position) {
     return object("block", "box", "white", position, "size = [1, 1, 1]");
 }
 
-TEST(ReceiverRays, FindTheNearestReceiverAndNothingSpecular) {
-    const ReceiverRays rays(makeScene(
-        {}, sun({0, -1, 0}) + kFloor + block({0, 1, 0}) + floorPlane("w", "water", 4, {0, 2, 0})));
+TEST(SurfaceRays, FindTheNearestReceiverAndNothingSpecular) {
+    const Scene scene = makeScene(
+        {}, sun({0, -1, 0}) + kFloor + block({0, 1, 0}) + floorPlane("w", "water", 4, {0, 2, 0}));
+    const SurfaceRays rays(scene, receiversOf(scene));
     const auto top = rays.first({0.1, 5, 0.2}, {0, -1, 0});
     ASSERT_TRUE(top.has_value());
     EXPECT_NEAR(top->distance, 3.5, 1e-6);
@@ -34,10 +35,10 @@ TEST(ReceiverRays, FindTheNearestReceiverAndNothingSpecular) {
     EXPECT_FALSE(rays.first({2.1, 5, 0.2}, {0, 1, 0}).has_value());
 }
 
-TEST(ReceiverRays, AreTheSameWhateverTheTreeAsOfASphereInClosedForm) {
+TEST(SurfaceRays, AreTheSameWhateverTheTreeAsOfASphereInClosedForm) {
     const Scene scene = makeScene({}, sun({0, -1, 0}) + object("ball", "sphere", "white", {0, 0, 0},
                                                                "radius = 1\nsegments = 128"));
-    const ReceiverRays rays(scene);
+    const SurfaceRays rays(scene, receiversOf(scene));
     for (int i = 0; i < 200; ++i) {
         const glm::dvec3 from =
             3.0 * glm::normalize(

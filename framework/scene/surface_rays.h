@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The first receiver on a ray, on the processor: for what is decided about a scene before a frame
-// of it is made. A tree of boxes over all receivers' triangles.
+// The first surface on a ray, on the processor: for what is decided about a scene before a frame of
+// it is made. A tree of boxes over the triangles of those objects that are asked for.
 #pragma once
 
 #include <cstddef>
@@ -14,9 +14,12 @@
 
 namespace kaustik::scene {
 
-class ReceiverRays {
+// Objects of receivers, by their places in the scene.
+[[nodiscard]] std::vector<std::size_t> receiversOf(const Scene& scene);
+
+class SurfaceRays {
   public:
-    explicit ReceiverRays(const Scene& scene);
+    SurfaceRays(const Scene& scene, const std::vector<std::size_t>& objects);
 
     // World space, m; the normal is of the triangle, unit, and points to either side.
     struct Hit {
@@ -25,7 +28,7 @@ class ReceiverRays {
         glm::dvec3 normal{0.0};
         std::size_t object = 0;  // its place in the scene
     };
-    // `direction`: unit. Nothing where no receiver is nearer than `farthest`.
+    // `direction`: unit. Nothing where no surface is nearer than `farthest`.
     [[nodiscard]] std::optional<Hit> first(
         const glm::dvec3& origin, const glm::dvec3& direction,
         double farthest = std::numeric_limits<double>::infinity()) const;

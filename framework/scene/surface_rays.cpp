@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "framework/scene/receiver_rays.h"
+#include "framework/scene/surface_rays.h"
 
 #include <algorithm>
 #include <utility>
@@ -25,10 +25,17 @@ double distanceToBox(const glm::dvec3& minimum, const glm::dvec3& maximum, const
 
 }  // namespace
 
-ReceiverRays::ReceiverRays(const Scene& scene) {
+std::vector<std::size_t> receiversOf(const Scene& scene) {
+    std::vector<std::size_t> receivers;
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        if (isReceiver(scene.materials[scene.objects[i].material].kind)) receivers.push_back(i);
+    }
+    return receivers;
+}
+
+SurfaceRays::SurfaceRays(const Scene& scene, const std::vector<std::size_t>& objects) {
+    for (const std::size_t i : objects) {
         const Object& object = scene.objects[i];
-        if (!isReceiver(scene.materials[object.material].kind)) continue;
         const Mesh& mesh = scene.meshes[object.mesh];
         for (const glm::uvec3& indices : mesh.triangles) {
             const auto corners = cornersOf(mesh, indices, object.toWorld);
@@ -39,7 +46,7 @@ ReceiverRays::ReceiverRays(const Scene& scene) {
     if (!triangles_.empty()) addNode(0, triangles_.size());
 }
 
-void ReceiverRays::addNode(std::size_t begin, std::size_t end) {
+void SurfaceRays::addNode(std::size_t begin, std::size_t end) {
     const std::size_t index = nodes_.size();
     Node node{glm::dvec3(std::numeric_limits<double>::infinity()),
               glm::dvec3(-std::numeric_limits<double>::infinity())};
@@ -75,9 +82,9 @@ void ReceiverRays::addNode(std::size_t begin, std::size_t end) {
     addNode(middle, end);
 }
 
-std::optional<ReceiverRays::Hit> ReceiverRays::first(const glm::dvec3& origin,
-                                                     const glm::dvec3& direction,
-                                                     double farthest) const {
+std::optional<SurfaceRays::Hit> SurfaceRays::first(const glm::dvec3& origin,
+                                                   const glm::dvec3& direction,
+                                                   double farthest) const {
     // Finite: on a face of a box nothing times infinity would be no number.
     constexpr double kNoSlope = 1e-200;
     const glm::dvec3 inverse =
