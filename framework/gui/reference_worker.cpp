@@ -21,6 +21,7 @@ namespace kaustik::gui {
 bool ReferenceAim::operator==(const ReferenceAim& other) const {
     return scene == other.scene && edits == other.edits && size == other.size &&
            paths.transmissionOnly == other.paths.transmissionOnly &&
+           paths.reflectionOnly == other.paths.reflectionOnly &&
            paths.interactions == other.paths.interactions && sceneReloads == other.sceneReloads;
 }
 
@@ -218,6 +219,7 @@ void ReferenceWorker::look(Loaded& loaded, const ReferenceAim& aim) {
     if (aim.paths.interactions > 0) {
         loaded.modelledRequest = loaded.request;
         loaded.modelledRequest->filter.transmissionOnly = aim.paths.transmissionOnly;
+        loaded.modelledRequest->filter.reflectionOnly = aim.paths.reflectionOnly;
         loaded.modelledRequest->filter.maximumInteractions = aim.paths.interactions;
     }
     loaded.whole = findCached(loaded.scene, loaded.request, cache());

@@ -20,6 +20,7 @@ using Ledger = graph::Buffer<transport::LedgerEntry>;
 // reference can be restricted to the same.
 struct ModelledPaths {
     bool transmissionOnly = false;  // at dielectrics the refracted branch, unless all is reflected
+    bool reflectionOnly = false;    // at dielectrics the reflected branch
     int interactions = 0;           // most specular interactions of a photon
     bool end = false;               // whoever sent the photons on cannot do so again
     // Some may be inside of closed dielectrics: only a tracer that finds specular surfaces has a

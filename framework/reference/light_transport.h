@@ -26,6 +26,8 @@ struct PathFilter {
     // Follows only the refracted branch at dielectrics; light is still reflected at mirrors and
     // where reflection is total.
     bool transmissionOnly = false;
+    // Follows only what dielectrics reflect; not together with the other.
+    bool reflectionOnly = false;
     int maximumInteractions = 64;  // >= 1; what hits one more is lost to the bounce limit
     int splitInteractions = 1;     // 0 to kMaximumSplits; changes the noise, not the mean
 };
@@ -240,6 +242,13 @@ class LightTransport {
         }
         if (enters && photon.media.isFull()) {
             sink.lost(transport::kAccountNestingLimit,
+                      photon.fluxWatts * (1.0 - branches.reflectance));
+            reflected.fluxWatts *= branches.reflectance;
+            photon = reflected;
+            return true;
+        }
+        if (filter_.reflectionOnly) {
+            sink.lost(transport::kAccountUntracedBranch,
                       photon.fluxWatts * (1.0 - branches.reflectance));
             reflected.fluxWatts *= branches.reflectance;
             photon = reflected;

@@ -34,7 +34,9 @@ std::string referenceKey(const scene::Scene& scene, const ReferenceRequest& requ
     scene::addTo(hash, scene);
     hash.add(request.estimator).add(request.width).add(request.height);
     hash.add(request.seed).add(request.photonsPerBatch);
-    hash.add(static_cast<std::uint8_t>(request.filter.transmissionOnly));
+    hash.add(static_cast<std::uint8_t>(request.filter.transmissionOnly ? 1
+                                       : request.filter.reflectionOnly ? 2
+                                                                       : 0));
     hash.add(request.filter.maximumInteractions).add(request.filter.splitInteractions);
     if (request.estimator == Estimator::sppm)
         hash.add(request.initialRadiusPixels).add(request.alpha).add(request.causticView);

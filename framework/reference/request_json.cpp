@@ -17,6 +17,7 @@ json requestToJson(const ReferenceRequest& request) {
                    {"transmission_only", request.filter.transmissionOnly},
                    {"maximum_interactions", request.filter.maximumInteractions},
                    {"split_interactions", request.filter.splitInteractions}};
+    if (request.filter.reflectionOnly) result["reflection_only"] = true;
     if (request.estimator == Estimator::sppm) {
         result["initial_radius_px"] = request.initialRadiusPixels;
         result["alpha"] = request.alpha;
@@ -33,6 +34,7 @@ ReferenceRequest requestFromJson(const json& from) {
     request.seed = wholeNumber<std::uint64_t>(from.at("seed"));
     request.photonsPerBatch = wholeNumber<std::uint64_t>(from.at("photons_per_batch"));
     request.filter.transmissionOnly = from.at("transmission_only");
+    request.filter.reflectionOnly = from.value("reflection_only", false);
     request.filter.maximumInteractions = wholeNumber<int>(from.at("maximum_interactions"));
     request.filter.splitInteractions = wholeNumber<int>(from.at("split_interactions"));
     request.initialRadiusPixels = from.value("initial_radius_px", request.initialRadiusPixels);

@@ -167,6 +167,8 @@ json errorsSchema() {
     };
     JsonFieldsSchema modelled = against();
     modelled.field("transmission_only", false, "Whether only refracted branches count");
+    modelled.add("reflection_only", jsonSchemaOf<bool>(), "Whether only reflected branches count",
+                 false);
     modelled.field("maximum_interactions", 0, "Most specular interactions of a photon");
     json view = audit::viewSchema();
     // Of a node that follows no rays only the picture is judged.

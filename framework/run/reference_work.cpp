@@ -73,8 +73,9 @@ fs::path cacheFolder() {
 Reference obtainReference(const EmbreeScene& scene, const ReferenceRequest& request,
                           RunOptions options) {
     catchInterrupts();
-    Progress progress(request.filter.transmissionOnly ? "reference of the modelled paths:"
-                                                      : "reference:");
+    Progress progress(request.filter.transmissionOnly || request.filter.reflectionOnly
+                          ? "reference of the modelled paths:"
+                          : "reference:");
     return obtainReference(
         scene, request, std::move(options),
         {[] { return !isInterrupted(); },

@@ -76,7 +76,7 @@ Reference readMatching(const std::string& file, const Renderer& renderer) {
             scene.timeSeconds));
     }
     const reference::PathFilter all;
-    if (request.filter.transmissionOnly ||
+    if (request.filter.transmissionOnly || request.filter.reflectionOnly ||
         request.filter.maximumInteractions < all.maximumInteractions) {
         throw ConfigError(fmt::format(
             "--reference: {} follows only a part of the paths of light; a run is judged "
@@ -137,6 +137,7 @@ RunReference::RunReference(const std::string& wanted, std::uint64_t photons,
     loaded_->paths = renderer.outputs().hits.incoming.paths;
     if (loaded_->paths.interactions == 0) return;  // nothing is modelled: there is no caustic
     request.filter.transmissionOnly = loaded_->paths.transmissionOnly;
+    request.filter.reflectionOnly = loaded_->paths.reflectionOnly;
     request.filter.maximumInteractions = loaded_->paths.interactions;
     loaded_->modelled = loaded_->obtain(loaded_->scene, request);
 }
@@ -226,6 +227,7 @@ std::vector<fs::path> RunReference::judge(const Renderer& renderer, const fs::pa
     if (loaded_->modelled) {
         json modelled = errorsAgainst(outputs, *loaded_->modelled);
         modelled["transmission_only"] = loaded_->paths.transmissionOnly;
+        if (loaded_->paths.reflectionOnly) modelled["reflection_only"] = true;
         modelled["maximum_interactions"] = loaded_->paths.interactions;
         record.error["modelled_paths"] = std::move(modelled);
     }

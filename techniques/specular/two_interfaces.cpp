@@ -126,8 +126,10 @@ Photons interactTwoInterfaces(FrameBuilder& frame, const TwoInterfacesParams& pa
                 Hits accounted = hits;
                 accounted.incoming.ledger = photons.ledger;
                 data = bindNextPhotons(setup, accounted, chained);
-                data.paths.interactions = hits.incoming.paths.interactions + 2;
-                data.paths.transmissionOnly = true;
+                const bool isRefracted = params.branch == FollowedBranch::refracted;
+                data.paths.interactions = hits.incoming.paths.interactions + (isRefracted ? 2 : 1);
+                data.paths.transmissionOnly = isRefracted;
+                data.paths.reflectionOnly = !isRefracted;
                 data.paths.end = true;
             },
             [params, light, account = totalReflectionAccount(frame, params.distance),

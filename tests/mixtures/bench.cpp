@@ -207,8 +207,8 @@ Shot Bench::renderFresh(const Mixture& mixture, const Variation& variation) {
 
 const reference::Reference& Bench::referenceOf(const std::string& scene,
                                                const ModelledPaths& paths) {
-    const std::string key =
-        fmt::format("{} {} {}", scene, paths.transmissionOnly, paths.interactions);
+    const std::string key = fmt::format("{} {} {} {}", scene, paths.transmissionOnly,
+                                        paths.reflectionOnly, paths.interactions);
     const auto found = references_.find(key);
     if (found != references_.end()) return found->second;
     reference::ReferenceRequest request;
@@ -216,6 +216,7 @@ const reference::Reference& Bench::referenceOf(const std::string& scene,
     request.height = kHeight;
     request.photonsPerBatch = kReferencePhotons / 8;
     request.filter.transmissionOnly = paths.transmissionOnly;
+    request.filter.reflectionOnly = paths.reflectionOnly;
     request.filter.maximumInteractions = paths.interactions;
     const reference::EmbreeScene embree(sceneOf(scene));
     reference::RunOptions options;

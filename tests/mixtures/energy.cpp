@@ -92,6 +92,21 @@ bool isRightWith(Bench& bench, Mixture mixture, const Settings& settings) {
     }
 }
 
+bool oneOrTwoAreRight(Bench& bench, const Mixture& mixture, const std::vector<Settings>& choices) {
+    if (std::any_of(choices.begin(), choices.end(), [&](const Settings& settings) {
+            return isRightWith(bench, mixture, settings);
+        }))
+        return true;
+    for (std::size_t i = 0; i < choices.size(); ++i) {
+        for (std::size_t j = i + 1; j < choices.size(); ++j) {
+            Settings both = choices[i];
+            both.insert(both.end(), choices[j].begin(), choices[j].end());
+            if (isRightWith(bench, mixture, both)) return true;
+        }
+    }
+    return false;
+}
+
 }  // namespace
 
 bool isCoarse(const Mixture& mixture, const Shot& shot) {
@@ -135,8 +150,8 @@ Verdict energyVerdict(Bench& bench, const Rendered& rendered) {
     for (int round = 0; round < kRounds; ++round) {
         const std::vector<Settings> remedies = remediesOf(advanced);
         if (remedies.empty()) break;
-        // Either of what a sentence names, or all of it.
         Mixture all = advanced.mixture;
+        std::vector<Settings> choices;
         for (const Settings& settings : remedies) {
             for (const auto& [name, value] : settings) {
                 all.set(name, value);
@@ -144,13 +159,14 @@ Verdict energyVerdict(Bench& bench, const Rendered& rendered) {
                     "{}{}={}", tried.empty() ? "; what the report names does not help: " : ", ",
                     name, value);
             }
-            if (isRightWith(bench, advanced.mixture, settings)) return {};
+            // Either of what a sentence names, or all of it.
+            choices.push_back(settings);
             for (const auto& setting : settings) {
-                if (settings.size() > 1 && isRightWith(bench, advanced.mixture, {setting}))
-                    return {};
+                if (settings.size() > 1) choices.push_back({setting});
             }
         }
-        if (remedies.size() > 1 && isRightWith(bench, all, {})) return {};
+        if (oneOrTwoAreRight(bench, advanced.mixture, choices)) return {};
+        if (remedies.size() > 2 && isRightWith(bench, all, {})) return {};
         // Of several causes the next is seen when the first is gone.
         Refusal refusal;
         const std::optional<Rendered> next = renderForChecks(bench, all, refusal);
