@@ -16,6 +16,7 @@
 #include "include/maps/long_directions.glsl"
 #endif
 #include "include/maps/map_lookup.glsl"
+#include "include/maps/undersampled.glsl"
 #include "techniques/raster_views/map_border.h"
 
 uniform sampler2D receiver;
@@ -43,8 +44,8 @@ vec3 sampleOnPlane(vec2 offset, vec3 positionVs, vec3 normalVs) {
     return ray * (dot(normalVs, positionVs) / facing);
 }
 
-// Places along a side of the pixel: one a texel that it spans.
-int placesAcross(vec3 positionVs, vec3 normalVs) {
+// Places along a side of the pixel that would be enough: one a texel that it spans.
+int placesWanted(vec3 positionVs, vec3 normalVs) {
     MapPlace middle = placeOf(positionVs, normalVs);
     if (middle.face < 0) return 1;
     float texels = 0.0;
@@ -54,7 +55,7 @@ int placesAcross(vec3 positionVs, vec3 normalVs) {
         if (edge.face == middle.face)
             texels = max(texels, 2.0 * distance(edge.pixel, middle.pixel));
     }
-    return clamp(int(ceil(texels - 0.25)), 1, maxSamples);
+    return int(clamp(ceil(texels - 0.25), 1.0, 1e6));
 }
 
 #ifdef MAP_HAS_PARTS
@@ -89,7 +90,8 @@ void main() {
     vec4 surface = texelFetch(receiverSurface, pixel, 0);
     vec3 positionVs = viewRay(gl_FragCoord.xy) * depth;
     if (!isOwn(positionVs)) return;
-    int places = placesAcross(positionVs, surface.xyz);
+    int wanted = placesWanted(positionVs, surface.xyz);
+    int places = min(wanted, maxSamples);
     Gathered sum = Gathered(vec3(0.0), vec3(0.0));
     for (int i = 0; i < places * places; ++i) {
         vec2 offset = (vec2(i % places, i / places) + 0.5) / float(places) - 0.5;
@@ -101,6 +103,8 @@ void main() {
     }
     float overPlaces = 1.0 / float(places * places);
     irradiance = vec4(sum.irradiance * overPlaces, 0.0);
+    if (wanted > places && any(greaterThan(sum.irradiance, vec3(0.0))))
+        countUndersampled(float(wanted) / float(places));
 #ifdef GLOSSY_RECEIVERS
     float all = irradiance.r + irradiance.g + irradiance.b;
     if (all <= 0.0) return;

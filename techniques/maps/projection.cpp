@@ -6,6 +6,7 @@
 
 #include "techniques/maps/directions.h"
 #include "techniques/maps/map_filters.h"
+#include "techniques/maps/undersampled.h"
 
 namespace kaustik {
 namespace {
@@ -27,6 +28,7 @@ IrradianceMap projectMaps(FrameBuilder& frame, const Projection& projection, Cau
     struct Data {
         IrradianceMap gathered;
         Directions directions;
+        Undersampled undersampled;
     };
     IrradianceMap result;
     result.ledger = map.ledger;
@@ -46,6 +48,7 @@ IrradianceMap projectMaps(FrameBuilder& frame, const Projection& projection, Cau
                 setup.sample("receiver", surfaces.eye.receiver);
                 setup.sample("receiverSurface", surfaces.eye.receiverSurface);
                 data = result;
+                made.undersampled = Undersampled::count(setup, "_" + std::to_string(i + 1));
                 if (isGlossy) setup.sample("receiverAlbedo", surfaces.eye.receiverAlbedo);
                 if (usesMean)
                     made.directions = Directions::count(setup, "_" + std::to_string(i + 1));
@@ -69,6 +72,7 @@ IrradianceMap projectMaps(FrameBuilder& frame, const Projection& projection, Cau
             [projection, stored, parts, usesMean, isFirst = i == 0](const Data& made,
                                                                     gl::PassContext& context) {
                 const IrradianceMap& data = made.gathered;
+                made.undersampled.clear(context);
                 if (usesMean) made.directions.clear(context);
                 const Views& views = stored.on.views;
                 gl::Command command = context.fullscreen("maps/projection.frag");
@@ -94,6 +98,7 @@ IrradianceMap projectMaps(FrameBuilder& frame, const Projection& projection, Cau
                 command.blend(gl::Blend::add).draw();
             });
         result = added.gathered;
+        reportUndersampled(frame, projection.node, projection.maxSamples, added.undersampled);
         if (usesMean) warnOfDirections(frame, projection.node, added.directions);
     }
     return result;

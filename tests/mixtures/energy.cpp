@@ -14,6 +14,9 @@ namespace kaustik::mixtures {
 namespace {
 
 constexpr double kEnergy = 0.03;
+// Directions are blended over what one photon of few covers, lobes with them: light maps have 96.9
+// % of a table's gloss with 64² photons, 97.6 % with 256².
+constexpr double kRadiance = 0.05;
 // Of what a filter makes of sizes or levels, texel by texel: beyond it a run says so.
 constexpr double kBlended = 0.1;
 // Of the reference, and how certain the verdict is to be: one of 700 is wrong for its noise.
@@ -22,6 +25,8 @@ constexpr double kStandardErrors = 3.0;
 constexpr double kLeastShare = 0.02;
 // How often what a report names is taken, and the report of that is read.
 constexpr int kRounds = 3;
+// Of what one report names, as many are taken together, or all.
+constexpr int kTogether = 3;
 
 struct Energy {
     bool isJudged = false;
@@ -46,7 +51,9 @@ Energy energyOf(Bench& bench, const Mixture& mixture, const Shot& shot) {
         const double ratio = energyRatio(pair);
         const double noise =
             referenceNoise(pair, 0.0, std::vector<unsigned char>(pair.pixelCount(), 1)).energyRatio;
-        if (std::abs(ratio - 1.0) <= tolerance + kStandardErrors * noise) continue;
+        const bool isRadiance = output.name == std::string("caustic_radiance");
+        const double allowed = isRadiance ? std::max(tolerance, kRadiance) : tolerance;
+        if (std::abs(ratio - 1.0) <= allowed + kStandardErrors * noise) continue;
         energy.problem = fmt::format(
             "{} has {:.1f} ± {:.1f} % of the energy of the paths that it "
             "models",
@@ -92,17 +99,19 @@ bool isRightWith(Bench& bench, Mixture mixture, const Settings& settings) {
     }
 }
 
-bool oneOrTwoAreRight(Bench& bench, const Mixture& mixture, const std::vector<Settings>& choices) {
-    if (std::any_of(choices.begin(), choices.end(), [&](const Settings& settings) {
-            return isRightWith(bench, mixture, settings);
-        }))
-        return true;
-    for (std::size_t i = 0; i < choices.size(); ++i) {
-        for (std::size_t j = i + 1; j < choices.size(); ++j) {
-            Settings both = choices[i];
-            both.insert(both.end(), choices[j].begin(), choices[j].end());
-            if (isRightWith(bench, mixture, both)) return true;
-        }
+// Whether one, two or three of the choices with those that are `taken` bring it there.
+bool someAreRight(Bench& bench, const Mixture& mixture, const std::vector<Settings>& choices,
+                  std::size_t first, const Settings& taken, int most) {
+    for (std::size_t i = first; i < choices.size(); ++i) {
+        Settings settings = taken;
+        settings.insert(settings.end(), choices[i].begin(), choices[i].end());
+        if (isRightWith(bench, mixture, settings)) return true;
+    }
+    if (most == 1) return false;
+    for (std::size_t i = first; i < choices.size(); ++i) {
+        Settings settings = taken;
+        settings.insert(settings.end(), choices[i].begin(), choices[i].end());
+        if (someAreRight(bench, mixture, choices, i + 1, settings, most - 1)) return true;
     }
     return false;
 }
@@ -121,7 +130,7 @@ bool isCoarse(const Mixture& mixture, const Shot& shot) {
         isWide("reconstruct.sprites.footprints", 8.0) ||
         isWide("reconstruct.fixed.diameter", 8.0) ||
         isWide("reconstruct.multi_level.diameter", 8.0) ||
-        isWide("reconstruct.lens.min_diameter", 8.0))
+        isWide("reconstruct.lens.min_diameter", 8.0) || isWide("reconstruct.triangles.merge", 8.0))
         return true;
     const Settings& small = smallMixture(mixture.scene).settings;
     return std::any_of(small.begin(), small.end(), [&](const auto& setting) {
@@ -165,8 +174,8 @@ Verdict energyVerdict(Bench& bench, const Rendered& rendered) {
                 if (settings.size() > 1) choices.push_back({setting});
             }
         }
-        if (oneOrTwoAreRight(bench, advanced.mixture, choices)) return {};
-        if (remedies.size() > 2 && isRightWith(bench, all, {})) return {};
+        if (someAreRight(bench, advanced.mixture, choices, 0, {}, kTogether)) return {};
+        if (remedies.size() > kTogether && isRightWith(bench, all, {})) return {};
         // Of several causes the next is seen when the first is gone.
         Refusal refusal;
         const std::optional<Rendered> next = renderForChecks(bench, all, refusal);
