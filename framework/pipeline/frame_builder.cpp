@@ -50,11 +50,9 @@ int FrameBuilder::runsOf(const std::string& stage) const {
 void FrameBuilder::needsWayOut(const Photons& photons, const Surfaces& /*surfaces*/) const {
     if (!photons.paths.insideBodies || !traits<TraceStage>().onlyReceivers) return;
     std::vector<std::string> bodies;
-    for (const scene::Object& object : scene().objects) {
-        const bool isDielectric =
-            scene().materials[object.material].kind == scene::MaterialKind::dielectric;
-        if (isDielectric && scene().meshes[object.mesh].closed)
-            bodies.push_back("'" + object.name + "'");
+    for (const std::vector<std::size_t>& objects : needs().bodies) {
+        for (const std::size_t object : objects)
+            bodies.push_back("'" + scene().objects[object].name + "'");
     }
     const Registry& registry = inputs_.registry;
     std::vector<std::string> choices;
