@@ -176,13 +176,20 @@ Check scaleOf(double factor) {
         }};
 }
 
-// What is lost to a tracer's steps or to paths that end early depends on where grids and views lie;
-// what the eye does not see, and branches that are not followed, do not.
-bool losesMuch(const Shot& shot) {
+// What is lost to a tracer's steps or to paths that end early depends on where grids and views lie.
+bool losesMuch(const Mixture& mixture, const Shot& shot) {
     using namespace transport;
     const auto& watts = shot.ledger.watts;
-    const double lost = shot.ledger.lostWatts() - watts[kAccountOffScreen] -
-                        watts[kAccountBehindEye] - watts[kAccountUntracedBranch];
+    double lost = watts[kAccountMissedByTracer] + watts[kAccountEdgeOn] +
+                  watts[kAccountBounceLimit] + watts[kAccountInternalReflectionLimit] +
+                  watts[kAccountDiscardedTriangle] + watts[kAccountBeyondLastLayer];
+    // Else it has left the scene.
+    const bool mayBeMissed =
+        paramsOf(mixture).find("trace.test").text() != "crossing" ||
+        std::any_of(shot.limits.begin(), shot.limits.end(), [](const ReachedLimit& limit) {
+            return limit.parameter.starts_with("trace.");
+        });
+    if (mayBeMissed) lost += watts[kAccountUnresolved];
     return lost > kTurnedEnergy * watts[kAccountDeposited];
 }
 // What another direction of view finds is other light where layers end too early.
@@ -200,7 +207,7 @@ Check turnOf(double degrees) {
     return {fmt::format("turn {}", degrees),
             [degrees](Bench& bench, const Rendered& rendered) -> Verdict {
                 if (isCoarse(rendered.mixture, rendered.shot) || makesLight(rendered.mixture) ||
-                    lacksLayers(rendered.shot) || losesMuch(rendered.shot) ||
+                    lacksLayers(rendered.shot) || losesMuch(rendered.mixture, rendered.shot) ||
                     blendsSizes(rendered.mixture))
                     return {false};
                 Variation variation;

@@ -132,6 +132,11 @@ bool isCoarse(const Mixture& mixture, const Shot& shot) {
         isWide("reconstruct.multi_level.diameter", 8.0) ||
         isWide("reconstruct.lens.min_diameter", 8.0) || isWide("reconstruct.triangles.merge", 8.0))
         return true;
+    // MiB in which its maps' texels are as many as a small mixture's.
+    constexpr double kMinMapMemory = 8.0;
+    if (shot.idle.count("reconstruct.map_memory") == 0 &&
+        std::stod(params.find("reconstruct.map_memory").text()) < kMinMapMemory)
+        return true;
     const Settings& small = smallMixture(mixture.scene).settings;
     return std::any_of(small.begin(), small.end(), [&](const auto& setting) {
         const auto& [name, least] = setting;
