@@ -29,7 +29,8 @@ bool isInside(const SurfaceRays& rays, const glm::dvec3& point, double size) {
         bool isOdd = false;
         while (const auto hit = rays.first(origin, direction)) {
             isOdd = !isOdd;
-            origin = hit->position + 1e-9 * size * direction;
+            // Beyond rounding, so that the same triangle is not hit again.
+            origin = hit->position + 1e-9 * (size + glm::length(hit->position)) * direction;
         }
         votes += isOdd ? 1 : 0;
     }
