@@ -167,8 +167,7 @@ json errorsSchema() {
     };
     JsonFieldsSchema modelled = against();
     modelled.field("transmission_only", false, "Whether only refracted branches count");
-    modelled.add("reflection_only", jsonSchemaOf<bool>(), "Whether only reflected branches count",
-                 false);
+    modelled.field("reflection_only", false, "Whether only reflected branches count");
     modelled.field("maximum_interactions", 0, "Most specular interactions of a photon");
     json view = audit::viewSchema();
     // Of a node that follows no rays only the picture is judged.

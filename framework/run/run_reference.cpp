@@ -227,7 +227,7 @@ std::vector<fs::path> RunReference::judge(const Renderer& renderer, const fs::pa
     if (loaded_->modelled) {
         json modelled = errorsAgainst(outputs, *loaded_->modelled);
         modelled["transmission_only"] = loaded_->paths.transmissionOnly;
-        if (loaded_->paths.reflectionOnly) modelled["reflection_only"] = true;
+        modelled["reflection_only"] = loaded_->paths.reflectionOnly;
         modelled["maximum_interactions"] = loaded_->paths.interactions;
         record.error["modelled_paths"] = std::move(modelled);
     }
