@@ -218,9 +218,7 @@ void ReferenceWorker::look(Loaded& loaded, const ReferenceAim& aim) {
     loaded.request.height = aim.size.height;
     if (aim.paths.interactions > 0) {
         loaded.modelledRequest = loaded.request;
-        loaded.modelledRequest->filter.transmissionOnly = aim.paths.transmissionOnly;
-        loaded.modelledRequest->filter.reflectionOnly = aim.paths.reflectionOnly;
-        loaded.modelledRequest->filter.maximumInteractions = aim.paths.interactions;
+        loaded.modelledRequest->filter = run::modelledFilter(loaded.request.filter, aim.paths);
     }
     loaded.whole = findCached(loaded.scene, loaded.request, cache());
     if (loaded.modelledRequest)

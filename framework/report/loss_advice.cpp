@@ -47,11 +47,12 @@ std::string moreBranches(const params::ParamSet& settings) {
     const std::string specular = settings.choice(SpecularStage::name);
     if (specular == "interface") return "specular=split follows both";
     if (specular != "split" && specular != "auto") return "";
-    constexpr int kMaxLevels = 6;  // of the parameter's range
-    const int levels = std::stoi(settings.find("specular.split.levels").text());
-    if (levels >= kMaxLevels) return "";
+    const params::Field field = settings.find("specular.split.levels");
+    const auto most = static_cast<int>(field.maximum);
+    const int levels = std::stoi(field.text());
+    if (levels >= most) return "";
     return fmt::format("specular=split and specular.split.levels={} follow more",
-                       std::clamp(levels + 2, 3, kMaxLevels));
+                       std::clamp(levels + 2, 3, most));
 }
 
 // Of what lights send onto specular surfaces, what an emitter may miss without a word.
@@ -63,10 +64,11 @@ std::string betterEmission(const params::ParamSet& settings) {
     if (settings.choice(DriverStage::name) == "adaptive" &&
         settings.find("refine.mask").text() == "off")
         return "; refine.mask=on misses less";
-    constexpr int kMaxSize = 8192;  // of the parameter's range
-    const int size = std::stoi(settings.find("emit.deferred.size").text());
-    if (size >= kMaxSize) return "";
-    return fmt::format("; emit.deferred.size={} misses less", std::min(4 * size, kMaxSize));
+    const params::Field field = settings.find("emit.deferred.size");
+    const auto largest = static_cast<int>(field.maximum);
+    const int size = std::stoi(field.text());
+    if (size >= largest) return "";
+    return fmt::format("; emit.deferred.size={} misses less", std::min(4 * size, largest));
 }
 
 // "" where the emitter has emitted what it should.

@@ -70,6 +70,13 @@ fs::path cacheFolder() {
         "There is no folder to keep references in; set KAUSTIK_CACHE to one that can be written.");
 }
 
+reference::PathFilter modelledFilter(reference::PathFilter all, const ModelledPaths& paths) {
+    all.transmissionOnly = paths.transmissionOnly;
+    all.reflectionOnly = paths.reflectionOnly;
+    all.maximumInteractions = paths.interactions;
+    return all;
+}
+
 Reference obtainReference(const EmbreeScene& scene, const ReferenceRequest& request,
                           RunOptions options) {
     catchInterrupts();

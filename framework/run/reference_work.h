@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "framework/pipeline/photons.h"
 #include "framework/reference/reference.h"
 #include "framework/reference/shards.h"
 #include "framework/run/progress.h"
@@ -14,6 +15,10 @@ namespace kaustik::run {
 // $KAUSTIK_CACHE, else $XDG_CACHE_HOME/kaustik, else ~/.cache/kaustik. Throws IoError where there
 // is none of them.
 [[nodiscard]] std::filesystem::path cacheFolder();
+
+// The filter of `all` narrowed to the paths that a technique models.
+[[nodiscard]] reference::PathFilter modelledFilter(reference::PathFilter all,
+                                                   const ModelledPaths& paths);
 
 // Takes the reference from the cache, or computes it with its progress on standard error and caches
 // it. Throws Error when interrupted; the next call goes on from there.

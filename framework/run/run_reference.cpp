@@ -136,9 +136,7 @@ RunReference::RunReference(const std::string& wanted, std::uint64_t photons,
     loaded_->whole = loaded_->obtain(loaded_->scene, request);
     loaded_->paths = renderer.outputs().hits.incoming.paths;
     if (loaded_->paths.interactions == 0) return;  // nothing is modelled: there is no caustic
-    request.filter.transmissionOnly = loaded_->paths.transmissionOnly;
-    request.filter.reflectionOnly = loaded_->paths.reflectionOnly;
-    request.filter.maximumInteractions = loaded_->paths.interactions;
+    request.filter = modelledFilter(request.filter, loaded_->paths);
     loaded_->modelled = loaded_->obtain(loaded_->scene, request);
 }
 

@@ -2,7 +2,6 @@
 #include "framework/scene/connected_bodies.h"
 
 #include <algorithm>
-#include <iterator>
 #include <map>
 #include <optional>
 
@@ -12,11 +11,6 @@
 
 namespace kaustik::scene {
 namespace {
-
-bool overlap(const Bounds& a, const Bounds& b) {
-    return glm::all(glm::lessThanEqual(a.minimum, b.maximum)) &&
-           glm::all(glm::lessThanEqual(b.minimum, a.maximum));
-}
 
 // How often a ray goes through surfaces is odd from within; of a ray through an edge, both
 // triangles' hits may count, so that two of three rays decide.

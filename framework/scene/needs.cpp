@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "framework/scene/needs.h"
 
-#include "framework/scene/connected_bodies.h"
-
 #include <algorithm>
 #include <vector>
+
+#include "framework/scene/connected_bodies.h"
 
 #include "framework/scene/shapes/height_field.h"
 
@@ -17,11 +17,6 @@ bool moves(const Mesh& mesh) {
                        [](const Wave& wave) {
                            return wave.amplitudeMeters != 0.0f && angularFrequency(wave) > 0.0;
                        });
-}
-
-bool overlap(const Bounds& a, const Bounds& b) {
-    return glm::all(glm::lessThan(a.minimum, b.maximum)) &&
-           glm::all(glm::lessThan(b.minimum, a.maximum));
 }
 
 bool hasNestedBodies(const Scene& scene) {

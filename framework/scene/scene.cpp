@@ -27,6 +27,11 @@ void Bounds::include(const glm::dvec3& point) {
     empty = false;
 }
 
+bool overlap(const Bounds& a, const Bounds& b) {
+    return !a.empty && !b.empty && glm::all(glm::lessThan(a.minimum, b.maximum)) &&
+           glm::all(glm::lessThan(b.minimum, a.maximum));
+}
+
 Bounds objectBounds(const Scene& scene, const Object& object) {
     const Mesh& mesh = scene.meshes[object.mesh];
     const auto toWorld = [&](const glm::dvec3& position) {

@@ -159,6 +159,8 @@ struct Bounds {
 // World-space bounds of one object, or of all. Height fields count with the sum of their
 // amplitudes, so that the bounds hold at every time.
 [[nodiscard]] Bounds objectBounds(const Scene& scene, const Object& object);
+// Whether they share more than a border.
+[[nodiscard]] bool overlap(const Bounds& a, const Bounds& b);
 [[nodiscard]] Bounds sceneBounds(const Scene& scene);
 // Of all that is no receiver.
 [[nodiscard]] Bounds specularBounds(const Scene& scene);

@@ -13,11 +13,6 @@
 namespace kaustik {
 namespace {
 
-bool overlap(const scene::Bounds& a, const scene::Bounds& b) {
-    return !a.empty && !b.empty && glm::all(glm::lessThan(a.minimum, b.maximum)) &&
-           glm::all(glm::lessThan(b.minimum, a.maximum));
-}
-
 bool contains(const scene::Bounds& outer, const scene::Bounds& inner) {
     return glm::all(glm::lessThanEqual(outer.minimum, inner.minimum)) &&
            glm::all(glm::greaterThanEqual(outer.maximum, inner.maximum));

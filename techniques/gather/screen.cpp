@@ -14,7 +14,7 @@ IrradianceMap gatherOnScreen(FrameBuilder& frame, const params::NoParams&, Caust
     const FluxMap& stored = map.maps.front();
     struct Data {
         IrradianceMap gathered;
-        Directions directions;
+        CountedPixels tooLong;
     };
     const Data& data = frame.pass<Data>(
         "gather.screen", "what was deposited is spread over what each pixel sees",
@@ -38,7 +38,7 @@ IrradianceMap gatherOnScreen(FrameBuilder& frame, const params::NoParams&, Caust
             if (!stored.sets.hasDirection()) return;
             setup.sample("receiverSurface", surfaces.eye.receiverSurface);
             setup.sample("receiverAlbedo", surfaces.eye.receiverAlbedo);
-            made.directions = Directions::count(setup, "");
+            made.tooLong = countLongDirections(setup, "");
         },
         [sets = stored.sets](const Data& made, gl::PassContext& context) {
             gl::Command command = context.fullscreen("gather/screen.frag");
@@ -47,11 +47,11 @@ IrradianceMap gatherOnScreen(FrameBuilder& frame, const params::NoParams&, Caust
             if (sets.hasIntensity()) command.define("HAS_INTENSITY");
             if (sets.hasDirection()) {
                 command.define("HAS_DIRECTION");
-                made.directions.clear(context);
+                made.tooLong.clear(context);
             }
             command.draw();
         });
-    if (stored.sets.hasDirection()) warnOfDirections(frame, "gather.screen", data.directions);
+    if (stored.sets.hasDirection()) warnOfDirections(frame, "gather.screen", data.tooLong);
     return data.gathered;
 }
 

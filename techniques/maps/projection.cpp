@@ -27,8 +27,8 @@ IrradianceMap projectMaps(FrameBuilder& frame, const Projection& projection, Cau
     map = inFloats(frame, std::move(map));
     struct Data {
         IrradianceMap gathered;
-        Directions directions;
-        Undersampled undersampled;
+        CountedPixels tooLong;
+        CountedPixels undersampled;
     };
     IrradianceMap result;
     result.ledger = map.ledger;
@@ -48,10 +48,10 @@ IrradianceMap projectMaps(FrameBuilder& frame, const Projection& projection, Cau
                 setup.sample("receiver", surfaces.eye.receiver);
                 setup.sample("receiverSurface", surfaces.eye.receiverSurface);
                 data = result;
-                made.undersampled = Undersampled::count(setup, "_" + std::to_string(i + 1));
+                made.undersampled = countUndersampled(setup, "_" + std::to_string(i + 1));
                 if (isGlossy) setup.sample("receiverAlbedo", surfaces.eye.receiverAlbedo);
                 if (usesMean)
-                    made.directions = Directions::count(setup, "_" + std::to_string(i + 1));
+                    made.tooLong = countLongDirections(setup, "_" + std::to_string(i + 1));
                 if (i > 0) {
                     data.irradiance = setup.write(result.irradiance);
                     setup.bypass(data.irradiance, result.irradiance);
@@ -73,7 +73,7 @@ IrradianceMap projectMaps(FrameBuilder& frame, const Projection& projection, Cau
                                                                     gl::PassContext& context) {
                 const IrradianceMap& data = made.gathered;
                 made.undersampled.clear(context);
-                if (usesMean) made.directions.clear(context);
+                if (usesMean) made.tooLong.clear(context);
                 const Views& views = stored.on.views;
                 gl::Command command = context.fullscreen("maps/projection.frag");
                 command.uniforms("MapViews", views->block())
@@ -99,7 +99,7 @@ IrradianceMap projectMaps(FrameBuilder& frame, const Projection& projection, Cau
             });
         result = added.gathered;
         reportUndersampled(frame, projection.node, projection.maxSamples, added.undersampled);
-        if (usesMean) warnOfDirections(frame, projection.node, added.directions);
+        if (usesMean) warnOfDirections(frame, projection.node, added.tooLong);
     }
     return result;
 }

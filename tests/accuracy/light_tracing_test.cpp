@@ -165,6 +165,31 @@ TEST(LightTracing, EveryWattIsAccountedFor) {
     }
 }
 
+// Of water in the sun: R is Fresnel's reflectance, all of it goes to the sky.
+TEST(LightTracing, OfTheReflectedBranchIsWhatFresnelReflects) {
+    scene::Scene scene;
+    addObject(scene, scene::makePlane({{2.0, 3.0}, {1, 1}}), glass(1.333));
+    scene::Light sun;
+    sun.direction = {0.0, -1.0, 0.0};
+    sun.power = glm::vec3(1000.0f);
+    scene.lights.push_back(sun);
+    const EmbreeScene embree(scene);
+    LightTraceSettings settings;
+    settings.width = settings.height = 1;
+    settings.photonsPerBatch = 1000;
+    const double reflectance = std::pow(0.333 / 2.333, 2.0);
+    const auto shareOf = [&](bool isReflected, unsigned account) {
+        settings.filter.transmissionOnly = !isReflected;
+        settings.filter.reflectionOnly = isReflected;
+        const Energy energy = trace(embree, settings, 2).energy();
+        EXPECT_LT(std::abs(energy.balance()), 1e-10);
+        return energy.watts[account] / energy.watts[transport::kAccountEmitted];
+    };
+    EXPECT_NEAR(shareOf(true, transport::kAccountLeftScene), reflectance, 1e-6);
+    EXPECT_NEAR(shareOf(true, transport::kAccountUntracedBranch), 1.0 - reflectance, 1e-6);
+    EXPECT_NEAR(shareOf(false, transport::kAccountUntracedBranch), reflectance, 1e-6);
+}
+
 // Light without a place has no path behind it to be absorbed on; the device's photons have none
 // either.
 TEST(LightTracing, ASunThatFirstHitsDarkWaterFromWithinIsAsStrongAsTheSceneSays) {

@@ -238,6 +238,7 @@ TEST_F(ReferenceCache, KeyDependsOnEverythingThatMatters) {
     EXPECT_TRUE(differs([](S&, R& r) { r.estimator = Estimator::sppm; }));
     EXPECT_FALSE(differs([](S&, R& r) { r.causticView = true; }));  // light tracing has none
     EXPECT_TRUE(differs([](S&, R& r) { r.filter.transmissionOnly = true; }));
+    EXPECT_TRUE(differs([](S&, R& r) { r.filter.reflectionOnly = true; }));
     EXPECT_TRUE(differs([](S&, R& r) { r.filter.maximumInteractions = 2; }));
     EXPECT_FALSE(differs([](S& s, R&) { s.description = "another"; }));
 }

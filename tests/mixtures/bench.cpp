@@ -11,6 +11,7 @@
 #include "framework/report/loss_advice.h"
 #include "framework/report/map_account.h"
 #include "framework/run/output.h"
+#include "framework/run/reference_work.h"
 #include "framework/scene/files/scene_file.h"
 #include "framework/transport/watts.h"
 #include "tests/mixtures/varied_scene.h"
@@ -215,9 +216,7 @@ const reference::Reference& Bench::referenceOf(const std::string& scene,
     request.width = kWidth;
     request.height = kHeight;
     request.photonsPerBatch = kReferencePhotons / 8;
-    request.filter.transmissionOnly = paths.transmissionOnly;
-    request.filter.reflectionOnly = paths.reflectionOnly;
-    request.filter.maximumInteractions = paths.interactions;
+    request.filter = run::modelledFilter(request.filter, paths);
     const reference::EmbreeScene embree(sceneOf(scene));
     reference::RunOptions options;
     options.stop.photons = kReferencePhotons;

@@ -356,6 +356,30 @@ TEST(DeferredBodies, BeyondThoseKeptAreNamedAndInTheLedger) {
     EXPECT_LT(arrived, entering);
 }
 
+// Most of the second ball lies in the box of the first, which alone is kept: what comes to its own
+// front is not taken for the first one's.
+TEST(DeferredBodies, BeyondThoseKeptAreToldApartWhereBoxesOverlap) {
+    const auto rendered = [](const std::string& balls, const char* layers) {
+        const scene::Scene scene = makeScene(kAside, sun({0, -1, 0}) + balls + floorBelow());
+        return render(scene, {{"specular.deferred.layers", layers}});
+    };
+    const std::string first = ballAt("first", {0, 1.5, 0}, 1.0);
+    const std::string both = first + ballAt("second", {0.85, 1.9, 0.85}, 0.2);
+    const MapFrame alone = rendered(first, "1");
+    const MapFrame all = rendered(both, "2");
+    const MapFrame kept = rendered(both, "1");
+    kept.expectBalance();
+    // What comes to a ball from below comes to none of the fronts that the sun sees.
+    const double fromBelow = all.watts(kAccountBounceLimit);
+    EXPECT_LT(fromBelow, 0.01 * all.watts(kAccountEmitted));
+    // It reflects less than a tenth, and is the one that light comes to next to the first.
+    const double onSecond = kept.watts(kAccountEmitted) - alone.watts(kAccountEmitted);
+    EXPECT_GT(onSecond, 0.03 * kept.watts(kAccountEmitted));
+    EXPECT_GT(kept.watts(kAccountBounceLimit), 0.85 * onSecond);
+    EXPECT_LT(kept.watts(kAccountBounceLimit), onSecond + fromBelow);
+    EXPECT_LT(kept.watts(kAccountInternalReflectionLimit), 1e-3 * kept.watts(kAccountEmitted));
+}
+
 // The third ball's box overlaps that around the first two, the fourth one's box that of the second,
 // without meeting it, and the fifth meets the second.
 TEST(DeferredBodies, AreThoseThatMeet) {
