@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "framework/audit/hit_audit.h"
 
-#include "framework/pipeline/photon_texels.h"
 #include "framework/pipeline/stage_params.h"
+#include "framework/pipeline/tracing_log.h"
 #include "framework/scene/dielectrics.h"
 #include "framework/scene/flat_faces.h"
 #include "framework/scene/light_paths.h"
@@ -16,47 +16,18 @@ namespace {
 
 using namespace transport;
 
-struct TracedPhoton {
-    reference::AuditPhoton photon;
-    glm::dvec3 fluxWatts{0.0};
-    std::optional<glm::dvec3> found;
-    std::uint32_t light = 0;
-};
-
-bool isFinite(const glm::dvec3& v) {
+bool isFinite(const glm::vec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-std::vector<TracedPhoton> readTrace(const Renderer& renderer, const TraceRecord& trace,
-                                    std::uint64_t& notANumber) {
-    const std::vector<PhotonTexel> photons = readPhotons(renderer, trace.hits.incoming);
-    const std::vector<HitTexel> hits = readHits(renderer, trace.hits);
-    std::vector<TracedPhoton> traced;
-    for (std::size_t i = 0; i < photons.size(); ++i) {
-        const PhotonTexel& photon = photons[i];
-        if (photon.fate == kNoWord) ++notANumber;
-        if (photon.fate != kFateInFlight) continue;
-        // Another batch has it, too.
-        if (!trace.hits.incoming.cells.isOwn(photon.origin.cell)) continue;
-        TracedPhoton one;
-        one.photon.position = photon.position;
-        one.photon.direction = photon.direction;
-        one.photon.media = photon.media;
-        // Seen at a slant a pixel resolves less; the tracer takes its extent in depth too.
-        one.photon.reachMeters =
-            2.0 * renderer.view().footprintPerMeter() * std::abs(one.photon.position.z);
-        one.fluxWatts = photon.fluxWatts;
-        one.light = photon.origin.light;
-        if (hits[i].isHit() || hits[i].fate == kNoWord) one.found = hits[i].position;
-        const bool isNumber = isFinite(one.photon.position) && isFinite(one.photon.direction) &&
-                              isFinite(one.fluxWatts) && one.photon.media != kNoWord;
-        if (!isNumber) {
-            ++notANumber;
-            continue;
-        }
-        traced.push_back(one);
-    }
-    return traced;
+reference::AuditPhoton toAudit(const Renderer& renderer, const TracedPhoton& traced) {
+    reference::AuditPhoton photon;
+    photon.position = traced.position;
+    photon.direction = traced.direction;
+    photon.media = traced.media;
+    // Seen at a slant a pixel resolves less; the tracer takes its extent in depth too.
+    photon.reachMeters = 2.0 * renderer.view().footprintPerMeter() * std::abs(photon.position.z);
+    return photon;
 }
 
 // What a light sees of an exact hit: what tracers in its depths can find.
@@ -178,7 +149,7 @@ class FlatReach {
     }
     [[nodiscard]] bool holds(const TracedPhoton& traced, const reference::FirstHit& exact) const {
         if (!exact.exists() || !flat_.isFlat[exact.triangle.object]) return false;
-        const std::vector<std::uint32_t> around = unpackMedia(dielectrics_, traced.photon.media);
+        const std::vector<std::uint32_t> around = unpackMedia(dielectrics_, traced.media);
         return std::all_of(around.begin(), around.end(),
                            [&](std::uint32_t medium) { return isOpen_[medium - 1]; });
     }
@@ -227,7 +198,7 @@ class Counter {
         if (fate.distanceMeters) meters_.push_back(*fate.distanceMeters);
         if (fate.distancePixels) pixels_.push_back(*fate.distancePixels);
         if (fate.distanceMeters && !fate.distancePixels) ++audit_.unplaced;
-        if (!traced.found) {
+        if (!traced.isFound) {
             const unsigned account = accountOf(fate.sight, reach, light);
             audit_.missedWatts[account] += transport::wattsOf(traced.fluxWatts);
             ++audit_.missedPhotons[account];
@@ -235,17 +206,18 @@ class Counter {
         if (isRight) return;
         const bool isSpecular =
             exact.exists() && !isReceiver(scene_.materials[exact.material - 1].kind);
-        if (isSpecular && traced.found &&
-            glm::distance(*traced.found, traced.photon.position) > exact.distanceMeters)
+        if (isSpecular && traced.isFound &&
+            glm::distance(glm::dvec3(traced.found), glm::dvec3(traced.position)) >
+                exact.distanceMeters)
             ++audit_.throughSpecular;
         if (fate.verdict == Verdict::missed) {
             ++audit_.missed[nameOf(fate.sight, reach, light)];
         } else {
             ++audit_.falseHits[falseHitName(fate, reach, light)];
         }
-        const bool isPlaced = traced.found && fate.verdict != Verdict::notANumber;
+        const bool isPlaced = traced.isFound && fate.verdict != Verdict::notANumber;
         if (!isPlaced && !exact.exists()) return;
-        const auto pixel = pixelOf(view_, isPlaced ? *traced.found : exact.position);
+        const auto pixel = pixelOf(view_, isPlaced ? glm::dvec3(traced.found) : exact.position);
         if (pixel) audit_.wrong.push_back({*pixel, fate.verdict});
     }
 
@@ -328,12 +300,23 @@ std::optional<double> share(std::uint64_t part, std::uint64_t whole) {
 
 PhotonFate judge(const render::RasterView& view, const Layers& layers, const TracedPhoton& traced,
                  const reference::FirstHit& exact) {
-    const bool isNumber = !traced.found || isFinite(*traced.found);
-    PhotonFate fate = judgeFate(view, layers, traced.photon.position,
-                                isNumber ? traced.found : std::nullopt, exact);
+    const bool isNumber = !traced.isFound || isFinite(traced.found);
+    std::optional<glm::dvec3> found;
+    if (traced.isFound && isNumber) found = traced.found;
+    PhotonFate fate = judgeFate(view, layers, traced.position, found, exact);
     if (!isNumber) fate.verdict = Verdict::notANumber;
     return fate;
 }
+
+void add(EnergyLedger& sum, const EnergyLedger& one) {
+    for (std::size_t account = 0; account < sum.watts.size(); ++account) {
+        sum.watts[account] += one.watts[account];
+        sum.events[account] += one.events[account];
+    }
+}
+
+// Exact hits of more than these wait for room.
+constexpr std::size_t kPhotonsAtOnce = std::size_t{1} << 20U;
 
 }  // namespace
 
@@ -366,45 +349,38 @@ HitAudit auditHits(const Renderer& renderer, const reference::EmbreeScene& scene
     const glm::dmat4 viewToWorld = glm::inverse(view.worldToView);
     Counter counter(audit, renderer, scene);
     for (const TraceRecord& trace : renderer.traces()) {
-        const std::vector<TracedPhoton> traced = readTrace(renderer, trace, audit.notANumber);
-        std::vector<reference::AuditPhoton> photons;
-        photons.reserve(traced.size());
-        for (const TracedPhoton& one : traced)
-            photons.push_back(one.photon);
-        const std::vector<reference::FirstHit> exact =
-            reference::exactFirstHits(scene, photons, viewToWorld, threads);
-        for (std::size_t i = 0; i < traced.size(); ++i) {
-            counter.add(traced[i], exact[i], judge(view, layers, traced[i], exact[i]), trace.reach);
+        const std::shared_ptr<const TracingLog> log = readTracing(renderer, trace);
+        audit.notANumber += log->notANumber;
+        add(audit.booked, log->booked);
+        for (std::size_t first = 0; first < log->photons.size(); first += kPhotonsAtOnce) {
+            const std::size_t end = std::min(first + kPhotonsAtOnce, log->photons.size());
+            std::vector<reference::AuditPhoton> photons;
+            photons.reserve(end - first);
+            for (std::size_t i = first; i < end; ++i)
+                photons.push_back(toAudit(renderer, log->photons[i]));
+            const std::vector<reference::FirstHit> exact =
+                reference::exactFirstHits(scene, photons, viewToWorld, threads);
+            for (std::size_t i = first; i < end; ++i) {
+                const TracedPhoton& traced = log->photons[i];
+                const reference::FirstHit& hit = exact[i - first];
+                counter.add(traced, hit, judge(view, layers, traced, hit), trace.reach);
+            }
         }
     }
     counter.finish();
     return audit;
 }
 
-EnergyLedger bookedByTracers(const Renderer& renderer) {
-    EnergyLedger booked;
-    for (const TraceRecord& trace : renderer.traces()) {
-        const EnergyLedger before = renderer.ledger(trace.before);
-        const EnergyLedger after = renderer.ledger(trace.after);
-        for (std::size_t account = 0; account < booked.watts.size(); ++account) {
-            booked.watts[account] += after.watts[account] - before.watts[account];
-            booked.events[account] += after.events[account] - before.events[account];
-        }
-    }
-    return booked;
-}
-
 EnergyLedger resolveLedger(const Renderer& renderer, const HitAudit& audit, double emittedWatts) {
     EnergyLedger ledger = renderer.ledger();
     if (renderer.traces().empty()) return ledger;
-    const EnergyLedger traced = bookedByTracers(renderer);
     // What others have booked, a reconstruction that also loses light off the screen, stays.
     for (const unsigned account :
          {kAccountLeftScene, kAccountOffScreen, kAccountBehindEye, kAccountBeyondLastLayer,
           kAccountEdgeOn, kAccountMissedByTracer, kAccountUnresolved, kAccountOutsideMap,
           kAccountHiddenInMap, kAccountBounceLimit}) {
-        ledger.watts[account] += audit.missedWatts[account] - traced.watts[account];
-        ledger.events[account] += audit.missedPhotons[account] - traced.events[account];
+        ledger.watts[account] += audit.missedWatts[account] - audit.booked.watts[account];
+        ledger.events[account] += audit.missedPhotons[account] - audit.booked.events[account];
         // Both are sums of the same photons, one in fixed point: what is left is its rounding.
         if (audit.missedPhotons[account] == 0 && ledger.events[account] == 0)
             ledger.watts[account] = 0.0;

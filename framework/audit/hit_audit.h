@@ -14,6 +14,7 @@
 
 #include "framework/audit/photon_fate.h"
 #include "framework/image/image.h"
+#include "framework/pipeline/ledger.h"
 #include "framework/pipeline/renderer.h"
 
 namespace kaustik::audit {
@@ -53,6 +54,7 @@ struct HitAudit {
     // Flux of photons that got no hit, by the ledger's account that it belongs to.
     std::array<double, transport::kAccountCount> missedWatts{};
     std::array<std::uint64_t, transport::kAccountCount> missedPhotons{};
+    EnergyLedger booked;  // by the tracers themselves
     std::vector<WrongPhoton> wrong;
 
     // Shares of photons; they do not exist where there is no photon to judge.
@@ -69,9 +71,6 @@ struct HitAudit {
 // The `hits` of report.json; null, with a reason, for what there is not.
 [[nodiscard]] nlohmann::json toJson(const HitAudit& audit);
 [[nodiscard]] nlohmann::json hitsSchema();
-
-// What the tracers of that frame have booked themselves, in all of its tracings.
-[[nodiscard]] EnergyLedger bookedByTracers(const Renderer& renderer);
 
 // The ledger of that frame with what the tracers could not tell apart told apart, and with what the
 // reference says that light emits in place of what the grid caught: the difference is the loss to

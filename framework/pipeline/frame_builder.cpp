@@ -12,6 +12,7 @@
 #include "framework/pipeline/ledger.h"
 #include "framework/pipeline/stage_params.h"
 #include "framework/pipeline/tile_hits.h"
+#include "framework/pipeline/tracing_log.h"
 #include "framework/transport/photon_list.h"
 #include "framework/transport/primitives.h"
 
@@ -139,9 +140,23 @@ Hits FrameBuilder::recorded(const TraceStage::Build& build, const Photons& photo
     record.before = copyLedger(*this, photons.ledger, name + "_before");
     record.hits = build(*this, photons, surfaces);
     record.reach = tracerReach();
-    record.after = copyLedger(*this, record.hits.incoming.ledger, name + "_after");
+    if (loops_ > 0) {
+        logTracing(*this, record, name + "_after");
+    } else {
+        record.after = copyLedger(*this, record.hits.incoming.ledger, name + "_after");
+    }
     traces_.push_back(record);
     return record.hits;
+}
+
+void FrameBuilder::beginLoop() {
+    graph_.beginLoop();
+    ++loops_;
+}
+
+void FrameBuilder::endLoop(const graph::ResourceRef& again, std::size_t word) {
+    graph_.endLoop(again, word);
+    --loops_;
 }
 
 Views FrameBuilder::eyeViews() {

@@ -98,8 +98,8 @@ class FrameBuilder {
         graph_.skip(prefix_ + name, reason);
     }
     // See graph::Graph::beginLoop.
-    void beginLoop() { graph_.beginLoop(); }
-    void endLoop(const graph::ResourceRef& again, std::size_t word) { graph_.endLoop(again, word); }
+    void beginLoop();
+    void endLoop(const graph::ResourceRef& again, std::size_t word);
 
     // While it lives, passes are named "STAGE.…": for a stage that uses nodes of another one, a
     // tracer say. Such tracings are not part of what the photon audit records.
@@ -233,6 +233,7 @@ class FrameBuilder {
     bool recordsTraces_ = false;
     bool skipsCaustic_ = false;
     bool isRandom_ = false;
+    int loops_ = 0;  // that have begun and not ended
     std::vector<TraceRecord> traces_;
     std::vector<NodeWarning> nodeWarnings_;
     std::map<std::string, std::size_t> tracingsOfBatch_;

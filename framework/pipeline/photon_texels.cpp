@@ -15,22 +15,24 @@ struct Texels {
     }
 };
 
-Texels read(const Renderer& renderer, const graph::ResourceRef& handle) {
-    return {renderer.texture(handle).read()};
+// A Source is a renderer or the context of a pass.
+template <class Source>
+Texels read(const Source& source, const graph::ResourceRef& handle) {
+    return {source.texture(handle).read()};
 }
 
-std::size_t countOf(const Renderer& renderer, const Photons& photons) {
-    return renderer.buffer(photons.list).read<transport::PhotonList>().front().count;
+template <class Source>
+std::size_t countOf(const Source& source, const Photons& photons) {
+    return source.buffer(photons.list).template read<transport::PhotonList>().front().count;
 }
 
-}  // namespace
-
-std::vector<PhotonTexel> readPhotons(const Renderer& renderer, const Photons& photons) {
-    const Texels position = read(renderer, photons.position);
-    const Texels direction = read(renderer, photons.direction);
-    const Texels flux = read(renderer, photons.flux);
-    const std::vector<std::uint32_t> origin = renderer.texture(photons.origin).readWords();
-    std::vector<PhotonTexel> list(countOf(renderer, photons));
+template <class Source>
+std::vector<PhotonTexel> photonsFrom(const Source& source, const Photons& photons) {
+    const Texels position = read(source, photons.position);
+    const Texels direction = read(source, photons.direction);
+    const Texels flux = read(source, photons.flux);
+    const std::vector<std::uint32_t> origin = source.texture(photons.origin).readWords();
+    std::vector<PhotonTexel> list(countOf(source, photons));
     for (std::size_t i = 0; i < list.size(); ++i) {
         list[i] = {position.xyz(i),
                    position.w(i),
@@ -44,16 +46,41 @@ std::vector<PhotonTexel> readPhotons(const Renderer& renderer, const Photons& ph
     return list;
 }
 
-std::vector<HitTexel> readHits(const Renderer& renderer, const Hits& hits) {
-    const Texels position = read(renderer, hits.position);
-    const Texels surface = read(renderer, hits.surface);
-    const Texels flux = read(renderer, hits.flux);
-    std::vector<HitTexel> list(countOf(renderer, hits.incoming));
+template <class Source>
+std::vector<HitTexel> hitsFrom(const Source& source, const Hits& hits) {
+    const Texels position = read(source, hits.position);
+    const Texels surface = read(source, hits.surface);
+    const Texels flux = read(source, hits.flux);
+    std::vector<HitTexel> list(countOf(source, hits.incoming));
     for (std::size_t i = 0; i < list.size(); ++i) {
         list[i] = {position.xyz(i), position.w(i), surface.xyz(i),
                    surface.word(i), flux.xyz(i),   flux.word(i)};
     }
     return list;
+}
+
+}  // namespace
+
+std::vector<PhotonTexel> readPhotons(const Renderer& renderer, const Photons& photons) {
+    return photonsFrom(renderer, photons);
+}
+
+std::vector<PhotonTexel> readPhotons(const gl::PassContext& context, const Photons& photons) {
+    return photonsFrom(context, photons);
+}
+
+std::vector<HitTexel> readHits(const Renderer& renderer, const Hits& hits) {
+    return hitsFrom(renderer, hits);
+}
+
+std::vector<HitTexel> readHits(const gl::PassContext& context, const Hits& hits) {
+    return hitsFrom(context, hits);
+}
+
+std::vector<graph::ResourceRef> texelsOf(const Hits& hits) {
+    const Photons& photons = hits.incoming;
+    return {hits.position,     hits.surface, hits.flux,      photons.position,
+            photons.direction, photons.flux, photons.origin, photons.list};
 }
 
 }  // namespace kaustik

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Lists of photons and their hits as the processor reads them back: for whoever judges, probes or
-// shows them. Eye view space, m, W. All of it waits for the device, and needs what it reads to have
-// been asked for (graph::Graph::request).
+// shows them. Eye view space, m, W. All of it waits for the device. After a frame what is read must
+// have been asked for (graph::Graph::request); within a pass, be declared by it (texelsOf).
 #pragma once
 
 #include <glm/glm.hpp>
@@ -39,6 +39,12 @@ struct HitTexel {
 // The photons in the order of the list.
 [[nodiscard]] std::vector<PhotonTexel> readPhotons(const Renderer& renderer,
                                                    const Photons& photons);
+[[nodiscard]] std::vector<PhotonTexel> readPhotons(const gl::PassContext& context,
+                                                   const Photons& photons);
 [[nodiscard]] std::vector<HitTexel> readHits(const Renderer& renderer, const Hits& hits);
+[[nodiscard]] std::vector<HitTexel> readHits(const gl::PassContext& context, const Hits& hits);
+
+// All that both read of hits and their photons.
+[[nodiscard]] std::vector<graph::ResourceRef> texelsOf(const Hits& hits);
 
 }  // namespace kaustik

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "framework/pipeline/renderer.h"
+#include "framework/pipeline/photon_texels.h"
 
 #include <fmt/format.h>
 
@@ -8,6 +9,7 @@
 
 #include "framework/core/error.h"
 #include "framework/core/names.h"
+#include "framework/pipeline/photon_texels.h"
 
 namespace kaustik {
 namespace {
@@ -276,13 +278,10 @@ void Renderer::requestForAudit() {
         if (handle.valid()) graph_->request(handle);
     };
     for (const TraceRecord& trace : traces_) {
-        const Hits& hits = trace.hits;
-        const Photons& photons = hits.incoming;
-        for (const graph::ResourceRef& handle : std::initializer_list<graph::ResourceRef>{
-                 hits.position, hits.surface, hits.flux, photons.position, photons.direction,
-                 photons.flux, photons.origin, photons.list, trace.before, trace.after}) {
+        for (const graph::ResourceRef& handle : texelsOf(trace.hits))
             request(handle);
-        }
+        request(trace.before);
+        request(trace.after);
     }
     request(outputs_.layers.depth);
     request(outputs_.eye.receiver);

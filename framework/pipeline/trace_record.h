@@ -3,11 +3,14 @@
 // space, m, W.
 #pragma once
 
+#include <memory>
+
 #include "framework/pipeline/stages.h"
 
 namespace kaustik {
 
 class FrameBuilder;
+struct TracingLog;
 
 struct TraceRecord {
     Hits hits;
@@ -15,6 +18,8 @@ struct TraceRecord {
     Ledger before;
     Ledger after;
     TracerReach reach = TracerReach::eyeLayers;
+    // Of a tracing in a loop, whose last run alone is left in the above; else null.
+    std::shared_ptr<const TracingLog> log;
 };
 
 // Adds a pass, not part of any technique, that copies the ledger as it is at this point.

@@ -181,15 +181,15 @@ LayeredDepth peelObjects(FrameBuilder& frame, const params::NoParams&, Geometry 
                 [&inputs = frame.inputs(), layers, regions](const Data& data,
                                                             gl::PassContext& context) {
                     countObjects(inputs, data, context, regions);
-                    const auto commandCount = static_cast<int>(regions.size());
+                    const auto regionCount = static_cast<int>(regions.size());
                     context.compute("layered_depth/peel_commands.comp")
                         .define("PER_OBJECT")
                         .storage("SceneCommands", inputs.gpuScene.commands())
                         .storage("LayerCommands", data.commands)
                         .storage("Complexities", data.complexities)
-                        .set("commandCount", commandCount)
+                        .set("commandCount", regionCount)
                         .set("layerCount", layers)
-                        .dispatchOver(commandCount * layers, 64);
+                        .dispatchOver(regionCount * layers, 64);
                     // Beyond an object's own pixels nothing is drawn or cleared.
                     for (const graph::ResourceRef& handle :
                          std::initializer_list<graph::ResourceRef>{

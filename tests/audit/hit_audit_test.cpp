@@ -67,7 +67,7 @@ class Audited {
         hits = audit::auditHits(*renderer_, embree_);
         emittedWatts = renderer_->ledger().watts[transport::kAccountEmitted];
         ledger = audit::resolveLedger(*renderer_, hits, emittedWatts);
-        const EnergyLedger traced = audit::bookedByTracers(*renderer_);
+        const EnergyLedger& traced = hits.booked;
         for (const unsigned account : {transport::kAccountLeftScene, transport::kAccountOffScreen,
                                        transport::kAccountBehindEye, transport::kAccountUnresolved,
                                        transport::kAccountMissedByTracer}) {
@@ -102,6 +102,28 @@ void expectAccounted(const Audited& audited) {
     for (const double watts : hits.missedWatts)
         told += watts;
     EXPECT_NEAR(told, audited.lostByTracersWatts, 1e-6 * audited.emittedWatts);
+}
+
+// Memory for a few batches, of which each takes the textures of the one before.
+TEST(HitAudit, JudgesThePhotonsOfAllBatches) {
+    const scene::Scene scene = scene::loadScene("glass-sphere");
+    const Frame::Settings adaptive = {{"driver", "adaptive"},     {"emit", "deferred"},
+                                      {"refine.finest", "256"},   {"refine.check", "64"},
+                                      {"reconstruct", "sprites"}, {"specular", "split"}};
+    const auto with = [&](const char* memory) {
+        Frame::Settings settings = adaptive;
+        settings.emplace_back("refine.memory", memory);
+        return Audited(scene, settings);
+    };
+    const Audited few = with("1");
+    const Audited whole = with("1024");
+    expectAccounted(few);
+    EXPECT_GT(few.hits.photons, 20000U);
+    EXPECT_EQ(few.hits.photons, whole.hits.photons);
+    EXPECT_EQ(few.hits.right, whole.hits.right);
+    EXPECT_EQ(few.hits.reachable, whole.hits.reachable);
+    EXPECT_EQ(few.hits.missed, whole.hits.missed);
+    EXPECT_EQ(few.hits.falseHits, whole.hits.falseHits);
 }
 
 // Two blocks of one glass that overlap: a pixel shows both fronts before the first back, and what
