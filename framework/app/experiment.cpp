@@ -183,9 +183,10 @@ void drawReport(const ExperimentOptions& options) {
     run::catchInterrupts();
     std::fflush(stdout);
     const fs::path script = projectRoot() / "experiments/plotting/report.py";
-    // -B: leaves no compiled files in the source tree.
+    // -B: leaves no compiled files in the source tree. Its name is its path: by a bare one it would
+    // take the modules of whichever Python comes first on the path.
     const ProcessOutcome outcome =
-        runProcess(python, {"python3", "-B", script.string(), folder.string()},
+        runProcess(python, {python.string(), "-B", script.string(), folder.string()},
                    StandardOutput::shared, run::isInterrupted);
     if (outcome.interrupted) throw Error("Interrupted; no report was written.", kExitFailed);
     if (outcome.exitCode != 0) throw IoError(outcome.problem());

@@ -11,15 +11,6 @@ namespace {
 
 constexpr double kMaxLightHalfAngle = 80.0 * 3.14159265358979323846 / 180.0;
 
-// A view matrix that never degenerates: `up` is replaced when it is parallel to the direction.
-glm::dmat4 lookAlong(const glm::dvec3& position, const glm::dvec3& direction, glm::dvec3 up) {
-    const glm::dvec3 unit = glm::normalize(direction);
-    if (glm::length(glm::cross(unit, up)) < 1e-6 * glm::length(up)) {
-        up = std::abs(unit.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, -1);
-    }
-    return glm::lookAt(position, position + unit, up);
-}
-
 std::array<glm::dvec3, 8> corners(const scene::Bounds& bounds) {
     std::array<glm::dvec3, 8> result{};
     for (unsigned i = 0; i < 8; ++i) {
@@ -62,6 +53,20 @@ std::optional<glm::dvec2> pixelOf(const RasterView& view, const glm::dvec3& posi
     if (!(depth > 0.0)) return std::nullopt;
     const glm::dvec2 size(view.width, view.height);
     return (glm::dvec2(positionVs) / (depth * view.halfExtent) * 0.5 + 0.5) * size;
+}
+
+glm::dmat4 lookAlong(const glm::dvec3& position, const glm::dvec3& direction, glm::dvec3 up) {
+    const glm::dvec3 unit = glm::normalize(direction);
+    if (glm::length(glm::cross(unit, up)) < 1e-6 * glm::length(up)) {
+        up = std::abs(unit.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, -1);
+    }
+    // Not by glm::lookAt, which takes a place to look at: of position + unit - position the digits
+    // that are left depend on how far out the position is.
+    const glm::dvec3 right = glm::normalize(glm::cross(unit, up));
+    const glm::dmat3 axes = glm::transpose(glm::dmat3(right, glm::cross(right, unit), -unit));
+    glm::dmat4 toView(axes);
+    toView[3] = glm::dvec4(-(axes * position), 1.0);
+    return toView;
 }
 
 RasterView makeEyeView(const scene::Camera& camera, int width, int height) {

@@ -33,6 +33,11 @@ struct RasterView {
 [[nodiscard]] std::optional<glm::dvec2> pixelOf(const RasterView& view,
                                                 const glm::dvec3& positionVs);
 
+// From world space to that of a view from `position` along `direction`. `up` is replaced where it
+// is parallel to it.
+[[nodiscard]] glm::dmat4 lookAlong(const glm::dvec3& position, const glm::dvec3& direction,
+                                   glm::dvec3 up);
+
 // Square pixels: the horizontal field of view follows from the size.
 [[nodiscard]] RasterView makeEyeView(const scene::Camera& camera, int width, int height);
 

@@ -197,7 +197,7 @@ render::RasterView viewOf(const Candidate& part, const render::RasterView& map) 
     const glm::dmat4 toWorld = glm::inverse(map.worldToView);
     const dvec3 from(toWorld[3]);
     view.worldToView =
-        glm::lookAt(from, from + glm::dmat3(toWorld) * dvec3(middle, -1.0), dvec3(toWorld[1]));
+        render::lookAlong(from, glm::dmat3(toWorld) * dvec3(middle, -1.0), dvec3(toWorld[1]));
     double half = 0.0;
     for (const dvec2& corner : {low, high, dvec2(low.x, high.y), dvec2(high.x, low.y)}) {
         const dvec3 p = glm::dmat3(view.worldToView) * (glm::dmat3(toWorld) * dvec3(corner, -1.0));

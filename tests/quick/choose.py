@@ -6,8 +6,8 @@
 
 S seconds (default 210) are what the chosen tests may take together, two at a time, by the times that
 ctest measured in BUILD when it last ran all of them. Chosen are every unit test and those of Python, then
-the cheapest test of each suite, then whatever is cheapest. All others get the label `slow`; `cluster` and
-`install` have it where they are declared. A test that is new has no such label until this is run again,
+the cheapest test of each suite, then whatever is cheapest; none that takes a twentieth of them all. All
+others get the label `slow`; `cluster` and `install` have it where they are declared. A test that is new has no such label until this is run again,
 and so belongs to the quick ones.
 """
 
@@ -63,8 +63,9 @@ def main():
     for name in by_cost:
         suites.setdefault(name.split(".")[0], name)
     left, chosen = 2 * arguments.seconds, set()
+    longest = left / 20
     for name in dict.fromkeys(units + sorted(suites.values(), key=by_cost.index) + by_cost):
-        if tests[name][1] <= left and not NEVER_QUICK & set(tests[name][0]):
+        if tests[name][1] <= min(left, longest) and not NEVER_QUICK & set(tests[name][0]):
             left -= tests[name][1]
             chosen.add(name)
 
