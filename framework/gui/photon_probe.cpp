@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "framework/pipeline/photon_texels.h"
+#include "framework/pipeline/tracing_log.h"
 
 namespace kaustik::gui {
 namespace {
@@ -61,6 +62,7 @@ PhotonProbe probePhotons(const Renderer& renderer, glm::ivec2 pixel, float radiu
     for (const TraceRecord& record : renderer.traces()) {
         tracings.push_back(
             {readPhotons(renderer, record.hits.incoming), readHits(renderer, record.hits)});
+        if (record.log) probe.overwritten += record.log->beforeLast;
     }
     const glm::vec2 middle = glm::vec2(pixel) + 0.5f;
     for (std::size_t tracing = 0; tracing < tracings.size(); ++tracing) {

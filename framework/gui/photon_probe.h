@@ -22,8 +22,10 @@ struct PhotonPath {
 struct PhotonProbe {
     glm::ivec2 pixel{0};  // from the upper left
     float radiusPixels = 1.0f;
-    std::size_t landed = 0;         // within the radius
-    glm::vec3 fluxWatts{0.0f};      // of all of them
+    std::size_t landed = 0;     // within the radius
+    glm::vec3 fluxWatts{0.0f};  // of all of them
+    // Photons of batches whose memory later ones have taken: not looked at.
+    std::size_t overwritten = 0;
     std::vector<PhotonPath> paths;  // the nearest, kMaxPaths at most
     static constexpr std::size_t kMaxPaths = 200;
 };

@@ -76,6 +76,7 @@ void logTracing(FrameBuilder& frame, TraceRecord& record, const std::string& nam
                 },
                 [log, quantumWatts](const Data& data, gl::PassContext& context) {
                     if (!context.isRepeated()) *log = {};
+                    log->beforeLast = log->photons.size();
                     addPhotons(*log, readPhotons(context, data.hits.incoming),
                                readHits(context, data.hits), data.hits.incoming.cells);
                     addBooked(log->booked, readLedger(context.buffer(data.before), quantumWatts),

@@ -26,9 +26,9 @@ struct TracedPhoton {
 // The photons of all runs of a tracing in a frame; those of no other batch alone.
 struct TracingLog {
     std::vector<TracedPhoton> photons;
-    std::uint64_t notANumber =
-        0;                // photons that have a fate, or a place, that is none: not among them
-    EnergyLedger booked;  // by the tracer itself
+    std::size_t beforeLast = 0;    // of these, those of runs before the last
+    std::uint64_t notANumber = 0;  // photons whose fate or place is none; not among them
+    EnergyLedger booked;           // by the tracer itself
 };
 
 // Reads back what the frame has left of a tracing outside of loops, or gives its log.

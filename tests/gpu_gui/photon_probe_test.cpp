@@ -4,6 +4,7 @@
 // horizontal part is the sun's outside and that over the index inside.
 #include "framework/gui/photon_probe.h"
 #include "framework/pipeline/photon_texels.h"
+#include "framework/pipeline/tracing_log.h"
 
 #include <algorithm>
 #include <array>
@@ -63,13 +64,17 @@ const std::array<glm::dvec3, 2> kSuns = {glm::normalize(glm::dvec3(-0.4, -1, 0))
 
 class PhotonsUnderASlab : public testing::Test {
   protected:
-    gui::PhotonProbe probe(const std::string& splits, float radiusPixels) {
+    using Settings = std::vector<std::pair<std::string, std::string>>;
+    gui::PhotonProbe probe(const std::string& splits, float radiusPixels,
+                           const Settings& more = {}) {
         RenderSettings settings;
         settings.technique = registry.findTechnique("screen_space_photons");
         settings.params = registry.makeParams(settings.technique);
         settings.params.set("specular", "split", "test");
         settings.params.set("specular.split.levels", splits, "test");
         settings.params.set("emit.photons", "32x" + std::to_string(kPhotonRows), "test");
+        for (const auto& [name, value] : more)
+            settings.params.set(name, value, "test");
         settings.width = 160;
         settings.height = 120;
         renderer = std::make_unique<Renderer>(context(), registry, scene, std::move(settings));
@@ -144,6 +149,30 @@ TEST_F(PhotonsUnderASlab, AreAllFoundHoweverOftenTheListHasGrown) {
             photons.insert({path.origin.cell, path.origin.light, path.origin.path});
         EXPECT_EQ(photons.size(), probe.paths.size()) << splits;
     }
+}
+
+TEST_F(PhotonsUnderASlab, SayHowManyTheirBatchesHaveOverwritten) {
+    const auto with = [&](const char* memory) {
+        return probe("1", kEverywhere,
+                     {{"driver", "adaptive"},
+                      {"emit", "deferred"},
+                      {"reconstruct", "sprites"},
+                      {"refine.finest", "256"},
+                      {"refine.check", "128"},
+                      {"refine.memory", memory}});
+    };
+    const auto traced = [&] {
+        std::size_t photons = 0;
+        for (const TraceRecord& record : renderer->traces())
+            photons += readTracing(*renderer, record)->photons.size();
+        return photons;
+    };
+    EXPECT_EQ(with("1024").overwritten, 0u);
+    const std::size_t all = traced();
+    const std::size_t overwritten = with("1").overwritten;
+    EXPECT_EQ(traced(), all);
+    EXPECT_GT(overwritten, all / 2);
+    EXPECT_LT(overwritten, all);
 }
 
 }  // namespace

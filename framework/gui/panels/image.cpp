@@ -138,6 +138,12 @@ void drawProbe(Bench& bench) {
                            double(probe->radiusPixels), probe->pixel.x, probe->pixel.y,
                            transport::wattsOf(probe->fluxWatts));
         bench.map.control("image.probe_landed", fmt::format("{}", probe->landed));
+        if (probe->overwritten > 0) {
+            ImGui::TextWrapped(
+                "Of the last batch alone: %zu photons of those before it are not looked at. More "
+                "refine.memory makes fewer batches.",
+                probe->overwritten);
+        }
         if (ImGui::BeginTable("photons", 4, ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY)) {
             ImGui::TableSetupScrollFreeze(0, 1);
             for (const char* name : {"photon", "px off", "W", "points"})
