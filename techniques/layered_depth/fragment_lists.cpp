@@ -50,6 +50,9 @@ constexpr std::uint32_t kMaxIterations = 65000;
 // So few are peeled in less time than lists take (the dielectrics of `pool`, one layer: 0.6 of it;
 // of `cornell-bunny`, four: the same).
 constexpr int kFewLayers = 3;
+// Where triangles, drawn once for each layer, are at least this share of the pixels, lists take
+// less time on llvmpipe at 400x300 and at 1600x1200 (results/README.md, "Layers in one pass").
+constexpr double kTrianglesPerPixel = 0.25;
 
 struct FragmentCapacity {
     std::size_t fragments;
@@ -235,11 +238,10 @@ std::size_t triangleCount(const scene::Scene& scene, render::DrawSet set) {
 
 bool prefersLists(FrameBuilder& frame, const LayersRequest& request) {
     const render::RasterViews& views = request.views ? *request.views : *frame.eyeViews();
-    const auto pixels =
-        static_cast<std::size_t>(views.width()) * static_cast<std::size_t>(views.height());
-    return request.layers > kFewLayers &&
-           triangleCount(frame.scene(), request.set) * static_cast<std::size_t>(request.layers) >=
-               pixels;
+    const double pixels = double(views.width()) * double(views.height());
+    const double triangles =
+        static_cast<double>(triangleCount(frame.scene(), request.set)) * request.layers;
+    return request.layers > kFewLayers && triangles >= kTrianglesPerPixel * pixels;
 }
 
 LayeredDepth makeLayers(FrameBuilder& frame, Geometry geometry, const LayersRequest& request) {

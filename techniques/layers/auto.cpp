@@ -17,7 +17,7 @@ LayeredDepth chooseLayers(FrameBuilder& frame, const params::NoParams&, Geometry
                                 .tile = frame.tile()};
     const bool lists = prefersLists(frame, request);
     frame.skip(lists ? "layers.peel" : "layers.lists",
-               fmt::format("{} triangles for each of {} layers are {} than {} pixels",
+               fmt::format("{} triangles for each of {} layers are {} than a quarter of {} pixels",
                            triangleCount(frame.scene(), request.set), request.layers,
                            lists ? "more" : "fewer", frame.width() * frame.height()));
     return addPyramid(frame, makeLayers(frame, geometry, request));
