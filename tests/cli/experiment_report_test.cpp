@@ -194,6 +194,24 @@ TEST_F(ExperimentReport, WithoutPythonNamesThePackages) {
     expectFailure(draw(without), 1, {"/nonexistent/python3", "python3-matplotlib"});
 }
 
+// A Python that is called by a bare name takes the modules of the first of that name on the path.
+TEST_F(ExperimentReport, TakesNoModulesOfAnotherPython) {
+    writeResults();
+    for (const char* part : {"other", "other/bin", "other/lib"})
+        fs::create_directory(folder / part);
+    static_cast<void>(folder.file("other/bin/python3", "#!/bin/false\n"));
+    fs::permissions(folder / "other/bin/python3", fs::perms::owner_all);
+    for (int minor = 9; minor < 20; ++minor) {
+        const std::string modules = fmt::format("other/lib/python3.{}", minor);
+        fs::create_directory(folder / modules);
+        static_cast<void>(folder.file(modules + "/os.py", ""));
+    }
+    Conditions first;
+    first.environment = {{"PATH", (folder / "other/bin").string() + ":" + std::getenv("PATH")}};
+    const Outcome outcome = draw(first);
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+}
+
 TEST_F(ExperimentReport, OfADamagedFolderSaysWhichFile) {
     writeResults();
     static_cast<void>(folder.file("out/experiment.json", "{\"schema\": "));

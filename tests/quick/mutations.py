@@ -4,18 +4,19 @@
 
     mutations.py [--count 60] [--seed 1] [--commit HEAD] [--tree build/mutations]
 
-Draws `count` of all small changes that there are to C++ files and shaders (an operator, a number, a condition,
-a statement that goes), each as likely as any other, and for each alone builds and runs the quick tests up to
-the first that fails. What does not compile is replaced by the next that is drawn; of a shader, which is
-compiled when it is used, the output of the test that fails says so.
+Draws `count` of all small changes that there are to C++ files and shaders (an operator, a number, a
+condition, a statement that goes), each as likely as any other. What does not compile is replaced by the next
+that is drawn; of a shader, which is compiled when it is used, the output of a test that fails says so.
 
-What the quick tests miss is then put in all at once and the slow tests are run: where they find nothing,
-nobody sees any of these changes, or they change nothing. A test that fails is run for each of them alone, those
-that it sees go, and the slow tests run again with what is left, until they find nothing.
+1. Each alone: the quick tests that lie where the changed file does, up to the first that fails.
+2. What is left, a dozen at once: all quick tests. Those that fail are run for each change alone, the changes that
+   they see go, and the rest is tried again until nothing fails.
+3. What is left then: the slow tests in the same way. Where these find nothing either nobody sees the
+   change, or it changes nothing.
 
-It works in a clone, `tree`, at `commit`, with a build of its own. A line a mutation goes to
-tree/mutations.jsonl, and one that stands there already, of the same commit, is not tried again. It can be
-interrupted. Prints the commit, a table and a ratio.
+It works in a clone, `tree`, at `commit`, with a build of its own. What is known stands in
+tree/mutations.jsonl, by commit, and is not tried again: it can be interrupted. Prints the commit, a table and a
+ratio.
 """
 
 import argparse
@@ -105,6 +106,17 @@ def failed(log):
     return re.findall(r"^\s*\d+ - (\S+) \(", log.read_text(errors="replace"), re.M)
 
 
+def suites_near(source, file):
+    """The suites of the tests that lie in a folder, or have a name, of the changed file's."""
+    path = file.relative_to(source)
+    words = {path.stem, path.parent.name}
+    suites = set()
+    for test in (source / "tests").rglob("*_test.cpp"):
+        if words & {test.stem.removesuffix("_test"), *test.relative_to(source).parent.parts}:
+            suites.update(re.findall(r"^TEST(?:_F|_P)?\((\w+),", test.read_text(), re.M))
+    return sorted(suites)
+
+
 class Mutation:
     """A change at an offset of a file."""
 
@@ -114,18 +126,31 @@ class Mutation:
         self.site = f"{file.relative_to(source)}:{line} {old.strip()} -> {new.strip()} @{offset}"
 
 
-class Clone:
-    """A clone with a build, into which mutations are put and taken out again."""
+class Trials:
+    """A clone with a build, into which mutations are put and taken out again, and what is known of them."""
 
-    def __init__(self, source, log):
-        self.source, self.log = source, log
+    def __init__(self, base, commit):
+        self.source, self.log, self.commit = base / "source", base / "log", commit
+        self.file = base / "mutations.jsonl"
+        lines = map(json.loads, self.file.read_text().splitlines()) if self.file.exists() else []
+        self.known = {(row["site"], row["by"]): row["found"] for row in lines if row["commit"] == commit}
+
+    def record(self, mutation, by, found):
+        """`found`: the test that fails; "": none; None: it does not compile."""
+        self.known[mutation.site, by] = found
+        with self.file.open("a") as out:
+            row = {"commit": self.commit, "site": mutation.site, "by": by, "found": found}
+            out.write(json.dumps(row) + "\n")
+        print(f"{by:6} {mutation.site}  {'does not compile' if found is None else found or '-'}", flush=True)
 
     def build(self):
-        return run(["cmake", "--build", "--preset", "release", "--parallel", "2"], self.source, self.log)
+        return run(["cmake", "--build", "--preset", "release", "--parallel", "2"], self.source, self.log)[0]
 
     def test(self, *options):
-        return run(["ctest", "--preset", "release", "--parallel", "2", "--timeout", str(HANGS_S),
-                    *options], self.source, self.log)
+        """The tests that fail."""
+        passes, _ = run(["ctest", "--preset", "release", "--parallel", "2", "--timeout", str(HANGS_S), *options],
+                        self.source, self.log)
+        return [] if passes else failed(self.log) or ["?"]
 
     @contextlib.contextmanager
     def mutated(self, mutations):
@@ -141,42 +166,37 @@ class Clone:
             for file, text in originals.items():
                 file.write_text(text)
 
-
-def try_quick(clone, mutation):
-    """The quick tests' row for a mutation."""
-    row = {"site": mutation.site, "by": None, "quick": False}
-    with clone.mutated([mutation]):
-        row["compiles"], row["build_s"] = clone.build()
-        if row["compiles"]:
-            passes, row["quick_s"] = clone.test("--stop-on-failure", "-LE", "^slow$")
-            row["quick"], row["by"] = not passes, None if passes else (failed(clone.log) or ["?"])[0]
-            row["compiles"] = passes or not is_uncompilable(mutation.file, clone.log)
-    return row
-
-
-def seen_by_slow(clone, missed):
-    """Which of the missed mutations a slow test sees: site to test."""
-    seen = {}
-    while left := [mutation for mutation in missed if mutation.site not in seen]:
-        with clone.mutated(left):
-            compiles, _ = clone.build()
-            passes, seconds = clone.test("-L", "^slow$") if compiles else (True, 0.0)
-            failures = [] if passes else failed(clone.log)
-        if not compiles:
-            sys.exit(f"mutations.py: all that are left do not compile together; see {clone.log}")
-        print(f"slow tests with {len(left)} mutations: {len(failures)} fail ({seconds:.0f} s)", flush=True)
-        before = len(seen)
-        for mutation in left if failures else []:
-            with clone.mutated([mutation]):
-                clone.build()
-                passes, _ = clone.test("--stop-on-failure", "-R", f"^({'|'.join(map(re.escape, failures))})$")
-                if not passes:
-                    seen[mutation.site] = (failed(clone.log) or ["?"])[0]
-        if len(seen) == before:
+    def alone(self, mutation, by, *options):
+        """Whether a test of these fails; it is recorded where one does."""
+        with self.mutated([mutation]):
+            if not self.build():
+                self.record(mutation, by, None)
+                return True
+            failures = self.test("--stop-on-failure", *options)
             if failures:
-                print(f"only together: {', '.join(failures)}", flush=True)
-            break
-    return seen
+                self.record(mutation, by,
+                            None if is_uncompilable(mutation.file, self.log) else failures[0])
+        return bool(failures)
+
+    def together(self, mutations, by, *options):
+        """Finds out which of the mutations the tests of `options` see."""
+        left = [mutation for mutation in mutations if (mutation.site, by) not in self.known]
+        while left:
+            with self.mutated(left):
+                failures = self.test(*options) if self.build() else []
+            print(f"{by} tests with {len(left)} changes: {len(failures)} fail", flush=True)
+            before = len(left)
+            # A few of them first: of hundreds, those that one change fails hide the others'.
+            for tried in (failures[::len(failures) // 20 + 1], failures):
+                if tried and len(left) == before:
+                    names = f"^({'|'.join(map(re.escape, tried))})$"
+                    left = [mutation for mutation in left if not self.alone(mutation, by, "-R", names)]
+            if len(left) == before:
+                if failures:
+                    print(f"only together: {', '.join(failures)}", flush=True)
+                break
+        for mutation in left:
+            self.record(mutation, by, "")
 
 
 def main():
@@ -186,49 +206,45 @@ def main():
     parser.add_argument("--commit", default="HEAD")
     parser.add_argument("--tree", type=pathlib.Path, default=ROOT / "build/mutations")
     arguments = parser.parse_args()
-    base, source = arguments.tree.resolve(), arguments.tree.resolve() / "source"
+    base = arguments.tree.resolve()
     base.mkdir(parents=True, exist_ok=True)
-    commit = update(source, arguments.commit)
+    commit = update(base / "source", arguments.commit)
     print(f"commit {commit}", flush=True)
-    clone = Clone(source, base / "log")
-    if not run(["experiments/set_up.sh", "release", "all"], source, clone.log)[0]:
-        sys.exit(f"mutations.py: the clone cannot be built; see {clone.log}")
-    passes, seconds = clone.test("--stop-on-failure", "-LE", "^slow$")
-    if not passes:
-        sys.exit(f"mutations.py: {failed(clone.log)} fails without any mutation; see {clone.log}")
-    print(f"the quick tests: {seconds:.0f} s", flush=True)
+    trials = Trials(base, commit)
+    if not run(["experiments/set_up.sh", "release", "all"], trials.source, trials.log)[0]:
+        sys.exit(f"mutations.py: the clone cannot be built; see {trials.log}")
+    begin = time.monotonic()
+    if failures := trials.test("-LE", "^slow$"):
+        sys.exit(f"mutations.py: {', '.join(failures)} fail without any mutation; see {trials.log}")
+    print(f"the quick tests: {time.monotonic() - begin:.0f} s", flush=True)
 
     drawn = sites(sorted(file for folder in ("framework", "techniques", "shaders")
-                         for file in (source / folder).rglob("*")
+                         for file in (trials.source / folder).rglob("*")
                          if file.suffix in {".cpp", ".comp", ".vert", ".frag", ".geom", ".glsl"}))
     random.Random(arguments.seed).shuffle(drawn)
-    record_file = base / "mutations.jsonl"
-    done = {}
-    if record_file.exists():
-        recorded = map(json.loads, record_file.read_text().splitlines())
-        done = {row["site"]: row for row in recorded if row.get("commit") == commit}
-    rows, missed = [], []
-    while drawn and len(rows) < arguments.count:
-        mutation = Mutation(source, *drawn.pop())
-        row = done.get(mutation.site)
-        if row is None:
-            row = {"commit": commit, **try_quick(clone, mutation)}
-            with record_file.open("a") as out:
-                out.write(json.dumps(row) + "\n")
-        if not row["compiles"]:
-            continue
-        rows.append(row)
-        if not row["quick"]:
-            missed.append(mutation)
-        print(f"{'quick' if row['quick'] else 'missed':6} {row['build_s'] + row['quick_s']:5.0f} s  "
-              f"{mutation.site}  {row['by'] or ''}", flush=True)
+    mutations = []
+    while drawn and len(mutations) < arguments.count:
+        mutation = Mutation(trials.source, *drawn.pop())
+        if (mutation.site, "near") not in trials.known:
+            suites = "|".join(suites_near(trials.source, mutation.file)) or "none"
+            if not trials.alone(mutation, "near", "-LE", "^slow$", "-R", f"(^|/)({suites})[./]"):
+                trials.record(mutation, "near", "")
+        if trials.known[mutation.site, "near"] is not None:
+            mutations.append(mutation)
 
-    slow = seen_by_slow(clone, missed)
-    for mutation in missed:
-        print(f"{'slow' if mutation.site in slow else 'none':6} {mutation.site}  {slow.get(mutation.site, '')}")
-    quick = len(rows) - len(missed)
-    print(f"\n{len(rows)} mutations of {commit}: all tests catch {quick + len(slow)}, the quick ones {quick} of "
-          f"these ({100 * quick / max(quick + len(slow), 1):.0f} %)")
+    def left(by):
+        return [mutation for mutation in mutations if trials.known[mutation.site, by] == ""]
+
+    missed = left("near")
+    for first in range(0, len(missed), 12):
+        trials.together(missed[first:first + 12], "quick", "-LE", "^slow$")
+    slow = [mutation for mutation in missed if trials.known[mutation.site, "quick"] == ""]
+    trials.together(slow, "slow", "-L", "^slow$")
+    uncompilable = sum(found is None for (site, by), found in trials.known.items() if by != "near")
+    caught_slowly = sum(bool(trials.known[mutation.site, "slow"]) for mutation in slow)
+    quick = len(mutations) - len(slow) - uncompilable
+    print(f"\n{len(mutations) - uncompilable} mutations of {commit}: all tests catch {quick + caught_slowly}, "
+          f"the quick ones {quick} of these ({100 * quick / max(quick + caught_slowly, 1):.0f} %)")
 
 
 if __name__ == "__main__":
