@@ -96,6 +96,11 @@ def update(source, commit):
     return commit
 
 
+def is_check(file):
+    """Whether it is itself a check of others: a hard case."""
+    return file.stem.endswith("_cases") or file.parent.name == "cases"
+
+
 def is_uncompilable(file, log):
     """Whether the tests have failed because the shader that was changed does not compile."""
     return file.suffix != ".cpp" and re.search(r"does not (compile|link):$", log.read_text(errors="replace"), re.M)
@@ -220,7 +225,8 @@ def main():
 
     drawn = sites(sorted(file for folder in ("framework", "techniques", "shaders")
                          for file in (trials.source / folder).rglob("*")
-                         if file.suffix in {".cpp", ".comp", ".vert", ".frag", ".geom", ".glsl"}))
+                         if file.suffix in {".cpp", ".comp", ".vert", ".frag", ".geom", ".glsl"}
+                         and not is_check(file)))
     random.Random(arguments.seed).shuffle(drawn)
     mutations = []
     while drawn and len(mutations) < arguments.count:
