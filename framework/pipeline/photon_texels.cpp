@@ -5,20 +5,20 @@ namespace kaustik {
 namespace {
 
 struct Texels {
-    std::vector<float> values;
-    [[nodiscard]] glm::vec3 xyz(std::size_t i) const {
-        return {values[4 * i], values[4 * i + 1], values[4 * i + 2]};
-    }
-    [[nodiscard]] float w(std::size_t i) const { return values[4 * i + 3]; }
+    std::vector<glm::vec4> values;
+    [[nodiscard]] glm::vec3 xyz(std::size_t i) const { return values[i]; }
+    [[nodiscard]] float w(std::size_t i) const { return values[i].w; }
     [[nodiscard]] std::uint32_t word(std::size_t i) const {
         return w(i) >= 0.0f && w(i) < 4.2e9f ? static_cast<std::uint32_t>(w(i)) : kNoWord;
     }
 };
 
-// A Source is a renderer or the context of a pass.
+// The rows that hold the first `count` texels. A Source is a renderer or the context of a pass.
 template <class Source>
-Texels read(const Source& source, const graph::ResourceRef& handle) {
-    return {source.texture(handle).read()};
+Texels read(const Source& source, const graph::ResourceRef& handle, std::size_t count) {
+    const gl::Texture& texture = source.texture(handle);
+    const auto width = static_cast<std::size_t>(texture.desc().width);
+    return {texture.readRows(static_cast<int>((count + width - 1) / width))};
 }
 
 template <class Source>
@@ -28,11 +28,11 @@ std::size_t countOf(const Source& source, const Photons& photons) {
 
 template <class Source>
 std::vector<PhotonTexel> photonsFrom(const Source& source, const Photons& photons) {
-    const Texels position = read(source, photons.position);
-    const Texels direction = read(source, photons.direction);
-    const Texels flux = read(source, photons.flux);
-    const std::vector<std::uint32_t> origin = source.texture(photons.origin).readWords();
     std::vector<PhotonTexel> list(countOf(source, photons));
+    const Texels position = read(source, photons.position, list.size());
+    const Texels direction = read(source, photons.direction, list.size());
+    const Texels flux = read(source, photons.flux, list.size());
+    const std::vector<std::uint32_t> origin = source.texture(photons.origin).readWords();
     for (std::size_t i = 0; i < list.size(); ++i) {
         list[i] = {position.xyz(i),
                    position.w(i),
@@ -48,10 +48,10 @@ std::vector<PhotonTexel> photonsFrom(const Source& source, const Photons& photon
 
 template <class Source>
 std::vector<HitTexel> hitsFrom(const Source& source, const Hits& hits) {
-    const Texels position = read(source, hits.position);
-    const Texels surface = read(source, hits.surface);
-    const Texels flux = read(source, hits.flux);
     std::vector<HitTexel> list(countOf(source, hits.incoming));
+    const Texels position = read(source, hits.position, list.size());
+    const Texels surface = read(source, hits.surface, list.size());
+    const Texels flux = read(source, hits.flux, list.size());
     for (std::size_t i = 0; i < list.size(); ++i) {
         list[i] = {position.xyz(i), position.w(i), surface.xyz(i),
                    surface.word(i), flux.xyz(i),   flux.word(i)};
