@@ -36,8 +36,9 @@ SWAPS = [(" + ", " - "), (" - ", " + "), (" * ", " / "), (" / ", " * "), (" < ",
          (" || ", " && "), ("min(", "max("), ("max(", "min("), ("true", "false"), ("false", "true"),
          ("sin(", "cos("), ("cos(", "sin("), ("++", "--"), (" += ", " -= "), ("if (", "if (!")]
 CALL_OR_ASSIGNMENT = re.compile(r"^\s+[\w.\->\[\]:]+(\(.*\)|\s*[-+*/|]?=\s.*);$")
-# After so many seconds a test hangs, by a loop that a mutation has no end for.
-HANGS_S = 900
+# After so many seconds a change alone makes tests hang: a loop has no end. All tests of a kind may take longer.
+HANGS_S = 600
+HANGS = "hangs"
 NUMBER = re.compile(r"(?<![\w.])\d+(\.\d+)?(?![\w.]*[xX])")
 
 
@@ -72,12 +73,18 @@ def sites(files):
     return found
 
 
-def run(command, folder, log):
-    start = time.monotonic()
+def run(command, folder, log, limit_s=None):
+    """Whether it succeeds; None where it is stopped, with all that it has started, after so many seconds."""
     with log.open("w") as out:
-        code = subprocess.run(command, cwd=folder, stdout=out, stderr=subprocess.STDOUT,
-                              stdin=subprocess.DEVNULL).returncode
-    return code == 0, time.monotonic() - start
+        process = subprocess.Popen(command, cwd=folder, stdout=out, stderr=subprocess.STDOUT,
+                                   stdin=subprocess.DEVNULL)
+        try:
+            return process.wait(limit_s) == 0
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
+            subprocess.run(["pkill", "-KILL", "-f", str(folder / "build")], check=False)
+            return None
 
 
 def git(folder, *command):
@@ -149,12 +156,13 @@ class Trials:
         print(f"{by:6} {mutation.site}  {'does not compile' if found is None else found or '-'}", flush=True)
 
     def build(self):
-        return run(["cmake", "--build", "--preset", "release", "--parallel", "2"], self.source, self.log)[0]
+        return run(["cmake", "--build", "--preset", "release", "--parallel", "2"], self.source, self.log)
 
-    def test(self, *options):
-        """The tests that fail."""
-        passes, _ = run(["ctest", "--preset", "release", "--parallel", "2", "--timeout", str(HANGS_S), *options],
-                        self.source, self.log)
+    def test(self, *options, limit_s=None):
+        """The tests that fail; HANGS alone where they do not end."""
+        passes = run(["ctest", "--preset", "release", "--parallel", "2", *options], self.source, self.log, limit_s)
+        if passes is None:
+            return [HANGS]
         return [] if passes else failed(self.log) or ["?"]
 
     @contextlib.contextmanager
@@ -177,10 +185,10 @@ class Trials:
             if not self.build():
                 self.record(mutation, by, None)
                 return True
-            failures = self.test("--stop-on-failure", *options)
+            failures = self.test("--stop-on-failure", *options, limit_s=HANGS_S)
             # A test of the workbench may fail by chance on a machine with other work.
-            if failures and not self.test("-R", f"^{re.escape(failures[0])}$"):
-                failures = self.test("--stop-on-failure", *options)
+            if failures not in ([], [HANGS]) and not self.test("-R", f"^{re.escape(failures[0])}$"):
+                failures = self.test("--stop-on-failure", *options, limit_s=HANGS_S)
             if failures:
                 self.record(mutation, by,
                             None if is_uncompilable(mutation.file, self.log) else failures[0])
@@ -219,7 +227,7 @@ def main():
     commit = update(base / "source", arguments.commit)
     print(f"commit {commit}", flush=True)
     trials = Trials(base, commit)
-    if not run(["experiments/set_up.sh", "release", "all"], trials.source, trials.log)[0]:
+    if not run(["experiments/set_up.sh", "release", "all"], trials.source, trials.log):
         sys.exit(f"mutations.py: the clone cannot be built; see {trials.log}")
     begin = time.monotonic()
     if failures := trials.test("-LE", "^slow$"):
