@@ -16,10 +16,6 @@ namespace {
 
 using namespace transport;
 
-bool isFinite(const glm::vec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 reference::AuditPhoton toAudit(const Renderer& renderer, const TracedPhoton& traced) {
     reference::AuditPhoton photon;
     photon.position = traced.position;
@@ -308,13 +304,6 @@ PhotonFate judge(const render::RasterView& view, const Layers& layers, const Tra
     return fate;
 }
 
-void add(EnergyLedger& sum, const EnergyLedger& one) {
-    for (std::size_t account = 0; account < sum.watts.size(); ++account) {
-        sum.watts[account] += one.watts[account];
-        sum.events[account] += one.events[account];
-    }
-}
-
 // Exact hits of more than these wait for room.
 constexpr std::size_t kPhotonsAtOnce = std::size_t{1} << 20U;
 
@@ -351,7 +340,7 @@ HitAudit auditHits(const Renderer& renderer, const reference::EmbreeScene& scene
     for (const TraceRecord& trace : renderer.traces()) {
         const std::shared_ptr<const TracingLog> log = readTracing(renderer, trace);
         audit.notANumber += log->notANumber;
-        add(audit.booked, log->booked);
+        addBooked(audit.booked, {}, log->booked);
         for (std::size_t first = 0; first < log->photons.size(); first += kPhotonsAtOnce) {
             const std::size_t end = std::min(first + kPhotonsAtOnce, log->photons.size());
             std::vector<reference::AuditPhoton> photons;

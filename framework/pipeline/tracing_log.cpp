@@ -10,10 +10,6 @@
 namespace kaustik {
 namespace {
 
-bool isFinite(const glm::vec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 // Adds what is in flight, and of which no other batch is the owner.
 void addPhotons(TracingLog& log, const std::vector<PhotonTexel>& photons,
                 const std::vector<HitTexel>& hits, const CellGrid& cells) {
@@ -32,15 +28,18 @@ void addPhotons(TracingLog& log, const std::vector<PhotonTexel>& photons,
     }
 }
 
-// Adds what lies between two ledgers.
+}  // namespace
+
+bool isFinite(const glm::vec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
 void addBooked(EnergyLedger& sum, const EnergyLedger& before, const EnergyLedger& after) {
     for (std::size_t account = 0; account < sum.watts.size(); ++account) {
         sum.watts[account] += after.watts[account] - before.watts[account];
         sum.events[account] += after.events[account] - before.events[account];
     }
 }
-
-}  // namespace
 
 std::shared_ptr<const TracingLog> readTracing(const Renderer& renderer, const TraceRecord& trace) {
     if (trace.log) return trace.log;

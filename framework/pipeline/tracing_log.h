@@ -31,6 +31,11 @@ struct TracingLog {
     EnergyLedger booked;           // by the tracer itself
 };
 
+[[nodiscard]] bool isFinite(const glm::vec3& v);
+
+// Adds what lies between two ledgers, one of which may be empty.
+void addBooked(EnergyLedger& sum, const EnergyLedger& before, const EnergyLedger& after);
+
 // Reads back what the frame has left of a tracing outside of loops, or gives its log.
 [[nodiscard]] std::shared_ptr<const TracingLog> readTracing(const Renderer& renderer,
                                                             const TraceRecord& trace);

@@ -7,8 +7,8 @@
 S seconds (default 210) are what the chosen tests may take together, two at a time, by the times that
 ctest measured in BUILD when it last ran all of them. Chosen are every unit test and those of Python, then
 the cheapest test of each suite, then whatever is cheapest; none that takes a twentieth of them all. All
-others get the label `slow`; `cluster` and `install` have it where they are declared. A test that is new has no such label until this is run again,
-and so belongs to the quick ones.
+others get the label `slow`; `cluster` and `install` have it where they are declared. A test that is new has
+no such label until this is run again, and so belongs to the quick ones.
 """
 
 import argparse

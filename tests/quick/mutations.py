@@ -199,7 +199,9 @@ class Trials:
         left = [mutation for mutation in mutations if (mutation.site, by) not in self.known]
         while left:
             with self.mutated(left):
-                failures = self.test(*options) if self.build() else []
+                if not self.build():
+                    sys.exit(f"mutations.py: {len(left)} changes do not compile together; see {self.log}")
+                failures = self.test(*options)
             print(f"{by} tests with {len(left)} changes: {len(failures)} fail", flush=True)
             before = len(left)
             # A few of them first: of hundreds, those that one change fails hide the others'.
@@ -257,7 +259,8 @@ def main():
         trials.together(missed[first:first + 12], "quick", "-LE", "^slow$")
     slow = [mutation for mutation in missed if trials.known[mutation.site, "quick"] == ""]
     trials.together(slow, "slow", "-L", "^slow$")
-    uncompilable = sum(found is None for (site, by), found in trials.known.items() if by != "near")
+    uncompilable = sum(trials.known.get((mutation.site, by), "") is None
+                       for mutation in missed for by in ("quick", "slow"))
     caught_slowly = sum(bool(trials.known[mutation.site, "slow"]) for mutation in slow)
     quick = len(mutations) - len(slow) - uncompilable
     print(f"\n{len(mutations) - uncompilable} mutations of {commit}: all tests catch {quick + caught_slowly}, "
