@@ -33,9 +33,9 @@ def measured(build):
     return costs
 
 
-def listed(build):
-    """(name, labels, processors) of every test in `build`."""
-    text = subprocess.run(["ctest", "--test-dir", str(build), "--show-only=json-v1"], check=True,
+def listed(build, *options):
+    """(name, labels, processors) of every test in `build` that ctest's options leave."""
+    text = subprocess.run(["ctest", "--test-dir", str(build), "--show-only=json-v1", *options], check=True,
                           capture_output=True, text=True).stdout
     for test in json.loads(text)["tests"]:
         properties = {p["name"]: p["value"] for p in test["properties"]}

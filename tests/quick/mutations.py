@@ -8,9 +8,10 @@ Draws `count` of all small changes that there are to C++ files and shaders (an o
 condition, a statement that goes), each as likely as any other. What does not compile is replaced by the next
 that is drawn; of a shader, which is compiled when it is used, the output of a test that fails says so.
 
-1. Each alone: the quick tests that lie where the changed file does, up to the first that fails.
-2. What is left, a dozen at once: all quick tests. Those that fail are run for each change alone, the changes that
-   they see go, and the rest is tried again until nothing fails.
+1. Each alone: the quick tests that lie where the changed file does and one of every suite, up to the first
+   that fails.
+2. What is left, a dozen at once: all quick tests. Those that fail are run for each change alone: what it fails
+   alone it fails in company too.
 3. What is left then: the slow tests in the same way. Where these find nothing either nobody sees the
    change, or it changes nothing.
 
@@ -29,6 +30,8 @@ import subprocess
 import sys
 import time
 
+import choose
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 SWAPS = [(" + ", " - "), (" - ", " + "), (" * ", " / "), (" / ", " * "), (" < ", " <= "), (" > ", " >= "),
@@ -39,6 +42,8 @@ CALL_OR_ASSIGNMENT = re.compile(r"^\s+[\w.\->\[\]:]+(\(.*\)|\s*[-+*/|]?=\s.*);$"
 # After so many seconds a change alone makes tests hang: a loop has no end. All tests of a kind may take longer.
 HANGS_S = 600
 HANGS = "hangs"
+# So many failures together say little about each change: one of them is seen by most tests.
+MANY = 150
 NUMBER = re.compile(r"(?<![\w.])\d+(\.\d+)?(?![\w.]*[xX])")
 
 
@@ -129,6 +134,21 @@ def suites_near(source, file):
     return sorted(suites)
 
 
+def one_of_each_suite(build):
+    """Of the quick tests of each suite the one of middling cost: the cheapest is often a refusal."""
+    costs = choose.measured(build)
+    suites = {}
+    for name, _, _ in choose.listed(build, "-LE", "^slow$"):
+        if name in costs:
+            suites.setdefault(name.split(".")[0], []).append(name)
+    return [sorted(names, key=costs.get)[len(names) // 2] for names in suites.values()]
+
+
+def any_of(names):
+    """The expression by which ctest takes these tests alone."""
+    return f"^({'|'.join(map(re.escape, names))})$"
+
+
 class Mutation:
     """A change at an offset of a file."""
 
@@ -179,8 +199,9 @@ class Trials:
             for file, text in originals.items():
                 file.write_text(text)
 
-    def alone(self, mutation, by, *options):
-        """Whether a test of these fails; it is recorded where one does."""
+    def alone(self, mutation, by, tests):
+        """Whether one of these tests, an expression, fails; it is recorded where one does."""
+        options = ("-LE", "^slow$", "-R", tests) if by != "slow" else ("-R", tests)
         with self.mutated([mutation]):
             if not self.build():
                 self.record(mutation, by, None)
@@ -203,15 +224,13 @@ class Trials:
                     sys.exit(f"mutations.py: {len(left)} changes do not compile together; see {self.log}")
                 failures = self.test(*options)
             print(f"{by} tests with {len(left)} changes: {len(failures)} fail", flush=True)
-            before = len(left)
-            # A few of them first: of hundreds, those that one change fails hide the others'.
-            for tried in (failures[::len(failures) // 20 + 1], failures):
-                if tried and len(left) == before:
-                    names = f"^({'|'.join(map(re.escape, tried))})$"
-                    left = [mutation for mutation in left if not self.alone(mutation, by, "-R", names)]
+            # Of hundreds, those that one change fails hide the others': without that one once more.
+            before, some = len(left), any_of(failures[::MANY // 8])
+            if len(failures) > MANY:
+                left = [mutation for mutation in left if not self.alone(mutation, by, some)]
             if len(left) == before:
-                if failures:
-                    print(f"only together: {', '.join(failures)}", flush=True)
+                left = [mutation for mutation in left
+                        if not failures or not self.alone(mutation, by, any_of(failures))]
                 break
         for mutation in left:
             self.record(mutation, by, "")
@@ -235,6 +254,7 @@ def main():
     if failures := trials.test("-LE", "^slow$"):
         sys.exit(f"mutations.py: {', '.join(failures)} fail without any mutation; see {trials.log}")
     print(f"the quick tests: {time.monotonic() - begin:.0f} s", flush=True)
+    some = any_of(one_of_each_suite(trials.source / "build/release"))
 
     drawn = sites(sorted(file for folder in ("framework", "techniques", "shaders")
                          for file in (trials.source / folder).rglob("*")
@@ -246,7 +266,7 @@ def main():
         mutation = Mutation(trials.source, *drawn.pop())
         if (mutation.site, "near") not in trials.known:
             suites = "|".join(suites_near(trials.source, mutation.file)) or "none"
-            if not trials.alone(mutation, "near", "-LE", "^slow$", "-R", f"(^|/)({suites})[./]"):
+            if not trials.alone(mutation, "near", f"(^|/)({suites})[./]|{some}"):
                 trials.record(mutation, "near", "")
         if trials.known[mutation.site, "near"] is not None:
             mutations.append(mutation)
