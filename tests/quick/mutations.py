@@ -8,12 +8,9 @@ Draws `count` of all small changes that there are to C++ files and shaders (an o
 condition, a statement that goes), each as likely as any other. What does not compile is replaced by the next
 that is drawn; of a shader, which is compiled when it is used, the output of a test that fails says so.
 
-1. Each alone: the quick tests that lie where the changed file does and one of every suite, up to the first
-   that fails.
-2. What is left, a dozen at once: all quick tests. Those that fail are run for each change alone: what it fails
-   alone it fails in company too.
-3. What is left then: the slow tests in the same way. Where these find nothing either nobody sees the
-   change, or it changes nothing.
+Fifteen at once, all quick tests are run. Those that fail are run for each change alone, the cheapest first: what
+a change fails alone it fails in company too. With those that are left the slow tests are run in the same way.
+Where these find nothing either nobody sees the change, or it changes nothing.
 
 It works in a clone, `tree`, at `commit`, with a build of its own. What is known stands in
 tree/mutations.jsonl, by commit, and is not tried again: it can be interrupted. Prints the commit, a table and a
@@ -39,11 +36,13 @@ SWAPS = [(" + ", " - "), (" - ", " + "), (" * ", " / "), (" / ", " * "), (" < ",
          (" || ", " && "), ("min(", "max("), ("max(", "min("), ("true", "false"), ("false", "true"),
          ("sin(", "cos("), ("cos(", "sin("), ("++", "--"), (" += ", " -= "), ("if (", "if (!")]
 CALL_OR_ASSIGNMENT = re.compile(r"^\s+[\w.\->\[\]:]+(\(.*\)|\s*[-+*/|]?=\s.*);$")
-# After so many seconds a change alone makes tests hang: a loop has no end. All tests of a kind may take longer.
-HANGS_S = 600
-HANGS = "hangs"
+TOGETHER = 15
 # So many failures together say little about each change: one of them is seen by most tests.
 MANY = 150
+# Of the tests that fail so many are tried first.
+FEW = 20
+# So many seconds a test may take: a loop that a change has made endless is ended.
+HANGS_S = 300
 NUMBER = re.compile(r"(?<![\w.])\d+(\.\d+)?(?![\w.]*[xX])")
 
 
@@ -78,18 +77,11 @@ def sites(files):
     return found
 
 
-def run(command, folder, log, limit_s=None):
-    """Whether it succeeds; None where it is stopped, with all that it has started, after so many seconds."""
+def run(command, folder, log):
+    """Whether it succeeds."""
     with log.open("w") as out:
-        process = subprocess.Popen(command, cwd=folder, stdout=out, stderr=subprocess.STDOUT,
-                                   stdin=subprocess.DEVNULL)
-        try:
-            return process.wait(limit_s) == 0
-        except subprocess.TimeoutExpired:
-            process.kill()
-            process.wait()
-            subprocess.run(["pkill", "-KILL", "-f", str(folder / "build")], check=False)
-            return None
+        return subprocess.run(command, cwd=folder, stdout=out, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
+                              check=False).returncode == 0
 
 
 def git(folder, *command):
@@ -121,27 +113,6 @@ def is_uncompilable(file, log):
 def failed(log):
     """The names of the tests that ctest says have failed."""
     return re.findall(r"^\s*\d+ - (\S+) \(", log.read_text(errors="replace"), re.M)
-
-
-def suites_near(source, file):
-    """The suites of the tests that lie in a folder, or have a name, of the changed file's."""
-    path = file.relative_to(source)
-    words = {path.stem, path.parent.name}
-    suites = set()
-    for test in (source / "tests").rglob("*_test.cpp"):
-        if words & {test.stem.removesuffix("_test"), *test.relative_to(source).parent.parts}:
-            suites.update(re.findall(r"^TEST(?:_F|_P)?\((\w+),", test.read_text(), re.M))
-    return sorted(suites)
-
-
-def one_of_each_suite(build):
-    """Of the quick tests of each suite the one of middling cost: the cheapest is often a refusal."""
-    costs = choose.measured(build)
-    suites = {}
-    for name, _, _ in choose.listed(build, "-LE", "^slow$"):
-        if name in costs:
-            suites.setdefault(name.split(".")[0], []).append(name)
-    return [sorted(names, key=costs.get)[len(names) // 2] for names in suites.values()]
 
 
 def any_of(names):
@@ -178,12 +149,14 @@ class Trials:
     def build(self):
         return run(["cmake", "--build", "--preset", "release", "--parallel", "2"], self.source, self.log)
 
-    def test(self, *options, limit_s=None):
-        """The tests that fail; HANGS alone where they do not end."""
-        passes = run(["ctest", "--preset", "release", "--parallel", "2", *options], self.source, self.log, limit_s)
-        if passes is None:
-            return [HANGS]
+    def test(self, *options):
+        """The tests that fail."""
+        passes = run(["ctest", "--preset", "release", "--parallel", "2", *options], self.source, self.log)
         return [] if passes else failed(self.log) or ["?"]
+
+    def cheapest_first(self, tests):
+        costs = choose.measured(self.source / "build/release")
+        return sorted(tests, key=lambda name: costs.get(name, 0.0))
 
     @contextlib.contextmanager
     def mutated(self, mutations):
@@ -199,21 +172,25 @@ class Trials:
             for file, text in originals.items():
                 file.write_text(text)
 
+    def compiles(self, mutation):
+        """Whether it does: known, or tried."""
+        if (mutation.site, "build") not in self.known:
+            with self.mutated([mutation]):
+                self.record(mutation, "build", "" if mutation.file.suffix != ".cpp" or self.build() else None)
+        return self.known[mutation.site, "build"] is not None
+
     def alone(self, mutation, by, tests):
-        """Whether one of these tests, an expression, fails; it is recorded where one does."""
-        options = ("-LE", "^slow$", "-R", tests) if by != "slow" else ("-R", tests)
+        """Whether one of these tests fails; it is recorded where one does."""
         with self.mutated([mutation]):
             if not self.build():
-                self.record(mutation, by, None)
-                return True
-            failures = self.test("--stop-on-failure", *options, limit_s=HANGS_S)
-            # A test of the workbench may fail by chance on a machine with other work.
-            if failures not in ([], [HANGS]) and not self.test("-R", f"^{re.escape(failures[0])}$"):
-                failures = self.test("--stop-on-failure", *options, limit_s=HANGS_S)
-            if failures:
-                self.record(mutation, by,
-                            None if is_uncompilable(mutation.file, self.log) else failures[0])
-        return bool(failures)
+                sys.exit(f"mutations.py: {mutation.site} has compiled before; see {self.log}")
+            for some in (tests[:FEW], tests[FEW:]):
+                failures = self.test("--stop-on-failure", "-R", any_of(some)) if some else []
+                # A test of the workbench may fail by chance on a machine with other work.
+                if failures and (failures == ["?"] or self.test("-R", any_of(failures))):
+                    self.record(mutation, by, None if is_uncompilable(mutation.file, self.log) else failures[0])
+                    return True
+        return False
 
     def together(self, mutations, by, *options):
         """Finds out which of the mutations the tests of `options` see."""
@@ -222,15 +199,14 @@ class Trials:
             with self.mutated(left):
                 if not self.build():
                     sys.exit(f"mutations.py: {len(left)} changes do not compile together; see {self.log}")
-                failures = self.test(*options)
+                failures = self.cheapest_first(self.test(*options))
             print(f"{by} tests with {len(left)} changes: {len(failures)} fail", flush=True)
             # Of hundreds, those that one change fails hide the others': without that one once more.
-            before, some = len(left), any_of(failures[::MANY // 8])
+            before = len(left)
             if len(failures) > MANY:
-                left = [mutation for mutation in left if not self.alone(mutation, by, some)]
+                left = [mutation for mutation in left if not self.alone(mutation, by, failures[:2 * FEW])]
             if len(left) == before:
-                left = [mutation for mutation in left
-                        if not failures or not self.alone(mutation, by, any_of(failures))]
+                left = [mutation for mutation in left if not self.alone(mutation, by, failures)]
                 break
         for mutation in left:
             self.record(mutation, by, "")
@@ -248,13 +224,14 @@ def main():
     commit = update(base / "source", arguments.commit)
     print(f"commit {commit}", flush=True)
     trials = Trials(base, commit)
-    if not run(["experiments/set_up.sh", "release", "all"], trials.source, trials.log):
+    if not run(["experiments/set_up.sh", "release", "all"], trials.source, trials.log) or not run(
+            ["cmake", "--preset", "release", f"-DKAUSTIK_TEST_TIMEOUT={HANGS_S}"], trials.source, trials.log):
         sys.exit(f"mutations.py: the clone cannot be built; see {trials.log}")
-    begin = time.monotonic()
-    if failures := trials.test("-LE", "^slow$"):
-        sys.exit(f"mutations.py: {', '.join(failures)} fail without any mutation; see {trials.log}")
-    print(f"the quick tests: {time.monotonic() - begin:.0f} s", flush=True)
-    some = any_of(one_of_each_suite(trials.source / "build/release"))
+    if not trials.known:
+        begin = time.monotonic()
+        if failures := trials.test("-LE", "^slow$"):
+            sys.exit(f"mutations.py: {', '.join(failures)} fail without any mutation; see {trials.log}")
+        print(f"the quick tests: {time.monotonic() - begin:.0f} s", flush=True)
 
     drawn = sites(sorted(file for folder in ("framework", "techniques", "shaders")
                          for file in (trials.source / folder).rglob("*")
@@ -264,23 +241,15 @@ def main():
     mutations = []
     while drawn and len(mutations) < arguments.count:
         mutation = Mutation(trials.source, *drawn.pop())
-        if (mutation.site, "near") not in trials.known:
-            suites = "|".join(suites_near(trials.source, mutation.file)) or "none"
-            if not trials.alone(mutation, "near", f"(^|/)({suites})[./]|{some}"):
-                trials.record(mutation, "near", "")
-        if trials.known[mutation.site, "near"] is not None:
+        if trials.compiles(mutation):
             mutations.append(mutation)
 
-    def left(by):
-        return [mutation for mutation in mutations if trials.known[mutation.site, by] == ""]
-
-    missed = left("near")
-    for first in range(0, len(missed), 12):
-        trials.together(missed[first:first + 12], "quick", "-LE", "^slow$")
-    slow = [mutation for mutation in missed if trials.known[mutation.site, "quick"] == ""]
+    for first in range(0, len(mutations), TOGETHER):
+        trials.together(mutations[first:first + TOGETHER], "quick", "-LE", "^slow$")
+    slow = [mutation for mutation in mutations if trials.known[mutation.site, "quick"] == ""]
     trials.together(slow, "slow", "-L", "^slow$")
     uncompilable = sum(trials.known.get((mutation.site, by), "") is None
-                       for mutation in missed for by in ("quick", "slow"))
+                       for mutation in mutations for by in ("quick", "slow"))
     caught_slowly = sum(bool(trials.known[mutation.site, "slow"]) for mutation in slow)
     quick = len(mutations) - len(slow) - uncompilable
     print(f"\n{len(mutations) - uncompilable} mutations of {commit}: all tests catch {quick + caught_slowly}, "
