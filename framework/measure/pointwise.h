@@ -11,7 +11,7 @@
 // elsewhere, and not where. SMAPE counts every lit pixel alike, however dark: missing light is 1 in
 // each, twice too much 1/3. It does not see light where the reference is dark, nor how bright what
 // is wrong is. relMSE with an epsilon as small as weak light would not do: bright light that is off
-// by a pixel, next to the dark, is then all that it is made of (results/README.md, "Weak light").
+// by a pixel, next to the dark, is then all that it is made of (results/accuracy.md, "Weak light").
 #pragma once
 
 #include <vector>

@@ -51,7 +51,7 @@ constexpr std::uint32_t kMaxIterations = 65000;
 // of `cornell-bunny`, four: the same).
 constexpr int kFewLayers = 3;
 // Where triangles, drawn once for each layer, are at least this share of the pixels, lists take
-// less time on llvmpipe at 400x300 and at 1600x1200 (results/README.md, "Layers in one pass").
+// less time on llvmpipe at 400x300 and at 1600x1200 (results/layers.md, "Layers in one pass").
 constexpr double kTrianglesPerPixel = 0.25;
 
 struct FragmentCapacity {

@@ -33,7 +33,7 @@ struct ListsParams {
 [[nodiscard]] std::size_t triangleCount(const scene::Scene& scene, render::DrawSet set);
 
 // Peeling draws every triangle again for each layer, lists sort every pixel: on the devices
-// measured (results/README.md, "Layers in one pass") they are even where there are as many of the
+// measured (results/layers.md, "Layers in one pass") they are even where there are as many of the
 // one as of the other.
 [[nodiscard]] bool prefersLists(FrameBuilder& frame, const LayersRequest& request);
 

@@ -1,0 +1,201 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""The tables and numbers of the pages in results/, from the CSVs beside them.
+
+    pages.py [--check] [--results results] [PAGE...]
+
+Rewrites what stands between two comments of a page and leaves all else, which is prose, as it is:
+
+    <!-- table
+    file = "wyman_nichols2009/traversal.csv"       # below results/
+    rows = ["scene", "refine.finest"]              # the settings that a row has, in its first columns
+    where = { scene = "pool" }                     # optional: only the runs with these settings
+    across = ["refine.metric"]                     # optional: a column for each of these settings' values
+    cells = ["emitted ,.0f", "relMSE .3g; SMAPE .3f"]   # columns of the CSV, each with a format; `%` for shares
+    names = { "refine.finest" = "cells a side" }   # optional: what a heading says instead
+    -->
+    ...
+    <!-- end -->
+
+    relMSE of <!-- = traversal.csv: relMSE .3g; scene=pool, refine.finest=1024 -->0.0123<!-- / --> at 1024.
+
+Rows are sorted by their settings. A run that is not done has its status instead, a value that is not there "–". Under a table stand the version and the device of its runs; where they are of several, each is
+named. --check writes nothing and ends with 1 where a page is not what the CSVs say. Ends with 2 where a page asks
+for what is not there, with its line.
+"""
+
+import argparse
+import csv
+import functools
+import pathlib
+import re
+import sys
+import tomllib
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+TABLE = re.compile(r"^<!-- table\n(.*?)^-->\n(.*?)^<!-- end -->$", re.M | re.S)
+NUMBER = re.compile(r"<!-- = ([\w./-]+): ([^;>]+?) (\S+); ([^>]*?) -->(.*?)<!-- / -->")
+KEYS = {"file", "rows", "where", "across", "cells", "names"}
+
+
+class PageError(Exception):
+    """What a page asks for and no CSV has."""
+
+
+@functools.cache
+def runs(file: pathlib.Path) -> tuple[dict, ...]:
+    if not file.is_file():
+        raise PageError(f"there is no '{file}'")
+    with file.open(newline="") as stream:
+        return tuple(csv.DictReader(stream))
+
+
+def column(row: dict, name: str) -> str:
+    if name not in row:
+        raise PageError(f"there is no column '{name}'; there are {', '.join(row)}")
+    return row[name]
+
+
+def chosen(rows: tuple[dict, ...], settings: dict) -> list[dict]:
+    return [row for row in rows if all(column(row, key) == str(value) for key, value in settings.items())]
+
+
+def formatted(text: str, style: str) -> str:
+    """A cell's number as Python's format says; `.2%` of a share is a percentage with its sign apart."""
+    if text in ("", "nan"):
+        return "–"
+    number = float(text)
+    if style.endswith("%"):
+        return f"{100.0 * number:{style[:-1]}f} %"
+    return re.sub(r"e([+-])0?(\d)", r"e\1\2", f"{number:{style}}")
+
+
+def cell(rows: list[dict], spec: str, names: dict) -> str:
+    """`spec`: columns with their formats, divided by semicolons."""
+    if not rows:
+        return "–"
+    if len(rows) > 1:
+        raise PageError(f"{len(rows)} runs for one cell: 'rows', 'across' and 'where' do not tell them apart")
+    row, = rows
+    if row.get("status", "done") != "done":
+        return names.get(row["status"], row["status"])
+    values = []
+    for part in spec.split(";"):
+        name, _, style = part.strip().rpartition(" ")
+        values.append(formatted(column(row, name), style))
+    return "–" if set(values) == {"–"} else "; ".join(values)
+
+
+def in_order(text: str) -> tuple:
+    """A key that sorts numbers by their size, and among other words: as they are read."""
+    return tuple((0, float(part), "") if re.fullmatch(r"\d+(\.\d+)?", part) else (1, 0.0, part)
+                 for part in re.split(r"(\d+(?:\.\d+)?)", text) if part)
+
+
+def shown(value: str) -> str:
+    return value if in_order(value)[:1] and in_order(value)[0][0] == 0 else f"`{value}`"
+
+
+def of_which_runs(rows: list[dict], file: str) -> str:
+    """What a table's runs are of, under it."""
+    kinds = sorted({(row.get("version", ""), row.get("device", "")) for row in rows})
+    devices = "; ".join(f"version {version}, {device}" for version, device in kinds if version or device)
+    return f"`{file}`, {len(rows)} runs" + (f"; {devices}" if devices else "")
+
+
+def table(spec: dict, results: pathlib.Path) -> str:
+    if unknown := set(spec) - KEYS:
+        raise PageError(f"a table has no '{sorted(unknown)[0]}'; it has {', '.join(sorted(KEYS))}")
+    if missing := {"file", "rows", "cells"} - set(spec):
+        raise PageError(f"a table needs '{sorted(missing)[0]}'")
+    rows = chosen(runs(results / spec["file"]), spec.get("where", {}))
+    if not rows:
+        raise PageError(f"no run of '{spec['file']}' has these settings")
+    keys, names, across = spec["rows"], spec.get("names", {}), spec.get("across", [])
+
+    def values_of(row: dict, settings: list[str]) -> tuple:
+        return tuple(column(row, key) for key in settings)
+
+    def combinations(settings: list[str]) -> list[tuple]:
+        return sorted({values_of(row, settings) for row in rows},
+                      key=lambda values: [in_order(value) for value in values])
+
+    def heading(cells: str, variant: tuple) -> str:
+        columns = [part.strip().rpartition(" ")[0] for part in cells.split(";")]
+        quantity = "; ".join(names.get(name, name) for name in columns)
+        if not variant:
+            return quantity
+        of = names.get(", ".join(variant), ", ".join(names.get(value, shown(value)) for value in variant))
+        return f"{quantity}, {of}" if len(spec["cells"]) > 1 else of
+
+    columns = [(cells, variant) for cells in spec["cells"] for variant in combinations(across)]
+    head = [*(names.get(key, key) for key in keys), *(heading(*of) for of in columns)]
+    lines = ["| " + " | ".join(head) + " |", "|" + " --- |" * len(head)]
+    for values in combinations(keys):
+        of_row = [row for row in rows if values_of(row, keys) == values]
+        cells = [cell([row for row in of_row if values_of(row, across) == variant], cells, names)
+                 for cells, variant in columns]
+        lines.append("| " + " | ".join([*map(shown, values), *cells]) + " |")
+    return "\n" + "\n".join(lines) + f"\n\n*{of_which_runs(rows, spec['file'])}.*\n\n"
+
+
+def number(match: re.Match, results: pathlib.Path) -> str:
+    file, name, style, conditions, _ = match.groups()
+    settings = dict(pair.strip().split("=", 1) for pair in conditions.split(","))
+    return cell(chosen(runs(results / file), settings), f"{name} {style}", {})
+
+
+def remade(page: pathlib.Path, results: pathlib.Path) -> str:
+    """The page as the CSVs say it is."""
+    text = page.read_text()
+
+    def at(match: re.Match, make):
+        try:
+            return make(match)
+        except (PageError, tomllib.TOMLDecodeError, ValueError) as error:
+            line = match.string.count("\n", 0, match.start()) + 1
+            raise PageError(f"{page}:{line}: {error}") from error
+
+    def new_table(match):
+        return f"<!-- table\n{match[1]}-->\n{table(tomllib.loads(match[1]), results)}<!-- end -->"
+
+    def new_number(match):
+        comment = match[0][:match[0].index("-->") + 3]
+        return f"{comment}{number(match, results)}<!-- / -->"
+
+    if text.count("<!-- table\n") != len(TABLE.findall(text)):
+        raise PageError(f"{page}: a table is not ended by a line '<!-- end -->'")
+    with_tables = TABLE.sub(lambda match: at(match, new_table), text)
+    return NUMBER.sub(lambda match: at(match, new_number), with_tables)
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--check", action="store_true")
+    parser.add_argument("--results", type=pathlib.Path, default=ROOT / "results")
+    parser.add_argument("pages", nargs="*", type=pathlib.Path)
+    arguments = parser.parse_args()
+    different = []
+    try:
+        for page in arguments.pages or sorted(arguments.results.glob("*.md")):
+            text, new = page.read_text(), remade(page, arguments.results)
+            if new == text:
+                continue
+            different.append(page)
+            if not arguments.check:
+                page.write_text(new)
+                continue
+            for line, (old, now) in enumerate(zip(text.splitlines(), new.splitlines()), 1):
+                if old != now:
+                    print(f"{page}:{line}: stands there: {old}\n  the CSV says: {now}", file=sys.stderr)
+                    break
+    except (PageError, OSError) as error:
+        print(f"pages: {error}", file=sys.stderr)
+        return 2
+    for page in different:
+        print(f"{page} {'is not what its CSVs say' if arguments.check else 'is new'}")
+    return 1 if arguments.check and different else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

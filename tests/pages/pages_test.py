@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: MIT
+"""The pages of results/: what stands in them is what their CSVs say, and pages.py sees where it is not."""
+
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PAGES = ROOT / "experiments/plotting/pages.py"
+
+RUNS = """scene,photons,status,relMSE,hits right,version,device
+pool,256,done,0.00012,0.5,1,a
+pool,1024,done,0.000034,0.98765,1,a
+ball,256,failed,,,1,b
+ball,1024,done,12345,,1,b
+"""
+PAGE = """Before.
+
+<!-- table
+file = "runs.csv"
+rows = ["scene", "photons"]
+cells = ["relMSE .2g; hits right .1%"]
+-->
+<!-- end -->
+
+It is <!-- = runs.csv: relMSE .1g; scene=pool, photons=256 -->0<!-- / -->, no more.
+"""
+
+
+class Pages(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.results = pathlib.Path(folder.name)
+        (self.results / "runs.csv").write_text(RUNS)
+
+    def pages(self, *options, page=None):
+        if page is not None:
+            (self.results / "page.md").write_text(page)
+        return subprocess.run([sys.executable, "-B", PAGES, "--results", self.results, *options],
+                              capture_output=True, text=True)
+
+    def test_of_the_project_are_what_their_files_say(self):
+        done = subprocess.run([sys.executable, "-B", PAGES, "--check"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+    def test_are_written_in_order_and_leave_prose_alone(self):
+        self.assertEqual(self.pages(page=PAGE).returncode, 0)
+        text = (self.results / "page.md").read_text()
+        self.assertIn("\n".join(["| scene | photons | relMSE; hits right |", "| --- | --- | --- |",
+                                 "| `ball` | 256 | failed |", "| `ball` | 1024 | 1.2e+4; – |",
+                                 "| `pool` | 256 | 0.00012; 50.0 % |", "| `pool` | 1024 | 3.4e-5; 98.8 % |"]), text)
+        self.assertIn("*`runs.csv`, 4 runs; version 1, a; version 1, b.*", text)
+        self.assertIn("-->0.0001<!-- / -->, no more.", text)
+        self.assertTrue(text.startswith("Before.\n"))
+        self.assertEqual(self.pages("--check").returncode, 0)
+
+    def test_that_differ_are_named_with_what_stands_there(self):
+        self.pages(page=PAGE)
+        page = self.results / "page.md"
+        page.write_text(page.read_text().replace("3.4e-5", "3.5e-5"))
+        done = self.pages("--check")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("page.md:14: stands there: | `pool` | 1024 | 3.5e-5; 98.8 % |", done.stderr)
+        self.assertIn("3.5e-5", page.read_text())
+
+    def test_that_ask_for_what_is_not_there_are_refused_with_the_line(self):
+        for wanted, says in [("relMSE .2g;", "page.md:3: there is no column 'error'"),
+                             ('"runs.csv"\nrows', "page.md:3: there is no '"),
+                             ('["scene", "photons"]', "page.md:3: 2 runs for one cell"),
+                             ("photons=256", "page.md:"),
+                             ("<!-- end -->", "is not ended")]:
+            other = {"relMSE .2g;": "error .2g;", '"runs.csv"\nrows': '"other.csv"\nrows',
+                     '["scene", "photons"]': '["scene"]', "photons=256": "photon=256", "<!-- end -->": ""}[wanted]
+            done = self.pages(page=PAGE.replace(wanted, other))
+            self.assertEqual(done.returncode, 2, wanted)
+            self.assertIn(says, done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
