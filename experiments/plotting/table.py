@@ -6,8 +6,9 @@
 
 RESULTS is a folder of `kaustik experiment run`, or one of its runs.csv. Prints Markdown; --csv writes the
 same columns, unrounded. Errors of the caustic are against all light, but those named "modelled", which are
-against the paths that the run's photons can take. ms: of all passes of the caustic, from emission to gather, and of
-those of what the eye sees through specular surfaces (view). A run that failed has its message instead.
+against the paths that the run's photons can take; "not formed" is the light of all others. "reference's own" is what its noise alone
+would give. ms: of all passes of the caustic, from emission to gather, and of those of what the eye sees through
+specular surfaces (view); their spread is that of whole frames, as a share. A run that failed has its message instead.
 """
 
 import argparse
@@ -41,6 +42,25 @@ def share(row: dict, key: str) -> float | None:
     return 100.0 * part / emitted if emitted and part is not None else None
 
 
+def not_formed(row: dict) -> float | None:
+    """The light of paths that the run's photons cannot take, as a share of all light of the caustic."""
+    of_all, of_modelled = number(row, ERROR + "energy_ratio"), number(row, MODELLED + "energy_ratio")
+    if of_all is None:
+        return None
+    return 100.0 * (1.0 - of_all / of_modelled) if of_modelled else 0.0
+
+
+def spread(row: dict) -> float | None:
+    """The standard deviation of the frames over their mean."""
+    mean, deviation = number(row, "frame_ms.mean"), number(row, "frame_ms.stdev")
+    return deviation / mean if mean and deviation is not None else None
+
+
+def mebibytes(row: dict) -> float | None:
+    peak = number(row, "memory.peak_bytes")
+    return peak / 2.0**20 if peak is not None else None
+
+
 # Name, how it is printed, and how it is got from a row.
 MEASURED = [
     ("emitted", ",.0f", lambda row: number(row, "photons.emitted")),
@@ -54,6 +74,8 @@ MEASURED = [
     ("relMSE, modelled", ".3g", lambda row: number(row, MODELLED + "rel_mse")),
     ("SMAPE, modelled", ".3f", lambda row: number(row, MODELLED + "smape")),
     ("energy, modelled", ".3f", lambda row: number(row, MODELLED + "energy_ratio")),
+    ("relMSE, reference's own", ".3g", lambda row: number(row, ERROR + "truth_noise.rel_mse")),
+    ("not formed, %", ".2f", lambda row: not_formed(row)),
     ("not followed, %", ".2f", lambda row: share(row, "energy.lost_w.untraced_branch")),
     ("view relMSE", ".3g", lambda row: number(row, VIEW + "rel_mse")),
     ("view energy", ".3f", lambda row: number(row, VIEW + "energy_ratio")),

@@ -1,0 +1,181 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Runs studies and makes of them what stands in results/.
+
+    rebuild.py [--kaustik build/release/bin/kaustik] [--out results/runs/experiments] [--shard K/N] [STUDY...]
+    rebuild.py --list
+    rebuild.py --quick [--out DIR] [STUDY...]
+
+Each study is run into OUT/STUDY, where what is finished stays (`--resume`), its CSV is written to results/, and then all pages are filled
+from the CSVs (pages.py). A study of which runs have failed keeps them as rows with their message. With --shard
+only the K-th of N equal parts is run and nothing is written to results/; when all are done, run without.
+--quick runs the first of each study's runs with few photons and pixels, makes its CSV in DIR, and checks the pages: whether the commands
+of results/ still work, in minutes. Ends with 1 where something does not.
+"""
+
+import argparse
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import tomllib
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PLOTTING = ROOT / "experiments/plotting"
+
+# The CSV of each study below results/. TABLE: the columns of table.py; RUNS: all of runs.csv, which those pages are made of that have
+# a program of their own.
+TABLE = {
+    "all_techniques": "all_techniques/runs.csv",
+    "defaults": "defaults.csv",
+    "vertices_and_gather": "vertices_and_gather.csv",
+    "wyman2008_interpolants": "wyman2008/interpolants.csv",
+    "wyman2008_iterations": "wyman2008/iterations.csv",
+    "wyman_nichols2009_convergence": "wyman_nichols2009/convergence.csv",
+    "wyman_nichols2009_levels": "wyman_nichols2009/levels.csv",
+    "wyman_nichols2009_several": "wyman_nichols2009/several.csv",
+    "wyman_nichols2009_traversal": "wyman_nichols2009/traversal.csv",
+}
+RUNS = {
+    "equal_error": "reconstructions/equal_error.csv",
+    "krueger2006_caustics": "krueger2006/caustics.csv",
+    "krueger2006_needs": "krueger2006/needs.csv",
+    "krueger2006_photons": "krueger2006/photons.csv",
+    "krueger2006_shadows": "krueger2006/shadows.csv",
+    "krueger2006_sprites": "krueger2006/sprites.csv",
+    "krueger2006_tracers": "krueger2006/tracers.csv",
+    "reconstructions": "reconstructions/runs.csv",
+    "tracer_accuracy": "tracer_accuracy/runs.csv",
+    **{f"umenhoffer2008_{name}": f"umenhoffer2008/{name}.csv"
+       for name in ("error", "grazing", "merge", "points", "reach", "secant", "steps")},
+    **{f"wyman2008_{name}": f"wyman2008/{name}.csv" for name in ("error", "flicker", "reach", "ringing", "times")},
+    **{f"wyman_nichols2009_{name}": f"wyman_nichols2009/{name}.csv"
+       for name in ("batches", "buffers", "cascades", "deferred", "error", "god_rays", "photons", "starts", "times")},
+}
+STUDIES = {**TABLE, **RUNS}
+
+SMALL = {"size": "64x48", "frames": 1, "warmup": 0, "reference_photons": 65536, "emit.photons": "32x32",
+         "refine.finest": 64, "refine.start": 16, "refine.check": 32, "reconstruct.map_size": 128, "around.cubes.size": 64}
+
+
+class Failure(Exception):
+    """What a step has said before it ended."""
+
+
+def call(*command) -> None:
+    done = subprocess.run(list(map(str, command)), cwd=ROOT, capture_output=True, text=True)
+    if done.returncode:
+        raise Failure(f"'{' '.join(map(str, command))}' ended with {done.returncode}: {(done.stderr or done.stdout).strip()}")
+
+
+def toml(value) -> str:
+    """A table, list or value of a study as TOML has it; its strings and numbers are those of JSON."""
+    if isinstance(value, dict):
+        return "{ " + ", ".join(f"{json.dumps(key)} = {toml(item)}" for key, item in value.items()) + " }"
+    if isinstance(value, list):
+        return "[" + ", ".join(map(toml, value)) + "]"
+    return json.dumps(value)
+
+
+def first_of(axis):
+    """The first value of a list, or of a range."""
+    return axis["from"] if isinstance(axis, dict) and "from" in axis else axis[0]
+
+
+def small(study: pathlib.Path) -> str:
+    """The first run of a study, with few photons and pixels, as the text of a study."""
+    described = tomllib.loads(study.read_text())
+    permute = described.get("permute", {})
+    first = permute[0] if isinstance(permute, list) else permute
+    run = {**described.get("base", {}), **{key: first_of(axis) for key, axis in first.items()}}
+    run |= {key: value for key, value in SMALL.items() if key in run or key in ("size", "frames", "warmup")}
+    if (study.parent / run["scene"]).is_file():
+        run["scene"] = str(study.parent / run["scene"])
+    elif isinstance(run.get("reference"), str) and (study.parent / run["reference"]).is_file():
+        run["reference"] = str(study.parent / run["reference"])
+    lines = [f'name = "{study.stem}"', 'description = "The first run, small."', "[base]"]
+    return "\n".join([*lines, *(f"{json.dumps(key)} = {toml(value)}" for key, value in run.items())]) + "\n"
+
+
+def csv_of(results: pathlib.Path, study: str, target: pathlib.Path) -> None:
+    target.parent.mkdir(parents=True, exist_ok=True)
+    if study in TABLE:
+        call(sys.executable, "-B", PLOTTING / "table.py", results, "--csv", target)
+    else:
+        target.write_bytes((results / "runs.csv").read_bytes())
+
+
+def quick(kaustik: pathlib.Path, out: pathlib.Path, studies: list[str]) -> list[str]:
+    failures = []
+    for study in studies:
+        file = out / f"{study}.toml"
+        file.write_text(small(ROOT / f"experiments/{study}.toml"))
+        try:
+            call(kaustik, "experiment", "run", file, "--out", out / study)
+            csv_of(out / study, study, out / STUDIES[study])
+            print(f"{study}: its first run works", flush=True)
+        except Failure as failure:
+            if "run experiments/fetch_meshes.sh" in str(failure):
+                print(f"{study}: not tried; its mesh is not here (experiments/fetch_meshes.sh)", flush=True)
+            else:
+                failures.append(f"{study}: {failure}")
+    try:
+        call(sys.executable, "-B", PLOTTING / "pages.py", "--check")
+    except Failure as failure:
+        failures.append(str(failure))
+    return failures
+
+
+def rebuild(kaustik: pathlib.Path, out: pathlib.Path, shard: str | None, studies: list[str]) -> list[str]:
+    failures = []
+    for study in studies:
+        part = ["--shard", shard] if shard else []
+        try:
+            call(kaustik, "experiment", "run", f"experiments/{study}.toml", "--resume", "--out", out / study, *part)
+        except Failure as failure:
+            failures.append(f"{study}: {failure}")
+        if shard or not (out / study / "runs.csv").is_file():
+            continue
+        csv_of(out / study, study, ROOT / "results" / STUDIES[study])
+        if study == "all_techniques":
+            light_tracer = ROOT / "results/all_techniques/light_tracer.csv"
+            call(sys.executable, "-B", ROOT / "experiments/light_tracer.py", "--kaustik", kaustik, "--out", light_tracer)
+            call(sys.executable, "-B", PLOTTING / "speed_error.py")
+        print(f"{study}: results/{STUDIES[study]}", flush=True)
+    if not shard:
+        call(sys.executable, "-B", PLOTTING / "pages.py")
+    return failures
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--kaustik", type=pathlib.Path, default=ROOT / "build/release/bin/kaustik")
+    parser.add_argument("--out", type=pathlib.Path)
+    parser.add_argument("--shard")
+    parser.add_argument("--list", action="store_true")
+    parser.add_argument("--quick", action="store_true")
+    parser.add_argument("studies", nargs="*", metavar="STUDY")
+    arguments = parser.parse_args()
+    if unknown := set(arguments.studies) - set(STUDIES):
+        sys.exit(f"rebuild: there is no study '{sorted(unknown)[0]}'; --list names them")
+    studies = arguments.studies or list(STUDIES)
+    if arguments.list:
+        print("\n".join(f"{study:32} results/{STUDIES[study]}" for study in studies))
+        return 0
+    kaustik = arguments.kaustik.resolve()
+    if arguments.quick:
+        with tempfile.TemporaryDirectory() as folder:
+            out = arguments.out.resolve() if arguments.out else pathlib.Path(folder)
+            out.mkdir(parents=True, exist_ok=True)
+            failures = quick(kaustik, out, studies)
+    else:
+        out = (arguments.out or ROOT / "results/runs/experiments").resolve()
+        failures = rebuild(kaustik, out, arguments.shard, studies)
+    for failure in failures:
+        print(f"rebuild: {failure}", file=sys.stderr)
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

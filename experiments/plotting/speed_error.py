@@ -1,0 +1,188 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Speed against error over all techniques and scenes, beside a light tracer on the same processor.
+
+    speed_error.py [--results results/all_techniques]
+
+Reads runs.csv (all_techniques.toml, by table.py --csv) and light_tracer.csv (light_tracer.py) in that folder and writes next to them
+
+- equal_error.csv: each run, and how many photons and ms the light tracer needs for the same relMSE; `factor` is by how much the run is
+  faster. Both errors are net of the reference's own noise. The light tracer's error falls as one over its photons, and its time grows
+  with them: both are taken from its run with the most photons, the time less that of the run with the fewest. Where a run's
+  error is not above the reference's noise the factor is a bound: `at_least`.
+- to_error.csv: for each scene and error, the technique that is there first, its ms, interpolated between its runs in the logarithms of
+  both, the second and by how much it is later.
+- in_time.csv: the same the other way round: the least error within a time.
+- SCENE.svg: error against time, the Pareto front drawn through.
+"""
+
+import argparse
+import csv
+import math
+import pathlib
+import sys
+from collections import defaultdict
+
+from figures import COLORS, MARKERS, pareto_front, plt
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+ERRORS = [1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4]
+TIMES_MS = [50, 100, 200, 500, 1000, 2000]
+
+
+def rows_of(file: pathlib.Path) -> list[dict]:
+    if not file.is_file():
+        sys.exit(f"speed_error: there is no '{file}'")
+    with file.open(newline="") as stream:
+        return list(csv.DictReader(stream))
+
+
+def number(row: dict, key: str) -> float | None:
+    return float(row[key]) if row.get(key) else None
+
+
+def net(row: dict) -> float | None:
+    """relMSE without the part that the reference's own noise has in it."""
+    error, noise = number(row, "relMSE"), number(row, "relMSE, reference's own")
+    return None if error is None else error - (noise or 0.0)
+
+
+def name_of(row: dict) -> str:
+    return row["technique"] + (", as published" if row.get("as_published") == "true" else "")
+
+
+class LightTracer:
+    """Its error and time at any number of photons, of one scene."""
+
+    def __init__(self, rows: list[dict]):
+        rows = sorted(rows, key=lambda row: float(row["photons"]))
+        few, many = rows[0], rows[-1]
+        photons = float(many["photons"])
+        self.error_times_photons = net(many) * photons
+        self.ms_a_photon = 1e3 * (float(many["seconds"]) - float(few["seconds"])) / (photons - float(few["photons"]))
+
+    def photons(self, error: float) -> float:
+        return self.error_times_photons / error
+
+    def ms(self, error: float) -> float:
+        return self.photons(error) * self.ms_a_photon
+
+    def error(self, ms: float) -> float:
+        return self.error_times_photons * self.ms_a_photon / ms
+
+
+def light_tracers(rows: list[dict]) -> dict[str, LightTracer]:
+    by_scene = defaultdict(list)
+    for row in rows:
+        if row["estimator"] == "light" and number(row, "relMSE") is not None:
+            by_scene[row["scene"]].append(row)
+    return {scene: LightTracer(of) for scene, of in by_scene.items()}
+
+
+def least(points: list[tuple[float, float]], at: float) -> float | None:
+    """The least second of points (first, second) whose first is `at` or less, or which lie between two that are neighbours in the
+    first, in the logarithms of both; None where all are beyond it."""
+    points = sorted(points)
+    found = [y for x, y in points if x <= at]
+    for (x0, y0), (x1, y1) in zip(points, points[1:]):
+        if x0 < at < x1:
+            found.append(y0 * (y1 / y0) ** (math.log(at / x0) / math.log(x1 / x0)))
+    return min(found, default=None)
+
+
+def curves(runs: list[dict], tracers: dict[str, LightTracer]) -> dict[str, dict[str, list[tuple[float, float]]]]:
+    """Points (ms, net relMSE) by scene and technique, sorted by time."""
+    of: dict = defaultdict(lambda: defaultdict(list))
+    for row in runs:
+        error, ms = net(row), number(row, "ms")
+        if row["status"] == "done" and error and error > 0.0 and ms:
+            of[row["scene"]][name_of(row)].append((ms, error))
+    for scene, tracer in tracers.items():
+        if scene in of:
+            of[scene]["light tracer"] = [(ms, tracer.error(ms)) for ms in (0.1, 1, 10, 100, 1000, 10000)]
+    return {scene: {name: sorted(points) for name, points in by.items()} for scene, by in of.items()}
+
+
+def write(file: pathlib.Path, columns: list[str], rows: list[list]) -> None:
+    with file.open("w", newline="", encoding="utf-8") as stream:
+        writer = csv.writer(stream, lineterminator="\n")
+        writer.writerow(columns)
+        writer.writerows(["" if cell is None else f"{cell:.4g}" if isinstance(cell, float) else cell for cell in row]
+                         for row in rows)
+
+
+def equal_error(runs: list[dict], tracers: dict[str, LightTracer]) -> list[list]:
+    table = []
+    for row in runs:
+        error, ms, tracer = net(row), number(row, "ms"), tracers.get(row["scene"])
+        if row["status"] != "done" or error is None or not ms or not tracer:
+            continue
+        noise = number(row, "relMSE, reference's own") or 0.0
+        reached = max(error, noise)
+        table.append([row["scene"], row["technique"], row["as_published"], row.get("emit.photons", ""),
+                      row.get("refine.finest", ""), "done", ms, error, tracer.photons(reached), tracer.ms(reached),
+                      tracer.ms(reached) / ms, str(error < noise).lower(), row["device"], row["version"]])
+    return table
+
+
+def first_two(values: dict[str, float | None]) -> list:
+    """The name with the least value, the value, the second's name, and the ratio of the two."""
+    there = sorted((value, name) for name, value in values.items() if value is not None)
+    if not there:
+        return ["nothing", None, "", None]
+    second = there[1] if len(there) > 1 else (None, "")
+    return [there[0][1], there[0][0], second[1], second[0] / there[0][0] if second[0] else None]
+
+
+def ranked(of_scenes: dict, ats: list[float], by_error: bool) -> list[list]:
+    """For each scene and error (or time) who is there first (or has the least error)."""
+    return [[scene, f"{at:g}", "done", *first_two({name: least([point[::-1] if by_error else point for point in curve], at)
+                                                   for name, curve in by.items()})]
+            for scene, by in sorted(of_scenes.items()) for at in ats]
+
+
+def draw(scene: str, by: dict[str, list[tuple[float, float]]], file: pathlib.Path) -> None:
+    figure, axes = plt.subplots(figsize=(6.4, 4.2))
+    names = sorted({name.removesuffix(", as published") for name in by} - {"light tracer"})
+    for name, curve in sorted(by.items()):
+        base = name.removesuffix(", as published")
+        if name == "light tracer":
+            axes.plot(*zip(*curve), color="black", linestyle=":", label=name)
+            continue
+        color = COLORS[names.index(base) % len(COLORS)]
+        published = name != base
+        axes.plot(*zip(*curve), color=color, marker=MARKERS[names.index(base) % len(MARKERS)], markersize=4,
+                  linewidth=0.8, linestyle="--" if published else "-", fillstyle="none" if published else "full",
+                  label=None if published else base)
+    front = pareto_front([point for name, curve in by.items() if name != "light tracer" for point in curve])
+    axes.plot(*zip(*sorted(front)), color="#999999", linewidth=4, alpha=0.35, zorder=0)
+    axes.set(xscale="log", yscale="log", title=scene, xlabel="passes of the caustic, ms",
+             ylabel="relMSE, net of the reference's noise")
+    axes.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.0, 0.5),
+                title="filled: default\nhollow: as published", title_fontsize=7)
+    figure.savefig(file, bbox_inches="tight", metadata={"Date": None})
+    plt.close(figure)
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--results", type=pathlib.Path, default=ROOT / "results/all_techniques")
+    arguments = parser.parse_args()
+    folder = arguments.results
+    runs = rows_of(folder / "runs.csv")
+    tracers = light_tracers(rows_of(folder / "light_tracer.csv"))
+    of_scenes = curves(runs, tracers)
+    write(folder / "equal_error.csv",
+          ["scene", "technique", "as_published", "emit.photons", "refine.finest", "status", "ms", "relMSE, net",
+           "light tracer's photons", "light tracer's ms", "factor", "at_least", "device", "version"],
+          equal_error(runs, tracers))
+    names = ["first", "value", "second", "times"]
+    write(folder / "to_error.csv", ["scene", "relMSE", "status", *names], ranked(of_scenes, ERRORS, by_error=True))
+    write(folder / "in_time.csv", ["scene", "ms", "status", *names], ranked(of_scenes, TIMES_MS, by_error=False))
+    for scene, by in of_scenes.items():
+        draw(scene, by, folder / f"{scene}.svg")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: MIT
+"""Speed against error beside a light tracer, on runs whose factors are known: its relMSE is 1000 over its photons, each takes 1 us."""
+
+import csv
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM = pathlib.Path(__file__).resolve().parents[2] / "experiments/plotting/speed_error.py"
+
+NOISE = 0.0005
+RUNS = f"""scene,technique,as_published,emit.photons,status,ms,relMSE,"relMSE, reference's own",device,version
+ring,a,false,1x1,done,10,{0.1 + NOISE},{NOISE},d,1
+ring,a,false,2x2,done,100,{0.01 + NOISE},{NOISE},d,1
+ring,a,true,2x2,done,50,{0.01 + NOISE},{NOISE},d,1
+ring,b,false,2x2,done,1000,{0.0001 + NOISE},{NOISE},d,1
+ring,c,false,2x2,failed,,,,d,1
+"""
+LIGHT_TRACER = f"""scene,estimator,photons,seconds,relMSE,"relMSE, reference's own"
+ring,light,100000,0.3,{0.01 + NOISE},{NOISE}
+ring,light,1000000,1.2,{0.001 + NOISE},{NOISE}
+ring,sppm,1000000,9,0.5,{NOISE}
+tree,light,0,0,,
+"""
+
+
+class SpeedError(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = pathlib.Path(folder.name)
+        (cls.folder / "runs.csv").write_text(RUNS)
+        (cls.folder / "light_tracer.csv").write_text(LIGHT_TRACER)
+        subprocess.run([sys.executable, "-B", PROGRAM, "--results", cls.folder], check=True)
+
+    def rows(self, name):
+        with (self.folder / name).open(newline="") as stream:
+            return list(csv.DictReader(stream))
+
+    def test_at_equal_error_is_the_ratio_of_times_net_of_noise(self):
+        rows = {(row["technique"], row["as_published"], row["emit.photons"]): row for row in self.rows("equal_error.csv")}
+        self.assertEqual(set(rows), {("a", "false", "1x1"), ("a", "false", "2x2"), ("a", "true", "2x2"), ("b", "false", "2x2")})
+        for key, photons, factor in [(("a", "false", "1x1"), 1e4, 1.0), (("a", "false", "2x2"), 1e5, 1.0),
+                                     (("a", "true", "2x2"), 1e5, 2.0)]:
+            self.assertAlmostEqual(float(rows[key]["light tracer's photons"]) / photons, 1.0, places=3)
+            self.assertAlmostEqual(float(rows[key]["factor"]), factor, places=3)
+            self.assertEqual(rows[key]["at_least"], "false")
+
+    def test_below_the_references_noise_is_a_bound(self):
+        row = next(row for row in self.rows("equal_error.csv") if row["technique"] == "b")
+        self.assertEqual(row["at_least"], "true")
+        self.assertAlmostEqual(float(row["light tracer's photons"]), 1000.0 / NOISE, delta=1.0)
+
+    def test_to_an_error_takes_the_first_there_and_interpolates(self):
+        rows = {float(row["relMSE"]): row for row in self.rows("to_error.csv")}
+        self.assertEqual(rows[0.01]["first"], "a, as published")
+        self.assertAlmostEqual(float(rows[0.01]["value"]), 50.0, places=2)
+        # Half way between two runs of `a` in the logarithms: 10 to 100 ms; the light tracer has 33.3 ms for 0.03.
+        self.assertAlmostEqual(float(rows[0.03]["value"]), 10.0 * 10.0 ** 0.5228787, delta=0.05)
+        self.assertEqual(rows[0.001]["first"], "light tracer")
+
+    def test_in_a_time_takes_the_least_error(self):
+        rows = {float(row["ms"]): row for row in self.rows("in_time.csv")}
+        self.assertEqual(rows[50.0]["first"], "a, as published")
+        self.assertAlmostEqual(float(rows[50.0]["value"]), 0.01, places=5)
+        self.assertEqual(rows[1000.0]["first"], "b")
+
+    def test_draws_each_scene_that_has_a_caustic(self):
+        self.assertTrue((self.folder / "ring.svg").is_file())
+        self.assertFalse((self.folder / "tree.svg").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()
