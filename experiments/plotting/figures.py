@@ -166,11 +166,13 @@ def time_per_pass(study: Study) -> Figure | None:
     if not passes:
         return None
     shown = evenly(study.configurations, MAX_BARS)
-    largest = {p: max((c.mean(p) or 0.0) for c in shown) for p in passes}
+    # Of its frame, so that the passes of a quick configuration are told apart beside a slow one.
+    whole = [sum(c.mean(p) or 0.0 for p in passes) or 1.0 for c in shown]
+    largest = {p: max((c.mean(p) or 0.0) / frame for c, frame in zip(shown, whole)) for p in passes}
     kept = sorted(passes, key=lambda p: -largest[p])[: 2 * len(COLORS)]
-    figure, axes = plt.subplots(
-        figsize=(8.0, 1.8 + 0.32 * len(shown)), layout="constrained"
-    )
+    # As high as the bars or the legend need.
+    height = max(1.8 + 0.32 * len(shown), 0.9 + 0.19 * (len(kept) + 2))
+    figure, axes = plt.subplots(figsize=(8.0, height))
     rows = range(len(shown))
     left = [0.0] * len(shown)
     order = [p for p in passes if p in kept]

@@ -8,7 +8,7 @@ from html import escape
 from pathlib import Path
 from string import Template
 
-from pictures import Picture, as_data_uri
+from pictures import Picture, as_data_uri, as_numbers
 from study import Study
 
 TEMPLATE = Path(__file__).with_name("page.html")
@@ -64,7 +64,8 @@ def make_page(
     table: tuple[list[str], list[list[str]], str],
 ) -> str:
     sources = [
-        {"label": p.label, "kind": p.kind, "source": as_data_uri(p.pixels)} for p in pictures
+        {"label": p.label, "kind": p.kind, "unit": p.unit, "source": as_data_uri(p.pixels)} | as_numbers(p)
+        for p in pictures
     ]
     return Template(TEMPLATE.read_text(encoding="utf-8")).substitute(
         title=escape(f"{study.name} · Kaustik"),

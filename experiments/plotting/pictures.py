@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Pictures of the runs: read, brought to one exposure, and set beside the reference."""
+"""Pictures of the runs: read, brought to the exposure of their reference, and set beside it."""
 
 import base64
 import io
@@ -100,6 +100,8 @@ class Picture:
     label: str
     kind: str  # what it shows, for the page: an output's kind, or "picture"
     pixels: np.ndarray  # for a display: height x width x 3 in [0, 1]
+    values: np.ndarray  # what it measures, of the same shape
+    unit: str  # of the values; "" for a display's
 
 
 def displayed(image: np.ndarray, white: float) -> np.ndarray:
@@ -118,7 +120,7 @@ def white_of(image: np.ndarray) -> float:
 
 
 class Pictures:
-    """One output of some configurations and their references, at one exposure."""
+    """One output of some configurations and their references, each with the exposure of its reference."""
 
     def __init__(self, configurations: list[Configuration], output: Output):
         self.output = output
@@ -136,15 +138,20 @@ class Pictures:
                 return
             except (OSError, ValueError) as error:
                 self.problems.append(f"{error}.")
-        references = list(self.references.values())
-        linear = references or [image for _, image in self.images]
-        self.white = max((white_of(image) for image in linear), default=1.0)
+        self.common_white = max((white_of(image) for _, image in self.images), default=1.0)
+
+    def white(self, configuration: Configuration) -> float:
+        """What is white in its picture: of its reference, or of all pictures where there is none. Scenes differ by
+        orders of magnitude."""
+        reference = self.references.get(configuration.hash)
+        return white_of(reference) if reference is not None else self.common_white
 
     def _read(self, configuration: Configuration) -> None:
         folder = configuration.folders[0]
         beauty = find_image(folder, "beauty", (".png", ".ppm"))
         if beauty and self.output is CAUSTIC:
-            self.beauties.append(Picture(configuration.label, "picture", read_image(beauty)))
+            pixels = read_image(beauty)
+            self.beauties.append(Picture(configuration.label, "picture", pixels, pixels, ""))
         file = find_image(folder, self.output.file, (".exr", ".pfm"))
         if not file:
             return
@@ -168,12 +175,13 @@ class Pictures:
                 continue
             seen.append(reference)
             label = "reference" if len(seen) == 1 else f"reference of {configuration.label}"
-            pictures.append(Picture(label, self.output.kind, displayed(reference, self.white)))
-        for configuration, image in self.images:
-            pictures.append(
-                Picture(configuration.label, self.output.kind, displayed(image, self.white))
-            )
+            pictures.append(self._picture(label, reference, self.white(configuration)))
+        pictures += [self._picture(configuration.label, image, self.white(configuration))
+                     for configuration, image in self.images]
         return pictures + self.beauties
+
+    def _picture(self, label: str, image: np.ndarray, white: float) -> Picture:
+        return Picture(label, self.output.kind, displayed(image, white), image, self.output.unit)
 
 
 def side_by_side(pictures: Pictures) -> Figure | None:
@@ -197,8 +205,9 @@ def side_by_side(pictures: Pictures) -> Figure | None:
         layout="constrained",
     )
     for (configuration, image), error, row in zip(shown, errors, rows):
-        row[0].imshow(displayed(pictures.references[configuration.hash], pictures.white))
-        row[1].imshow(displayed(image, pictures.white))
+        white = pictures.white(configuration)
+        row[0].imshow(displayed(pictures.references[configuration.hash], white))
+        row[1].imshow(displayed(image, white))
         shade = row[2].imshow(error, cmap="cividis", vmin=0.0, vmax=largest or 1.0)
         row[1].set_title(configuration.label, fontsize=8)
         for axes in row:
@@ -232,13 +241,31 @@ def gallery(pictures: Pictures) -> Figure | None:
     for axes in rows.flat:
         axes.axis("off")
     for axes, (configuration, image) in zip(rows.flat, pictures.images):
-        axes.imshow(displayed(image, pictures.white))
+        axes.imshow(displayed(image, pictures.common_white))
         axes.set_title(configuration.label, fontsize=8)
     return figure
 
 
+def for_page_sized(image: np.ndarray) -> np.ndarray:
+    step = -(-image.shape[1] // MAX_PIXEL_WIDTH)
+    return np.ascontiguousarray(image[::step, ::step])
+
+
+def as_numbers(picture: Picture) -> dict:
+    """Its values for the page: half floats of them over `scale`, so that the largest is no infinity."""
+    values = for_page_sized(picture.values)
+    largest = float(np.nan_to_num(np.abs(values), posinf=0.0).max(initial=0.0))
+    scale = largest / 60000.0 if largest > 0.0 else 1.0
+    halves = (values / scale).astype("<f2")
+    return {
+        "width": values.shape[1],
+        "height": values.shape[0],
+        "scale": scale,
+        "values": base64.b64encode(halves.tobytes()).decode("ascii"),
+    }
+
+
 def as_data_uri(pixels: np.ndarray) -> str:
-    step = -(-pixels.shape[1] // MAX_PIXEL_WIDTH)
     buffer = io.BytesIO()
-    plt.imsave(buffer, np.ascontiguousarray(pixels[::step, ::step]), format="png")
+    plt.imsave(buffer, for_page_sized(pixels), format="png")
     return "data:image/png;base64," + base64.b64encode(buffer.getvalue()).decode("ascii")

@@ -65,6 +65,19 @@ def summary(study) -> tuple[list[str], list[list[str]], str]:
     return header, rows, caption
 
 
+def latex_table(header: list[str], rows: list[list[str]], caption: str) -> str:
+    """For a paper that uses the package booktabs."""
+    special = {"\\": r"\textbackslash{}", "±": r"$\pm$", "²": r"\textsuperscript{2}", "–": "--",
+               **{c: "\\" + c for c in "&%$#_{}"}}
+
+    def line(cells: list[str]) -> str:
+        return " & ".join("".join(special.get(c, c) for c in cell) for cell in cells) + r" \\"
+
+    columns = "l" + "r" * (len(header) - 1)
+    return "\n".join([f"% {caption}", rf"\begin{{tabular}}{{{columns}}}", r"\toprule", line(header), r"\midrule",
+                      *map(line, rows), r"\bottomrule", r"\end{tabular}"]) + "\n"
+
+
 def draw(folder: Path) -> None:
     import matplotlib.pyplot as plt
 
@@ -85,7 +98,7 @@ def draw(folder: Path) -> None:
         of_pictures += [
             (
                 name,
-                f"The reference, {what}, and where it is wrong; one exposure.",
+                f"The reference, {what}, and where it is wrong; one exposure for each reference.",
                 side_by_side(pictures),
             ),
             (name, f"{what.capitalize()}, at one exposure.", gallery(pictures)),
@@ -95,9 +108,9 @@ def draw(folder: Path) -> None:
     for name, caption, figure in [*all_figures(study), *of_pictures]:
         if figure is None:
             continue
-        for suffix, metadata in (("svg", {"Date": None}), ("png", {})):
+        for suffix, metadata in (("svg", {"Date": None}), ("pdf", {"CreationDate": None}), ("png", {})):
             buffer = io.BytesIO()
-            figure.savefig(buffer, format=suffix, metadata=metadata)
+            figure.savefig(buffer, format=suffix, metadata=metadata, bbox_inches="tight")
             write_whole(folder / "figures" / f"{name}.{suffix}", buffer.getvalue())
         plt.close(figure)
         written.append((name, caption, folder / "figures" / f"{name}.svg"))
@@ -105,6 +118,7 @@ def draw(folder: Path) -> None:
     text = io.StringIO()
     csv.writer(text, lineterminator="\n").writerows([header, *rows])
     write_whole(folder / "summary.csv", text.getvalue().encode("utf-8"))
+    write_whole(folder / "summary.tex", latex_table(header, rows, caption).encode("utf-8"))
     on_page = [picture for pictures in outputs for picture in pictures.for_page()]
     page = make_page(study, written, on_page, (header, rows, caption))
     write_whole(folder / "report.html", page.encode("utf-8"))

@@ -89,16 +89,16 @@ class ExperimentReport : public CommandLine {
     }
 };
 
-TEST_F(ExperimentReport, DrawsEveryFigureTwiceAndSaysSo) {
+TEST_F(ExperimentReport, DrawsEveryFigureForScreenAndPaperAndSaysSo) {
     writeResults();
     const Outcome outcome = draw();
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-    std::set<std::string> expected = {"out/report.html", "out/summary.csv"};
+    std::set<std::string> expected = {"out/report.html", "out/summary.csv", "out/summary.tex"};
     for (const char* name :
          {"speed-error-caustic-irradiance-rel-mse", "speed-hits-agreement-visible", "passes",
           "sweep-trace-epsilon", "frame-times", "pictures"}) {
-        expected.insert(fmt::format("out/figures/{}.svg", name));
-        expected.insert(fmt::format("out/figures/{}.png", name));
+        for (const char* suffix : {"svg", "pdf", "png"})
+            expected.insert(fmt::format("out/figures/{}.{}", name, suffix));
     }
     for (const std::string& file : expected) {
         EXPECT_TRUE(files().contains(file)) << file;

@@ -18,7 +18,7 @@ import urllib.error
 import urllib.request
 from pathlib import Path
 
-ARROW_LEFT, HOME, END, PAGE_UP = "\ue012", "\ue011", "\ue010", "\ue00e"
+ARROW_LEFT, HOME, END, PAGE_UP, ESCAPE = "\ue012", "\ue011", "\ue010", "\ue00e", "\ue00c"
 SECONDS_FOR_AN_ANSWER = 60
 
 # The driver is on this machine, whatever proxy the environment names.
@@ -101,6 +101,7 @@ class Browser:
             self.driver.wait()
 
 
+VALUES = "return document.getElementById('values').textContent"
 CLIPPED = "return document.getElementById('left-image').style.clipPath"
 IMAGES = "return ['left', 'right'].map(s => document.getElementById(s + '-image').alt)"
 BROKEN = "return [...document.images].filter(i => !i.complete || i.naturalWidth === 0).length"
@@ -140,6 +141,17 @@ def problems_of(browser: Browser, page: Path, screenshot: Path | None):
     browser.press("right", END)
     if browser.run(IMAGES)[1] == before[1]:
         yield "choosing another image on the right changes nothing"
+    browser.press("divider", "2")
+    second = browser.run("return document.getElementById('right').options[1].text")
+    yield from expect("the image alone after key 2", browser.run(IMAGES)[0], second)
+    yield from expect("the divider after key 2", browser.run(CLIPPED), "inset(0px 0% 0px 0px)")
+    browser.press("divider", ESCAPE)
+    yield from expect("the divider after Escape", browser.run(CLIPPED), "inset(0px 50% 0px 0px)")
+    browser.click("divider", 0.25)
+    values = browser.run(VALUES)
+    # As "reference (3, 4): 1.000, 2.500e-7, 0.000 W/m²", for both sides.
+    if not re.fullmatch(r"(.*\(\d+, \d+\): (-?[\d.]+(e[-+]\d+)?(, )?){3}( \S+)?( · )?){2}", values):
+        yield f"the values under the mouse are '{values}'"
     browser.press("divider", HOME + PAGE_UP * 5)
     if screenshot:
         screenshot.write_bytes(base64.b64decode(browser.ask("GET", "/screenshot")))

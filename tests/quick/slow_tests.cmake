@@ -149,7 +149,7 @@ set_tests_properties([=[Every/ShippedScene.HasTheCausticOfTheReference/water_fro
 set_tests_properties([=[Every/Stopped.LosesNothingThatIsDoneAndResumes/Killed]=] PROPERTIES LABELS "cli;slow")
 set_tests_properties([=[Every/Stopped.LosesNothingThatIsDoneAndResumes/Terminated]=] PROPERTIES LABELS "cli;slow")
 set_tests_properties([=[EveryMendedFind.IsRight]=] PROPERTIES LABELS "mixtures;slow")
-set_tests_properties([=[ExperimentReport.DrawsEveryFigureTwiceAndSaysSo]=] PROPERTIES LABELS "cli;slow")
+set_tests_properties([=[ExperimentReport.DrawsEveryFigureForScreenAndPaperAndSaysSo]=] PROPERTIES LABELS "cli;slow")
 set_tests_properties([=[ExperimentReport.IsAPageThatWorksOfflineByKeyboardAndMouse]=] PROPERTIES LABELS "cli;slow")
 set_tests_properties([=[ExperimentReport.NeverAveragesTimesOfDifferentDevices]=] PROPERTIES LABELS "cli;slow")
 set_tests_properties([=[ExperimentReport.ShowsNamesAsTextAndFailuresByTheirMessage]=] PROPERTIES LABELS "cli;slow")
