@@ -19,8 +19,8 @@ Rewrites what stands between two comments of a page and leaves all else, which i
 
     relMSE of <!-- = traversal.csv: relMSE .3g; scene=pool, refine.finest=1024 -->0.0123<!-- / --> at 1024.
 
-Rows are sorted by their settings. A run that is not done has its status instead, a value that is not there "–". Under a table stand the version and the device of its runs; where they are of several, each is
-named. --check writes nothing and ends with 1 where a page is not what the CSVs say. Ends with 2 where a page asks
+Rows are sorted by their settings. A run that is not done has its status instead, a value that is not there "–". Under a table stand the version and the device of its runs, each where there are several, their dates, and how busy the machine was
+with other work while they were timed. --check writes nothing and ends with 1 where a page is not what the CSVs say. Ends with 2 where a page asks
 for what is not there, with its line.
 """
 
@@ -35,6 +35,8 @@ import tomllib
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 TABLE = re.compile(r"^<!-- table\n(.*?)^-->\n(.*?)^<!-- end -->$", re.M | re.S)
 NUMBER = re.compile(r"<!-- = ([\w./-]+): ([^;>]+?) (\S+); ([^>]*?) -->(.*?)<!-- / -->")
+# So many processors are busy on an idle machine too.
+BUSY = 0.2
 KEYS = {"file", "rows", "where", "across", "cells", "names"}
 
 
@@ -99,8 +101,14 @@ def shown(value: str) -> str:
 def of_which_runs(rows: list[dict], file: str) -> str:
     """What a table's runs are of, under it."""
     kinds = sorted({(row.get("version", ""), row.get("device", "")) for row in rows})
-    devices = "; ".join(f"version {version}, {device}" for version, device in kinds if version or device)
-    return f"`{file}`, {len(rows)} runs" + (f"; {devices}" if devices else "")
+    parts = [f"`{file}`, {len(rows)} runs", *(f"version {version}, {device}" for version, device in kinds if version or device)]
+    dates = sorted({row["date"][:10] for row in rows if row.get("date")})
+    if dates:
+        parts.append(dates[0] if len(dates) == 1 else f"{dates[0]} to {dates[-1]}")
+    loads = [float(row["other_processors"]) for row in rows if row.get("other_processors")]
+    if loads and max(loads) > BUSY:
+        parts.append(f"other work kept up to {max(loads):.1f} processors busy")
+    return "; ".join(parts)
 
 
 def table(spec: dict, results: pathlib.Path) -> str:

@@ -23,6 +23,10 @@ MODELLED = "error.modelled_paths.caustic_irradiance."
 VIEW = "error.view.radiance."
 
 
+# What a page says of its runs (pages.py).
+OF_THE_RUN = ("device", "version", "date", "other_processors")
+
+
 def number(row: dict, key: str) -> float | None:
     text = row.get(key) or ""
     try:
@@ -125,11 +129,11 @@ def main() -> int:
         with arguments.csv.open("w", newline="", encoding="utf-8") as stream:
             writer = csv.writer(stream, lineterminator="\n")
             writer.writerow(settings + ["status", "message"] + [name for name, _, _ in measured] +
-                            ["device", "version"])
+                            list(OF_THE_RUN))
             for row in rows:
                 writer.writerow([row[key] for key in settings] + [row["status"], row["message"]] +
                                 ["" if get(row) is None else get(row) for _, _, get in measured] +
-                                [row.get("device", ""), row.get("version", "")])
+                                [row.get(key, "") for key in OF_THE_RUN])
     return 0
 
 

@@ -74,6 +74,9 @@ Row resultColumns(const json& report) {
     row.emplace_back("device", device.value("renderer", ""));
     row.emplace_back("cpu", device.value("cpu", ""));
     row.emplace_back("threads", device.value("threads", json()));
+    const json timing = report.value("timing", json::object());
+    row.emplace_back("other_processors", timing.value("other_processors", json()));
+    row.emplace_back("date", timing.value("date", ""));
     row.emplace_back("version", report.value("version", ""));
     return row;
 }

@@ -138,6 +138,11 @@ std::string makeTable(const RunRecord& record) {
     table += fmt::format("{:<24}{:>10.3f}{:>9.3f}   median of {}, bookkeeping {:.3f} ms\n", "frame",
                          frame, summarize(frameSamples(record)).standardDeviation,
                          record.frames.size(), summarize(bookkeepingSamples(record)).median);
+    // Less is what a system does by itself.
+    if (record.timing.otherProcessors.value_or(0.0) > 0.1) {
+        table += fmt::format("{:<24}{:>10.1f}   processors were busy with other work\n",
+                             "meanwhile", *record.timing.otherProcessors);
+    }
     for (const graph::PassRecord& pass : record.passes) {
         if (pass.state == graph::PassState::ran) continue;
         const char* state = pass.state == graph::PassState::bypassed ? "bypassed" : "skipped";

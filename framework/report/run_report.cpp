@@ -203,6 +203,7 @@ struct ReportTable {
     std::size_t frames = 0;
     int warmup = 0;
     gl::TimerMode timer = gl::TimerMode::timestamps;
+    Timing timing;
     Summary frameMilliseconds;
     Summary bookkeepingMilliseconds;
     double graphBuildMilliseconds = 0.0;
@@ -216,6 +217,12 @@ struct ReportTable {
     std::vector<std::string> warnings;
     std::vector<std::string> violations;
 };
+template <class F>
+void reflect(F& f, const Timing& timing) {
+    f.field("date", timing.date, "When the timed frames began, UTC");
+    f.field("other_processors", timing.otherProcessors,
+            "That other work kept busy meanwhile, on average; on an idle machine about 0");
+}
 template <class F>
 void reflect(F& f, const ReportTable& report) {
     f.choice("schema", "kaustik.report/1", {"kaustik.report/1"}, "The format of this file");
@@ -234,6 +241,7 @@ void reflect(F& f, const ReportTable& report) {
     f.field("warmup", report.warmup, "Frames before them");
     f.choice("timer", report.timer == gl::TimerMode::timestamps ? "gpu" : "finish",
              {"gpu", "finish"}, "By the device's timestamps, or with it finished around each pass");
+    f.field("timing", report.timing, "When it was timed, and beside what");
     f.field("frame_ms", report.frameMilliseconds, "Of whole frames");
     f.field("bookkeeping_ms", report.bookkeepingMilliseconds,
             "Of a frame's work beside its passes");
@@ -304,6 +312,7 @@ json makeReport(const RunRecord& record, const Renderer& renderer, const gl::Dev
     table.frames = record.frames.size();
     table.warmup = record.warmup;
     table.timer = record.timer;
+    table.timing = record.timing;
     table.frameMilliseconds = summarize(frameSamples(record));
     table.bookkeepingMilliseconds = summarize(bookkeepingSamples(record));
     table.graphBuildMilliseconds = record.graphBuildMilliseconds;

@@ -5,6 +5,7 @@
 
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,12 @@
 
 namespace kaustik::report {
 
+// Of the last timed frames.
+struct Timing {
+    std::string date;                       // when they began, UTC: 2026-11-25T18:40:00Z
+    std::optional<double> otherProcessors;  // that other work kept busy, on average
+};
+
 // Everything but the times and the ledger is read from the renderer.
 struct RunRecord {
     gl::TimerMode timer = gl::TimerMode::timestamps;
@@ -22,6 +29,7 @@ struct RunRecord {
     std::vector<std::pair<std::size_t, std::size_t>> stepBytes;  // textures, buffers in use in them
     std::vector<graph::PassRecord> passes;                       // of the timed graph
     std::vector<gl::FrameTime> frames;                           // timed ones only
+    Timing timing;                                               // of these
     int warmup = 0;
     long long seed = 1;
     double timeStepSeconds = 0.0;  // between timed frames

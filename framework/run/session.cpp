@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "framework/run/session.h"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <utility>
 
 #include "framework/core/error.h"
+#include "framework/core/machine_load.h"
 #include "framework/run/output.h"
 #include "framework/scene/shapes/height_field.h"
 
@@ -154,6 +157,7 @@ void Session::restartRecord() {
     }
     if (now.stepNames == record_.stepNames) {
         now.frames = std::move(record_.frames);
+        now.timing = record_.timing;
         now.warmup = record_.warmup;
     }
     record_ = std::move(now);
@@ -214,11 +218,17 @@ RenderedSeries Session::render(const FrameSeries& series, const SeriesWatch& wat
     const int total = series.warmup + series.frames;
     record_.timeStepSeconds = series.timeStepSeconds;
     static_cast<void>(timer_.takeFinished(true));  // of a series that an error has ended
+    std::optional<ProcessorTimes> processors;
+    std::string date;
     for (int frame = 0; frame < total; ++frame) {
         const double seconds = series.secondsOf(std::max(frame - series.warmup, 0), begin);
         if (seconds != scene_.timeSeconds) collect(true);
         setTime(seconds);
         prepare();
+        if (frame == series.warmup) {
+            processors = processorTimes();
+            date = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+        }
         rendered.isWhole = renderBuilt(timer_, watch.shouldContinue);
         if (!rendered.isWhole) break;
         // A ring slot is read when its frame is done; no frame may be lost, so that the ring is
@@ -231,6 +241,7 @@ RenderedSeries Session::render(const FrameSeries& series, const SeriesWatch& wat
         if (watch.onFrame) watch.onFrame(frame + 1);
     }
     collect(true);
+    if (!date.empty()) record_.timing = {date, otherProcessors(processors, processorTimes())};
     const auto warm = std::min(rendered.times.size(), static_cast<std::size_t>(series.warmup));
     rendered.times.erase(rendered.times.begin(),
                          rendered.times.begin() + static_cast<std::ptrdiff_t>(warm));

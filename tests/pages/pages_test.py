@@ -10,11 +10,11 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGES = ROOT / "experiments/plotting/pages.py"
 
-RUNS = """scene,photons,status,relMSE,hits right,version,device
-pool,256,done,0.00012,0.5,1,a
-pool,1024,done,0.000034,0.98765,1,a
-ball,256,failed,,,1,b
-ball,1024,done,12345,,1,b
+RUNS = """scene,photons,status,relMSE,hits right,version,device,date,other_processors
+pool,256,done,0.00012,0.5,1,a,2026-11-24T10:00:00Z,0.01
+pool,1024,done,0.000034,0.98765,1,a,2026-11-25T10:00:00Z,1.26
+ball,256,failed,,,1,b,,
+ball,1024,done,12345,,1,b,2026-11-24T10:00:00Z,
 """
 PAGE = """Before.
 
@@ -52,7 +52,8 @@ class Pages(unittest.TestCase):
         self.assertIn("\n".join(["| scene | photons | relMSE; hits right |", "| --- | --- | --- |",
                                  "| `ball` | 256 | failed |", "| `ball` | 1024 | 1.2e+4; – |",
                                  "| `pool` | 256 | 0.00012; 50.0 % |", "| `pool` | 1024 | 3.4e-5; 98.8 % |"]), text)
-        self.assertIn("*`runs.csv`, 4 runs; version 1, a; version 1, b.*", text)
+        self.assertIn("*`runs.csv`, 4 runs; version 1, a; version 1, b; 2026-11-24 to 2026-11-25; other work kept up to 1.3 "
+                      "processors busy.*", text)
         self.assertIn("-->0.0001<!-- / -->, no more.", text)
         self.assertTrue(text.startswith("Before.\n"))
         self.assertEqual(self.pages("--check").returncode, 0)
