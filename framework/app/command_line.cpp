@@ -30,19 +30,12 @@ void addDeviceOption(CLI::App& command) {
         "The device: a number or a UUID from 'check', or a part of its name");
 }
 
-void addSceneOptions(CLI::App& command, SceneOptions& options) {
-    command.add_option("scene", options.scene, "A name from 'list scenes', a .toml, .gltf or .glb")
-        ->capture_default_str();
+// How any scene is rendered.
+void addPictureOptions(CLI::App& command, SceneOptions& options) {
     command.add_option("--technique", options.technique, "A name from 'list techniques'")
         ->capture_default_str();
     command.add_flag("--as-published", options.isAsPublished,
                      "The technique as its paper has it to the letter, for its defaults");
-    command
-        .add_option("--merge", options.merged,
-                    "A .toml of settings; a later one counts more, and options more than it")
-        ->take_all()
-        ->expected(1)
-        ->allow_extra_args(false);
     command
         .add_option("--set", options.assignments,
                     "A parameter, as name=value; any unique short form of its name will do")
@@ -54,10 +47,22 @@ void addSceneOptions(CLI::App& command, SceneOptions& options) {
         ->expected(1)
         ->allow_extra_args(false);
     command.add_option("--size", options.size, "Picture size, WIDTHxHEIGHT")->capture_default_str();
+    addDeviceOption(command);
+}
+
+void addSceneOptions(CLI::App& command, SceneOptions& options) {
+    command.add_option("scene", options.scene, "A name from 'list scenes', a .toml, .gltf or .glb")
+        ->capture_default_str();
+    addPictureOptions(command, options);
+    command
+        .add_option("--merge", options.merged,
+                    "A .toml of settings; a later one counts more, and options more than it")
+        ->take_all()
+        ->expected(1)
+        ->allow_extra_args(false);
     command.add_option("--time", options.time, "Time of the animation in seconds");
     command.add_flag("--gl-debug", options.glDebug,
                      "Has OpenGL check every pass, which takes time; an error then names its pass");
-    addDeviceOption(command);
 }
 
 // The options and arguments that the command line itself has, by name.
@@ -219,6 +224,30 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry,
         "tiles", "Takes of all tiles' hits the first, and says whether there is another round");
     tilesApp->add_option("folder", tilesFolder, "That of 'run --tile'")->required();
 
+    BenchOptions bench;
+    bench.scene.size = "400x300";
+    CLI::App* benchApp = app.add_subcommand(
+        "bench", "Keeps times of scenes, or says what has changed between two such files");
+    benchApp->add_option("action", bench.action, "save or compare")->required();
+    benchApp
+        ->add_option("file", bench.files,
+                     "save: the file that is written; compare: those of before and after")
+        ->required();
+    benchApp->add_option("--scene", bench.scenes,
+                         "save: a scene that is timed; else pool, glass-sphere, ring, glass-bunny");
+    benchApp->add_option("--rounds", bench.rounds, "save: times that each scene is rendered anew")
+        ->check(integerRangeError)
+        ->capture_default_str();
+    benchApp->add_option("--frames", bench.frames, "save: frames of a round, after one to warm up")
+        ->check(integerRangeError)
+        ->capture_default_str();
+    benchApp->add_flag("--precise", bench.isPrecise,
+                       "save: with the device finished around each pass");
+    addPictureOptions(*benchApp, bench.scene);
+    benchApp->add_option(
+        "--max-slower", bench.maxSlowerPercent,
+        "compare: ends with 1 where a scene is slower by more than so many percent");
+
     ListOptions list;
     CLI::App* listApp = app.add_subcommand("list", "Prints what there is");
     listApp->add_option("what", list.what, "scenes, techniques, nodes or params")
@@ -338,6 +367,7 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry,
             runCommand(run, registry);
         }
         if (tilesApp->parsed()) tilesCommand(tilesFolder);
+        if (benchApp->parsed()) benchCommand(bench, registry);
         if (listApp->parsed()) listCommand(list, registry);
         if (docApp->parsed()) docCommand(doc, registry);
         if (explainApp->parsed()) {

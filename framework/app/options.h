@@ -43,6 +43,17 @@ struct RunOptions {
     std::string tiles;                       // folder of all tiles' hits
 };
 
+struct BenchOptions {
+    std::string action;              // save or compare
+    std::vector<std::string> files;  // save: the one that is written; compare: before and after
+    std::vector<std::string> scenes;
+    SceneOptions scene;  // but for its scene
+    int rounds = 5;
+    int frames = 3;
+    bool isPrecise = false;
+    std::optional<double> maxSlowerPercent;  // compare: else an error
+};
+
 struct ReferenceOptions {
     std::string scene;
     std::string time;  // seconds; "" for the scene's own
