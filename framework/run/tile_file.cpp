@@ -197,7 +197,7 @@ TileFile readTileFile(const fs::path& file) {
     try {
         const json from = parseJson(head, file.string());
         TileFile content{headFromJson(from), {}};
-        if (ContentHash().addBytes(rest).hex() != from.at("checksum"))
+        if (ContentHash().addBytes(rest).hex() != from.at("checksum").get<std::string>())
             failDamaged(file, "the checksum of its hits is wrong");
         Bytes body(rest);
         for (const json& list : from.at("lists"))
