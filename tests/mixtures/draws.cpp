@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <chrono>
 #include <iostream>
 #include <map>
@@ -109,9 +110,13 @@ void runOne(Bench& bench, const Draws& draws, int number, Tally& tally) {
 
 }  // namespace
 
-int runEnds(Bench& bench) {
+int runEnds(Bench& bench, int first, int count) {
     int found = 0;
-    for (const Mixture& mixture : mixturesAtCostlyEnds()) {
+    const std::vector<Mixture> ends = mixturesAtCostlyEnds();
+    const auto past = std::min(static_cast<std::size_t>(first - 1 + count), ends.size());
+    for (auto i = static_cast<std::size_t>(first - 1); i < past; ++i) {
+        const Mixture& mixture = ends[i];
+        std::cout << fmt::format("{} of {}: {}", i + 1, ends.size(), lineOf(mixture)) << std::endl;
         std::vector<std::string> problems;
         Refusal refusal;
         const std::optional<Rendered> rendered = renderForChecks(bench, mixture, refusal);
@@ -122,9 +127,9 @@ int runEnds(Bench& bench) {
         }
         std::erase(problems, "");
         found += problems.empty() ? 0 : 1;
-        std::cout << fmt::format("{}\n  {}", lineOf(mixture),
-                                 problems.empty() ? rendered ? "holds" : "refused"
-                                                  : fmt::format("{}", fmt::join(problems, "; ")))
+        std::cout << "  "
+                  << (problems.empty() ? rendered ? "holds" : "refused"
+                                       : fmt::format("{}", fmt::join(problems, "; ")))
                   << std::endl;
     }
     return found;

@@ -22,7 +22,8 @@ struct Draws {
 [[nodiscard]] int runDraws(Bench& bench, const Draws& draws);
 
 // The same of mixtures at the costly ends of ranges, each of which takes its time, or is refused
-// for memory; an end need not be of use, so that energy is not asked for.
-[[nodiscard]] int runEnds(Bench& bench);
+// for memory; an end need not be of use, so that energy is not asked for. `first`: the number of
+// the one to begin with, from 1; some take hours, and can be left out so.
+[[nodiscard]] int runEnds(Bench& bench, int first, int count);
 
 }  // namespace kaustik::mixtures

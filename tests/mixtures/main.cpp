@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iostream>
 
 #include "framework/core/error.h"
@@ -49,7 +50,7 @@ int main(int argc, char** argv) {
     std::vector<std::string> checks;
     app.add_option("--count", draws.count, "How many mixtures are drawn");
     app.add_option("--seed", draws.seed, "Of all of them");
-    app.add_option("--first", draws.first, "The number of the first one");
+    app.add_option("--first", draws.first, "The number of the first one, of ends from 1");
     app.add_option("--checks", draws.checks, "Checks of each that take further frames");
     app.add_flag("--minimise", draws.minimises, "Drops what a find does not need");
     bool ends = false;
@@ -60,7 +61,7 @@ int main(int argc, char** argv) {
     try {
         const std::unique_ptr<gl::Context> context = gl::Context::createHeadless(true);
         Bench bench(*context);
-        const int found = ends           ? runEnds(bench)
+        const int found = ends           ? runEnds(bench, std::max(draws.first, 1), draws.count)
                           : line.empty() ? runDraws(bench, draws)
                                          : checkLine(bench, line, checks, draws.minimises);
         return found > 0 ? 1 : 0;
