@@ -112,7 +112,7 @@ def is_uncompilable(file, log):
 
 def failed(log):
     """The names of the tests that ctest says have failed."""
-    return re.findall(r"^\s*\d+ - (\S+) \(", log.read_text(errors="replace"), re.M)
+    return re.findall(r"^\s*\d+ - (\S+) \((?!Skipped)", log.read_text(errors="replace"), re.M)
 
 
 def any_of(names):
