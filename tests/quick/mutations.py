@@ -12,9 +12,9 @@ Fifteen at once, all quick tests are run. Those that fail are run for each chang
 a change fails alone it fails in company too. With those that are left the slow tests are run in the same way.
 Where these find nothing either nobody sees the change, or it changes nothing.
 
-It works in a clone, `tree`, at `commit`, with a build of its own. What is known stands in
-tree/mutations.jsonl, by commit, and is not tried again: it can be interrupted. Prints the commit, a table and a
-ratio.
+It works in a clone, `tree`, at `commit`, with a build of its own. What is known stands in mutations.jsonl beside
+this file, by commit, and is not tried again: it can be interrupted, and goes on elsewhere. Prints the commit, a
+table and a ratio.
 """
 
 import argparse
@@ -134,7 +134,7 @@ class Trials:
 
     def __init__(self, base, commit):
         self.source, self.log, self.commit = base / "source", base / "log", commit
-        self.file = base / "mutations.jsonl"
+        self.file = pathlib.Path(__file__).with_name("mutations.jsonl")
         lines = map(json.loads, self.file.read_text().splitlines()) if self.file.exists() else []
         self.known = {(row["site"], row["by"]): row["found"] for row in lines if row["commit"] == commit}
 
