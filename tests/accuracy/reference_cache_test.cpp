@@ -162,6 +162,19 @@ TEST_F(ReferenceCache, DamagedSumsAreReportedAndBegunAgain) {
 }
 
 // A right checksum says that bytes are as they were written, not who wrote them.
+// Each of what they must have in common alone.
+TEST(SumsOfShards, AreMergedOnlyWhereTheyAreOfOneReference) {
+    const PixelSums sums(2, 3, 1, 1.0, 1.0);
+    PixelSums alike(2, 3, 1, 1.0, 1.0);
+    EXPECT_NO_THROW(alike.merge(sums));
+    for (const PixelSums& other :
+         {PixelSums(3, 3, 1, 1.0, 1.0), PixelSums(2, 4, 1, 1.0, 1.0), PixelSums(2, 3, 2, 1.0, 1.0),
+          PixelSums(2, 3, 1, 1e6, 1.0), PixelSums(2, 3, 1, 1.0, 1e6)}) {
+        PixelSums into = sums;
+        EXPECT_THROW(into.merge(other), ConfigError);
+    }
+}
+
 TEST(SumsInAFile, ThatNoRunMakesAreRefused) {
     PixelSums sums(2, 1, 1, 1.0, 1.0);
     BatchResult batch;

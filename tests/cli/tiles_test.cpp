@@ -37,6 +37,9 @@ TEST_F(TilesOfTheScreen, GiveTheFilesOfTheWholePicture) {
     const Outcome merged = run({"tiles", "t"});
     ASSERT_EQ(merged.exitCode, 0) << merged.err;
     EXPECT_NE(merged.out.find("no further round"), std::string::npos) << merged.out;
+    for (const char* tile : {"\ntile 1: ", "\ntile 2: ", "\ntile 3: "})
+        EXPECT_NE(merged.out.find(tile), std::string::npos) << merged.out;
+    EXPECT_EQ(merged.out.find("\ntile 4: "), std::string::npos) << merged.out;
     const Outcome picture = water({"--tiles", "t", "--out", "tiled"});
     ASSERT_EQ(picture.exitCode, 0) << picture.err;
     for (const char* file : {"/caustic", "/beauty"}) {
