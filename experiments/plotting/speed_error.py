@@ -149,15 +149,18 @@ def draw(scene: str, by: dict[str, list[tuple[float, float]]], file: pathlib.Pat
         if name == "light tracer":
             axes.plot(*zip(*curve), color="black", linestyle=":", label=name)
             continue
-        color = COLORS[names.index(base) % len(COLORS)]
+        index = names.index(base)
+        color = COLORS[index % len(COLORS)]
+        # Where colours come again their markers do not.
+        marker = MARKERS[(index + 3 * (index // len(COLORS))) % len(MARKERS)]
         published = name != base
-        axes.plot(*zip(*curve), color=color, marker=MARKERS[names.index(base) % len(MARKERS)], markersize=4,
-                  linewidth=0.8, linestyle="--" if published else "-", fillstyle="none" if published else "full",
-                  label=None if published else base)
+        axes.plot(*zip(*curve), color=color, marker=marker, markersize=4, linewidth=0.8,
+                  linestyle="--" if published else "-", fillstyle="none" if published else "full", label=None if published else base)
     front = pareto_front([point for name, curve in by.items() if name != "light tracer" for point in curve])
     axes.plot(*zip(*sorted(front)), color="#999999", linewidth=4, alpha=0.35, zorder=0)
-    axes.set(xscale="log", yscale="log", title=scene, xlabel="passes of the caustic, ms",
-             ylabel="relMSE, net of the reference's noise")
+    times, errors = zip(*(point for name, curve in by.items() if name != "light tracer" for point in curve))
+    axes.set(xscale="log", yscale="log", xlim=(min(times) / 2, max(times) * 2), ylim=(min(errors) / 2, max(errors) * 2),
+             title=scene, xlabel="passes of the caustic, ms", ylabel="relMSE, net of the reference's noise")
     axes.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.0, 0.5),
                 title="filled: default\nhollow: as published", title_fontsize=7)
     figure.savefig(file, bbox_inches="tight", metadata={"Date": None})
