@@ -166,7 +166,7 @@ def time_per_pass(study: Study) -> Figure | None:
     if not passes:
         return None
     shown = evenly(study.configurations, MAX_BARS)
-    # Of its frame, so that the passes of a quick configuration are told apart beside a slow one.
+    # Of its frame, so that the passes of a quick configuration are told apart next to a slow one.
     whole = [sum(c.mean(p) or 0.0 for p in passes) or 1.0 for c in shown]
     largest = {p: max((c.mean(p) or 0.0) / frame for c, frame in zip(shown, whole)) for p in passes}
     kept = sorted(passes, key=lambda p: -largest[p])[: 2 * len(COLORS)]

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The tables and numbers of the pages in results/, from the CSVs beside them.
+"""The tables and numbers of the pages in results/, from the CSVs there.
 
     pages.py [--check] [--results results] [PAGE...]
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Pictures of the runs: read, brought to the exposure of their reference, and set beside it."""
+"""Pictures of the runs: read, brought to the exposure of their reference, and compared with it."""
 
 import base64
 import io

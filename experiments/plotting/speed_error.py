@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Speed against error over all techniques and scenes, beside a light tracer on the same processor.
+"""Speed against error over all techniques and scenes, against a light tracer on the same processor.
 
     speed_error.py [--results results/all_techniques]
 
@@ -58,6 +58,9 @@ class LightTracer:
         rows = sorted(rows, key=lambda row: float(row["photons"]))
         few, many = rows[0], rows[-1]
         photons = float(many["photons"])
+        if photons == float(few["photons"]):
+            sys.exit(f"speed_error: the light tracer has run with {photons:.0f} photons alone on '{many['scene']}', which does "
+                     "not say what one costs; light_tracer.py --photons takes several")
         self.error_times_photons = net(many) * photons
         self.ms_a_photon = 1e3 * (float(many["seconds"]) - float(few["seconds"])) / (photons - float(few["photons"]))
 

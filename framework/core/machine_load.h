@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How busy a machine is with other work, beside which something is timed.
+// How busy a machine is with other work while something is timed.
 #pragma once
 
 #include <chrono>

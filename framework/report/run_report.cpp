@@ -241,7 +241,7 @@ void reflect(F& f, const ReportTable& report) {
     f.field("warmup", report.warmup, "Frames before them");
     f.choice("timer", report.timer == gl::TimerMode::timestamps ? "gpu" : "finish",
              {"gpu", "finish"}, "By the device's timestamps, or with it finished around each pass");
-    f.field("timing", report.timing, "When it was timed, and beside what");
+    f.field("timing", report.timing, "When it was timed, and what else the machine did");
     f.field("frame_ms", report.frameMilliseconds, "Of whole frames");
     f.field("bookkeeping_ms", report.bookkeepingMilliseconds,
             "Of a frame's work beside its passes");

@@ -19,17 +19,11 @@ import unittest
 from jsonschema import Draft202012Validator
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(SOURCE / "experiments/plotting"))
+from rebuild import toml  # noqa: E402
 KAUSTIK = pathlib.Path(sys.argv.pop(1)).resolve()
 
 NO_KEY = "zzzzzz"
-
-
-def toml(value):
-    if isinstance(value, dict):
-        return "{" + ", ".join(f"{json.dumps(k)} = {toml(v)}" for k, v in value.items()) + "}"
-    if isinstance(value, list):
-        return "[" + ", ".join(map(toml, value)) + "]"
-    return json.dumps(value)
 
 
 def document(table):

@@ -12,7 +12,7 @@ Fifteen at once, all quick tests are run. Those that fail are run for each chang
 a change fails alone it fails in company too. With those that are left the slow tests are run in the same way.
 Where these find nothing either nobody sees the change, or it changes nothing.
 
-It works in a clone, `tree`, at `commit`, with a build of its own. What is known stands in mutations.jsonl beside
+It works in a clone, `tree`, at `commit`, with a build of its own. What is known stands in mutations.jsonl next to
 this file, by commit, and is not tried again: it can be interrupted, and goes on elsewhere. Prints the commit, a
 table and a ratio.
 """

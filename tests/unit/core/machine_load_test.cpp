@@ -28,15 +28,16 @@ TEST(MachineLoad, IsUnknownOfAMomentAndWithoutBothEnds) {
 // What this process does is no other's.
 TEST(MachineLoad, CountsThisProcessAsItsOwn) {
     const auto begin = processorTimes();
-    if (!begin) GTEST_SKIP() << "no /proc/stat";
+    ASSERT_TRUE(begin);
     volatile double sum = 0.0;
     while (std::chrono::steady_clock::now() - begin->when < std::chrono::milliseconds(300))
         sum = sum + 1.0;
     const auto end = processorTimes();
     ASSERT_TRUE(end);
-    EXPECT_GT(end->ownSeconds, begin->ownSeconds);
-    EXPECT_GE(end->machineSeconds, begin->machineSeconds);
-    EXPECT_GE(otherProcessors(begin, end).value(), 0.0);
+    const double own = end->ownSeconds - begin->ownSeconds;
+    EXPECT_GT(own, 0.0);
+    // All processors together had at least that; theirs is counted in hundredths of a second.
+    EXPECT_GT(end->machineSeconds - begin->machineSeconds, own - 0.05);
 }
 
 }  // namespace
