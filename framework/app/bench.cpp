@@ -4,11 +4,14 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <set>
+#include <thread>
 
 #include "framework/app/commands.h"
 #include "framework/core/error.h"
 #include "framework/core/files.h"
 #include "framework/core/json_text.h"
+#include "framework/core/machine.h"
 #include "framework/experiment/bench.h"
 #include "framework/report/statistics.h"
 #include "framework/run/output.h"
@@ -62,13 +65,16 @@ void save(const BenchOptions& options, const Registry& registry) {
     if (options.rounds < 2)
         throw ConfigError("--rounds: fewer than 2 do not say how much times scatter.");
     run::checkSeries({options.frames, 1}, {"--frames", "", ""});
-    const std::vector<std::string>& scenes =
+    const std::vector<std::string>& given =
         options.scenes.empty() ? kDefaultScenes : options.scenes;
+    const std::set<std::string> scenes(given.begin(), given.end());  // each once
     const std::unique_ptr<gl::Context> context = gl::Context::createHeadless(false);
     run::catchInterrupts();
     Bench bench;
     bench.version = versionString();
-    bench.device = context->info().renderer;
+    // On a software rasteriser the processor is the device.
+    bench.device = fmt::format("{}, {}, {} threads", context->info().renderer, processorName(),
+                               std::thread::hardware_concurrency());
     bench.settings = settingsText(options);
     run::Progress progress("round", options.rounds * static_cast<int>(scenes.size()));
     int done = 0;

@@ -3,12 +3,12 @@
 #include "framework/report/run_report.h"
 
 #include <algorithm>
-#include <fstream>
 #include <map>
 #include <thread>
 
 #include "framework/core/files.h"
 #include "framework/core/json_schema.h"
+#include "framework/core/machine.h"
 #include "framework/report/limits.h"
 #include "framework/report/map_account.h"
 #include "framework/report/statistics.h"
@@ -258,14 +258,6 @@ void reflect(F& f, const ReportTable& report) {
 }
 
 namespace {
-
-std::string processorName() {
-    std::ifstream file("/proc/cpuinfo");
-    for (std::string line; std::getline(file, line);) {
-        if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
-    }
-    return "unknown";
-}
 
 std::vector<PassTable> passTables(const RunRecord& record) {
     const std::vector<PassTimes> times = timesByPass(record);

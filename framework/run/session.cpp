@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "framework/core/error.h"
-#include "framework/core/machine_load.h"
+#include "framework/core/machine.h"
 #include "framework/run/output.h"
 #include "framework/scene/shapes/height_field.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "framework/core/machine_load.h"
+#include "framework/core/machine.h"
 
 #include <time.h>
 #include <unistd.h>
@@ -9,6 +9,14 @@
 #include <string>
 
 namespace kaustik {
+
+std::string processorName() {
+    std::ifstream file("/proc/cpuinfo");
+    for (std::string line; std::getline(file, line);) {
+        if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
+    }
+    return "unknown";
+}
 
 std::optional<ProcessorTimes> processorTimes() {
     std::ifstream file("/proc/stat");

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: MIT
-// How busy a machine is with other work while something is timed.
+// The machine that something is timed on: its processor, and how busy other work keeps it
+// meanwhile.
 #pragma once
 
 #include <chrono>
 #include <optional>
+#include <string>
 
 namespace kaustik {
+
+// The model; "unknown" where the system does not tell.
+[[nodiscard]] std::string processorName();
 
 // Seconds of processor time since the machine and this process have begun.
 struct ProcessorTimes {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "framework/core/machine_load.h"
+#include "framework/core/machine.h"
 
 #include <gtest/gtest.h>
 
