@@ -27,6 +27,9 @@ from figures import COLORS, MARKERS, pareto_front, plt
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 ERRORS = [1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4]
+# What a user would pick instead: no techniques of ours, and no part of the front that is drawn.
+LIGHT_TRACER, PHOTON_MAPPING = "light tracer", "progressive photon mapping"
+BASELINES = {LIGHT_TRACER: ":", PHOTON_MAPPING: "-."}
 TIMES_MS = [50, 100, 200, 500, 1000, 2000]
 
 
@@ -93,16 +96,20 @@ def least(points: list[tuple[float, float]], at: float) -> float | None:
     return min(found, default=None)
 
 
-def curves(runs: list[dict], tracers: dict[str, LightTracer]) -> dict[str, dict[str, list[tuple[float, float]]]]:
-    """Points (ms, net relMSE) by scene and technique, sorted by time."""
+def curves(runs: list[dict], baselines: list[dict]) -> dict[str, dict[str, list[tuple[float, float]]]]:
+    """Points (ms, net relMSE) by scene and technique, sorted by time; of the baselines too."""
     of: dict = defaultdict(lambda: defaultdict(list))
     for row in runs:
         error, ms = net(row), number(row, "ms")
         if row["status"] == "done" and error and error > 0.0 and ms:
             of[row["scene"]][name_of(row)].append((ms, error))
-    for scene, tracer in tracers.items():
+    for scene, tracer in light_tracers(baselines).items():
         if scene in of:
-            of[scene]["light tracer"] = [(ms, tracer.error(ms)) for ms in (0.1, 1, 10, 100, 1000, 10000)]
+            of[scene][LIGHT_TRACER] = [(ms, tracer.error(ms)) for ms in (0.1, 1, 10, 100, 1000, 10000)]
+    for row in baselines:
+        error = net(row)
+        if row["estimator"] == "sppm" and row["scene"] in of and error and error > 0.0:
+            of[row["scene"]][PHOTON_MAPPING].append((1e3 * float(row["seconds"]), error))
     return {scene: {name: sorted(points) for name, points in by.items()} for scene, by in of.items()}
 
 
@@ -146,11 +153,11 @@ def ranked(of_scenes: dict, ats: list[float], by_error: bool) -> list[list]:
 
 def draw(scene: str, by: dict[str, list[tuple[float, float]]], file: pathlib.Path) -> None:
     figure, axes = plt.subplots(figsize=(6.4, 4.2))
-    names = sorted({name.removesuffix(", as published") for name in by} - {"light tracer"})
+    names = sorted({name.removesuffix(", as published") for name in by} - set(BASELINES))
     for name, curve in sorted(by.items()):
         base = name.removesuffix(", as published")
-        if name == "light tracer":
-            axes.plot(*zip(*curve), color="black", linestyle=":", label=name)
+        if name in BASELINES:
+            axes.plot(*zip(*curve), color="black", linestyle=BASELINES[name], label=name)
             continue
         index = names.index(base)
         color = COLORS[index % len(COLORS)]
@@ -159,9 +166,10 @@ def draw(scene: str, by: dict[str, list[tuple[float, float]]], file: pathlib.Pat
         published = name != base
         axes.plot(*zip(*curve), color=color, marker=marker, markersize=4, linewidth=0.8,
                   linestyle="--" if published else "-", fillstyle="none" if published else "full", label=None if published else base)
-    front = pareto_front([point for name, curve in by.items() if name != "light tracer" for point in curve])
+    own = [point for name, curve in by.items() if name not in BASELINES for point in curve]
+    front = pareto_front(own)
     axes.plot(*zip(*sorted(front)), color="#999999", linewidth=4, alpha=0.35, zorder=0)
-    times, errors = zip(*(point for name, curve in by.items() if name != "light tracer" for point in curve))
+    times, errors = zip(*own)
     axes.set(xscale="log", yscale="log", xlim=(min(times) / 2, max(times) * 2), ylim=(min(errors) / 2, max(errors) * 2),
              title=scene, xlabel="passes of the caustic, ms", ylabel="relMSE, net of the reference's noise")
     axes.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.0, 0.5),
@@ -176,12 +184,12 @@ def main() -> int:
     arguments = parser.parse_args()
     folder = arguments.results
     runs = rows_of(folder / "runs.csv")
-    tracers = light_tracers(rows_of(folder / "light_tracer.csv"))
-    of_scenes = curves(runs, tracers)
+    baselines = rows_of(folder / "light_tracer.csv")
+    of_scenes = curves(runs, baselines)
     write(folder / "equal_error.csv",
           ["scene", "technique", "as_published", "emit.photons", "refine.finest", "status", "ms", "relMSE, net",
            "light tracer's photons", "light tracer's ms", "factor", "at_least", "device", "version"],
-          equal_error(runs, tracers))
+          equal_error(runs, light_tracers(baselines)))
     names = ["first", "value", "second", "times"]
     write(folder / "to_error.csv", ["scene", "relMSE", "status", *names], ranked(of_scenes, ERRORS, by_error=True))
     write(folder / "in_time.csv", ["scene", "ms", "status", *names], ranked(of_scenes, TIMES_MS, by_error=False))

@@ -68,6 +68,13 @@ class SpeedError(unittest.TestCase):
         self.assertAlmostEqual(float(rows[50.0]["value"]), 0.01, places=5)
         self.assertEqual(rows[1000.0]["first"], "b")
 
+    def test_of_photon_mapping_are_its_own_runs(self):
+        done = subprocess.run([sys.executable, "-B", "-c", "import sys; sys.path.insert(0, sys.argv[1]);"
+                               "from speed_error import *; f = pathlib.Path(sys.argv[2]);"
+                               "of = curves(rows_of(f / 'runs.csv'), rows_of(f / 'light_tracer.csv'))['ring'];"
+                               "print(of[PHOTON_MAPPING])", PROGRAM.parent, self.folder], capture_output=True, text=True, check=True)
+        self.assertEqual(done.stdout.strip(), f"[(9000.0, {0.5 - NOISE})]")
+
     def test_draws_each_scene_that_has_a_caustic(self):
         self.assertTrue((self.folder / "ring.svg").is_file())
         self.assertFalse((self.folder / "tree.svg").exists())
