@@ -104,4 +104,27 @@ std::vector<FrameTime> PassTimer::takeFinished(bool wait) {
     return std::exchange(finished_, {});
 }
 
+double measuringMilliseconds(TimerMode mode) {
+    constexpr std::size_t kPasses = 32;
+    constexpr std::size_t kFrames = 6;
+    PassTimer timer(mode);
+    std::vector<double> each;
+    for (std::size_t frame = 0; frame < kFrames; ++frame) {
+        glFinish();
+        const auto begin = std::chrono::steady_clock::now();
+        timer.beginFrame(kPasses);
+        for (std::size_t pass = 0; pass < kPasses; ++pass) {
+            timer.beginPass(pass);
+            timer.endPass(pass);
+        }
+        timer.endFrame();
+        glFinish();
+        each.push_back(milliseconds(std::chrono::steady_clock::now() - begin) / kPasses);
+        static_cast<void>(timer.takeFinished(true));
+    }
+    // Of the first one the queries are made.
+    std::sort(each.begin() + 1, each.end());
+    return each[1 + (kFrames - 1) / 2];
+}
+
 }  // namespace kaustik::gl

@@ -65,4 +65,8 @@ class PassTimer {
     std::vector<FrameTime> finished_;
 };
 
+// What timing a pass that does nothing takes, ms, with the frame's two waits shared out: the least
+// that measuring adds to each pass. The median of a few frames; waits for the device.
+[[nodiscard]] double measuringMilliseconds(TimerMode mode);
+
 }  // namespace kaustik::gl

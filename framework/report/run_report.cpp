@@ -222,6 +222,10 @@ void reflect(F& f, const Timing& timing) {
     f.field("date", timing.date, "When the timed frames began, UTC");
     f.field("other_processors", timing.otherProcessors,
             "That other work kept busy meanwhile, on average; on an idle machine about 0");
+    f.field("dropped_frames", timing.droppedFrames,
+            "Rendered, but their times were lost before they could be read");
+    f.field("measuring_ms", timing.measuringMilliseconds,
+            "That timing its passes adds to a frame, at least");
 }
 template <class F>
 void reflect(F& f, const ReportTable& report) {

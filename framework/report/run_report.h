@@ -20,6 +20,9 @@ namespace kaustik::report {
 struct Timing {
     std::string date;                       // when they began, UTC: 2026-11-25T18:40:00Z
     std::optional<double> otherProcessors;  // that other work kept busy, on average
+    // That were rendered but whose times the device did not give in time: not among the samples.
+    std::size_t droppedFrames = 0;
+    double measuringMilliseconds = 0.0;  // of a frame: its passes by gl::measuringMilliseconds
 };
 
 // Everything but the times and the ledger is read from the renderer.

@@ -90,6 +90,7 @@ void Session::forgetTimes() {
 void Session::setPrecise(bool isPrecise) {
     if (std::exchange(options_.isPrecise, isPrecise) == isPrecise) return;
     timer_ = gl::PassTimer(timerMode(isPrecise));
+    measuringMilliseconds_.reset();
     record_.timer = timer_.mode();
     record_.frames.clear();
 }
@@ -218,6 +219,7 @@ RenderedSeries Session::render(const FrameSeries& series, const SeriesWatch& wat
     const int total = series.warmup + series.frames;
     record_.timeStepSeconds = series.timeStepSeconds;
     static_cast<void>(timer_.takeFinished(true));  // of a series that an error has ended
+    const std::size_t droppedBefore = timer_.droppedFrames();
     std::optional<ProcessorTimes> processors;
     std::string date;
     for (int frame = 0; frame < total; ++frame) {
@@ -241,7 +243,7 @@ RenderedSeries Session::render(const FrameSeries& series, const SeriesWatch& wat
         if (watch.onFrame) watch.onFrame(frame + 1);
     }
     collect(true);
-    if (!date.empty()) record_.timing = {date, otherProcessors(processors, processorTimes())};
+    const std::optional<double> otherWork = otherProcessors(processors, processorTimes());
     const auto warm = std::min(rendered.times.size(), static_cast<std::size_t>(series.warmup));
     rendered.times.erase(rendered.times.begin(),
                          rendered.times.begin() + static_cast<std::ptrdiff_t>(warm));
@@ -250,7 +252,22 @@ RenderedSeries Session::render(const FrameSeries& series, const SeriesWatch& wat
     all.insert(all.end(), rendered.times.begin(), rendered.times.end());
     if (all.size() > options_.framesKept)
         all.erase(all.begin(), all.end() - static_cast<std::ptrdiff_t>(options_.framesKept));
+    if (!date.empty()) {
+        record_.timing = {date, otherWork, timer_.droppedFrames() - droppedBefore,
+                          measuringMilliseconds()};
+    }
     return rendered;
+}
+
+// Of a frame with as many runs of passes as the last one that was timed.
+double Session::measuringMilliseconds() {
+    if (record_.frames.empty()) return 0.0;
+    if (!measuringMilliseconds_)
+        measuringMilliseconds_ = gl::measuringMilliseconds(timer_.mode());
+    int runs = 0;
+    for (const gl::PassTime& pass : record_.frames.back().passes)
+        runs += pass.runs;
+    return runs * *measuringMilliseconds_;
 }
 
 bool Session::renderAgain(const ShouldContinue& shouldContinue) {

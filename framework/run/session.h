@@ -151,6 +151,7 @@ class Session {
     void restartRecord();
     bool renderBuilt(gl::PassTimer& timer, const ShouldContinue& shouldContinue);
     bool renderUntimed(const ShouldContinue& shouldContinue);
+    [[nodiscard]] double measuringMilliseconds();
 
     gl::Context& context_;
     scene::Scene& scene_;
@@ -165,6 +166,7 @@ class Session {
     bool forgetsTimes_ = false;  // with the next update
     bool isBuilt_ = false;       // for pictures and what is kept
     bool hasFrame_ = false;
+    std::optional<double> measuringMilliseconds_;  // of a pass
 };
 
 }  // namespace kaustik::run

@@ -51,7 +51,10 @@ TEST_F(Report, HasTheKeysOfTheSchema) {
                     "layers", "limits", "as_published", "violations", "timing"}));
     Keys timing = keysOf(report.at("timing"));
     timing.erase("other_processors");  // of moments it is not known
-    EXPECT_EQ(timing, Keys{"date"});
+    EXPECT_EQ(timing, (Keys{"date", "dropped_frames", "measuring_ms"}));
+    EXPECT_EQ(report.at("timing").at("dropped_frames"), 0);
+    EXPECT_GT(report.at("timing").at("measuring_ms").get<double>(), 0.0);
+    EXPECT_LT(report.at("timing").at("measuring_ms"), report.at("frame_ms").at("median"));
     EXPECT_EQ(keysOf(report.at("device")),
               (Keys{"renderer", "vendor", "gl", "platform", "uuid", "gl_debug", "cpu", "threads"}));
     EXPECT_EQ(keysOf(report.at("scene")), (Keys{"name", "triangles", "needs"}));

@@ -195,5 +195,13 @@ TEST(PassTimer, TimestampsGiveEveryFrameOnceAndInOrder) {
     }
 }
 
+TEST(PassTimer, MeasuringTakesTimeInBothModes) {
+    for (const gl::TimerMode mode : {gl::TimerMode::timestamps, gl::TimerMode::finish}) {
+        const double each = gl::measuringMilliseconds(mode);
+        EXPECT_GT(each, 0.0);
+        EXPECT_LT(each, 1000.0);
+    }
+}
+
 }  // namespace
 }  // namespace kaustik::test
