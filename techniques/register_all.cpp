@@ -40,6 +40,7 @@ void registerStages(Registry& registry) {
     registry.stage<ViewStage>();
     registry.stage<ComposeStage>();
 
+    registry.sharedParams<EyeStage, EyeParams>();
     registry.sharedParams<LayersStage, LayersParams>();
     registry.sharedParams<EmitStage, EmitParams>();
     registry.sharedParams<RefineStage, RefineParams>();

@@ -4,10 +4,11 @@
 
     rebuild.py [--kaustik build/release/bin/kaustik] [--out results/runs/experiments] [--shard K/N] [STUDY...]
     rebuild.py --list
+    rebuild.py --stale [--out results/runs/experiments] [STUDY...]
     rebuild.py --quick [--out DIR] [STUDY...]
 
-Each study is run into OUT/STUDY, where what is finished stays (`--resume`), its CSV is written to results/, and then all pages are filled
-from the CSVs (pages.py). A study of which runs have failed keeps them as rows with their message. With --shard
+Each study is run into OUT/STUDY, where what is finished stays as long as the sources are the same that it was made by (sources.py), its CSV
+is written to results/, and then all pages are filled from the CSVs (pages.py). --stale says how many runs are to be made anew. A study of which runs have failed keeps them as rows with their message. With --shard
 only the K-th of N equal parts is run and nothing is written to results/; when all are done, run without.
 --quick runs the first of each study's runs with few photons and pixels, makes its CSV in DIR, and checks the pages: whether the commands
 of results/ still work, in minutes. Ends with 1 where something does not.
@@ -16,10 +17,13 @@ of results/ still work, in minutes. Ends with 1 where something does not.
 import argparse
 import json
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
 import tomllib
+
+from sources import Tree
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PLOTTING = ROOT / "experiments/plotting"
@@ -53,8 +57,11 @@ RUNS = {
     **{f"wyman_nichols2009_{name}": f"wyman_nichols2009/{name}.csv"
        for name in ("batches", "buffers", "cascades", "deferred", "error", "god_rays", "photons", "starts", "times")},
 }
-STUDIES = {**TABLE, **RUNS}
+# Made of the pictures too, by a program of its own.
+PARTS = {"error_parts": "error_parts/parts.csv"}
+STUDIES = {**TABLE, **PARTS, **RUNS}
 
+SOURCES = "sources.json"  # in a study's folder of results: the key of each run's sources
 SMALL = {"size": "64x48", "frames": 1, "warmup": 0, "reference_photons": 65536, "emit.photons": "32x32",
          "refine.finest": 64, "refine.start": 16, "refine.check": 32, "reconstruct.map_size": 128, "around.cubes.size": 64}
 
@@ -98,10 +105,44 @@ def small(study: pathlib.Path) -> str:
     return "\n".join([*lines, *(f"{json.dumps(key)} = {toml(value)}" for key, value in run.items())]) + "\n"
 
 
+def reports_of(results: pathlib.Path) -> dict[str, pathlib.Path]:
+    return {report.parent.name: report for report in results.glob("*/report.json")}
+
+
+def stale(results: pathlib.Path, tree: Tree) -> list[pathlib.Path]:
+    """The folders of runs that were made by other sources than the tree's now. Of a run without a key nothing is known: it stays."""
+    if not (results / SOURCES).is_file():
+        return []
+    keys = json.loads((results / SOURCES).read_text())
+    return [report.parent for name, report in reports_of(results).items()
+            if name in keys and keys[name] != tree.key_of(json.loads(report.read_text()))]
+
+
+def note_sources(results: pathlib.Path, tree: Tree) -> None:
+    file = results / SOURCES
+    known = json.loads(file.read_text()) if file.is_file() else {}
+    keys = {name: known.get(name) or tree.key_of(json.loads(report.read_text())) for name, report in reports_of(results).items()}
+    file.write_text(json.dumps(keys, indent=0, sort_keys=True) + "\n")
+
+
+def forget_stale(results: pathlib.Path, tree: Tree) -> None:
+    folders = stale(results, tree)
+    if not folders:
+        return
+    keys = json.loads((results / SOURCES).read_text())
+    for folder in folders:
+        shutil.rmtree(folder)
+        del keys[folder.name]
+    (results / SOURCES).write_text(json.dumps(keys, indent=0, sort_keys=True) + "\n")
+    print(f"{results.name}: {len(folders)} runs of other sources are made anew", flush=True)
+
+
 def csv_of(results: pathlib.Path, study: str, target: pathlib.Path) -> None:
     target.parent.mkdir(parents=True, exist_ok=True)
     if study in TABLE:
         call(sys.executable, "-B", PLOTTING / "table.py", results, "--csv", target)
+    elif study in PARTS:
+        call(sys.executable, "-B", PLOTTING / "error_parts.py", results, "--out", target.parent)
     else:
         target.write_bytes((results / "runs.csv").read_bytes())
 
@@ -134,13 +175,16 @@ def compare_with_light_tracer(kaustik: pathlib.Path) -> None:
 
 
 def rebuild(kaustik: pathlib.Path, out: pathlib.Path, shard: str | None, studies: list[str]) -> list[str]:
-    failures = []
+    failures, tree = [], Tree()
     for study in studies:
         part = ["--shard", shard] if shard else []
+        forget_stale(out / study, tree)
         try:
             call(kaustik, "experiment", "run", f"experiments/{study}.toml", "--resume", "--out", out / study, *part)
         except Failure as failure:
             failures.append(f"{study}: {failure}")  # whose rows say why; the others count
+        if (out / study).is_dir():
+            note_sources(out / study, tree)
         if shard or not (out / study / "runs.csv").is_file():
             continue
         try:
@@ -164,6 +208,7 @@ def main() -> int:
     parser.add_argument("--out", type=pathlib.Path)
     parser.add_argument("--shard")
     parser.add_argument("--list", action="store_true")
+    parser.add_argument("--stale", action="store_true")
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("studies", nargs="*", metavar="STUDY")
     arguments = parser.parse_args()
@@ -174,6 +219,12 @@ def main() -> int:
         print("\n".join(f"{study:32} results/{STUDIES[study]}" for study in studies))
         return 0
     kaustik = arguments.kaustik.resolve()
+    if arguments.stale:
+        tree, out = Tree(), (arguments.out or ROOT / "results/runs/experiments").resolve()
+        for study in studies:
+            if reports := reports_of(out / study):
+                print(f"{study:32} {len(stale(out / study, tree))} of {len(reports)} runs")
+        return 0
     if arguments.quick:
         with tempfile.TemporaryDirectory() as folder:
             out = arguments.out.resolve() if arguments.out else pathlib.Path(folder)

@@ -13,6 +13,9 @@ Reads runs.csv (all_techniques.toml, by table.py --csv) and light_tracer.csv (li
 - to_error.csv: for each scene and error, the technique that is there first, its ms, interpolated between its runs in the logarithms of
   both, the second and by how much it is later.
 - in_time.csv: the same the other way round: the least error within a time.
+- costs.csv: what a photon costs each technique, and what all of them together do: the median over scenes of the slope between its runs with the
+  fewest and the most photons, of time and memory, and of what is left at none; and the light that it does not form, on the scene where
+  that is most.
 - SCENE.svg: error against time, the Pareto front drawn through.
 """
 
@@ -20,6 +23,7 @@ import argparse
 import csv
 import math
 import pathlib
+import statistics
 import sys
 from collections import defaultdict
 
@@ -135,6 +139,34 @@ def equal_error(runs: list[dict], tracers: dict[str, LightTracer]) -> list[list]
     return table
 
 
+def costs(runs: list[dict]) -> list[list]:
+    by = defaultdict(lambda: defaultdict(list))
+    for row in runs:
+        if row["status"] == "done" and number(row, "emitted") and number(row, "ms"):
+            by[row["technique"], row["as_published"]][row["scene"]].append(row)
+    table = []
+    for (technique, published), scenes in sorted(by.items()):
+        slopes = defaultdict(list)
+        for rows in scenes.values():
+            few, many = (choose(rows, key=lambda row: number(row, "emitted")) for choose in (min, max))
+            photons, more = (number(row, "emitted") for row in (few, many))
+            if more < 1.5 * photons:
+                continue
+            for key, unit in (("ms", 1e6), ("peak MiB", 2.0**20)):
+                low, high = number(few, key), number(many, key)
+                if low is None or high is None:
+                    continue
+                slope = (high - low) / (more - photons)
+                slopes[key].append(slope * unit)
+                slopes[key, "at none"].append(low - slope * photons)
+        lost = max(((number(row, "not formed, %"), number(row, "not formed, W"), row["scene"]) for rows in scenes.values() for row in rows
+                    if number(row, "not formed, %") is not None and number(row, "not formed, W") is not None), default=(None, None, ""))
+        middle = {key: statistics.median(values) for key, values in slopes.items()}
+        table.append([technique, published, "done", len(slopes["ms"]), *(middle.get(key) for key in (
+            "ms", ("ms", "at none"), "peak MiB", ("peak MiB", "at none"))), *lost])
+    return table
+
+
 def first_two(values: dict[str, float | None]) -> list:
     """The name with the least value, the value, the second's name, and the ratio of the two."""
     there = sorted((value, name) for name, value in values.items() if value is not None)
@@ -190,6 +222,9 @@ def main() -> int:
           ["scene", "technique", "as_published", "emit.photons", "refine.finest", "status", "ms", "relMSE, net",
            "light tracer's photons", "light tracer's ms", "factor", "at_least", "device", "version"],
           equal_error(runs, light_tracers(baselines)))
+    write(folder / "costs.csv",
+          ["technique", "as_published", "status", "scenes", "ns a photon", "ms at none", "bytes a photon", "MiB at none",
+           "most not formed, %", "most not formed, W", "on"], costs(runs))
     names = ["first", "value", "second", "times"]
     write(folder / "to_error.csv", ["scene", "relMSE", "status", *names], ranked(of_scenes, ERRORS, by_error=True))
     write(folder / "in_time.csv", ["scene", "ms", "status", *names], ranked(of_scenes, TIMES_MS, by_error=False))

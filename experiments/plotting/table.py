@@ -6,13 +6,15 @@
 
 RESULTS is a folder of `kaustik experiment run`, or one of its runs.csv. Prints Markdown; --csv writes the
 same columns, unrounded. Errors of the caustic are against all light, but those named "modelled", which are
-against the paths that the run's photons can take; "not formed" is the light of all others. "reference's own" is what its noise alone
+against the paths that the run's photons can take; "not formed" is the light of all others; "too bright" and "too dark" are the shares of
+pixels that are so, against those paths, by more than the reference's noise. "reference's own" is what its noise alone
 would give. ms: of all passes of the caustic, from emission to gather, and of those of what the eye sees through
 specular surfaces (view); their spread is that of whole frames, as a share. A run that failed has its message instead.
 """
 
 import argparse
 import csv
+import json
 import sys
 from pathlib import Path
 
@@ -24,7 +26,7 @@ VIEW = "error.view.radiance."
 
 
 # What a page says of its runs (pages.py).
-OF_THE_RUN = ("device", "version", "date", "other_processors")
+OF_THE_RUN = ("device", "version", "sources", "date", "other_processors")
 
 
 def number(row: dict, key: str) -> float | None:
@@ -46,12 +48,22 @@ def share(row: dict, key: str) -> float | None:
     return 100.0 * part / emitted if emitted and part is not None else None
 
 
+def percent(row: dict, key: str) -> float | None:
+    part = number(row, key)
+    return 100.0 * part if part is not None else None
+
+
 def not_formed(row: dict) -> float | None:
     """The light of paths that the run's photons cannot take, as a share of all light of the caustic."""
     of_all, of_modelled = number(row, ERROR + "energy_ratio"), number(row, MODELLED + "energy_ratio")
     if of_all is None:
         return None
     return 100.0 * (1.0 - of_all / of_modelled) if of_modelled else 0.0
+
+
+def watts_not_formed(row: dict) -> float | None:
+    flux, part = number(row, ERROR + "reference_flux"), not_formed(row)
+    return 0.01 * part * flux if flux is not None and part is not None else None
 
 
 def spread(row: dict) -> float | None:
@@ -80,12 +92,17 @@ MEASURED = [
     ("energy, modelled", ".3f", lambda row: number(row, MODELLED + "energy_ratio")),
     ("relMSE, reference's own", ".3g", lambda row: number(row, ERROR + "truth_noise.rel_mse")),
     ("not formed, %", ".2f", lambda row: not_formed(row)),
+    ("not formed, W", ".3g", lambda row: watts_not_formed(row)),
+    ("too bright, %", ".1f", lambda row: percent(row, "error.bias.too_bright")),
+    ("too dark, %", ".1f", lambda row: percent(row, "error.bias.too_dark")),
     ("not followed, %", ".2f", lambda row: share(row, "energy.lost_w.untraced_branch")),
     ("view relMSE", ".3g", lambda row: number(row, VIEW + "rel_mse")),
     ("view energy", ".3f", lambda row: number(row, VIEW + "energy_ratio")),
     ("view lost", ".4f", lambda row: number(row, "error.view.lost")),
     ("ms", ".0f", lambda row: sum_of_passes(row, CAUSTIC)),
     ("view ms", ".0f", lambda row: sum_of_passes(row, ("view.",))),
+    ("spread", ".3f", lambda row: spread(row)),
+    ("peak MiB", ".0f", lambda row: mebibytes(row)),
 ]
 
 
@@ -111,6 +128,10 @@ def main() -> int:
     if not rows or "message" not in rows[0] or "frame_ms.max" not in rows[0]:
         print(f"table: '{table}' has no runs of a study", file=sys.stderr)
         return 1
+    keys = table.with_name("sources.json")  # rebuild.py
+    sources = json.loads(keys.read_text()) if keys.is_file() else {}
+    for row in rows:
+        row["sources"] = sources.get(row.get("folder"), "")
     settings = settings_of(rows)
     rows.sort(key=lambda row: row.get("scene") or "")  # otherwise in the study's own order
     measured = [m for m in MEASURED if any(m[2](row) is not None for row in rows)]

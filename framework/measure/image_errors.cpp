@@ -111,7 +111,8 @@ ImageErrors measureErrors(const ImagePair& pair, const MeasureParams& params) {
         errors.flipHdr =
             pooledMean(pair, hdrFlipMap(pair, *errors.exposures, params.pixelsPerDegree));
     }
-    if (totalFlux(pair, pair.reference()) != 0.0) errors.energyRatio = energyRatio(pair);
+    errors.referenceFlux = totalFlux(pair, pair.reference()) / 3.0;
+    if (errors.referenceFlux != 0.0) errors.energyRatio = energyRatio(pair);
     errors.encircledEnergy = compareEncircledEnergy(pair, params.encircledEnergy);
     if (pair.hasStandardError())
         errors.referenceNoise = referenceNoise(pair, errors.relMseEpsilon, lit);
@@ -200,6 +201,8 @@ void reflect(F& f, const ImageErrors& errors) {
     orNull("flip_ldr", errors.flipLdr, "FLIP of the images as a display shows them");
     orNull("flip_hdr", errors.flipHdr, "The largest FLIP over exposures");
     orNull("energy_ratio", errors.energyRatio, "Flux over the reference's");
+    f.field("reference_flux", errors.referenceFlux,
+            "The reference's, mean of the channels: W where areas of pixels are known, else a sum");
     orNull("encircled_energy_radius_ratio", radiusRatio,
            "Radius that holds a share of the flux, over the reference's");
     f.field("encircled_energy_radius", radii, "These radii");

@@ -36,6 +36,7 @@ struct ImageErrors {
     std::optional<double> flipLdr;
     std::optional<double> flipHdr;
     std::optional<double> energyRatio;
+    double referenceFlux = 0.0;  // mean of the channels; W where areas are known
     std::optional<EncircledEnergyComparison> encircledEnergy;
     std::optional<ReferenceNoise> referenceNoise;  // where the pair has a standard error
 

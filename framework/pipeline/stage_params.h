@@ -8,6 +8,19 @@
 
 namespace kaustik {
 
+struct EyeParams {
+    int samples = 1;
+    template <class R>
+    void reflect(R& r) {
+        r.field(samples, "samples",
+                "Frames that a picture is the mean of, each with rays through another place in the "
+                "pixels, evenly spread over them, and, where anything is random, with a seed of "
+                "its own: all edges are anti-aliased. A frame takes as many times as long; what "
+                "the report counts is of the last, whose place is the one nearest the middle",
+                "", params::range(1, 64));
+    }
+};
+
 struct LayersParams {
     int count = 8;
     template <class R>

@@ -172,7 +172,8 @@ class Tracer {
 
     // False where the pixel's middle sees no specular surface.
     bool traceExit(int column, int row) const {
-        const std::optional<PhotonState> state = start(column + 0.5, row + 0.5);
+        const std::optional<PhotonState> state = start(column + 0.5 + request_.exitOffsetPixels.x,
+                                                       row + 0.5 - request_.exitOffsetPixels.y);
         if (!state) return false;
         PathFilter transmitted;
         transmitted.transmissionOnly = true;

@@ -14,6 +14,7 @@
 #include "framework/audit/view_audit.h"
 #include "framework/core/error.h"
 #include "framework/core/json_schema.h"
+#include "framework/measure/bias.h"
 #include "framework/measure/flicker.h"
 #include "framework/measure/heat_map.h"
 #include "framework/measure/image_errors.h"
@@ -152,6 +153,24 @@ json errorsAgainst(const Outputs& outputs, const Reference& reference) {
     return result;
 }
 
+struct BiasTable {
+    measure::Bias bias;
+    bool isOfModelledPaths = false;
+};
+template <class F>
+void reflect(F& f, const BiasTable& table) {
+    f.choice("against", table.isOfModelledPaths ? "modelled_paths" : "all_paths",
+             {"modelled_paths", "all_paths"}, "The reference's paths");
+    f.field("judged_pixels", table.bias.judgedPixels, "That the reference has reached");
+    f.field("too_bright", table.bias.tooBright, "Share of them, beyond the reference's noise");
+    f.field("too_dark", table.bias.tooDark, "Share of them, beyond the reference's noise");
+    f.field("by_chance", measure::Bias::kByChance, "What both shares are together of the truth");
+}
+
+json biasJson(const measure::ImagePair& pair, bool isOfModelledPaths) {
+    return jsonOf(BiasTable{measure::findBias(pair), isOfModelledPaths});
+}
+
 json errorsSchema() {
     const auto against = [] {
         JsonFieldsSchema fields;
@@ -179,6 +198,8 @@ json errorsSchema() {
     error.field("reference", std::string(), "auto, or a file");
     error.add("modelled_paths", modelled.take(),
               "Against the reference of the paths that the technique follows", false);
+    error.add("bias", jsonSchemaOf<BiasTable>(),
+              "Where the caustic is wrong by more than the reference's noise explains", false);
     error.add("flicker", JsonFieldsSchema::orNull(jsonSchemaOf<FlickerTable>()),
               "How much the caustic changes from frame to frame", false);
     error.add("shadow", audit::shadowSchema(), "Receivers on the wrong side of a shadow", false);

@@ -62,6 +62,9 @@ struct Moment {
                                             const reference::Reference& laterReference,
                                             std::string& reason);
 
+// How many pixels are wrong by more than the reference's noise (measure/bias.h), for the report.
+[[nodiscard]] nlohmann::json biasJson(const measure::ImagePair& pair, bool isOfModelledPaths);
+
 // Shows where the image is wrong, as heat colours.
 [[nodiscard]] Image errorPicture(const measure::ImagePair& pair);
 

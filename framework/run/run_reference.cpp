@@ -15,6 +15,7 @@
 #include "framework/audit/hit_audit.h"
 #include "framework/audit/shadow_audit.h"
 #include "framework/audit/view_audit.h"
+#include "framework/measure/bias.h"
 #include "framework/measure/image_errors.h"
 #include "framework/run/reference_work.h"
 #include "framework/scene/shapes/height_field.h"
@@ -212,6 +213,11 @@ std::vector<fs::path> RunReference::judge(const Renderer& renderer, const fs::pa
     } else {
         write("error" + displayImageExtension(),
               errorPicture(pairOf(outputs, outputs.images.front(), loaded_->whole)));
+        // What the technique does not model is no bias of what it does.
+        const Reference& own = loaded_->modelled ? *loaded_->modelled : loaded_->whole;
+        const measure::ImagePair pair = pairOf(outputs, outputs.images.front(), own);
+        record.error["bias"] = biasJson(pair, loaded_->modelled.has_value());
+        write("bias" + displayImageExtension(), measure::biasPicture(pair));
     }
     if (loaded_->flicker) {
         const Loaded::Flicker& flicker = *loaded_->flicker;
@@ -252,6 +258,7 @@ std::vector<fs::path> RunReference::judgeView(Renderer& renderer, const fs::path
     reference::ViewReferenceRequest request;
     request.width = renderer.settings().width;
     request.height = renderer.settings().height;
+    request.exitOffsetPixels = renderer.view().offsetPixels;
     const reference::ViewReference reference = traceView(loaded_->scene, request);
     json& error = record.error["view"];
     if (reference.pixels == 0) {
@@ -273,7 +280,8 @@ std::vector<fs::path> RunReference::judgeView(Renderer& renderer, const fs::path
             "the reference of the view knows no medium that fills the scene";
         return {};
     }
-    const Image radiance = readTexture(renderer.texture(seen.radiance), 0, 3);
+    // Of all samples; without a medium it is what the view gives.
+    const Image radiance = readTexture(renderer.texture(renderer.outputs().picture.radiance), 0, 3);
     try {
         const measure::ImagePair pair({.image = radiance,
                                        .reference = reference.radiance,

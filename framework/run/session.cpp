@@ -211,9 +211,14 @@ bool Session::renderUntimed(const ShouldContinue& shouldContinue) {
 RenderedSeries Session::render(const FrameSeries& series, const SeriesWatch& watch,
                                RunReference* reference) {
     RenderedSeries rendered;
+    std::vector<gl::FrameTime> samples;  // of a frame that has several
     const auto collect = [&](bool waits) {
-        for (gl::FrameTime& time : timer_.takeFinished(waits))
-            rendered.times.push_back(std::move(time));
+        for (gl::FrameTime& time : timer_.takeFinished(waits)) {
+            samples.push_back(std::move(time));
+            if (std::ssize(samples) < renderer_.samplesPerFrame()) continue;
+            rendered.times.push_back(gl::joined(samples));
+            samples.clear();
+        }
     };
     const double begin = scene_.timeSeconds;
     const int total = series.warmup + series.frames;
@@ -262,8 +267,7 @@ RenderedSeries Session::render(const FrameSeries& series, const SeriesWatch& wat
 // Of a frame with as many runs of passes as the last one that was timed.
 double Session::measuringMilliseconds() {
     if (record_.frames.empty()) return 0.0;
-    if (!measuringMilliseconds_)
-        measuringMilliseconds_ = gl::measuringMilliseconds(timer_.mode());
+    if (!measuringMilliseconds_) measuringMilliseconds_ = gl::measuringMilliseconds(timer_.mode());
     int runs = 0;
     for (const gl::PassTime& pass : record_.frames.back().passes)
         runs += pass.runs;

@@ -9,6 +9,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "framework/pipeline/frame_builder.h"
+#include "framework/pipeline/sample_mean.h"
 
 namespace kaustik {
 namespace {
@@ -169,7 +170,8 @@ Picture composePicture(FrameBuilder& frame, const PictureParams& params, Geometr
     const Radiance receivers = shadeReceivers(frame, eye, direct, light.caustic);
     const View seen =
         frame.run<ViewStage>(geometry, eye, layers, receivers, light.shadows, light.map);
-    const Radiance whole = lookThroughMedium(frame, eye, {seen.radiance}, light.inScattered);
+    const Radiance ofSample = lookThroughMedium(frame, eye, {seen.radiance}, light.inScattered);
+    const Radiance whole{meanOverSamples(frame, "samples", ofSample.radiance)};
     const float exposure =
         params.exposure > 0.0f ? params.exposure : automaticExposure(frame.scene());
     return frame.pass<Picture>(

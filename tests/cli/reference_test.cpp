@@ -178,11 +178,15 @@ TEST_F(Reference, OfARunGivesHitsAndErrors) {
         // 1,024 photons over 3,072 pixels lose what a pixel's ring around the water is short of.
         EXPECT_NEAR(caustic.at("energy_ratio").get<double>(), 1.0, 0.05);
     }
+    const json& bias = error.at("bias");
+    EXPECT_EQ(bias.at("against"), "modelled_paths");
+    EXPECT_GT(bias.at("judged_pixels").get<int>(), 100);
+    EXPECT_LE(bias.at("too_bright").get<double>() + bias.at("too_dark").get<double>(), 1.0);
     // Emitted is what the reference says; the difference to the grid is a loss by name.
     const json& energy = result.at("energy");
     EXPECT_LT(std::abs(energy.at("balance").get<double>()), 1e-4);
     EXPECT_TRUE(energy.at("lost_w").contains("emission_sampling"));
-    for (const char* file : {"out/hits.png", "out/error.png", "out/reference.exr"})
+    for (const char* file : {"out/hits.png", "out/error.png", "out/bias.png", "out/reference.exr"})
         EXPECT_EQ(readImage(folder / file).width, 64) << file;
     EXPECT_EQ(readImage(folder / "out/reference.exr").values, readImage(cached(".exr")).values);
 }

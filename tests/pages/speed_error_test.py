@@ -11,12 +11,12 @@ import unittest
 PROGRAM = pathlib.Path(__file__).resolve().parents[2] / "experiments/plotting/speed_error.py"
 
 NOISE = 0.0005
-RUNS = f"""scene,technique,as_published,emit.photons,status,ms,relMSE,"relMSE, reference's own",device,version
-ring,a,false,1x1,done,10,{0.1 + NOISE},{NOISE},d,1
-ring,a,false,2x2,done,100,{0.01 + NOISE},{NOISE},d,1
-ring,a,true,2x2,done,50,{0.01 + NOISE},{NOISE},d,1
-ring,b,false,2x2,done,1000,{0.0001 + NOISE},{NOISE},d,1
-ring,c,false,2x2,failed,,,,d,1
+RUNS = f"""scene,technique,as_published,emit.photons,status,ms,relMSE,"relMSE, reference's own",emitted,peak MiB,"not formed, %","not formed, W",device,version
+ring,a,false,1x1,done,10,{0.1 + NOISE},{NOISE},1000,2,7,0.7,d,1
+ring,a,false,2x2,done,100,{0.01 + NOISE},{NOISE},4000,5,6,0.6,d,1
+ring,a,true,2x2,done,50,{0.01 + NOISE},{NOISE},4000,5,,,d,1
+ring,b,false,2x2,done,1000,{0.0001 + NOISE},{NOISE},4000,5,,,d,1
+ring,c,false,2x2,failed,,,,,,,,d,1
 """
 LIGHT_TRACER = f"""scene,estimator,photons,seconds,relMSE,"relMSE, reference's own"
 ring,light,100000,0.3,{0.01 + NOISE},{NOISE}
@@ -74,6 +74,15 @@ class SpeedError(unittest.TestCase):
                                "of = curves(rows_of(f / 'runs.csv'), rows_of(f / 'light_tracer.csv'))['ring'];"
                                "print(of[PHOTON_MAPPING])", PROGRAM.parent, self.folder], capture_output=True, text=True, check=True)
         self.assertEqual(done.stdout.strip(), f"[(9000.0, {0.5 - NOISE})]")
+
+    def test_costs_are_slopes_between_few_and_many_photons(self):
+        rows = {(row["technique"], row["as_published"]): row for row in self.rows("costs.csv")}
+        self.assertEqual(set(rows), {("a", "false"), ("a", "true"), ("b", "false")})
+        row = rows["a", "false"]
+        self.assertEqual([float(row[key]) for key in ("ns a photon", "ms at none", "bytes a photon", "MiB at none")],
+                         [90e6 / 3000, -20.0, 1049.0, 1.0])
+        self.assertEqual((row["most not formed, %"], row["most not formed, W"], row["on"]), ("7", "0.7", "ring"))
+        self.assertEqual((rows["b", "false"]["scenes"], rows["b", "false"]["ns a photon"]), ("0", ""))
 
     def test_draws_each_scene_that_has_a_caustic(self):
         self.assertTrue((self.folder / "ring.svg").is_file())

@@ -1,0 +1,135 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Flicker against error: each technique on water that moves, 60 frames, beside ray-traced truth of every one.
+
+    PYTHONPATH=build/release/python flicker.py --out results/flicker [--scenes pool cornell-bunny god-rays] [--frames 60]
+               [--time-step 0.0333] [--size 200x150] [--photons 256x256] [--reference-photons 4194304]
+
+Writes OUT/flicker.csv and OUT/flicker.svg. With I the caustic's irradiance, R the reference, whose noise is known and taken off, both of
+frame t, and the mean over pixels, channels and frames:
+
+- relMSE: the mean of (I - R)² / (R² + epsilon), epsilon 1e-4 of the mean of R²;
+- change: the root of the mean of (I' - I)², I' that of the next frame, by that of the truth: above 1 the picture changes more than it
+  should;
+- wrong change: the root of the mean of ((I' - I) - (R' - R))², by that of (R' - R)²: what of the truth's change is missed, and what comes on
+  top of it. A picture that stands still has 1.
+
+References are kept (~/.cache/kaustik), and a row that is in OUT already is not made again: it can be interrupted. No times are taken, so that
+the machine need not be idle; on two cores without a GPU half an hour.
+"""
+
+import argparse
+import csv
+import sys
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parent / "plotting"))
+import kaustik  # noqa: E402
+from figures import COLORS, MARKERS, plt  # noqa: E402
+
+COLUMNS = ["scene", "technique", "as_published", "status", "frames", "relMSE", "change", "wrong change", "version"]
+EPSILON = 1e-4
+
+
+def numbers(text: str) -> tuple[int, int]:
+    width, height = text.split("x")
+    return int(width), int(height)
+
+
+class Truth:
+    """The reference of every frame of a scene, and its standard error: frames x height x width x 3."""
+
+    def __init__(self, scene: str, options):
+        made = [kaustik.reference(scene, size=numbers(options.size), photons=options.reference_photons,
+                                  time=frame * options.time_step, seed=frame + 1) for frame in range(options.frames)]
+        self.irradiance = np.stack([np.asarray(one.irradiance)[..., :3] for one in made]).astype(np.float64)
+        self.variance = np.stack([np.asarray(one.standard_error)[..., :3] for one in made]).astype(np.float64) ** 2
+        self.change = np.diff(self.irradiance, axis=0)
+        self.change_variance = self.variance[1:] + self.variance[:-1]
+        self.mean_change = max((self.change**2 - self.change_variance).mean(), 0.0)
+        self.epsilon = EPSILON * (self.irradiance**2).mean()
+
+    def judge(self, images: np.ndarray) -> dict:
+        weight = 1.0 / (self.irradiance**2 + self.epsilon)
+        change = np.diff(images, axis=0)
+        wrong = ((change - self.change) ** 2 - self.change_variance).mean()
+        return {"relMSE": (((images - self.irradiance) ** 2 - self.variance) * weight).mean(),
+                "change": np.sqrt((change**2).mean() / self.mean_change),
+                "wrong change": np.sqrt(max(wrong, 0.0) / self.mean_change)}
+
+
+def rendered(scene: str, technique: str, as_published: bool, options) -> np.ndarray:
+    """The caustic's irradiance of every frame, in their order: filters over time remember."""
+    with kaustik.open(scene, size=numbers(options.size), technique=technique, as_published=as_published, time=0.0) as renderer:
+        takes_grid = technique not in ("vertex_caustics", "adaptive_caustic_map")
+        if takes_grid:
+            renderer.set("emit.photons", options.photons)
+        images = []
+        for frame in range(options.frames):
+            renderer.step(time=frame * options.time_step)
+            images.append(np.array(renderer.read("caustic.irradiance"))[..., :3])
+    return np.stack(images).astype(np.float64)
+
+
+def draw(rows: list[dict], file: Path) -> None:
+    scenes = sorted({row["scene"] for row in rows})
+    techniques = sorted({row["technique"] for row in rows})
+    figure, panels = plt.subplots(1, len(scenes), figsize=(4.0 * len(scenes) + 1.5, 3.6), squeeze=False)
+    for scene, axes in zip(scenes, panels[0]):
+        for row in (row for row in rows if row["scene"] == scene and row["status"] == "done"):
+            index = techniques.index(row["technique"])
+            published = row["as_published"] == "true"
+            axes.plot(float(row["relMSE"]), float(row["wrong change"]), linestyle="", color=COLORS[index % len(COLORS)],
+                      marker=MARKERS[(index + 3 * (index // len(COLORS))) % len(MARKERS)], fillstyle="none" if published else "full",
+                      label=None if published else row["technique"])
+        axes.axhline(1.0, color="#999999", linewidth=0.8)  # a picture that stands still
+        axes.set(xscale="log", yscale="log", title=scene, xlabel="relMSE, net of the reference's noise")
+    panels[0][0].set_ylabel("wrong change, by the truth's change")
+    panels[0][-1].legend(fontsize=7, loc="center left", bbox_to_anchor=(1.0, 0.5), title="filled: default\nhollow: as published",
+                         title_fontsize=7)
+    figure.savefig(file, bbox_inches="tight", metadata={"Date": None})
+    plt.close(figure)
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--out", type=Path, required=True)
+    parser.add_argument("--scenes", nargs="+", default=["pool", "cornell-bunny", "god-rays"])
+    parser.add_argument("--techniques", nargs="+", default=[technique["name"] for technique in kaustik.techniques()])
+    parser.add_argument("--frames", type=int, default=60)
+    parser.add_argument("--time-step", type=float, default=0.0333)
+    parser.add_argument("--size", default="200x150")
+    parser.add_argument("--photons", default="256x256")
+    parser.add_argument("--reference-photons", type=int, default=1 << 22)
+    options = parser.parse_args()
+    options.out.mkdir(parents=True, exist_ok=True)
+    file = options.out / "flicker.csv"
+    rows = list(csv.DictReader(file.open(newline=""))) if file.exists() else []
+    for scene in options.scenes:
+        truth = None
+        for technique in options.techniques:
+            for published in (False, True):
+                row = {"scene": scene, "technique": technique, "as_published": str(published).lower(), "frames": options.frames,
+                       "version": kaustik.__version__}
+                if any(all(row[key] == old[key] for key in ("scene", "technique", "as_published")) for old in rows):
+                    continue
+                try:
+                    images = rendered(scene, technique, published, options)
+                    truth = truth or Truth(scene, options)
+                    row |= {"status": "done", **{key: f"{value:.4g}" for key, value in truth.judge(images).items()}}
+                except kaustik.Error as error:
+                    row["status"] = str(error)
+                rows.append(row)
+                with file.open("w", newline="", encoding="utf-8") as stream:
+                    writer = csv.DictWriter(stream, COLUMNS, lineterminator="\n", restval="")
+                    writer.writeheader()
+                    writer.writerows(rows)
+                print(*(row.get(key, "") for key in COLUMNS[:8]), flush=True)
+    draw(rows, options.out / "flicker.svg")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

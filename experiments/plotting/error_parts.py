@@ -1,0 +1,173 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Where the error of each technique comes from: noise, photons, pixels, and what stays.
+
+    error_parts.py RESULTS --out DIR
+
+RESULTS is the folder of error_parts.toml. Writes DIR/parts.csv and DIR/parts.svg. All are shares of relMSE of the caustic's
+irradiance, at the study's middle number of photons, net of the reference's own noise:
+
+- noise: the variance, pixel by pixel, between runs with nearly as many photons whose cells lie elsewhere. Another start of the grid would
+  give another picture; this is what the mean over many would lose.
+- photons: of the rest, the bias, what infinitely many photons would take away: the biases of the three counts, extrapolated (Aitken:
+  each step to four times as many changes by the same factor); where they do not fall that way, down to the most photons' alone
+  (`extrapolated` is false).
+- pixels: of the rest what is gone where the frame is rendered with twice the pixels a side and brought back to the size by its mean.
+- stays: what neither takes away: what the method leaves out or approximates.
+
+Negative parts are noise of the estimates, and stand as they are.
+"""
+
+import argparse
+import csv
+import json
+import sys
+from collections import defaultdict
+from pathlib import Path
+
+import numpy as np
+
+from figures import COLORS, plt
+from pictures import find_image, read_image
+
+FEWEST = 6  # runs: three counts of photons, two repeats of the middle one, finer pixels
+PARTS = ("noise", "photons", "pixels", "stays")
+COLUMNS = ("scene", "technique", "status", "relMSE", *PARTS, "extrapolated", "of two pixels", "version")
+
+
+class Runs:
+    """All runs of one technique on one scene, by size and photons."""
+
+    def __init__(self, results: Path, rows: list[dict]):
+        self.results = results
+        self.rows = {(row["size"], self.photons(row)): row for row in rows if row["status"] == "done"}
+
+    @staticmethod
+    def photons(row: dict) -> int:
+        return int(row["emit.photons"].split("x")[0])
+
+    def image(self, size: str, photons: int, name: str) -> np.ndarray:
+        return read_image(find_image(self.results / self.rows[size, photons]["folder"], name, (".exr", ".pfm")))
+
+    def error(self, size: str, photons: int) -> dict:
+        report = json.loads((self.results / self.rows[size, photons]["folder"] / "report.json").read_text())
+        return report["error"]["caustic_irradiance"]
+
+
+def halved(image: np.ndarray) -> np.ndarray:
+    """The mean of two by two pixels."""
+    height, width = image.shape[0] // 2, image.shape[1] // 2
+    return image.reshape(height, 2, width, 2, -1).mean(axis=(1, 3))
+
+
+def parts_of(runs: Runs) -> dict:
+    """Of relMSE, as `kaustik compare` defines it: the mean over channels and pixels of the squared difference by the squared reference
+    and an epsilon."""
+    sizes = sorted({size for size, _ in runs.rows}, key=lambda size: int(size.split("x")[0]))
+    size, fine = sizes[0], sizes[-1]
+    counts = sorted({photons for of, photons in runs.rows if of == size})
+    few, middle, many = counts[0], counts[len(counts) // 2], counts[-1]
+    repeats = counts[1:-1]
+
+    truth = runs.image(size, middle, "reference")
+    measured = runs.error(size, middle)
+    epsilon = measured["formulas"]["rel_mse"]["epsilon"]
+    weight = 1.0 / (truth.astype(np.float64) ** 2 + epsilon)
+
+    def relative(square: np.ndarray) -> float:
+        return float((square * weight).mean())
+
+    # The mean over all pixels and that over those with a receiver differ by their share alone.
+    def mse(photons: int, of: str = size) -> float:
+        image = runs.image(of, photons, "caustic")
+        return relative(((image if of == size else halved(image)) - truth) ** 2)
+
+    share = measured["rel_mse"] / max(mse(middle), 1e-300)
+    truths = (measured.get("truth_noise") or {}).get("rel_mse") or 0.0
+    near = np.stack([runs.image(size, photons, "caustic") for photons in repeats]).astype(np.float64)
+    noise = share * relative(near.var(axis=0, ddof=1))
+
+    def bias(photons: int) -> float:
+        # With fewer photons noise is more; it is known for the middle alone, and falls at least as the photons rise.
+        return share * mse(photons) - truths - noise * (middle / photons) ** 2
+
+    steps = bias(few) - bias(middle), bias(middle) - bias(many)
+    extrapolated = 0.0 < steps[1] < steps[0]
+    limit = bias(many) - (steps[1] ** 2 / (steps[0] - steps[1]) if extrapolated else 0.0)
+    limit = max(limit, 0.0) if extrapolated else limit
+    finer = bias(middle) - (share * mse(middle, fine) - truths - noise)
+    pixels = min(finer, limit) if finer > 0.0 else finer
+    return {"relMSE": share * mse(middle) - truths, "noise": noise, "photons": bias(middle) - limit, "pixels": pixels,
+            "stays": limit - pixels, "extrapolated": str(extrapolated).lower(), "of two pixels": finer}
+
+
+def tabled(results: Path) -> list[dict]:
+    with (results / "runs.csv").open(newline="") as stream:
+        rows = list(csv.DictReader(stream))
+    by = defaultdict(list)
+    for row in rows:
+        by[row["scene"], row["technique"]].append(row)
+    wanted = max(len(group) for group in by.values())
+    table = []
+    for (scene, technique), group in sorted(by.items()):
+        line = {"scene": scene, "technique": technique, "version": group[0].get("version", "")}
+        failed = next((row for row in group if row["status"] != "done"), None)
+        if failed or len(group) < wanted:
+            line["status"] = failed["message"] if failed else f"{len(group)} of {wanted} runs are there"
+        elif wanted < FEWEST:
+            line["status"] = f"{wanted} runs are too few to tell parts"
+        else:
+            runs = Runs(results, group)
+            try:
+                line |= {"status": "done", **parts_of(runs)}
+            except TypeError:
+                line["status"] = "its error has no number"
+        table.append(line)
+    return table
+
+
+def draw(table: list[dict], file: Path) -> None:
+    """A row of bars a scene, a bar a technique: its parts as shares of relMSE, which stands above it."""
+    done = [line for line in table if line["status"] == "done"]
+    scenes = sorted({line["scene"] for line in done})
+    techniques = sorted({line["technique"] for line in done})
+    figure, rows = plt.subplots(len(scenes), 1, figsize=(0.9 * len(techniques) + 2, 1.5 * len(scenes) + 1), sharex=True,
+                                squeeze=False)
+    for scene, axes in zip(scenes, rows[:, 0]):
+        for line in (line for line in done if line["scene"] == scene):
+            at, low = techniques.index(line["technique"]), 0.0
+            whole = sum(max(line[part], 0.0) for part in PARTS) or 1.0
+            for part, color in zip(PARTS, COLORS):
+                height = max(line[part], 0.0) / whole
+                axes.bar(at, height, bottom=low, color=color, label=part if at == 0 and scene == scenes[0] else None)
+                low += height
+            axes.text(at, 1.03, f"{line['relMSE']:.1e}", ha="center", fontsize=6)
+        axes.set(ylim=(0, 1.25), yticks=[0, 1])
+        axes.set_ylabel(scene, rotation=0, ha="right", va="center", fontsize=8)
+    rows[-1, 0].set_xticks(range(len(techniques)), techniques, rotation=30, ha="right", fontsize=8)
+    handles = [plt.Rectangle((0, 0), 1, 1, color=color) for color in COLORS[:len(PARTS)]]
+    figure.legend(handles, PARTS, loc="upper center", ncols=len(PARTS), fontsize=8)
+    figure.savefig(file, bbox_inches="tight", metadata={"Date": None})
+    plt.close(figure)
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("results", type=Path)
+    parser.add_argument("--out", type=Path, required=True)
+    arguments = parser.parse_args()
+    if not (arguments.results / "runs.csv").is_file():
+        sys.exit(f"error_parts: there is no '{arguments.results / 'runs.csv'}'")
+    table = tabled(arguments.results)
+    arguments.out.mkdir(parents=True, exist_ok=True)
+    with (arguments.out / "parts.csv").open("w", newline="", encoding="utf-8") as stream:
+        writer = csv.DictWriter(stream, COLUMNS, lineterminator="\n", restval="")
+        writer.writeheader()
+        writer.writerows({key: f"{value:.4g}" if isinstance(value, float) else value for key, value in line.items()} for line in table)
+    if any(line["status"] == "done" for line in table):
+        draw(table, arguments.out / "parts.svg")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

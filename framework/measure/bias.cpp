@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "framework/measure/bias.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "framework/measure/color.h"
+
+namespace kaustik::measure {
+namespace {
+
+double luminanceAt(const Image& image, std::size_t pixel) {
+    const float* const rgb = image.values.data() + 3 * pixel;
+    return luminance(static_cast<double>(rgb[0]), static_cast<double>(rgb[1]),
+                     static_cast<double>(rgb[2]));
+}
+
+std::optional<double> zOf(const ImagePair& pair, std::size_t pixel) {
+    const double sigma = luminanceAt(pair.standardError(), pixel);
+    if (!pair.counts(pixel) || !(sigma > 0.0)) return std::nullopt;
+    return (luminanceAt(pair.image(), pixel) - luminanceAt(pair.reference(), pixel)) / sigma;
+}
+
+std::array<float, 3> colorOf(std::optional<double> z) {
+    if (!z) return {0.5f, 0.5f, 0.5f};
+    const double beyond = std::abs(*z) / Bias::kSignificant;
+    if (!(beyond > 1.0)) return {0.05f, 0.05f, 0.05f};
+    const auto t = static_cast<float>(0.35 + 0.65 * std::min((beyond - 1.0) / 9.0, 1.0));
+    if (*z > 0.0) return {t, 0.62f * t, 0.0f};
+    return {0.2f * t, 0.55f * t, t};
+}
+
+}  // namespace
+
+Bias findBias(const ImagePair& pair) {
+    Bias bias;
+    std::size_t bright = 0;
+    std::size_t dark = 0;
+    for (std::size_t pixel = 0; pixel < pair.pixelCount(); ++pixel) {
+        const std::optional<double> z = zOf(pair, pixel);
+        if (!z) continue;
+        ++bias.judgedPixels;
+        bright += *z > Bias::kSignificant ? 1 : 0;
+        dark += *z < -Bias::kSignificant ? 1 : 0;
+    }
+    const double all = std::max(static_cast<double>(bias.judgedPixels), 1.0);
+    bias.tooBright = static_cast<double>(bright) / all;
+    bias.tooDark = static_cast<double>(dark) / all;
+    return bias;
+}
+
+Image biasPicture(const ImagePair& pair) {
+    Image picture(pair.width(), pair.height(), 3);
+    for (std::size_t pixel = 0; pixel < pair.pixelCount(); ++pixel) {
+        const std::array<float, 3> color = colorOf(zOf(pair, pixel));
+        std::copy(color.begin(), color.end(),
+                  picture.values.begin() + static_cast<std::ptrdiff_t>(3 * pixel));
+    }
+    return picture;
+}
+
+}  // namespace kaustik::measure

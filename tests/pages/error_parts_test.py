@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: MIT
+"""The parts of an error, of pictures of which they are known."""
+
+import csv
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+from run_folders import grey, write_run
+
+PLOTTING = pathlib.Path(__file__).resolve().parents[2] / "experiments/plotting"
+COUNTS = (128, 252, 256, 260, 512)
+
+
+class ErrorParts(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+        self.rows = []
+
+    def add(self, technique: str, of_count, fine) -> None:
+        """`of_count`: the picture by photons a side; `fine`: that with twice the pixels."""
+        runs = [("8x6", count, of_count(count)) for count in COUNTS] + [("16x12", 256, fine)]
+        for size, photons, image in runs:
+            name = f"{technique}-{size}-{photons}"
+            write_run(self.folder / name, image, grey(image.shape[1], image.shape[0], 1.0), technique)
+            self.rows.append({"folder": name, "status": "done", "message": "", "scene": "box", "technique": technique, "size": size,
+                              "emit.photons": f"{photons}x{photons}", "version": "1"})
+
+    def parts(self) -> dict:
+        with (self.folder / "runs.csv").open("w", newline="") as stream:
+            writer = csv.DictWriter(stream, self.rows[0].keys())
+            writer.writeheader()
+            writer.writerows(self.rows)
+        done = subprocess.run([sys.executable, "-B", PLOTTING / "error_parts.py", self.folder, "--out", self.folder / "out"],
+                              capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        with (self.folder / "out/parts.csv").open(newline="") as stream:
+            return {row["technique"]: row for row in csv.DictReader(stream)}
+
+    def check(self, row: dict, **parts) -> None:
+        for name in ("noise", "photons", "pixels", "stays"):
+            self.assertAlmostEqual(float(row[name]), parts.get(name, 0.0), places=6, msg=name)
+        self.assertAlmostEqual(float(row["relMSE"]), sum(parts.values()), places=6)
+
+    def test_each_part_is_told_from_the_others(self):
+        # A bias that halves with each doubling of the grid; repeats are alike.
+        falling = {128: 0.4, 252: 0.2, 256: 0.2, 260: 0.2, 512: 0.1}
+        self.add("photons", lambda count: grey(8, 6, 1.0 + falling[count]), grey(16, 12, 1.2))
+        # A bias of each pixel that the mean over finer ones does not have.
+        checker = 1.0 + 0.3 * (-1.0) ** np.add.outer(np.arange(12), np.arange(16))[..., None].repeat(3, axis=2)
+        self.add("pixels", lambda count: grey(8, 6, 1.1), checker)
+        self.add("stays", lambda count: grey(8, 6, 1.1), grey(16, 12, 1.1))
+        table = self.parts()
+        self.check(table["photons"], photons=0.04)
+        self.assertEqual(table["photons"]["extrapolated"], "true")
+        self.check(table["pixels"], pixels=0.01)
+        self.check(table["stays"], stays=0.01)
+        self.assertEqual(table["stays"]["extrapolated"], "false")
+        self.assertTrue((self.folder / "out/parts.svg").is_file())
+
+    def test_what_differs_between_repeats_is_noise(self):
+        rng = np.random.default_rng(3)
+        size = (6, 8, 3)
+        noise = {count: 0.1 * (256 / count) * rng.standard_normal(size) for count in COUNTS}
+        fine = 1.0 + 0.2 * rng.standard_normal((12, 16, 3))  # whose mean has half of it
+        self.add("noisy", lambda count: 1.0 + noise[count], fine)
+        row = self.parts()["noisy"]
+        self.assertAlmostEqual(float(row["noise"]), 0.01, delta=0.003)
+        self.assertAlmostEqual(float(row["stays"]), 0.0, delta=0.004)
+
+    def test_a_run_that_is_missing_or_has_failed_is_said(self):
+        self.add("whole", lambda count: grey(8, 6, 1.0), grey(16, 12, 1.0))
+        self.add("part", lambda count: grey(8, 6, 1.0), grey(16, 12, 1.0))
+        self.rows.pop()
+        self.add("failed", lambda count: grey(8, 6, 1.0), grey(16, 12, 1.0))
+        self.rows[-1] |= {"status": "failed", "message": "out of memory"}
+        table = self.parts()
+        self.assertEqual([table[name]["status"] for name in ("whole", "part", "failed")],
+                         ["done", "5 of 6 runs are there", "out of memory"])
+
+
+if __name__ == "__main__":
+    unittest.main()
