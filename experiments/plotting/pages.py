@@ -11,7 +11,7 @@ Rewrites what stands between two comments of a page and leaves all else, which i
     rows = ["scene", "refine.finest"]              # the settings that a row has, in its first columns
     where = { scene = "pool" }                     # optional: only the runs with these settings
     across = ["refine.metric"]                     # optional: a column for each of these settings' values
-    cells = ["emitted ,.0f", "relMSE .3g; SMAPE .3f"]   # columns of the CSV, each with a format; `%` for shares
+    cells = ["emitted ,.0f", "relMSE .3g; SMAPE .3f"]   # columns of the CSV, each with a format; `%` for shares, `s` for words
     names = { "refine.finest" = "cells a side" }   # optional: what a heading says instead
     -->
     ...
@@ -63,9 +63,11 @@ def chosen(rows: tuple[dict, ...], settings: dict) -> list[dict]:
 
 
 def formatted(text: str, style: str) -> str:
-    """A cell's number as Python's format says; `.2%` of a share is a percentage with its sign apart."""
+    """A cell's number as Python's format says; `.2%` of a share is a percentage with its sign apart; `s` is a word as it stands."""
     if text in ("", "nan"):
         return "–"
+    if style == "s":
+        return f"`{text}`"
     number = float(text)
     if style.endswith("%"):
         return f"{100.0 * number:{style[:-1]}f} %"

@@ -17,6 +17,8 @@ Reads runs.csv (all_techniques.toml, by table.py --csv) and light_tracer.csv (li
   fewest and the most photons, of time and memory, and of what is left at none; and the light that it does not form, on the scene where
   that is most.
 - SCENE.svg: error against time, the Pareto front drawn through.
+- headline.svg: all scenes: the factors of equal_error.csv, of each technique's runs by default the one with the middle number of photons.
+- answers.csv: the same as a table: for each scene the default's factor, and the technique with the largest.
 """
 
 import argparse
@@ -34,6 +36,9 @@ ERRORS = [1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4]
 # What a user would pick instead: no techniques of ours, and no part of the front that is drawn.
 LIGHT_TRACER, PHOTON_MAPPING = "light tracer", "progressive photon mapping"
 BASELINES = {LIGHT_TRACER: ":", PHOTON_MAPPING: "-."}
+DEFAULT = "screen_space_photons"
+MIDDLE = {("256x256", ""), ("", "1024")}  # photons along each side of the grid, or the finest cells
+LEAST_FACTOR = 1e-4  # that is drawn
 TIMES_MS = [50, 100, 200, 500, 1000, 2000]
 
 
@@ -125,7 +130,12 @@ def write(file: pathlib.Path, columns: list[str], rows: list[list]) -> None:
                          for row in rows)
 
 
-def equal_error(runs: list[dict], tracers: dict[str, LightTracer]) -> list[list]:
+EQUAL_ERROR = ("scene", "technique", "as_published", "emit.photons", "refine.finest", "status", "ms", "relMSE, net",
+               "light tracer's photons", "light tracer's ms", "factor", "at_least", "device", "version")
+
+
+def equal_error(runs: list[dict], tracers: dict[str, LightTracer]) -> list[dict]:
+    """Rows of EQUAL_ERROR, and `order`: the photons, or what stands for them."""
     table = []
     for row in runs:
         error, ms, tracer = net(row), number(row, "ms"), tracers.get(row["scene"])
@@ -133,10 +143,59 @@ def equal_error(runs: list[dict], tracers: dict[str, LightTracer]) -> list[list]
             continue
         noise = number(row, "relMSE, reference's own") or 0.0
         reached = max(error, noise)
-        table.append([row["scene"], row["technique"], row["as_published"], row.get("emit.photons", ""),
-                      row.get("refine.finest", ""), "done", ms, error, tracer.photons(reached), tracer.ms(reached),
-                      tracer.ms(reached) / ms, str(error < noise).lower(), row["device"], row["version"]])
+        values = (row["scene"], row["technique"], row["as_published"], row.get("emit.photons", ""), row.get("refine.finest", ""), "done",
+                  ms, error, tracer.photons(reached), tracer.ms(reached), tracer.ms(reached) / ms, str(error < noise).lower(),
+                  row["device"], row["version"])
+        size = row.get("refine.finest") or (row.get("emit.photons") or "0").split("x")[0]
+        table.append({**dict(zip(EQUAL_ERROR, values)), "order": int(size)})
     return table
+
+
+def middle_runs(table: list[dict]) -> dict[str, dict[str, dict]]:
+    """By scene and technique, of the rows of equal_error the one by default with the study's middle number of photons (MIDDLE); where no run has
+    it, the middle one of those that there are."""
+    by = defaultdict(lambda: defaultdict(list))
+    for row in table:
+        if row["as_published"] == "false":
+            by[row["scene"]][row["technique"]].append(row)
+
+    def chosen(rows: list[dict]) -> dict:
+        named = [row for row in rows if (row["emit.photons"], row["refine.finest"]) in MIDDLE]
+        return named[0] if named else sorted(rows, key=lambda row: row["order"])[(len(rows) - 1) // 2]
+
+    return {scene: {name: chosen(rows) for name, rows in of.items()} for scene, of in by.items()}
+
+
+def answers(middle: dict[str, dict[str, dict]]) -> list[list]:
+    table = []
+    for scene, of in sorted(middle.items()):
+        best = max(of.values(), key=lambda row: row["factor"])
+        own = of.get(DEFAULT)
+        table.append([scene, "done", *([own["ms"], own["relMSE, net"], own["light tracer's ms"], own["factor"], own["at_least"]] if own
+                                       else [None] * 5),
+                      best["technique"], best["ms"], best["relMSE, net"], best["factor"], best["at_least"]])
+    return table
+
+
+def draw_headline(middle: dict[str, dict[str, dict]], file: pathlib.Path) -> None:
+    names = sorted({name for of in middle.values() for name in of}, key=lambda name: (name != DEFAULT, name))
+    scenes = sorted(middle, key=lambda scene: middle[scene].get(DEFAULT, {"factor": 0.0})["factor"])
+    figure, axes = plt.subplots(figsize=(7.2, 0.32 * len(scenes) + 1.2))
+    for index, name in enumerate(names):
+        rows = [(middle[scene][name], place) for place, scene in enumerate(scenes) if name in middle[scene]]
+        axes.plot([max(row["factor"], LEAST_FACTOR) for row, _ in rows], [place for _, place in rows], linestyle="", label=name,
+                  color=COLORS[index % len(COLORS)], marker=MARKERS[(index + 3 * (index // len(COLORS))) % len(MARKERS)],
+                  markersize=9 if name == DEFAULT else 5, zorder=3 if name == DEFAULT else 2)
+        for row, place in rows:
+            if row["at_least"] == "true":
+                axes.annotate("", (1.35 * max(row["factor"], LEAST_FACTOR), place), (max(row["factor"], LEAST_FACTOR), place),
+                              arrowprops={"arrowstyle": "->", "color": COLORS[index % len(COLORS)], "linewidth": 0.8})
+    axes.axvline(1.0, color="black", linestyle=BASELINES[LIGHT_TRACER])
+    axes.set(xscale="log", yticks=range(len(scenes)), xlabel="times as fast as a light tracer on the same processor, at equal error")
+    axes.set_yticklabels(scenes, fontsize=8)
+    axes.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.0, 0.5))
+    figure.savefig(file, bbox_inches="tight", metadata={"Date": None})
+    plt.close(figure)
 
 
 def costs(runs: list[dict]) -> list[list]:
@@ -218,10 +277,14 @@ def main() -> int:
     runs = rows_of(folder / "runs.csv")
     baselines = rows_of(folder / "light_tracer.csv")
     of_scenes = curves(runs, baselines)
-    write(folder / "equal_error.csv",
-          ["scene", "technique", "as_published", "emit.photons", "refine.finest", "status", "ms", "relMSE, net",
-           "light tracer's photons", "light tracer's ms", "factor", "at_least", "device", "version"],
-          equal_error(runs, light_tracers(baselines)))
+    equal = equal_error(runs, light_tracers(baselines))
+    write(folder / "equal_error.csv", list(EQUAL_ERROR), [[row[key] for key in EQUAL_ERROR] for row in equal])
+    middle = middle_runs(equal)
+    write(folder / "answers.csv",
+          ["scene", "status", "default's ms", "default's relMSE, net", "light tracer's ms", "factor", "at_least", "best", "best's ms",
+           "best's relMSE, net", "best's factor", "best's at_least"], answers(middle))
+    if middle:
+        draw_headline(middle, folder / "headline.svg")
     write(folder / "costs.csv",
           ["technique", "as_published", "status", "scenes", "ns a photon", "ms at none", "bytes a photon", "MiB at none",
            "most not formed, %", "most not formed, W", "on"], costs(runs))

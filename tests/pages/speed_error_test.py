@@ -84,6 +84,12 @@ class SpeedError(unittest.TestCase):
         self.assertEqual((row["most not formed, %"], row["most not formed, W"], row["on"]), ("7", "0.7", "ring"))
         self.assertEqual((rows["b", "false"]["scenes"], rows["b", "false"]["ns a photon"]), ("0", ""))
 
+    def test_answers_are_of_the_middle_runs_by_default(self):
+        row, = self.rows("answers.csv")
+        # Of `a` by default the run with fewer photons of two; `b` has one.
+        self.assertEqual((row["scene"], row["factor"], row["best"], row["best's at_least"]), ("ring", "", "b", "true"))
+        self.assertTrue((self.folder / "headline.svg").is_file())
+
     def test_draws_each_scene_that_has_a_caustic(self):
         self.assertTrue((self.folder / "ring.svg").is_file())
         self.assertFalse((self.folder / "tree.svg").exists())
