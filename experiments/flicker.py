@@ -8,13 +8,13 @@
 Writes OUT/flicker.csv and OUT/flicker.svg. With I the caustic's irradiance, R the reference, whose noise is known and taken off, both of
 frame t, and the mean over pixels, channels and frames:
 
-- relMSE: the mean of (I - R)² / (R² + epsilon), epsilon 1e-4 of the mean of R²;
+- relMSE: that of `kaustik compare`, less what the reference's noise has in it, the mean over the frames;
 - change: the root of the mean of (I' - I)², I' that of the next frame, by that of the truth: above 1 the picture changes more than it
   should;
 - wrong change: the root of the mean of ((I' - I) - (R' - R))², by that of (R' - R)²: what of the truth's change is missed, and what comes on
   top of it. A picture that stands still has 1.
 
-References are kept (~/.cache/kaustik), and a row that is in OUT already is not made again: it can be interrupted. No times are taken, so that
+References are kept (~/.cache/kaustik), and a row that is in OUT already, with the same settings, is not made again: it can be interrupted. No times are taken, so that
 the machine need not be idle; on two cores without a GPU half an hour.
 """
 
@@ -29,8 +29,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parent / "plotting"))
 import kaustik  # noqa: E402
 from figures import COLORS, MARKERS, plt  # noqa: E402
 
-COLUMNS = ["scene", "technique", "as_published", "status", "frames", "relMSE", "change", "wrong change", "version"]
-EPSILON = 1e-4
+SETTINGS = ["scene", "technique", "as_published", "frames", "time_step", "size", "photons", "reference_photons"]
+COLUMNS = [*SETTINGS, "status", "relMSE", "change", "wrong change", "version"]
 
 
 def numbers(text: str) -> tuple[int, int]:
@@ -39,25 +39,32 @@ def numbers(text: str) -> tuple[int, int]:
 
 
 class Truth:
-    """The reference of every frame of a scene, and its standard error: frames x height x width x 3."""
-
-    def __init__(self, scene: str, options):
-        made = [kaustik.reference(scene, size=numbers(options.size), photons=options.reference_photons,
-                                  time=frame * options.time_step, seed=frame + 1) for frame in range(options.frames)]
-        self.irradiance = np.stack([np.asarray(one.irradiance)[..., :3] for one in made]).astype(np.float64)
-        self.variance = np.stack([np.asarray(one.standard_error)[..., :3] for one in made]).astype(np.float64) ** 2
-        self.change = np.diff(self.irradiance, axis=0)
+    def __init__(self, irradiance: np.ndarray, standard_error: np.ndarray):
+        """Of every frame, with noise that is independent from frame to frame: frames x height x width x 3."""
+        self.irradiance, self.standard_error = irradiance.astype(np.float32), standard_error.astype(np.float32)
+        self.variance = self.standard_error.astype(np.float64) ** 2
+        self.change = np.diff(self.irradiance.astype(np.float64), axis=0)
         self.change_variance = self.variance[1:] + self.variance[:-1]
         self.mean_change = max((self.change**2 - self.change_variance).mean(), 0.0)
-        self.epsilon = EPSILON * (self.irradiance**2).mean()
+
+    def error(self, images: np.ndarray) -> float:
+        errors = [kaustik.compare(np.ascontiguousarray(image, np.float32), truth, standard_error=sigma)
+                  for image, truth, sigma in zip(images, self.irradiance, self.standard_error)]
+        return float(np.mean([one["rel_mse"] - one["truth_noise"]["rel_mse"] for one in errors]))
 
     def judge(self, images: np.ndarray) -> dict:
-        weight = 1.0 / (self.irradiance**2 + self.epsilon)
         change = np.diff(images, axis=0)
         wrong = ((change - self.change) ** 2 - self.change_variance).mean()
-        return {"relMSE": (((images - self.irradiance) ** 2 - self.variance) * weight).mean(),
+        return {"relMSE": self.error(images),
                 "change": np.sqrt((change**2).mean() / self.mean_change),
                 "wrong change": np.sqrt(max(wrong, 0.0) / self.mean_change)}
+
+
+def traced(scene: str, options) -> Truth:
+    made = [kaustik.reference(scene, size=numbers(options.size), photons=options.reference_photons,
+                              time=frame * options.time_step, seed=frame + 1) for frame in range(options.frames)]
+    return Truth(np.stack([np.asarray(one.irradiance)[..., :3] for one in made]),
+                 np.stack([np.asarray(one.standard_error)[..., :3] for one in made]))
 
 
 def rendered(scene: str, technique: str, as_published: bool, options) -> np.ndarray:
@@ -112,12 +119,15 @@ def main() -> int:
         for technique in options.techniques:
             for published in (False, True):
                 row = {"scene": scene, "technique": technique, "as_published": str(published).lower(), "frames": options.frames,
-                       "version": kaustik.__version__}
-                if any(all(row[key] == old[key] for key in ("scene", "technique", "as_published")) for old in rows):
+                       "time_step": options.time_step, "size": options.size, "photons": options.photons,
+                       "reference_photons": options.reference_photons, "version": kaustik.__version__}
+                same = [old for old in rows if all(str(row[key]) == str(old[key]) for key in SETTINGS)]
+                if any(old["status"] == "done" for old in same):
                     continue
+                rows = [old for old in rows if old not in same]
                 try:
                     images = rendered(scene, technique, published, options)
-                    truth = truth or Truth(scene, options)
+                    truth = truth or traced(scene, options)
                     row |= {"status": "done", **{key: f"{value:.4g}" for key, value in truth.judge(images).items()}}
                 except kaustik.Error as error:
                     row["status"] = str(error)
@@ -126,7 +136,9 @@ def main() -> int:
                     writer = csv.DictWriter(stream, COLUMNS, lineterminator="\n", restval="")
                     writer.writeheader()
                     writer.writerows(rows)
-                print(*(row.get(key, "") for key in COLUMNS[:8]), flush=True)
+                print(*(row.get(key, "") for key in (*SETTINGS[:3], *COLUMNS[len(SETTINGS):-1])), flush=True)
+    if len({tuple(str(row[key]) for key in SETTINGS[3:]) for row in rows}) > 1:
+        sys.exit(f"flicker: the rows of {file} are of different settings, and are not drawn together")
     draw(rows, options.out / "flicker.svg")
     return 0
 

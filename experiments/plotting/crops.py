@@ -46,7 +46,10 @@ class Run:
 def read_run(folder: Path, label: str | None) -> Run:
     report = json.loads((folder / "report.json").read_text(encoding="utf-8"))
     image, truth = (find_image(folder, name, (".exr", ".pfm")) for name in ("caustic", "reference"))
-    if truth is None or not report.get("error", {}).get("caustic_irradiance"):
+    error = report.get("error", {}).get("caustic_irradiance")
+    if error and error["rel_mse"] is None:
+        raise ValueError(f"the truth beside {folder} has no caustic")
+    if truth is None or not error:
         raise ValueError(f"{folder} was not compared with a reference; 'kaustik run --reference auto' does that")
     technique = report["technique"] + (", as published" if report["as_published"] else "")
     return Run(label or technique, read_image(image), read_image(truth), report)
@@ -136,7 +139,7 @@ def save(runs: list[Run], crops: list[Crop], folder: Path, name: str) -> None:
 
 
 def strip(run: Run, height: int) -> Image.Image:
-    """One line: the picture as the eye sees it, a detail of the caustic and of the truth, and the error."""
+    """One line: the caustic, a detail of it and of the truth, and the error."""
     white = white_of(run.truth)
     crop = chosen_crops(run)[0]
     largest = float(np.percentile(error_of(run), 99.5)) or 1.0

@@ -4,18 +4,19 @@
 
     error_parts.py RESULTS --out DIR
 
-RESULTS is the folder of error_parts.toml. Writes DIR/parts.csv and DIR/parts.svg. All are shares of relMSE of the caustic's
-irradiance, at the study's middle number of photons, net of the reference's own noise:
+RESULTS is the folder of error_parts.toml. Writes DIR/parts.csv and DIR/parts.svg. The four parts add up to the relMSE of the caustic's
+irradiance at the study's middle number of photons, net of the reference's own noise:
 
 - noise: the variance, pixel by pixel, between runs with nearly as many photons whose cells lie elsewhere. Another start of the grid would
   give another picture; this is what the mean over many would lose.
 - photons: of the rest, the bias, what infinitely many photons would take away: the biases of the three counts, extrapolated (Aitken:
   each step to four times as many changes by the same factor); where they do not fall that way, down to the most photons' alone
   (`extrapolated` is false).
-- pixels: of the rest what is gone where the frame is rendered with twice the pixels a side and brought back to the size by its mean.
-- stays: what neither takes away: what the method leaves out or approximates.
+- pixels: by how much the bias is less where the frame is rendered with twice the pixels a side, has lost that frame's own noise and is
+  brought back to the size by its mean.
+- stays: what is left: what the method leaves out or approximates.
 
-Negative parts are noise of the estimates, and stand as they are.
+A part may be negative: estimates are noisy, more pixels may be worse, and more photons and finer pixels may take away the same.
 """
 
 import argparse
@@ -30,9 +31,9 @@ import numpy as np
 from figures import COLORS, plt
 from pictures import find_image, read_image
 
-FEWEST = 6  # runs: three counts of photons, two repeats of the middle one, finer pixels
+FEWEST = 8  # runs: three counts of photons, two repeats of the middle one, the same three with finer pixels
 PARTS = ("noise", "photons", "pixels", "stays")
-COLUMNS = ("scene", "technique", "status", "relMSE", *PARTS, "extrapolated", "of two pixels", "version")
+COLUMNS = ("scene", "technique", "status", "relMSE", *PARTS, "extrapolated", "version")
 
 
 class Runs:
@@ -84,21 +85,23 @@ def parts_of(runs: Runs) -> dict:
 
     share = measured["rel_mse"] / max(mse(middle), 1e-300)
     truths = (measured.get("truth_noise") or {}).get("rel_mse") or 0.0
-    near = np.stack([runs.image(size, photons, "caustic") for photons in repeats]).astype(np.float64)
-    noise = share * relative(near.var(axis=0, ddof=1))
+
+    def variance(of: str) -> float:
+        images = [runs.image(of, photons, "caustic").astype(np.float64) for photons in repeats]
+        return share * relative(np.stack([image if of == size else halved(image) for image in images]).var(axis=0, ddof=1))
+
+    noise = variance(size)
 
     def bias(photons: int) -> float:
-        # With fewer photons noise is more; it is known for the middle alone, and falls at least as the photons rise.
+        # Noise is known for the middle alone; its square falls as the photons rise.
         return share * mse(photons) - truths - noise * (middle / photons) ** 2
 
     steps = bias(few) - bias(middle), bias(middle) - bias(many)
     extrapolated = 0.0 < steps[1] < steps[0]
     limit = bias(many) - (steps[1] ** 2 / (steps[0] - steps[1]) if extrapolated else 0.0)
-    limit = max(limit, 0.0) if extrapolated else limit
-    finer = bias(middle) - (share * mse(middle, fine) - truths - noise)
-    pixels = min(finer, limit) if finer > 0.0 else finer
+    pixels = bias(middle) - (share * mse(middle, fine) - truths - variance(fine))
     return {"relMSE": share * mse(middle) - truths, "noise": noise, "photons": bias(middle) - limit, "pixels": pixels,
-            "stays": limit - pixels, "extrapolated": str(extrapolated).lower(), "of two pixels": finer}
+            "stays": limit - pixels, "extrapolated": str(extrapolated).lower()}
 
 
 def tabled(results: Path) -> list[dict]:

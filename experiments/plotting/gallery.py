@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""A page of pictures: each technique on a scene that shows what it is for, and the README's pictures.
+"""A page of pictures: each technique on a scene that shows what it is for.
 
     gallery.py [--kaustik build/release/bin/kaustik] [--out results] [--size 400x300] [--reference-photons 16777216]
 

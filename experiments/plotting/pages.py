@@ -185,25 +185,28 @@ def main() -> int:
     parser.add_argument("--results", type=pathlib.Path, default=ROOT / "results")
     parser.add_argument("pages", nargs="*", type=pathlib.Path)
     arguments = parser.parse_args()
-    different = []
-    try:
-        for page in arguments.pages or sorted(arguments.results.glob("*.md")):
+    different, problems = [], 0
+    for page in arguments.pages or sorted(arguments.results.glob("*.md")):
+        try:
             text, new = page.read_text(), remade(page, arguments.results)
-            if new == text:
-                continue
-            different.append(page)
-            if not arguments.check:
-                page.write_text(new)
-                continue
-            for line, (old, now) in enumerate(zip(text.splitlines(), new.splitlines()), 1):
-                if old != now:
-                    print(f"{page}:{line}: stands there: {old}\n  the CSV says: {now}", file=sys.stderr)
-                    break
-    except (PageError, OSError) as error:
-        print(f"pages: {error}", file=sys.stderr)
-        return 2
+        except (PageError, OSError) as error:
+            print(f"pages: {error}", file=sys.stderr)
+            problems += 1
+            continue
+        if new == text:
+            continue
+        different.append(page)
+        if not arguments.check:
+            page.write_text(new)
+            continue
+        for line, (old, now) in enumerate(zip(text.splitlines(), new.splitlines()), 1):
+            if old != now:
+                print(f"{page}:{line}: stands there: {old}\n  the CSV says: {now}", file=sys.stderr)
+                break
     for page in different:
         print(f"{page} {'is not what its CSVs say' if arguments.check else 'is new'}")
+    if problems:
+        return 2
     return 1 if arguments.check and different else 0
 
 

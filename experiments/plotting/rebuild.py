@@ -2,13 +2,14 @@
 # SPDX-License-Identifier: MIT
 """Runs studies and makes of them what stands in results/.
 
-    rebuild.py [--kaustik build/release/bin/kaustik] [--out results/runs/experiments] [--shard K/N] [STUDY...]
+    rebuild.py [--kaustik build/release/bin/kaustik] [--out results/runs/experiments] [--anew] [--shard K/N] [STUDY...]
     rebuild.py --list
     rebuild.py --stale [--out results/runs/experiments] [STUDY...]
     rebuild.py --quick [--out DIR] [STUDY...]
 
-Each study is run into OUT/STUDY, where what is finished stays as long as the sources are the same that it was made by (sources.py), its CSV
-is written to results/, and then all pages are filled from the CSVs (pages.py). --stale says how many runs are to be made anew. A study of which runs have failed keeps them as rows with their message. With --shard
+Each study is run into OUT/STUDY, where what is finished stays (`--resume`), its CSV is written to results/, and then all pages are filled from
+the CSVs (pages.py). Each row has the key of the sources that it was made by (sources.py), as far as that is known; --stale says how many runs of a study are of
+other sources than the tree's, and --anew makes those again, and no others. A study of which runs have failed keeps them as rows with their message. With --shard
 only the K-th of N equal parts is run and nothing is written to results/; when all are done, run without.
 --quick makes the plan of each study, runs its first run with few photons and pixels, makes its CSV in DIR, and checks the pages: whether the commands
 of results/ still work, in minutes. Ends with 1 where something does not.
@@ -21,6 +22,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 import tomllib
 
 from sources import Tree
@@ -118,23 +120,21 @@ def stale(results: pathlib.Path, tree: Tree) -> list[pathlib.Path]:
             if name in keys and keys[name] != tree.key_of(json.loads(report.read_text()))]
 
 
-def note_sources(results: pathlib.Path, tree: Tree) -> None:
+def note_sources(results: pathlib.Path, tree: Tree, since: float) -> None:
+    """Writes down the key of runs that were made since then, by the tree as it is; those of before keep theirs, or have none."""
     file = results / SOURCES
-    known = json.loads(file.read_text()) if file.is_file() else {}
-    keys = {name: known.get(name) or tree.key_of(json.loads(report.read_text())) for name, report in reports_of(results).items()}
+    keys = json.loads(file.read_text()) if file.is_file() else {}
+    keys |= {name: tree.key_of(json.loads(report.read_text())) for name, report in reports_of(results).items()
+             if report.stat().st_mtime >= since}
     file.write_text(json.dumps(keys, indent=0, sort_keys=True) + "\n")
 
 
 def forget_stale(results: pathlib.Path, tree: Tree) -> None:
     folders = stale(results, tree)
-    if not folders:
-        return
-    keys = json.loads((results / SOURCES).read_text())
     for folder in folders:
         shutil.rmtree(folder)
-        del keys[folder.name]
-    (results / SOURCES).write_text(json.dumps(keys, indent=0, sort_keys=True) + "\n")
-    print(f"{results.name}: {len(folders)} runs of other sources are made anew", flush=True)
+    if folders:
+        print(f"{results.name}: {len(folders)} runs of other sources are made anew", flush=True)
 
 
 def csv_of(results: pathlib.Path, study: str, target: pathlib.Path) -> None:
@@ -176,17 +176,18 @@ def compare_with_light_tracer(kaustik: pathlib.Path) -> None:
     call(sys.executable, "-B", PLOTTING / "speed_error.py")
 
 
-def rebuild(kaustik: pathlib.Path, out: pathlib.Path, shard: str | None, studies: list[str]) -> list[str]:
-    failures, tree = [], Tree()
+def rebuild(kaustik: pathlib.Path, out: pathlib.Path, shard: str | None, anew: bool, studies: list[str]) -> list[str]:
+    failures = []
     for study in studies:
-        part = ["--shard", shard] if shard else []
-        forget_stale(out / study, tree)
+        part, tree, begin = ["--shard", shard] if shard else [], Tree(), time.time()
+        if anew:
+            forget_stale(out / study, tree)
         try:
             call(kaustik, "experiment", "run", f"experiments/{study}.toml", "--resume", "--out", out / study, *part)
         except Failure as failure:
             failures.append(f"{study}: {failure}")  # whose rows say why; the others count
         if (out / study).is_dir():
-            note_sources(out / study, tree)
+            note_sources(out / study, tree, begin)
         if shard or not (out / study / "runs.csv").is_file():
             continue
         try:
@@ -211,6 +212,7 @@ def main() -> int:
     parser.add_argument("--shard")
     parser.add_argument("--list", action="store_true")
     parser.add_argument("--stale", action="store_true")
+    parser.add_argument("--anew", action="store_true")
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("studies", nargs="*", metavar="STUDY")
     arguments = parser.parse_args()
@@ -233,8 +235,12 @@ def main() -> int:
             out.mkdir(parents=True, exist_ok=True)
             failures = quick(kaustik, out, studies)
     else:
+        if arguments.anew and arguments.shard:
+            sys.exit("rebuild: --anew with --shard would take from other shards what they have made")
+        if kaustik.stat().st_mtime < Tree().newest_source():
+            sys.exit(f"rebuild: '{kaustik}' is older than the sources; build it first")
         out = (arguments.out or ROOT / "results/runs/experiments").resolve()
-        failures = rebuild(kaustik, out, arguments.shard, studies)
+        failures = rebuild(kaustik, out, arguments.shard, arguments.anew, studies)
     for failure in failures:
         print(f"rebuild: {failure}", file=sys.stderr)
     return 1 if failures else 0

@@ -19,8 +19,8 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-# What makes and judges a frame; the rest of the framework shows, reads and runs.
-FRAMEWORK = ("audit", "core", "gl", "graph", "image", "measure", "params", "pipeline", "reference", "render", "report", "scene", "transport")
+# What makes, times and judges a frame; the rest of the framework shows, reads files and runs studies.
+FRAMEWORK = ("audit", "core", "gl", "graph", "image", "measure", "params", "pipeline", "reference", "render", "report", "run", "scene", "transport")
 SHADER = re.compile(r'"([\w/]+\.(?:comp|frag|vert|geom|glsl))"')
 INCLUDE = re.compile(r'#include "([\w/.]+)"')
 
@@ -31,7 +31,12 @@ class Tree:
 
     @functools.cache
     def text(self, file: Path) -> str:
-        return file.read_text(encoding="utf-8", errors="replace")
+        return file.read_text(encoding="utf-8", errors="surrogateescape")
+
+    def newest_source(self) -> float:
+        """When the newest of the files that are compiled was changed."""
+        return max(file.stat().st_mtime for folder in ("framework", "techniques") for file in (self.root / folder).rglob("*")
+                   if file.suffix in (".cpp", ".h"))
 
     @functools.cache
     def framework(self) -> frozenset[Path]:
@@ -77,7 +82,7 @@ class Tree:
         digest = hashlib.sha256()
         for file in sorted(self.files_of(report)):
             digest.update(f"{file.relative_to(self.root)}\n".encode())
-            digest.update(file.read_bytes())
+            digest.update(self.text(file).encode(errors="surrogateescape"))
         return digest.hexdigest()[:12]
 
 

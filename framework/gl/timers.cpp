@@ -128,10 +128,12 @@ FrameTime joined(std::span<const FrameTime> frames) {
 
 double measuringMilliseconds(TimerMode mode) {
     constexpr std::size_t kPasses = 32;
-    constexpr std::size_t kFrames = 6;
+    // In the first ones of the ring the queries are made.
+    constexpr std::size_t kFirst = PassTimer::kFramesInFlight;
+    constexpr std::size_t kFrames = 5;
     PassTimer timer(mode);
     std::vector<double> each;
-    for (std::size_t frame = 0; frame < kFrames; ++frame) {
+    for (std::size_t frame = 0; frame < kFirst + kFrames; ++frame) {
         glFinish();
         const auto begin = std::chrono::steady_clock::now();
         timer.beginFrame(kPasses);
@@ -140,13 +142,12 @@ double measuringMilliseconds(TimerMode mode) {
             timer.endPass(pass);
         }
         timer.endFrame();
-        glFinish();
-        each.push_back(milliseconds(std::chrono::steady_clock::now() - begin) / kPasses);
+        const auto taken = std::chrono::steady_clock::now() - begin;
         static_cast<void>(timer.takeFinished(true));
+        if (frame >= kFirst) each.push_back(milliseconds(taken) / kPasses);
     }
-    // Of the first one the queries are made.
-    std::sort(each.begin() + 1, each.end());
-    return each[1 + (kFrames - 1) / 2];
+    std::sort(each.begin(), each.end());
+    return each[kFrames / 2];
 }
 
 }  // namespace kaustik::gl

@@ -72,8 +72,8 @@ class PassTimer {
 // Frames with the same passes as one: the times added up.
 [[nodiscard]] FrameTime joined(std::span<const FrameTime> frames);
 
-// What timing a pass that does nothing takes, ms, with the frame's two waits shared out: the least
-// that measuring adds to each pass. The median of a few frames; waits for the device.
+// What timing a pass that does nothing takes, ms: the least that measuring adds to each pass. The
+// median of a few frames; waits for the device.
 [[nodiscard]] double measuringMilliseconds(TimerMode mode);
 
 }  // namespace kaustik::gl

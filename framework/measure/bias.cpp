@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "framework/measure/color.h"
 
@@ -17,9 +19,23 @@ double luminanceAt(const Image& image, std::size_t pixel) {
                      static_cast<double>(rgb[2]));
 }
 
-std::optional<double> zOf(const ImagePair& pair, std::size_t pixel) {
-    const double sigma = luminanceAt(pair.standardError(), pixel);
-    if (!pair.counts(pixel) || !(sigma > 0.0)) return std::nullopt;
+// The median standard error of the pixels that the reference has reached; 0 where it has none.
+double typicalError(const ImagePair& pair) {
+    std::vector<double> errors;
+    for (std::size_t pixel = 0; pixel < pair.pixelCount(); ++pixel) {
+        const double sigma = luminanceAt(pair.standardError(), pixel);
+        if (pair.counts(pixel) && sigma > 0.0) errors.push_back(sigma);
+    }
+    if (errors.empty()) return 0.0;
+    const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
+    std::nth_element(errors.begin(), middle, errors.end());
+    return *middle;
+}
+
+std::optional<double> zOf(const ImagePair& pair, std::size_t pixel, double typical) {
+    if (!pair.counts(pixel) || !(typical > 0.0)) return std::nullopt;
+    const double own = luminanceAt(pair.standardError(), pixel);
+    const double sigma = own > 0.0 ? own : typical;
     return (luminanceAt(pair.image(), pixel) - luminanceAt(pair.reference(), pixel)) / sigma;
 }
 
@@ -35,11 +51,12 @@ std::array<float, 3> colorOf(std::optional<double> z) {
 }  // namespace
 
 Bias findBias(const ImagePair& pair) {
+    const double typical = typicalError(pair);
     Bias bias;
     std::size_t bright = 0;
     std::size_t dark = 0;
     for (std::size_t pixel = 0; pixel < pair.pixelCount(); ++pixel) {
-        const std::optional<double> z = zOf(pair, pixel);
+        const std::optional<double> z = zOf(pair, pixel, typical);
         if (!z) continue;
         ++bias.judgedPixels;
         bright += *z > Bias::kSignificant ? 1 : 0;
@@ -52,9 +69,10 @@ Bias findBias(const ImagePair& pair) {
 }
 
 Image biasPicture(const ImagePair& pair) {
+    const double typical = typicalError(pair);
     Image picture(pair.width(), pair.height(), 3);
     for (std::size_t pixel = 0; pixel < pair.pixelCount(); ++pixel) {
-        const std::array<float, 3> color = colorOf(zOf(pair, pixel));
+        const std::array<float, 3> color = colorOf(zOf(pair, pixel, typical));
         std::copy(color.begin(), color.end(),
                   picture.values.begin() + static_cast<std::ptrdiff_t>(3 * pixel));
     }

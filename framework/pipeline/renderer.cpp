@@ -95,6 +95,14 @@ graph::Compiled compileWithout(graph::Graph& graph, RenderSettings& settings) {
     return graph.compile();
 }
 
+// The samples of a pixel, the one nearest to its middle last: it is what stays.
+std::vector<glm::vec2> middleLast(std::vector<glm::vec2> samples) {
+    std::stable_sort(samples.begin(), samples.end(), [](const glm::vec2& a, const glm::vec2& b) {
+        return glm::dot(a, a) > glm::dot(b, b);
+    });
+    return samples;
+}
+
 }  // namespace
 
 Renderer::Renderer(gl::Context& context, const Registry& registry, const scene::Scene& scene,
@@ -117,14 +125,6 @@ Renderer::Renderer(gl::Context& context, const Registry& registry, const scene::
       executor_(context, programs_) {
     beginSample(0);
     context_.check();
-}
-
-// The samples of a pixel, the one nearest to its middle last: it is what stays.
-std::vector<glm::vec2> middleLast(std::vector<glm::vec2> samples) {
-    std::stable_sort(samples.begin(), samples.end(), [](const glm::vec2& a, const glm::vec2& b) {
-        return glm::dot(a, a) > glm::dot(b, b);
-    });
-    return samples;
 }
 
 // By the names of include/views/view.glsl, surface_data.glsl, lights.glsl, scene_images.glsl and
@@ -159,7 +159,7 @@ void Renderer::beginSample(std::size_t sample) {
     inputs_.sample = static_cast<int>(sample);
     inputs_.samples = static_cast<int>(samples_.size());
     view_.offsetPixels = samples_[sample];
-    view_.mostOffset = samples_.size() > 1 ? 0.5 : 0.0;
+    view_.maxOffsetPixels = samples_.size() > 1 ? 0.5 : 0.0;
     // Far apart, whatever seeds users take.
     seed_ = settings_.seed + sample * 0x9e3779b97f4a7c15ULL;
     viewBlock_ = makeViewBlock(scene_, view_);

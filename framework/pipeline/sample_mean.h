@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The mean of what the samples of a frame give (eye.samples): each is a frame of its own, whose
-// rays go through another place in the pixels.
+// The mean of what the samples of a frame give (eye.samples): each is a frame of its own, whose rays
+// go through another place in the pixels.
 #pragma once
 
 #include <fmt/format.h>
@@ -11,14 +11,15 @@
 
 namespace kaustik {
 
-// Pass `compose.NAME`. The texture itself where a frame is one sample.
+// The same texture, in which pass `compose.NAME` has put the mean over the samples so far, after
+// the last one that of all; where a frame is one sample there is no such pass. Who is to see the
+// sample alone reads the handle that is given.
 template <class Texel>
 [[nodiscard]] graph::Texture<Texel> meanOverSamples(FrameBuilder& frame, const std::string& name,
                                                     const graph::Texture<Texel>& ofSample) {
     const int samples = frame.inputs().samples;
     if (samples == 1 || !ofSample.valid()) return ofSample;
     struct Data {
-        graph::Texture<Texel> mean;
         graph::Texture<Texel> soFar;
     };
     const int width = frame.width();
@@ -27,13 +28,12 @@ template <class Texel>
         .pass<Data>(
             "compose." + name, fmt::format("the picture is the mean of {} samples", samples),
             [&](graph::PassSetup& setup, Data& data) {
-                setup.sample("ofSample", ofSample);
-                const std::string resource = "compose." + name;
-                data.mean = setup.image("meanOfSamples", setup.createPersistent<Texel>(
-                                                             resource + "_mean", width, height));
-                data.soFar = setup.image("meanSoFar", setup.create<Texel>(resource, width, height));
+                const auto mean = setup.image(
+                    "meanOfSamples",
+                    setup.createPersistent<Texel>("compose." + name + "_mean", width, height));
+                data.soFar = setup.image("ofSample", setup.write(ofSample));
+                setup.bypass(mean, {0, 0, 0, 0});
                 setup.bypass(data.soFar, ofSample);
-                setup.bypass(data.mean, {0, 0, 0, 0});
             },
             [&inputs = frame.inputs(), width, height](const Data&, gl::PassContext& context) {
                 context.compute("framework/sample_mean.comp")

@@ -24,7 +24,8 @@ struct RasterView {
     int height = 1;
     // Perspective: px from the pixels' middles, to the right and up, where their rays go through.
     glm::dvec2 offsetPixels{0.0};
-    double mostOffset = 0.0;  // px, that this view is rendered with in one frame
+    // What the offset is at most, either way, over all that are rendered of this view for a frame.
+    double maxOffsetPixels = 0.0;
     bool isClipped = false;   // what it was to hold is wider than a perspective view can be
     // The offset where the picture reaches from -1 to 1.
     [[nodiscard]] glm::dvec2 offset() const {
@@ -32,7 +33,7 @@ struct RasterView {
     }
     // halfExtent of what any of the offsets may see.
     [[nodiscard]] glm::dvec2 seenExtent() const {
-        return (1.0 + 2.0 * mostOffset / glm::dvec2(width, height)) * halfExtent;
+        return (1.0 + 2.0 * maxOffsetPixels / glm::dvec2(width, height)) * halfExtent;
     }
     [[nodiscard]] glm::mat4 projection() const;
     // Metres that a pixel covers at a depth of 1 m; orthographic: at any.

@@ -161,7 +161,7 @@ template <class F>
 void reflect(F& f, const BiasTable& table) {
     f.choice("against", table.isOfModelledPaths ? "modelled_paths" : "all_paths",
              {"modelled_paths", "all_paths"}, "The reference's paths");
-    f.field("judged_pixels", table.bias.judgedPixels, "That the reference has reached");
+    f.field("judged_pixels", table.bias.judgedPixels, "All that count; none where the reference has no noise");
     f.field("too_bright", table.bias.tooBright, "Share of them, beyond the reference's noise");
     f.field("too_dark", table.bias.tooDark, "Share of them, beyond the reference's noise");
     f.field("by_chance", measure::Bias::kByChance, "What both shares are together of the truth");

@@ -242,7 +242,7 @@ std::vector<fs::path> RunReference::judge(const Renderer& renderer, const fs::pa
         for (std::size_t light = 0; light < lights; ++light) {
             shadows.add(audit::auditShadow(
                 readTexture(renderer.texture(visibility), static_cast<int>(light), 1), light,
-                loaded_->scene));
+                loaded_->scene, renderer.view().offsetPixels));
         }
         record.error["shadow"] = audit::toJson(shadows);
     }

@@ -5,6 +5,7 @@ import json
 import pathlib
 import sys
 import tempfile
+import time
 import unittest
 
 PLOTTING = pathlib.Path(__file__).resolve().parents[2] / "experiments/plotting"
@@ -49,19 +50,23 @@ class Sources(unittest.TestCase):
             (self.root / name).write_text(text)
         self.assertEqual(Tree(self.root).key_of(REPORT), key)
 
-    def test_what_is_stale_is_made_anew_and_the_rest_stays(self):
+    def test_what_is_stale_is_told_and_made_anew_and_the_rest_stays(self):
         results = self.root / "study"
         for name, trace in (("a", "march"), ("b", "lines")):
             (results / name).mkdir(parents=True)
             (results / name / "report.json").write_text(json.dumps(REPORT | {"parameters": {"trace": trace}}))
-        rebuild.note_sources(results, Tree(self.root))
+        rebuild.note_sources(results, Tree(self.root), 0.0)
         self.assertEqual(rebuild.stale(results, Tree(self.root)), [])
         (self.root / "shaders/include/ray.glsl").write_text("vec4 ray;")
         self.assertEqual([folder.name for folder in rebuild.stale(results, Tree(self.root))], ["a"])
-        rebuild.note_sources(results, Tree(self.root))  # does not hide it
+        # Runs that were there before keep their keys, and those without one have none.
+        (results / "c").mkdir()
+        (results / "c/report.json").write_text(json.dumps(REPORT))
+        rebuild.note_sources(results, Tree(self.root), time.time() + 60.0)
+        self.assertEqual([folder.name for folder in rebuild.stale(results, Tree(self.root))], ["a"])
+        self.assertEqual(set(json.loads((results / rebuild.SOURCES).read_text())), {"a", "b"})
         rebuild.forget_stale(results, Tree(self.root))
-        self.assertEqual([folder.name for folder in results.iterdir() if folder.is_dir()], ["b"])
-        self.assertEqual(list(json.loads((results / rebuild.SOURCES).read_text())), ["b"])
+        self.assertEqual({folder.name for folder in results.iterdir() if folder.is_dir()}, {"b", "c"})
 
     def test_in_this_tree_a_tracers_shader_is_among_them(self):
         files = {str(file) for file in Tree().files_of({"technique": "caustic_map", "scene": {"name": "pool"}, "parameters": {"trace": "secant"}})}

@@ -48,12 +48,12 @@ TEST(Bias, IsToldFromNoiseByItsSignAndSize) {
     set(3, 9.0f);
     set(4, 9.0f);
     for (int c = 0; c < 3; ++c)
-        sigma.at(4, 10, c) = 0.0f;  // nobody knows
+        sigma.at(4, 10, c) = 0.0f;  // no photon of the reference came here
     const ImagePair pair({.image = image, .reference = reference, .standardError = &sigma});
     const Bias bias = findBias(pair);
-    EXPECT_EQ(bias.judgedPixels, 7999u);
-    EXPECT_DOUBLE_EQ(bias.tooBright, 2.0 / 7999.0);
-    EXPECT_DOUBLE_EQ(bias.tooDark, 1.0 / 7999.0);
+    EXPECT_EQ(bias.judgedPixels, 8000u);
+    EXPECT_DOUBLE_EQ(bias.tooBright, 3.0 / 8000.0);
+    EXPECT_DOUBLE_EQ(bias.tooDark, 1.0 / 8000.0);
 
     const Image picture = biasPicture(pair);
     const auto at = [&](int x, int c) { return picture.at(x, 10, c); };
@@ -61,7 +61,15 @@ TEST(Bias, IsToldFromNoiseByItsSignAndSize) {
     EXPECT_GT(at(1, 0), at(1, 2)) << "too bright is orange";
     EXPECT_LT(at(2, 0), at(2, 2)) << "too dark is blue";
     EXPECT_GT(at(3, 0), at(1, 0)) << "more is brighter";
-    EXPECT_FLOAT_EQ(at(4, 0), 0.5f);
+    EXPECT_FLOAT_EQ(at(4, 0), at(3, 0)) << "by the others' noise";
+}
+
+TEST(Bias, OfAReferenceWithoutNoiseIsNotJudged) {
+    const Image image = filled(3.0f);
+    const Image none = filled(0.0f);
+    const ImagePair pair({.image = image, .reference = none, .standardError = &none});
+    EXPECT_EQ(findBias(pair).judgedPixels, 0u);
+    EXPECT_EQ(findBias(pair).tooBright, 0.0);
 }
 
 TEST(Bias, LeavesOutWhatTheMaskDoes) {
