@@ -19,6 +19,7 @@ Reads runs.csv (all_techniques.toml, by table.py --csv) and light_tracer.csv (li
 - SCENE.svg: error against time, the Pareto front drawn through.
 - headline.svg: all scenes: the factors of equal_error.csv, of each technique's runs by default the one with the middle number of photons.
 - answers.csv: the same as a table: for each scene the default's factor, and the technique with the largest.
+- summary.csv: on how many scenes the default, and the best, are faster than the light tracer, and the least, the median and the largest factor.
 """
 
 import argparse
@@ -37,7 +38,7 @@ ERRORS = [1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4]
 LIGHT_TRACER, PHOTON_MAPPING = "light tracer", "progressive photon mapping"
 BASELINES = {LIGHT_TRACER: ":", PHOTON_MAPPING: "-."}
 DEFAULT = "screen_space_photons"
-MIDDLE = {("256x256", ""), ("", "1024")}  # photons along each side of the grid, or the finest cells
+MIDDLE = {"256x256", "1024"}  # photons along each side of the grid, or the finest cells
 LEAST_FACTOR = 1e-4  # that is drawn
 TIMES_MS = [50, 100, 200, 500, 1000, 2000]
 
@@ -143,12 +144,21 @@ def equal_error(runs: list[dict], tracers: dict[str, LightTracer]) -> list[dict]
             continue
         noise = number(row, "relMSE, reference's own") or 0.0
         reached = max(error, noise)
-        values = (row["scene"], row["technique"], row["as_published"], row.get("emit.photons", ""), row.get("refine.finest", ""), "done",
-                  ms, error, tracer.photons(reached), tracer.ms(reached), tracer.ms(reached) / ms, str(error < noise).lower(),
+        key, size = varied(row)
+        sizes = [size if key == column else "" for column in ("emit.photons", "refine.finest")]
+        values = (row["scene"], row["technique"], row["as_published"], *sizes, "done", ms, error, tracer.photons(reached), tracer.ms(reached), tracer.ms(reached) / ms, str(error < noise).lower(),
                   row["device"], row["version"])
-        size = row.get("refine.finest") or (row.get("emit.photons") or "0").split("x")[0]
-        table.append({**dict(zip(EQUAL_ERROR, values)), "order": int(size)})
+        table.append({**dict(zip(EQUAL_ERROR, values)), "order": int(size.split("x")[0] or 0)})
     return table
+
+
+# What says how many photons these take; of the others it is emit.photons. The other one is in their rows too, and has no effect.
+VARIED = {"adaptive_caustic_map": "refine.finest", "vertex_caustics": ""}
+
+
+def varied(row: dict) -> tuple[str, str]:
+    key = VARIED.get(row["technique"], "emit.photons")
+    return key, row.get(key) or ""
 
 
 def middle_runs(table: list[dict]) -> dict[str, dict[str, dict]]:
@@ -160,7 +170,7 @@ def middle_runs(table: list[dict]) -> dict[str, dict[str, dict]]:
             by[row["scene"]][row["technique"]].append(row)
 
     def chosen(rows: list[dict]) -> dict:
-        named = [row for row in rows if (row["emit.photons"], row["refine.finest"]) in MIDDLE]
+        named = [row for row in rows if row["emit.photons"] in MIDDLE or row["refine.finest"] in MIDDLE]
         return named[0] if named else sorted(rows, key=lambda row: row["order"])[(len(rows) - 1) // 2]
 
     return {scene: {name: chosen(rows) for name, rows in of.items()} for scene, of in by.items()}
@@ -175,6 +185,17 @@ def answers(middle: dict[str, dict[str, dict]]) -> list[list]:
                                        else [None] * 5),
                       best["technique"], best["ms"], best["relMSE, net"], best["factor"], best["at_least"]])
     return table
+
+
+def summary(table: list[list]) -> list[list]:
+    """Of the rows of answers."""
+    rows = []
+    for who, column in (("default", 5), ("best", 10)):
+        factors = [row[column] for row in table if row[column] is not None]
+        if factors:
+            rows.append([who, "done", len(factors), sum(factor > 1.0 for factor in factors), sum(factor <= 1.0 for factor in factors),
+                         min(factors), statistics.median(factors), max(factors)])
+    return rows
 
 
 def draw_headline(middle: dict[str, dict[str, dict]], file: pathlib.Path) -> None:
@@ -283,6 +304,7 @@ def main() -> int:
     write(folder / "answers.csv",
           ["scene", "status", "default's ms", "default's relMSE, net", "light tracer's ms", "factor", "at_least", "best", "best's ms",
            "best's relMSE, net", "best's factor", "best's at_least"], answers(middle))
+    write(folder / "summary.csv", ["who", "status", "scenes", "faster", "slower", "least", "median", "largest"], summary(answers(middle)))
     if middle:
         draw_headline(middle, folder / "headline.svg")
     write(folder / "costs.csv",

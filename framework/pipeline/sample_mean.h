@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The mean of what the samples of a frame give (eye.samples): each is a frame of its own, whose rays
-// go through another place in the pixels.
+// The mean of what the samples of a frame give (eye.samples): each is a frame of its own, whose
+// rays go through another place in the pixels.
 #pragma once
 
 #include <fmt/format.h>

@@ -26,7 +26,7 @@ struct RasterView {
     glm::dvec2 offsetPixels{0.0};
     // What the offset is at most, either way, over all that are rendered of this view for a frame.
     double maxOffsetPixels = 0.0;
-    bool isClipped = false;   // what it was to hold is wider than a perspective view can be
+    bool isClipped = false;  // what it was to hold is wider than a perspective view can be
     // The offset where the picture reaches from -1 to 1.
     [[nodiscard]] glm::dvec2 offset() const {
         return 2.0 * offsetPixels / glm::dvec2(width, height);

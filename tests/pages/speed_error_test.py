@@ -11,12 +11,12 @@ import unittest
 PROGRAM = pathlib.Path(__file__).resolve().parents[2] / "experiments/plotting/speed_error.py"
 
 NOISE = 0.0005
-RUNS = f"""scene,technique,as_published,emit.photons,status,ms,relMSE,"relMSE, reference's own",emitted,peak MiB,"not formed, %","not formed, W",device,version
-ring,a,false,1x1,done,10,{0.1 + NOISE},{NOISE},1000,2,7,0.7,d,1
-ring,a,false,2x2,done,100,{0.01 + NOISE},{NOISE},4000,5,6,0.6,d,1
-ring,a,true,2x2,done,50,{0.01 + NOISE},{NOISE},4000,5,,,d,1
-ring,b,false,2x2,done,1000,{0.0001 + NOISE},{NOISE},4000,5,,,d,1
-ring,c,false,2x2,failed,,,,,,,,d,1
+RUNS = f"""scene,technique,as_published,emit.photons,refine.finest,status,ms,relMSE,"relMSE, reference's own",emitted,peak MiB,"not formed, %","not formed, W",device,version
+ring,a,false,1x1,4096,done,10,{0.1 + NOISE},{NOISE},1000,2,7,0.7,d,1
+ring,a,false,2x2,4096,done,100,{0.01 + NOISE},{NOISE},4000,5,6,0.6,d,1
+ring,a,true,2x2,4096,done,50,{0.01 + NOISE},{NOISE},4000,5,,,d,1
+ring,b,false,2x2,4096,done,1000,{0.0001 + NOISE},{NOISE},4000,5,,,d,1
+ring,c,false,2x2,4096,failed,,,,,,,,d,1
 """
 LIGHT_TRACER = f"""scene,estimator,photons,seconds,relMSE,"relMSE, reference's own"
 ring,light,100000,0.3,{0.01 + NOISE},{NOISE}

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 
+#include "framework/core/error.h"
 #include "framework/run/session.h"
 #include "framework/run/settings.h"
 #include "framework/scene/files/scene_file.h"
@@ -62,7 +63,7 @@ double covered(const glm::dvec2& ray, double side) {
 
 // The largest difference from the share of the environment that a pixel sees, W/m²/sr.
 double worstError(const scene::Scene& scene, int samples) {
-    const std::string name = samples > 1 ? "compose.samples" : "compose.receiver_radiance";
+    const std::string name = "compose.receiver_radiance";
     const Frame frame(scene, 97, 71,
                       {{"eye.samples", fmt::format("{}", samples)}, {"emit.photons", "8x8"}},
                       {name}, true);
@@ -88,40 +89,99 @@ TEST(EyeSamples, GiveEachPixelTheShareThatASilhouetteCoversOfIt) {
     EXPECT_LT(worstError(scene, 64), 4.0 / 64.0);
 }
 
-// Still water lets the same irradiance through everywhere.
-TEST(EyeSamples, LeaveAnEvenCausticAsItIs) {
-    const scene::Scene scene = scene::loadScene("flat-water");
-    const Settings settings = {{"emit.photons", "64x64"}};
+// Of four samples the last goes through a place that is a pixel's middle where there are four times
+// as many a side.
+TEST(EyeSamples, SeeAndLightWhatAFinerPictureHasThere) {
+    const scene::Scene scene = scene::loadScene("glossy-table");
+    constexpr int kWidth = 80;
+    constexpr int kHeight = 60;
+    const std::vector<std::string> saved = {"direct.irradiance", "eye.receiver"};
+    const Settings settings = {{"shadow", "rays"}, {"emit.photons", "8x8"}, {"view", "interface"}};
     Settings more = settings;
-    more.emplace_back("eye.samples", "5");
-    const std::string name = "compose.samples_caustic";
-    const Frame one(scene, 64, 48, settings, {"caustic.irradiance"});
-    const Frame five(scene, 64, 48, more, {name, "compose.samples"}, true);
-    EXPECT_EQ(five.countNotFinite("compose.samples"), 0u);
-    EXPECT_EQ(five.countNotFinite(name), 0u);
-    const Texels before = one.read("caustic.irradiance");
-    const Texels after = five.read(name);
-    double largest = 0.0;
-    double sumBefore = 0.0;
-    double sumAfter = 0.0;
-    for (int y = 16; y < 32; ++y) {
-        for (int x = 16; x < 48; ++x) {
-            largest = std::max(largest, static_cast<double>(before.rgb(x, y).g));
-            sumBefore += static_cast<double>(before.rgb(x, y).g);
-            sumAfter += static_cast<double>(after.rgb(x, y).g);
+    more.emplace_back("eye.samples", "4");
+    const Frame four(scene, kWidth, kHeight, more, saved, true);
+    const Frame fine(scene, 4 * kWidth, 4 * kHeight, settings, saved);
+    const glm::dvec2 offset = four.renderer().view().offsetPixels;
+    ASSERT_GT(glm::length(offset), 0.3);
+    const glm::ivec2 part(glm::round(4.0 * (offset + 0.5) - 0.5));
+    ASSERT_LT(glm::length((glm::dvec2(part) + 0.5) / 4.0 - 0.5 - offset), 1e-6);
+    const auto share = [&](const std::string& name, const glm::ivec2& of) {
+        const Texels coarse = four.read(name);
+        const Texels finer = fine.read(name);
+        int same = 0;
+        for (int y = 0; y < kHeight; ++y) {
+            for (int x = 0; x < kWidth; ++x) {
+                const double a = static_cast<double>(coarse.at(x, y, 0));
+                const double b = static_cast<double>(finer.at(4 * x + of.x, 4 * y + of.y, 0));
+                same += std::abs(a - b) <= 1e-4 * std::max(std::abs(a), std::abs(b)) ? 1 : 0;
+            }
         }
+        return static_cast<double>(same) / (kWidth * kHeight);
+    };
+    for (const std::string& name : saved) {
+        SCOPED_TRACE(name);
+        EXPECT_GT(share(name, part), 0.995);
+        EXPECT_LT(share(name, {3 - part.x, 3 - part.y}), 0.9);
     }
-    EXPECT_GT(largest, 0.0);
-    EXPECT_NEAR(sumAfter / sumBefore, 1.0, 1e-3);
+}
+
+// What several rays a pixel see of a caustic is nearer to its mean over the pixels than one is.
+TEST(EyeSamples, BringACausticToItsMeanOverThePixels) {
+    constexpr int kSide = 4;
+    for (const std::string technique : {"caustic_map", "screen_space_photons"}) {
+        SCOPED_TRACE(technique);
+        const scene::Scene scene = scene::loadScene("ring");
+        const Settings settings = {{"emit.photons", "128x128"}, {"shadow.map.size", "64"}};
+        Settings more = settings;
+        more.emplace_back("eye.samples", "16");
+        const std::vector<std::string> saved = {"caustic.irradiance"};
+        const Frame one(scene, 80, 60, settings, saved, false, technique);
+        const Frame sixteen(scene, 80, 60, more, saved, true, technique);
+        const Frame fine(scene, kSide * 80, kSide * 60, settings, saved, false, technique);
+        EXPECT_EQ(sixteen.countNotFinite("caustic.irradiance"), 0u);
+        const Texels truth = fine.causticIrradiance();
+        const auto error = [&](const Texels& caustic) {
+            double squares = 0.0;
+            for (int y = 0; y < 60; ++y) {
+                for (int x = 0; x < 80; ++x) {
+                    double mean = 0.0;
+                    for (int i = 0; i < kSide * kSide; ++i)
+                        mean += truth.rgb(kSide * x + i % kSide, kSide * y + i / kSide).g;
+                    const double off = caustic.rgb(x, y).g - mean / (kSide * kSide);
+                    squares += off * off;
+                }
+            }
+            return squares;
+        };
+        const double ofOne = error(one.causticIrradiance());
+        const double ofSixteen = error(sixteen.causticIrradiance());
+        RecordProperty(technique + "_percent", static_cast<int>(100.0 * ofSixteen / ofOne));
+        EXPECT_LT(ofSixteen, 0.5 * ofOne);
+    }
+}
+
+TEST(EyeSamples, AreRefusedInTilesAndSaidByAFilterOverTime) {
+    const scene::Scene scene = scene::loadScene("pool");
+    const Frame frame(scene, 32, 24, {{"eye.samples", "2"}, {"temporal", "reproject"}});
+    const std::vector<std::string>& warnings = frame.renderer().warnings();
+    EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
+        return warning.find("2 samples of eye.samples") != std::string::npos;
+    }));
+
+    const Registry registry = registerAll();
+    RenderSettings settings = run::makeSettings(
+        {.technique = "screen_space_photons", .assignments = {{"eye.samples", "2", "test"}}},
+        registry);
+    settings.tiles = std::make_shared<const TileFrame>();
+    Renderer renderer(context(), registry, scene, settings);
+    EXPECT_THROW(renderer.build(Purpose::picture), ConfigError);
 }
 
 class AFrameOfSamples : public testing::Test {
   protected:
-    [[nodiscard]] RenderSettings settings(const std::string& samples,
-                                          const std::string& temporal = "none") const {
+    [[nodiscard]] RenderSettings settings(const std::string& samples) const {
         RenderSettings settings = run::makeSettings({.technique = "screen_space_photons",
                                                      .assignments = {{"eye.samples", samples, ""},
-                                                                     {"temporal", temporal, ""},
                                                                      {"emit.photons", "32x32", ""},
                                                                      {"trace", "march", ""}}},
                                                     registry_);
