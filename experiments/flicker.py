@@ -129,7 +129,7 @@ def main() -> int:
                     images = rendered(scene, technique, published, options)
                     truth = truth or traced(scene, options)
                     row |= {"status": "done", **{key: f"{value:.4g}" for key, value in truth.judge(images).items()}}
-                except kaustik.Error as error:
+                except kaustik.ConfigError as error:
                     row["status"] = str(error)
                 rows.append(row)
                 with file.open("w", newline="", encoding="utf-8") as stream:

@@ -277,8 +277,8 @@ Layers readLayers(const Renderer& renderer) {
         const std::size_t pixel = i / 4 % static_cast<std::size_t>(width * height);
         const double x = static_cast<double>(pixel % static_cast<std::size_t>(width)) + 0.5;
         const double y = static_cast<double>(pixel / static_cast<std::size_t>(width)) + 0.5;
-        const glm::dvec2 place(2.0 * x / width - 1.0, 2.0 * y / height - 1.0);
-        const glm::dvec3 ray((place + view.offset()) * view.halfExtent, -1.0);
+        const glm::dvec3 ray((2.0 * x / width - 1.0) * view.halfExtent.x,
+                             (2.0 * y / height - 1.0) * view.halfExtent.y, -1.0);
         const double depth = static_cast<double>(texels[i]);
         const glm::dvec3 normal = unfoldUnitVector(glm::dvec2(texels[i + 1], texels[i + 2]));
         const double slope = (std::abs(normal.x) + std::abs(normal.y)) /

@@ -79,7 +79,9 @@ struct HitAudit {
                                          double emittedWatts);
 
 // The wrong photons over `display` (display-encoded RGB, rows from the top), which is dimmed:
-// missed in blue, false in orange, those next to their place in yellow.
-[[nodiscard]] Image wrongPhotonsPicture(const HitAudit& audit, const Image& display);
+// missed in blue, false in orange, those next to their place in yellow. `samplesPerSide`: of the
+// pixels of what was audited in one of the picture's.
+[[nodiscard]] Image wrongPhotonsPicture(const HitAudit& audit, const Image& display,
+                                        int samplesPerSide = 1);
 
 }  // namespace kaustik::audit

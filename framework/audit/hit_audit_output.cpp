@@ -66,7 +66,7 @@ nlohmann::json hitsSchema() {
     return jsonSchemaOf<HitAudit>();
 }
 
-Image wrongPhotonsPicture(const HitAudit& audit, const Image& display) {
+Image wrongPhotonsPicture(const HitAudit& audit, const Image& display, int samplesPerSide) {
     constexpr float kDim = 0.3f;
     Image picture(display.width, display.height, 3);
     for (int y = 0; y < display.height; ++y) {
@@ -78,7 +78,7 @@ Image wrongPhotonsPicture(const HitAudit& audit, const Image& display) {
         }
     }
     for (const WrongPhoton& photon : audit.wrong) {
-        const glm::dvec2 pixel = glm::floor(photon.pixel);
+        const glm::dvec2 pixel = glm::floor(photon.pixel / static_cast<double>(samplesPerSide));
         if (!(pixel.x >= 0.0 && pixel.y >= 0.0 && pixel.x < display.width &&
               pixel.y < display.height)) {
             continue;

@@ -39,7 +39,7 @@ void ShadowAudit::add(const ShadowAudit& other) {
 }
 
 ShadowAudit auditShadow(const Image& visibility, std::size_t light,
-                        const reference::EmbreeScene& scene, const glm::dvec2& offsetPixels) {
+                        const reference::EmbreeScene& scene) {
     const scene::Light& source = scene.scene().lights[light];
     const reference::Eye eye(scene, visibility.width, visibility.height);
     const reference::ShadowRays shadowRays(scene);
@@ -47,8 +47,7 @@ ShadowAudit auditShadow(const Image& visibility, std::size_t light,
     for (int y = 0; y < visibility.height; ++y) {
         for (int x = 0; x < visibility.width; ++x) {
             reference::SurfaceHit seen;
-            const glm::dvec3 ray =
-                glm::normalize(eye.ray(x + 0.5 + offsetPixels.x, y + 0.5 - offsetPixels.y));
+            const glm::dvec3 ray = glm::normalize(eye.ray(x + 0.5, y + 0.5));
             if (!scene.intersectStraight(eye.position(), ray, seen)) continue;
             if (!isReceiver(scene.scene().materials[seen.material].kind)) continue;
             const LightPath path = pathTo(source, seen.position, scene.center());

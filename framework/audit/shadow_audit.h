@@ -21,11 +21,10 @@ struct ShadowAudit {
 };
 
 // `visibility`: of the light with this index, rows from the top, 1 channel; above a half is lit.
-// The exact answer is a ray from what the pixel's middle sees, or what is so many pixels right of it
-// and above (RasterView::offsetPixels), to the light, which any surface blocks.
+// The exact answer is a ray from what the pixel's middle sees to the light, which any surface
+// blocks.
 [[nodiscard]] ShadowAudit auditShadow(const Image& visibility, std::size_t light,
-                                      const reference::EmbreeScene& scene,
-                                      const glm::dvec2& offsetPixels = {0.0, 0.0});
+                                      const reference::EmbreeScene& scene);
 
 // The entry of report.json: shares of `tested`, null where nothing was tested.
 [[nodiscard]] nlohmann::json toJson(const ShadowAudit& audit);

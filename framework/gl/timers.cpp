@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "framework/core/error.h"
-
 namespace kaustik::gl {
 namespace {
 double milliseconds(std::chrono::steady_clock::duration duration) {
@@ -98,32 +96,12 @@ bool PassTimer::collect(Slot& slot, bool wait) {
     return true;
 }
 
-void PassTimer::collectFinished(bool wait) {
+std::vector<FrameTime> PassTimer::takeFinished(bool wait) {
     for (std::size_t i = 0; i < kFramesInFlight; ++i) {
         Slot& slot = ring_[(frame_ + i) % kFramesInFlight];
         if (slot.pending && !collect(slot, wait)) break;
     }
-}
-
-std::vector<FrameTime> PassTimer::takeFinished(bool wait) {
-    collectFinished(wait);
     return std::exchange(finished_, {});
-}
-
-FrameTime joined(std::span<const FrameTime> frames) {
-    FrameTime all = frames.front();
-    for (const FrameTime& other : frames.subspan(1)) {
-        if (other.passes.size() != all.passes.size())
-            throw GraphError("Frames that are timed as one have different passes.");
-        all.frameMs += other.frameMs;
-        all.bookkeepingMs += other.bookkeepingMs;
-        for (std::size_t pass = 0; pass < all.passes.size(); ++pass) {
-            all.passes[pass].gpuMs += other.passes[pass].gpuMs;
-            all.passes[pass].cpuMs += other.passes[pass].cpuMs;
-            all.passes[pass].runs += other.passes[pass].runs;
-        }
-    }
-    return all;
 }
 
 double measuringMilliseconds(TimerMode mode) {

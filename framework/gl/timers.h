@@ -6,7 +6,6 @@
 
 #include <chrono>
 #include <cstddef>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -44,8 +43,6 @@ class PassTimer {
 
     // Frames whose times are known by now, in order; each is given once. `wait` waits for all.
     [[nodiscard]] std::vector<FrameTime> takeFinished(bool wait = false);
-    // Reads the times of all frames, so that the next ones lose none; takeFinished() gives them.
-    void waitForAll() { collectFinished(true); }
     // Frames whose ring slot was needed before the device had finished them: their times are lost.
     [[nodiscard]] std::size_t droppedFrames() const { return dropped_; }
 
@@ -60,7 +57,6 @@ class PassTimer {
         Clock::time_point frameBegin;
     };
     [[nodiscard]] bool collect(Slot& slot, bool wait);
-    void collectFinished(bool wait);
 
     TimerMode mode_;
     std::vector<Slot> ring_{kFramesInFlight};
@@ -68,9 +64,6 @@ class PassTimer {
     std::size_t dropped_ = 0;
     std::vector<FrameTime> finished_;
 };
-
-// Frames with the same passes as one: the times added up.
-[[nodiscard]] FrameTime joined(std::span<const FrameTime> frames);
 
 // What timing a pass that does nothing takes, ms: the least that measuring adds to each pass. The
 // median of a few frames; waits for the device.

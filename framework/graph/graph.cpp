@@ -194,6 +194,11 @@ const ResourceDesc& Graph::descOf(const ResourceRef& handle) const {
     return resourceOf(handle).desc;
 }
 
+void Graph::rename(const ResourceRef& handle, std::string name) {
+    static_cast<void>(nameOf(handle));  // refuses what no pass has made
+    resources_[handle.index].name = std::move(name);
+}
+
 std::vector<std::string> Graph::resourceNames() const {
     std::vector<std::string> names;
     for (const Resource& resource : resources_)

@@ -65,12 +65,13 @@ PhotonProbe probePhotons(const Renderer& renderer, glm::ivec2 pixel, float radiu
         if (record.log) probe.overwritten += record.log->beforeLast;
     }
     const glm::vec2 middle = glm::vec2(pixel) + 0.5f;
+    const render::RasterView view = renderer.pictureView();
     for (std::size_t tracing = 0; tracing < tracings.size(); ++tracing) {
         const Tracing& traced = tracings[tracing];
         for (std::size_t i = 0; i < traced.hits.size(); ++i) {
             const HitTexel& hit = traced.hits[i];
             if (traced.photons[i].fate != kFateInFlight || hit.fate != kFateReceiver) continue;
-            const Projected landing = project(renderer.view(), hit.position);
+            const Projected landing = project(view, hit.position);
             PhotonPath path;
             path.pixels = landing.visible ? glm::distance(landing.pixel, middle) : 1e9f;
             if (!(path.pixels <= radiusPixels)) continue;

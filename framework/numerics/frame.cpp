@@ -118,7 +118,7 @@ glm::dvec3 Frame::toWorld(const glm::dvec3& positionVs) const {
 
 glm::dvec3 Frame::worldAt(int x, int y, double depth) const {
     const glm::dvec2 ndc((x + 0.5) / view_.width * 2.0 - 1.0, (y + 0.5) / view_.height * 2.0 - 1.0);
-    return toWorld(glm::dvec3((ndc + view_.offset()) * view_.halfExtent, -1.0) * depth);
+    return toWorld(glm::dvec3(ndc * view_.halfExtent, -1.0) * depth);
 }
 
 }  // namespace kaustik::numerics

@@ -34,8 +34,8 @@ struct FrameInputs {
     const render::ViewInstances& instances;         // as the eye sees them
     const std::uint64_t& seed;                      // of whatever a node draws at random
     const std::shared_ptr<const TileFrame>& tiles;  // null where there are none
-    int sample = 0;                                 // that is rendered, of `samples` (eye.samples)
-    int samples = 1;
+    // The view has so many pixels a side of each of the picture's (eye.samples).
+    int samplesPerSide = 1;
 };
 
 // Issues a compute thread a photon of the list: shaders include include/photons/photon_thread.glsl.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "framework/pipeline/renderer.h"
+#include "framework/pipeline/photon_texels.h"
 
 #include <fmt/format.h>
 
@@ -9,9 +10,8 @@
 #include "framework/core/error.h"
 #include "framework/core/names.h"
 #include "framework/pipeline/photon_texels.h"
-#include "framework/pipeline/sample_mean.h"
+#include "framework/pipeline/pixel_mean.h"
 #include "framework/pipeline/stage_params.h"
-#include "framework/render/pixel_samples.h"
 
 namespace kaustik {
 namespace {
@@ -95,12 +95,13 @@ graph::Compiled compileWithout(graph::Graph& graph, RenderSettings& settings) {
     return graph.compile();
 }
 
-// The samples of a pixel, the one nearest to its middle last: it is what stays.
-std::vector<glm::vec2> middleLast(std::vector<glm::vec2> samples) {
-    std::stable_sort(samples.begin(), samples.end(), [](const glm::vec2& a, const glm::vec2& b) {
-        return glm::dot(a, a) > glm::dot(b, b);
-    });
-    return samples;
+int samplesPerSideOf(const RenderSettings& settings) {
+    return settings.params.get<EyeParams>(EyeStage::name).perSide();
+}
+
+render::RasterView eyeView(const scene::Scene& scene, const RenderSettings& settings) {
+    const int side = samplesPerSideOf(settings);
+    return render::makeEyeView(scene.camera, side * settings.width, side * settings.height);
 }
 
 }  // namespace
@@ -111,19 +112,25 @@ Renderer::Renderer(gl::Context& context, const Registry& registry, const scene::
       registry_(registry),
       scene_(scene),
       settings_(std::move(settings)),
-      seed_(settings_.seed),
-      view_(render::makeEyeView(scene.camera, settings_.width, settings_.height)),
+      view_(eyeView(scene, settings_)),
       gpuScene_(scene),
       viewBlock_(makeViewBlock(scene, view_)),
       lights_(makeLights(scene, view_)),
       instances_(gpuScene_.makeInstances(view_.worldToView)),
       needs_(sceneNeeds(scene)),
       ledgerQuantumWatts_(ledgerQuantum(scene)),
-      inputs_{registry_, settings_.params, gpuScene_, needs_,
-              view_,     instances_,       seed_,     settings_.tiles},
+      inputs_{registry_,
+              settings_.params,
+              gpuScene_,
+              needs_,
+              view_,
+              instances_,
+              settings_.seed,
+              settings_.tiles,
+              samplesPerSideOf(settings_)},
       programs_(registry.shaderFolders()),
       executor_(context, programs_) {
-    beginSample(0);
+    bindToAll();
     context_.check();
 }
 
@@ -138,32 +145,21 @@ void Renderer::bindToAll() {
 
 void Renderer::update(RenderSettings settings) {
     settings_ = std::move(settings);
-    view_ = render::makeEyeView(scene_.camera, settings_.width, settings_.height);
+    view_ = eyeView(scene_, settings_);
+    inputs_.samplesPerSide = samplesPerSideOf(settings_);
+    viewBlock_ = makeViewBlock(scene_, view_);
     lights_ = makeLights(scene_, view_);
     instances_ = gpuScene_.makeInstances(view_.worldToView);
     const int measuredDepthComplexity = needs_.measuredDepthComplexity;
     needs_ = sceneNeeds(scene_);
     needs_.measuredDepthComplexity = measuredDepthComplexity;
     ledgerQuantumWatts_ = ledgerQuantum(scene_);
-    beginSample(0);
+    bindToAll();
     context_.check();
 }
 
-int Renderer::samplesPerFrame() const {
-    return settings_.params.get<EyeParams>(EyeStage::name).samples;
-}
-
-// What depends on where rays go through the pixels. The graph has to be built anew.
-void Renderer::beginSample(std::size_t sample) {
-    if (sample == 0) samples_ = middleLast(render::samplesOfPixel(samplesPerFrame()));
-    inputs_.sample = static_cast<int>(sample);
-    inputs_.samples = static_cast<int>(samples_.size());
-    view_.offsetPixels = samples_[sample];
-    view_.maxOffsetPixels = samples_.size() > 1 ? 0.5 : 0.0;
-    // Far apart, whatever seeds users take.
-    seed_ = settings_.seed + sample * 0x9e3779b97f4a7c15ULL;
-    viewBlock_ = makeViewBlock(scene_, view_);
-    bindToAll();
+render::RasterView Renderer::pictureView() const {
+    return render::makeEyeView(scene_.camera, settings_.width, settings_.height);
 }
 
 std::vector<std::string> Renderer::forgetAbsentPasses() {
@@ -182,9 +178,8 @@ std::vector<std::string> Renderer::forgetAbsentPasses() {
 FrameBuilder Renderer::declareFrame(bool recordsTraces, bool skipsCaustic) {
     graph_ = std::make_unique<graph::Graph>();
     FrameBuilder frame(*graph_, inputs_, recordsTraces, skipsCaustic);
-    if (settings_.tiles && inputs_.samples > 1) {
-        throw ConfigError(
-            "--tiles: a frame is made of the tiles of one view, but eye.samples has several.");
+    if (settings_.tiles && inputs_.samplesPerSide > 1) {
+        throw ConfigError("--tiles: they share out the pixels of a picture; take eye.samples=1.");
     }
     if (settings_.tiles && settings_.technique.build) {
         throw ConfigError(fmt::format(
@@ -203,13 +198,7 @@ graph::Compiled Renderer::compile(Purpose purpose, const std::vector<std::string
     if (purpose != Purpose::picture) closedLedger_ = closeLedger(frame, outputs_);
     if (purpose == Purpose::measurement || purpose == Purpose::audit)
         closedLedger_ = addEmittable(frame, outputs_, closedLedger_);
-    if (inputs_.samples > 1) {
-        IrradianceMap& caustic = outputs_.caustic;
-        caustic.irradiance = meanOverSamples(frame, "samples_caustic", caustic.irradiance);
-        caustic.radiance = meanOverSamples(frame, "samples_caustic_radiance", caustic.radiance);
-        outputs_.inScattered.radiance =
-            meanOverSamples(frame, "samples_in_scattered", outputs_.inScattered.radiance);
-    }
+    if (inputs_.samplesPerSide > 1) meanOverPixelsOfCaustic(frame);
     graph_->request(outputs_.picture.radiance, "the picture's radiance");
     graph_->request(outputs_.picture.display, "the picture");
     graph_->request(outputs_.caustic.irradiance, "the caustic's irradiance");
@@ -255,6 +244,20 @@ graph::Compiled Renderer::compile(Purpose purpose, const std::vector<std::string
     }
     isRandom_ = frame.isRandom();
     return compiled;
+}
+
+// The means take the names of what they are of, so that an output has one name in every frame.
+void Renderer::meanOverPixelsOfCaustic(FrameBuilder& frame) {
+    const auto average = [&](const char* name, auto& ofSamples) {
+        if (!ofSamples.valid()) return;
+        const std::string known = graph_->nameOf(ofSamples);
+        graph_->rename(ofSamples, known + ".samples");
+        ofSamples = meanOverPixels(frame, name, ofSamples);
+        graph_->rename(ofSamples, known);
+    };
+    average("caustic", outputs_.caustic.irradiance);
+    average("caustic_radiance", outputs_.caustic.radiance);
+    average("in_scattered", outputs_.inScattered.radiance);
 }
 
 // Only what one tile of the screen gives: the first hits of its round, and counts of the work.
@@ -334,23 +337,12 @@ void Renderer::requestExits() {
 }
 
 void Renderer::build(Purpose purpose, const std::vector<std::string>& resources) {
-    purpose_ = purpose;
-    resources_ = resources;
-    if (inputs_.sample != 0) beginSample(0);
     executor_.prepare(compile(purpose, resources));
 }
 
 bool Renderer::renderFrame(gl::PassTimer& timer,
                            const std::function<bool(std::size_t)>& shouldContinue) {
-    if (inputs_.sample != 0) build(purpose_, resources_);
-    if (!executor_.runFrame(timer, shouldContinue)) return false;
-    for (std::size_t sample = 1; sample < samples_.size(); ++sample) {
-        timer.waitForAll();  // its ring has room for few frames
-        beginSample(sample);
-        executor_.prepare(compile(purpose_, resources_));
-        if (!executor_.runFrame(timer, shouldContinue)) return false;
-    }
-    return true;
+    return executor_.runFrame(timer, shouldContinue);
 }
 
 EnergyLedger Renderer::ledger() const {

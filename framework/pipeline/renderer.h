@@ -60,8 +60,6 @@ class Renderer {
     // Only declares and compiles: what a frame would take is known before any memory is taken.
     [[nodiscard]] graph::Compiled compile(Purpose purpose,
                                           const std::vector<std::string>& resources = {});
-    // Of eye.samples more than one, these are rendered one after the other, each a frame to
-    // `timer`, and the outputs are their mean; the rest is as the last one has left it.
     // `shouldContinue` is asked before each pass (its number among compiled().steps); where it says
     // no, the rest of the frame is skipped and the result is false.
     bool renderFrame(gl::PassTimer& timer,
@@ -105,11 +103,13 @@ class Renderer {
     [[nodiscard]] const scene::SceneNeeds& needs() const { return needs_; }
     [[nodiscard]] const Registry& registry() const { return registry_; }
     [[nodiscard]] const scene::Scene& scene() const { return scene_; }
+    // What is rendered; with eye.samples it is finer than the picture, whose pixels pictureView()
+    // has.
     [[nodiscard]] const render::RasterView& view() const { return view_; }
+    [[nodiscard]] render::RasterView pictureView() const;
+    [[nodiscard]] int samplesPerSide() const { return inputs_.samplesPerSide; }
     [[nodiscard]] const render::GpuScene& gpuScene() const { return gpuScene_; }
     [[nodiscard]] const RenderSettings& settings() const { return settings_; }
-    // Frames of the timer that a frame has (eye.samples).
-    [[nodiscard]] int samplesPerFrame() const;
     [[nodiscard]] gl::Executor& executor() { return executor_; }
     [[nodiscard]] gl::ProgramCache& programs() { return programs_; }
 
@@ -119,7 +119,7 @@ class Renderer {
     [[nodiscard]] std::string whyNoEffect(const std::string& name,
                                           const graph::Compiled& compiled) const;
     void bindToAll();
-    void beginSample(std::size_t sample);
+    void meanOverPixelsOfCaustic(FrameBuilder& frame);
     void requestForMaps();
     void requestForAudit();
     void requestExits();
@@ -131,8 +131,6 @@ class Renderer {
     const Registry& registry_;
     const scene::Scene& scene_;
     RenderSettings settings_;
-    std::uint64_t seed_;                               // of the sample that is rendered
-    std::vector<glm::vec2> samples_{glm::vec2(0.0f)};  // px from the pixels' middles
     render::RasterView view_;
     render::GpuScene gpuScene_;
     gl::Buffer viewBlock_;
@@ -154,8 +152,6 @@ class Renderer {
     double buildMilliseconds_ = 0.0;
     bool isRandom_ = false;
     bool hasLayerStatistics_ = false;
-    Purpose purpose_ = Purpose::picture;  // of the last build, as is the next
-    std::vector<std::string> resources_;
     std::vector<Hits> tileHits_;
     int maxRounds_ = 0;
     std::vector<NodeWarning> nodeWarnings_;

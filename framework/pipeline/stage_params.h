@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "framework/core/error.h"
 #include "framework/pipeline/effect.h"
 
 namespace kaustik {
@@ -13,11 +14,22 @@ struct EyeParams {
     template <class R>
     void reflect(R& r) {
         r.field(samples, "samples",
-                "Frames that a picture is the mean of, each with rays through another place in the "
-                "pixels, evenly spread over them, and, where anything is random, with a seed of "
-                "its own: all edges are anti-aliased. A frame takes as many times as long; what "
-                "the report counts is of the last, whose place is the one nearest the middle",
+                "What the picture's pixels are the mean of: 1, 4, 9, 16, 25, 36, 49 or 64 samples, "
+                "squares of pixels of a frame that is rendered with so many times as many: all "
+                "edges are anti-aliased, and whatever works on the screen works on a finer one. "
+                "Lengths in pixels are of the samples",
                 "", params::range(1, 64));
+    }
+    // Throws ConfigError for what is no square.
+    [[nodiscard]] int perSide() const {
+        int side = 1;
+        while ((side + 1) * (side + 1) <= samples)
+            ++side;
+        if (side * side != samples) {
+            throw ConfigError(fmt::format("eye.samples: {} samples make no square; take {} or {}.",
+                                          samples, side * side, (side + 1) * (side + 1)));
+        }
+        return side;
     }
 };
 

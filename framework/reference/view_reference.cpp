@@ -172,8 +172,7 @@ class Tracer {
 
     // False where the pixel's middle sees no specular surface.
     bool traceExit(int column, int row) const {
-        const std::optional<PhotonState> state = start(column + 0.5 + request_.exitOffsetPixels.x,
-                                                       row + 0.5 - request_.exitOffsetPixels.y);
+        const std::optional<PhotonState> state = start(column + 0.5, row + 0.5);
         if (!state) return false;
         PathFilter transmitted;
         transmitted.transmissionOnly = true;

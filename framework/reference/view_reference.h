@@ -15,9 +15,7 @@ namespace kaustik::reference {
 struct ViewReferenceRequest {
     int width = 800;
     int height = 600;
-    int samplesPerSide = 4;  // of a pixel's square, jittered: its box filter
-    // To the right of the middle and above, where the ray goes whose exit is told.
-    glm::dvec2 exitOffsetPixels{0.0};
+    int samplesPerSide = 4;     // of a pixel's square, jittered: its box filter
     int splitInteractions = 2;  // both parts are followed; at later ones one, by its share
     int maximumInteractions = 64;
     std::uint64_t seed = 1;

@@ -44,8 +44,6 @@ glm::mat4 RasterView::projection() const {
     } else {
         p[3][2] = nearMeters;
         p[2][3] = -1.0;
-        p[2][0] = offset().x;  // clip.w is -z
-        p[2][1] = offset().y;
     }
     return glm::mat4(p);
 }
@@ -54,8 +52,7 @@ std::optional<glm::dvec2> pixelOf(const RasterView& view, const glm::dvec3& posi
     const double depth = -positionVs.z;
     if (!(depth > 0.0)) return std::nullopt;
     const glm::dvec2 size(view.width, view.height);
-    return ((glm::dvec2(positionVs) / (depth * view.halfExtent) - view.offset()) * 0.5 + 0.5) *
-           size;
+    return (glm::dvec2(positionVs) / (depth * view.halfExtent) * 0.5 + 0.5) * size;
 }
 
 glm::dmat4 lookAlong(const glm::dvec3& position, const glm::dvec3& direction, glm::dvec3 up) {
@@ -90,7 +87,6 @@ transport::ViewData viewData(const scene::Scene& scene, const RasterView& view,
         glm::vec4(glm::dvec4(view.halfExtent, view.nearMeters, view.footprintPerMeter()));
     data.sizePixels =
         glm::vec4(glm::dvec4(view.width, view.height, 1.0 / view.width, 1.0 / view.height));
-    data.offset = glm::vec4(glm::dvec4(view.offset(), 0.0, 0.0));
     data.viewToWorld = glm::mat4(glm::dmat4(glm::transpose(glm::dmat3(view.worldToView))));
     const scene::Bounds bounds = sceneBounds(scene);
     if (!bounds.empty) {

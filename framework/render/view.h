@@ -22,27 +22,14 @@ struct RasterView {
     double farMeters = 1.0;  // orthographic only
     int width = 1;           // pixels
     int height = 1;
-    // Perspective: px from the pixels' middles, to the right and up, where their rays go through.
-    glm::dvec2 offsetPixels{0.0};
-    // What the offset is at most, either way, over all that are rendered of this view for a frame.
-    double maxOffsetPixels = 0.0;
     bool isClipped = false;  // what it was to hold is wider than a perspective view can be
-    // The offset where the picture reaches from -1 to 1.
-    [[nodiscard]] glm::dvec2 offset() const {
-        return 2.0 * offsetPixels / glm::dvec2(width, height);
-    }
-    // halfExtent of what any of the offsets may see.
-    [[nodiscard]] glm::dvec2 seenExtent() const {
-        return (1.0 + 2.0 * maxOffsetPixels / glm::dvec2(width, height)) * halfExtent;
-    }
     [[nodiscard]] glm::mat4 projection() const;
     // Metres that a pixel covers at a depth of 1 m; orthographic: at any.
     [[nodiscard]] double footprintPerMeter() const { return 2.0 * halfExtent.y / height; }
 };
 
 // The place where a point of a perspective view's space is seen, in pixels from the lower left
-// corner (by the rays that there are: with an offset, next to where a picture has it), on the
-// screen or next to it. There is none where the point is not in front of the eye.
+// corner, on the screen or next to it. There is none where the point is not in front of the eye.
 [[nodiscard]] std::optional<glm::dvec2> pixelOf(const RasterView& view,
                                                 const glm::dvec3& positionVs);
 

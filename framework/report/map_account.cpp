@@ -12,6 +12,7 @@
 
 #include "framework/core/json_schema.h"
 #include "framework/render/raster_views.h"
+#include "framework/report/seen_receivers.h"
 #include "framework/transport/primitives.h"
 #include "framework/transport/watts.h"
 
@@ -108,7 +109,9 @@ double filteredWatts(const Renderer& renderer, const FluxMap& map) {
 double seenWatts(const Renderer& renderer) {
     const std::vector<float> irradiance =
         renderer.texture(renderer.outputs().caustic.irradiance).read();
-    const std::vector<float> receiver = renderer.texture(renderer.outputs().eye.receiver).read();
+    const std::vector<float> receiver =
+        seenReceivers(renderer.texture(renderer.outputs().eye.receiver).read(),
+                      renderer.view().width, renderer.samplesPerSide());
     double sum = 0.0;
     for (std::size_t pixel = 0; 4 * pixel + 3 < irradiance.size(); ++pixel) {
         const double area = static_cast<double>(receiver[2 * pixel + 1]);

@@ -18,6 +18,7 @@
 #include "framework/measure/flicker.h"
 #include "framework/measure/heat_map.h"
 #include "framework/measure/image_errors.h"
+#include "framework/report/seen_receivers.h"
 #include "framework/run/output.h"
 
 namespace kaustik::run {
@@ -47,14 +48,17 @@ Outputs readOutputs(const Renderer& renderer) {
                                   readTexture(renderer.texture(frame.inScattered.radiance), 0, 3),
                                   &Reference::inScattered, &Reference::inScatteredError, false});
     }
-    const Image receiver = readTexture(renderer.texture(frame.eye.receiver), 0, 2);
-    outputs.receiver = Image(receiver.width, receiver.height, 1);
-    outputs.area = Image(receiver.width, receiver.height, 1);
+    const Image samples = readTexture(renderer.texture(frame.eye.receiver), 0, 2);
+    const std::vector<float> receiver =
+        report::seenReceivers(samples.values, samples.width, renderer.samplesPerSide());
+    const Image& picture = outputs.images.front().image;
+    outputs.receiver = Image(picture.width, picture.height, 1);
+    outputs.area = Image(picture.width, picture.height, 1);
     for (std::size_t i = 0; i < outputs.area.values.size(); ++i) {
-        const bool sees = receiver.values[2 * i] > 0.0f;
+        const bool sees = receiver[2 * i] > 0.0f;
         outputs.seesReceivers = outputs.seesReceivers || sees;
         outputs.receiver.values[i] = sees ? 1.0f : 0.0f;
-        outputs.area.values[i] = sees ? receiver.values[2 * i + 1] : 0.0f;
+        outputs.area.values[i] = receiver[2 * i + 1];
     }
     return outputs;
 }
@@ -161,7 +165,8 @@ template <class F>
 void reflect(F& f, const BiasTable& table) {
     f.choice("against", table.isOfModelledPaths ? "modelled_paths" : "all_paths",
              {"modelled_paths", "all_paths"}, "The reference's paths");
-    f.field("judged_pixels", table.bias.judgedPixels, "All that count; none where the reference has no noise");
+    f.field("judged_pixels", table.bias.judgedPixels,
+            "All that count; none where the reference has no noise");
     f.field("too_bright", table.bias.tooBright, "Share of them, beyond the reference's noise");
     f.field("too_dark", table.bias.tooDark, "Share of them, beyond the reference's noise");
     f.field("by_chance", measure::Bias::kByChance, "What both shares are together of the truth");

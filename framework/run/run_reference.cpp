@@ -198,7 +198,8 @@ std::vector<fs::path> RunReference::judge(const Renderer& renderer, const fs::pa
     }
     write("hits" + displayImageExtension(),
           audit::wrongPhotonsPicture(
-              hits, readTexture(renderer.texture(renderer.outputs().picture.display), 0, 3)));
+              hits, readTexture(renderer.texture(renderer.outputs().picture.display), 0, 3),
+              renderer.samplesPerSide()));
     write("reference" + floatImageExtension(), loaded_->whole.irradiance);
     if (!loaded_->whole.inScattered.values.empty())
         write("reference_in_scattered" + floatImageExtension(), loaded_->whole.inScattered);
@@ -242,7 +243,7 @@ std::vector<fs::path> RunReference::judge(const Renderer& renderer, const fs::pa
         for (std::size_t light = 0; light < lights; ++light) {
             shadows.add(audit::auditShadow(
                 readTexture(renderer.texture(visibility), static_cast<int>(light), 1), light,
-                loaded_->scene, renderer.view().offsetPixels));
+                loaded_->scene));
         }
         record.error["shadow"] = audit::toJson(shadows);
     }
@@ -256,9 +257,8 @@ std::vector<fs::path> RunReference::judgeView(Renderer& renderer, const fs::path
     gl::PassTimer untimed(gl::TimerMode::finish);
     renderer.renderFrame(untimed);
     reference::ViewReferenceRequest request;
-    request.width = renderer.settings().width;
-    request.height = renderer.settings().height;
-    request.exitOffsetPixels = renderer.view().offsetPixels;
+    request.width = renderer.view().width;
+    request.height = renderer.view().height;
     const reference::ViewReference reference = traceView(loaded_->scene, request);
     json& error = record.error["view"];
     if (reference.pixels == 0) {
@@ -280,8 +280,7 @@ std::vector<fs::path> RunReference::judgeView(Renderer& renderer, const fs::path
             "the reference of the view knows no medium that fills the scene";
         return {};
     }
-    // Of all samples; without a medium it is what the view gives.
-    const Image radiance = readTexture(renderer.texture(renderer.outputs().picture.radiance), 0, 3);
+    const Image radiance = readTexture(renderer.texture(seen.radiance), 0, 3);
     try {
         const measure::ImagePair pair({.image = radiance,
                                        .reference = reference.radiance,

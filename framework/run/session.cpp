@@ -211,14 +211,9 @@ bool Session::renderUntimed(const ShouldContinue& shouldContinue) {
 RenderedSeries Session::render(const FrameSeries& series, const SeriesWatch& watch,
                                RunReference* reference) {
     RenderedSeries rendered;
-    std::vector<gl::FrameTime> samples;  // of a frame that has several
     const auto collect = [&](bool waits) {
-        for (gl::FrameTime& time : timer_.takeFinished(waits)) {
-            samples.push_back(std::move(time));
-            if (std::ssize(samples) < renderer_.samplesPerFrame()) continue;
-            rendered.times.push_back(gl::joined(samples));
-            samples.clear();
-        }
+        for (gl::FrameTime& time : timer_.takeFinished(waits))
+            rendered.times.push_back(std::move(time));
     };
     const double begin = scene_.timeSeconds;
     const int total = series.warmup + series.frames;

@@ -21,7 +21,6 @@ struct ViewData {
     // near plane in m; w: metres that a pixel covers at a depth of 1 m, or at any.
     vec4 frustum;
     vec4 sizePixels;      // width, height, 1/width, 1/height
-    vec4 offset;          // xy: the picture from -1 to 1, its rays go so far right of it and above
     mat4 viewToWorld;     // rotation only
     mat4 fromEye;         // from the eye's view space to this view's, rigid
     vec4 farMeters;       // x: far plane where rays are parallel, m

@@ -58,8 +58,7 @@ History historyOf(vec3 placeNow, vec3 normalNow) {
     vec3 normal = fromWorld(views.before, mat3(views.now.viewToWorld) * normalNow);
 
     vec2 size = view.sizePixels.xy;
-    vec2 ndcBefore = place.xy / (depth * views.before.frustum.xy) - views.before.offset.xy;
-    vec2 pixel = (ndcBefore * 0.5 + 0.5) * size;
+    vec2 pixel = (place.xy / (depth * views.before.frustum.xy) * 0.5 + 0.5) * size;
     // What the footprint of a pixel was there, m: so far from the receiver's tangent plane may lie
     // what is the same surface. Along the ray that is more the steeper it is seen.
     float footprint = views.before.frustum.w * depth;
@@ -83,8 +82,7 @@ History historyOf(vec3 placeNow, vec3 normalNow) {
         if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, ivec2(size)))) continue;
         vec4 seen = imageLoad(seenHistory, ivec3(texel, layer));
         if (seen.x <= 0.0) continue;
-        vec2 ndc =
-            (vec2(texel) + 0.5) * view.sizePixels.zw * 2.0 - 1.0 + views.before.offset.xy;
+        vec2 ndc = (vec2(texel) + 0.5) * view.sizePixels.zw * 2.0 - 1.0;
         vec3 seenPlace = vec3(ndc * views.before.frustum.xy, -1.0) * seen.x;
         if (abs(dot(normal, seenPlace - place)) > footprint) continue;
         if (dot(normal, unpackUnitVector(seen.yz)) < kSameSurface) continue;

@@ -14,6 +14,6 @@ uniform vec3 eyeRest;
 void main() {
     views.before = views.now;
     views.now = PastView(vec4(eyeWholeMeters, 0.0), vec4(eyeRest, 0.0), view.viewToWorld,
-                         view.frustum, view.offset);
+                         view.frustum);
     views.turn.x = 1u - views.turn.x;
 }

@@ -30,7 +30,6 @@ uniform int generatorIndex;
 uniform int lightCount;
 #endif
 uniform vec4 eyeFrustum;  // as ViewData has them
-uniform vec4 eyeOffset;
 uniform vec4 eyeSizePixels;
 
 layout(location = 0) out vec4 radiance;
@@ -236,7 +235,7 @@ void main() {
     float depth = firstDepth(pixel);
     if (depth <= 0.0) discard;
     vec3 viewing =
-        vec3((positionOfSample() * eyeSizePixels.zw * 2.0 - 1.0 + eyeOffset.xy) * eyeFrustum.xy, -1.0);
+        vec3((positionOfSample() * eyeSizePixels.zw * 2.0 - 1.0) * eyeFrustum.xy, -1.0);
     vec3 entry = viewing * depth;
     if (generators.count.x > 1u && generatorOf(entry) != generatorIndex) discard;
     vec4 surface = firstSurface(pixel);

@@ -9,7 +9,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "framework/pipeline/frame_builder.h"
-#include "framework/pipeline/sample_mean.h"
+#include "framework/pipeline/pixel_mean.h"
 
 namespace kaustik {
 namespace {
@@ -170,8 +170,9 @@ Picture composePicture(FrameBuilder& frame, const PictureParams& params, Geometr
     const Radiance receivers = shadeReceivers(frame, eye, direct, light.caustic);
     const View seen =
         frame.run<ViewStage>(geometry, eye, layers, receivers, light.shadows, light.map);
-    const Radiance ofSample = lookThroughMedium(frame, eye, {seen.radiance}, light.inScattered);
-    const Radiance whole{meanOverSamples(frame, "samples", ofSample.radiance)};
+    const Radiance ofSamples = lookThroughMedium(frame, eye, {seen.radiance}, light.inScattered);
+    const Radiance whole{meanOverPixels(frame, "pixels", ofSamples.radiance)};
+    const int side = frame.inputs().samplesPerSide;
     const float exposure =
         params.exposure > 0.0f ? params.exposure : automaticExposure(frame.scene());
     return frame.pass<Picture>(
@@ -179,7 +180,8 @@ Picture composePicture(FrameBuilder& frame, const PictureParams& params, Geometr
         [&](graph::PassSetup& setup, Picture& data) {
             data.radiance = setup.sample("radiance", whole.radiance);
             data.view = seen;
-            data.display = setup.create<DisplayTexel>("display", frame.width(), frame.height());
+            data.display =
+                setup.create<DisplayTexel>("display", frame.width() / side, frame.height() / side);
         },
         [exposure](const Picture& data, gl::PassContext& context) {
             context.fullscreen("compose/picture_display.frag")

@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
 
-#include "framework/render/pixel_samples.h"
 #include "techniques/eye_rays/view_params.h"
 
 namespace kaustik {
@@ -71,6 +73,23 @@ void drawSights(const FrameInputs& inputs, gl::PassContext& context, const ViewS
 }
 
 }  // namespace
+
+std::vector<glm::vec2> samplesOfPixel(int count) {
+    // As near to the golden ratio's part as a number without a common divisor comes.
+    const int modulus = count + 1;
+    const double wanted = modulus / std::numbers::phi;
+    int step = 1;
+    for (int other = 2; other < modulus; ++other) {
+        if (std::gcd(other, modulus) == 1 && std::abs(other - wanted) < std::abs(step - wanted))
+            step = other;
+    }
+    std::vector<glm::vec2> offsets;
+    for (int i = 1; i <= count; ++i) {
+        const glm::vec2 cell(i, i * step % modulus);
+        offsets.push_back((cell - 0.5f * static_cast<float>(modulus)) / static_cast<float>(count));
+    }
+    return offsets;
+}
 
 View renderReceiversOnly(FrameBuilder& frame, const std::string& pass, const Radiance& receivers) {
     frame.skip(pass, whyNothingSeenThrough(frame.facts()));
@@ -191,7 +210,7 @@ void drawSpecular(const FrameInputs& inputs, gl::PassContext& context, const Vie
             command.draw();
         }
     };
-    std::vector<glm::vec2> sampleOffsets = render::samplesOfPixel(samples.count);
+    std::vector<glm::vec2> sampleOffsets = samplesOfPixel(samples.count);
     const bool isMiddleOne = std::erase(sampleOffsets, glm::vec2(0.0f)) > 0;
     drawSample(isMiddleOne ? share : 0.0f, glm::vec2(0.0f));
     for (const glm::vec2& offset : sampleOffsets) {

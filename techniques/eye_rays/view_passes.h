@@ -69,6 +69,11 @@ struct DielectricsBox {
 };
 [[nodiscard]] DielectricsBox boxOfDielectrics(const FrameBuilder& frame);
 
+// The points where the rays of view.samples go through a pixel, px from its middle, within half a
+// pixel: `count` points of a rank-1 lattice, one in each of as many columns and rows, symmetric
+// about the middle, which is one of them where the count is odd; of 4 the rotated grid.
+[[nodiscard]] std::vector<glm::vec2> samplesOfPixel(int count);
+
 // The first surfaces that rays next to the pixels' middles see, drawn anew for each sample.
 struct ViewSamples {
     int count = 1;  // of one, the middle, nothing is drawn

@@ -174,7 +174,7 @@ class Reach {
             const dvec3 normal = glm::normalize(turn * insideVs);
             frustum_.push_back({normal, glm::dot(normal, position)});
         };
-        const glm::dvec2 wide = (1.0 + kFrustumMargin) * eye.seenExtent();
+        const glm::dvec2 wide = (1.0 + kFrustumMargin) * eye.halfExtent;
         // A wall nearer than the near plane is not drawn, and hides nothing.
         eye_ = {position};
         for (const glm::dvec2 corner : {glm::dvec2(-1, -1), {1, -1}, {1, 1}, {-1, 1}})

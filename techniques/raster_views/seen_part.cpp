@@ -45,8 +45,8 @@ class Cut {
         const dvec3 eye(toWorld_[3]);
         std::array<dvec3, 4> rays;
         for (std::size_t i = 0; i < rays.size(); ++i) {
-            const dvec3 ray((i == 0 || i == 3 ? -1.0 : 1.0) * eye_.seenExtent().x,
-                            (i < 2 ? -1.0 : 1.0) * eye_.seenExtent().y, -1.0);
+            const dvec3 ray((i == 0 || i == 3 ? -1.0 : 1.0) * eye_.halfExtent.x,
+                            (i < 2 ? -1.0 : 1.0) * eye_.halfExtent.y, -1.0);
             rays[i] = glm::dmat3(toWorld_) * ray;
             addEdgeOfFrustum(eye, rays[i], farMeters_);
         }
@@ -76,7 +76,7 @@ class Cut {
         cut(-a.z, -b.z, low, high);
         cut(farMeters_ + a.z, b.z, low, high);
         for (int axis = 0; axis < 2; ++axis) {
-            const double wide = eye_.seenExtent()[axis];
+            const double wide = eye_.halfExtent[axis];
             cut(-a.z * wide - a[axis], -b.z * wide - b[axis], low, high);
             cut(-a.z * wide + a[axis], -b.z * wide + b[axis], low, high);
         }

@@ -3,8 +3,6 @@
 // (W/m²/sr) over frames, each pixel's with what the frame before had where it saw the same place of
 // the same receiver. The camera may move, receivers stand still. In and out: the same textures, so
 // that all later stages see the mean; "temporal.unfiltered" is what came in.
-#include <fmt/format.h>
-
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/temporal/reproject_views.h"
 
@@ -76,12 +74,6 @@ IrradianceMap reproject(FrameBuilder& frame, const ReprojectParams& params,
     if (params.weight == 1.0f) {
         frame.skip("temporal.reproject", "the newest frame's weight is 1, which is no filter");
         return irradiance;
-    }
-    if (frame.inputs().samples > 1) {
-        frame.warn(fmt::format(
-            "temporal.reproject takes each of the {} samples of eye.samples for a frame, and looks "
-            "the one before up between pixels: what stands still is blurred a little too.",
-            frame.inputs().samples));
     }
     const int width = frame.width();
     const int height = frame.height();

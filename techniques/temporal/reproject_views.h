@@ -18,8 +18,7 @@ struct PastView {
     vec4 eyeWholeMeters;  // xyz: in the world
     vec4 eyeRest;         // xyz: the rest, m, from 0 to 1
     mat4 viewToWorld;     // rotation only
-    vec4 frustum;         // ViewData's, as is the next
-    vec4 offset;
+    vec4 frustum;         // ViewData's
 };
 
 struct PastViews {

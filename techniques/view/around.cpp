@@ -155,7 +155,6 @@ View lookAround(FrameBuilder& frame, const AroundViewParams& params, Geometry ge
                                 .set("mapCount", seen[i].views->count())
                                 .set("generatorIndex", static_cast<int>(i))
                                 .set("eyeFrustum", eyeView.frustum)
-                                .set("eyeOffset", eyeView.offset)
                                 .set("eyeSizePixels", eyeView.sizePixels);
                             if (lights > 0) {
                                 bindShadowMaps(command.define("HAS_LIGHTS"), fromLights)

@@ -126,24 +126,6 @@ TEST(HitAudit, JudgesThePhotonsOfAllBatches) {
     EXPECT_EQ(few.hits.falseHits, whole.hits.falseHits);
 }
 
-// Where rays go through other places in the pixels, photons are found there too.
-TEST(HitAudit, OfAFrameOfSamplesIsAsGoodAsOfOne) {
-    const scene::Scene scene = scene::loadScene("glass-sphere");
-    for (const char* tracer : {"lines", "march", "hierarchical"}) {
-        SCOPED_TRACE(tracer);
-        const auto with = [&](const char* samples) {
-            return Audited(scene, {{"trace", tracer}, {"eye.samples", samples}});
-        };
-        const Audited one = with("1");
-        const Audited two = with("2");
-        expectAccounted(two);
-        ASSERT_GT(one.hits.photons, 1000U);
-        const double photons = static_cast<double>(one.hits.photons);
-        EXPECT_NEAR(static_cast<double>(two.hits.right) / static_cast<double>(two.hits.photons),
-                    static_cast<double>(one.hits.right) / photons, 0.004);
-    }
-}
-
 // Two blocks of one glass that overlap: a pixel shows both fronts before the first back, and what
 // lies between the fronts is inside. Where the second one was taken for the only one, 422 of 4096
 // photons came out in the middle of the first block.

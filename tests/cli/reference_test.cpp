@@ -191,6 +191,24 @@ TEST_F(Reference, OfARunGivesHitsAndErrors) {
     EXPECT_EQ(readImage(folder / "out/reference.exr").values, readImage(cached(".exr")).values);
 }
 
+TEST_F(Reference, JudgesAFrameOfSeveralSamplesByItsPixels) {
+    ASSERT_EQ(runAgainst("auto").exitCode, 0);
+    const json one = report();
+    const Outcome outcome = runAgainst("auto", {"--set", "eye.samples=4"});
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const json four = report();
+    EXPECT_EQ(four.at("size"), one.at("size"));
+    for (const char* file : {"out/caustic.exr", "out/beauty.png", "out/hits.png", "out/bias.png"})
+        EXPECT_EQ(readImage(folder / file).width, 64) << file;
+    // The same light, over the same area of receivers.
+    const auto error = [](const json& of) { return of.at("error").at("caustic_irradiance"); };
+    EXPECT_NEAR(error(four).at("energy_ratio").get<double>(),
+                error(one).at("energy_ratio").get<double>(), 0.02);
+    EXPECT_NEAR(four.at("hits").at("agreement").get<double>(),
+                one.at("hits").at("agreement").get<double>(), 0.02);
+    EXPECT_LT(std::abs(four.at("energy").at("balance").get<double>()), 1e-4);
+}
+
 TEST_F(Reference, OfARunIsComputedOnce) {
     ASSERT_EQ(runAgainst("auto").exitCode, 0);
     const auto written = fs::last_write_time(cached(".json"));

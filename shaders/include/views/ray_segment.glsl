@@ -51,14 +51,10 @@ bool cutToNearPlane(vec3 origin, vec3 direction, inout float low, inout float hi
     return cutHalfSpace(-origin.z - view.frustum.z, -direction.z, low, high);
 }
 
-// The part of the ray between the sides of a frame around the ray through the screen's middle,
-// `frame` as the screen's is view.frustum. Returns whether the far end was cut.
+// The part of the ray between the sides of a frame around the view's axis, `frame` as the screen's
+// is view.frustum. Returns whether the far end was cut.
 bool cutToScreen(vec3 origin, vec3 direction, vec2 frame, inout float low, inout float high) {
     bool isCut = false;
-#ifndef ORTHOGRAPHIC_VIEW
-    origin.xy += view.offset.xy * view.frustum.xy * origin.z;
-    direction.xy += view.offset.xy * view.frustum.xy * direction.z;
-#endif
     for (int axis = 0; axis < 2; ++axis) {
 #ifdef ORTHOGRAPHIC_VIEW
         float depth = frame[axis];

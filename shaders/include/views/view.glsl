@@ -26,7 +26,7 @@ vec3 viewRay(vec2 pixel) {
 #ifdef ORTHOGRAPHIC_VIEW
     return vec3(0.0, 0.0, -1.0);
 #else
-    vec2 ndc = pixel * view.sizePixels.zw * 2.0 - 1.0 + view.offset.xy;
+    vec2 ndc = pixel * view.sizePixels.zw * 2.0 - 1.0;
     return vec3(ndc * view.frustum.xy, -1.0);
 #endif
 }
@@ -54,7 +54,7 @@ vec2 pixelOf(vec3 positionVs) {
 #ifdef ORTHOGRAPHIC_VIEW
     vec2 ndc = positionVs.xy / view.frustum.xy;
 #else
-    vec2 ndc = positionVs.xy / (-positionVs.z * view.frustum.xy) - view.offset.xy;
+    vec2 ndc = positionVs.xy / (-positionVs.z * view.frustum.xy);
 #endif
     return (ndc * 0.5 + 0.5) * view.sizePixels.xy;
 }

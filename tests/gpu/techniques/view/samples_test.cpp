@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "framework/render/pixel_samples.h"
 #include "framework/scene/files/scene_file.h"
+#include "techniques/eye_rays/view_passes.h"
 #include "tests/gpu/fixture.h"
 
 namespace kaustik::test {
@@ -22,7 +22,7 @@ const std::vector<std::string> kNodes = {"refraction", "image_space", "interface
 TEST(SamplesOfPixel, AreOneInEachColumnAndRowAroundTheMiddle) {
     for (const int count : {1, 2, 3, 4, 5, 8, 9, 16, 64}) {
         SCOPED_TRACE(count);
-        const std::vector<glm::vec2> samples = render::samplesOfPixel(count);
+        const std::vector<glm::vec2> samples = samplesOfPixel(count);
         ASSERT_EQ(samples.size(), static_cast<std::size_t>(count));
         glm::vec2 sum(0.0f);
         std::set<int> columns;
