@@ -332,6 +332,7 @@ void Renderer::requestForAudit() {
 
 void Renderer::requestExits() {
     const View& seen = outputs_.picture.view;
+    graph_->request(seen.radiance);
     if (seen.exitPosition.valid()) graph_->request(seen.exitPosition);
     if (seen.exitDirection.valid()) graph_->request(seen.exitDirection);
 }
