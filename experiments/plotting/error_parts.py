@@ -109,7 +109,7 @@ def tabled(results: Path) -> list[dict]:
         rows = list(csv.DictReader(stream))
     by = defaultdict(list)
     for row in rows:
-        by[row["scene"], row["technique"]].append(row)
+        by[row.get("scene", ""), row.get("technique", "")].append(row)
     wanted = max(len(group) for group in by.values())
     table = []
     for (scene, technique), group in sorted(by.items()):
