@@ -14,53 +14,15 @@
 #include "framework/run/settings.h"
 #include "framework/scene/files/scene_file.h"
 #include "tests/gpu/fixture.h"
+#include "tests/gpu/techniques/silhouette.h"
 
 namespace kaustik::test {
 namespace {
 
 // A black ball before an environment of 1 W/m²/sr: of each pixel's radiance what the ball covers is
 // missing. Nothing in the scene is specular.
-constexpr double kDistance = 4.0;
-constexpr double kRadius = 1.0;
 scene::Scene blackBall() {
-    return sceneFromText(fmt::format(R"(
-name = 'ball'
-background_radiance = 1
-[camera]
-position = [0, 0, {}]
-target = [0, 0, 0]
-vertical_fov_degrees = 45
-[[light]]
-name = "sun"
-type = "directional"
-irradiance = 1
-direction = [0, -1, 0]
-[[material]]
-name = "black"
-type = "lambertian"
-albedo = 0
-[[object]]
-name = "ball"
-shape = "sphere"
-material = "black"
-radius = {}
-segments = 128
-)",
-                                     kDistance, kRadius));
-}
-
-// Of a pixel whose middle is seen along `ray`; `side`: what it measures at a depth of 1 m.
-double covered(const glm::dvec2& ray, double side) {
-    constexpr int kParts = 32;
-    // The cone around the ball: its tangent of the half-angle.
-    const double edge = kRadius / std::sqrt(kDistance * kDistance - kRadius * kRadius);
-    int inside = 0;
-    for (int i = 0; i < kParts * kParts; ++i) {
-        const glm::dvec2 offset((i % kParts + 0.5) / kParts - 0.5,
-                                (i / kParts + 0.5) / kParts - 0.5);
-        inside += glm::length(ray + side * offset) < edge ? 1 : 0;
-    }
-    return static_cast<double>(inside) / (kParts * kParts);
+    return ballBeforeEnvironment("type = 'lambertian'\nalbedo = 0");
 }
 
 // The largest difference from the share of the environment that a pixel sees, W/m²/sr.
@@ -76,7 +38,8 @@ double worstError(const scene::Scene& scene, int samples) {
         for (int x = 0; x < radiance.width; ++x) {
             const glm::dvec2 ray(side * (x + 0.5 - 0.5 * radiance.width),
                                  side * (y + 0.5 - 0.5 * radiance.height));
-            worst = std::max(worst, std::abs(radiance.rgb(x, y).g - (1.0 - covered(ray, side))));
+            worst =
+                std::max(worst, std::abs(radiance.rgb(x, y).g - (1.0 - coveredByBall(ray, side))));
         }
     }
     return worst;

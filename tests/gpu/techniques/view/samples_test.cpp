@@ -13,6 +13,7 @@
 #include "framework/scene/files/scene_file.h"
 #include "techniques/eye_rays/view_passes.h"
 #include "tests/gpu/fixture.h"
+#include "tests/gpu/techniques/silhouette.h"
 
 namespace kaustik::test {
 namespace {
@@ -45,47 +46,8 @@ TEST(SamplesOfPixel, AreOneInEachColumnAndRowAroundTheMiddle) {
 
 // A mirror that reflects half, before an environment of 1 W/m²/sr: of each pixel's radiance half of
 // what the ball covers is missing. Where its edge lies is known exactly.
-constexpr double kDistance = 4.0;
-constexpr double kRadius = 1.0;
 scene::Scene mirrorBall() {
-    return sceneFromText(fmt::format(R"(
-name = 'ball'
-background_radiance = 1
-[camera]
-position = [0, 0, {}]
-target = [0, 0, 0]
-vertical_fov_degrees = 45
-[[light]]
-name = "sun"
-type = "directional"
-irradiance = 1
-direction = [0, -1, 0]
-[[material]]
-name = "mirror"
-type = "mirror"
-reflectance = 0.5
-[[object]]
-name = "ball"
-shape = "sphere"
-material = "mirror"
-radius = {}
-segments = 128
-)",
-                                     kDistance, kRadius));
-}
-
-// Of a pixel whose middle is seen along `ray`; `side`: what it measures at a depth of 1 m.
-double covered(const glm::dvec2& ray, double side) {
-    constexpr int kParts = 32;
-    // The cone around the ball: its tangent of the half-angle.
-    const double edge = kRadius / std::sqrt(kDistance * kDistance - kRadius * kRadius);
-    int inside = 0;
-    for (int i = 0; i < kParts * kParts; ++i) {
-        const glm::dvec2 offset((i % kParts + 0.5) / kParts - 0.5,
-                                (i / kParts + 0.5) / kParts - 0.5);
-        inside += glm::length(ray + side * offset) < edge ? 1 : 0;
-    }
-    return static_cast<double>(inside) / (kParts * kParts);
+    return ballBeforeEnvironment("type = 'mirror'\nreflectance = 0.5");
 }
 
 struct EdgeError {
@@ -107,7 +69,7 @@ EdgeError errorAtEdge(const scene::Scene& scene, const std::string& node, int sa
         for (int x = 0; x < radiance.width; ++x) {
             const glm::dvec2 ray(side * (x + 0.5 - 0.5 * radiance.width),
                                  side * (y + 0.5 - 0.5 * radiance.height));
-            const double share = covered(ray, side);
+            const double share = coveredByBall(ray, side);
             const double off = std::abs(radiance.rgb(x, y).g - (1.0 - 0.5 * share));
             if (share > 0.0 && share < 1.0) {
                 squares += off * off;
