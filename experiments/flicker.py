@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Flicker against error: each technique on water that moves, 60 frames, beside ray-traced truth of every one.
+"""Flicker against error: each technique on water that moves, 60 frames, against ray-traced truth of every one.
 
     PYTHONPATH=build/release/python flicker.py --out results/flicker [--scenes pool cornell-bunny god-rays] [--frames 60]
                [--time-step 0.0333] [--size 200x150] [--photons 256x256] [--reference-photons 4194304]

@@ -48,7 +48,7 @@ def read_run(folder: Path, label: str | None) -> Run:
     image, truth = (find_image(folder, name, (".exr", ".pfm")) for name in ("caustic", "reference"))
     error = report.get("error", {}).get("caustic_irradiance")
     if error and error["rel_mse"] is None:
-        raise ValueError(f"the truth beside {folder} has no caustic")
+        raise ValueError(f"the reference in {folder} has no caustic")
     if truth is None or not error:
         raise ValueError(f"{folder} was not compared with a reference; 'kaustik run --reference auto' does that")
     technique = report["technique"] + (", as published" if report["as_published"] else "")

@@ -7,7 +7,7 @@
 
 The key of a run is a hash of the files that it was made by: of each stage the node that it chose (all of a stage's where the choice is `auto`),
 what these include, the shaders that they name and what those include; the framework, but for the programs around it; and the scene's
-file. Its settings are in the study's own hash. A header stands for the source beside it.
+file. Its settings are in the study's own hash. A header brings the source file of its name.
 """
 
 import argparse

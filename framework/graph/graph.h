@@ -279,6 +279,7 @@ class Graph {
     // The name of a resource, and all names. A handle that no pass has made is a GraphError, here
     // and in descOf.
     [[nodiscard]] const std::string& nameOf(const ResourceRef& handle) const;
+    // find() and messages know it by this name from now on, which no other may have.
     void rename(const ResourceRef& handle, std::string name);
     [[nodiscard]] std::vector<std::string> resourceNames() const;
     [[nodiscard]] const ResourceDesc& descOf(const ResourceRef& handle) const;

@@ -13,18 +13,12 @@
 namespace kaustik::measure {
 namespace {
 
-double luminanceAt(const Image& image, std::size_t pixel) {
-    const float* const rgb = image.values.data() + 3 * pixel;
-    return luminance(static_cast<double>(rgb[0]), static_cast<double>(rgb[1]),
-                     static_cast<double>(rgb[2]));
-}
-
 // The median standard error of the pixels that the reference has reached; 0 where it has none.
-double typicalError(const ImagePair& pair) {
+double typicalError(const ImagePair& pair, const Plane<double>& sigmas) {
     std::vector<double> errors;
     for (std::size_t pixel = 0; pixel < pair.pixelCount(); ++pixel) {
-        const double sigma = luminanceAt(pair.standardError(), pixel);
-        if (pair.counts(pixel) && sigma > 0.0) errors.push_back(sigma);
+        if (pair.counts(pixel) && sigmas.values[pixel] > 0.0)
+            errors.push_back(sigmas.values[pixel]);
     }
     if (errors.empty()) return 0.0;
     const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
@@ -32,11 +26,20 @@ double typicalError(const ImagePair& pair) {
     return *middle;
 }
 
-std::optional<double> zOf(const ImagePair& pair, std::size_t pixel, double typical) {
-    if (!pair.counts(pixel) || !(typical > 0.0)) return std::nullopt;
-    const double own = luminanceAt(pair.standardError(), pixel);
-    const double sigma = own > 0.0 ? own : typical;
-    return (luminanceAt(pair.image(), pixel) - luminanceAt(pair.reference(), pixel)) / sigma;
+// By pixel; none where nothing is judged.
+std::vector<std::optional<double>> zScores(const ImagePair& pair) {
+    const Plane<double> image = luminancePlane(pair.image());
+    const Plane<double> reference = luminancePlane(pair.reference());
+    const Plane<double> sigmas = luminancePlane(pair.standardError());
+    const double typical = typicalError(pair, sigmas);
+    std::vector<std::optional<double>> scores(pair.pixelCount());
+    if (!(typical > 0.0)) return scores;
+    for (std::size_t pixel = 0; pixel < scores.size(); ++pixel) {
+        if (!pair.counts(pixel)) continue;
+        const double sigma = sigmas.values[pixel] > 0.0 ? sigmas.values[pixel] : typical;
+        scores[pixel] = (image.values[pixel] - reference.values[pixel]) / sigma;
+    }
+    return scores;
 }
 
 std::array<float, 3> colorOf(std::optional<double> z) {
@@ -51,12 +54,10 @@ std::array<float, 3> colorOf(std::optional<double> z) {
 }  // namespace
 
 Bias findBias(const ImagePair& pair) {
-    const double typical = typicalError(pair);
     Bias bias;
     std::size_t bright = 0;
     std::size_t dark = 0;
-    for (std::size_t pixel = 0; pixel < pair.pixelCount(); ++pixel) {
-        const std::optional<double> z = zOf(pair, pixel, typical);
+    for (const std::optional<double> z : zScores(pair)) {
         if (!z) continue;
         ++bias.judgedPixels;
         bright += *z > Bias::kSignificant ? 1 : 0;
@@ -69,10 +70,10 @@ Bias findBias(const ImagePair& pair) {
 }
 
 Image biasPicture(const ImagePair& pair) {
-    const double typical = typicalError(pair);
+    const std::vector<std::optional<double>> scores = zScores(pair);
     Image picture(pair.width(), pair.height(), 3);
-    for (std::size_t pixel = 0; pixel < pair.pixelCount(); ++pixel) {
-        const std::array<float, 3> color = colorOf(zOf(pair, pixel, typical));
+    for (std::size_t pixel = 0; pixel < scores.size(); ++pixel) {
+        const std::array<float, 3> color = colorOf(scores[pixel]);
         std::copy(color.begin(), color.end(),
                   picture.values.begin() + static_cast<std::ptrdiff_t>(3 * pixel));
     }
