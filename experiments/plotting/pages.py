@@ -7,7 +7,7 @@
 Rewrites what stands between two comments of a page and leaves all else, which is prose, as it is:
 
     <!-- table
-    file = "wyman_nichols2009/traversal.csv"       # below results/
+    file = "wyman_nichols2009/traversal.csv"       # below results/; a list of several stand together, as of several machines
     rows = ["scene", "refine.finest"]              # the settings that a row has, in its first columns
     where = { scene = "pool" }                     # optional: only the runs with these settings
     across = ["refine.metric"]                     # optional: a column for each of these settings' values
@@ -19,8 +19,8 @@ Rewrites what stands between two comments of a page and leaves all else, which i
 
     relMSE of <!-- = traversal.csv: relMSE .3g; scene=pool, refine.finest=1024 -->0.0123<!-- / --> at 1024.
 
-Rows are sorted by their settings. A run that is not done has its status instead, a value that is not there "–". Under a table stand the version and the device of its runs, each where there are several, their dates, and how busy the machine was
-with other work while they were timed. --check writes nothing and ends with 1 where a page is not what the CSVs say. Ends with 2 where a page asks
+Rows are sorted by their settings. A run that is not done has its status instead, a value that is not there "–". Runs of several devices have a row each, never one for all, and a column with the
+device's number. Under a table stand the version and the device of its runs, each where there are several, their dates, and how busy the machine was with other work while they were timed. --check writes nothing and ends with 1 where a page is not what the CSVs say. Ends with 2 where a page asks
 for what is not there, with its line.
 """
 
@@ -100,10 +100,21 @@ def shown(value: str) -> str:
     return value if in_order(value)[:1] and in_order(value)[0][0] == 0 else f"`{value}`"
 
 
-def of_which_runs(rows: list[dict], file: str) -> str:
+def devices_of(rows: list[dict]) -> list[str]:
+    """A run that is not done may not say which."""
+    return sorted({row["device"] for row in rows if row.get("device")})
+
+
+def of_which_runs(rows: list[dict], files: list[str]) -> str:
     """What a table's runs are of, under it."""
     kinds = sorted({(row.get("version", ""), row.get("device", "")) for row in rows})
-    parts = [f"`{file}`, {len(rows)} runs", *(f"version {version}, {device}" for version, device in kinds if version or device)]
+    devices = devices_of(rows)
+
+    def named(device: str) -> str:
+        return f"device {devices.index(device) + 1}: {device}" if device and len(devices) > 1 else device
+
+    parts = [f"{', '.join(f'`{file}`' for file in files)}, {len(rows)} runs",
+             *(f"version {version}, {named(device)}" for version, device in kinds if version or named(device))]
     dates = sorted({row["date"][:10] for row in rows if row.get("date")})
     if dates:
         parts.append(dates[0] if len(dates) == 1 else f"{dates[0]} to {dates[-1]}")
@@ -118,10 +129,15 @@ def table(spec: dict, results: pathlib.Path) -> str:
         raise PageError(f"a table has no '{sorted(unknown)[0]}'; it has {', '.join(sorted(KEYS))}")
     if missing := {"file", "rows", "cells"} - set(spec):
         raise PageError(f"a table needs '{sorted(missing)[0]}'")
-    rows = chosen(runs(results / spec["file"]), spec.get("where", {}))
+    files = [spec["file"]] if isinstance(spec["file"], str) else spec["file"]
+    rows = [row for file in files for row in chosen(runs(results / file), spec.get("where", {}))]
     if not rows:
-        raise PageError(f"no run of '{spec['file']}' has these settings")
+        raise PageError(f"no run of '{', '.join(files)}' has these settings")
     keys, names, across = spec["rows"], spec.get("names", {}), spec.get("across", [])
+    devices = devices_of(rows)
+    if len(devices) > 1:
+        keys = [*keys, "on device"]
+        rows = [row | {"on device": str(devices.index(row["device"]) + 1 if row.get("device") else "–")} for row in rows]
 
     def values_of(row: dict, settings: list[str]) -> tuple:
         return tuple(column(row, key) for key in settings)
@@ -146,7 +162,7 @@ def table(spec: dict, results: pathlib.Path) -> str:
         cells = [cell([row for row in of_row if values_of(row, across) == variant], cells, names)
                  for cells, variant in columns]
         lines.append("| " + " | ".join([*map(shown, values), *cells]) + " |")
-    return "\n" + "\n".join(lines) + f"\n\n*{of_which_runs(rows, spec['file'])}.*\n\n"
+    return "\n" + "\n".join(lines) + f"\n\n*{of_which_runs(rows, files)}.*\n\n"
 
 
 def number(match: re.Match, results: pathlib.Path) -> str:

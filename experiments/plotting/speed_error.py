@@ -4,7 +4,8 @@
 
     speed_error.py [--results results/all_techniques]
 
-Reads runs.csv (all_techniques.toml, by table.py --csv) and light_tracer.csv (light_tracer.py) in that folder and writes next to them
+Reads runs.csv (all_techniques.toml, by table.py --csv) and light_tracer.csv (light_tracer.py) in that folder, both of one machine (another
+has a folder of its own; pages.py puts tables of several next to each other), and writes next to them
 
 - equal_error.csv: each run, and how many photons and ms the light tracer needs for the same relMSE; `factor` is by how much the run is
   faster. Both errors are net of the reference's own noise. The light tracer's error falls as one over its photons, and its time grows
@@ -16,7 +17,8 @@ Reads runs.csv (all_techniques.toml, by table.py --csv) and light_tracer.csv (li
 - costs.csv: what a photon costs each technique, and what all of them together do: the median over scenes of the slope between its runs with the
   fewest and the most photons, of time and memory, and of what is left at none; and the light that it does not form, on the scene where
   that is most.
-- SCENE.svg: error against time, the Pareto front drawn through.
+- SCENE.svg: error against time, the Pareto front drawn through; bars are the standard deviation of a run's frames, and below the shaded height errors
+  are less than the reference's own noise.
 - headline.svg: all scenes: the factors of equal_error.csv, of each technique's runs by default the one with the middle number of photons.
 - answers.csv: the same as a table: for each scene the default's factor, and the technique with the largest.
 - summary.csv: on how many scenes the default, and the best, are faster than the light tracer, and the least, the median and the largest factor.
@@ -31,6 +33,7 @@ import sys
 from collections import defaultdict
 
 from figures import COLORS, MARKERS, pareto_front, plt
+from study import require_one_device
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 ERRORS = [1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4]
@@ -58,6 +61,16 @@ def net(row: dict) -> float | None:
     """relMSE without the part that the reference's own noise has in it."""
     error, noise = number(row, "relMSE"), number(row, "relMSE, reference's own")
     return None if error is None else error - (noise or 0.0)
+
+
+OF_THE_RUNS = ("device", "version", "date")
+
+
+def of_the_runs(runs: list[dict]) -> list[str]:
+    """What tables made of all runs say of them: the last date, since that is when the tables were made."""
+    done = [row for row in runs if row["status"] == "done"]
+    return [" and ".join(sorted({row[key] for row in done if row.get(key)})) for key in ("device", "version")] + [
+        max((row["date"] for row in done if row.get("date")), default="")]
 
 
 def name_of(row: dict) -> str:
@@ -132,7 +145,7 @@ def write(file: pathlib.Path, columns: list[str], rows: list[list]) -> None:
 
 
 EQUAL_ERROR = ("scene", "technique", "as_published", "emit.photons", "refine.finest", "status", "ms", "relMSE, net",
-               "light tracer's photons", "light tracer's ms", "factor", "at_least", "device", "version")
+               "light tracer's photons", "light tracer's ms", "factor", "at_least", *OF_THE_RUNS)
 
 
 def equal_error(runs: list[dict], tracers: dict[str, LightTracer]) -> list[dict]:
@@ -146,8 +159,8 @@ def equal_error(runs: list[dict], tracers: dict[str, LightTracer]) -> list[dict]
         reached = max(error, noise)
         key, size = varied(row)
         sizes = [size if key == column else "" for column in ("emit.photons", "refine.finest")]
-        values = (row["scene"], row["technique"], row["as_published"], *sizes, "done", ms, error, tracer.photons(reached), tracer.ms(reached), tracer.ms(reached) / ms, str(error < noise).lower(),
-                  row["device"], row["version"])
+        values = (row["scene"], row["technique"], row["as_published"], *sizes, "done", ms, error, tracer.photons(reached),
+                  tracer.ms(reached), tracer.ms(reached) / ms, str(error < noise).lower(), *(row.get(key, "") for key in OF_THE_RUNS))
         table.append({**dict(zip(EQUAL_ERROR, values)), "order": int(size.split("x")[0] or 0)})
     return table
 
@@ -263,8 +276,15 @@ def ranked(of_scenes: dict, ats: list[float], by_error: bool) -> list[list]:
             for scene, by in sorted(of_scenes.items()) for at in ats]
 
 
-def draw(scene: str, by: dict[str, list[tuple[float, float]]], file: pathlib.Path) -> None:
+def draw(scene: str, by: dict[str, list[tuple[float, float]]], runs: list[dict], file: pathlib.Path) -> None:
     figure, axes = plt.subplots(figsize=(6.4, 4.2))
+    for row in runs:
+        error, ms, part = net(row), number(row, "ms"), number(row, "spread")
+        if row["scene"] == scene and row["status"] == "done" and error and error > 0.0 and ms and part:
+            axes.errorbar(ms, error, xerr=min(part, 0.9) * ms, color="#777777", linewidth=0.6, zorder=1)
+    noise = [number(row, "relMSE, reference's own") for row in runs if row["scene"] == scene and number(row, "relMSE, reference's own")]
+    if noise:
+        axes.axhspan(0.0, max(noise), color="#999999", alpha=0.15, linewidth=0.0, zorder=0)
     names = sorted({name.removesuffix(", as published") for name in by} - set(BASELINES))
     for name, curve in sorted(by.items()):
         base = name.removesuffix(", as published")
@@ -296,25 +316,28 @@ def main() -> int:
     arguments = parser.parse_args()
     folder = arguments.results
     runs = rows_of(folder / "runs.csv")
+    require_one_device([row for row in runs if row["status"] == "done"], folder)
     baselines = rows_of(folder / "light_tracer.csv")
     of_scenes = curves(runs, baselines)
     equal = equal_error(runs, light_tracers(baselines))
     write(folder / "equal_error.csv", list(EQUAL_ERROR), [[row[key] for key in EQUAL_ERROR] for row in equal])
     middle = middle_runs(equal)
-    write(folder / "answers.csv",
-          ["scene", "status", "default's ms", "default's relMSE, net", "light tracer's ms", "factor", "at_least", "best", "best's ms",
-           "best's relMSE, net", "best's factor", "best's at_least"], answers(middle))
-    write(folder / "summary.csv", ["who", "status", "scenes", "faster", "slower", "least", "median", "largest"], summary(answers(middle)))
     if middle:
         draw_headline(middle, folder / "headline.svg")
-    write(folder / "costs.csv",
-          ["technique", "as_published", "status", "scenes", "ns a photon", "ms at none", "bytes a photon", "MiB at none",
-           "most not formed, %", "most not formed, W", "on"], costs(runs))
+
+    def write_table(name: str, columns: list[str], rows: list[list]) -> None:
+        write(folder / name, [*columns, *OF_THE_RUNS], [row + of_the_runs(runs) for row in rows])
+
+    write_table("answers.csv", ["scene", "status", "default's ms", "default's relMSE, net", "light tracer's ms", "factor", "at_least", "best",
+                                "best's ms", "best's relMSE, net", "best's factor", "best's at_least"], answers(middle))
+    write_table("summary.csv", ["who", "status", "scenes", "faster", "slower", "least", "median", "largest"], summary(answers(middle)))
+    write_table("costs.csv", ["technique", "as_published", "status", "scenes", "ns a photon", "ms at none", "bytes a photon", "MiB at none",
+                              "most not formed, %", "most not formed, W", "on"], costs(runs))
     names = ["first", "value", "second", "times"]
-    write(folder / "to_error.csv", ["scene", "relMSE", "status", *names], ranked(of_scenes, ERRORS, by_error=True))
-    write(folder / "in_time.csv", ["scene", "ms", "status", *names], ranked(of_scenes, TIMES_MS, by_error=False))
+    write_table("to_error.csv", ["scene", "relMSE", "status", *names], ranked(of_scenes, ERRORS, by_error=True))
+    write_table("in_time.csv", ["scene", "ms", "status", *names], ranked(of_scenes, TIMES_MS, by_error=False))
     for scene, by in of_scenes.items():
-        draw(scene, by, folder / f"{scene}.svg")
+        draw(scene, by, runs, folder / f"{scene}.svg")
     return 0
 
 

@@ -18,6 +18,8 @@ import json
 import sys
 from pathlib import Path
 
+from study import device_of
+
 CAUSTIC = ("geometry.", "driver.", "emit.", "refine.", "around.", "generator.", "specular.", "light.",
            "trace.", "reconstruct.", "filter.", "gather.", "temporal.", "layers.", "media.")
 ERROR = "error.caustic_irradiance."
@@ -132,6 +134,7 @@ def main() -> int:
     sources = json.loads(keys.read_text()) if keys.is_file() else {}
     for row in rows:
         row["sources"] = sources.get(row.get("folder"), "")
+        row["device"] = device_of(row)
     settings = settings_of(rows)
     rows.sort(key=lambda row: row.get("scene") or "")  # otherwise in the study's own order
     measured = [m for m in MEASURED if any(m[2](row) is not None for row in rows)]

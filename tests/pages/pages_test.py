@@ -13,8 +13,8 @@ PAGES = ROOT / "experiments/plotting/pages.py"
 RUNS = """scene,photons,status,relMSE,hits right,version,device,date,other_processors
 pool,256,done,0.00012,0.5,1,a,2026-11-24T10:00:00Z,0.01
 pool,1024,done,0.000034,0.98765,1,a,2026-11-25T10:00:00Z,1.26
-ball,256,failed,,,1,b,,
-ball,1024,done,12345,,1,b,2026-11-24T10:00:00Z,
+ball,256,failed,,,1,a,,
+ball,1024,done,12345,,2,a,2026-11-24T10:00:00Z,
 """
 PAGE = """Before.
 
@@ -52,11 +52,22 @@ class Pages(unittest.TestCase):
         self.assertIn("\n".join(["| scene | photons | relMSE; hits right |", "| --- | --- | --- |",
                                  "| `ball` | 256 | failed |", "| `ball` | 1024 | 1.2e+4; – |",
                                  "| `pool` | 256 | 0.00012; 50.0 % |", "| `pool` | 1024 | 3.4e-5; 98.8 % |"]), text)
-        self.assertIn("*`runs.csv`, 4 runs; version 1, a; version 1, b; 2026-11-24 to 2026-11-25; other work kept up to 1.3 "
+        self.assertIn("*`runs.csv`, 4 runs; version 1, a; version 2, a; 2026-11-24 to 2026-11-25; other work kept up to 1.3 "
                       "processors busy.*", text)
         self.assertIn("-->0.0001<!-- / -->, no more.", text)
         self.assertTrue(text.startswith("Before.\n"))
         self.assertEqual(self.pages("--check").returncode, 0)
+
+    def test_have_a_row_for_each_machine(self):
+        (self.results / "other.csv").write_text(RUNS.replace(",a,", ",b,").replace("0.00012", "0.00013"))
+        page = PAGE.replace('"runs.csv"\n', '["runs.csv", "other.csv"]\n')
+        self.assertEqual(self.pages(page=page).returncode, 0)
+        text = (self.results / "page.md").read_text()
+        self.assertIn("\n".join(["| scene | photons | on device | relMSE; hits right |", "| --- | --- | --- | --- |",
+                                 "| `ball` | 256 | 1 | failed |", "| `ball` | 256 | 2 | failed |"]), text)
+        self.assertIn("| `pool` | 256 | 1 | 0.00012; 50.0 % |\n| `pool` | 256 | 2 | 0.00013; 50.0 % |", text)
+        self.assertIn("*`runs.csv`, `other.csv`, 8 runs; version 1, device 1: a; version 1, device 2: b; version 2, device 1: a; "
+                      "version 2, device 2: b; ", text)
 
     def test_that_differ_are_named_with_what_stands_there(self):
         self.pages(page=PAGE)
