@@ -19,6 +19,8 @@ Rewrites what stands between two comments of a page and leaves all else, which i
 
     relMSE of <!-- = traversal.csv: relMSE .3g; scene=pool, refine.finest=1024 -->0.0123<!-- / --> at 1024.
 
+A table that more is computed for has `by = "wyman2008.py error"` in place of rows and cells: what that program, which lies next to this one, prints of the file.
+
 Rows are sorted by their settings. A run that is not done has its status instead, a value that is not there "–". Runs of several devices have a row each, never one for all, and a column with the
 device's number. Under a table stand the version and the device of its runs, each where there are several, their dates, and how busy the machine was with other work while they were timed. --check writes nothing and ends with 1 where a page is not what the CSVs say. Ends with 2 where a page asks
 for what is not there, with its line.
@@ -29,6 +31,7 @@ import csv
 import functools
 import pathlib
 import re
+import subprocess
 import sys
 import tomllib
 
@@ -37,7 +40,7 @@ TABLE = re.compile(r"^<!-- table\n(.*?)^-->\n(.*?)^<!-- end -->$", re.M | re.S)
 NUMBER = re.compile(r"<!-- = ([\w./-]+): ([^;>]+?) (\S+); ([^>]*?) -->(.*?)<!-- / -->")
 # So many processors are busy on an idle machine too.
 BUSY = 0.2
-KEYS = {"file", "rows", "where", "across", "cells", "names"}
+KEYS = {"file", "rows", "where", "across", "cells", "names", "by"}
 
 
 class PageError(Exception):
@@ -124,15 +127,30 @@ def of_which_runs(rows: list[dict], files: list[str]) -> str:
     return "; ".join(parts)
 
 
+def printed(command: str, file: pathlib.Path) -> str:
+    program, *arguments = command.split()
+    done = subprocess.run([sys.executable, "-B", ROOT / "experiments/plotting" / program, *arguments, file], capture_output=True, text=True)
+    if done.returncode:
+        raise PageError(f"'{command}' ended with {done.returncode}: {done.stderr.strip()}")
+    return done.stdout.strip()
+
+
 def table(spec: dict, results: pathlib.Path) -> str:
     if unknown := set(spec) - KEYS:
         raise PageError(f"a table has no '{sorted(unknown)[0]}'; it has {', '.join(sorted(KEYS))}")
-    if missing := {"file", "rows", "cells"} - set(spec):
+    needs, never = ({"file"}, {"rows", "where", "across", "cells", "names"}) if "by" in spec else ({"file", "rows", "cells"}, set())
+    if excess := never & set(spec):
+        raise PageError(f"a table by a program has no '{sorted(excess)[0]}'")
+    if missing := needs - set(spec):
         raise PageError(f"a table needs '{sorted(missing)[0]}'")
     files = [spec["file"]] if isinstance(spec["file"], str) else spec["file"]
     rows = [row for file in files for row in chosen(runs(results / file), spec.get("where", {}))]
     if not rows:
         raise PageError(f"no run of '{', '.join(files)}' has these settings")
+    if "by" in spec:
+        if len(files) > 1:
+            raise PageError(f"'{spec['by']}' takes one file")
+        return f"\n{printed(spec['by'], results / files[0])}\n\n*{of_which_runs(rows, files)}.*\n\n"
     keys, names, across = spec["rows"], spec.get("names", {}), spec.get("across", [])
     devices = devices_of(rows)
     if len(devices) > 1:

@@ -20,20 +20,12 @@ import sys
 from collections import defaultdict
 from pathlib import Path
 
-from wyman2008 import caustic_ms, head, line, runs_of, spread
+from runs import causes_of, caustic_ms, error_of, head, line, print_table, runs_of, scene_of, spread, value
 
 STEPS = [("layers around", "around."), ("photon hit image: emit", "emit."),
          ("photon hit image: interactions", "specular."), ("photon hit image: secant search", "trace."),
          ("receivers on the faces", "generator."), ("triangles", "reconstruct."),
          ("projection", "gather."), ("reflections and refractions", "view."), ("the rest", "")]
-
-
-def scene_of(row: dict) -> str:
-    return Path(row["scene"]).stem
-
-
-def value(row: dict, key: str):
-    return row["report"]["parameters"][key]
 
 
 def steps(rows: list[dict]) -> None:
@@ -65,11 +57,6 @@ def name_of(row: dict) -> str:
     return name + (" @ screen" if technique == "screen_space_photons" else " @ light")
 
 
-def error_of(row: dict) -> dict:
-    judged = row["report"]["error"]
-    return judged.get("modelled_paths", judged)["caustic_irradiance"]
-
-
 def error(rows: list[dict]) -> None:
     by_scene: dict = defaultdict(list)
     for row in rows:
@@ -99,8 +86,8 @@ def around_ms(report: dict) -> float:
 
 
 def reach(rows: list[dict]) -> None:
-    causes = ["hidden_in_map", "beyond_layers", "edge_on", "bounce_limit", "internal_reflection_limit",
-              "untraced_branch", "as_published", "tracer", "unresolved"]
+    causes = causes_of(rows, ["hidden_in_map", "beyond_layers", "edge_on", "bounce_limit", "internal_reflection_limit",
+                              "untraced_branch", "as_published", "tracer", "unresolved"])
     print(head(["scene", "generators", "stored", *causes, "right hits", "relMSE", "of modelled paths"]))
     for row in rows:
         report = row["report"]
@@ -252,17 +239,11 @@ def main() -> int:
     if arguments.table == "seen":
         seen(arguments.results)
         return 0
-    if not (arguments.results / "runs.csv").is_file():
-        print(f"umenhoffer2008: '{arguments.results}' has no runs.csv; is it the results of 'kaustik "
-              "experiment run'?", file=sys.stderr)
-        return 1
     rows = runs_of(arguments.results)
     if arguments.table == "grazing":
-        grazing(rows, arguments.results)
-    else:
-        {"steps": steps, "error": error, "reach": reach, "secant": secant, "points": points,
-         "merge": merge}[arguments.table](rows)
-    return 0
+        return print_table(grazing, rows, arguments.results)
+    return print_table({"steps": steps, "error": error, "reach": reach, "secant": secant, "points": points,
+                        "merge": merge}[arguments.table], rows)
 
 
 if __name__ == "__main__":

@@ -15,18 +15,13 @@ flicker: change from frame to frame beside the truth's.
 """
 
 import argparse
-import csv
-import json
 import math
 import statistics
 import sys
 from collections import defaultdict
 from pathlib import Path
 
-from study import require_one_device
-
-STAGES = ("geometry.", "emit.", "specular.", "light.", "trace.", "reconstruct.", "filter.", "gather.",
-          "temporal.", "layers.")
+from runs import causes_of, caustic_ms, head, line, print_table, runs_of, spread
 
 # Frames a second: fixed splats, four sizes, thin lens (Wyman, Dachsbacher 2008, Table 1).
 TABLE_1 = [
@@ -35,34 +30,6 @@ TABLE_1 = [
     ("Buddha, 50 k", 512, 35.1, 25.6, 26.8), ("Buddha, 50 k", 1024, 13.5, 8.6, 8.5),
     ("Bunny, 70 k", 512, 30.8, 26.4, 27.6), ("Bunny, 70 k", 1024, 12.9, 9.6, 10.3),
     ("Gargoyle, 205 k", 512, 16.3, 13.3, 14.1), ("Gargoyle, 205 k", 1024, 8.4, 6.4, 6.2)]
-
-
-def runs_of(results: Path) -> list[dict]:
-    """The rows of runs.csv that are done, each with its report."""
-    with (results / "runs.csv").open(newline="") as lines:
-        rows = [row for row in csv.DictReader(lines) if row.get("status") == "done"]
-    require_one_device(rows, results)
-    for row in rows:
-        row["report"] = json.loads((results / row["folder"] / "report.json").read_text())
-    return rows
-
-
-def caustic_ms(report: dict) -> float:
-    """All passes that the caustic takes."""
-    return sum(p["gpu_ms"]["median"] for p in report["passes"]
-               if p.get("ran") and "gpu_ms" in p and p["name"].startswith(STAGES))
-
-
-def line(cells: list) -> str:
-    return "| " + " | ".join(str(cell) for cell in cells) + " |"
-
-
-def head(cells: list) -> str:
-    return line(cells) + "\n" + line(["---"] * len(cells))
-
-
-def spread(values: list[float]) -> str:
-    return f"{statistics.median(values):.2f} ({min(values):.2f} to {max(values):.2f})"
 
 
 def row_of(report: dict) -> str:
@@ -138,8 +105,8 @@ def error(rows: list[dict]) -> None:
 
 
 def reach(rows: list[dict]) -> None:
-    causes = ["hidden_in_map", "outside_map", "bounce_limit", "internal_reflection_limit", "as_published",
-              "untraced_branch", "edge_on", "tracer", "unresolved"]
+    causes = causes_of(rows, ["hidden_in_map", "outside_map", "bounce_limit", "internal_reflection_limit", "as_published",
+                              "untraced_branch", "edge_on", "tracer", "unresolved"])
     print(head(["scene", "distance", "arrived in the map", *causes, "right of what the light sees",
                 "relMSE", "of modelled paths"]))
     for row in rows:
@@ -207,10 +174,12 @@ def ringing(rows: list[dict], results: Path) -> None:
 def flicker(rows: list[dict]) -> None:
     print(head(["technique", "photons", "temporal", "RMS change, W/m²", "the truth's",
                 "difference", "its standard error", "RMSE, W/m²", "frame, ms"]))
+    several = len({row_of(row["report"]) for row in rows}) > 1
     for row in rows:
         report = row["report"]
         found = report["error"]["flicker"]
-        print(line([f"{row['technique']}, {row_of(report)}", row["emit.photons"], row["temporal"],
+        which = f", {row_of(report)}" if several else ""
+        print(line([row["technique"] + which, row["emit.photons"], row["temporal"],
                     f"{found['rms_w_m2']:.4g}", f"{found['truth_rms_w_m2']:.4g}",
                     f"{found['difference_w_m2']:+.3g}", f"{found['truth_stderr_w_m2']:.2g}",
                     f"{report['error']['caustic_irradiance']['rmse']:.4g}",
@@ -222,16 +191,10 @@ def main() -> int:
     parser.add_argument("table", choices=["times", "error", "reach", "ringing", "flicker"])
     parser.add_argument("results", type=Path)
     arguments = parser.parse_args()
-    if not (arguments.results / "runs.csv").is_file():
-        print(f"wyman2008: '{arguments.results}' has no runs.csv; is it the results of 'kaustik "
-              "experiment run'?", file=sys.stderr)
-        return 1
     rows = runs_of(arguments.results)
     if arguments.table == "ringing":
-        ringing(rows, arguments.results)
-    else:
-        {"times": times, "error": error, "reach": reach, "flicker": flicker}[arguments.table](rows)
-    return 0
+        return print_table(ringing, rows, arguments.results)
+    return print_table({"times": times, "error": error, "reach": reach, "flicker": flicker}[arguments.table], rows)
 
 
 if __name__ == "__main__":

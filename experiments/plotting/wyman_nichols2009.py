@@ -22,8 +22,7 @@ import sys
 from collections import defaultdict
 from pathlib import Path
 
-from umenhoffer2008 import error_of, scene_of, value
-from wyman2008 import head, line, runs_of, spread
+from runs import error_of, head, line, print_table, runs_of, scene_of, spread, value
 
 STAGES = ("geometry.", "driver.", "emit.", "refine.", "specular.", "light.", "trace.", "reconstruct.",
           "filter.", "gather.", "layers.", "media.")
@@ -219,11 +218,7 @@ def main() -> int:
     parser.add_argument("results", type=Path)
     arguments = parser.parse_args()
     rows = runs_of(arguments.results)
-    if not rows:
-        print(f"{arguments.results}: no run is done", file=sys.stderr)
-        return 1
-    tables[arguments.table](rows)
-    return 0
+    return print_table(tables[arguments.table], rows)
 
 
 if __name__ == "__main__":
