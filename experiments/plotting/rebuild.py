@@ -34,6 +34,8 @@ PLOTTING = ROOT / "experiments/plotting"
 # a program of their own.
 TABLE = {
     "all_techniques": "all_techniques/runs.csv",
+    "best_mixtures_choice": "all_techniques/choice.csv",
+    "best_mixtures": "all_techniques/best_mixtures.csv",
     "defaults": "defaults.csv",
     "vertices_and_gather": "vertices_and_gather.csv",
     "wyman2008_interpolants": "wyman2008/interpolants.csv",
@@ -192,8 +194,11 @@ def rebuild(kaustik: pathlib.Path, out: pathlib.Path, shard: str | None, anew: b
             continue
         try:
             csv_of(out / study, study, ROOT / "results" / STUDIES[study])
-            if study == "all_techniques":
+            if study in ("all_techniques", "best_mixtures"):
                 compare_with_light_tracer(kaustik)
+            if study == "best_mixtures_choice":
+                call(sys.executable, "-B", PLOTTING / "best_mixtures.py", ROOT / "results" / STUDIES[study],
+                     "--study", ROOT / "experiments/best_mixtures.toml")
             print(f"{study}: results/{STUDIES[study]}", flush=True)
         except Failure as failure:
             failures.append(f"{study}: {failure}")

@@ -70,6 +70,16 @@ def caustic_ms(report: dict) -> float:
                if p.get("ran") and "gpu_ms" in p and p["name"].startswith(STAGES))
 
 
+def maps_of(row: dict) -> tuple[int, int, int]:
+    """How many maps the light is stored in, texels along the first one's side, and texels of all; 0, 0, 0 where there is none."""
+    if "map" not in row["report"] and "schema" not in row["report"]:
+        raise KeyError("map.count")  # a CSV of before it had this column
+    found = row["report"].get("map") or {}
+    if maps := found.get("maps"):
+        return len(maps), maps[0]["size"][0], sum(m["size"][0] * m["size"][1] * m["views"] for m in maps)
+    return found.get("count", 0), found.get("side", 0), found.get("texels", 0)
+
+
 def scene_of(row: dict) -> str:
     return Path(row["scene"]).stem
 

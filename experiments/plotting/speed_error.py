@@ -4,7 +4,8 @@
 
     speed_error.py [--results results/all_techniques]
 
-Reads runs.csv (all_techniques.toml, by table.py --csv) and light_tracer.csv (light_tracer.py) in that folder, both of one machine (another
+Reads runs.csv (all_techniques.toml, by table.py --csv), light_tracer.csv (light_tracer.py) and, where it is there, best_mixtures.csv
+(best_mixtures.toml; its runs are called "best mixture") in that folder, all of one machine (another
 has a folder of its own; pages.py puts tables of several next to each other), and writes next to them
 
 - equal_error.csv: each run, and how many photons and ms the light tracer needs for the same relMSE; `factor` is by how much the run is
@@ -40,7 +41,7 @@ ERRORS = [1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4]
 # What a user would pick instead: no techniques of ours, and no part of the front that is drawn.
 LIGHT_TRACER, PHOTON_MAPPING = "light tracer", "progressive photon mapping"
 BASELINES = {LIGHT_TRACER: ":", PHOTON_MAPPING: "-."}
-DEFAULT = "screen_space_photons"
+DEFAULT, MIXTURE = "screen_space_photons", "best mixture"
 MIDDLE = {"256x256", "1024"}  # photons along each side of the grid, or the finest cells
 LEAST_FACTOR = 1e-4  # that is drawn
 TIMES_MS = [50, 100, 200, 500, 1000, 2000]
@@ -170,7 +171,7 @@ VARIED = {"adaptive_caustic_map": "refine.finest", "vertex_caustics": ""}
 
 
 def varied(row: dict) -> tuple[str, str]:
-    key = VARIED.get(row["technique"], "emit.photons")
+    key = "refine.finest" if row.get("driver") == "adaptive" else VARIED.get(row["technique"], "emit.photons")
     return key, row.get(key) or ""
 
 
@@ -316,6 +317,8 @@ def main() -> int:
     arguments = parser.parse_args()
     folder = arguments.results
     runs = rows_of(folder / "runs.csv")
+    if (folder / "best_mixtures.csv").is_file():
+        runs += [row | {"technique": MIXTURE, "as_published": "false"} for row in rows_of(folder / "best_mixtures.csv")]
     require_one_device([row for row in runs if row["status"] == "done"], folder)
     baselines = rows_of(folder / "light_tracer.csv")
     of_scenes = curves(runs, baselines)

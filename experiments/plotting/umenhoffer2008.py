@@ -20,7 +20,7 @@ import sys
 from collections import defaultdict
 from pathlib import Path
 
-from runs import causes_of, caustic_ms, error_of, head, line, print_table, runs_of, scene_of, spread, value
+from runs import causes_of, caustic_ms, error_of, head, line, maps_of, print_table, runs_of, scene_of, spread, value
 
 STEPS = [("layers around", "around."), ("photon hit image: emit", "emit."),
          ("photon hit image: interactions", "specular."), ("photon hit image: secant search", "trace."),
@@ -99,7 +99,7 @@ def reach(rows: list[dict]) -> None:
         judged = report["error"]
         models = judged.get("modelled_paths", {}).get("caustic_irradiance")
         right = report["hits"].get("agreement_reachable")
-        print(line([f"`{scene_of(row)}`", len(report["map"]["maps"]),
+        print(line([f"`{scene_of(row)}`", maps_of(row)[0],
                     f"{100 * energy['deposited_w'] / emitted:.2f} %"] +
                    [f"{100 * energy['lost_w'].get(cause, 0.0) / emitted:.2f} %" for cause in causes] +
                    ["–" if right is None else f"{100 * right:.2f} %",

@@ -22,7 +22,7 @@ import sys
 from collections import defaultdict
 from pathlib import Path
 
-from runs import error_of, head, line, print_table, runs_of, scene_of, spread, value
+from runs import error_of, head, line, maps_of, print_table, runs_of, scene_of, spread, value
 
 STAGES = ("geometry.", "driver.", "emit.", "refine.", "specular.", "light.", "trace.", "reconstruct.",
           "filter.", "gather.", "layers.", "media.")
@@ -203,11 +203,10 @@ def cascades(rows: list[dict]) -> None:
     print("relMSE against the paths that the photons model; ms from emission to gather\n")
     print(head(["scene", "stored by", "in", "maps", "texels", "relMSE", "ms"]))
     for row in rows:
-        maps = (row["report"].get("map") or {}).get("maps") or []
-        size = maps[0]["size"][0] if maps else None
+        maps, side, texels = maps_of(row)
         print(line([f"`{scene_of(row)}`", value(row, "reconstruct"),
-                    f"{size}²" if maps else "the eye's pixels", len(maps) or "–",
-                    f"{sum(m['size'][0] * m['size'][1] * m['views'] for m in maps) / 1e6:.2f} M" if maps else "–",
+                    f"{side}²" if maps else "the eye's pixels", maps or "–",
+                    f"{texels / 1e6:.2f} M" if maps else "–",
                     f"{error_of(row)['rel_mse']:.3g}", f"{ms_of(row['report']):.0f}"]))
 
 

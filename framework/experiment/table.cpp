@@ -19,6 +19,18 @@ void addNumbers(Row& row, const std::string& name, const json& value) {
         addNumbers(row, name + "." + key, inner);
 }
 
+// How many maps the light is stored in, and of how many texels, which a list of them says.
+void addMaps(Row& row, const json& map) {
+    const json maps = map.is_object() ? map.value("maps", json::array()) : json::array();
+    long long texels = 0;
+    for (const json& one : maps)
+        texels += one.at("size").at(0).get<long long>() * one.at("size").at(1).get<long long>() *
+                  one.at("views").get<long long>();
+    row.emplace_back("map.count", maps.size());
+    row.emplace_back("map.side", maps.empty() ? json(0) : maps.front().at("size").at(0));
+    row.emplace_back("map.texels", texels);
+}
+
 std::string cell(const json& value) {
     if (value.is_null()) return "";
     const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
@@ -66,8 +78,12 @@ Row resultColumns(const json& report) {
         row.emplace_back("pass:" + pass.at("name").get<std::string>(),
                          pass.at("gpu_ms").at("median"));
     }
-    for (const char* part : {"photons", "layers", "hits", "error", "energy", "memory"})
+    for (const char* part :
+         {"photons", "cells", "layers", "map", "hits", "error", "energy", "memory"})
         addNumbers(row, part, report.value(part, json()));
+    addMaps(row, report.value("map", json()));
+    addNumbers(row, "scene.triangles",
+               report.value("scene", json::object()).value("triangles", json()));
     row.emplace_back("warnings", report.value("warnings", json::array()).size());
     // Together the model that the times are of: on a software rasteriser it is the processor.
     const json device = report.value("device", json::object());

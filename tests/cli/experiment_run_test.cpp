@@ -40,9 +40,9 @@ TEST_F(ExperimentRun, WritesOneRowARunWithSettingsTimesPassesAndEnergy) {
     EXPECT_EQ(column("layers.count"), (std::vector<std::string>{"1", "1", "2", "2"}));
     EXPECT_EQ(column("repeat"), (std::vector<std::string>{"1", "2", "1", "2"}));
     EXPECT_EQ(column("status"), std::vector<std::string>(4, "done"));
-    for (const char* name :
-         {"frame_ms.median", "frame_ms.stdev", "pass:layers.peel", "energy.balance",
-          "energy.emitted_w", "photons.emitted", "memory.peak_bytes", "startup_ms"}) {
+    for (const char* name : {"frame_ms.median", "frame_ms.stdev", "pass:layers.peel",
+                             "energy.balance", "scene.triangles", "map.count", "energy.emitted_w",
+                             "photons.emitted", "memory.peak_bytes", "startup_ms"}) {
         const std::vector<std::string> cells = column(name);
         ASSERT_EQ(cells.size(), 4u) << name;
         for (const std::string& cell : cells)
