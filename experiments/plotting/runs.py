@@ -54,12 +54,12 @@ def runs_of(results: Path) -> list[dict]:
     if not file.is_file():
         sys.exit(f"{Path(sys.argv[0]).stem}: there is no '{file}'; is it of 'kaustik experiment run'?")
     with file.open(newline="") as lines:
-        rows = [row for row in csv.DictReader(lines) if row.get("status") == "done"]
+        rows = [row for row in csv.DictReader(lines) if row.get("status", "done") == "done"]
     if not rows:
         sys.exit(f"{Path(sys.argv[0]).stem}: no run of '{file}' is done")
     require_one_device(rows, results)
     for row in rows:
-        report = file.parent / row["folder"] / "report.json"
+        report = file.parent / row.get("folder", ".") / "report.json"
         row["report"] = json.loads(report.read_text()) if report.is_file() else report_of(row)
     return rows
 
