@@ -5,7 +5,7 @@
 #   slurm.sh --shards N [--per-task P] [--timing] [options of sbatch…] -- COMMAND…
 # COMMAND is what kaustik would be given to do all at once, with its --out:
 #   slurm.sh --shards 100 --cpus-per-task=8 -- reference pool --photons 100000000000 --out out/pool.exr
-#   slurm.sh --shards 16 --per-task 4 -- experiment run experiments/all_scenes.toml --out out/scenes
+#   slurm.sh --shards 16 --per-task 4 -- experiment run experiments/all_techniques.toml --out out/techniques
 # --timing is for studies whose times count: each task has a node to itself. Where that has several
 # GPUs, ask for one model: --timing --gres=gpu:a100:1. The folder must be seen by all nodes.
 set -euo pipefail

@@ -9,7 +9,7 @@ Rewrites what stands between two comments of a page and leaves all else, which i
     <!-- table
     file = "wyman_nichols2009/traversal.csv"       # below results/; a list of several stand together, as of several machines
     rows = ["scene", "refine.finest"]              # the settings that a row has, in its first columns
-    where = { scene = "pool" }                     # optional: only the runs with these settings
+    where = { scene = "pool" }                     # optional: only the runs with these settings; a list: any of its values
     across = ["refine.metric"]                     # optional: a column for each of these settings' values
     cells = ["emitted ,.0f", "relMSE .3g; SMAPE .3f"]   # columns of the CSV, each with a format; `%` for shares, `s` for words
     names = { "refine.finest" = "cells a side" }   # optional: what a heading says instead
@@ -62,7 +62,8 @@ def column(row: dict, name: str) -> str:
 
 
 def chosen(rows: tuple[dict, ...], settings: dict) -> list[dict]:
-    return [row for row in rows if all(column(row, key) == str(value) for key, value in settings.items())]
+    return [row for row in rows
+            if all(column(row, key) in map(str, value if isinstance(value, list) else [value]) for key, value in settings.items())]
 
 
 def formatted(text: str, style: str) -> str:

@@ -48,8 +48,10 @@ TABLE = {
 RUNS = {
     "equal_error": "reconstructions/equal_error.csv",
     "krueger2006_caustics": "krueger2006/caustics.csv",
+    "krueger2006_god_rays": "krueger2006/god_rays.csv",
     "krueger2006_needs": "krueger2006/needs.csv",
     "krueger2006_photons": "krueger2006/photons.csv",
+    "krueger2006_refraction": "krueger2006/refraction.csv",
     "krueger2006_shadows": "krueger2006/shadows.csv",
     "krueger2006_sprites": "krueger2006/sprites.csv",
     "krueger2006_tracers": "krueger2006/tracers.csv",

@@ -83,6 +83,7 @@ def mebibytes(row: dict) -> float | None:
 MEASURED = [
     ("emitted", ",.0f", lambda row: number(row, "photons.emitted")),
     ("traced", ",.0f", lambda row: number(row, "photons.traced")),
+    ("visible right", ".4f", lambda row: number(row, "hits.agreement_visible")),
     ("hits right", ".4f", lambda row: number(row, "hits.agreement")),
     ("of seen", ".4f", lambda row: number(row, "hits.agreement_reachable")),
     ("relMSE", ".3g", lambda row: number(row, ERROR + "rel_mse")),
@@ -100,9 +101,11 @@ MEASURED = [
     ("not followed, %", ".2f", lambda row: share(row, "energy.lost_w.untraced_branch")),
     ("view relMSE", ".3g", lambda row: number(row, VIEW + "rel_mse")),
     ("view energy", ".3f", lambda row: number(row, VIEW + "energy_ratio")),
+    ("view interfaces right", ".4f", lambda row: number(row, "error.view.interfaces_right")),
     ("view lost", ".4f", lambda row: number(row, "error.view.lost")),
     ("ms", ".0f", lambda row: sum_of_passes(row, CAUSTIC)),
     ("view ms", ".0f", lambda row: sum_of_passes(row, ("view.",))),
+    ("frame, ms", ".0f", lambda row: number(row, "frame_ms.median")),
     ("spread", ".3f", lambda row: spread(row)),
     ("peak MiB", ".0f", lambda row: mebibytes(row)),
 ]
