@@ -35,7 +35,12 @@ import subprocess
 import sys
 import tomllib
 
+from rebuild import STUDIES
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+# What is made of other files than a study's runs, by which program next to this one.
+DERIVED = {"wyman2008/lens_widths.csv": "lens_widths.py",
+           **{f"all_techniques/{name}.csv": "speed_error.py" for name in ("answers", "costs", "equal_error", "in_time", "summary", "to_error")}}
 TABLE = re.compile(r"^<!-- table\n(.*?)^-->\n(.*?)^<!-- end -->$", re.M | re.S)
 NUMBER = re.compile(r"<!-- = ([\w./-]+): ([^;>]+?) (\S+); ([^>]*?) -->(.*?)<!-- / -->")
 # So many processors are busy on an idle machine too.
@@ -109,6 +114,14 @@ def devices_of(rows: list[dict]) -> list[str]:
     return sorted({row["device"] for row in rows if row.get("device")})
 
 
+def command_of(file: str) -> str:
+    """The command that makes it."""
+    studies = [study for study, target in STUDIES.items() if target == file]
+    if not studies and file in DERIVED:
+        return f" by `experiments/plotting/{DERIVED[file]}`"
+    return f" by `experiments/rebuild_results.sh {studies[0]}`" if studies else ""
+
+
 def of_which_runs(rows: list[dict], files: list[str]) -> str:
     """What a table's runs are of, under it."""
     kinds = sorted({(row.get("version", ""), row.get("device", "")) for row in rows})
@@ -117,7 +130,7 @@ def of_which_runs(rows: list[dict], files: list[str]) -> str:
     def named(device: str) -> str:
         return f"device {devices.index(device) + 1}: {device}" if device and len(devices) > 1 else device
 
-    parts = [f"{', '.join(f'`{file}`' for file in files)}, {len(rows)} runs",
+    parts = [f"{', '.join(f'[`{file}`]({file}){command_of(file)}' for file in files)}, {len(rows)} {'row' if len(rows) == 1 else 'rows'}",
              *(f"version {version}, {named(device)}" for version, device in kinds if version or named(device))]
     dates = sorted({row["date"][:10] for row in rows if row.get("date")})
     if dates:

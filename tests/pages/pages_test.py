@@ -52,7 +52,7 @@ class Pages(unittest.TestCase):
         self.assertIn("\n".join(["| scene | photons | relMSE; hits right |", "| --- | --- | --- |",
                                  "| `ball` | 256 | failed |", "| `ball` | 1024 | 1.2e+4; – |",
                                  "| `pool` | 256 | 0.00012; 50.0 % |", "| `pool` | 1024 | 3.4e-5; 98.8 % |"]), text)
-        self.assertIn("*`runs.csv`, 4 runs; version 1, a; version 2, a; 2026-11-24 to 2026-11-25; other work kept up to 1.3 "
+        self.assertIn("*[`runs.csv`](runs.csv), 4 rows; version 1, a; version 2, a; 2026-11-24 to 2026-11-25; other work kept up to 1.3 "
                       "processors busy.*", text)
         self.assertIn("-->0.0001<!-- / -->, no more.", text)
         self.assertTrue(text.startswith("Before.\n"))
@@ -66,7 +66,7 @@ class Pages(unittest.TestCase):
         self.assertIn("\n".join(["| scene | photons | on device | relMSE; hits right |", "| --- | --- | --- | --- |",
                                  "| `ball` | 256 | 1 | failed |", "| `ball` | 256 | 2 | failed |"]), text)
         self.assertIn("| `pool` | 256 | 1 | 0.00012; 50.0 % |\n| `pool` | 256 | 2 | 0.00013; 50.0 % |", text)
-        self.assertIn("*`runs.csv`, `other.csv`, 8 runs; version 1, device 1: a; version 1, device 2: b; version 2, device 1: a; "
+        self.assertIn("*[`runs.csv`](runs.csv), [`other.csv`](other.csv), 8 rows; version 1, device 1: a; version 1, device 2: b; version 2, device 1: a; "
                       "version 2, device 2: b; ", text)
 
     def test_that_differ_are_named_with_what_stands_there(self):
