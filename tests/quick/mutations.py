@@ -8,8 +8,8 @@ Draws `count` of all small changes that there are to C++ files and shaders (an o
 condition, a statement that goes), each as likely as any other. What does not compile is replaced by the next
 that is drawn; of a shader, which is compiled when it is used, the output of a test that fails says so.
 
-Fifteen at once, all quick tests are run. Those that fail are run for each change alone, the cheapest first: what
-a change fails alone it fails in company too. With those that are left the slow tests are run in the same way.
+Fifteen at once, all quick tests are run. Those that fail are run for halves of these changes, as long as one fails, and for
+each change that is left alone, the cheapest first: what a change fails alone it fails in company too. With those that are left the slow tests are run in the same way.
 Where these find nothing either nobody sees the change, or it changes nothing.
 
 It works in a clone, `tree`, at `commit`, with a build of its own. What is known stands in mutations.jsonl next to
@@ -192,6 +192,19 @@ class Trials:
                     return True
         return False
 
+    def culprits(self, mutations, by, tests):
+        """Those that one of these tests sees, each recorded: halved as long as a test fails, since most are seen by none."""
+        if len(mutations) == 1:
+            return mutations if self.alone(mutations[0], by, tests) else []
+        with self.mutated(mutations):
+            if not self.build():
+                sys.exit(f"mutations.py: {len(mutations)} changes do not compile together; see {self.log}")
+            failures = self.cheapest_first(self.test("-R", any_of(tests)))
+        if not failures:
+            return []
+        half = len(mutations) // 2
+        return self.culprits(mutations[:half], by, failures) + self.culprits(mutations[half:], by, failures)
+
     def together(self, mutations, by, *options):
         """Finds out which of the mutations the tests of `options` see."""
         left = [mutation for mutation in mutations if (mutation.site, by) not in self.known]
@@ -206,7 +219,8 @@ class Trials:
             if len(failures) > MANY:
                 left = [mutation for mutation in left if not self.alone(mutation, by, failures[:2 * FEW])]
             if len(left) == before:
-                left = [mutation for mutation in left if not self.alone(mutation, by, failures)]
+                seen = self.culprits(left, by, failures) if failures else []
+                left = [mutation for mutation in left if mutation not in seen]
                 break
         for mutation in left:
             self.record(mutation, by, "")
