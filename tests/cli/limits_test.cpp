@@ -209,6 +209,17 @@ TEST_F(Limits, CountBeamsThatAreNarrowerThanTheyWereToBe) {
     EXPECT_EQ(limit.at("lost_w"), 0.0);
 }
 
+// The cells of so few photons are some pixels wide.
+TEST_F(Limits, LeaveCellsApartThatAreWiderThanATriangleMayBe) {
+    const auto trianglesUpTo = [&](const std::string& maximum) {
+        static_cast<void>(
+            limitsOf("wavy.toml", {"emit.photons=8x8", "triangles.maximum=" + maximum}));
+        return report().at("energy").at("primitives").at("triangles").get<double>();
+    };
+    EXPECT_GT(trianglesUpTo("100"), 0.5);
+    EXPECT_EQ(trianglesUpTo("3"), 0.0);
+}
+
 TEST_F(Limits, CountLinesInTheMediumThatAreNarrowerThanTheyWereToBe) {
     EXPECT_FALSE(isReached("media.lines.maximum", "god-rays", {"media.lines.maximum=256"}));
     const json limit = limitOf("media.lines.maximum", "god-rays", {"media.lines.maximum=2"});
