@@ -217,7 +217,7 @@ TEST_F(Limits, LeaveCellsApartThatAreWiderThanATriangleMayBe) {
         return report().at("energy").at("primitives").at("triangles").get<double>();
     };
     EXPECT_GT(trianglesUpTo("100"), 0.5);
-    EXPECT_EQ(trianglesUpTo("3"), 0.0);
+    EXPECT_EQ(trianglesUpTo("1"), 0.0);
 }
 
 TEST_F(Limits, CountLinesInTheMediumThatAreNarrowerThanTheyWereToBe) {
