@@ -117,6 +117,13 @@ TEST(AdaptivePhotons, DependNeitherOnBatchesNorOnTheWayInWhichTheyAreChosen) {
             adaptive(scene, {{"refine.metric", metric}, {"refine", "feedback"}});
         EXPECT_EQ(whole.words(), captured.words());
         EXPECT_EQ(entriesOf(whole), entriesOf(captured));
+        const CellCounts counts = countsOf(whole), noted = countsOf(captured);
+        EXPECT_GT(counts.discarded, 0u);
+        EXPECT_GT(counts.deepest, 0u);
+        EXPECT_EQ(counts.probes, noted.probes);
+        EXPECT_EQ(counts.merged, noted.merged);
+        EXPECT_EQ(counts.discarded, noted.discarded);
+        EXPECT_EQ(counts.deepest, noted.deepest);
         EXPECT_LE(std::abs(parts.renderer().ledger().balance()), 1e-6);
     }
 }
