@@ -3,7 +3,7 @@
 """Flicker against error: each technique on water that moves, 60 frames, against ray-traced truth of every one.
 
     PYTHONPATH=build/release/python flicker.py --out results/flicker [--scenes pool cornell-bunny god-rays] [--frames 60]
-               [--time-step 0.0333] [--size 200x150] [--photons 256x256] [--reference-photons 4194304]
+               [--time-step 0.0333] [--size 200x150] [--photons 256x256] [--reference-photons 1048576]
 
 Writes OUT/flicker.csv and OUT/flicker.svg. With I the caustic's irradiance, R the reference, whose noise is known and taken off, both of
 frame t, and the mean over pixels, channels and frames:
@@ -30,7 +30,7 @@ import kaustik  # noqa: E402
 from figures import COLORS, MARKERS, plt  # noqa: E402
 
 SETTINGS = ["scene", "technique", "as_published", "frames", "time_step", "size", "photons", "reference_photons"]
-COLUMNS = [*SETTINGS, "status", "relMSE", "change", "wrong change", "version"]
+COLUMNS = [*SETTINGS, "status", "message", "relMSE", "change", "wrong change", "version"]
 
 
 def numbers(text: str) -> tuple[int, int]:
@@ -112,7 +112,7 @@ def main() -> int:
     parser.add_argument("--time-step", type=float, default=0.0333)
     parser.add_argument("--size", default="200x150")
     parser.add_argument("--photons", default="256x256")
-    parser.add_argument("--reference-photons", type=int, default=1 << 22)
+    parser.add_argument("--reference-photons", type=int, default=1 << 20)
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)
     file = options.out / "flicker.csv"
@@ -133,13 +133,13 @@ def main() -> int:
                     truth = truth or traced(scene, options)
                     row |= {"status": "done", **{key: f"{value:.4g}" for key, value in truth.judge(images).items()}}
                 except kaustik.ConfigError as error:
-                    row["status"] = str(error)
+                    row |= {"status": "refused", "message": str(error)}
                 rows.append(row)
                 with file.open("w", newline="", encoding="utf-8") as stream:
                     writer = csv.DictWriter(stream, COLUMNS, lineterminator="\n", restval="")
                     writer.writeheader()
                     writer.writerows(rows)
-                print(*(row.get(key, "") for key in (*SETTINGS[:3], *COLUMNS[len(SETTINGS):-1])), flush=True)
+                print(*(row.get(key, "") for key in (*SETTINGS[:3], *COLUMNS[len(SETTINGS):-1])), sep=", ", flush=True)
     if len({tuple(str(row[key]) for key in SETTINGS[3:]) for row in rows}) > 1:
         sys.exit(f"flicker: the rows of {file} are of different settings, and are not drawn together")
     draw(rows, options.out / "flicker.svg")

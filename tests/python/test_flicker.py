@@ -62,7 +62,7 @@ class Study(unittest.TestCase):
         self.assertEqual([(row["technique"], row["as_published"]) for row in rows],
                          [("planar", "false"), ("planar", "true"), ("raytraced", "false"), ("raytraced", "true")])
         self.assertEqual([row["status"] == "done" for row in rows], [True, True, True, False])
-        self.assertIn("no paper", rows[3]["status"])
+        self.assertIn("no paper", rows[3]["message"])
         self.assertGreater(float(rows[0]["change"]), 0.0)
 
 
