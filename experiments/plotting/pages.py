@@ -106,6 +106,8 @@ def in_order(text: str) -> tuple:
 
 
 def shown(value: str) -> str:
+    if not value:
+        return "–"
     return value if in_order(value)[:1] and in_order(value)[0][0] == 0 else f"`{value}`"
 
 
