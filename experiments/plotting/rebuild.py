@@ -16,6 +16,7 @@ of results/ still work, in minutes. Ends with 1 where something does not.
 """
 
 import argparse
+import csv
 import json
 import pathlib
 import shutil
@@ -26,6 +27,7 @@ import time
 import tomllib
 
 from sources import Tree
+from table import rounded
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PLOTTING = ROOT / "experiments/plotting"
@@ -141,6 +143,19 @@ def forget_stale(results: pathlib.Path, tree: Tree) -> None:
         print(f"{results.name}: {len(folders)} runs of other sources are made anew", flush=True)
 
 
+def write_slim(runs: pathlib.Path, target: pathlib.Path) -> None:
+    """As it is, but for the constants of the errors' formulas, with nine digits a number: what is committed has to be small."""
+    csv.field_size_limit(sys.maxsize)
+    with runs.open(newline="") as stream:
+        reader = csv.DictReader(stream)
+        rows = list(reader)
+    columns = [name for name in reader.fieldnames if ".formulas." not in name]
+    with target.open("w", newline="", encoding="utf-8") as stream:
+        writer = csv.writer(stream, lineterminator="\n")
+        writer.writerow(columns)
+        writer.writerows([rounded(row[name]) for name in columns] for row in rows)
+
+
 def csv_of(results: pathlib.Path, study: str, target: pathlib.Path) -> None:
     target.parent.mkdir(parents=True, exist_ok=True)
     if study in TABLE:
@@ -148,7 +163,7 @@ def csv_of(results: pathlib.Path, study: str, target: pathlib.Path) -> None:
     elif study in PARTS:
         call(sys.executable, "-B", PLOTTING / "error_parts.py", results, "--out", target.parent)
     else:
-        target.write_bytes((results / "runs.csv").read_bytes())
+        write_slim(results / "runs.csv", target)
 
 
 def quick(kaustik: pathlib.Path, out: pathlib.Path, studies: list[str]) -> list[str]:

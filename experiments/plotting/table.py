@@ -5,7 +5,7 @@
     table.py RESULTS [--csv FILE]
 
 RESULTS is a folder of `kaustik experiment run`, or one of its runs.csv. Prints Markdown; --csv writes the
-same columns, unrounded. Errors of the caustic are against all light, but those named "modelled", which are
+same columns, with nine digits. Errors of the caustic are against all light, but those named "modelled", which are
 against the paths that the run's photons can take; "not formed" is the light of all others; "too bright" and "too dark" are the shares of
 pixels that are so, against those paths, by more than the reference's noise. "reference's own" is what its noise alone
 would give. ms: of all passes of the caustic, from emission to gather, and of those of what the eye sees through
@@ -111,6 +111,15 @@ MEASURED = [
 ]
 
 
+def rounded(text: str) -> str:
+    """A fraction with nine digits; all else as it is."""
+    try:
+        value = float(text)
+    except ValueError:
+        return text
+    return f"{value:.9g}" if "." in text and not value.is_integer() else text
+
+
 def settings_of(rows: list[dict]) -> list[str]:
     """The study's settings, which stand between `message` and the times, as far as they differ."""
     keys = list(rows[0])
@@ -159,7 +168,7 @@ def main() -> int:
                             list(OF_THE_RUN))
             for row in rows:
                 writer.writerow([row[key] for key in settings] + [row["status"], row["message"]] +
-                                ["" if get(row) is None else get(row) for _, _, get in measured] +
+                                ["" if get(row) is None else rounded(str(get(row))) for _, _, get in measured] +
                                 [row.get(key, "") for key in OF_THE_RUN])
     return 0
 

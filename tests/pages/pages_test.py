@@ -46,6 +46,10 @@ class Pages(unittest.TestCase):
         done = subprocess.run([sys.executable, "-B", PAGES, "--check"], capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
+    def test_are_made_of_three_megabytes_at_most(self):
+        files = [file for file in (ROOT / "results").rglob("*.csv") if "runs" not in file.relative_to(ROOT / "results").parts[:-1]]
+        self.assertLess(sum(file.stat().st_size for file in files), 3e6)
+
     def test_are_written_in_order_and_leave_prose_alone(self):
         self.assertEqual(self.pages(page=PAGE).returncode, 0)
         text = (self.results / "page.md").read_text()
