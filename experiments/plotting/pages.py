@@ -38,9 +38,9 @@ import tomllib
 from rebuild import STUDIES
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-# What is made of other files than a study's runs, by which program next to this one.
-DERIVED = {"wyman2008/lens_widths.csv": "lens_widths.py",
-           **{f"all_techniques/{name}.csv": "speed_error.py" for name in ("answers", "costs", "equal_error", "in_time", "summary", "to_error")}}
+# What is made of other files than a study's runs, by which program in experiments/.
+DERIVED = {"wyman2008/lens_widths.csv": "plotting/lens_widths.py", "flicker/flicker.csv": "flicker.py",
+           **{f"all_techniques/{name}.csv": "plotting/speed_error.py" for name in ("answers", "costs", "equal_error", "in_time", "summary", "to_error")}}
 TABLE = re.compile(r"^<!-- table\n(.*?)^-->\n(.*?)^<!-- end -->$", re.M | re.S)
 NUMBER = re.compile(r"<!-- = ([\w./-]+): ([^;>]+?) (\S+); ([^>]*?) -->(.*?)<!-- / -->")
 # So many processors are busy on an idle machine too.
@@ -120,7 +120,7 @@ def command_of(file: str) -> str:
     """The command that makes it."""
     studies = [study for study, target in STUDIES.items() if target == file]
     if not studies and file in DERIVED:
-        return f" by `experiments/plotting/{DERIVED[file]}`"
+        return f" by `experiments/{DERIVED[file]}`"
     return f" by `experiments/rebuild_results.sh {studies[0]}`" if studies else ""
 
 
@@ -133,7 +133,7 @@ def of_which_runs(rows: list[dict], files: list[str]) -> str:
         return f"device {devices.index(device) + 1}: {device}" if device and len(devices) > 1 else device
 
     parts = [f"{', '.join(f'[`{file}`]({file}){command_of(file)}' for file in files)}, {len(rows)} {'row' if len(rows) == 1 else 'rows'}",
-             *(f"version {version}, {named(device)}" for version, device in kinds if version or named(device))]
+             *(", ".join(filter(None, (version and f"version {version}", named(device)))) for version, device in kinds if version or device)]
     dates = sorted({row["date"][:10] for row in rows if row.get("date")})
     if dates:
         parts.append(dates[0] if len(dates) == 1 else f"{dates[0]} to {dates[-1]}")
