@@ -18,20 +18,12 @@ import sys
 from collections import defaultdict
 from pathlib import Path
 
-from runs import error_of, head, line, print_table, runs_of, scene_of
+from runs import error_of, head, line, ms_of, passes_of, print_table, runs_of, scene_of
 
 TRACING = ("trace.", "layers.pyramid")
 NEEDS = [("height field", ("geometry.",)), ("interface", ("eye.interface",)), ("layers", ("layers.",)), ("pyramid", ("layers.pyramid",)),
          ("emit", ("emit.",)), ("specular", ("specular.",)), ("trace", ("trace.",)), ("god rays", ("media.",)), ("sprites", ("reconstruct.",)),
          ("view", ("view.",)), ("shadow, direct", ("shadow.", "compose.direct")), ("rest", ("",))]
-
-
-def passes(row: dict) -> dict[str, float]:
-    return {one["name"]: one["gpu_ms"]["median"] for one in row["report"]["passes"] if one.get("ran") and "gpu_ms" in one}
-
-
-def ms(row: dict, starts: tuple) -> float:
-    return sum(time for name, time in passes(row).items() if name.startswith(starts))
 
 
 def frame(row: dict) -> float:
@@ -53,7 +45,7 @@ def tracers(rows: list[dict]) -> None:
     for row in rows:
         node = row["trace"] + (", lines of a geometry shader" if row["trace.lines.source"] == "geometry" else "")
         node += "" if row["trace.test"] == "crossing" else f", {row['trace.test']}"
-        found[node][photons_of(row)] = ms(row, TRACING)
+        found[node][photons_of(row)] = ms_of(row["report"], TRACING)
     print(head(["node", *(cell for count in counts for cell in (f"{count} photons, ms", "times as fast as lines"))]))
     for node, by in found.items():
         cells = [cell for count in counts for cell in
@@ -71,7 +63,7 @@ def caustics(rows: list[dict]) -> None:
     for (scene, specular, count), by in found.items():
         ways = [by[name] for name in ("lines", "hierarchical")]
         print(line([f"`{scene}`", f"`{specular}`", count,
-                    *(" / ".join(f"{ms(row, starts):.0f}" for row in ways) for _, starts in columns),
+                    *(" / ".join(f"{ms_of(row['report'], starts):.0f}" for row in ways) for _, starts in columns),
                     " / ".join(f"{frame(row):.0f}" for row in ways)]))
 
 
@@ -93,7 +85,7 @@ def photons(rows: list[dict]) -> None:
     print(head(["photons", "emit + specular, ms", "trace", "reconstruct", "frame", "agreement of visible", "relMSE"]))
     for row in rows:
         report = row["report"]
-        print(line([photons_of(row), f"{ms(row, ('emit.', 'specular.')):.0f}", f"{ms(row, ('trace.',)):.0f}", f"{ms(row, ('reconstruct.',)):.0f}",
+        print(line([photons_of(row), f"{ms_of(report, ('emit.', 'specular.')):.0f}", f"{ms_of(report, ('trace.',)):.0f}", f"{ms_of(report, ('reconstruct.',)):.0f}",
                     f"{frame(row):.0f}", f"{100 * report['hits']['agreement_visible']:.2f} %", f"{report['error']['caustic_irradiance']['rel_mse']:.2g}"]))
 
 
@@ -101,15 +93,13 @@ def shadows(rows: list[dict]) -> None:
     print(head(["shadow by", "layers", "misclassified", "lit taken for shadow", "shadow taken for lit"]))
     for row in rows:
         found = row["report"]["error"]["shadow"]
-        # Counts in reports of before, shares now.
-        of = found["pixels"] if found["misclassified"] > 1.0 else 1.0
         if row["shadow"] == "map":
             which, layers = f"map of {row['shadow.map.size']}²", "–"
         else:
             test = row["trace.test"]
             near = "" if test == "crossing" else f" within {float(row['trace.epsilon']):g} m"
             which, layers = f"rays, `{row['trace']}`, `{test}`{near}", row["layers.count"]
-        print(line([which, layers, *(f"{100 * found[key] / of:.2g} %"
+        print(line([which, layers, *(f"{100 * found[key]:.2g} %"
                                      for key in ("misclassified", "lit_taken_for_shadow", "shadow_taken_for_lit"))]))
 
 
@@ -128,7 +118,7 @@ def needs(rows: list[dict]) -> None:
     print(head(["scene", *(name for name, _ in NEEDS), "frame"]))
     for row in rows:
         times = dict.fromkeys((name for name, _ in NEEDS), 0.0)
-        for name, time in passes(row).items():
+        for name, time in passes_of(row["report"]).items():
             # The longest start that fits: the pyramid is no part of the layers.
             fits = [(len(start), what) for what, starts in NEEDS for start in starts if name.startswith(start)]
             times[max(fits)[1]] += time

@@ -64,10 +64,14 @@ def runs_of(results: Path) -> list[dict]:
     return rows
 
 
-def caustic_ms(report: dict) -> float:
-    """All passes that the caustic takes."""
-    return sum(p["gpu_ms"]["median"] for p in report["passes"]
-               if p.get("ran") and "gpu_ms" in p and p["name"].startswith(STAGES))
+def passes_of(report: dict) -> dict[str, float]:
+    """The median ms of each pass that ran, by its name."""
+    return {one["name"]: one["gpu_ms"]["median"] for one in report["passes"] if one.get("ran") and "gpu_ms" in one}
+
+
+def ms_of(report: dict, starts: tuple | str = STAGES) -> float:
+    """Of all passes whose names start so; by default those that the caustic takes."""
+    return sum(time for name, time in passes_of(report).items() if name.startswith(starts))
 
 
 def maps_of(row: dict) -> tuple[int, int, int]:

@@ -20,7 +20,7 @@ import sys
 from collections import defaultdict
 from pathlib import Path
 
-from runs import causes_of, caustic_ms, error_of, head, line, maps_of, print_table, runs_of, scene_of, spread, value
+from runs import causes_of, error_of, head, line, maps_of, ms_of, passes_of, print_table, runs_of, scene_of, spread, value
 
 STEPS = [("layers around", "around."), ("photon hit image: emit", "emit."),
          ("photon hit image: interactions", "specular."), ("photon hit image: secant search", "trace."),
@@ -34,10 +34,8 @@ def steps(rows: list[dict]) -> None:
     by_scene: dict = defaultdict(list)
     for row in rows:
         times = dict.fromkeys(names, 0.0)
-        for one in row["report"]["passes"]:
-            if one.get("ran") and "gpu_ms" in one:
-                name = next(name for name, start in STEPS if one["name"].startswith(start))
-                times[name] += one["gpu_ms"]["median"]
+        for one, ms in passes_of(row["report"]).items():
+            times[next(name for name, start in STEPS if one.startswith(start))] += ms
         times["frame"] = row["report"]["frame_ms"]["median"]
         by_scene[scene_of(row)].append(times)
     for scene, found in by_scene.items():
@@ -60,7 +58,7 @@ def name_of(row: dict) -> str:
 def error(rows: list[dict]) -> None:
     by_scene: dict = defaultdict(list)
     for row in rows:
-        by_scene[scene_of(row)].append((caustic_ms(row["report"]) + around_ms(row["report"]),
+        by_scene[scene_of(row)].append((ms_of(row["report"]) + ms_of(row["report"], ("around.", "generator.")),
                                         error_of(row)["rel_mse"],
                                         row["report"]["error"]["caustic_irradiance"]["rel_mse"],
                                         name_of(row), int(row["emit.photons"].split("x")[0])))
@@ -78,11 +76,6 @@ def error(rows: list[dict]) -> None:
                 text = "; ".join(f"{one[1]:.2g} ({one[2]:.2g}), {one[0]:.0f}" for one in cell)
                 cells.append(f"**{text}**" if cell and cell[0] in front else text or "–")
             print(line([name] + cells))
-
-
-def around_ms(report: dict) -> float:
-    return sum(p["gpu_ms"]["median"] for p in report["passes"]
-               if p.get("ran") and "gpu_ms" in p and p["name"].startswith(("around.", "generator.")))
 
 
 def reach(rows: list[dict]) -> None:
@@ -126,8 +119,7 @@ def secant(rows: list[dict]) -> None:
                         continue
                     report = found[0]["report"]
                     hits = report["hits"]
-                    ms = sum(p["gpu_ms"]["median"] for p in report["passes"]
-                             if p.get("ran") and p["name"] == "trace.secant")
+                    ms = passes_of(report).get("trace.secant", 0.0)
                     within = hits["distance_m"]["p99"] if "distance_m" in hits else hits.get("p99_m", 0.0)
                     cells.append(f"{100 * hits['agreement_reachable']:.2f}, {1000 * within:.2g}, {ms:.0f}")
                 print(line([f"`{scene}`", order] + cells))
@@ -201,8 +193,7 @@ def merge(rows: list[dict]) -> None:
     cells: dict = defaultdict(dict)
     for row in rows:
         report = row["report"]
-        ms = sum(p["gpu_ms"]["median"] for p in report["passes"]
-                 if p.get("ran") and p["name"] == "reconstruct.triangles")
+        ms = passes_of(report).get("reconstruct.triangles", 0.0)
         lost = report["energy"]["lost_w"]
         arrived = report["energy"]["deposited_w"] + sum(
             lost.get(cause, 0.0) for cause in ("hidden_in_map", "outside_map", "edge_on", "discarded_triangle"))

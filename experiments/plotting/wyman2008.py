@@ -21,7 +21,7 @@ import sys
 from collections import defaultdict
 from pathlib import Path
 
-from runs import causes_of, caustic_ms, head, line, print_table, runs_of, spread
+from runs import causes_of, head, line, ms_of, print_table, runs_of, spread
 
 # Frames a second: fixed splats, four sizes, thin lens (Wyman, Dachsbacher 2008, Table 1).
 TABLE_1 = [
@@ -43,7 +43,7 @@ def times(rows: list[dict]) -> None:
         report = row["report"]
         key = (row["scene"], report["scene"]["triangles"], row["emit.photons"], row_of(report))
         by_cell[key].setdefault(row["repeat"], {})[row["technique"]] = (
-            report["frame_ms"]["median"], caustic_ms(report))
+            report["frame_ms"]["median"], ms_of(report))
     print(head(["scene", "triangles", "photons", "row", "fixed, ms a frame", "four sizes / fixed",
                 "lens / fixed", "caustic alone: four sizes", "lens"]))
     for (scene, triangles, photons, which), repeats in sorted(by_cell.items(), key=lambda c: c[0]):
@@ -85,7 +85,7 @@ def error(rows: list[dict]) -> None:
     for row in rows:
         judged = row["report"]["error"]
         errors = judged.get("modelled_paths", judged)["caustic_irradiance"]
-        by_scene[row["scene"]].append((caustic_ms(row["report"]), errors["rel_mse"], errors["flip_ldr"],
+        by_scene[row["scene"]].append((ms_of(row["report"]), errors["rel_mse"], errors["flip_ldr"],
                                        name_of(row), row["emit.photons"].split("x")[0]))
     for scene, found in by_scene.items():
         photons = sorted({int(one[4]) for one in found})

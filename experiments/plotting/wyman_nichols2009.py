@@ -22,7 +22,7 @@ import sys
 from collections import defaultdict
 from pathlib import Path
 
-from runs import error_of, head, line, maps_of, print_table, runs_of, scene_of, spread, value
+from runs import error_of, head, line, maps_of, ms_of, print_table, runs_of, scene_of, spread, value
 
 STAGES = ("geometry.", "driver.", "emit.", "refine.", "specular.", "light.", "trace.", "reconstruct.",
           "filter.", "gather.", "layers.", "media.")
@@ -30,11 +30,6 @@ STAGES = ("geometry.", "driver.", "emit.", "refine.", "specular.", "light.", "tr
 TABLE_1 = {256: (4803, 5092, 4556), 512: (19861, 20160, 19380), 1024: (78538, 81268, 78320),
            2048: (286298, 326896, 266768), 4096: (947559, 1312524, 816888), 8192: (None, 5210492, 2182704),
            16384: (None, 12582912, 5398900)}
-
-
-def ms_of(report: dict, stages: tuple = STAGES) -> float:
-    return sum(p["gpu_ms"]["median"] for p in report["passes"]
-               if p.get("ran") and "gpu_ms" in p and p["name"].startswith(stages))
 
 
 def cells_of(row: dict) -> int:
@@ -80,7 +75,7 @@ def times(rows: list[dict]) -> None:
     found: dict = defaultdict(lambda: defaultdict(dict))
     for row in rows:
         key = (scene_of(row), row["report"]["scene"]["triangles"], method_of(row))
-        found[key][cells_of(row)][row["repeat"]] = ms_of(row["report"])
+        found[key][cells_of(row)][row["repeat"]] = ms_of(row["report"], STAGES)
     for key in sorted(found):
         cells = []
         for n in sizes:
@@ -124,7 +119,7 @@ def batches(rows: list[dict]) -> None:
     counts = {}
     for row in rows:
         key = (scene_of(row), -value(row, "refine.memory"))
-        found[key][row["repeat"]] = ms_of(row["report"])
+        found[key][row["repeat"]] = ms_of(row["report"], STAGES)
         counts[key] = row["report"]["cells"]
     for key in sorted(found):
         maximum = found[min(k for k in found if k[0] == key[0])]
@@ -158,7 +153,7 @@ def error(rows: list[dict]) -> None:
     by_scene: dict = defaultdict(list)
     for row in rows:
         counts = row["report"].get("cells")
-        by_scene[scene_of(row)].append((ms_of(row["report"]), error_of(row)["rel_mse"],
+        by_scene[scene_of(row)].append((ms_of(row["report"], STAGES), error_of(row)["rel_mse"],
                                         row["report"]["error"]["caustic_irradiance"]["rel_mse"],
                                         error_name(row), cells_of(row), counts["photons"] if counts else None))
     print("relMSE against the paths that the photons model (against all light); ms from emission to gather; "
@@ -207,7 +202,7 @@ def cascades(rows: list[dict]) -> None:
         print(line([f"`{scene_of(row)}`", value(row, "reconstruct"),
                     f"{side}²" if maps else "the eye's pixels", maps or "–",
                     f"{texels / 1e6:.2f} M" if maps else "–",
-                    f"{error_of(row)['rel_mse']:.3g}", f"{ms_of(row['report']):.0f}"]))
+                    f"{error_of(row)['rel_mse']:.3g}", f"{ms_of(row['report'], STAGES):.0f}"]))
 
 
 def main() -> int:
