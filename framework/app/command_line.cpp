@@ -50,9 +50,21 @@ void addPictureOptions(CLI::App& command, SceneOptions& options) {
     addDeviceOption(command);
 }
 
+constexpr const char* kSceneHelp =
+    "A name from 'list scenes', a .toml, .gltf or .glb, or a mesh: .obj, .ply, .stl, .3ds";
+
+void addOwnMeshOptions(CLI::App& command, OwnMeshOptions& options) {
+    command.add_option("--on", options.on,
+                       "Stands a mesh, or a .glb, into a scene that is made for it: table, pool, "
+                       "room or a .toml; of a mesh alone: table");
+    command.add_option("--material", options.material,
+                       "What the mesh is of, by its name in that scene: glass, water, mirror, …");
+    command.add_option("--up", options.up, "The axis that points up in the mesh's file: y or z");
+}
+
 void addSceneOptions(CLI::App& command, SceneOptions& options) {
-    command.add_option("scene", options.scene, "A name from 'list scenes', a .toml, .gltf or .glb")
-        ->capture_default_str();
+    command.add_option("scene", options.scene, kSceneHelp)->capture_default_str();
+    addOwnMeshOptions(command, options.own);
     addPictureOptions(command, options);
     command
         .add_option("--merge", options.merged,
@@ -271,8 +283,8 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry,
     ReferenceOptions reference;
     CLI::App* referenceApp =
         app.add_subcommand("reference", "Computes the ray-traced reference of a scene");
-    referenceApp->add_option("scene", reference.scene,
-                             "A name from 'list scenes', a .toml, .gltf or .glb");
+    referenceApp->add_option("scene", reference.scene, kSceneHelp);
+    addOwnMeshOptions(*referenceApp, reference.own);
     referenceApp->add_option("--photons", reference.photons, "Stops at this number of photons")
         ->check(integerRangeError);
     referenceApp->add_option("--seconds", reference.seconds, "Stops after this time");
@@ -364,6 +376,7 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry,
     try {
         if (runApp->parsed()) {
             mergeSettings(run, givenOptions(*runApp), registry);
+            putOwnMesh(run.scene.scene, run.scene.own);
             runCommand(run, registry);
         }
         if (tilesApp->parsed()) tilesCommand(tilesFolder);
@@ -372,9 +385,13 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry,
         if (docApp->parsed()) docCommand(doc, registry);
         if (explainApp->parsed()) {
             mergeSettings(explain, givenOptions(*explainApp), registry);
+            putOwnMesh(explain.scene.scene, explain.scene.own);
             explainCommand(explain, registry);
         }
-        if (referenceApp->parsed()) referenceCommand(reference);
+        if (referenceApp->parsed()) {
+            putOwnMesh(reference.scene, reference.own);
+            referenceCommand(reference);
+        }
         if (compareApp->parsed()) compareCommand(compare);
         if (experimentApp->parsed()) experimentCommand(experiment, registry, parts.addHardCases);
         if (checkApp->parsed()) checkCommand();

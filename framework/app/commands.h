@@ -48,6 +48,9 @@ struct ProgramParts {
 // Checks everything that the options name, before any device is asked for.
 [[nodiscard]] RenderSettings makeSettings(const SceneOptions& options, const Registry& registry,
                                           long long seed = 1);
+// The name of the scene with what these options say, which are no options of other scenes
+// (scene/files/own_mesh.h). Throws ConfigError.
+void putOwnMesh(std::string& scene, const OwnMeshOptions& options);
 // `time`: seconds, or "" for the scene's own. `namedAt`: the place in a file that names the scene,
 // for messages; "" for the command line.
 [[nodiscard]] scene::Scene loadRequestedScene(const std::string& name, const std::string& time,

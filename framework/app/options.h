@@ -10,9 +10,17 @@
 
 namespace kaustik::app {
 
+// A mesh of the user's own as the scene (scene/files/own_mesh.h); "" as that has it.
+struct OwnMeshOptions {
+    std::string on;
+    std::string material;
+    std::string up;
+};
+
 // What `run` and `explain` share.
 struct SceneOptions {
     std::string scene = "pool";
+    OwnMeshOptions own;
     std::string scenePlace;  // of a file that names it; "" for the command line
     std::string technique = "screen_space_photons";
     bool isAsPublished = false;                  // the technique's row is its paper's
@@ -56,6 +64,7 @@ struct BenchOptions {
 
 struct ReferenceOptions {
     std::string scene;
+    OwnMeshOptions own;
     std::string time;  // seconds; "" for the scene's own
     std::string size = "800x600";
     std::string estimator = "light";

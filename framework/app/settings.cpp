@@ -3,10 +3,12 @@
 
 #include <charconv>
 #include <cmath>
+#include <optional>
 
 #include "framework/app/commands.h"
 #include "framework/core/error.h"
 #include "framework/run/settings.h"
+#include "framework/scene/files/own_mesh.h"
 #include "framework/scene/files/scene_file.h"
 #include "framework/scene/shapes/height_field.h"
 
@@ -39,6 +41,24 @@ RenderSettings makeSettings(const SceneOptions& options, const Registry& registr
     RenderSettings settings = run::makeSettings(request, registry);
     run::setSize(settings, params::parsePictureSize(options.size, "--size"));
     return settings;
+}
+
+void putOwnMesh(std::string& scene, const OwnMeshOptions& options) {
+    if (options.on.empty() && options.material.empty() && options.up.empty()) return;
+    const std::optional<scene::OwnMesh> named = scene::parseOwnMesh(scene);
+    scene::OwnMesh mesh = named.value_or(scene::OwnMesh{.file = scene});
+    const bool isGltf = scene::isSceneFile(scene) && !scene.ends_with(".toml");
+    if (!named && (options.on.empty() || !isGltf)) {
+        throw ConfigError(
+            fmt::format("{}: '{}' is a scene; --on, --material and --up are of a mesh "
+                        "that is stood into one, such as 'dragon.ply', or of a .glb "
+                        "with --on.",
+                        options.on.empty() ? "--material" : "--on", scene));
+    }
+    if (!options.on.empty()) mesh.on = options.on;
+    if (!options.material.empty()) mesh.material = options.material;
+    if (!options.up.empty()) mesh.up = options.up;
+    scene = scene::nameOf(mesh);
 }
 
 scene::Scene loadRequestedScene(const std::string& name, const std::string& time,

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "framework/core/error.h"
 #include "framework/core/names.h"
@@ -12,6 +13,8 @@
 #include "framework/gui/recording_name.h"
 #include "framework/gui/widgets.h"
 #include "framework/run/progress.h"
+#include "framework/scene/files/own_mesh.h"
+#include "framework/scene/files/scene_file.h"
 
 namespace kaustik::gui {
 namespace {
@@ -26,6 +29,13 @@ constexpr double kSlowFrameMs = 150.0;
 constexpr int kFramesUntilSettled = 8;
 constexpr int kSlowFramesUntilSettled = 3;
 constexpr std::size_t kInterfaceFrameHistory = 1000;
+
+// A mesh, or a file of objects that nothing lights, is stood into a scene.
+std::optional<scene::OwnMesh> ownMeshOf(const std::string& file) {
+    if (std::optional<scene::OwnMesh> own = scene::parseOwnMesh(file)) return own;
+    if (file.ends_with(".toml") || !scene::loadScene(file).lights.empty()) return std::nullopt;
+    return scene::OwnMesh{.file = file};
+}
 
 }  // namespace
 
@@ -228,16 +238,28 @@ void Workbench::saveExperimentOnceRendered() {
 void Workbench::takeDropped() {
     const std::vector<std::string> dropped = window_.takeDropped();
     if (dropped.empty()) return;
-    if (!scene::isSceneFile(dropped.front())) {
-        bench_.notify(
-            fmt::format("'{}' is no scene: drop a .toml, .gltf or .glb file.", dropped.front()),
-            true);
+    const std::string& file = dropped.front();
+    if (!scene::isSceneFile(file)) {
+        bench_.notify(fmt::format("'{}' is neither a scene (.toml, .gltf, .glb) nor a mesh (.obj, "
+                                  ".ply, .stl, .3ds).",
+                                  file),
+                      true);
         return;
     }
-    bench_.document.scene = dropped.front();
+    std::string said = fmt::format("Opened {}.", file);
+    std::string opened = file;
+    try {
+        if (const std::optional<scene::OwnMesh> own = ownMeshOf(file)) {
+            opened = scene::nameOf(*own);
+            said = fmt::format("Opened {}, on a table.", file);
+        }
+    } catch (const Error& error) {  // what shows it says so, too
+        said = error.what();
+    }
+    bench_.document.scene = opened;
     bench_.document.edits = {};
     bench_.view.probePixel = glm::ivec2(-1);
-    bench_.notify(fmt::format("Opened {}.", dropped.front()));
+    bench_.notify(said);
 }
 
 // Whether the hand is at work, or was a moment ago: wheels and keys have no end of their own.

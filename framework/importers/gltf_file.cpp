@@ -27,8 +27,8 @@ constexpr double kLumensPerWatt = 683.0;
 
 class Importer {
   public:
-    Importer(const tinygltf::Model& model, const std::filesystem::path& path)
-        : model_(model), path_(path), file_(path.string()) {}
+    Importer(const tinygltf::Model& model, const std::filesystem::path& path, GltfUse use)
+        : model_(model), path_(path), file_(path.string()), use_(use) {}
 
     Scene run() {
         scene_.name = path_.stem().string();
@@ -36,9 +36,11 @@ class Importer {
         warnAboutExtensions();
         importGltfMaterials(model_, path_, scene_);
         walkNodes();
-        if (!hasCamera_) frameBounds();
-        if (scene_.lights.empty()) {
-            warn("the file has no light (KHR_lights_punctual), so that nothing is lit");
+        if (!hasCamera_ && use_ == GltfUse::scene) frameBounds();
+        if (scene_.lights.empty() && use_ == GltfUse::scene) {
+            warn(
+                "the file has no light (KHR_lights_punctual), so that nothing is lit; --on table "
+                "stands it under a sun");
         }
         if (scene_.objects.empty()) warn("the file's scene has no triangles");
         if (!model_.animations.empty()) warn("animations were left out");
@@ -122,10 +124,12 @@ class Importer {
             for (glm::length_t i = 0; i < 16; ++i) {  // by columns, as glm
                 matrix[i / 4][i % 4] = node.matrix[static_cast<std::size_t>(i)];
             }
-            if (glm::row(matrix, 3) != glm::dvec4(0.0, 0.0, 0.0, 1.0)) {
+            constexpr double kRounding = 1e-6;
+            const glm::dvec4 last = glm::row(matrix, 3);
+            if (!(glm::distance(last, glm::dvec4(0.0, 0.0, 0.0, 1.0)) <= kRounding)) {
                 fail(index, ".matrix", "has a last row that is not 0 0 0 1");
             }
-            return matrix;
+            return glm::row(matrix, 3, glm::dvec4(0.0, 0.0, 0.0, 1.0));
         }
         glm::dmat4 transform(1.0);
         if (!node.translation.empty())
@@ -259,12 +263,15 @@ class Importer {
     }
 
     void importCone(const tinygltf::SpotLight& spot, const std::string& field, Light& light) const {
-        if (!(spot.innerConeAngle < spot.outerConeAngle)) {
+        if (!(spot.innerConeAngle <= spot.outerConeAngle)) {
             throw ConfigError(fmt::format(
                 "{}: {}.spot.innerConeAngle is {}; it must be below outerConeAngle, {}.", file_,
                 field, spot.innerConeAngle, spot.outerConeAngle));
         }
-        light.innerConeRadians = static_cast<float>(spot.innerConeAngle);
+        // Exporters of lamps with a sharp edge write the same angle twice, which glTF forbids.
+        constexpr double kSharpest = 0.999;
+        light.innerConeRadians =
+            static_cast<float>(std::min(spot.innerConeAngle, kSharpest * spot.outerConeAngle));
         light.outerConeRadians = static_cast<float>(spot.outerConeAngle);
     }
 
@@ -286,6 +293,7 @@ class Importer {
     const tinygltf::Model& model_;
     const std::filesystem::path& path_;
     std::string file_;
+    GltfUse use_;
     Scene scene_;
     bool hasCamera_ = false;
     std::map<std::tuple<std::size_t, std::size_t, bool>, int> imported_;
@@ -293,9 +301,9 @@ class Importer {
 
 }  // namespace
 
-Scene readGltfFile(const std::filesystem::path& path) {
+Scene readGltfFile(const std::filesystem::path& path, GltfUse use) {
     const tinygltf::Model model = loadGltfModel(path);
-    return Importer(model, path).run();
+    return Importer(model, path, use).run();
 }
 
 }  // namespace kaustik::scene

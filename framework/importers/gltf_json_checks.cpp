@@ -269,6 +269,9 @@ class Checker {
         for (const auto& required : document_.value("extensionsRequired", Json::array())) {
             const std::string extension = required;
             if (std::find(known.begin(), known.end(), extension) != known.end()) continue;
+            // What only looks different without it is told (warnAboutExtensions), not refused.
+            if (extension.starts_with("KHR_materials_") || extension == "KHR_texture_transform")
+                continue;
             throw ConfigError(fmt::format(
                 "{}: extensionsRequired has {}, which cannot be read; {} can. Export the file "
                 "without it.",

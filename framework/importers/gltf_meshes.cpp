@@ -241,10 +241,8 @@ std::optional<Mesh> importGltfPrimitive(const tinygltf::Model& model, std::size_
     std::string name = mesh.name.empty() ? fmt::format("mesh {}", meshIndex) : mesh.name;
     if (mesh.primitives.size() > 1) name += fmt::format(" ({})", primitiveIndex);
     BuiltMesh built = buildMesh(soup, name, where);
-    if (built.degenerateCount > 0) {
-        warnings.push_back(fmt::format("{}: {} triangles without an area were dropped.", where,
-                                       built.degenerateCount));
-    }
+    for (const std::string& oddity : built.oddities())
+        warnings.push_back(fmt::format("{}: {}.", where, oddity));
     return std::move(built.mesh);
 }
 

@@ -30,6 +30,7 @@ struct MeshFileContents {
 [[nodiscard]] MeshFileContents readObj(std::string_view bytes, const std::string& name);
 [[nodiscard]] MeshFileContents readPly(std::string_view bytes, const std::string& name);
 [[nodiscard]] MeshFileContents read3ds(std::string_view bytes, const std::string& name);
+[[nodiscard]] MeshFileContents readStl(std::string_view bytes, const std::string& name);
 
 // The contents of a gzip file (RFC 1952). Throws IoError when it is damaged or cut off at any byte.
 // How much it may hold is the business of the reader process, which has a limit of memory.

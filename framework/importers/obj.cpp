@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Wavefront OBJ: the statements that carry triangles, v, vt, vn and f. Groups, materials and their
 // libraries are left out, since an object of a scene has one material, which the scene gives it.
+// What others write is taken where it leaves no doubt: lines that end as on any system, a last one
+// that does not end, faces of two corners, uvs and normals that are not there or no numbers (with a
+// warning). What would bend the mesh is refused.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -31,35 +34,36 @@ class Reader {
 
     MeshFileContents run(std::string_view bytes) {
         std::string continued;
+        if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);  // a byte order mark
         for (std::size_t begin = 0; begin < bytes.size();) {
             ++line_;
-            const std::size_t found = bytes.find('\n', begin);
-            const std::size_t end = std::min(found, bytes.size());
+            const std::size_t end = std::min(bytes.find_first_of("\r\n", begin), bytes.size());
             std::string_view text = bytes.substr(begin, end - begin);
-            begin = end + 1;
-            if (text.ends_with('\r')) text.remove_suffix(1);
+            const bool endsTwice = end + 1 < bytes.size() && bytes.substr(end, 2) == "\r\n";
+            begin = end + (endsTwice ? 2 : 1);
             // A backslash at the end continues the statement on the next line.
             const bool continues = text.ends_with('\\');
             if (continues) text.remove_suffix(1);
-            const bool isLast = found == std::string_view::npos;
             if (continues || !continued.empty()) {
                 continued.append(text) += ' ';
-                if (continues && !isLast) continue;
+                if (continues && begin < bytes.size()) continue;
                 text = continued;
             }
-            if (statement(text) && isLast) {
-                fail(
-                    "the file ends within this statement, so that it may be cut off; if it is "
-                    "complete, add a line break at its end");
-            }
+            statement(text);
             continued.clear();
         }
         makeFaces();
-        if (skipped_ > 0) {
-            contents_.warnings.push_back(fmt::format(
-                "{}: {} points, lines, curves or surfaces were left out; only faces are read.",
-                name_, skipped_));
-        }
+        const auto warnIfAny = [&](std::size_t count, const char* what) {
+            if (count > 0)
+                contents_.warnings.push_back(fmt::format("{}: {} {}.", name_, count, what));
+        };
+        warnIfAny(skipped_, "points, lines, curves or surfaces were left out; only faces are read");
+        warnIfAny(shortFaces_, "faces with fewer than three corners were left out");
+        warnIfAny(badUvs_, "uvs are no numbers and were taken for 0");
+        warnIfAny(badNormals_, "normals are no numbers and were made from the faces");
+        warnIfAny(absentUvs_, "corners name a uv that the file does not have");
+        warnIfAny(absentNormals_,
+                  "corners name a normal that the file does not have, and have it made");
         return std::move(contents_);
     }
 
@@ -70,27 +74,20 @@ class Reader {
                                   fmt::format(problem, std::forward<Values>(values)...)));
     }
 
-    // True when it was one of the statements that the mesh is made of.
-    bool statement(std::string_view text) {
+    void statement(std::string_view text) {
         const std::string_view keyword = nextWord(text);
         if (keyword == "v") {
             positions_.push_back(position(text));
         } else if (keyword == "vt") {
-            const float u = coordinate(nextWord(text));
-            const std::string_view v = nextWord(text);
-            uvs_.emplace_back(u, v.empty() ? 0.0f : coordinate(v));
+            uvs_.push_back(uv(text));
         } else if (keyword == "vn") {
             normals_.push_back(normal(text));
-        } else if (keyword == "f") {
+        } else if (keyword == "f" || keyword == "fo") {  // as the first version had it
             face(text);
-        } else {
-            if (keyword == "p" || keyword == "l" || keyword == "curv" || keyword == "curv2" ||
-                keyword == "surf") {
-                ++skipped_;
-            }
-            return false;
+        } else if (keyword == "p" || keyword == "l" || keyword == "curv" || keyword == "curv2" ||
+                   keyword == "surf") {
+            ++skipped_;
         }
-        return true;
     }
 
     float coordinate(std::string_view word) const {
@@ -113,15 +110,34 @@ class Reader {
         return place / weight;
     }
 
+    // "-nan(ind)" and "1.#QNAN" are how some systems write what is not a number.
+    static bool isNumber(std::string_view word, float& value) {
+        return parseFloat(word, value) && std::isfinite(value);
+    }
+
+    glm::vec2 uv(std::string_view text) {
+        glm::vec2 place(0.0f);
+        const std::string_view u = nextWord(text);
+        const std::string_view v = nextWord(text);
+        if (u.empty()) fail("a uv has no coordinate");
+        if (isNumber(u, place.x) && (v.empty() || v.starts_with('#') || isNumber(v, place.y)))
+            return place;
+        ++badUvs_;
+        return glm::vec2(0.0f);
+    }
+
     // One that is not a number is made anew after the import.
-    glm::vec3 normal(std::string_view text) const {
+    glm::vec3 normal(std::string_view text) {
         glm::vec3 direction(0.0f);
+        bool isGood = true;
         for (glm::length_t i = 0; i < 3; ++i) {
             const std::string_view word = nextWord(text);
             if (word.empty()) fail("a normal has fewer than three components");
-            if (!parseFloat(word, direction[i])) fail("'{}' is not a number", word);
+            isGood = isNumber(word, direction[i]) && isGood;
         }
-        return direction;
+        if (isGood) return direction;
+        ++badNormals_;
+        return glm::vec3(0.0f);
     }
 
     void face(std::string_view text) {
@@ -130,7 +146,9 @@ class Reader {
              word = nextWord(text))
             corners_.push_back(corner(word));
         if (corners_.size() - first < 3) {
-            fail("a face has {} corners; it takes three or more", corners_.size() - first);
+            corners_.resize(first);
+            ++shortFaces_;
+            return;
         }
         faces_.push_back({corners_.size(), line_});
     }
@@ -168,7 +186,6 @@ class Reader {
 
     // After all statements, since a face may use what follows it.
     void makeFaces() {
-        const std::array<std::size_t, 3> counts{positions_.size(), uvs_.size(), normals_.size()};
         std::vector<std::uint32_t> polygon;
         std::size_t at = 0;
         if (corners_.size() > std::numeric_limits<std::uint32_t>::max())
@@ -177,12 +194,18 @@ class Reader {
             line_ = face.line;
             polygon.clear();
             for (; at < face.lastCorner; ++at) {
-                for (std::size_t kind = 0; kind < 3; ++kind) {
-                    if (corners_[at][kind] <= static_cast<std::int64_t>(counts[kind])) continue;
-                    fail("a face uses {} {}, but the file has only {}", kKinds[kind],
-                         corners_[at][kind], counts[kind]);
+                auto [vertex, uv, normal] = corners_[at];
+                if (vertex > static_cast<std::int64_t>(positions_.size())) {
+                    fail("a face uses vertex {}, but the file has only {}", vertex,
+                         positions_.size());
                 }
-                const auto [vertex, uv, normal] = corners_[at];
+                const auto leaveOut = [](std::int64_t& index, std::size_t of, std::size_t& absent) {
+                    if (index <= static_cast<std::int64_t>(of)) return;
+                    index = 0;
+                    ++absent;
+                };
+                leaveOut(uv, uvs_.size(), absentUvs_);
+                leaveOut(normal, normals_.size(), absentNormals_);
                 polygon.push_back(static_cast<std::uint32_t>(contents_.soup.positions.size()));
                 contents_.addVertex(entry(positions_, vertex), entry(normals_, normal),
                                     entry(uvs_, uv));
@@ -204,6 +227,11 @@ class Reader {
     std::vector<Corner> corners_;
     std::vector<Face> faces_;
     std::size_t skipped_ = 0;
+    std::size_t shortFaces_ = 0;
+    std::size_t badUvs_ = 0;
+    std::size_t badNormals_ = 0;
+    std::size_t absentUvs_ = 0;  // of corners
+    std::size_t absentNormals_ = 0;
     MeshFileContents contents_;
 };
 

@@ -78,16 +78,15 @@ class Reader {
         header();
         for (const Element& element : elements_)
             data(element);
-        // Text whose last number may have lost digits.
-        if (encoding_ == Encoding::ascii && at_ == bytes_.size() &&
-            std::string_view(" \t\r\n\v\f").find(bytes_.back()) == std::string_view::npos) {
-            fail(
-                "may be cut off: no line break follows its last number. Add one if it is complete");
-        }
         if (shortFaces_ > 0) {
             contents_.warnings.push_back(
                 fmt::format("{}: {} faces or strips with fewer than three corners were left out.",
                             name_, shortFaces_));
+        }
+        if (longLines_ > 0) {
+            contents_.warnings.push_back(fmt::format(
+                "{}: {} lines have more numbers than their element; these were left out.", name_,
+                longLines_));
         }
         const std::size_t more = bytes_.find_first_not_of(" \t\r\n\v\f", at_);
         if (more != std::string_view::npos) {
@@ -112,19 +111,29 @@ class Reader {
     // False at the end of the bytes; without its line break.
     bool nextLine() {
         if (at_ >= bytes_.size()) return false;
-        const std::size_t end = std::min(bytes_.find('\n', at_), bytes_.size());
+        const std::size_t end = std::min(bytes_.find(lineEnd_, at_), bytes_.size());
         line_ = bytes_.substr(at_, end - at_);
         at_ = std::min(end + 1, bytes_.size());
         return true;
     }
 
+    // The next one that is not blank.
+    bool nextLineOfData() {
+        do {
+            if (!nextLine()) return false;
+        } while (line_.find_first_not_of(" \t\r\v\f") == std::string_view::npos);
+        return true;
+    }
+
     void header() {
+        // As old systems wrote text.
+        if (bytes_.starts_with("ply\r") && !bytes_.starts_with("ply\r\n")) lineEnd_ = '\r';
         if (!nextLine() || nextWord(line_) != "ply" || !nextWord(line_).empty() ||
             at_ == bytes_.size())
             fail("is no PLY file: it does not begin with a line 'ply'");
         bool hasFormat = false;
         for (std::string_view keyword; keyword != "end_header";) {
-            if (!nextLine() || bytes_[at_ - 1] != '\n')
+            if (!nextLine() || bytes_[at_ - 1] != lineEnd_)
                 fail("is cut off in its header (no end_header). Fetch or export it again");
             keyword = nextWord(line_);
             if (keyword == "format") {
@@ -223,7 +232,7 @@ class Reader {
 
     void data(const Element& element) {
         for (std::uint64_t i = 0; i < element.count; ++i) {
-            if (encoding_ == Encoding::ascii && !nextLine()) failCutOff(element, i);
+            if (encoding_ == Encoding::ascii && !nextLineOfData()) failCutOff(element, i);
             vertex_.fill(0.0);
             face_.clear();
             faceUvs_.clear();
@@ -235,12 +244,7 @@ class Reader {
                     if (property.role < vertexRoleCount) vertex_[property.role] = value;
                 }
             }
-            if (encoding_ == Encoding::ascii && !nextWord(line_).empty()) {
-                fail(
-                    "has more on the line of element '{}' ({}) than that element; each "
-                    "takes a line of its own",
-                    element.name, i);
-            }
+            if (encoding_ == Encoding::ascii && !nextWord(line_).empty()) ++longLines_;
             if (element.name == "vertex") {
                 addVertex(i);
             } else if (element.name == "face") {
@@ -362,6 +366,7 @@ class Reader {
     std::string_view bytes_;
     const std::string& name_;
     std::size_t at_ = 0;
+    char lineEnd_ = '\n';
     std::string_view line_;  // what is left of the line, in text
     Encoding encoding_ = Encoding::ascii;
     std::vector<Element> elements_;
@@ -371,6 +376,7 @@ class Reader {
     std::vector<float> faceUvs_;
     std::uint64_t vertexCount_ = 0;  // so far
     std::size_t shortFaces_ = 0;
+    std::size_t longLines_ = 0;
     MeshFileContents contents_;
 };
 

@@ -13,7 +13,9 @@
 
 #include "framework/core/error.h"
 #include "framework/scene/meshes/mesh_checks.h"
+#include "framework/scene/meshes/orientation.h"
 #include "framework/scene/meshes/position_welding.h"
+#include "framework/scene/meshes/winding_number.h"
 
 namespace kaustik::scene {
 namespace {
@@ -173,6 +175,36 @@ std::size_t makeMissingNormals(Mesh& mesh) {
 
 }  // namespace
 
+double signedVolumeTimesSix(const Mesh& mesh) {
+    double sum = 0.0;
+    for (const glm::uvec3& triangle : mesh.triangles) {
+        sum += glm::dot(glm::dvec3(mesh.positions[triangle[0]]),
+                        glm::cross(glm::dvec3(mesh.positions[triangle[1]]),
+                                   glm::dvec3(mesh.positions[triangle[2]])));
+    }
+    return sum;
+}
+
+std::vector<std::string> BuiltMesh::oddities() const {
+    std::vector<std::string> all;
+    if (degenerateCount > 0)
+        all.push_back(fmt::format("{} triangles without an area were dropped", degenerateCount));
+    if (turnedCount > 0) {
+        all.push_back(
+            fmt::format("{} of {} triangles faced against their neighbours and were turned",
+                        turnedCount, mesh.triangles.size()));
+    }
+    if (unorientableCount > 0) {
+        all.push_back(
+            fmt::format("{} triangles make surfaces that have one side alone, so that "
+                        "neighbours face different ways",
+                        unorientableCount));
+    }
+    if (mesh.hasInside && windingBehind < 0.5)
+        all.emplace_back("the mesh is inside out (its faces are clockwise seen from outside)");
+    return all;
+}
+
 BuiltMesh buildMesh(const TriangleSoup& soup, const std::string& name, const std::string& where) {
     assert(soup.normals.size() == soup.positions.size());
     assert(soup.uvs.size() == soup.positions.size());
@@ -181,6 +213,12 @@ BuiltMesh buildMesh(const TriangleSoup& soup, const std::string& name, const std
     mesh = joinedMesh(soup, where);
     mesh.name = name;
     mesh.closed = isClosed(mesh);
+    if (!mesh.closed) {
+        const Orientation orientation = orientTriangles(mesh);
+        built.turnedCount = orientation.turned;
+        built.unorientableCount = orientation.unorientable;
+        mesh.closed = isClosed(mesh);
+    }
     built.degenerateCount =
         std::erase_if(mesh.triangles, [&](const auto& t) { return isDegenerate(mesh, t); });
     if (mesh.triangles.empty()) {
@@ -190,17 +228,10 @@ BuiltMesh buildMesh(const TriangleSoup& soup, const std::string& name, const std
     removeUnusedVertices(mesh);
     built.madeNormalCount = makeMissingNormals(mesh);
     validateMesh(mesh, where);
+    built.windingBehind =
+        mesh.closed ? (signedVolumeTimesSix(mesh) < 0.0 ? 0.0 : 1.0) : meanWindingBehind(mesh);
+    mesh.hasInside = mesh.closed || boundsVolume(built.windingBehind);
     return built;
-}
-
-double signedVolumeTimesSix(const Mesh& mesh) {
-    double sum = 0.0;
-    for (const glm::uvec3& triangle : mesh.triangles) {
-        sum += glm::dot(glm::dvec3(mesh.positions[triangle[0]]),
-                        glm::cross(glm::dvec3(mesh.positions[triangle[1]]),
-                                   glm::dvec3(mesh.positions[triangle[2]])));
-    }
-    return sum;
 }
 
 }  // namespace kaustik::scene

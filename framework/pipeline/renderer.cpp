@@ -222,14 +222,16 @@ graph::Compiled Renderer::compile(Purpose purpose, const std::vector<std::string
     }
     graph::Compiled compiled =
         settings_.disabledPasses.empty() ? graph_->compile() : compileWithout(*graph_, settings_);
-    // Of layers that something else needs: a measurement asks for no pass of its own.
-    const graph::ResourceRef& statistics = outputs_.layers.statistics;
-    hasLayerStatistics_ = statistics.valid() && purpose != Purpose::picture &&
-                          compiled.slotOf(statistics) != graph::Compiled::kNowhere;
-    if (hasLayerStatistics_) {
-        graph_->request(statistics);
-        compiled = graph_->compile();
-    }
+    // What is made anyway: a measurement asks for no pass of its own.
+    const auto keepIfMade = [&](const graph::ResourceRef& handle) {
+        const bool isMade = handle.valid() && purpose != Purpose::picture &&
+                            compiled.slotOf(handle) != graph::Compiled::kNowhere;
+        if (isMade) graph_->request(handle);
+        return isMade;
+    };
+    hasLayerStatistics_ = keepIfMade(outputs_.layers.statistics);
+    hasEyeRays_ = keepIfMade(outputs_.picture.view.exitDirection);
+    if (hasLayerStatistics_ || hasEyeRays_) compiled = graph_->compile();
     limits_.clear();
     nodeWarnings_.clear();
     if (purpose == Purpose::measurement || purpose == Purpose::audit)
@@ -269,6 +271,7 @@ graph::Compiled Renderer::compileTile(FrameBuilder& frame) {
         graph_->request(hits.order);
     }
     hasLayerStatistics_ = outputs_.layers.statistics.valid();
+    hasEyeRays_ = false;
     if (hasLayerStatistics_) graph_->request(outputs_.layers.statistics);
     keptObjects_ = frame.releaseKeptObjects();
     warnings_ = frame.warnings();
@@ -384,6 +387,11 @@ std::vector<std::string> Renderer::foundWarnings() const {
 transport::LayerStatistics Renderer::layerStatistics() const {
     if (!hasLayerStatistics_) return {};
     return executor_.buffer(outputs_.layers.statistics).read<transport::LayerStatistics>().front();
+}
+
+std::optional<EyeRays> Renderer::eyeRays() const {
+    if (!hasEyeRays_) return std::nullopt;
+    return countEyeRays(executor_.texture(outputs_.picture.view.exitDirection));
 }
 
 const gl::Texture& Renderer::texture(const graph::ResourceRef& handle) const {

@@ -5,12 +5,14 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "framework/gl/executor.h"
 #include "framework/graph/graph.h"
+#include "framework/pipeline/eye_rays.h"
 #include "framework/pipeline/frame_builder.h"
 #include "framework/pipeline/ledger.h"
 #include "framework/scene/needs.h"
@@ -85,8 +87,8 @@ class Renderer {
     [[nodiscard]] const std::vector<Hits>& tileHits() const { return tileHits_; }
     [[nodiscard]] int maxRounds() const { return maxRounds_; }
 
-    // What was rendered; these wait for the device. The first two and the layers' statistics need
-    // Purpose::measurement.
+    // What was rendered; these wait for the device. The first two, the layers' statistics and the
+    // eye's rays need Purpose::measurement.
     [[nodiscard]] EnergyLedger ledger() const;
     // Those that nodes keep to, of several passes with one limit all together.
     [[nodiscard]] std::vector<ReachedLimit> reachedLimits() const;
@@ -95,6 +97,8 @@ class Renderer {
     // A ledger as it stood where the handle was written.
     [[nodiscard]] EnergyLedger ledger(const Ledger& handle) const;
     [[nodiscard]] transport::LayerStatistics layerStatistics() const;
+    // Nothing where no such ray is followed.
+    [[nodiscard]] std::optional<EyeRays> eyeRays() const;
     [[nodiscard]] const gl::Texture& texture(const graph::ResourceRef& handle) const;
     [[nodiscard]] const gl::Buffer& buffer(const graph::ResourceRef& handle) const;
 
@@ -152,6 +156,7 @@ class Renderer {
     double buildMilliseconds_ = 0.0;
     bool isRandom_ = false;
     bool hasLayerStatistics_ = false;
+    bool hasEyeRays_ = false;
     std::vector<Hits> tileHits_;
     int maxRounds_ = 0;
     std::vector<NodeWarning> nodeWarnings_;

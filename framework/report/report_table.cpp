@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "framework/report/run_report.h"
 #include "framework/report/statistics.h"
@@ -62,6 +63,22 @@ std::string flickerLine(const json& flicker) {
         "difference {:.3g}\n",
         "flicker", number("rms_w_m2"), times[0].get<double>(), times[1].get<double>(),
         number("truth_rms_w_m2"), number("truth_stderr_w_m2"), number("difference_w_m2"));
+}
+
+// What became of the eye's rays through specular surfaces; "" where there are none.
+std::string eyeRaysLine(const EyeRays& rays) {
+    if (rays.pixels == 0) return "";
+    std::string line =
+        fmt::format("{:<22}of {} pixels that see a specular surface: came out {:.2f}%",
+                    "eye's rays", rays.pixels, 100.0 * rays.shareOf(rays.cameOut));
+    for (const auto& [count, name] : {std::pair(rays.lost, "lost"),
+                                      {rays.reflectionLimit, "reflection_limit"},
+                                      {rays.nestingLimit, "nesting_limit"},
+                                      {rays.endedInside, "ended_inside"},
+                                      {rays.mirrorLimit, "mirror_limit"}}) {
+        if (count > 0) line += fmt::format(", {} {:.2f}%", name, 100.0 * rays.shareOf(count));
+    }
+    return line + "\n";
 }
 
 // A line for hits, and one for every output that has an error.
@@ -190,6 +207,7 @@ std::string makeTable(const RunRecord& record) {
                 100.0 * primitives.beamsWatts / deposited);
         }
     }
+    if (record.eyeRays) table += eyeRaysLine(*record.eyeRays);
     table += referenceTable(record);
     return table;
 }

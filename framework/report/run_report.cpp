@@ -105,6 +105,23 @@ void reflect(F& f, const PhotonsTable& table) {
     f.field("nan", nan, "That are no numbers");
 }
 
+struct EyeRaysTable {
+    EyeRays rays;
+};
+template <class F>
+void reflect(F& f, const EyeRaysTable& table) {
+    const EyeRays& rays = table.rays;
+    f.field("pixels", rays.pixels, "Whose middle sees a specular surface");
+    f.field("came_out", rays.cameOut, "Of them: followed to where they see the scene");
+    f.field("lost", rays.lost, "Of them: where they go on is not known");
+    f.field("reflection_limit", rays.reflectionLimit, "Of them: lost between total reflections");
+    f.field("nesting_limit", rays.nestingLimit, "Of them: lost in too many dielectrics at once");
+    f.field("ended_inside", rays.endedInside,
+            "Of them: at a cap on interfaces, taken to see what they would from outside");
+    f.field("mirror_limit", rays.mirrorLimit,
+            "Of them: at a cap on mirrors, taken to see the environment");
+}
+
 struct LayersTable {
     LayerStatistics statistics{};
     int allowed = 0;
@@ -211,6 +228,7 @@ struct ReportTable {
     std::vector<PassTable> passes;
     EnergyLedger ledger;
     PrimitiveFlux primitives;
+    std::optional<EyeRaysTable> eyeRays;
     LayersTable layers;
     MemoryTable memory;
     std::vector<LimitTable> limits;
@@ -253,6 +271,7 @@ void reflect(F& f, const ReportTable& report) {
     f.field("startup_ms", report.startupMilliseconds, "Until the first frame");
     f.field("passes", report.passes, "Every pass, in order");
     f.field("photons", PhotonsTable{report.ledger}, "What became of them");
+    f.field("eye_rays", report.eyeRays, "What became of those that meet a specular surface first");
     f.field("layers", report.layers, "The layered depth of what the eye sees");
     f.field("energy", EnergyTable{report.ledger, report.primitives}, "The ledger, W");
     f.field("memory", report.memory, "On the device");
@@ -316,6 +335,7 @@ json makeReport(const RunRecord& record, const Renderer& renderer, const gl::Dev
     table.passes = passTables(record);
     table.ledger = record.ledger;
     table.primitives = record.primitives;
+    if (record.eyeRays) table.eyeRays = EyeRaysTable{*record.eyeRays};
     table.layers = {record.layers, record.layersAllowed};
     table.memory = {record.textureBytes, record.bufferBytes, renderer.gpuScene().bytes(),
                     record.peakBytes};

@@ -40,6 +40,7 @@ struct RunRecord {
     double graphBuildMilliseconds = 0.0;
     EnergyLedger ledger;
     PrimitiveFlux primitives;
+    std::optional<EyeRays> eyeRays;  // none where none is followed
     transport::LayerStatistics layers;
     int layersAllowed = 0;
     std::vector<ReachedLimit> nodeLimits;  // that nodes keep to; the report has all

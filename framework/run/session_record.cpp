@@ -59,6 +59,7 @@ report::RunRecord Session::measured() const {
     if (record.ledger.events[transport::kAccountEmittable] > 0)
         record.ledger.judgeEmission(record.ledger.watts[transport::kAccountEmittable]);
     record.primitives = report::primitiveFlux(renderer_);
+    record.eyeRays = renderer_.eyeRays();
     record.layers = renderer_.layerStatistics();
     record.layersAllowed = renderer_.outputs().layers.layers;
     record.nodeLimits = renderer_.reachedLimits();

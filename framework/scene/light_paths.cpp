@@ -191,22 +191,11 @@ bool isBall(const Mesh& mesh, const glm::dmat4& toWorld) {
 
 }  // namespace
 
-bool isSheet(const Mesh& mesh) {
-    if (mesh.closed) return false;
-    if (mesh.heightField) return true;
-    glm::vec3 mean(0.0f);
-    for (const glm::vec3& normal : mesh.normals)
-        mean += normal;
-    return std::all_of(mesh.normals.begin(), mesh.normals.end(),
-                       [&](const glm::vec3& normal) { return glm::dot(normal, mean) > 0.0f; });
-}
-
 bool isOpen(const Scene& scene, std::size_t material) {
-    // A dielectric with open seams has an inside all the same.
     const bool isDielectric = scene.materials[material].kind == MaterialKind::dielectric;
     return std::any_of(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
         const Mesh& mesh = scene.meshes[object.mesh];
-        return object.material == material && (isDielectric ? isSheet(mesh) : !mesh.closed);
+        return object.material == material && !(isDielectric ? mesh.hasInside : mesh.closed);
     });
 }
 
@@ -220,7 +209,7 @@ RepeatedHits repeatedHits(const Scene& scene) {
         sheet = &object;
     }
     if (sheet == nullptr) return {};
-    if (const Mesh& body = scene.meshes[sheet->mesh]; !isSheet(body))
+    if (const Mesh& body = scene.meshes[sheet->mesh]; body.hasInside)
         return {true, true, !body.closed || !isConvex(body)};
     const Mesh& mesh = scene.meshes[sheet->mesh];
     const glm::dmat3 normalToWorld = glm::transpose(glm::inverse(glm::dmat3(sheet->toWorld)));
@@ -258,7 +247,7 @@ std::optional<ReflectedLight> reflectedLight(const Scene& scene) {
     for (const Object& sheet : scene.objects) {
         const Material& material = scene.materials[sheet.material];
         const Mesh& mesh = scene.meshes[sheet.mesh];
-        if (material.kind != MaterialKind::dielectric || mesh.triangles.empty() || !isSheet(mesh))
+        if (material.kind != MaterialKind::dielectric || mesh.triangles.empty() || mesh.hasInside)
             continue;
         const Bounds from = objectBounds(scene, sheet);
         const glm::dvec3 up = meanNormal(scene, sheet);
@@ -284,7 +273,7 @@ std::optional<std::string> concaveBody(const Scene& scene) {
     for (const Object& object : scene.objects) {
         const Mesh& mesh = scene.meshes[object.mesh];
         const bool isDielectric = scene.materials[object.material].kind == MaterialKind::dielectric;
-        if (!isDielectric || mesh.triangles.empty() || isSheet(mesh)) continue;
+        if (!isDielectric || mesh.triangles.empty() || !mesh.hasInside) continue;
         if (!isConvex(mesh)) return object.name;
     }
     return std::nullopt;
@@ -295,7 +284,7 @@ bool hasBallsAlone(const Scene& scene) {
     for (const Object& object : scene.objects) {
         const Mesh& mesh = scene.meshes[object.mesh];
         const bool isDielectric = scene.materials[object.material].kind == MaterialKind::dielectric;
-        if (!isDielectric || mesh.triangles.empty() || isSheet(mesh)) continue;
+        if (!isDielectric || mesh.triangles.empty() || !mesh.hasInside) continue;
         if (!isBall(mesh, object.toWorld)) return false;
         const Bounds bounds = objectBounds(scene, object);
         for (const Bounds& other : balls) {

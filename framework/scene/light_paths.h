@@ -11,11 +11,8 @@
 
 namespace kaustik::scene {
 
-// Whether a surface bounds no volume and does not turn back: water, a pane, but not a teapot with
-// open seams.
-[[nodiscard]] bool isSheet(const Mesh& mesh);
-
-// Whether surfaces of a material bound no volume: one object that does not is enough.
+// Whether surfaces of a material bound no volume: one object that does not is enough. A dielectric
+// with open seams has an inside all the same.
 [[nodiscard]] bool isOpen(const Scene& scene, std::size_t material);
 
 // Whether light that has hit a specular surface can hit one again.

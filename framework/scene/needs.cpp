@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "framework/scene/connected_bodies.h"
-
+#include "framework/scene/meshes/winding_number.h"
 #include "framework/scene/shapes/height_field.h"
 
 namespace kaustik::scene {
@@ -23,7 +23,7 @@ bool hasNestedBodies(const Scene& scene) {
     std::vector<const Object*> bodies;
     for (const Object& object : scene.objects) {
         const Mesh& mesh = scene.meshes[object.mesh];
-        if (!mesh.triangles.empty() && !isSheet(mesh)) bodies.push_back(&object);
+        if (!mesh.triangles.empty() && mesh.hasInside) bodies.push_back(&object);
     }
     for (const Object* outer : bodies) {
         if (scene.materials[outer->material].kind != MaterialKind::dielectric) continue;
@@ -52,8 +52,8 @@ SceneNeeds sceneNeeds(const Scene& scene) {
                 break;
             case MaterialKind::dielectric:
                 ++needs.refractors;
-                needs.specularInterfaces += isSheet(mesh) ? 1 : 2;
-                needs.closedDielectrics = needs.closedDielectrics || !isSheet(mesh);
+                needs.specularInterfaces += mesh.hasInside ? 2 : turnsBack(mesh) ? 3 : 1;
+                needs.closedDielectrics = needs.closedDielectrics || mesh.hasInside;
                 break;
             case MaterialKind::mirror:
                 if (needs.reflectors++ == 0) ++needs.specularInterfaces;

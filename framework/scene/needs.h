@@ -13,9 +13,9 @@ namespace kaustik::scene {
 
 struct SceneNeeds {
     // How many specular interfaces one path can hit when it crosses every dielectric once: one
-    // with an inside counts 2 (in and out), a sheet such as a water surface 1, and all mirrors
-    // together 1. Repeated reflections, between mirrors or inside a dielectric, are not counted;
-    // a technique's own bounce limit says how many it follows.
+    // with an inside counts 2 (in and out), a sheet such as a water surface 1, a wave that breaks
+    // 3, and all mirrors together 1. Repeated reflections, between mirrors or inside a dielectric,
+    // are not counted; a technique's own bounce limit says how many it follows.
     int specularInterfaces = 0;
     RepeatedHits repeatedHits;  // whether there are such repeated ones at all
     // The path that shows that the reflected branch at dielectrics is seen. There is none where the

@@ -106,6 +106,8 @@ struct Mesh {
     std::vector<glm::vec2> uvs;      // (0, 0) is an image's lower left; 0 where the file has none
     std::vector<glm::uvec3> triangles;
     bool closed = false;  // every edge is shared by two triangles: bounds a volume
+    // That is closed, or has an inside for all its seams and holes (meshes/winding_number.h).
+    bool hasInside = false;
     std::optional<HeightField> heightField;  // present: positions are those at Scene::timeSeconds
 };
 

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "framework/scene/light_paths.h"
-
 namespace kaustik {
 namespace {
 
@@ -55,7 +53,7 @@ std::optional<VertexGrid> specularGrid(const scene::Scene& scene) {
         if (mesh != nullptr) return {};
         mesh = &scene.meshes[object.mesh];
     }
-    if (mesh == nullptr || !isSheet(*mesh)) return {};
+    if (mesh == nullptr || mesh->hasInside) return {};
     return gridOf(*mesh);
 }
 

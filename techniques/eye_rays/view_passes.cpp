@@ -227,22 +227,14 @@ void drawLook(const FrameInputs& inputs, gl::PassContext& context, const ViewPas
                  }});
 }
 
-std::size_t countExits(const gl::Texture& exitDirection, float ending) {
-    const std::vector<float> texels = exitDirection.read();
-    std::size_t count = 0;
-    for (std::size_t i = 3; i < texels.size(); i += 4)
-        count += texels[i] == ending ? 1 : 0;
-    return count;
-}
-
 void reportExitLimit(FrameBuilder& frame, const std::string& pass, const View& seen,
-                     const std::string& parameter, const std::string& unit, int value, float ending,
-                     const std::string& fate) {
+                     const std::string& parameter, const std::string& unit, int value,
+                     std::size_t EyeRays::*ending, const std::string& fate) {
     frame.reportLimit({pass,
                        {seen.exitDirection},
                        [=, exits = seen.exitDirection](
                            const gl::Executor& executor) -> std::optional<ReachedLimit> {
-                           const std::size_t rays = countExits(executor.texture(exits), ending);
+                           const std::size_t rays = countEyeRays(executor.texture(exits)).*ending;
                            if (rays == 0) return {};
                            return ReachedLimit{
                                parameter,
@@ -254,11 +246,35 @@ void reportExitLimit(FrameBuilder& frame, const std::string& pass, const View& s
                        }});
 }
 
+void reportLostRays(FrameBuilder& frame, const std::string& pass, const View& seen,
+                    const std::string& why) {
+    constexpr double kTold = 0.01;
+    frame.reportLimit(
+        {pass,
+         {seen.exitDirection},
+         [=,
+          exits = seen.exitDirection](const gl::Executor& executor) -> std::optional<ReachedLimit> {
+             const EyeRays rays = countEyeRays(executor.texture(exits));
+             const double share = rays.shareOf(rays.lost);
+             if (share <= kTold) return {};
+             return ReachedLimit{
+                 pass,
+                 "% of the eye's rays",
+                 100.0 * kTold,
+                 100.0 * share,
+                 fmt::format(
+                     "{:.3g}% of the {} pixels' rays that meet a specular surface first are "
+                     "lost: {}",
+                     100.0 * share, rays.pixels, why),
+                 0.0};
+         }});
+}
+
 void reportMirrorLimit(FrameBuilder& frame, const std::string& pass, const View& seen,
                        const SceneLookParams& look) {
     if (frame.needs().reflectors == 0) return;
     reportExitLimit(frame, pass, seen, pass + ".mirrors", "mirrors", look.mirrors,
-                    transport::kPathMirrorLimit,
+                    &EyeRays::mirrorLimit,
                     "hit one more mirror, in which they see the environment");
 }
 

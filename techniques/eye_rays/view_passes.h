@@ -2,11 +2,13 @@
 // What the nodes that look through specular surfaces share.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <glm/glm.hpp>
 #include <string>
 #include <vector>
 
+#include "framework/pipeline/eye_rays.h"
 #include "framework/pipeline/frame_builder.h"
 
 namespace kaustik {
@@ -117,13 +119,13 @@ void drawSpecular(const FrameInputs& inputs, gl::PassContext& context, const Vie
 void drawLook(const FrameInputs& inputs, gl::PassContext& context, const ViewPass& pass,
               const SceneLookParams& look, const std::string& shader, const Tell& tell);
 
-// How many pixels' paths have ended so (transport::kPath…). Waits for the device.
-[[nodiscard]] std::size_t countExits(const gl::Texture& exitDirection, float ending);
-
 // What pixels whose rays end at a cap of a view node are told by. `fate`: what becomes of them.
 void reportExitLimit(FrameBuilder& frame, const std::string& pass, const View& seen,
-                     const std::string& parameter, const std::string& unit, int value, float ending,
-                     const std::string& fate);
+                     const std::string& parameter, const std::string& unit, int value,
+                     std::size_t EyeRays::*ending, const std::string& fate);
+// What is told where more than a hundredth of the pixels' rays are lost. `why`: a sentence's end.
+void reportLostRays(FrameBuilder& frame, const std::string& pass, const View& seen,
+                    const std::string& why);
 // The cap on mirrors, of the node `pass`; nothing where the scene has none.
 void reportMirrorLimit(FrameBuilder& frame, const std::string& pass, const View& seen,
                        const SceneLookParams& look);

@@ -180,8 +180,11 @@ View lookAround(FrameBuilder& frame, const AroundViewParams& params, Geometry ge
                 })
             .seen;
     reportExitLimit(frame, "view.around", view, "view.around.interfaces", "interfaces",
-                    params.interfaces, transport::kPathEndedInside,
+                    params.interfaces, &EyeRays::endedInside,
                     "end at one more and are taken to see the environment");
+    reportLostRays(frame, "view.around", view,
+                   "no way out of the object that they are in was found; its surface has a hole "
+                   "there, or the reference points do not see it");
     return view;
 }
 

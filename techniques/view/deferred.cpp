@@ -95,6 +95,8 @@ View refractDeferred(FrameBuilder& frame, const DeferredViewParams& params, Geom
                               })
                           .seen;
     reportMirrorLimit(frame, "view.deferred", view, params.look);
+    reportLostRays(frame, "view.deferred", view,
+                   "they are totally reflected inside, which it does not follow");
     return view;
 }
 

@@ -58,6 +58,8 @@ View refractInImageSpace(FrameBuilder& frame, const ImageSpaceViewParams& params
                 })
             .seen;
     reportMirrorLimit(frame, "view.image_space", view, params.look);
+    reportLostRays(frame, "view.image_space", view,
+                   "they are totally reflected inside, which it does not follow");
     return view;
 }
 

@@ -17,6 +17,7 @@
 
 #include "framework/pipeline/frame_builder.h"
 #include "framework/scene/dielectrics.h"
+#include "framework/scene/meshes/winding_number.h"
 #include "techniques/eye_rays/view_passes.h"
 #include "techniques/layered_depth/fragment_lists.h"
 #include "techniques/tracing/hit_testing.h"
@@ -76,7 +77,8 @@ RefractionViewParams forScene(const scene::Scene& scene, int nested, RefractionV
     int sheets = 0;
     for (const scene::Object& object : scene.objects) {
         if (scene.materials[object.material].kind != scene::MaterialKind::dielectric) continue;
-        if (!isSheet(scene.meshes[object.mesh])) return params;
+        const scene::Mesh& mesh = scene.meshes[object.mesh];
+        if (mesh.hasInside || turnsBack(mesh)) return params;
         ++sheets;
     }
     params.interfaces = std::min(params.interfaces, std::max(sheets, 1));
@@ -92,14 +94,17 @@ int neededLayers(const RefractionViewParams& params) {
 void reportLimits(FrameBuilder& frame, const RefractionViewParams& params,
                   const LayeredDepth& layers, const View& seen) {
     reportExitLimit(frame, "view.refraction", seen, "view.refraction.interfaces", "refractions",
-                    params.interfaces, transport::kPathEndedInside,
+                    params.interfaces, &EyeRays::endedInside,
                     "end inside of an object and are taken to see what they would outside");
     reportExitLimit(frame, "view.refraction", seen, "view.refraction.reflections", "reflections",
-                    params.reflections, transport::kPathReflectionLimit,
+                    params.reflections, &EyeRays::reflectionLimit,
                     "are lost between total reflections");
     reportExitLimit(frame, "view.refraction", seen, "view.refraction.nesting", "dielectrics",
-                    numberDielectrics(frame.scene()).depth, transport::kPathNestingLimit,
+                    numberDielectrics(frame.scene()).depth, &EyeRays::nestingLimit,
                     "are lost in a dielectric inside of more others");
+    reportLostRays(frame, "view.refraction", seen,
+                   "no way out of the object that they are in was found; its surface has a hole "
+                   "there, is off the screen, or lies beyond view.refraction.layers");
     // Fewer layers than there are interfaces to be hit in them.
     const bool isMonotonic = params.search == RefractionSearch::monotonic;
     if (isMonotonic && params.layers >= params.interfaces) return;

@@ -48,7 +48,7 @@ TEST_F(Report, HasTheKeysOfTheSchema) {
                     "photons", "energy", "memory", "warnings",
                     // Ours, besides.
                     "disabled", "time_s", "time_step_s", "bookkeeping_ms", "graph_build_ms",
-                    "layers", "limits", "as_published", "violations", "timing"}));
+                    "eye_rays", "layers", "limits", "as_published", "violations", "timing"}));
     Keys timing = keysOf(report.at("timing"));
     timing.erase("other_processors");  // of moments it is not known
     EXPECT_EQ(timing, (Keys{"date", "dropped_frames", "measuring_ms"}));

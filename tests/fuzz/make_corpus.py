@@ -111,6 +111,17 @@ def objs():
     yield "mtllib missing.mtl\n" + corners + "f 1 2 3 \\\n4\nl 1 2\np 1\n"
 
 
+def stls():
+    corners = [CORNERS[3 * i:3 * i + 3] for i in FACES]
+    triangles = [corners[i:i + 3] for i in range(0, len(corners), 3)]
+    data = b"".join(struct.pack("<12fH", 0, 0, 0, *sum(map(list, t), []), 0) for t in triangles)
+    yield b"solid of a program that says so".ljust(80, b" ") + struct.pack("<I", 4) + data
+    yield "solid a\n" + "".join(
+        "facet normal 0 0 1\nouter loop\n"
+        + "".join("vertex {} {} {}\n".format(*corner) for corner in t)
+        + "endloop\nendfacet\n" for t in triangles) + "endsolid a\n"
+
+
 def gltf(buffer):
     return {
         "asset": {"version": "2.0"},
@@ -228,7 +239,7 @@ def studies():
 
 
 SEEDS = {
-    "scene": scenes, "experiment": experiments, "gltf": gltfs, "obj": objs, "ply": plys,
+    "scene": scenes, "experiment": experiments, "gltf": gltfs, "obj": objs, "ply": plys, "stl": stls,
     "3ds": threes, "gzip": lambda: (gzip.compress(seed, mtime=0) for seed in plys()),
     "pfm": lambda: (b"Pf\n1 1\n1.0\n\0\0\0\0", b"P6 1 1 65535\n\0\0\0\0\0\0"),
     "image": lambda: (struct.pack("<2sIIIIiiHHIIiiII", b"BM", 70, 0, 54, 40, 2, 2, 1, 24, 0, 16, 0,
@@ -243,7 +254,7 @@ SEEDS = {
 SOURCES = {
     "scene": ["scene/files/*.cpp"], "experiment": ["experiment/*.cpp", "scene/files/*.cpp"],
     "gltf": ["importers/gltf_*.cpp"], "obj": ["importers/obj.cpp"],
-    "ply": ["importers/ply.cpp"], "3ds": [], "gzip": [], "pfm": [], "image": [],
+    "ply": ["importers/ply.cpp"], "stl": ["importers/stl.cpp"], "3ds": [], "gzip": [], "pfm": [], "image": [],
     "settings": ["gui/document.cpp", "gui/state.cpp"], "reference": ["reference/*_file.cpp"],
     "cache": [], "part": ["reference/part_file.cpp", "reference/request_json.cpp"],
     "tile": ["run/tile_file.cpp"],

@@ -293,11 +293,31 @@ TEST_F(ScenePanel, AFileThatIsDroppedIsTheScene) {
     EXPECT_GT(*std::max_element(dropped.values.begin(), dropped.values.end()), 0.2f);
 }
 
+TEST_F(ScenePanel, AMeshThatIsDroppedStandsOnATable) {
+    start();
+    const std::string mesh =
+        "v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4";
+    bench->dropFiles({folder.file("thing.obj", mesh)}, "picture");
+    untilSettled();
+    EXPECT_EQ(bench->status().at("rendered_scene"), "thing-on-table");
+
+    json lampless = scene::test::tetrahedronScene();
+    lampless["nodes"] = json::array({lampless["nodes"][0]});
+    lampless["scenes"][0]["nodes"] = {0};
+    const std::string bytes = scene::test::glb(lampless, scene::test::tetrahedronBytes());
+    bench->dropFiles({folder.file("tetra.glb", bytes)}, "picture");
+    untilSettled();
+    EXPECT_EQ(bench->status().at("rendered_scene"), "tetra-on-table");
+    EXPECT_EQ(bench->status().at("problem"), "");
+    const Image seen = seenPicture();
+    EXPECT_GT(*std::max_element(seen.values.begin(), seen.values.end()), 0.2f);
+}
+
 TEST_F(ScenePanel, AFileThatIsNoSceneIsRefusedAndAllStays) {
     start();
     const json before = document();
     bench->dropFiles({folder.file("notes.txt", "x")}, "picture");
-    EXPECT_TRUE(says("status.message", (folder / "notes.txt").string() + "' is no scene"));
+    EXPECT_TRUE(says("status.message", (folder / "notes.txt").string() + "' is neither a scene"));
     EXPECT_EQ(document(), before);
 }
 

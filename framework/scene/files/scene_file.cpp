@@ -10,6 +10,7 @@
 #include "framework/core/files.h"
 #include "framework/core/names.h"
 #include "framework/scene/files/gltf_import.h"
+#include "framework/scene/files/own_mesh.h"
 #include "framework/scene/files/scene_file_parts.h"
 
 namespace kaustik::scene {
@@ -126,11 +127,13 @@ Scene makeScene(const TomlNode& document, const fs::path& path, reading::ReaderP
 }
 
 bool isSceneFile(const fs::path& path) {
+    if (parseOwnMesh(path.string())) return true;
     const std::string extension = lowerExtension(path);
     return extension == ".toml" || extension == ".gltf" || extension == ".glb";
 }
 
 Scene loadScene(const std::string& nameOrPath) {
+    if (const std::optional<OwnMesh> own = parseOwnMesh(nameOrPath)) return loadOwnMesh(*own);
     if (isSceneFile(nameOrPath)) {
         return lowerExtension(nameOrPath) == ".toml" ? loadSceneFile(nameOrPath)
                                                      : importGltf(nameOrPath);
@@ -147,7 +150,7 @@ Scene loadScene(const std::string& nameOrPath) {
     const std::string suggestion = didYouMean(nameOrPath, names);
     throw ConfigError(fmt::format(
         "There is no scene '{}'{} The scenes are {}; a path to a .toml, .gltf or .glb file will do "
-        "as well.",
+        "as well, and a mesh, which is stood on a table (--on).",
         nameOrPath, suggestion.empty() ? "." : suggestion, joinNames(names)));
 }
 

@@ -14,10 +14,12 @@ namespace kaustik::scene {
 // that makes no sense, and IoError for a file that cannot be read, here or at a mesh or a texture.
 [[nodiscard]] Scene loadSceneFile(const std::filesystem::path& path);
 
-// Whether a path ends as those of scenes do: .toml, .gltf or .glb, in any case.
+// Whether a path ends as those of scenes do: .toml, .gltf or .glb, in any case, or names a mesh of
+// the user's own (own_mesh.h).
 [[nodiscard]] bool isSceneFile(const std::filesystem::path& path);
 
-// A scene by its name in experiments/scenes, or from a .toml, .gltf or .glb file. Throws
+// A scene by its name in experiments/scenes, from a .toml, .gltf or .glb file, or with a mesh of
+// the user's own. Throws
 // ConfigError for a name that does not exist, with the nearest one and all there are.
 [[nodiscard]] Scene loadScene(const std::string& nameOrPath);
 

@@ -43,8 +43,9 @@ auto partsOf(T& field) {
 
 template <SameButConst<Mesh> T>
 auto partsOf(T& mesh) {
-    auto& [name, origin, positions, normals, uvs, triangles, closed, heightField] = mesh;
-    return std::tie(name, origin, positions, normals, uvs, triangles, closed, heightField);
+    auto& [name, origin, positions, normals, uvs, triangles, closed, hasInside, heightField] = mesh;
+    return std::tie(name, origin, positions, normals, uvs, triangles, closed, hasInside,
+                    heightField);
 }
 
 template <SameButConst<Object> T>

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "framework/scene/meshes/mesh_checks.h"
+#include "framework/scene/meshes/winding_number.h"
 
 namespace kaustik::scene {
 
@@ -77,6 +78,7 @@ void MeshBuilder::addTriangle(const SurfacePoint& a, const SurfacePoint& b, cons
 Mesh MeshBuilder::finishSheet(const std::string& name) {
     mesh_.name = name;
     mesh_.closed = false;
+    mesh_.hasInside = false;
     return std::move(mesh_);
 }
 
@@ -89,6 +91,7 @@ Mesh MeshBuilder::finish(const std::string& name, bool inward) {
             std::swap(triangle.y, triangle.z);
     }
     mesh_.closed = isClosed(mesh_);
+    mesh_.hasInside = mesh_.closed || boundsVolume(meanWindingBehind(mesh_));
     return std::move(mesh_);
 }
 

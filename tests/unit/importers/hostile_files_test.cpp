@@ -66,11 +66,19 @@ TEST_F(MeshImport, AnElementOfATextPlyThatDoesNotEndWithItsLineIsAnError) {
     };
     // What reads by words finds a face here, what reads by lines a list of 900 million corners.
     EXPECT_THAT(with("0 0 1\n3 0 1 2\n", "0 0 1 3 0 1 2\n900000000\n"),
-                HasSubstr("more on the line of element 'vertex' (3)"));
+                HasSubstr("it holds 0 of 1 elements 'face'"));
     EXPECT_THAT(with("1 0 0\n", "1\n0 0\n"), HasSubstr("too few numbers on the line of element"));
     EXPECT_THAT(with("3 0 1 2\n", "3 0 1\n2\n"), HasSubstr("too few numbers"));
-    EXPECT_THAT(with("3 0 1 2\n", "3 0 1 2 3\n"), HasSubstr("more on the line of element 'face'"));
-    EXPECT_THAT(with("1 0 0\n", "\n1 0 0\n"), HasSubstr("too few numbers"));
+}
+
+TEST_F(MeshImport, AnElementOfATextPlyMayHaveMoreOnItsLineAndBlankLinesBeforeIt) {
+    const std::string header = "element face 1\n" + kFaceList;
+    const auto more = import("a.ply", plyWith(header, "3 0 1 2 255 0 0\n"));
+    EXPECT_EQ(more.mesh.triangles.size(), 1u);
+    EXPECT_THAT(more.warnings, ElementsAre(HasSubstr("1 lines have more numbers")));
+    const auto blank = import("b.ply", plyWith(header, "\n \n3 0 1 2"));
+    EXPECT_EQ(blank.mesh.triangles.size(), 1u);
+    EXPECT_THAT(blank.warnings, ElementsAre());
 }
 
 TEST_F(MeshImport, APlyReadsBlanksAndBothKindsOfLineEnds) {

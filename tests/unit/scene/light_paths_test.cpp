@@ -56,13 +56,6 @@ Mesh withoutATriangle(Mesh mesh) {
     return mesh;
 }
 
-TEST(IsSheet, IsWhatDoesNotTurnBack) {
-    EXPECT_TRUE(isSheet(makePlane({})));
-    EXPECT_TRUE(isSheet(wavyWater(30.0)));
-    EXPECT_FALSE(isSheet(makeSphere({})));
-    EXPECT_FALSE(isSheet(withoutATriangle(makeSphere({}))));
-}
-
 TEST(RepeatedHits, AreNoneWithoutASpecularSurfaceAndAtASinglePlane) {
     EXPECT_FALSE(repeatedHits({}).reflected);
     for (const MaterialKind kind : {MaterialKind::dielectric, MaterialKind::mirror}) {

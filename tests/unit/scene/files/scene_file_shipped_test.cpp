@@ -217,7 +217,7 @@ TEST_F(ShippedScenes, AnUnknownNameIsAnsweredWithTheNearestAndAll) {
     }
     EXPECT_THROW((void)loadScene(""), ConfigError);
     EXPECT_THROW((void)loadScene("../pool"), ConfigError);
-    EXPECT_THROW((void)loadScene("scene.obj"), ConfigError);
+    EXPECT_THROW((void)loadScene("scene.obj"), IoError);
     EXPECT_THROW((void)loadScene((folder / "absent.toml").string()), IoError);
 }
 
