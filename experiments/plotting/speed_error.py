@@ -18,6 +18,8 @@ has a folder of its own; pages.py puts tables of several next to each other), an
 - costs.csv: what a photon costs each technique, and what all of them together do: the median over scenes of the slope between its runs with the
   fewest and the most photons, of time and memory, and of what is left at none; and the light that it does not form, on the scene where
   that is most.
+- published.csv: what defaults change of each technique as published, with as many photons: the default's time and error as parts of the
+  published ones and the gain in `factor`, medians over scenes, and the scenes of the least and the largest gain.
 - SCENE.svg: error against time, the Pareto front drawn through; bars are the standard deviation of a run's frames, and below the shaded height errors
   are less than the reference's own noise.
 - headline.svg: all scenes: the factors of equal_error.csv, of each technique's runs by default the one with the middle number of photons.
@@ -261,6 +263,25 @@ def costs(runs: list[dict]) -> list[list]:
     return table
 
 
+def published(equal: list[dict]) -> list[list]:
+    """By technique what its defaults are next to what its paper has, of pairs of rows of equal_error.csv with one scene and size."""
+    pairs = defaultdict(dict)
+    for row in equal:
+        pairs[row["technique"], row["scene"], row["emit.photons"], row["refine.finest"]][row["as_published"]] = row
+    by = defaultdict(list)
+    for (technique, scene, *_), pair in pairs.items():
+        if len(pair) == 2 and pair["true"]["relMSE, net"] > 0.0 and pair["false"]["relMSE, net"] > 0.0:
+            of = {key: pair["false"][key] / pair["true"][key] for key in ("ms", "relMSE, net", "factor")}
+            by[technique].append({**of, "scene": scene})
+    table = []
+    for technique, rows in sorted(by.items()):
+        by_gain = sorted(rows, key=lambda row: row["factor"])
+        table.append([technique, "done", len({row["scene"] for row in rows}),
+                      *(statistics.median(row[key] for row in rows) for key in ("ms", "relMSE, net", "factor")),
+                      by_gain[0]["scene"], by_gain[0]["factor"], by_gain[-1]["scene"], by_gain[-1]["factor"]])
+    return table
+
+
 def first_two(values: dict[str, float | None]) -> list:
     """The name with the least value, the value, the second's name, and the ratio of the two."""
     there = sorted((value, name) for name, value in values.items() if value is not None)
@@ -336,6 +357,8 @@ def main() -> int:
     write_table("summary.csv", ["who", "status", "scenes", "faster", "slower", "least", "median", "largest"], summary(answers(middle)))
     write_table("costs.csv", ["technique", "as_published", "status", "scenes", "ns a photon", "ms at none", "bytes a photon", "MiB at none",
                               "most not formed, %", "most not formed, W", "on"], costs(runs))
+    write_table("published.csv", ["technique", "status", "scenes", "ms", "relMSE", "gain", "least on", "least gain", "largest on", "largest gain"],
+                published(equal))
     names = ["first", "value", "second", "times"]
     write_table("to_error.csv", ["scene", "relMSE", "status", *names], ranked(of_scenes, ERRORS, by_error=True))
     write_table("in_time.csv", ["scene", "ms", "status", *names], ranked(of_scenes, TIMES_MS, by_error=False))

@@ -90,6 +90,11 @@ class SpeedError(unittest.TestCase):
         self.assertEqual((row["scene"], row["factor"], row["best"], row["best's at_least"]), ("ring", "", "b", "true"))
         self.assertTrue((self.folder / "headline.svg").is_file())
 
+    def test_published_are_pairs_of_one_scene_and_size(self):
+        row, = self.rows("published.csv")  # of `a` with 2x2; `b` has no row as published
+        self.assertEqual((row["technique"], row["scenes"], row["least on"]), ("a", "1", "ring"))
+        self.assertEqual([round(float(row[key]), 3) for key in ("ms", "relMSE", "gain", "least gain", "largest gain")], [2.0, 1.0, 0.5, 0.5, 0.5])
+
     def test_draws_each_scene_that_has_a_caustic(self):
         self.assertTrue((self.folder / "ring.svg").is_file())
         self.assertFalse((self.folder / "tree.svg").exists())
