@@ -75,6 +75,8 @@ json editsJson(const SceneEdits& edits) {
         if (edit.direction) light["direction"] = vectorJson(*edit.direction);
         if (edit.position) light["position"] = vectorJson(*edit.position);
         if (edit.powerFactor) light["power_factor"] = *edit.powerFactor;
+        if (edit.angularDiameterDegrees)
+            light["angular_diameter_degrees"] = *edit.angularDiameterDegrees;
     }
     for (const auto& [name, waves] : edits.waves) {
         json& list = result["waves"][name] = json::array();
@@ -104,6 +106,8 @@ SceneEdits editsFrom(const json& j) {
         if (light.contains("position"))
             edit.position = vectorFrom<glm::dvec3>(light.at("position"));
         if (light.contains("power_factor")) edit.powerFactor = light.at("power_factor");
+        if (light.contains("angular_diameter_degrees"))
+            edit.angularDiameterDegrees = light.at("angular_diameter_degrees");
     }
     const json waters = j.value("waves", json::object());
     for (const auto& [name, list] : waters.items()) {

@@ -32,6 +32,7 @@ void lowerPriority() {
 void updateScene(scene::Scene& scene, const scene::Scene& base, const scene::SceneEdits& edits) {
     scene.camera = base.camera;
     scene.lights = base.lights;
+    scene.emitters = base.emitters;
     scene.medium = base.medium;
     bool moved = scene.timeSeconds != edits.timeSeconds.value_or(base.timeSeconds);
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
@@ -52,7 +53,12 @@ std::shared_ptr<const SceneFacts> factsOf(const scene::Scene& base, const scene:
     facts->needs = sceneNeeds(scene);
     facts->bounds = sceneBounds(scene);
     facts->camera = base.camera;
-    facts->lights = base.lights;
+    for (const scene::Light& light : base.lights) {
+        if (light.emitter < 0) facts->lights.push_back(light);
+    }
+    for (const scene::Emitter& emitter : base.emitters) {
+        if (!emitter.object) facts->lights.push_back(emitter.light);
+    }
     facts->medium = base.medium;
     facts->timeSeconds = base.timeSeconds;
     for (const scene::Object& object : base.objects) {

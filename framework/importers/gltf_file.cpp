@@ -20,11 +20,6 @@
 namespace kaustik::scene {
 namespace {
 
-// glTF's lights are photometric: lux for directional ones, candela for the others. One watt of
-// monochromatic light at 555 nm is 683 lumens; exporters that start from watts use that number for
-// all light, and so undoing it gives their watts back.
-constexpr double kLumensPerWatt = 683.0;
-
 class Importer {
   public:
     Importer(const tinygltf::Model& model, const std::filesystem::path& path, GltfUse use)
@@ -55,7 +50,8 @@ class Importer {
     void warnAboutExtensions() {
         for (const std::string& extension : model_.extensionsUsed) {
             if (extension == "KHR_lights_punctual" || extension == "KHR_materials_transmission" ||
-                extension == "KHR_materials_ior" || extension == "KHR_materials_volume") {
+                extension == "KHR_materials_ior" || extension == "KHR_materials_volume" ||
+                extension == "KHR_materials_emissive_strength") {
                 continue;
             }
             warn(fmt::format("the extension {} is not read", extension));

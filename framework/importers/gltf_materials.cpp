@@ -77,7 +77,7 @@ class MaterialImporter {
             convertOpaque(source, material);
         }
         if (source.emissiveFactor != std::vector<double>{0.0, 0.0, 0.0}) {
-            warn("emissiveFactor", "is left out: a surface gives no light here");
+            convertEmission(source, material);
         }
         if (source.alphaMode != "OPAQUE") {
             warn("alphaMode",
@@ -85,6 +85,21 @@ class MaterialImporter {
         }
         if (source.normalTexture.index >= 0) warn("normalTexture", "is left out");
         return material;
+    }
+
+    // In candela a square metre. A texture is no even lamp: most of it is black.
+    void convertEmission(const tinygltf::Material& source, Material& material) {
+        if (source.emissiveTexture.index >= 0) {
+            warn("emissiveTexture", "is left out, and with it emissiveFactor: lamps shine evenly");
+        } else if (!isReceiver(material.kind)) {
+            warn("emissiveFactor", "is left out: glass and mirrors give no light here");
+        } else {
+            const glm::dvec3 factor(source.emissiveFactor[0], source.emissiveFactor[1],
+                                    source.emissiveFactor[2]);
+            const double strength = Extension(source, "KHR_materials_emissive_strength")
+                                        .number("emissiveStrength", 1.0);
+            material.emission = glm::vec3(factor * strength / kLumensPerWatt);
+        }
     }
 
     bool isTransmissive(const tinygltf::Material& source) {

@@ -12,6 +12,11 @@
 
 namespace kaustik::scene {
 
+// glTF's lights are photometric: lux for directional ones, candela for the others. One watt of
+// monochromatic light at 555 nm is 683 lumens; exporters that start from watts use that number for
+// all light, and so undoing it gives their watts back.
+inline constexpr double kLumensPerWatt = 683.0;
+
 // KHR_materials_volume: light that travels attenuationDistance keeps the share `color`, so that the
 // coefficient is -ln(color)/distance. Infinite distance: none. A black component: kOpaquePerMeter,
 // finite, so that a path of length 0 still keeps all of the light. Both finite or infinite,

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include "framework/core/error.h"
@@ -13,6 +14,7 @@
 #include "framework/pipeline/stage_params.h"
 #include "framework/pipeline/tile_hits.h"
 #include "framework/pipeline/tracing_log.h"
+#include "framework/scene/emitters.h"
 #include "framework/transport/photon_list.h"
 #include "framework/transport/primitives.h"
 
@@ -41,7 +43,14 @@ bool FrameBuilder::joinsCells() const {
 
 params::Extent FrameBuilder::photonsOfALight() const {
     const auto& own = traits<EmitStage>().photons;
-    return own ? own(*this) : params<EmitParams>("emit").photons;
+    if (own) return own(*this);
+    // The points of a light that has a size share out its photons.
+    const params::Extent photons = params<EmitParams>("emit").photons;
+    const double side = 1.0 / std::sqrt(scene::mostLightPoints(scene()));
+    const auto part = [&](int count) {
+        return std::max(static_cast<int>(std::lround(count * side)), 1);
+    };
+    return {part(photons.width), part(photons.height)};
 }
 
 int FrameBuilder::runsOf(const std::string& stage) const {

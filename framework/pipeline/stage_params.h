@@ -45,6 +45,7 @@ struct LayersParams {
 
 struct EmitParams {
     params::Extent photons{256, 256};
+    int lightPoints = 0;
     int batch = 4194304;
     template <class R>
     void reflect(R& r) {
@@ -61,6 +62,16 @@ struct EmitParams {
                 return fmt::format("emit={} {}", facts.settings.choice(EmitStage::name), takes);
             })
             .when(whyRefined);
+        r.field(lightPoints, "light_points",
+                "Points that stand for a light that has a size, each with a grid of its own, and for "
+                "its soft shadows; they share out its photons. 0: 16, or 1 where its size would not "
+                "be seen",
+                "", params::range(0, 1024))
+            .when([](const FrameFacts& facts) -> std::string {
+                return facts.needs == nullptr || facts.needs->emitters > 0
+                           ? ""
+                           : "no light of the scene has a size";
+            });
         r.field(
              batch, "batch",
              "Most photons that a list has room for, 112 bytes each, 160 with beams. So many are "

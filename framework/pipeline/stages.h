@@ -155,6 +155,8 @@ struct TraceStage : Stage<Hits(Photons, Surfaces)> {
         // It can search the part of each ray that is on one tile of the screen
         // (LayeredDepth::tile).
         bool tiles = false;
+        // Rows of texels that it takes for a row of a list.
+        int texelRows = 1;
     };
 };
 // Adds what arrives with these hits to what has arrived before.

@@ -80,12 +80,14 @@ LightSampler::Share LightSampler::aimDirectional(const scene::Light& light,
             extent = other;
         }
     }
-    const glm::dvec2 margin = kMargin * (extent.high - extent.low) + 1e-12;
-    extent.low -= margin;
-    extent.high += margin;
     // The photons start before everything that could throw a shadow.
     const scene::Bounds& bounds = scene.bounds();
     const double radius = 0.5 * glm::length(bounds.maximum - bounds.minimum);
+    const double discRadius = std::tan(0.5 * static_cast<double>(light.angularDiameterRadians));
+    const glm::dvec2 margin =
+        kMargin * (extent.high - extent.low) + 1e-12 + 2.01 * radius * discRadius;
+    extent.low -= margin;
+    extent.high += margin;
     const glm::dvec3 middle = 0.5 * (bounds.minimum + bounds.maximum);
     const double before = glm::dot(middle, along) - 1.01 * radius;
     Share share;
@@ -95,6 +97,7 @@ LightSampler::Share LightSampler::aimDirectional(const scene::Light& light,
     share.sideA = (extent.high.x - extent.low.x) * best.a;
     share.sideB = (extent.high.y - extent.low.y) * best.b;
     share.measure = extent.area();
+    share.discRadius = discRadius;
     return share;
 }
 
@@ -133,16 +136,60 @@ LightSampler::Share LightSampler::aimCone(const scene::Light& light, const Embre
     return share;
 }
 
+// The rectangle of numbers goes over the cone around the ball of specular surfaces; which point of
+// the surface a photon starts from is drawn.
+LightSampler::Share LightSampler::aimSurface(const scene::Light& light,
+                                             const scene::Object& object,
+                                             const EmbreeScene& scene) const {
+    Share share;
+    share.light = &light;
+    share.surface = std::make_shared<const scene::EmittingSurface>(scene.scene(), object);
+    share.corner = -scene.center();
+    // As much as may be sent towards the ball from where it is nearest: a bound that deals photons.
+    share.measure = share.surface->areaSquareMeters() * kPi;
+    return share;
+}
+
+void LightSampler::add(Share share) {
+    const double watts = total(share.light->power) * share.measure;
+    if (!(watts > 0.0)) return;
+    fluxWatts_ += watts;
+    shares_.push_back(std::move(share));
+}
+
 LightSampler::LightSampler(const EmbreeScene& scene, std::uint64_t photonsPerBatch)
     : appearance_(&scene.appearance()) {
     if (scene.specularVertices().empty()) return;
+    glm::dvec3 low(std::numeric_limits<double>::max());
+    glm::dvec3 high(std::numeric_limits<double>::lowest());
+    for (const glm::dvec3& point : scene.specularVertices()) {
+        low = glm::min(low, point);
+        high = glm::max(high, point);
+    }
+    targetMiddle_ = 0.5 * (low + high);
+    for (const glm::dvec3& point : scene.specularVertices())
+        targetRadius_ = std::max(targetRadius_, glm::distance(point, targetMiddle_));
+    targetRadius_ *= 1.0 + kMargin;
+    startMargin_ = kMargin * glm::length(scene.bounds().maximum - scene.bounds().minimum);
+    const auto aim = [&](const scene::Light& light) {
+        add(light.kind == scene::LightKind::directional ? aimDirectional(light, scene)
+                                                        : aimCone(light, scene));
+    };
     for (const scene::Light& light : scene.scene().lights) {
-        if (total(light.power) <= 0.0) continue;
-        Share share = light.kind == scene::LightKind::directional ? aimDirectional(light, scene)
-                                                                  : aimCone(light, scene);
-        if (share.measure <= 0.0) continue;
-        fluxWatts_ += total(light.power) * share.measure;
-        shares_.push_back(share);
+        if (light.emitter < 0) aim(light);
+    }
+    for (const scene::Emitter& emitter : scene.scene().emitters) {
+        if (!emitter.object) {
+            aim(emitter.light);
+            continue;
+        }
+        const scene::Object& object = scene.scene().objects[*emitter.object];
+        scene::Light light;
+        light.name = object.name;
+        light.kind = scene::LightKind::surface;
+        light.power = scene.scene().materials[object.material].emission;
+        surfaceLights_.push_back(std::move(light));
+        add(aimSurface(surfaceLights_.back(), object, scene));
     }
     for (Share& share : shares_) {
         const double part = total(share.light->power) * share.measure / fluxWatts_;
@@ -172,11 +219,21 @@ EmittedPhoton LightSampler::sample(std::uint64_t index, Random& random) const {
     const double weight = share.measure / static_cast<double>(share.columns * share.rows);
     const scene::Light& light = *share.light;
     EmittedPhoton photon;
+    if (share.surface) return sampleSurface(share, u, v, random);
     if (light.kind == scene::LightKind::directional) {
         photon.reach.isDistant = true;
         photon.origin = share.corner + u * share.sideA + v * share.sideB;
         photon.direction = share.along;
         photon.fluxWatts = weight * glm::dvec3(light.power);
+        if (share.discRadius > 0.0) {
+            // Even over the disc as the plane at right angles sees it, so that each brings as much.
+            const double sine = std::sin(std::atan(share.discRadius)) * std::sqrt(random.uniform());
+            const double turn = 2.0 * kPi * random.uniform();
+            const Basis basis = basisAround(share.along);
+            photon.direction = glm::normalize(std::sqrt(1.0 - sine * sine) * share.along +
+                                              sine * std::cos(turn) * basis.a +
+                                              sine * std::sin(turn) * basis.b);
+        }
         return photon;
     }
     const double cosine = 1.0 - v * (1.0 - share.cosine);
@@ -194,6 +251,34 @@ EmittedPhoton LightSampler::sample(std::uint64_t index, Random& random) const {
                                 : glm::dvec3(0.0);
     }
     if (light.rangeMeters > 0.0f) photon.reach.rangeMeters = static_cast<double>(light.rangeMeters);
+    return photon;
+}
+
+EmittedPhoton LightSampler::sampleSurface(const Share& share, double u, double v,
+                                          Random& random) const {
+    const double which = random.uniform();
+    const double first = random.uniform();
+    const auto [position, normal] = share.surface->at(which, first, random.uniform());
+    EmittedPhoton photon;
+    photon.origin = position + share.corner + startMargin_ * normal;
+    const glm::dvec3 towards = targetMiddle_ - photon.origin;
+    const double distance = glm::length(towards);
+    // Within the ball the light goes anywhere in front of the surface.
+    const bool isOutside = distance > targetRadius_;
+    const glm::dvec3 axis = isOutside ? towards / distance : normal;
+    const double sineOfCone = isOutside ? targetRadius_ / distance : 1.0;
+    const double cosineOfCone = std::sqrt(std::max(0.0, 1.0 - sineOfCone * sineOfCone));
+    const double cosine = 1.0 - v * (1.0 - cosineOfCone);
+    const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+    const double turn = 2.0 * kPi * u;
+    const Basis basis = basisAround(axis);
+    photon.direction =
+        glm::normalize(cosine * axis + sine * std::cos(turn) * basis.a + sine * std::sin(turn) * basis.b);
+    const double solidAngle = 2.0 * kPi * (1.0 - cosineOfCone);
+    const double slant = std::max(glm::dot(photon.direction, normal), 0.0);
+    photon.fluxWatts = glm::dvec3(share.light->power) *
+                       (slant * solidAngle * share.surface->areaSquareMeters() /
+                        static_cast<double>(share.columns * share.rows));
     return photon;
 }
 

@@ -2,18 +2,24 @@
 // Photons from the lights towards everything specular, in independent batches. Directional lights
 // are sampled evenly over the smallest rectangle around the specular surfaces, point and spot
 // lights evenly over the solid angle of the narrowest cone around them (all directions when they
-// lie around the light): the flux is exact. Within a batch the samples of a light are jittered in
+// lie around the light): the flux is exact. Of lights that have a size (scene/emitters.h) all is
+// sampled, not the points that stand for them: the sun's disc evenly by the projected solid angle,
+// over a rectangle that is wider by what its rays are aslant, and a surface evenly by area, from each
+// point over the cone around the ball that holds the specular surfaces. Within a batch the samples of a light are jittered in
 // the cells of a grid, one each, so that a batch is far less noisy than as many independent
 // photons.
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <glm/glm.hpp>
+#include <memory>
 #include <vector>
 
 #include "framework/reference/embree_scene.h"
 #include "framework/reference/light_transport.h"
 #include "framework/reference/random.h"
+#include "framework/scene/emitters.h"
 
 namespace kaustik::reference {
 
@@ -57,13 +63,24 @@ class LightSampler {
         glm::dvec3 sideB{0.0};
         glm::dvec3 along{0.0};
         double cosine = -1.0;  // of the cone's half-angle
-        double measure = 0.0;  // m² or sr
+        double measure = 0.0;  // m² or sr; of a surface m² sr
+        double discRadius = 0.0;                                  // directional, tangent
+        std::shared_ptr<const scene::EmittingSurface> surface{};  // `light` has its radiance
     };
     [[nodiscard]] static Share aimDirectional(const scene::Light& light, const EmbreeScene& scene);
     [[nodiscard]] static Share aimCone(const scene::Light& light, const EmbreeScene& scene);
+    [[nodiscard]] Share aimSurface(const scene::Light& light, const scene::Object& object,
+                                   const EmbreeScene& scene) const;
+    void add(Share share);
+    [[nodiscard]] EmittedPhoton sampleSurface(const Share& share, double u, double v,
+                                              Random& random) const;
 
     const Appearance* appearance_;
     std::vector<Share> shares_;
+    std::deque<scene::Light> surfaceLights_;  // whose radiance and name shares have
+    glm::dvec3 targetMiddle_{0.0};            // of the ball around all that is specular, local
+    double targetRadius_ = 0.0;
+    double startMargin_ = 0.0;  // by which photons start in front of a surface, m
     std::uint64_t photonCount_ = 0;
     double fluxWatts_ = 0.0;
 };

@@ -157,9 +157,21 @@ double irradianceScale(const EmbreeScene& scene) {
     const scene::Bounds& bounds = scene.bounds();
     const double size = bounds.empty ? 1.0 : glm::length(bounds.maximum - bounds.minimum);
     for (const scene::Light& light : scene.scene().lights) {
+        if (light.emitter >= 0) continue;
         const auto power =
             static_cast<double>(std::max({light.power.r, light.power.g, light.power.b}));
         scale += light.kind == scene::LightKind::directional ? power : power / (size * size);
+    }
+    for (const scene::Emitter& emitter : scene.scene().emitters) {
+        if (!emitter.object) {
+            const glm::vec3& sun = emitter.light.power;
+            scale += static_cast<double>(std::max({sun.r, sun.g, sun.b}));
+            continue;
+        }
+        const scene::Object& object = scene.scene().objects[*emitter.object];
+        const glm::vec3& radiance = scene.scene().materials[object.material].emission;
+        scale += static_cast<double>(std::max({radiance.r, radiance.g, radiance.b})) *
+                 scene::EmittingSurface(scene.scene(), object).areaSquareMeters() / (size * size);
     }
     return scale;
 }

@@ -79,6 +79,8 @@ class Receivers {
         const double range = static_cast<double>(light.rangeMeters);
         if (range > 0.0 && arriving.distance > range) return {};
         arriving.irradiance /= arriving.distance * arriving.distance;
+        if (light.kind == scene::LightKind::surface)
+            arriving.irradiance *= std::max(glm::dot(-arriving.toLight, light.direction), 0.0);
         if (light.kind == scene::LightKind::spot) {
             const double falloff = spotFalloff(light, glm::dot(-arriving.toLight, light.direction));
             if (falloff <= 0.0) return {};

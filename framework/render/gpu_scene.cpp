@@ -217,6 +217,7 @@ void GpuScene::uploadMaterials() {
         data.uv = glm::vec4(material.uvScale, static_cast<float>(material.image),
                             isOpen(scene_, m) ? 1.0f : 0.0f);
         data.specular = glm::vec4(material.specular, material.exponent);
+        data.emission = glm::vec4(material.emission, 0.0f);
         data.medium = mediumOf(m);
         materials.push_back(data);
     }

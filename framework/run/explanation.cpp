@@ -9,6 +9,7 @@
 
 #include "framework/gl/objects.h"
 #include "framework/pipeline/effect.h"
+#include "framework/scene/emitters.h"
 
 namespace kaustik::run {
 namespace {
@@ -46,6 +47,26 @@ std::string needsText(const scene::Scene& scene, const scene::SceneNeeds& needs)
            line("animated", needs.animated ? "yes" : "no") + line("lights", needs.lights);
 }
 
+// Of lights that have a size, how many points stand for each, and whether that can be seen.
+std::string emittersText(const Renderer& renderer) {
+    const scene::Scene& scene = renderer.scene();
+    std::string text;
+    for (std::size_t e = 0; e < scene.emitters.size(); ++e) {
+        const scene::Emitter& emitter = scene.emitters[e];
+        const auto count = std::count_if(
+            scene.lights.begin(), scene.lights.end(),
+            [&](const scene::Light& light) { return light.emitter == static_cast<int>(e); });
+        const scene::EmitterPoints points =
+            pointsOf(scene, emitter, static_cast<int>(count), renderer.pictureView().height);
+        text += fmt::format(
+            "  light '{}' has a size: {} point{} (emit.light_points); it spreads light by {:.2g} m "
+            "at most, where a pixel sees {:.2g} m\n",
+            nameOf(scene, emitter), count, count == 1 ? "" : "s", points.blurMeters,
+            points.pixelMeters);
+    }
+    return text;
+}
+
 std::string describe(const graph::ResourceDesc& desc) {
     if (const auto* texture = std::get_if<graph::TextureDesc>(&desc)) {
         return fmt::format("{}x{}{} {}", texture->width, texture->height,
@@ -76,6 +97,7 @@ std::string effectText(const Renderer& renderer) {
 
 std::string explain(const Renderer& renderer) {
     std::string text = needsText(renderer.scene(), renderer.needs());
+    text += emittersText(renderer);
     text += fmt::format("technique {}{}\n", renderer.settings().technique.name,
                         renderer.settings().technique.isAsPublished ? ", as published" : "");
     const std::vector<graph::PassRecord>& passes = renderer.compiled().records;

@@ -11,7 +11,9 @@
 
 #include "framework/core/error.h"
 #include "framework/core/machine.h"
+#include "framework/pipeline/stage_params.h"
 #include "framework/run/output.h"
+#include "framework/scene/emitters.h"
 #include "framework/scene/shapes/height_field.h"
 
 namespace kaustik::run {
@@ -24,6 +26,15 @@ gl::TimerMode timerMode(bool isPrecise) {
 void checkCount(const char* name, int count, int minimum) {
     if (count < minimum || count > 1000000)
         throw ConfigError(fmt::format("{}: {} is not from {} to 1000000.", name, count, minimum));
+}
+
+// Two sessions may have one scene, with other points in the place of its lights.
+scene::Scene& withLightPoints(scene::Scene& scene, const RenderSettings& settings) {
+    if (!scene.emitters.empty()) {
+        const int wanted = settings.params.get<EmitParams>(EmitStage::name).lightPoints;
+        scene::placeLightPoints(scene, wanted, settings.height);
+    }
+    return scene;
 }
 
 }  // namespace
@@ -43,7 +54,7 @@ Session::Session(gl::Context& context, const Registry& registry, scene::Scene& s
       scene_(scene),
       options_(options),
       settings_(std::move(settings)),
-      renderer_(context, registry, scene, settings_),
+      renderer_(context, registry, withLightPoints(scene, settings_), settings_),
       timer_(timerMode(options.isPrecise)),
       needsUpdate_(options.leavesOutAbsentPasses) {}
 
@@ -112,6 +123,7 @@ void Session::forgetBuild() {
 }
 
 void Session::update(const RenderSettings& settings) {
+    withLightPoints(scene_, settings);
     renderer_.update(settings);
     if (options_.leavesOutAbsentPasses) absentPasses_ = renderer_.forgetAbsentPasses();
 }

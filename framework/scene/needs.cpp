@@ -43,6 +43,8 @@ SceneNeeds sceneNeeds(const Scene& scene) {
         const Mesh& mesh = scene.meshes[object.mesh];
         if (mesh.triangles.empty()) continue;
         needs.animated = needs.animated || moves(mesh);
+        needs.emission =
+            needs.emission || scene.materials[object.material].emission != glm::vec3(0.0f);
         switch (scene.materials[object.material].kind) {
             case MaterialKind::glossy:
                 needs.glossyReceivers = true;
@@ -66,6 +68,7 @@ SceneNeeds sceneNeeds(const Scene& scene) {
     needs.bodies = connectedBodies(scene);
     needs.nestedBodies = needs.closedDielectrics && hasNestedBodies(scene);
     needs.lights = static_cast<int>(scene.lights.size());
+    needs.emitters = static_cast<int>(scene.emitters.size());
     const glm::vec3 none(0.0f);
     needs.medium = scene.medium && (scene.medium->scatteringPerMeter != none ||
                                     scene.medium->absorptionPerMeter != none);

@@ -33,8 +33,10 @@ struct SceneNeeds {
     bool medium = false;            // one that scatters or absorbs
     bool scatteringMedium = false;  // one that scatters: there is light on the way to be seen
     bool glossyReceivers = false;   // a receiver is not Lambertian alone
+    bool emission = false;          // some object shines
     bool animated = false;          // a height field has a wave that moves
-    int lights = 0;
+    int lights = 0;    // points of those that have a size included
+    int emitters = 0;  // lights that have a size
     bool receivers = false;            // a diffuse or glossy surface that light ends on
     int measuredDepthComplexity = -1;  // most layers behind one pixel; -1 until a renderer counts
 };

@@ -22,15 +22,17 @@ struct Camera {
     friend bool operator==(const Camera&, const Camera&) = default;
 };
 
-enum class LightKind { directional, point, spot };
+// `surface`: a point of one that shines, whose intensity falls with the cosine to its normal, and
+// which is dark behind. Scene files have no such light; it stands for a part of an emitter.
+enum class LightKind { directional, point, spot, surface };
 
 struct Light {
     std::string name;
     LightKind kind = LightKind::directional;
-    glm::dvec3 position{0.0};              // point and spot
-    glm::dvec3 direction{0.0, -1.0, 0.0};  // unit, from the light outwards: directional and spot
-    // Directional: irradiance on a surface that faces the light, W/m². Point and spot: radiant
-    // intensity inside the inner cone, W/sr.
+    glm::dvec3 position{0.0};              // not of a directional one
+    glm::dvec3 direction{0.0, -1.0, 0.0};  // unit, from the light outwards: not of a point
+    // Directional: irradiance on a surface that faces the light, W/m². Point, spot and surface:
+    // radiant intensity inside the inner cone or along the normal, W/sr.
     glm::vec3 power{1.0f};
     float innerConeRadians = 0.0f;        // spot: full intensity inside this half-angle
     float outerConeRadians = 0.7853982f;  // spot: none outside; smooth between
@@ -40,6 +42,16 @@ struct Light {
     // outer half-angle (`spotImagePosition`).
     int image = -1;
     glm::dvec3 up{0.0, 0.0, -1.0};  // unit, at right angles to `direction`: the image's top
+    // Directional: the angle that its disc takes of the sky; 0: a point of it.
+    float angularDiameterRadians = 0.0f;
+    int emitter = -1;  // that it is a point of (Scene::emitters); -1: a light of its own
+};
+
+// A light that has a size (scene/emitters.h): the disc of a directional light, or an object of a
+// material that emits.
+struct Emitter {
+    Light light;                          // of a disc
+    std::optional<std::uint32_t> object;  // of a surface
 };
 
 enum class MaterialKind : std::uint32_t { lambertian = 0, dielectric = 1, mirror = 2, glossy = 3 };
@@ -65,6 +77,8 @@ struct Material {
     // Glossy: the lobe of transport/brdf.h; albedo + specular <= 1.
     glm::vec3 specular{0.0f};  // its reflectance at normal incidence, [0,1]
     float exponent = 50.0f;    // of the cosine to the mirror direction, >= 1
+    // Radiance of its front, the same in all directions, W/m²/sr; of receivers alone.
+    glm::vec3 emission{0.0f};
 };
 
 // An image used as a texture: an encoded file in memory or on disk, decoded later through image/.
@@ -133,7 +147,8 @@ struct Scene {
     std::filesystem::path file;
     std::vector<std::filesystem::path> extendedFiles;  // that `file` builds on, nearest first
     Camera camera;
-    std::vector<Light> lights;
+    std::vector<Light> lights;       // and, with an emitter, the points that stand for those
+    std::vector<Emitter> emitters;   // lights that have a size
     std::vector<Material> materials;
     std::vector<TextureImage> images;
     std::vector<Mesh> meshes;

@@ -5,6 +5,7 @@
 
 #include "framework/core/error.h"
 #include "framework/core/names.h"
+#include "framework/scene/emitters.h"
 #include "framework/scene/files/table_reader.h"
 #include "framework/scene/shapes/height_field.h"
 
@@ -22,6 +23,14 @@ const Named& findNamed(const std::vector<Named>& all, const std::string& name, c
         fmt::format("the scene has no {} '{}'{}", what, name, didYouMean(name, names)));
 }
 
+// Of those that a file says.
+const Light& lightNamed(const Scene& scene, const std::string& name) {
+    for (const Emitter& emitter : scene.emitters) {
+        if (!emitter.object && emitter.light.name == name) return emitter.light;
+    }
+    return findNamed(scene.lights, name, "light");
+}
+
 const Mesh& waterOf(const Scene& scene, const std::string& name) {
     const Object& object = findNamed(scene.objects, name, "object");
     const Mesh& mesh = scene.meshes[object.mesh];
@@ -32,9 +41,11 @@ const Mesh& waterOf(const Scene& scene, const std::string& name) {
 
 void check(const Scene& scene, const SceneEdits& edits) {
     for (const auto& [name, edit] : edits.lights) {
-        const Light& light = findNamed(scene.lights, name, "light");
+        const Light& light = lightNamed(scene, name);
         if (edit.direction && light.kind == LightKind::point)
             throw ConfigError(fmt::format("'{}' is a point light and has no direction", name));
+        if (edit.angularDiameterDegrees && light.kind != LightKind::directional)
+            throw ConfigError(fmt::format("'{}' is no directional light and has no disc", name));
         if (edit.position && light.kind == LightKind::directional)
             throw ConfigError(fmt::format("'{}' is a directional light and has no position", name));
     }
@@ -66,10 +77,13 @@ void applyEdits(Scene& scene, const SceneEdits& edits) {
     if (edits.medium) scene.medium = *edits.medium;
     for (Light& light : scene.lights)
         light = withEdits(light, edits);
+    for (Emitter& emitter : scene.emitters)
+        emitter.light = withEdits(emitter.light, edits);
     for (const auto& [name, waves] : edits.waves) {
         const Object& object = findNamed(scene.objects, name, "object");
         scene.meshes[object.mesh].heightField->waves = waves;
     }
+    findEmitters(scene);
     if (edits.timeSeconds || !edits.waves.empty())
         setTime(scene, edits.timeSeconds.value_or(scene.timeSeconds));
 }
@@ -88,6 +102,10 @@ Light withEdits(Light light, const SceneEdits& edits) {
         }
     }
     if (edit.position) light.position = *edit.position;
+    if (edit.angularDiameterDegrees) {
+        light.angularDiameterRadians =
+            static_cast<float>(glm::radians(*edit.angularDiameterDegrees));
+    }
     if (edit.powerFactor) light.power *= *edit.powerFactor;
     return light;
 }
@@ -115,6 +133,8 @@ std::string writeSceneFile(const std::string& name, const std::string& base,
         text += fmt::format("\n[[light]]\nname = {}\n", tomlString(light));
         if (edit.direction) text += fmt::format("direction = {}\n", list(*edit.direction));
         if (edit.position) text += fmt::format("position = {}\n", list(*edit.position));
+        if (edit.angularDiameterDegrees)
+            text += fmt::format("angular_diameter_degrees = {}\n", *edit.angularDiameterDegrees);
         if (edit.powerFactor) text += fmt::format("power_factor = {}\n", *edit.powerFactor);
     }
     for (const auto& [object, waves] : edits.waves) {

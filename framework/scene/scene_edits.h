@@ -18,6 +18,8 @@ struct LightEdit {
     std::optional<glm::dvec3> direction;
     std::optional<glm::dvec3> position;  // m; point and spot
     std::optional<float> powerFactor;    // on Light::power, >= 0
+    // Of a directional light's disc; 0: parallel rays.
+    std::optional<double> angularDiameterDegrees = {};
     friend bool operator==(const LightEdit&, const LightEdit&) = default;
 };
 

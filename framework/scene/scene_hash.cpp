@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "framework/scene/scene_hash.h"
 
+#include <algorithm>
+
 #include "framework/core/files.h"
 
 namespace kaustik::scene {
@@ -10,11 +12,20 @@ void addTo(ContentHash& hash, const Scene& scene) {
     const Camera& camera = scene.camera;
     hash.add(camera.position).add(camera.target).add(camera.up);
     hash.add(camera.verticalFovDegrees).add(camera.nearMeters);
-    hash.add(scene.lights.size());
+    // Points that stand for emitters are no part of the scene.
+    const auto isOwn = [](const Light& light) { return light.emitter < 0; };
+    hash.add(static_cast<std::size_t>(
+        std::count_if(scene.lights.begin(), scene.lights.end(), isOwn)));
     for (const Light& light : scene.lights) {
+        if (!isOwn(light)) continue;
         hash.add(light.kind).add(light.position).add(light.direction).add(light.power);
         hash.add(light.innerConeRadians).add(light.outerConeRadians).add(light.rangeMeters);
         hash.add(light.image).add(light.up);
+    }
+    for (const Emitter& emitter : scene.emitters) {
+        const Light& sun = emitter.light;
+        hash.add(sun.direction).add(sun.power).add(sun.angularDiameterRadians);
+        hash.add(emitter.object.value_or(0));
     }
     hash.add(scene.materials.size());
     for (const Material& material : scene.materials) {
@@ -22,6 +33,7 @@ void addTo(ContentHash& hash, const Scene& scene) {
         hash.add(material.patternAlbedo).add(material.uvScale).add(material.image);
         hash.add(material.ior).add(material.absorptionPerMeter);
         hash.add(material.specular).add(material.exponent);
+        if (material.emission != glm::vec3(0.0f)) hash.add(material.emission);
     }
     hash.add(scene.images.size());
     for (const TextureImage& image : scene.images) {

@@ -59,6 +59,7 @@ struct MaterialData {
     vec4 absorption;     // rgb: 1/m inside; w: index of refraction
     vec4 uv;        // xy: scale; z: image layer, -1 none; w: 1 where the surface is open (water)
     vec4 specular;  // glossy, the lobe of brdf.h: rgb its reflectance; w: exponent
+    vec4 emission;  // rgb: radiance of its front, W/m²/sr
     // x: a dielectric's number (scene/dielectrics.h), 0 for what is none; y: index + 1 of the
     // material with the number of this one's index + 1; z: the base of stacks of such numbers, and
     // w: what is above all that fit (media_stack.h), the same in every material.
@@ -69,6 +70,7 @@ struct MaterialData {
 const uint kLightDirectional = 0u;
 const uint kLightPoint = 1u;
 const uint kLightSpot = 2u;
+const uint kLightSurface = 3u;  // a point of one: its intensity falls with the cosine
 struct LightData {
     vec4 positionVs;   // w: kind
     vec4 directionVs;  // unit, from the light outwards; w: range in m, 0 unlimited

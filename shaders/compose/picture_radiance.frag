@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Radiance of the receivers on the straight eye rays, W/m²/sr: direct light, the caustic and the
 // fill light; the environment where there is no receiver. GLOSSY_RECEIVERS: direct light
-// has gone through the BRDF already; CAUSTIC_RADIANCE: so has the caustic. All else is reflected
+// has gone through the BRDF already; CAUSTIC_RADIANCE: so has the caustic; EMISSION: some material
+// emits. All else is reflected
 // diffusely.
 #include "include/surfaces/environment.glsl"
-#ifdef GLOSSY_RECEIVERS
+#if defined(GLOSSY_RECEIVERS) || defined(EMISSION)
 #include "include/surfaces/surface_data.glsl"
 #endif
 
@@ -12,8 +13,10 @@ layout(location = 0) out vec4 radiance;
 
 uniform sampler2D receiver;
 uniform sampler2D receiverAlbedo;
-#ifdef GLOSSY_RECEIVERS
+#if defined(GLOSSY_RECEIVERS) || defined(EMISSION)
 uniform sampler2D receiverSurface;
+#endif
+#ifdef GLOSSY_RECEIVERS
 uniform sampler2D directRadiance;
 #else
 uniform sampler2D directIrradiance;
@@ -46,4 +49,10 @@ void main() {
     vec3 caustic = albedo * texelFetch(causticIrradiance, pixel, 0).rgb;
 #endif
     radiance.rgb = direct + caustic + fill;
+#ifdef EMISSION
+    // A lamp shines from its front.
+    vec4 surface = texelFetch(receiverSurface, pixel, 0);
+    if (dot(surface.xyz, viewRay(gl_FragCoord.xy)) < 0.0)
+        radiance.rgb += materials[uint(surface.w) - 1u].emission.rgb;
+#endif
 }

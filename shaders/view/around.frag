@@ -211,7 +211,9 @@ vec3 follow(inout AroundPath path, ivec2 pixel, bool isRefracted) {
         if (isReceiver(materialKind(material - 1u))) {
             vec3 normal = receiverNormal(there, path.direction, directionToEye(surface.xyz), geometric);
             float side = dot(path.direction, geometric) < 0.0 ? 1.0 : -1.0;
-            return path.share * radianceOf(there, path.direction, side * normal, material);
+            vec3 emitted = side > 0.0 ? materials[material - 1u].emission.rgb : vec3(0.0);
+            return path.share *
+                   (emitted + radianceOf(there, path.direction, side * normal, material));
         }
         if (i == view_around_interfaces) break;
         vec3 shading =

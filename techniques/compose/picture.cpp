@@ -30,8 +30,13 @@ struct PictureParams {
 // hangs in it, near which there is much more than elsewhere, the geometric mean over the scene's
 // box.
 double typicalIrradiance(const scene::Light& light, const scene::Bounds& bounds) {
-    const auto power = static_cast<double>(std::max({light.power.r, light.power.g, light.power.b}));
+    auto power = static_cast<double>(std::max({light.power.r, light.power.g, light.power.b}));
     if (light.kind == scene::LightKind::directional) return power;
+    if (light.kind == scene::LightKind::surface) {
+        const glm::dvec3 towards = 0.5 * (bounds.minimum + bounds.maximum) - light.position;
+        const double distance = std::max(glm::length(towards), 1e-9);
+        power *= std::max(glm::dot(towards, light.direction) / distance, 0.0);
+    }
     const glm::dvec3 extent = bounds.maximum - bounds.minimum;
     // Nearer than a part of the box there is hardly anything of it.
     const double minimum = std::max(1e-3 * glm::dot(extent, extent), 1e-6);
@@ -109,15 +114,16 @@ DirectLight lightDirectly(FrameBuilder& frame, const Shadows& shadows, EyeBuffer
 Radiance shadeReceivers(FrameBuilder& frame, EyeBuffer eye, const DirectLight& direct,
                         const IrradianceMap& caustic) {
     const bool isGlossy = direct.radiance.valid();
+    const bool emits = frame.needs().emission;
     const bool isCausticGlossy = caustic.radiance.valid();
     return frame.pass<Radiance>(
         "compose.radiance", "the picture shows the receivers",
         [&](graph::PassSetup& setup, Radiance& out) {
             setup.sample("receiver", eye.receiver);
             setup.sample("receiverAlbedo", eye.receiverAlbedo);
+            if (isGlossy || emits) setup.sample("receiverSurface", eye.receiverSurface);
             if (isGlossy) {
                 setup.sample("directRadiance", direct.radiance);
-                setup.sample("receiverSurface", eye.receiverSurface);
             } else {
                 setup.sample("directIrradiance", direct.irradiance);
             }
@@ -129,9 +135,10 @@ Radiance shadeReceivers(FrameBuilder& frame, EyeBuffer eye, const DirectLight& d
             out.radiance = setup.create<RadianceTexel>("compose.receiver_radiance", frame.width(),
                                                        frame.height());
         },
-        [isGlossy, isCausticGlossy](const Radiance& out, gl::PassContext& context) {
+        [isGlossy, isCausticGlossy, emits](const Radiance& out, gl::PassContext& context) {
             gl::Command command = context.fullscreen("compose/picture_radiance.frag");
             if (isGlossy) command.define("GLOSSY_RECEIVERS");
+            if (emits) command.define("EMISSION");
             if (isCausticGlossy) command.define("CAUSTIC_RADIANCE");
             command.target(out.radiance).draw();
         });

@@ -61,7 +61,7 @@ Hits emitDeferred(FrameBuilder& frame, const DeferredParams& params, Surfaces su
                   Samples samples) {
     const std::vector<DeferredBuffers>& buffers = deferredBuffers(frame, surfaces.geometry);
     const bool isList = samples.cells.valid();
-    const params::Extent grid = frame.params<EmitParams>("emit").photons;
+    const params::Extent grid = frame.photonsOfALight();
     const CellGrid cells = isList ? CellGrid{} : cellsOf(samples, grid);
     struct Data {
         Hits hits;

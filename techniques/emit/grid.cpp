@@ -134,7 +134,7 @@ void emitFrom(const FrameInputs& inputs, gl::PassContext& context, const GridEmi
 
 Hits emitGrid(FrameBuilder& frame, const GridEmissionParams& params, Surfaces surfaces,
               Samples samples) {
-    const params::Extent grid = frame.params<EmitParams>("emit").photons;
+    const params::Extent grid = frame.photonsOfALight();
     // The same for every batch.
     const int subcells = subcellsOf(params, grid);
     const auto grids = frame.once<std::vector<LightSight>>("emit.grids", [&] {

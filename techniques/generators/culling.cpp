@@ -25,7 +25,7 @@ bool mayLight(const scene::Light& light, const scene::Bounds& bounds) {
     const double radius = radiusOf(bounds);
     const auto range = static_cast<double>(light.rangeMeters);
     if (range > 0.0 && distance - radius > range) return false;
-    if (light.kind == scene::LightKind::point || distance <= radius) return true;
+    if (light.kind != scene::LightKind::spot || distance <= radius) return true;
     const double angle =
         std::acos(std::clamp(glm::dot(offset, light.direction) / distance, -1.0, 1.0));
     return angle - std::asin(radius / distance) <= static_cast<double>(light.outerConeRadians);

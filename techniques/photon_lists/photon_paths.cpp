@@ -12,6 +12,11 @@
 #include "techniques/photon_lists/branches.h"
 
 namespace kaustik {
+namespace {
+
+constexpr int kTextureRows = 16384;  // of which every device has as many
+
+}  // namespace
 
 int interactionCount(const FrameBuilder& frame, const ModelledPaths& paths) {
     if (paths.end) return 1;
@@ -27,16 +32,26 @@ std::vector<Samples> batchesOfGrids(const FrameBuilder& frame, int together, boo
     const int maximum = std::max(frame.params<EmitParams>("emit").batch >> branchLevels(frame), 1);
     const params::Extent photons = frame.photonsOfALight();
     const int lights = std::max(frame.needs().lights, 1);
-    const std::int64_t all = std::int64_t{photons.width} * photons.height * lights;
-    if (all <= maximum) return {{0, lights, 0, photons.height, "", {}}};
-    const int rows = std::max(maximum / photons.width / together, 1) * together;
+    const int listRows =
+        (kTextureRows / frame.traits<TraceStage>().texelRows) >> branchLevels(frame);
+    const int maximumRows = std::max(std::min(maximum / photons.width, listRows), 1);
     std::vector<Samples> batches;
+    const auto suffix = [&] {
+        return batches.empty() ? "" : fmt::format(".{}", batches.size() + 1);
+    };
+    // As many whole grids as a list has room for, or parts of one.
+    if (const int grids = maximumRows / photons.height; grids > 0) {
+        for (int light = 0; light < lights; light += grids) {
+            batches.push_back({light, std::min(grids, lights - light), 0, photons.height, suffix(),
+                               {}});
+        }
+        return batches;
+    }
+    const int rows = std::max(maximumRows / together, 1) * together;
     for (int light = 0; light < lights; ++light) {
         for (int row = 0; row < photons.height; row += rows) {
-            const std::string suffix =
-                batches.empty() ? "" : fmt::format(".{}", batches.size() + 1);
             batches.push_back(
-                {light, 1, row, std::min(rows, photons.height - row), suffix, {}, {}, border});
+                {light, 1, row, std::min(rows, photons.height - row), suffix(), {}, {}, border});
         }
     }
     return batches;

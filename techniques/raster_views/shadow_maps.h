@@ -14,7 +14,7 @@ struct ShadowMapParams {
     void reflect(R& r) {
         r.field(size, "size",
                 "Side of a light's shadow map; half of it where a light has a place, and with it "
-                "six faces",
+                "six faces, and less where points stand for a light that has a size",
                 "texels", params::range(16, 8192));
     }
 };

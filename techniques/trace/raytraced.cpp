@@ -114,7 +114,7 @@ void registerTraceRaytraced(Registry& registry) {
         {"Exact first hits by ray tracing on the processor (Embree).", "",
          "It runs on the processor and reads the list of photons back for it, so that the device "
          "waits. It is there only in builds with Embree."},
-        {TracerReach::everything}, &traceRaytraced);
+        {.reach = TracerReach::everything, .texelRows = 3}, &traceRaytraced);
 }
 
 }  // namespace kaustik

@@ -252,8 +252,8 @@ TEST_F(BadMesh, OfThePapersThatIsMissingIsAnsweredWithTheCommandThatFetchesIt) {
 }
 
 TEST_F(BadMesh, ThatIsCutOffInALineIsNamedWithItsLine) {
-    static_cast<void>(folder.file("thing.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2"));
-    expectFailure(run({"run", "scene.toml"}), 1, {"thing.obj:4:"});
+    static_cast<void>(folder.file("thing.obj", "v 0 0 0\nv 1 0 0\nv 0 1"));
+    expectFailure(run({"run", "scene.toml"}), 1, {"thing.obj:3:"});
 }
 
 TEST_F(BadMesh, WhoseFacesAreCutOffIsRefused) {

@@ -132,6 +132,16 @@ void drawLight(Bench& bench, const scene::Light& light, float speed) {
             isChanged = true;
         }
     }
+    if (light.kind == scene::LightKind::directional) {
+        auto degrees = static_cast<float>(edit.angularDiameterDegrees.value_or(
+            glm::degrees(static_cast<double>(light.angularDiameterRadians))));
+        if (ImGui::SliderFloat("its disc, degrees", &degrees, 0.0f, 20.0f, "%.2f",
+                               ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp)) {
+            edit.angularDiameterDegrees = static_cast<double>(degrees);
+            isChanged = true;
+        }
+        bench.map.control("scene.disc." + light.name, fmt::format("{}", degrees));
+    }
     float factor = edit.powerFactor.value_or(1.0f);
     if (ImGui::SliderFloat("times its power", &factor, 0.0f, 10.0f, "%.2f",
                            ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp)) {

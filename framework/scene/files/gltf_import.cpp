@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "framework/core/error.h"
+#include "framework/scene/emitters.h"
 #include "framework/scene/files/scene_wire.h"
 #include "framework/scene/meshes/mesh_checks.h"
 
@@ -38,6 +39,9 @@ Scene importGltf(const std::filesystem::path& path, reading::ReaderProcess& read
         throw IoError(
             fmt::format("{} is damaged: its parts do not fit. Export it again.", path.string()));
     }
+    scene.emitters.clear();
+    std::erase_if(scene.lights, [](const Light& light) { return light.emitter >= 0; });
+    findEmitters(scene);
     return scene;
 }
 

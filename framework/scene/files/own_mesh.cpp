@@ -12,6 +12,7 @@
 #include "framework/core/error.h"
 #include "framework/core/files.h"
 #include "framework/core/names.h"
+#include "framework/scene/emitters.h"
 #include "framework/scene/files/gltf_import.h"
 #include "framework/scene/files/scene_file.h"
 #include "framework/scene/files/scene_file_parts.h"
@@ -221,6 +222,7 @@ Scene loadOwnMesh(const OwnMesh& mesh) {
     if (found == scene.objects.end())
         throw ConfigError(fmt::format("{}: the object for the mesh needs a name.", stand.string()));
     putParts(scene, static_cast<std::size_t>(found - scene.objects.begin()), std::move(own));
+    findEmitters(scene);
     return scene;
 }
 

@@ -9,6 +9,7 @@
 #include "framework/core/error.h"
 #include "framework/core/files.h"
 #include "framework/core/names.h"
+#include "framework/scene/emitters.h"
 #include "framework/scene/files/gltf_import.h"
 #include "framework/scene/files/own_mesh.h"
 #include "framework/scene/files/scene_file_parts.h"
@@ -123,6 +124,7 @@ Scene makeScene(const TomlNode& document, const fs::path& path, reading::ReaderP
         requireNewName(scene.objects, object.name, reader);
         scene.objects.push_back(std::move(object));
     }
+    findEmitters(scene);
     return scene;
 }
 

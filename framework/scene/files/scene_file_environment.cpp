@@ -136,6 +136,7 @@ Light readLight(TableReader& reader, Scene& scene) {
     if (keys.intensity) power = *keys.intensity;
     if (keys.powerWatts) power = *keys.powerWatts * intensityPerWatt(light);
     light.power = glm::vec3(power * keys.color);
+    light.angularDiameterRadians = static_cast<float>(glm::radians(keys.angularDiameterDegrees));
     return light;
 }
 

@@ -16,7 +16,8 @@ SceneEdits makeEdits(EditKeys keys) {
     if (keys.medium.reader) edits.medium = keys.medium.reader->read<Medium>();
     for (TableReader& reader : keys.lights.readers) {
         const auto light = reader.read<LightEditKeys>();
-        const LightEdit edit{light.direction, light.position, light.powerFactor};
+        const LightEdit edit{light.direction, light.position, light.powerFactor,
+                             light.angularDiameterDegrees};
         if (!edits.lights.emplace(light.name, edit).second)
             reader.fail("name", "this light is changed twice");
     }

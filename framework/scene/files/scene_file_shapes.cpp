@@ -11,6 +11,7 @@ struct MakeMesh {
     double timeSeconds;
 
     Mesh operator()(const PlaneShape& shape) const { return makePlane(shape); }
+    Mesh operator()(const DiscShape& shape) const { return makeDisc(shape); }
     Mesh operator()(const BoxShape& shape) const { return makeBox(shape); }
     Mesh operator()(const SphereShape& shape) const { return makeSphere(shape); }
     Mesh operator()(const CylinderShape& shape) const { return makeCylinder(shape); }

@@ -58,6 +58,7 @@ struct LightKeys {
     std::optional<std::string> texture;
     std::optional<glm::dvec3> up;
     double irradiance = 0.0;
+    double angularDiameterDegrees = 0.0;
     float rangeMeters = 0.0f;
     std::optional<double> intensity;
     std::optional<double> powerWatts;
@@ -87,6 +88,10 @@ void reflect(R& r, LightKeys& light) {
     if (light.kind == LightKind::directional) {
         r.number(light.irradiance, {"irradiance", "On a surface that faces the light", "W/m²"},
                  kNotNegative);
+        r.number(light.angularDiameterDegrees,
+                 {"angular_diameter_degrees",
+                  "That its disc takes of the sky, the sun's 0.53; 0: its rays are parallel"},
+                 {0.0, 90.0, false, false}, kHasDefault);
         return;
     }
     r.vector(light.position, {"position", "Where it is", "m"}, kAnyNumber);
@@ -142,6 +147,9 @@ void reflect(R& r, MaterialKeys& keys) {
                       kPositive, kHasDefault);
     r.text(keys.texture,
            {"texture", "An image beside the scene file, which multiplies the albedo"});
+    r.uniformOrVector(material.emission,
+                      {"emission", "Radiance of its front, which makes it a lamp", "W/m²/sr"},
+                      kNotNegative, kHasDefault);
     if (material.kind == MaterialKind::lambertian) return;
     // Narrower lobes, below a degree, are beyond what 32 bits tell apart on the device.
     r.uniformOrVector(material.specular,
@@ -187,7 +195,8 @@ void reflect(R& r, ObjectKeys& object) {
                       kHasDefault);
     if (object.isMesh) {
         r.text(object.mesh,
-               {"mesh", "A file .obj, .ply, .ply.gz or .3ds, beside the scene file or in meshes/"});
+               {"mesh", "A file .obj, .ply, .ply.gz, .stl, .3ds, .gltf or .glb, next to the scene file or in "
+                "meshes/"});
         r.number(object.restOn, {"rest_on", "The height that its lowest point stands at", "m"},
                  kAnyNumber);
         r.rule({{"fit", "scale"}, false, "fit", "either fit or scale is given, not both"});
@@ -196,6 +205,7 @@ void reflect(R& r, ObjectKeys& object) {
     }
     r.kind(object.shape, {"shape", "What it is instead of a mesh"},
            Choices<Shape>{{"plane", PlaneShape()},
+                          {"disc", DiscShape()},
                           {"box", BoxShape()},
                           {"sphere", SphereShape()},
                           {"cylinder", CylinderShape()},
@@ -246,6 +256,7 @@ struct LightEditKeys {
     std::string name;
     std::optional<glm::dvec3> direction;
     std::optional<glm::dvec3> position;
+    std::optional<double> angularDiameterDegrees;
     std::optional<float> powerFactor;
 };
 template <class R>
@@ -253,6 +264,9 @@ void reflect(R& r, LightEditKeys& light) {
     r.name(light.name);
     r.direction(light.direction, {"direction", "Where its light goes"});
     r.vector(light.position, {"position", "Where it is", "m"}, kAnyNumber);
+    r.number(light.angularDiameterDegrees,
+             {"angular_diameter_degrees", "That a directional light's disc takes of the sky"},
+             {0.0, 90.0, false, false});
     r.number(light.powerFactor, {"power_factor", "Multiplies its power"}, kNotNegative);
 }
 

@@ -17,16 +17,18 @@ concept SameButConst = std::is_same_v<std::remove_const_t<T>, Wanted>;
 
 template <SameButConst<Light> T>
 auto partsOf(T& light) {
-    auto& [name, kind, position, direction, power, inner, outer, range, image, up] = light;
-    return std::tie(name, kind, position, direction, power, inner, outer, range, image, up);
+    auto& [name, kind, position, direction, power, inner, outer, range, image, up, diameter,
+           emitter] = light;
+    return std::tie(name, kind, position, direction, power, inner, outer, range, image, up,
+                    diameter, emitter);
 }
 
 template <SameButConst<Material> T>
 auto partsOf(T& material) {
     auto& [name, kind, albedo, pattern, patternAlbedo, uvScale, image, ior, absorption, specular,
-           exponent] = material;
+           exponent, emission] = material;
     return std::tie(name, kind, albedo, pattern, patternAlbedo, uvScale, image, ior, absorption,
-                    specular, exponent);
+                    specular, exponent, emission);
 }
 
 template <SameButConst<TextureImage> T>
@@ -48,6 +50,12 @@ auto partsOf(T& mesh) {
                     heightField);
 }
 
+template <SameButConst<Emitter> T>
+auto partsOf(T& emitter) {
+    auto& [light, object] = emitter;
+    return std::tie(light, object);
+}
+
 template <SameButConst<Object> T>
 auto partsOf(T& object) {
     auto& [name, mesh, material, toWorld] = object;
@@ -56,10 +64,10 @@ auto partsOf(T& object) {
 
 template <SameButConst<Scene> T>
 auto partsOf(T& scene) {
-    auto& [name, description, file, extendedFiles, camera, lights, materials, images, meshes,
+    auto& [name, description, file, extendedFiles, camera, lights, emitters, materials, images, meshes,
            objects, medium, background, environment, environmentTurn, ambient, time, warnings] =
         scene;
-    return std::tie(name, description, file, extendedFiles, camera, lights, materials, images,
+    return std::tie(name, description, file, extendedFiles, camera, lights, emitters, materials, images,
                     meshes, objects, medium, background, environment, environmentTurn, ambient,
                     time, warnings);
 }

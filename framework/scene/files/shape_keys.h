@@ -44,6 +44,12 @@ void reflect(R& r, PlaneShape& shape) {
 }
 
 template <class R>
+void reflect(R& r, DiscShape& shape) {
+    r.number(shape.radius, {"radius", "Around the axis y", "m"}, kPositive);
+    r.count(shape.segments, {"segments", kAround}, 3, kMaximumCells, kHasDefault);
+}
+
+template <class R>
 void reflect(R& r, BoxShape& shape) {
     r.vector(shape.size, {"size", "Along x, y and z", "m"}, kPositive);
     r.flag(shape.inward, {"inward", "Whether its faces look inwards"});
@@ -134,7 +140,7 @@ void reflect(R& r, HeightField& water) {
     reflectWaves(r, water.waves);
 }
 
-using Shape = std::variant<PlaneShape, BoxShape, SphereShape, CylinderShape, RingShape, TorusShape,
+using Shape = std::variant<PlaneShape, DiscShape, BoxShape, SphereShape, CylinderShape, RingShape, TorusShape,
                            TreeShape, LensShape, PrismShape, ParaboloidShape, HeightField>;
 
 }  // namespace kaustik::scene

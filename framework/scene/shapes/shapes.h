@@ -26,6 +26,13 @@ struct PlaneShape {
 };
 [[nodiscard]] Mesh makePlane(const PlaneShape& shape);
 
+// A disc in the xz-plane that faces +y.
+struct DiscShape {
+    double radius = 0.5;
+    unsigned segments = 128;
+};
+[[nodiscard]] Mesh makeDisc(const DiscShape& shape);
+
 enum BoxFace { minusX, plusX, minusY, plusY, minusZ, plusZ };
 
 // A box with flat faces; 24 vertices when whole. Inward: a room, seen from inside.

@@ -63,6 +63,14 @@ Mesh makeCylinder(const CylinderShape& shape) {
     return builder.finish("cylinder", shape.inward);
 }
 
+Mesh makeDisc(const DiscShape& shape) {
+    requirePositive("radius", shape.radius);
+    requireCells("segments", shape.segments, 3);
+    MeshBuilder builder;
+    builder.addRevolved({{shape.radius, 0.0, kUp}, {0.0, 0.0, kUp}}, shape.segments);
+    return builder.finishSheet("disc");
+}
+
 Mesh makeRing(const RingShape& shape) {
     requirePositive("inner_radius", shape.innerRadius);
     requirePositive("outer_radius", shape.outerRadius);

@@ -31,7 +31,7 @@ vec3 spotColor(LightData light, vec3 direction, float width) {
     return textureLod(sceneImages, vec3(at, light.rightVs.w), level).rgb;
 }
 
-// Radiant intensity of a point or spot light towards the point, W/sr. The cone's edge is the smooth
+// Radiant intensity of a light that is no directional one towards the point, W/sr. The cone's edge is the smooth
 // falloff of KHR_lights_punctual, squared, as scene files have it; beyond the range there is none.
 // `beamWidth`: at 1 m, over which a spot's image is averaged.
 vec3 lightIntensity(LightData light, vec3 positionVs, float beamWidth) {
@@ -39,8 +39,10 @@ vec3 lightIntensity(LightData light, vec3 positionVs, float beamWidth) {
     float distance2 = dot(offset, offset);
     float range = light.directionVs.w;
     if (range > 0.0 && distance2 > range * range) return vec3(0.0);
-    if (uint(light.positionVs.w) != kLightSpot) return light.power.rgb;
     vec3 direction = lightDirection(light, positionVs);
+    if (uint(light.positionVs.w) == kLightSurface)
+        return light.power.rgb * max(dot(direction, light.directionVs.xyz), 0.0);
+    if (uint(light.positionVs.w) != kLightSpot) return light.power.rgb;
     float cosine = dot(direction, light.directionVs.xyz);
     if (cosine <= light.cone.y) return vec3(0.0);
     float falloff =

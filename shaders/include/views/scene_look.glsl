@@ -270,13 +270,15 @@ SceneHit searchScene(TracedRay ray) {
         return SceneHit(surface.material, true, false, hit.t, hit.texel,
                         isSeen ? mirrorNormalAround(hitVs, shaded) : shaded.xyz, vec3(0.0));
     }
-    vec3 looked = dot(ray.direction, surface.normal) < 0.0 ? shaded.xyz : -shaded.xyz;
+    bool isFront = dot(ray.direction, surface.normal) < 0.0;
     // The image shows one side of a surface.
-    bool isSameSide = (dot(ray.direction, surface.normal) < 0.0) ==
-                      (dot(hitVs, surface.normal) < 0.0);
-    vec3 radiance = isSeen && seen > 0.0 && isSameSide
+    bool isShown = isSeen && seen > 0.0 && isFront == (dot(hitVs, surface.normal) < 0.0);
+    vec3 emitted = isFront ? materials[surface.material - 1u].emission.rgb : vec3(0.0);
+    vec3 radiance = isShown
                         ? radianceOfSeen(hitVs, ray.direction, hit.texel, surface, shaded.xyz)
-                        : radianceOfHidden(hitVs, ray.direction, looked, surface.material);
+                        : emitted + radianceOfHidden(hitVs, ray.direction,
+                                                     isFront ? shaded.xyz : -shaded.xyz,
+                                                     surface.material);
     return SceneHit(surface.material, false, false, hit.t, hit.texel, vec3(0.0), radiance);
 }
 #endif

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: MIT
+#include "framework/scene/emitters.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+#include <limits>
+
+namespace kaustik::scene {
+namespace {
+
+constexpr int kUsualRows = 600;
+constexpr int kPoints = 16;  // where a size can be seen
+
+bool emits(const Material& material) {
+    return material.emission != glm::vec3(0.0f);
+}
+
+// Two unit vectors at right angles to a unit vector and to each other.
+struct Across {
+    glm::dvec3 a, b;
+};
+Across acrossOf(const glm::dvec3& along) {
+    const glm::dvec3 other = std::abs(along.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
+    const glm::dvec3 a = glm::normalize(glm::cross(other, along));
+    return {a, glm::cross(along, a)};
+}
+
+// Even over the disc, in a spiral of the golden angle (Vogel 1979).
+Light pointOfDisc(const Light& sun, int index, int count) {
+    const double goldenAngle = glm::pi<double>() * (3.0 - std::sqrt(5.0));
+    const double edge = std::tan(0.5 * static_cast<double>(sun.angularDiameterRadians));
+    const double radius = edge * std::sqrt((index + 0.5) / count);
+    const double turn = goldenAngle * index;
+    const Across across = acrossOf(sun.direction);
+    Light point = sun;
+    point.angularDiameterRadians = 0.0f;
+    point.direction = glm::normalize(
+        sun.direction + radius * (std::cos(turn) * across.a + std::sin(turn) * across.b));
+    // Together they make on what faces the middle what the whole does.
+    const double cosine = glm::dot(point.direction, sun.direction);
+    point.power = glm::vec3(glm::dvec3(sun.power) / (count * cosine));
+    return point;
+}
+
+Light pointOfSurface(const EmittingSurface::Point& at, double areaSquareMeters,
+                     const glm::vec3& radiance) {
+    Light point;
+    point.kind = LightKind::surface;
+    point.position = at.position;
+    point.direction = at.normal;
+    point.power = glm::vec3(glm::dvec3(radiance) * areaSquareMeters);
+    return point;
+}
+
+double extentOf(const Bounds& bounds) {
+    return bounds.empty ? 0.0 : glm::length(bounds.maximum - bounds.minimum);
+}
+
+glm::dvec3 middleOf(const Bounds& bounds) {
+    return 0.5 * (bounds.minimum + bounds.maximum);
+}
+
+// The angle that an emitter takes of the sight of the scene's specular surfaces, about.
+double angleOf(const Scene& scene, const Emitter& emitter, const Bounds& specular) {
+    if (!emitter.object) return static_cast<double>(emitter.light.angularDiameterRadians);
+    const Bounds bounds = objectBounds(scene, scene.objects[*emitter.object]);
+    const double distance = std::max(
+        glm::length(middleOf(bounds) - middleOf(specular)) - 0.5 * extentOf(specular), 1e-9);
+    return std::min(extentOf(bounds) / distance, glm::pi<double>());
+}
+
+bool isLevel(const Scene& scene, const Emitter& emitter) {
+    return !emitter.object || EmittingSurface(scene, scene.objects[*emitter.object]).isLevel();
+}
+
+}  // namespace
+
+EmittingSurface::EmittingSurface(const Scene& scene, const Object& object) {
+    const Mesh& mesh = scene.meshes[object.mesh];
+    const auto place = [&](std::uint32_t vertex) {
+        return glm::dvec3(object.toWorld *
+                          glm::dvec4(mesh.origin + glm::dvec3(mesh.positions[vertex]), 1.0));
+    };
+    // What is mirrored faces the other way.
+    const bool isMirrored = glm::determinant(glm::dmat3(object.toWorld)) < 0.0;
+    for (const glm::uvec3& triangle : mesh.triangles) {
+        Corners corners{place(triangle.x), place(triangle.y), place(triangle.z)};
+        if (isMirrored) std::swap(corners.b, corners.c);
+        triangles_.push_back(corners);
+    }
+    double area = 0.0;
+    for (const Corners& corners : triangles_) {
+        area += glm::length(corners.area());
+        cumulated_.push_back(area);
+    }
+}
+
+bool EmittingSurface::isLevel() const {
+    glm::dvec3 whole(0.0);
+    for (const Corners& corners : triangles_)
+        whole += corners.area();
+    return glm::length(whole) > 0.5 * areaSquareMeters();
+}
+
+// Halves the range along the longest side of its middles until a part is left.
+void EmittingSurface::addMiddles(Range range, int parts, std::vector<Point>& all) {
+    const auto [begin, end] = range;
+    glm::dvec3 low(std::numeric_limits<double>::max());
+    glm::dvec3 high(std::numeric_limits<double>::lowest());
+    glm::dvec3 middle(0.0);
+    glm::dvec3 facing(0.0);
+    double area = 0.0;
+    for (const Corners* t = begin; t != end; ++t) {
+        const double own = glm::length(t->area());
+        low = glm::min(low, t->middle());
+        high = glm::max(high, t->middle());
+        middle += own * t->middle();
+        facing += t->area();
+        area += own;
+    }
+    if (parts <= 1 || end - begin < 2) {
+        const Corners* const nearest =
+            std::min_element(begin, end, [&](const Corners& one, const Corners& other) {
+                return glm::distance(one.middle(), middle / area) <
+                       glm::distance(other.middle(), middle / area);
+            });
+        const double size = glm::length(facing);
+        const glm::dvec3 normal = size > 0.0 ? facing / size : glm::dvec3(0, 1, 0);
+        for (int i = 0; i < parts; ++i)
+            all.push_back({nearest->middle(), normal});
+        return;
+    }
+    const glm::dvec3 extent = high - low;
+    const glm::length_t axis = extent.x >= extent.y && extent.x >= extent.z ? 0
+                               : extent.y >= extent.z                       ? 1
+                                                                            : 2;
+    std::sort(begin, end, [&](const Corners& one, const Corners& other) {
+        return one.middle()[axis] < other.middle()[axis];
+    });
+    const int first = parts / 2;
+    double before = 0.0;
+    Corners* split = begin;
+    while (split + 1 != end && before < area * first / parts)
+        before += glm::length((split++)->area());
+    addMiddles({begin, split}, first, all);
+    addMiddles({split, end}, parts - first, all);
+}
+
+std::vector<EmittingSurface::Point> EmittingSurface::middles(int parts) const {
+    // No triangle is more than a part of a part.
+    constexpr double kPieces = 16.0;
+    const double maximum = areaSquareMeters() / (kPieces * std::max(parts, 1));
+    std::vector<Corners> pieces;
+    std::vector<Corners> waiting = triangles_;
+    while (!waiting.empty()) {
+        const Corners t = waiting.back();
+        waiting.pop_back();
+        const double own = glm::length(t.area());
+        if (!(own > 0.0)) continue;
+        if (own <= maximum) {
+            pieces.push_back(t);
+            continue;
+        }
+        const glm::dvec3 ab = 0.5 * (t.a + t.b);
+        const glm::dvec3 bc = 0.5 * (t.b + t.c);
+        const glm::dvec3 ca = 0.5 * (t.c + t.a);
+        waiting.insert(waiting.end(), {{t.a, ab, ca}, {ab, t.b, bc}, {ca, bc, t.c}, {ab, bc, ca}});
+    }
+    std::vector<Point> all;
+    if (!pieces.empty()) addMiddles({pieces.data(), pieces.data() + pieces.size()}, parts, all);
+    return all;
+}
+
+EmittingSurface::Point EmittingSurface::at(double which, double u, double v) const {
+    if (triangles_.empty()) return {};
+    const auto found =
+        std::upper_bound(cumulated_.begin(), cumulated_.end(), which * cumulated_.back());
+    const auto index =
+        std::min(static_cast<std::size_t>(found - cumulated_.begin()), triangles_.size() - 1);
+    const Corners& t = triangles_[index];
+    const double root = std::sqrt(u);
+    const glm::dvec3 normal = t.area();
+    const double size = glm::length(normal);
+    return {(1.0 - root) * t.a + root * (1.0 - v) * t.b + root * v * t.c,
+            size > 0.0 ? normal / size : glm::dvec3(0, 1, 0)};
+}
+
+void findEmitters(Scene& scene) {
+    std::erase_if(scene.emitters,
+                  [](const Emitter& emitter) { return emitter.object.has_value(); });
+    const auto hasDisc = [](const Light& light) { return light.angularDiameterRadians > 0.0f; };
+    // Where an edit has taken a disc away.
+    for (const Emitter& emitter : scene.emitters) {
+        if (!hasDisc(emitter.light)) scene.lights.push_back(emitter.light);
+    }
+    std::erase_if(scene.emitters, [&](const Emitter& emitter) { return !hasDisc(emitter.light); });
+    for (const Light& light : scene.lights) {
+        if (hasDisc(light)) scene.emitters.push_back({light, {}});
+    }
+    std::erase_if(scene.lights, hasDisc);
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        const Object& object = scene.objects[i];
+        if (emits(scene.materials[object.material]))
+            scene.emitters.push_back({{}, static_cast<std::uint32_t>(i)});
+    }
+    placeLightPoints(scene, 0, kUsualRows);
+}
+
+EmitterPoints pointsOf(const Scene& scene, const Emitter& emitter, int wanted, int rows) {
+    EmitterPoints points;
+    const Bounds all = sceneBounds(scene);
+    Bounds specular = specularBounds(scene);
+    if (specular.empty) specular = all;
+    if (all.empty || rows < 1) return points;
+    // As far as light can go on from there within the scene.
+    points.blurMeters =
+        2.0 * std::tan(0.5 * std::min(angleOf(scene, emitter, specular), 3.0)) * extentOf(all);
+    const double sight = glm::length(middleOf(all) - scene.camera.position);
+    points.pixelMeters =
+        2.0 * std::tan(0.5 * glm::radians(scene.camera.verticalFovDegrees)) * sight / rows;
+    const bool isSeen = points.blurMeters > 0.5 * points.pixelMeters;
+    points.points = wanted > 0 ? wanted : isSeen || !isLevel(scene, emitter) ? kPoints : 1;
+    return points;
+}
+
+void placeLightPoints(Scene& scene, int wanted, int rows) {
+    std::erase_if(scene.lights, [](const Light& light) { return light.emitter >= 0; });
+    for (std::size_t e = 0; e < scene.emitters.size(); ++e) {
+        const Emitter& emitter = scene.emitters[e];
+        const int count = pointsOf(scene, emitter, wanted, rows).points;
+        const std::string name = nameOf(scene, emitter);
+        const auto add = [&](Light point, int index) {
+            point.name = fmt::format("{} {}/{}", name, index + 1, count);
+            point.emitter = static_cast<int>(e);
+            scene.lights.push_back(std::move(point));
+        };
+        if (!emitter.object) {
+            for (int i = 0; i < count; ++i)
+                add(pointOfDisc(emitter.light, i, count), i);
+            continue;
+        }
+        const Object& object = scene.objects[*emitter.object];
+        const EmittingSurface surface(scene, object);
+        const std::vector<EmittingSurface::Point> middles = surface.middles(count);
+        for (std::size_t i = 0; i < middles.size(); ++i) {
+            add(pointOfSurface(middles[i], surface.areaSquareMeters() / count,
+                               scene.materials[object.material].emission),
+                static_cast<int>(i));
+        }
+    }
+}
+
+int mostLightPoints(const Scene& scene) {
+    std::vector<int> counts(scene.emitters.size(), 0);
+    for (const Light& light : scene.lights) {
+        if (light.emitter < 0) return 1;
+        ++counts[static_cast<std::size_t>(light.emitter)];
+    }
+    return counts.empty() ? 1 : std::max(*std::max_element(counts.begin(), counts.end()), 1);
+}
+
+std::string nameOf(const Scene& scene, const Emitter& emitter) {
+    return emitter.object ? scene.objects[*emitter.object].name : emitter.light.name;
+}
+
+}  // namespace kaustik::scene
