@@ -330,6 +330,17 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry,
                            "Pixels in a degree of the viewer's sight, for FLIP");
     compareApp->add_option("--mask", compare.maskFile, "An image that is 0 where not to compare");
 
+    ImportOptions imported;
+    CLI::App* importApp =
+        app.add_subcommand("import", "Makes a scene file of another renderer's scene");
+    importApp->add_option("file", imported.file, "A scene of Mitsuba, .xml, or Tungsten, .json")
+        ->required();
+    importApp->add_option("--out", imported.out, "The .toml that is written")->required();
+    importApp
+        ->add_option("--missing-textures", imported.missingTextures,
+                     "What a picture that is not there is: error or grey")
+        ->capture_default_str();
+
     ExperimentOptions experiment;
     CLI::App* experimentApp =
         app.add_subcommand("experiment", "Does all runs of a study, or draws what they found");
@@ -393,6 +404,7 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry,
             referenceCommand(reference);
         }
         if (compareApp->parsed()) compareCommand(compare);
+        if (importApp->parsed()) importCommand(imported);
         if (experimentApp->parsed()) experimentCommand(experiment, registry, parts.addHardCases);
         if (checkApp->parsed()) checkCommand();
         if (schemaApp->parsed()) schemaCommand(schemaOf, registry);

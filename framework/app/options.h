@@ -110,6 +110,12 @@ struct CompareOptions {
     bool json = false;
 };
 
+struct ImportOptions {
+    std::string file;                       // .xml or .json
+    std::string out;                        // the .toml
+    std::string missingTextures = "error";  // or grey
+};
+
 struct ExperimentOptions {
     std::string action;                // run, merge or report
     std::vector<std::string> targets;  // the TOML file, or folders of results

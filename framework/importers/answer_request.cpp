@@ -3,6 +3,7 @@
 
 #include "framework/image/image_wire.h"
 #include "framework/image/openimageio_images.h"
+#include "framework/importers/foreign_file.h"
 #include "framework/importers/gltf_file.h"
 #include "framework/importers/mesh_file.h"
 #include "framework/importers/toml_file.h"
@@ -30,6 +31,8 @@ void answerRequest(const Request& request, reading::Channel& channel) {
             return reading::answer(channel, [&] { return readMeshFile(request.file); });
         case RequestKind::gltf:
             return reading::answer(channel, [&] { return readGltfFile(request.file); });
+        case RequestKind::foreign:
+            return reading::answer(channel, [&] { return readForeignFile(request.file); });
         case RequestKind::image:
             return reading::answer(channel, [&] { return readAnyImage(request); });
     }

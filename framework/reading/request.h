@@ -10,7 +10,7 @@
 
 namespace kaustik::reading {
 
-enum class RequestKind : std::uint32_t { toml, mesh, gltf, image };
+enum class RequestKind : std::uint32_t { toml, mesh, gltf, image, foreign };
 
 struct Request {
     RequestKind kind = RequestKind::toml;
