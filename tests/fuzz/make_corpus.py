@@ -238,8 +238,62 @@ def studies():
     yield "[" * 100000 + "\n" + "[" * 100000
 
 
+MITSUBA = """\
+<scene version="3.0.0">
+<default name="kind" value="glass"/>
+<sensor type="perspective"><float name="fov" value="50"/><string name="fov_axis" value="smaller"/>
+<transform name="to_world"><lookat origin="0, 1, 4" target="0, 1, 0" up="0, 1, 0"/></transform>
+<film type="hdrfilm"><integer name="width" value="32"/><integer name="height" value="24"/></film>
+<medium name="exterior" type="homogeneous"><rgb name="sigma_t" value="1 2 3"/>
+<float name="albedo" value="0.5"/><phase type="hg"><float name="g" value="0.5"/></phase></medium>
+</sensor>
+<bsdf type="dielectric" id="$kind"><string name="int_ior" value="bk7"/></bsdf>
+<bsdf type="twosided" id="floor"><bsdf type="diffuse"><texture type="checkerboard" name="reflectance">
+<srgb name="color0" value="#a0b0c0"/><transform name="to_uv"><scale value="4"/></transform></texture>
+</bsdf></bsdf>
+<bsdf type="mask" id="plastic"><bsdf type="roughplastic"><float name="alpha" value="0.2"/></bsdf></bsdf>
+<shape type="rectangle"><ref id="floor"/><transform name="toWorld"><scale x="2" y="3"/>
+<rotate x="1" angle="-90"/><matrix value="1 1 0 0 0 1 0 0 0 0 1 0 0 0 0 1"/></transform></shape>
+<shape type="sphere"><ref id="glass"/><point name="center" x="0" y="1" z="0"/></shape>
+<shape type="cylinder"><bsdf type="conductor"><string name="material" value="Au"/></bsdf>
+<point name="p1" value="0, 1, 0"/></shape>
+<shape type="disk"><emitter type="area"><spectrum name="radiance" value="400:1, 700:2"/></emitter></shape>
+<shape type="cube"><ref id="plastic"/></shape>
+<emitter type="point"><point name="position" value="0, 3, 0"/></emitter>
+<emitter type="spot"><float name="cutoff_angle" value="30"/></emitter>
+<emitter type="constant"/><integrator type="path"/>
+</scene>
+"""
+
+
+def imports():
+    yield MITSUBA
+    yield '<scene><include filename="input.xml"/></scene>'
+    yield '<!DOCTYPE a [<!ENTITY b "c">]><scene a="&b;"/>'
+    yield "<a>" * 1000
+    for mesh in ("obj", "ply", "serialized"):
+        yield f'<scene><shape type="{mesh}"><string name="filename" value="input.xml"/></shape></scene>'
+    yield json.dumps({
+        "media": [{"name": "ink", "type": "homogeneous", "sigma_a": [1, 2, 3], "sigma_s": 0}],
+        "bsdfs": [{"name": "a", "type": "transparency", "base": "b"},
+                  {"name": "b", "type": "lambert", "albedo": {"type": "checker", "res_u": 2}},
+                  {"name": "g", "type": "rough_dielectric", "ior": 1.3},
+                  {"name": "m", "type": "rough_conductor", "material": "Al", "roughness": 0.2}],
+        "camera": {"type": "pinhole", "fov": 60, "resolution": [32, 24],
+                   "transform": {"position": [0, 1, 4], "look_at": [0, 1, 0], "up": [0, 1, 0]}},
+        "primitives": [
+            {"type": "quad", "bsdf": "a", "transform": {"scale": [4, 1, 4]}},
+            {"type": "sphere", "bsdf": "g", "int_medium": "ink", "transform": {"rotation": [1, 2, 3]}},
+            {"type": "cube", "bsdf": "m", "transform": [1, 1, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]},
+            {"type": "disk", "bsdf": {"type": "null"}, "power": 3},
+            {"type": "mesh", "file": "input.json", "bsdf": "b"},
+            {"type": "point", "emission": 1}, {"type": "infinite_sphere", "emission": [1, 1, 1]},
+            {"type": "infinite_sphere_cap", "power": 1}, {"type": "skydome"}, {"type": "curves"}]})
+    yield '{"primitives": ' + "[" * 1000
+
+
 SEEDS = {
-    "scene": scenes, "experiment": experiments, "gltf": gltfs, "obj": objs, "ply": plys, "stl": stls,
+    "scene": scenes, "import": imports, "experiment": experiments, "gltf": gltfs, "obj": objs, "ply": plys, "stl": stls,
     "3ds": threes, "gzip": lambda: (gzip.compress(seed, mtime=0) for seed in plys()),
     "pfm": lambda: (b"Pf\n1 1\n1.0\n\0\0\0\0", b"P6 1 1 65535\n\0\0\0\0\0\0"),
     "image": lambda: (struct.pack("<2sIIIIiiHHIIiiII", b"BM", 70, 0, 54, 40, 2, 2, 1, 24, 0, 16, 0,
@@ -253,7 +307,8 @@ SEEDS = {
 # Whose texts a target's reader compares with.
 SOURCES = {
     "scene": ["scene/files/*.cpp"], "experiment": ["experiment/*.cpp", "scene/files/*.cpp"],
-    "gltf": ["importers/gltf_*.cpp"], "obj": ["importers/obj.cpp"],
+    "gltf": ["importers/gltf_*.cpp"],
+    "import": ["importers/mitsuba_*.cpp", "importers/tungsten_*.cpp", "importers/foreign_*.cpp"], "obj": ["importers/obj.cpp"],
     "ply": ["importers/ply.cpp"], "stl": ["importers/stl.cpp"], "3ds": [], "gzip": [], "pfm": [], "image": [],
     "settings": ["gui/document.cpp", "gui/state.cpp"], "reference": ["reference/*_file.cpp"],
     "cache": [], "part": ["reference/part_file.cpp", "reference/request_json.cpp"],
