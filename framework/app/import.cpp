@@ -9,6 +9,13 @@
 #include "framework/scene/foreign/foreign_export.h"
 
 namespace kaustik::app {
+namespace {
+
+std::string counted(std::size_t count, const char* what) {
+    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+}  // namespace
 
 void importCommand(const ImportOptions& options) {
     if (options.missingTextures != "error" && options.missingTextures != "grey") {
@@ -22,11 +29,12 @@ void importCommand(const ImportOptions& options) {
     const scene::ExportedScene written = scene::exportForeignScene(
         foreign, {options.out, options.file, options.missingTextures == "grey"}, reader);
     const std::string files =
-        written.fileCount == 0
-            ? ""
-            : fmt::format(", and {} files in {}", written.fileCount, written.fileFolder.string());
-    fmt::print("wrote {}: {} objects, {} lights{}\nto render it: {}\n", options.out,
-               written.objectCount, written.lightCount, files, written.runCommand);
+        written.fileCount == 0 ? ""
+                               : fmt::format(", and {} in {}", counted(written.fileCount, "file"),
+                                             written.fileFolder.string());
+    fmt::print("wrote {}: {}, {}{}\nto render it: {}\n", options.out,
+               counted(written.objectCount, "object"), counted(written.lightCount, "light"), files,
+               written.runCommand);
     for (const scene::ForeignNote& note : written.notes)
         fmt::print("{}\n", scene::sentenceOf(note));
 }

@@ -16,7 +16,13 @@ using nlohmann::json;
 
 constexpr std::size_t kMaxJsonDepth = 64;
 
-// Counts lines while the parser goes through the text.
+// How far the parser is in the text.
+struct Progress {
+    std::size_t line = 1;
+    char last = '\0';
+};
+
+// Keeps it while the parser goes on.
 class LineCounter {
   public:
     using iterator_category = std::input_iterator_tag;
@@ -25,10 +31,11 @@ class LineCounter {
     using pointer = const char*;
     using reference = const char&;
 
-    LineCounter(const char* at, std::size_t& line) : at_(at), line_(&line) {}
+    LineCounter(const char* at, Progress& progress) : at_(at), progress_(&progress) {}
     reference operator*() const { return *at_; }
     LineCounter& operator++() {
-        if (*at_ == '\n') ++*line_;
+        progress_->last = *at_;
+        if (*at_ == '\n') ++progress_->line;
         ++at_;
         return *this;
     }
@@ -42,22 +49,23 @@ class LineCounter {
 
   private:
     const char* at_;
-    std::size_t* line_;
+    Progress* progress_;
 };
 
 class TreeBuilder : public nlohmann::json_sax<json> {
   public:
-    TreeBuilder(std::string file, const std::size_t& line) : file_(std::move(file)), line_(line) {}
+    TreeBuilder(std::string file, const Progress& progress)
+        : file_(std::move(file)), progress_(progress) {}
 
     bool null() override { return add(std::monostate()); }
     bool boolean(bool flag) override { return add(flag); }
     bool number_integer(number_integer_t number) override {
-        return add(static_cast<double>(number));
+        return addNumber(static_cast<double>(number));
     }
     bool number_unsigned(number_unsigned_t number) override {
-        return add(static_cast<double>(number));
+        return addNumber(static_cast<double>(number));
     }
-    bool number_float(number_float_t number, const string_t&) override { return add(number); }
+    bool number_float(number_float_t number, const string_t&) override { return addNumber(number); }
     bool string(string_t& text) override { return add(text); }
     bool binary(binary_t&) override { return false; }  // JSON as text has none
     bool start_object(std::size_t) override { return open(JsonTree::Object()); }
@@ -81,7 +89,11 @@ class TreeBuilder : public nlohmann::json_sax<json> {
     JsonTree root;
 
   private:
-    [[nodiscard]] std::string place() const { return fmt::format("{}:{}", file_, line_); }
+    [[nodiscard]] std::string place() const { return fmt::format("{}:{}", file_, progress_.line); }
+    // A number ends where the next character is none of it, and that may be on the next line.
+    [[nodiscard]] std::string placeOfNumber() const {
+        return fmt::format("{}:{}", file_, progress_.line - (progress_.last == '\n' ? 1 : 0));
+    }
 
     // Where the next value goes.
     JsonTree& next() {
@@ -92,6 +104,14 @@ class TreeBuilder : public nlohmann::json_sax<json> {
         if (auto* const list = std::get_if<JsonTree::List>(&path_.back()->value))
             return list->emplace_back(JsonTree{{}, place()});
         return std::get<JsonTree::Object>(path_.back()->value).back().second;
+    }
+
+    bool addNumber(double number) {
+        JsonTree& node = next();
+        node.value = number;
+        const bool isOfKey = !path_.empty() && path_.back()->as<JsonTree::Object>() != nullptr;
+        if (!isOfKey) node.place = placeOfNumber();
+        return true;
     }
 
     template <class T>
@@ -116,7 +136,7 @@ class TreeBuilder : public nlohmann::json_sax<json> {
     }
 
     std::string file_;
-    const std::size_t& line_;
+    const Progress& progress_;
     std::vector<JsonTree*> path_;  // only the last of a list or object grows
 };
 
@@ -147,10 +167,10 @@ void JsonTree::markUsed() const {
 
 JsonTree readJsonTree(const std::filesystem::path& file) {
     const std::string text = readFile(file);
-    std::size_t line = 1;
-    TreeBuilder builder(file.string(), line);
-    json::sax_parse(LineCounter(text.data(), line), LineCounter(text.data() + text.size(), line),
-                    &builder);
+    Progress progress;
+    TreeBuilder builder(file.string(), progress);
+    json::sax_parse(LineCounter(text.data(), progress),
+                    LineCounter(text.data() + text.size(), progress), &builder);
     return std::move(builder.root);
 }
 

@@ -25,20 +25,13 @@ class XmlReader {
     }
 
     MitsubaElement read() {
-        checkEntities();
+        checkEntitiesAndDoctype();
         pugi::xml_document document;
-        const pugi::xml_parse_result result =
-            document.load_buffer(text_.data(), text_.size(),
-                                 pugi::parse_default | pugi::parse_doctype, pugi::encoding_utf8);
+        const pugi::xml_parse_result result = document.load_buffer(
+            text_.data(), text_.size(), pugi::parse_default, pugi::encoding_utf8);
         if (!result) {
             failAt(placeOf(static_cast<std::size_t>(result.offset)),
                    fmt::format("This is not valid XML: {}.", result.description()));
-        }
-        for (const pugi::xml_node& node : document.children()) {
-            if (node.type() == pugi::node_doctype) {
-                failAt(placeOf(text_.find("<!DOCTYPE")),
-                       "A DOCTYPE is not taken; a scene does without.");
-            }
         }
         if (document.document_element().empty()) failAt(placeOf(0), "The file has no element.");
         return copy(document.document_element(), 0);
@@ -51,8 +44,9 @@ class XmlReader {
         return fmt::format("{}:{}", file_, line - lineEnds_.begin() + 1);
     }
 
-    // The library would leave an entity that it does not know as it stands.
-    void checkEntities() const {
+    // The library would leave an entity that it does not know as it stands, and pass a DOCTYPE
+    // over.
+    void checkEntitiesAndDoctype() const {
         const std::string_view text(text_);
         for (std::size_t i = text.find_first_of("&<"); i < text.size();
              i = text.find_first_of("&<", i + 1)) {
@@ -60,6 +54,8 @@ class XmlReader {
                 i = std::min(text.find("-->", i + 4), text.size());
             } else if (text.substr(i).starts_with("<![CDATA[")) {
                 i = std::min(text.find("]]>", i), text.size());
+            } else if (text.substr(i).starts_with("<!DOCTYPE")) {
+                failAt(placeOf(i), "A DOCTYPE is not taken; a scene does without.");
             } else if (text[i] == '&') {
                 const std::string_view name =
                     text.substr(i + 1, std::min<std::size_t>(text.substr(i + 1, 12).find(';'), 12));

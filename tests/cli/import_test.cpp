@@ -104,7 +104,7 @@ TEST_F(Import, OfAMitsubaRoomRendersItsCaustic) {
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_EQ(outcome.err, "");
     expectIn(outcome.out,
-             {"wrote made.toml: 3 objects, 1 lights", "kaustik run made.toml --size 320x240",
+             {"wrote made.toml: 3 objects, 1 light\n", "kaustik run made.toml --size 320x240",
               "left out: integrator 'path' (room.xml:2)"});
     expectIn(contents("made.toml"),
              {"# left out: integrator 'path' (room.xml:2)", "name = \"ball\"",

@@ -11,6 +11,7 @@
 #include "framework/core/files.h"
 #include "framework/scene/files/mesh_import.h"
 #include "framework/scene/files/scene_file_parts.h"
+#include "framework/scene/foreign/foreign_text.h"
 
 namespace kaustik::scene {
 namespace {
@@ -73,7 +74,8 @@ std::string ForeignFiles::baked(const std::string& name, const WorldMesh& mesh,
 std::string ForeignFiles::placeBelow(const fs::path& file) const {
     const fs::path relative = real(file).lexically_relative(real(sceneFolder_));
     if (relative.empty() || *relative.begin() == "..") return "";
-    return relative.string();
+    // What a scene file cannot spell is copied under a name that it can.
+    return oneLine(relative.string()) == relative.string() ? relative.string() : "";
 }
 
 std::string ForeignFiles::copy(const fs::path& file) {

@@ -15,6 +15,12 @@ namespace {
 
 // Below this a number is what rounding has left of 0; micrometres are above it.
 constexpr double kSmallestNumber = 1e-9;
+constexpr int kFewDigits = 6;    // what a number of 32 bits surely has
+constexpr int kPlaceDigits = 8;  // far from the origin a place needs more
+
+std::string withDigits(double number, int digits) {
+    return std::abs(number) < kSmallestNumber ? "0" : fmt::format("{:.{}g}", number, digits);
+}
 
 }  // namespace
 
@@ -36,8 +42,7 @@ std::string takeName(const std::string& name, std::set<std::string>& taken) {
 }
 
 std::string fewDigits(double number) {
-    if (std::abs(number) < kSmallestNumber) return "0";
-    return fmt::format("{:.6g}", number);
+    return withDigits(number, kFewDigits);
 }
 
 void TomlLines::comment(const std::string& text) {
@@ -69,14 +74,18 @@ void TomlLines::set(std::string_view key, const glm::dvec2& value) {
 }
 
 void TomlLines::set(std::string_view key, const glm::dvec3& value) {
-    line(key,
-         fmt::format("[{}, {}, {}]", fewDigits(value.x), fewDigits(value.y), fewDigits(value.z)));
+    setThree(key, value, kPlaceDigits);
 }
 
 void TomlLines::setColor(std::string_view key, const glm::dvec3& value) {
     const std::string red = fewDigits(value.r);
     if (red == fewDigits(value.g) && red == fewDigits(value.b)) return set(key, value.r);
-    set(key, value);
+    setThree(key, value, kFewDigits);
+}
+
+void TomlLines::setThree(std::string_view key, const glm::dvec3& value, int digits) {
+    line(key, fmt::format("[{}, {}, {}]", withDigits(value.x, digits), withDigits(value.y, digits),
+                          withDigits(value.z, digits)));
 }
 
 void TomlLines::setUnless(const glm::dvec3& otherwise, std::string_view key,

@@ -15,7 +15,7 @@ namespace kaustik::scene {
 // The name, or with a number behind it where it is taken; and takes it.
 [[nodiscard]] std::string takeName(const std::string& name, std::set<std::string>& taken);
 
-// Six digits, more than which no scene is measured to.
+// Six digits; a place, which may be far from the origin, has eight.
 [[nodiscard]] std::string fewDigits(double number);
 
 class TomlLines {
@@ -38,6 +38,7 @@ class TomlLines {
 
   private:
     void line(std::string_view key, const std::string& value);
+    void setThree(std::string_view key, const glm::dvec3& value, int digits);
     std::string text_;
 };
 

@@ -17,7 +17,7 @@ void writePower(TomlLines& lines, const char* key, const glm::dvec3& power) {
     const double largest = std::max({power.r, power.g, power.b});
     lines.set(key, largest);
     if (largest > 0.0 && (power.r != power.g || power.g != power.b))
-        lines.set("color", power / largest);
+        lines.setColor("color", power / largest);
 }
 
 bool isEven(double a, double b) {
@@ -42,8 +42,16 @@ void writeScale(TomlLines& lines, const glm::dvec3& scale) {
 void writeCamera(TomlLines& lines, const Camera& camera) {
     lines.table("[camera]");
     lines.set("position", camera.position);
-    lines.set("target", camera.target);
-    lines.setUnless({0.0, 1.0, 0.0}, "up", camera.up);
+    // As far away as the origin, so that rounding turns it no more than it moves the position.
+    const glm::dvec3 way = camera.target - camera.position;
+    const double distance = std::max(1.0, glm::length(camera.position));
+    lines.set("target", camera.position + way * (distance / std::max(glm::length(way), 1e-12)));
+    // The default where that gives the same picture: upright.
+    const glm::dvec3 right = glm::cross(way, camera.up);
+    const glm::dvec3 top = glm::cross(right, way);
+    const bool isUpright =
+        std::abs(right.y) <= 1e-9 * glm::length(right) && top.y > 1e-3 * glm::length(top);
+    if (!isUpright) lines.set("up", camera.up);
     lines.set("vertical_fov_degrees", std::min(camera.verticalFovDegrees, kMaxFov));
     if (camera.nearMeters != Camera().nearMeters) lines.set("near", camera.nearMeters);
 }
