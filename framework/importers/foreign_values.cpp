@@ -13,7 +13,7 @@
 namespace kaustik::scene {
 namespace {
 
-constexpr double kLargestNumber = 1e30;
+constexpr double kLargestNumber = 1e9;  // no scene file takes a larger one
 
 }  // namespace
 

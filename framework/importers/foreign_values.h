@@ -18,7 +18,7 @@ namespace kaustik::scene {
 [[noreturn]] void failAt(const std::string& place, const std::string& what);
 
 // Numbers that blanks or commas part. Throws ConfigError for anything else, and for what is not
-// finite or beyond 1e30, which no scene means.
+// finite or beyond 1e9, which no scene file takes.
 [[nodiscard]] std::vector<double> parseNumbers(std::string_view text, const std::string& place);
 // Exactly one of them.
 [[nodiscard]] double parseOneNumber(std::string_view text, const std::string& place);

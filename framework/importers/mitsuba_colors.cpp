@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <system_error>
 
 #include "framework/core/error.h"
@@ -109,14 +110,20 @@ void setPicture(MitsubaImport& importer, const MitsubaElement& texture, MitsubaC
         importer.change(texture, "its raw values are taken for a picture, coded as sRGB");
 }
 
-// How often it repeats. What turns and moves it has no counterpart.
+bool isWhole(double number) {
+    return std::abs(number - std::round(number)) < 1e-6;
+}
+
+// How often it repeats, and whether it is turned over, which scenes do to have a picture upright.
+// What else turns and moves it has no counterpart.
 void setScale(MitsubaImport& importer, const MitsubaElement& texture, MitsubaColor& color) {
     const glm::dmat4 toUv = texture.transform("to_uv");
     const glm::dvec2 scale(toUv[0][0] * texture.number("uscale", 1.0),
                            toUv[1][1] * texture.number("vscale", 1.0));
-    const bool isMoved = toUv[3] != glm::dvec4(0, 0, 0, 1) || toUv[0][1] != 0.0 ||
-                         toUv[1][0] != 0.0 || scale.x <= 0.0 || scale.y <= 0.0;
-    if (isMoved) importer.change(texture, "it is only scaled, not turned, mirrored or moved");
+    const bool isMoved = !isWhole(toUv[3].x) || !isWhole(toUv[3].y);
+    if (isMoved || toUv[0][1] != 0.0 || toUv[1][0] != 0.0 || scale.x <= 0.0)
+        importer.change(texture, "it is only scaled, not turned, mirrored or moved");
+    color.turnsTexture = scale.y < 0.0;
     color.uvScale = glm::max(glm::abs(scale), 1e-6);
 }
 

@@ -24,6 +24,7 @@ void setColor(ForeignMaterial& foreign, const MitsubaColor& color) {
     material.patternAlbedo = reflectanceOf(color.second);
     material.uvScale = glm::vec2(color.uvScale);
     foreign.image = color.image;
+    foreign.turnsTexture = color.turnsTexture;
 }
 
 // By number or by name; `name` is given where the property is not.
@@ -108,7 +109,7 @@ void makeConductor(MitsubaImport& importer, const MitsubaElement& bsdf, Material
     if (bsdf.type() == "conductor") return;
     const double alpha = roughnessOf(importer, bsdf);
     if (alpha < kSmoothAlpha) {
-        importer.change(bsdf, fmt::format("it is a mirror; its roughness is only {}", alpha));
+        importer.change(bsdf, fmt::format("it is a mirror, as its roughness is only {}", alpha));
         return;
     }
     setGlossy(material, glm::dvec3(0.0), reflectance, exponentOfRoughness(alpha));

@@ -35,6 +35,7 @@ struct MitsubaColor {
     Pattern pattern = Pattern::none;
     glm::dvec3 second{0.0};
     glm::dvec2 uvScale{1.0};
+    bool turnsTexture = false;  // ForeignMaterial
 };
 [[nodiscard]] MitsubaColor surfaceColor(MitsubaImport& importer, const MitsubaElement& parent,
                                         const char* name, const glm::dvec3& otherwise);

@@ -68,7 +68,7 @@ void makeConductor(TungstenImport& importer, const JsonTree& bsdf, Material& mat
     const double alpha = roughnessOf(importer, bsdf);
     if (alpha < kSmoothAlpha) {
         importer.change("bsdf", bsdf,
-                        fmt::format("it is a mirror; its roughness is only {}", alpha));
+                        fmt::format("it is a mirror, as its roughness is only {}", alpha));
         return;
     }
     setGlossy(material, glm::dvec3(0.0), reflectance, exponentOfRoughness(alpha));

@@ -12,7 +12,7 @@
 namespace kaustik::scene {
 namespace {
 
-constexpr double kLargestNumber = 1e30;
+constexpr double kLargestNumber = 1e9;  // no scene file takes a larger one
 
 double numberOf(const JsonTree& node) {
     const auto* const number = node.as<double>();

@@ -110,6 +110,14 @@ class Exporter {
         const bool isFlat =
             shape.geometry == ForeignGeometry::plane || shape.geometry == ForeignGeometry::disk;
         if (isFlat) setNormal(shape.toWorld);
+        shape.turnsTexture = shape.turnsTexture != material.turnsTexture;
+        const bool hasOwnUv = shape.geometry == ForeignGeometry::plane ||
+                              shape.geometry == ForeignGeometry::meshFile ||
+                              shape.geometry == ForeignGeometry::mesh;
+        if (!hasOwnUv && isTextured(material)) {
+            note(NoteKind::changed, fmt::format("shape '{}'", shape.name), shape.place,
+                 "its texture lies on it in another way");
+        }
         const std::string name = takeName(shape.name, objectNames_);
         objects_.table("[[object]]");
         objects_.set("name", name);
@@ -135,19 +143,22 @@ class Exporter {
         if (length > 0.0) toWorld[1] = glm::dvec4(normal / length, 0.0);
     }
 
+    static bool isTextured(const ForeignMaterial& foreign) {
+        return foreign.image || foreign.material.pattern != Pattern::none;
+    }
+
     static bool mustBake(const ForeignShape& shape, const ForeignMaterial& foreign,
                          const Placement& placement) {
-        const bool isTextured = foreign.image || foreign.material.pattern != Pattern::none;
         switch (shape.geometry) {
             case ForeignGeometry::disk:
             case ForeignGeometry::mesh:
                 return true;
             case ForeignGeometry::meshFile:
-                return placement.isMirrored || (isTextured && shape.turnsTexture);
+                return placement.isMirrored || (isTextured(foreign) && shape.turnsTexture);
             case ForeignGeometry::plane:
             case ForeignGeometry::box:
                 // A scene file counts the repeats of its shapes by the metre.
-                return isTextured;
+                return isTextured(foreign);
             case ForeignGeometry::sphere:
             case ForeignGeometry::cylinder:
                 break;

@@ -38,6 +38,7 @@ struct ForeignImage {
 struct ForeignMaterial {
     Material material;  // Material::image is not used
     std::optional<ForeignImage> image;
+    bool turnsTexture = false;  // the picture stands on its head once more than the shape says
 };
 
 // In its own space a plane is a square of side 1 in the xz-plane that faces +y, a disk has radius 1
@@ -100,8 +101,8 @@ auto partsOf(T& image) {
 
 template <SameButConst<ForeignMaterial> T>
 auto partsOf(T& foreign) {
-    auto& [material, image] = foreign;
-    return std::tie(material, image);
+    auto& [material, image, turnsTexture] = foreign;
+    return std::tie(material, image, turnsTexture);
 }
 
 template <SameButConst<ForeignShape> T>

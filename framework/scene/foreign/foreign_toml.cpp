@@ -9,7 +9,8 @@ namespace {
 
 constexpr glm::dvec3 kNothing{0.0};
 
-// As a scene file takes it, which refuses a field of view of 180 degrees and more.
+// As a scene file takes it, which refuses a field of view of 0 or of 180 degrees.
+constexpr double kMinFov = 1e-3;
 constexpr double kMaxFov = 179.9;
 
 // An intensity or irradiance, and the colour that multiplies it where it is not grey.
@@ -52,7 +53,7 @@ void writeCamera(TomlLines& lines, const Camera& camera) {
     const bool isUpright =
         std::abs(right.y) <= 1e-9 * glm::length(right) && top.y > 1e-3 * glm::length(top);
     if (!isUpright) lines.set("up", camera.up);
-    lines.set("vertical_fov_degrees", std::min(camera.verticalFovDegrees, kMaxFov));
+    lines.set("vertical_fov_degrees", std::clamp(camera.verticalFovDegrees, kMinFov, kMaxFov));
     if (camera.nearMeters != Camera().nearMeters) lines.set("near", camera.nearMeters);
 }
 

@@ -227,6 +227,13 @@ TEST_F(Mitsuba, TexturesAreFilesAndCheckers) {
     ASSERT_TRUE(picture.image);
     EXPECT_EQ(picture.image->file, folder / "a.png");
     EXPECT_EQ(picture.material.uvScale, glm::vec2(2, 3));
+    EXPECT_FALSE(picture.turnsTexture);
+    const ForeignMaterial turned = material(
+        "<bsdf type=\"diffuse\"><texture type=\"bitmap\" name=\"reflectance\"><string "
+        "name=\"filename\" value=\"a.png\"/><transform name=\"to_uv\"><scale y=\"-1\"/>"
+        "</transform></texture></bsdf>");
+    EXPECT_EQ(turned.material.uvScale, glm::vec2(1, 1));
+    EXPECT_TRUE(turned.turnsTexture);
     const Material checker = material(
                                  "<bsdf type=\"diffuse\"><texture type=\"checkerboard\" "
                                  "name=\"reflectance\"><rgb name=\"color1\" value=\"0.9\"/>"
