@@ -137,6 +137,8 @@ void readMitsubaShape(MitsubaImport& importer, const MitsubaElement& element) {
     const std::optional<std::uint32_t> material =
         parts.bsdf != nullptr ? materialOf(importer, *parts.bsdf, parts.interior, whyNot)
                               : defaultMaterial(importer);
+    if (parts.emitter == nullptr && element.flag("flip_normals", false))
+        importer.change(element, "its normals are not turned; only a light's are");
     if (parts.emitter != nullptr) {
         if (parts.emitter->type() != "area")
             failAt(parts.emitter->place, "only an area light shines from a shape.");

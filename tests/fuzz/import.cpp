@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Scenes of other renderers: Tungsten's, which begin with a brace, and Mitsuba's. All is read in this
-// process, where the fuzzer sees it, but for meshes that they name; what is written goes to the
-// input's folder.
+// Scenes of other renderers: Tungsten's, which begin with a brace, and Mitsuba's. All is read in
+// this process, where the fuzzer sees it, but for meshes that they name; what is written goes to
+// the input's folder.
 #include "framework/importers/foreign_file.h"
 #include "framework/scene/foreign/foreign_export.h"
 #include "tests/fuzz/target.h"
