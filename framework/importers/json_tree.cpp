@@ -45,7 +45,6 @@ class LineCounter {
         return before;
     }
     friend bool operator==(const LineCounter& a, const LineCounter& b) { return a.at_ == b.at_; }
-    friend bool operator!=(const LineCounter& a, const LineCounter& b) { return a.at_ != b.at_; }
 
   private:
     const char* at_;
@@ -74,7 +73,7 @@ class TreeBuilder : public nlohmann::json_sax<json> {
     bool end_array() override { return close(); }
     bool key(string_t& name) override {
         auto& object = std::get<JsonTree::Object>(path_.back()->value);
-        object.emplace_back(name, JsonTree{{}, place()});
+        object.push_back({name, JsonTree{{}, place()}});
         return true;
     }
     bool parse_error(std::size_t, const std::string&,
@@ -103,7 +102,7 @@ class TreeBuilder : public nlohmann::json_sax<json> {
         }
         if (auto* const list = std::get_if<JsonTree::List>(&path_.back()->value))
             return list->emplace_back(JsonTree{{}, place()});
-        return std::get<JsonTree::Object>(path_.back()->value).back().second;
+        return std::get<JsonTree::Object>(path_.back()->value).back().node;
     }
 
     bool addNumber(double number) {

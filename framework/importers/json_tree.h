@@ -6,15 +6,16 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <variant>
 #include <vector>
 
 namespace kaustik::scene {
 
+struct JsonEntry;
+
 struct JsonTree {
     using List = std::vector<JsonTree>;
-    using Object = std::vector<std::pair<std::string, JsonTree>>;
+    using Object = std::vector<JsonEntry>;
     std::variant<std::monostate, bool, double, std::string, List, Object> value;
     std::string place;  // file:line
     mutable bool isUsed = false;
@@ -26,6 +27,11 @@ struct JsonTree {
     // The value of a key, which counts as used; null where this is no object or does not have it.
     [[nodiscard]] const JsonTree* find(std::string_view key) const;
     void markUsed() const;  // with all that is in it
+};
+
+struct JsonEntry {
+    std::string key;
+    JsonTree node;
 };
 
 // Throws ConfigError "file:line: …" for what is no JSON or nested more than 64 deep, and IoError
