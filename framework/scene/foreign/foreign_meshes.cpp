@@ -101,7 +101,7 @@ glm::dvec3 roundMiddle(const WorldMesh& mesh) {
     }
     const glm::dvec3 extent = high - low;
     const double longest = std::max({extent.x, extent.y, extent.z, 1e-12});
-    const double step = std::pow(10.0, std::floor(std::log10(longest)));
+    const double step = std::pow(10.0, std::floor(std::log10(longest)) - 1.0);
     return glm::round(0.5 * (low + high) / step) * step;
 }
 
