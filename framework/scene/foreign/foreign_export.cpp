@@ -8,6 +8,8 @@
 #include <optional>
 #include <set>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include "framework/core/error.h"
 #include "framework/core/files.h"
@@ -25,7 +27,11 @@ class Exporter {
   public:
     Exporter(const ForeignScene& scene, const ExportOptions& options,
              reading::ReaderProcess& reader)
-        : scene_(scene), options_(options), reader_(reader), files_(options.out) {
+        : scene_(scene),
+          options_(options),
+          reader_(reader),
+          files_(options.out),
+          known_(scene.materials) {
         result_.notes = scene.notes;
     }
 
@@ -34,10 +40,8 @@ class Exporter {
         for (const Light& light : scene_.lights)
             addLight(light);
         for (const ForeignShape& shape : scene_.shapes)
-            if (shape.emission) addAreaLight(shape);
-        for (const ForeignShape& shape : scene_.shapes)
-            if (!shape.emission) addObject(shape);
-        for (std::size_t i = 0; i < scene_.materials.size(); ++i)
+            addObject(shape);
+        for (std::size_t i = 0; i < known_.size(); ++i)
             writeUsedMaterial(i);
         if (result_.lightCount == 0)
             note(NoteKind::changed, "scene", "", "it has no light that shines here");
@@ -94,24 +98,31 @@ class Exporter {
         ++result_.lightCount;
     }
 
-    void addAreaLight(const ForeignShape& shape) {
-        const AreaLight light = areaLightOf(shape, reader_);
-        addLight(pointLightFor(light));
-        const glm::dvec3 power = light.powerWatts();
-        const bool isFlat =
-            light.kind == AreaLightKind::rectangle || light.kind == AreaLightKind::disc;
-        note(NoteKind::changed, fmt::format("light '{}'", shape.name), shape.place,
-             fmt::format("an area light of {} W is a point light in its middle, of the same {}, "
-                         "and its surface is left out",
-                         fewDigits((power.r + power.g + power.b) / 3.0),
-                         isFlat ? "intensity along its normal" : "power"));
+    // A material of its own for a shape that emits: it is a lamp.
+    std::uint32_t lampOf(const ForeignShape& shape) {
+        ForeignMaterial lamp = known_[shape.material];
+        if (!isReceiver(lamp.material.kind)) {
+            note(NoteKind::changed, fmt::format("light '{}'", shape.name), shape.place,
+                 "what glass or a mirror emits, comes from a black surface");
+            lamp = {};
+            lamp.material.albedo = glm::vec3(0.0f);
+        }
+        lamp.material.name = shape.name;
+        lamp.material.emission = glm::vec3(areaLightOf(shape, reader_).radiance);
+        known_.push_back(std::move(lamp));
+        ++result_.lightCount;
+        return static_cast<std::uint32_t>(known_.size() - 1);
     }
 
     void addObject(ForeignShape shape) {
-        const ForeignMaterial& material = scene_.materials[shape.material];
+        if (shape.emission) shape.material = lampOf(shape);
+        const ForeignMaterial& material = known_[shape.material];
         const bool isFlat =
             shape.geometry == ForeignGeometry::plane || shape.geometry == ForeignGeometry::disk;
-        if (isFlat) setNormal(shape.toWorld);
+        if (isFlat) {
+            if (isTurned(shape)) shape.toWorld[2] = -shape.toWorld[2];
+            setNormal(shape.toWorld);
+        }
         shape.turnsTexture = shape.turnsTexture != material.turnsTexture;
         const bool hasOwnUv = shape.geometry == ForeignGeometry::plane ||
                               shape.geometry == ForeignGeometry::meshFile ||
@@ -131,11 +142,21 @@ class Exporter {
                 return writeMesh(objects_, files_.mesh(shape.file, reader_), *placement);
             return writeShape(objects_, shape, *placement);
         }
-        const WorldMesh mesh = worldMeshOf(shape, reader_);
+        WorldMesh mesh = worldMeshOf(shape, reader_);
+        if (isTurned(shape) && !isFlat) turn(mesh);
         const glm::dvec3 origin = roundMiddle(mesh);
         Placement there;
         there.position = origin;
         writeMesh(objects_, files_.baked(name, mesh, origin), there);
+    }
+
+    // What a lamp shines from is its front.
+    static bool isTurned(const ForeignShape& shape) { return shape.emission && shape.isInsideOut; }
+    static void turn(WorldMesh& mesh) {
+        for (glm::vec3& normal : mesh.normals)
+            normal = -normal;
+        for (glm::uvec3& triangle : mesh.triangles)
+            std::swap(triangle.y, triangle.z);
     }
 
     // A flat shape has no thickness that a transform could scale to nothing or shear.
@@ -152,18 +173,21 @@ class Exporter {
     static bool mustBake(const ForeignShape& shape, const ForeignMaterial& foreign,
                          const Placement& placement) {
         switch (shape.geometry) {
-            case ForeignGeometry::disk:
             case ForeignGeometry::mesh:
                 return true;
+            case ForeignGeometry::disk:
+                return isTextured(foreign) || !isEven(placement.scale.x, placement.scale.z);
             case ForeignGeometry::meshFile:
-                return placement.isMirrored || (isTextured(foreign) && shape.turnsTexture);
+                return isTurned(shape) || placement.isMirrored ||
+                       (isTextured(foreign) && shape.turnsTexture);
             case ForeignGeometry::plane:
+                return isTextured(foreign);
             case ForeignGeometry::box:
                 // A scene file counts the repeats of its shapes by the metre.
-                return isTextured(foreign);
+                return isTextured(foreign) || isTurned(shape);
             case ForeignGeometry::sphere:
             case ForeignGeometry::cylinder:
-                break;
+                return isTurned(shape);
         }
         return false;
     }
@@ -172,14 +196,13 @@ class Exporter {
     std::string materialName(std::size_t index) {
         const auto found = materialNames_.find(index);
         if (found != materialNames_.end()) return found->second;
-        return materialNames_[index] =
-                   takeName(scene_.materials[index].material.name, takenMaterialNames_);
+        return materialNames_[index] = takeName(known_[index].material.name, takenMaterialNames_);
     }
 
     void writeUsedMaterial(std::size_t index) {
         const auto name = materialNames_.find(index);
         if (name == materialNames_.end()) return;
-        const ForeignMaterial& foreign = scene_.materials[index];
+        const ForeignMaterial& foreign = known_[index];
         Material material = foreign.material;
         std::string texture;
         if (foreign.image) {
@@ -208,6 +231,7 @@ class Exporter {
     const ExportOptions& options_;
     reading::ReaderProcess& reader_;
     ForeignFiles files_;
+    std::vector<ForeignMaterial> known_;  // the scene's, and those of lamps
     ExportedScene result_;
     TomlLines top_;
     TomlLines lights_;

@@ -21,10 +21,6 @@ void writePower(TomlLines& lines, const char* key, const glm::dvec3& power) {
         lines.setColor("color", power / largest);
 }
 
-bool isEven(double a, double b) {
-    return std::abs(a - b) <= 1e-6 * std::max(std::abs(a), std::abs(b));
-}
-
 void writePlace(TomlLines& lines, const Placement& placement) {
     lines.setUnless(kNothing, "position", placement.position);
     lines.setUnless(kNothing, "rotation_degrees", placement.rotationDegrees);
@@ -39,6 +35,10 @@ void writeScale(TomlLines& lines, const glm::dvec3& scale) {
 }
 
 }  // namespace
+
+bool isEven(double a, double b) {
+    return std::abs(a - b) <= 1e-6 * std::max(std::abs(a), std::abs(b));
+}
 
 void writeCamera(TomlLines& lines, const Camera& camera) {
     lines.table("[camera]");
@@ -101,6 +101,7 @@ void writeMaterial(TomlLines& lines, const Material& material, const std::string
     const bool isGlossy = material.kind == MaterialKind::glossy;
     lines.set("type", isGlossy ? "glossy" : "lambertian");
     lines.setColor("albedo", material.albedo);
+    if (material.emission != glm::vec3(0.0f)) lines.setColor("emission", material.emission);
     if (!texture.empty()) lines.set("texture", texture);
     if (material.pattern == Pattern::checker) {
         lines.set("pattern", "checker");
@@ -117,6 +118,9 @@ void writeShape(TomlLines& lines, const ForeignShape& shape, const Placement& pl
     if (shape.geometry == ForeignGeometry::plane) {
         lines.set("shape", "plane");
         lines.set("size", glm::dvec2(scale.x, scale.z));
+    } else if (shape.geometry == ForeignGeometry::disk) {
+        lines.set("shape", "disc");
+        lines.set("radius", scale.x);
     } else if (shape.geometry == ForeignGeometry::box) {
         lines.set("shape", "box");
         lines.set("size", scale);

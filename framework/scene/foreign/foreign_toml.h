@@ -10,6 +10,9 @@
 
 namespace kaustik::scene {
 
+// Whether two numbers are the same but for their rounding.
+[[nodiscard]] bool isEven(double a, double b);
+
 void writeCamera(TomlLines& lines, const Camera& camera);
 void writeMedium(TomlLines& lines, const Medium& medium);
 void writeLight(TomlLines& lines, const Light& light, const std::string& name);

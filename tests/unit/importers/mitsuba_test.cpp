@@ -78,13 +78,7 @@ TEST_F(Mitsuba, TheStepsOfATransformAreAppliedInTheirOrder) {
     // From -1 to 1 along x and y there, facing +z; turned, it faces +y.
     expectNear(inWorld(shape, {0.5, 0, 0.5}), {2, 5, 3});
     expectNear(inWorld(shape, {-0.5, 0, -0.5}), {-2, 5, -3});
-    expectNear(areaLight([&] {
-                   ForeignShape lamp = shape;
-                   lamp.emission = ForeignEmission{glm::dvec3(1.0), false};
-                   return lamp;
-               }())
-                   .normal,
-               {0, 1, 0});
+    expectNear(glm::normalize(inWorld(shape, {0, 1, 0}) - inWorld(shape, {0, 0, 0})), {0, 1, 0});
 }
 
 TEST_F(Mitsuba, AMatrixIsWrittenRowByRow) {
@@ -115,23 +109,12 @@ TEST_F(Mitsuba, AnAreaLightHasThePowerOfItsRadianceOverItsArea) {
                             "x=\"0.5\" y=\"0.25\"/></transform>") +
                 emitter + "<shape type=\"sphere\"><float name=\"radius\" value=\"0.5\"/>" +
                 emitter + "<shape type=\"disk\">" + emitter + "<shape type=\"cube\">" + emitter));
-    // A rectangle of 1 by 0.5: π A L, and A L along its normal, which is +z.
-    const AreaLight rectangle = areaLight(scene.shapes.at(0));
-    expectNear(rectangle.powerWatts(), kPi * 0.5 * glm::dvec3(3, 6, 9));
-    expectNear(rectangle.normal, {0, 0, 1});
-    // Its intensity is held in 32 bits.
-    expectNear(pointLightFor(rectangle).power, 0.5 * glm::dvec3(3, 6, 9), 1e-6);
-    EXPECT_GT(pointLightFor(rectangle).position.z, 0.0);
-    // A ball of radius 0.5 looks like a disc from afar.
-    const AreaLight sphere = areaLight(scene.shapes.at(1));
-    expectNear(sphere.powerWatts(), kPi * kPi * glm::dvec3(3, 6, 9));
-    expectNear(pointLightFor(sphere).power, kPi * 0.25 * glm::dvec3(3, 6, 9), 1e-6);
+    // A rectangle of 1 by 0.5, and a ball of radius 0.5: π A L.
+    expectNear(areaLight(scene.shapes.at(0)).powerWatts(), kPi * 0.5 * glm::dvec3(3, 6, 9));
+    expectNear(areaLight(scene.shapes.at(1)).powerWatts(), kPi * kPi * glm::dvec3(3, 6, 9));
     expectNear(areaLight(scene.shapes.at(2)).powerWatts(), kPi * kPi * glm::dvec3(3, 6, 9));
     // Six sides of 2 by 2.
-    const AreaLight cube = areaLight(scene.shapes.at(3));
-    EXPECT_EQ(cube.kind, AreaLightKind::mesh);
-    EXPECT_NEAR(cube.area, 24.0, 1e-6);
-    expectNear(pointLightFor(cube).power, cube.powerWatts() / (4 * kPi), 1e-5);
+    EXPECT_NEAR(areaLight(scene.shapes.at(3)).area, 24.0, 1e-6);
 }
 
 TEST_F(Mitsuba, LightsWithoutASizeAreAsTheyAre) {

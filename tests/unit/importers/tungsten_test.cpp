@@ -85,12 +85,7 @@ TEST_F(Tungsten, LightsHaveTheirPowerInWatts) {
     EXPECT_NEAR(scene.lights[1].power.r, kPi * 4 * 0.25, 1e-5);
     expectNear(scene.lights[1].direction, {0, -1, 0});
     expectNear(areaLight(scene.shapes.at(0)).powerWatts(), {10, 20, 30});
-    expectNear(pointLightFor(areaLight(scene.shapes.at(0))).power,
-               glm::dvec3(10, 20, 30) / (4 * kPi), 1e-5);
-    const AreaLight quad = areaLight(scene.shapes.at(1));
-    expectNear(quad.powerWatts(), kPi * glm::dvec3(1, 2, 3));
-    expectNear(quad.normal, {0, 1, 0});
-    expectNear(pointLightFor(quad).power, {1, 2, 3}, 1e-6);
+    expectNear(areaLight(scene.shapes.at(1)).powerWatts(), kPi * glm::dvec3(1, 2, 3));
 }
 
 TEST_F(Tungsten, BsdfsAreTheNearestMaterial) {
