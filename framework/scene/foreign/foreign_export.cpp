@@ -36,6 +36,7 @@ class Exporter {
     }
 
     ExportedScene run() {
+        requireTextures();
         writeSurrounding();
         for (const Light& light : scene_.lights)
             addLight(light);
@@ -62,16 +63,30 @@ class Exporter {
         result_.notes.push_back({kind, subject, fs::path(place).filename().string(), reason});
     }
 
-    // The name of the picture in the scene file; "" where it is not there and is to be grey.
-    std::string pictureOf(const ForeignImage& image) {
+    static bool isThere(const ForeignImage& image) {
         std::error_code error;
-        if (fs::is_regular_file(image.file, error)) return files_.picture(image.file, image.place);
-        if (!options_.isGreyWithoutFile) {
+        return fs::is_regular_file(image.file, error);
+    }
+
+    // Before anything is written.
+    void requireTextures() const {
+        if (options_.isGreyWithoutFile) return;
+        const auto require = [](const std::optional<ForeignImage>& image) {
+            if (!image || isThere(*image)) return;
             throw IoError(
                 fmt::format("{}: the texture {} was not found; put it there, or take "
                             "grey with --missing-textures grey.",
-                            image.place, image.file.string()));
+                            image->place, image->file.string()));
+        };
+        require(scene_.environment);
+        for (const ForeignShape& shape : scene_.shapes) {
+            if (!shape.emission) require(scene_.materials[shape.material].image);
         }
+    }
+
+    // The name of the picture in the scene file; "" where it is not there and is grey.
+    std::string pictureOf(const ForeignImage& image) {
+        if (isThere(image)) return files_.picture(image.file, image.place);
         note(NoteKind::leftOut, fmt::format("texture '{}'", image.file.filename().string()),
              image.place, "the file is not there; it is grey");
         return "";
