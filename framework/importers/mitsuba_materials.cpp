@@ -58,13 +58,12 @@ float relativeIor(MitsubaImport& importer, const MitsubaElement& bsdf, const cha
     const double outside = iorOf(bsdf, "ext_ior", "air");
     const bool isInAir = outside < 1.01;
     const bool isNested = !isInAir && isIndexOfABody(importer.document.root, outside);
-    double ior = isNested ? inside : inside / outside;
+    const double ior = isNested ? inside : inside / outside;
     if (isNested)
         importer.change(bsdf, "its index is against vacuum; it must lie in the other body");
-    if (ior < 1.0 && inside > 1.01)
+    if (ior < 0.999)
         importer.change(bsdf, "the index inside is below that outside; it is taken for 1");
-    ior = std::clamp(ior, 1.0, 10.0);
-    return static_cast<float>(ior);
+    return static_cast<float>(std::clamp(ior, 1.0, 10.0));
 }
 
 void makeDielectric(MitsubaImport& importer, const MitsubaElement& bsdf, Material& material) {
