@@ -81,7 +81,7 @@ class Import : public CommandLine {
     }
     // Renders it into `out`, and expects that light goes through glass to the floor.
     void expectCaustic(const std::string& scene = "made.toml") const {
-        const Outcome outcome = run(smallRun(scene, {"--out", "out"}));
+        const Outcome outcome = run(smallRun(scene, {"--set", "photons=128x128", "--out", "out"}));
         ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
         EXPECT_GT(report().at("energy").at("emitted_w").get<double>(), 0.0);
         EXPECT_GT(report().at("energy").at("deposited_w").get<double>(), 0.0);

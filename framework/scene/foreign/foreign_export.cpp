@@ -80,7 +80,7 @@ class Exporter {
         };
         require(scene_.environment);
         for (const ForeignShape& shape : scene_.shapes) {
-            if (!shape.emission) require(scene_.materials[shape.material].image);
+            require(scene_.materials[shape.material].image);
         }
     }
 
