@@ -39,6 +39,7 @@ TABLE = {
     "best_mixtures_choice": "all_techniques/choice.csv",
     "best_mixtures": "all_techniques/best_mixtures.csv",
     "defaults": "defaults.csv",
+    "lamps": "lamps/runs.csv",
     "vertices_and_gather": "vertices_and_gather.csv",
     "wyman2008_interpolants": "wyman2008/interpolants.csv",
     "wyman2008_iterations": "wyman2008/iterations.csv",

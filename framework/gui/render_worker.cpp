@@ -57,7 +57,7 @@ std::shared_ptr<const SceneFacts> factsOf(const scene::Scene& base, const scene:
         if (light.emitter < 0) facts->lights.push_back(light);
     }
     for (const scene::Emitter& emitter : base.emitters) {
-        if (!emitter.object) facts->lights.push_back(emitter.light);
+        if (emitter.isDisc()) facts->lights.push_back(emitter.light);
     }
     facts->medium = base.medium;
     facts->timeSeconds = base.timeSeconds;

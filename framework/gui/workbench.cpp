@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <optional>
 
 #include "framework/core/error.h"
 #include "framework/core/names.h"
@@ -13,7 +12,6 @@
 #include "framework/gui/recording_name.h"
 #include "framework/gui/widgets.h"
 #include "framework/run/progress.h"
-#include "framework/scene/files/own_mesh.h"
 #include "framework/scene/files/scene_file.h"
 
 namespace kaustik::gui {
@@ -29,13 +27,6 @@ constexpr double kSlowFrameMs = 150.0;
 constexpr int kFramesUntilSettled = 8;
 constexpr int kSlowFramesUntilSettled = 3;
 constexpr std::size_t kInterfaceFrameHistory = 1000;
-
-// A mesh, or a file of objects that nothing lights, is stood into a scene.
-std::optional<scene::OwnMesh> ownMeshOf(const std::string& file) {
-    if (std::optional<scene::OwnMesh> own = scene::parseOwnMesh(file)) return own;
-    if (file.ends_with(".toml") || !scene::loadScene(file).lights.empty()) return std::nullopt;
-    return scene::OwnMesh{.file = file};
-}
 
 }  // namespace
 
@@ -246,20 +237,10 @@ void Workbench::takeDropped() {
                       true);
         return;
     }
-    std::string said = fmt::format("Opened {}.", file);
-    std::string opened = file;
-    try {
-        if (const std::optional<scene::OwnMesh> own = ownMeshOf(file)) {
-            opened = scene::nameOf(*own);
-            said = fmt::format("Opened {}, on a table.", file);
-        }
-    } catch (const Error& error) {  // what shows it says so, too
-        said = error.what();
-    }
-    bench_.document.scene = opened;
+    bench_.document.scene = file;
     bench_.document.edits = {};
     bench_.view.probePixel = glm::ivec2(-1);
-    bench_.notify(said);
+    bench_.notify(fmt::format("Opened {}.", file));
 }
 
 // Whether the hand is at work, or was a moment ago: wheels and keys have no end of their own.

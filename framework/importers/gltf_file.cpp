@@ -33,9 +33,7 @@ class Importer {
         walkNodes();
         if (!hasCamera_ && use_ == GltfUse::scene) frameBounds();
         if (scene_.lights.empty() && use_ == GltfUse::scene) {
-            warn(
-                "the file has no light (KHR_lights_punctual), so that nothing is lit; --on table "
-                "stands it under a sun");
+            warn("the file has no light (KHR_lights_punctual), so that nothing is lit");
         }
         if (scene_.objects.empty()) warn("the file's scene has no triangles");
         if (!model_.animations.empty()) warn("animations were left out");

@@ -10,8 +10,6 @@
 namespace kaustik::scene {
 namespace {
 
-constexpr const char* kLightsNothing = "it is seen, but lights nothing";
-
 glm::dvec3 unitAlong(const glm::dvec3& direction, const MitsubaElement& element) {
     if (!(glm::length(direction) > 1e-12)) failAt(element.place, "this light has no direction.");
     return glm::normalize(direction);
@@ -67,7 +65,6 @@ void readEnvironmentMap(MitsubaImport& importer, const MitsubaElement& element) 
     scene.environmentTurnDegrees = environmentTurn(glm::dvec3(toWorld[2]));
     if (std::abs(toWorld[1].x) + std::abs(toWorld[1].z) > 1e-6 || toWorld[1].y <= 0.0)
         importer.change(element, "it is turned about the vertical alone");
-    importer.change(element, kLightsNothing);
 }
 
 }  // namespace
@@ -78,7 +75,7 @@ void readMitsubaEmitter(MitsubaImport& importer, const MitsubaElement& element) 
     if (type == "constant") {
         scene.backgroundRadiance =
             glm::max(evenColor(importer, element, "radiance", glm::dvec3(1.0)), 0.0);
-        return importer.change(element, kLightsNothing);
+        return;
     }
     if (type == "envmap") return readEnvironmentMap(importer, element);
     if (type == "area") failAt(element.place, "an area light shines from a shape, and is in none.");

@@ -18,7 +18,6 @@ namespace {
 
 // What an evening sky radiates about, in W/m²/sr, where nothing but its turbidity is said.
 constexpr glm::dvec3 kSkyRadiance{0.6, 0.8, 1.2};
-constexpr const char* kLightsNothing = "it is seen, but lights nothing";
 
 std::optional<ForeignEmission> emissionOf(TungstenImport& importer, const JsonTree& primitive) {
     if (primitive.find("power") != nullptr) {
@@ -124,9 +123,13 @@ void readCap(TungstenImport& importer, const JsonTree& primitive) {
     light.name = importer.nameOf(primitive);
     light.direction = -glm::normalize(towards);
     light.power = glm::vec3(radiance * glm::pi<double>() * std::sin(angle) * std::sin(angle));
+    constexpr double kWidest = 45.0;  // half of what a scene file takes
+    light.angularDiameterRadians = static_cast<float>(2.0 * std::min(angle, glm::radians(kWidest)));
     importer.scene.lights.push_back(std::move(light));
-    importer.change("primitive", primitive,
-                    "it is a light from one direction, of the same irradiance, with sharp shadows");
+    if (angle > glm::radians(kWidest)) {
+        importer.change("primitive", primitive,
+                        "it is a disc of 90 degrees, of the same irradiance");
+    }
 }
 
 void readSurrounding(TungstenImport& importer, const JsonTree& primitive) {
@@ -140,7 +143,6 @@ void readSurrounding(TungstenImport& importer, const JsonTree& primitive) {
         std::abs(matrix[1].x) + std::abs(matrix[1].z) > 1e-6 * std::abs(matrix[1].y)) {
         importer.change("primitive", primitive, "it is turned about the vertical alone");
     }
-    importer.change("primitive", primitive, kLightsNothing);
 }
 
 }  // namespace
@@ -153,8 +155,7 @@ void readTungstenPrimitive(TungstenImport& importer, const JsonTree& primitive) 
     if (type == "infinite_sphere") return readSurrounding(importer, primitive);
     if (type == "skydome") {
         importer.scene.backgroundRadiance = kSkyRadiance;
-        return importer.leaveOut("primitive", primitive,
-                                 "it is an even blue background, which lights nothing");
+        return importer.leaveOut("primitive", primitive, "it is an even blue sky");
     }
     ForeignShape shape;
     shape.place = primitive.place;
@@ -166,14 +167,14 @@ void readTungstenPrimitive(TungstenImport& importer, const JsonTree& primitive) 
     std::string whyNot;
     const std::optional<std::uint32_t> material = materialOf(importer, primitive, whyNot);
     if (!material && !shape.emission) return importer.leaveOut("primitive", primitive, whyNot);
-    if (!material) {
-        // What only emits has no material; the first will do, as none of its surface is seen.
-        if (importer.scene.materials.empty()) {
-            importer.scene.materials.push_back({});
-            importer.scene.materials.back().material.name = "default";
-        }
+    if (material) {
+        shape.material = *material;
+    } else {  // what only emits reflects nothing
+        shape.material = static_cast<std::uint32_t>(importer.scene.materials.size());
+        importer.scene.materials.push_back({});
+        importer.scene.materials.back().material.name = "black";
+        importer.scene.materials.back().material.albedo = glm::vec3(0.0f);
     }
-    shape.material = material.value_or(0);
     shape.name = importer.nameOf(primitive);
     importer.scene.shapes.push_back(std::move(shape));
 }

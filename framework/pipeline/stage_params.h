@@ -62,11 +62,12 @@ struct EmitParams {
                 return fmt::format("emit={} {}", facts.settings.choice(EmitStage::name), takes);
             })
             .when(whyRefined);
-        r.field(lightPoints, "light_points",
-                "Points that stand for a light that has a size, each with a grid of its own, and for "
-                "its soft shadows; they share out its photons. 0: 16, or 1 where its size would not "
-                "be seen",
-                "", params::range(0, 1024))
+        r.field(
+             lightPoints, "light_points",
+             "Points that stand for a light that has a size, each with a grid of its own, and for "
+             "its soft shadows; they share out its photons. 0: 16 or fewer, down to 1 where its "
+             "size would hardly be seen; 64 of an environment",
+             "", params::range(0, 1024))
             .when([](const FrameFacts& facts) -> std::string {
                 return facts.needs == nullptr || facts.needs->emitters > 0
                            ? ""

@@ -138,8 +138,7 @@ LightSampler::Share LightSampler::aimCone(const scene::Light& light, const Embre
 
 // The rectangle of numbers goes over the cone around the ball of specular surfaces; which point of
 // the surface a photon starts from is drawn.
-LightSampler::Share LightSampler::aimSurface(const scene::Light& light,
-                                             const scene::Object& object,
+LightSampler::Share LightSampler::aimSurface(const scene::Light& light, const scene::Object& object,
                                              const EmbreeScene& scene) const {
     Share share;
     share.light = &light;
@@ -170,6 +169,9 @@ LightSampler::LightSampler(const EmbreeScene& scene, std::uint64_t photonsPerBat
     for (const glm::dvec3& point : scene.specularVertices())
         targetRadius_ = std::max(targetRadius_, glm::distance(point, targetMiddle_));
     targetRadius_ *= 1.0 + kMargin;
+    const scene::Bounds& bounds = scene.bounds();
+    middle_ = 0.5 * (bounds.minimum + bounds.maximum);
+    radius_ = 0.5 * glm::length(bounds.maximum - bounds.minimum);
     startMargin_ = kMargin * glm::length(scene.bounds().maximum - scene.bounds().minimum);
     const auto aim = [&](const scene::Light& light) {
         add(light.kind == scene::LightKind::directional ? aimDirectional(light, scene)
@@ -179,8 +181,19 @@ LightSampler::LightSampler(const EmbreeScene& scene, std::uint64_t photonsPerBat
         if (light.emitter < 0) aim(light);
     }
     for (const scene::Emitter& emitter : scene.scene().emitters) {
-        if (!emitter.object) {
+        if (emitter.isDisc()) {
             aim(emitter.light);
+            continue;
+        }
+        if (emitter.environment) {
+            scene::Light light;
+            light.power = glm::vec3(emitter.environment->fluxPerSquareMeter());
+            surfaceLights_.push_back(std::move(light));
+            Share share;
+            share.light = &surfaceLights_.back();
+            share.environment = emitter.environment.get();
+            share.measure = kPi * targetRadius_ * targetRadius_;
+            add(std::move(share));
             continue;
         }
         const scene::Object& object = scene.scene().objects[*emitter.object];
@@ -195,9 +208,10 @@ LightSampler::LightSampler(const EmbreeScene& scene, std::uint64_t photonsPerBat
         const double part = total(share.light->power) * share.measure / fluxWatts_;
         const double wanted = std::max(1.0, part * static_cast<double>(photonsPerBatch));
         // Cells about as wide as high: on the cone's unit square one turn is the long side.
-        const double aspect = share.light->kind == scene::LightKind::directional
-                                  ? glm::length(share.sideA) / glm::length(share.sideB)
-                                  : kPi;
+        const bool isRectangle =
+            share.light->kind == scene::LightKind::directional && share.environment == nullptr;
+        const double aspect =
+            isRectangle ? glm::length(share.sideA) / glm::length(share.sideB) : kPi;
         const double columns = std::clamp(std::round(std::sqrt(wanted * aspect)), 1.0, wanted);
         share.columns = static_cast<std::uint64_t>(columns);
         share.rows = std::max<std::uint64_t>(1, static_cast<std::uint64_t>(wanted / columns));
@@ -220,6 +234,7 @@ EmittedPhoton LightSampler::sample(std::uint64_t index, Random& random) const {
     const scene::Light& light = *share.light;
     EmittedPhoton photon;
     if (share.surface) return sampleSurface(share, u, v, random);
+    if (share.environment != nullptr) return sampleEnvironment(share, u, v, random);
     if (light.kind == scene::LightKind::directional) {
         photon.reach.isDistant = true;
         photon.origin = share.corner + u * share.sideA + v * share.sideB;
@@ -230,9 +245,9 @@ EmittedPhoton LightSampler::sample(std::uint64_t index, Random& random) const {
             const double sine = std::sin(std::atan(share.discRadius)) * std::sqrt(random.uniform());
             const double turn = 2.0 * kPi * random.uniform();
             const Basis basis = basisAround(share.along);
-            photon.direction = glm::normalize(std::sqrt(1.0 - sine * sine) * share.along +
-                                              sine * std::cos(turn) * basis.a +
-                                              sine * std::sin(turn) * basis.b);
+            photon.direction =
+                glm::normalize(std::sqrt(1.0 - sine * sine) * share.along +
+                               sine * std::cos(turn) * basis.a + sine * std::sin(turn) * basis.b);
         }
         return photon;
     }
@@ -254,6 +269,27 @@ EmittedPhoton LightSampler::sample(std::uint64_t index, Random& random) const {
     return photon;
 }
 
+// Two of the numbers say where on the disc that the ball of specular surfaces shows.
+EmittedPhoton LightSampler::sampleEnvironment(const Share& share, double u, double v,
+                                              Random& random) const {
+    const double which = random.uniform();
+    const double across = random.uniform();
+    const auto [towards, flux] = share.environment->draw(which, across, random.uniform());
+    EmittedPhoton photon;
+    photon.reach.isDistant = true;
+    photon.direction = -towards;
+    const Basis basis = basisAround(photon.direction);
+    const double away = targetRadius_ * std::sqrt(v);
+    const double turn = 2.0 * kPi * u;
+    photon.origin =
+        targetMiddle_ + away * std::cos(turn) * basis.a + away * std::sin(turn) * basis.b;
+    // Before everything that could throw a shadow.
+    photon.origin +=
+        (glm::dot(middle_ - photon.origin, photon.direction) - 1.01 * radius_) * photon.direction;
+    photon.fluxWatts = flux * (share.measure / static_cast<double>(share.columns * share.rows));
+    return photon;
+}
+
 EmittedPhoton LightSampler::sampleSurface(const Share& share, double u, double v,
                                           Random& random) const {
     const double which = random.uniform();
@@ -272,13 +308,13 @@ EmittedPhoton LightSampler::sampleSurface(const Share& share, double u, double v
     const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
     const double turn = 2.0 * kPi * u;
     const Basis basis = basisAround(axis);
-    photon.direction =
-        glm::normalize(cosine * axis + sine * std::cos(turn) * basis.a + sine * std::sin(turn) * basis.b);
+    photon.direction = glm::normalize(cosine * axis + sine * std::cos(turn) * basis.a +
+                                      sine * std::sin(turn) * basis.b);
     const double solidAngle = 2.0 * kPi * (1.0 - cosineOfCone);
     const double slant = std::max(glm::dot(photon.direction, normal), 0.0);
-    photon.fluxWatts = glm::dvec3(share.light->power) *
-                       (slant * solidAngle * share.surface->areaSquareMeters() /
-                        static_cast<double>(share.columns * share.rows));
+    photon.fluxWatts =
+        glm::dvec3(share.light->power) * (slant * solidAngle * share.surface->areaSquareMeters() /
+                                          static_cast<double>(share.columns * share.rows));
     return photon;
 }
 

@@ -4,10 +4,11 @@
 // lights evenly over the solid angle of the narrowest cone around them (all directions when they
 // lie around the light): the flux is exact. Of lights that have a size (scene/emitters.h) all is
 // sampled, not the points that stand for them: the sun's disc evenly by the projected solid angle,
-// over a rectangle that is wider by what its rays are aslant, and a surface evenly by area, from each
-// point over the cone around the ball that holds the specular surfaces. Within a batch the samples of a light are jittered in
-// the cells of a grid, one each, so that a batch is far less noisy than as many independent
-// photons.
+// over a rectangle that is wider by what its rays are aslant, and a surface evenly by area, from
+// each point over the cone around the ball that holds the specular surfaces. An environment's
+// directions are drawn by its flux, over the disc that such a ball shows. Within a batch the
+// samples of a light are jittered in the cells of a grid, one each, so that a batch is far less
+// noisy than as many independent photons.
 #pragma once
 
 #include <cstdint>
@@ -20,6 +21,7 @@
 #include "framework/reference/light_transport.h"
 #include "framework/reference/random.h"
 #include "framework/scene/emitters.h"
+#include "framework/scene/emitting_environment.h"
 
 namespace kaustik::reference {
 
@@ -62,16 +64,19 @@ class LightSampler {
         glm::dvec3 sideA{0.0};
         glm::dvec3 sideB{0.0};
         glm::dvec3 along{0.0};
-        double cosine = -1.0;  // of the cone's half-angle
-        double measure = 0.0;  // m² or sr; of a surface m² sr
+        double cosine = -1.0;                                     // of the cone's half-angle
+        double measure = 0.0;                                     // m² or sr; of a surface m² sr
         double discRadius = 0.0;                                  // directional, tangent
         std::shared_ptr<const scene::EmittingSurface> surface{};  // `light` has its radiance
+        const scene::EmittingEnvironment* environment = nullptr;  // `light` has its flux
     };
     [[nodiscard]] static Share aimDirectional(const scene::Light& light, const EmbreeScene& scene);
     [[nodiscard]] static Share aimCone(const scene::Light& light, const EmbreeScene& scene);
     [[nodiscard]] Share aimSurface(const scene::Light& light, const scene::Object& object,
                                    const EmbreeScene& scene) const;
     void add(Share share);
+    [[nodiscard]] EmittedPhoton sampleEnvironment(const Share& share, double u, double v,
+                                                  Random& random) const;
     [[nodiscard]] EmittedPhoton sampleSurface(const Share& share, double u, double v,
                                               Random& random) const;
 
@@ -80,6 +85,8 @@ class LightSampler {
     std::deque<scene::Light> surfaceLights_;  // whose radiance and name shares have
     glm::dvec3 targetMiddle_{0.0};            // of the ball around all that is specular, local
     double targetRadius_ = 0.0;
+    glm::dvec3 middle_{0.0};  // of all of the scene, and the radius of a ball around it, local
+    double radius_ = 0.0;
     double startMargin_ = 0.0;  // by which photons start in front of a surface, m
     std::uint64_t photonCount_ = 0;
     double fluxWatts_ = 0.0;

@@ -164,8 +164,10 @@ double irradianceScale(const EmbreeScene& scene) {
     }
     for (const scene::Emitter& emitter : scene.scene().emitters) {
         if (!emitter.object) {
-            const glm::vec3& sun = emitter.light.power;
-            scale += static_cast<double>(std::max({sun.r, sun.g, sun.b}));
+            const glm::dvec3 whole = emitter.environment
+                                         ? emitter.environment->fluxPerSquareMeter()
+                                         : glm::dvec3(emitter.light.power);
+            scale += std::max({whole.r, whole.g, whole.b});
             continue;
         }
         const scene::Object& object = scene.scene().objects[*emitter.object];

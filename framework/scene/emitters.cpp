@@ -7,12 +7,19 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <limits>
+#include <memory>
+
+#include "framework/scene/emitting_environment.h"
 
 namespace kaustik::scene {
 namespace {
 
 constexpr int kUsualRows = 600;
-constexpr int kPoints = 16;  // where a size can be seen
+constexpr int kSkyPoints = 64;
+constexpr int kPoints = 16;  // at most, and of a bulb
+// What two points that are neighbours do to light at most, in pixels: about a quarter of it where
+// it arrives. Closer ones cost more photons of each than they bring (results/lamps.md).
+constexpr double kPixelsApart = 16.0;
 
 bool emits(const Material& material) {
     return material.emission != glm::vec3(0.0f);
@@ -65,6 +72,7 @@ glm::dvec3 middleOf(const Bounds& bounds) {
 
 // The angle that an emitter takes of the sight of the scene's specular surfaces, about.
 double angleOf(const Scene& scene, const Emitter& emitter, const Bounds& specular) {
+    if (emitter.environment) return glm::pi<double>();
     if (!emitter.object) return static_cast<double>(emitter.light.angularDiameterRadians);
     const Bounds bounds = objectBounds(scene, scene.objects[*emitter.object]);
     const double distance = std::max(
@@ -189,8 +197,11 @@ EmittingSurface::Point EmittingSurface::at(double which, double u, double v) con
 }
 
 void findEmitters(Scene& scene) {
-    std::erase_if(scene.emitters,
-                  [](const Emitter& emitter) { return emitter.object.has_value(); });
+    std::shared_ptr<const EmittingEnvironment> environment;
+    for (const Emitter& emitter : scene.emitters) {
+        if (emitter.environment) environment = emitter.environment;
+    }
+    std::erase_if(scene.emitters, [](const Emitter& emitter) { return !emitter.isDisc(); });
     const auto hasDisc = [](const Light& light) { return light.angularDiameterRadians > 0.0f; };
     // Where an edit has taken a disc away.
     for (const Emitter& emitter : scene.emitters) {
@@ -205,6 +216,10 @@ void findEmitters(Scene& scene) {
         const Object& object = scene.objects[i];
         if (emits(scene.materials[object.material]))
             scene.emitters.push_back({{}, static_cast<std::uint32_t>(i)});
+    }
+    if (scene.environmentLights) {
+        if (!environment) environment = std::make_shared<const EmittingEnvironment>(scene);
+        scene.emitters.push_back({{}, {}, environment});
     }
     placeLightPoints(scene, 0, kUsualRows);
 }
@@ -221,8 +236,17 @@ EmitterPoints pointsOf(const Scene& scene, const Emitter& emitter, int wanted, i
     const double sight = glm::length(middleOf(all) - scene.camera.position);
     points.pixelMeters =
         2.0 * std::tan(0.5 * glm::radians(scene.camera.verticalFovDegrees)) * sight / rows;
-    const bool isSeen = points.blurMeters > 0.5 * points.pixelMeters;
-    points.points = wanted > 0 ? wanted : isSeen || !isLevel(scene, emitter) ? kPoints : 1;
+    if (wanted > 0) {
+        points.points = wanted;
+    } else if (emitter.environment) {
+        points.points = kSkyPoints;
+    } else if (!isLevel(scene, emitter)) {
+        points.points = kPoints;
+    } else {
+        const double apart = points.blurMeters / (kPixelsApart * points.pixelMeters);
+        points.points =
+            static_cast<int>(std::lround(std::clamp(apart * apart, 1.0, kPoints + 0.0)));
+    }
     return points;
 }
 
@@ -237,9 +261,19 @@ void placeLightPoints(Scene& scene, int wanted, int rows) {
             point.emitter = static_cast<int>(e);
             scene.lights.push_back(std::move(point));
         };
-        if (!emitter.object) {
+        if (emitter.isDisc()) {
             for (int i = 0; i < count; ++i)
                 add(pointOfDisc(emitter.light, i, count), i);
+            continue;
+        }
+        if (emitter.environment) {
+            int index = 0;
+            for (const EmittingEnvironment::Part& part : emitter.environment->parts(count)) {
+                Light point;
+                point.direction = -part.direction;
+                point.power = glm::vec3(part.fluxPerSquareMeter);
+                add(std::move(point), index++);
+            }
             continue;
         }
         const Object& object = scene.objects[*emitter.object];
@@ -263,6 +297,7 @@ int mostLightPoints(const Scene& scene) {
 }
 
 std::string nameOf(const Scene& scene, const Emitter& emitter) {
+    if (emitter.environment) return "environment";
     return emitter.object ? scene.objects[*emitter.object].name : emitter.light.name;
 }
 

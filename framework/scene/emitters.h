@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Lights that have a size: the disc of a directional light, and surfaces of a material that emits.
+// Lights that have a size: the disc of a directional light, surfaces of a material that emits, and
+// the environment (emitting_environment.h).
 // What renders lights from points, stands a number of points of each in its place
 // (Scene::lights, with Light::emitter), by low discrepancy; the reference samples the whole.
 #pragma once
@@ -60,9 +61,10 @@ struct EmitterPoints {
     double blurMeters = 0.0;
     double pixelMeters = 0.0;
 };
-// `wanted`: 0 says that it is to be found out: 16 where the light's size can be seen in a picture
-// of so many rows, else 1, so that it costs nothing. Of a body that shines to all sides one point
-// within would be hidden by it: it has 16 at least.
+// `wanted`: 0 says that it is to be found out: as many, up to 16, as are some pixels apart in what
+// they do to light, in a picture of so many rows; so that a light whose size is hardly seen is one
+// point and costs nothing. Of a body that shines to all sides one point within would be hidden by
+// it: it has 16; an environment has 64.
 [[nodiscard]] EmitterPoints pointsOf(const Scene& scene, const Emitter& emitter, int wanted,
                                      int rows);
 

@@ -30,13 +30,13 @@ struct SceneNeeds {
     std::vector<std::vector<std::size_t>> bodies;
     // A body's box overlaps that of a dielectric with an inside: it may lie in it.
     bool nestedBodies = false;
-    bool medium = false;            // one that scatters or absorbs
-    bool scatteringMedium = false;  // one that scatters: there is light on the way to be seen
-    bool glossyReceivers = false;   // a receiver is not Lambertian alone
-    bool emission = false;          // some object shines
-    bool animated = false;          // a height field has a wave that moves
-    int lights = 0;    // points of those that have a size included
-    int emitters = 0;  // lights that have a size
+    bool medium = false;               // one that scatters or absorbs
+    bool scatteringMedium = false;     // one that scatters: there is light on the way to be seen
+    bool glossyReceivers = false;      // a receiver is not Lambertian alone
+    bool emission = false;             // some object shines
+    bool animated = false;             // a height field has a wave that moves
+    int lights = 0;                    // points of those that have a size included
+    int emitters = 0;                  // lights that have a size
     bool receivers = false;            // a diffuse or glossy surface that light ends on
     int measuredDepthComplexity = -1;  // most layers behind one pixel; -1 until a renderer counts
 };

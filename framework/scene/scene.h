@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,11 +48,15 @@ struct Light {
     int emitter = -1;  // that it is a point of (Scene::emitters); -1: a light of its own
 };
 
-// A light that has a size (scene/emitters.h): the disc of a directional light, or an object of a
-// material that emits.
+class EmittingEnvironment;
+
+// A light that has a size (scene/emitters.h): the disc of a directional light, an object of a
+// material that emits, or what is all around.
 struct Emitter {
     Light light;                          // of a disc
     std::optional<std::uint32_t> object;  // of a surface
+    std::shared_ptr<const EmittingEnvironment> environment = {};
+    [[nodiscard]] bool isDisc() const { return !object && !environment; }
 };
 
 enum class MaterialKind : std::uint32_t { lambertian = 0, dielectric = 1, mirror = 2, glossy = 3 };
@@ -147,8 +152,8 @@ struct Scene {
     std::filesystem::path file;
     std::vector<std::filesystem::path> extendedFiles;  // that `file` builds on, nearest first
     Camera camera;
-    std::vector<Light> lights;       // and, with an emitter, the points that stand for those
-    std::vector<Emitter> emitters;   // lights that have a size
+    std::vector<Light> lights;      // and, with an emitter, the points that stand for those
+    std::vector<Emitter> emitters;  // lights that have a size
     std::vector<Material> materials;
     std::vector<TextureImage> images;
     std::vector<Mesh> meshes;
@@ -160,6 +165,7 @@ struct Scene {
     // towards +Y; it turns by `environmentTurnDegrees` about +Y, counter-clockwise from above.
     int environmentImage = -1;
     double environmentTurnDegrees = 0.0;
+    bool environmentLights = false;  // it is a light, too, and not only seen
     glm::vec3 ambientIrradiance{
         0.0f};  // W/m², a constant fill light for the picture; not in errors
     double timeSeconds = 0.0;

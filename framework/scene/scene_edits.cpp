@@ -26,7 +26,7 @@ const Named& findNamed(const std::vector<Named>& all, const std::string& name, c
 // Of those that a file says.
 const Light& lightNamed(const Scene& scene, const std::string& name) {
     for (const Emitter& emitter : scene.emitters) {
-        if (!emitter.object && emitter.light.name == name) return emitter.light;
+        if (emitter.isDisc() && emitter.light.name == name) return emitter.light;
     }
     return findNamed(scene.lights, name, "light");
 }

@@ -14,8 +14,8 @@ void addTo(ContentHash& hash, const Scene& scene) {
     hash.add(camera.verticalFovDegrees).add(camera.nearMeters);
     // Points that stand for emitters are no part of the scene.
     const auto isOwn = [](const Light& light) { return light.emitter < 0; };
-    hash.add(static_cast<std::size_t>(
-        std::count_if(scene.lights.begin(), scene.lights.end(), isOwn)));
+    hash.add(
+        static_cast<std::size_t>(std::count_if(scene.lights.begin(), scene.lights.end(), isOwn)));
     for (const Light& light : scene.lights) {
         if (!isOwn(light)) continue;
         hash.add(light.kind).add(light.position).add(light.direction).add(light.power);
@@ -26,6 +26,10 @@ void addTo(ContentHash& hash, const Scene& scene) {
         const Light& sun = emitter.light;
         hash.add(sun.direction).add(sun.power).add(sun.angularDiameterRadians);
         hash.add(emitter.object.value_or(0));
+    }
+    if (scene.environmentLights) {
+        hash.add(scene.backgroundRadiance).add(scene.environmentImage);
+        hash.add(scene.environmentTurnDegrees);
     }
     hash.add(scene.materials.size());
     for (const Material& material : scene.materials) {

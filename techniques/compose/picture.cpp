@@ -60,8 +60,12 @@ double typicalIrradiance(const scene::Light& light, const scene::Bounds& bounds)
 float automaticExposure(const scene::Scene& scene) {
     const scene::Bounds bounds = sceneBounds(scene);
     double irradiance = static_cast<double>(scene.ambientIrradiance.g);
-    for (const scene::Light& light : scene.lights)
-        irradiance += typicalIrradiance(light, bounds);
+    for (const scene::Light& light : scene.lights) {
+        const bool isSky = light.emitter >= 0 &&
+                           scene.emitters[static_cast<std::size_t>(light.emitter)].environment;
+        // What comes from all around brings a surface a quarter of itself.
+        irradiance += (isSky ? 0.25 : 1.0) * typicalIrradiance(light, bounds);
+    }
     if (scene.medium) {
         const glm::dvec3 extinction(scene.medium->scatteringPerMeter +
                                     scene.medium->absorptionPerMeter);

@@ -53,8 +53,8 @@ TEST(Emitters, ABallSendsAsMuchAsAPointFromAfar) {
     constexpr double kRadius = 0.2;
     addObject(scene, scene::makeSphere({kRadius, 64}), lamp(1.0f), {0.0, 3.0, 0.0});
     scene::findEmitters(scene);
-    // Outside of a ball that shines evenly its light is as if it came from its middle. A pane seen from
-    // the axis: solid angle 4 asin(sin a sin b), with the half-angles of its sides.
+    // Outside of a ball that shines evenly its light is as if it came from its middle. A pane seen
+    // from the axis: solid angle 4 asin(sin a sin b), with the half-angles of its sides.
     const double half = std::atan(0.5 / 3.0);
     const double solidAngle = 4.0 * std::asin(std::sin(half) * std::sin(half));
     const double intensity = kPi * kRadius * kRadius;
@@ -69,6 +69,27 @@ TEST(Emitters, ADiscBringsWhatFacesItItsIrradiance) {
     scene.lights[0].angularDiameterRadians = 0.3f;
     scene::findEmitters(scene);
     EXPECT_NEAR(emittedWatts(scene), 7.0 * 6.0, 0.002 * 42.0);
+}
+
+// π L on either side of a pane, whatever parts of the sky each number of points stands for.
+TEST(Emitters, AnEvenSkyBringsAPanePiTimesItsRadianceOnEitherSide) {
+    scene::Scene scene = sceneOf(scene::makePlane({{3.0, 2.0}, {1, 1}}), glass(1.5));
+    scene.backgroundRadiance = glm::vec3(0.5f);
+    scene.environmentLights = true;
+    scene::findEmitters(scene);
+    ASSERT_EQ(scene.emitters.size(), 1u);
+    const double expected = 2.0 * kPi * 0.5 * 6.0;
+    // A quarter of half a million photons hits the pane.
+    EXPECT_NEAR(emittedWatts(scene), expected, 0.01 * expected);
+    scene::placeLightPoints(scene, 256, 600);
+    glm::dvec3 upwards(0.0);
+    double above = 0.0;
+    for (const scene::Light& light : scene.lights) {
+        upwards += glm::dvec3(light.direction) * static_cast<double>(light.power.g);
+        above += std::max(-light.direction.y, 0.0) * static_cast<double>(light.power.g);
+    }
+    EXPECT_LT(glm::length(upwards), 0.02);
+    EXPECT_NEAR(above, kPi * 0.5, 0.01 * kPi);
 }
 
 // Flux on the floor by the distance beyond the pane's edge.

@@ -87,6 +87,16 @@ TEST_F(OwnMesh, AsAGlbKeepsItsGlassUnlessAskedForAnother) {
     expectCaustic();
 }
 
+TEST_F(OwnMesh, AsAGlbThatNothingLightsIsStoodOnATable) {
+    writeGlassGlb();
+    ASSERT_EQ(render("thing.glb").exitCode, 0);
+    EXPECT_EQ(report().at("scene").at("name"), "thing-on-table");
+    const json warnings = report().at("warnings");
+    ASSERT_EQ(warnings.size(), 1u) << warnings;
+    EXPECT_NE(warnings[0].get<std::string>().find("--on"), std::string::npos);
+    expectCaustic();
+}
+
 TEST_F(OwnMesh, AsAGlbIsAMeshOfASceneFileToo) {
     writeGlassGlb();
     std::string scene = kWavyWater;

@@ -79,6 +79,19 @@ Scene loadExtension(TableReader& top, const fs::path& path) {
     return scene;
 }
 
+// What nothing lights would be a black picture.
+Scene loadGltf(const std::string& path) {
+    Scene scene = importGltf(path);
+    if (!scene.lights.empty() || scene.objects.empty()) return scene;
+    Scene stood = loadOwnMesh({.file = path});
+    stood.warnings.insert(
+        stood.warnings.begin(),
+        fmt::format("{}: the file has no light, so that it is stood on a table under the sun; --on "
+                    "says where else.",
+                    path));
+    return stood;
+}
+
 }  // namespace
 
 std::string lowerExtension(const fs::path& path) {
@@ -138,7 +151,7 @@ Scene loadScene(const std::string& nameOrPath) {
     if (const std::optional<OwnMesh> own = parseOwnMesh(nameOrPath)) return loadOwnMesh(*own);
     if (isSceneFile(nameOrPath)) {
         return lowerExtension(nameOrPath) == ".toml" ? loadSceneFile(nameOrPath)
-                                                     : importGltf(nameOrPath);
+                                                     : loadGltf(nameOrPath);
     }
     std::vector<std::string> names;
     for (const fs::path& file : shippedSceneFiles()) {

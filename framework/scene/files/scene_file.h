@@ -19,7 +19,7 @@ namespace kaustik::scene {
 [[nodiscard]] bool isSceneFile(const std::filesystem::path& path);
 
 // A scene by its name in experiments/scenes, from a .toml, .gltf or .glb file, or with a mesh of
-// the user's own. Throws
+// the user's own, which a .gltf or .glb without lights is taken for. Throws
 // ConfigError for a name that does not exist, with the nearest one and all there are.
 [[nodiscard]] Scene loadScene(const std::string& nameOrPath);
 

@@ -104,9 +104,15 @@ Camera readCamera(TableReader& reader) {
 void readEnvironment(TableReader& reader, Scene& scene) {
     const auto keys = reader.read<EnvironmentKeys>();
     scene.environmentTurnDegrees = keys.turnDegrees;
+    scene.environmentLights = keys.lights;
+    if (!keys.image && !keys.pattern && !keys.lights) {
+        reader.fail("",
+                    "environment has either an image or a pattern, or lights = true for a "
+                    "background that shines");
+    }
     if (keys.image) {
         scene.environmentImage = addImage(reader, *keys.image, scene, "image");
-    } else {
+    } else if (keys.pattern) {
         const char* const name = *keys.pattern == EnvironmentPattern::sky ? "sky" : "grid";
         scene.environmentImage = static_cast<int>(scene.images.size());
         // As a file would be, so that nothing else need know of it.

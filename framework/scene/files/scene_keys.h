@@ -36,6 +36,7 @@ struct EnvironmentKeys {
     double turnDegrees = 0.0;
     std::optional<std::string> image;
     std::optional<EnvironmentPattern> pattern;
+    bool lights = false;
 };
 template <class R>
 void reflect(R& r, EnvironmentKeys& environment) {
@@ -44,7 +45,12 @@ void reflect(R& r, EnvironmentKeys& environment) {
     r.text(environment.image, {"image", "A latitude-longitude picture beside the scene file"});
     r.choice(environment.pattern, {"pattern", "A picture that needs no file"},
              {{"sky", EnvironmentPattern::sky}, {"grid", EnvironmentPattern::grid}});
-    r.rule({{"image", "pattern"}, true, "image", "environment has either an image or a pattern"});
+    r.flag(environment.lights,
+           {"lights", "Whether it shines into the scene, and is not only seen"});
+    r.rule({{"image", "pattern"},
+            false,
+            "image",
+            "environment has either an image or a pattern, not both"});
 }
 
 struct LightKeys {
@@ -194,9 +200,11 @@ void reflect(R& r, ObjectKeys& object) {
     r.uniformOrVector(object.scale, {"scale", "Of its size, along its own axes"}, kPositive,
                       kHasDefault);
     if (object.isMesh) {
-        r.text(object.mesh,
-               {"mesh", "A file .obj, .ply, .ply.gz, .stl, .3ds, .gltf or .glb, next to the scene file or in "
-                "meshes/"});
+        r.text(
+            object.mesh,
+            {"mesh",
+             "A file .obj, .ply, .ply.gz, .stl, .3ds, .gltf or .glb, next to the scene file or in "
+             "meshes/"});
         r.number(object.restOn, {"rest_on", "The height that its lowest point stands at", "m"},
                  kAnyNumber);
         r.rule({{"fit", "scale"}, false, "fit", "either fit or scale is given, not both"});

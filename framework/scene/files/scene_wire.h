@@ -52,7 +52,8 @@ auto partsOf(T& mesh) {
 
 template <SameButConst<Emitter> T>
 auto partsOf(T& emitter) {
-    auto& [light, object] = emitter;
+    // What an environment is made of is in the scene.
+    auto& [light, object, environment] = emitter;
     return std::tie(light, object);
 }
 
@@ -64,12 +65,12 @@ auto partsOf(T& object) {
 
 template <SameButConst<Scene> T>
 auto partsOf(T& scene) {
-    auto& [name, description, file, extendedFiles, camera, lights, emitters, materials, images, meshes,
-           objects, medium, background, environment, environmentTurn, ambient, time, warnings] =
-        scene;
-    return std::tie(name, description, file, extendedFiles, camera, lights, emitters, materials, images,
-                    meshes, objects, medium, background, environment, environmentTurn, ambient,
-                    time, warnings);
+    auto& [name, description, file, extendedFiles, camera, lights, emitters, materials, images,
+           meshes, objects, medium, background, environment, environmentTurn, environmentLights,
+           ambient, time, warnings] = scene;
+    return std::tie(name, description, file, extendedFiles, camera, lights, emitters, materials,
+                    images, meshes, objects, medium, background, environment, environmentTurn,
+                    environmentLights, ambient, time, warnings);
 }
 
 template <SameButConst<ImportedMesh> T>

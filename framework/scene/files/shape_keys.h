@@ -140,7 +140,8 @@ void reflect(R& r, HeightField& water) {
     reflectWaves(r, water.waves);
 }
 
-using Shape = std::variant<PlaneShape, DiscShape, BoxShape, SphereShape, CylinderShape, RingShape, TorusShape,
-                           TreeShape, LensShape, PrismShape, ParaboloidShape, HeightField>;
+using Shape =
+    std::variant<PlaneShape, DiscShape, BoxShape, SphereShape, CylinderShape, RingShape, TorusShape,
+                 TreeShape, LensShape, PrismShape, ParaboloidShape, HeightField>;
 
 }  // namespace kaustik::scene

@@ -102,10 +102,14 @@ class Exporter {
         if (isSeen) top_.setColor("background_radiance", radiance);
         if (scene_.camera) writeCamera(top_, *scene_.camera);
         if (scene_.medium) writeMedium(top_, *scene_.medium);
-        if (picture.empty()) return;
+        if (!isSeen) return;
         top_.table("[environment]");
-        top_.set("image", picture);
-        top_.set("turn_degrees", scene_.environmentTurnDegrees);
+        if (!picture.empty()) {
+            top_.set("image", picture);
+            top_.set("turn_degrees", scene_.environmentTurnDegrees);
+        }
+        top_.set("lights", true);
+        ++result_.lightCount;
     }
 
     void addLight(const Light& light) {

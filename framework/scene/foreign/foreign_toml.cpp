@@ -70,6 +70,10 @@ void writeLight(TomlLines& lines, const Light& light, const std::string& name) {
     if (light.kind == LightKind::directional) {
         lines.set("type", "directional");
         lines.set("direction", light.direction);
+        if (light.angularDiameterRadians > 0.0f) {
+            lines.set("angular_diameter_degrees",
+                      double(glm::degrees(light.angularDiameterRadians)));
+        }
         return writePower(lines, "irradiance", light.power);
     }
     lines.set("type", light.kind == LightKind::point ? "point" : "spot");

@@ -72,7 +72,8 @@ TEST(LightPoints, OfADiscMakeItsIrradianceAndFillIt) {
 }
 
 TEST(LightPoints, OfASurfaceHaveItsPower) {
-    for (const Mesh& mesh : {makePlane({{0.5, 0.4}, {1, 1}}), makeDisc({0.3, 64}), makeSphere({0.2, 32})}) {
+    for (const Mesh& mesh :
+         {makePlane({{0.5, 0.4}, {1, 1}}), makeDisc({0.3, 64}), makeSphere({0.2, 32})}) {
         Scene scene = withLamp(mesh);
         placeLightPoints(scene, 32, 600);
         ASSERT_EQ(scene.lights.size(), 32u);
@@ -84,7 +85,8 @@ TEST(LightPoints, OfASurfaceHaveItsPower) {
         }
         EXPECT_NEAR(watts, 3.0 * kPi * surface.areaSquareMeters(), 1e-5 * watts);
     }
-    EXPECT_NEAR(EmittingSurface(withLamp(makeDisc({0.3, 128})), {"", 1, 1, glm::dmat4(1.0)}).areaSquareMeters(),
+    EXPECT_NEAR(EmittingSurface(withLamp(makeDisc({0.3, 128})), {"", 1, 1, glm::dmat4(1.0)})
+                    .areaSquareMeters(),
                 kPi * 0.09, 2e-4);
 }
 
@@ -109,7 +111,9 @@ TEST(LightPoints, OfASquareLightWhatIsUnderItAsTheWholeDoes) {
 
 TEST(LightPoints, AreOneWhereASizeCannotBeSeen) {
     EXPECT_EQ(withSun(1e-4).lights.size(), 1u);
-    EXPECT_EQ(withSun(0.53).lights.size(), 16u);
+    EXPECT_EQ(withSun(0.53).lights.size(), 1u);
+    EXPECT_EQ(withSun(2.0).lights.size(), 4u);
+    EXPECT_EQ(withSun(10.0).lights.size(), 16u);
     const Scene scene = withSun(1e-4);
     const EmitterPoints points = pointsOf(scene, scene.emitters[0], 0, 600);
     EXPECT_LT(points.blurMeters, points.pixelMeters);
@@ -133,7 +137,7 @@ TEST(LightPoints, AreNoPartOfTheScenesHash) {
 }
 
 TEST(LightPoints, ShareOutTheirPhotonsWhereAllLightsAreSuch) {
-    Scene scene = withSun(0.53);
+    Scene scene = withSun(10.0);
     EXPECT_EQ(mostLightPoints(scene), 16);
     scene.lights.push_back({});
     EXPECT_EQ(mostLightPoints(scene), 1);
