@@ -105,11 +105,6 @@ void readEnvironment(TableReader& reader, Scene& scene) {
     const auto keys = reader.read<EnvironmentKeys>();
     scene.environmentTurnDegrees = keys.turnDegrees;
     scene.environmentLights = keys.lights;
-    if (!keys.image && !keys.pattern && !keys.lights) {
-        reader.fail("",
-                    "environment has either an image or a pattern, or lights = true for a "
-                    "background that shines");
-    }
     if (keys.image) {
         scene.environmentImage = addImage(reader, *keys.image, scene, "image");
     } else if (keys.pattern) {
