@@ -107,7 +107,7 @@ TEST_F(Lamps, ThatAreTooSmallToBeSeenAreOnePoint) {
                                       "extends = \"base.toml\"\n[[light]]\nname = \"sun\"\n"
                                       "angular_diameter_degrees = " +
                                           degrees + "\n"));
-        const Outcome outcome = run({"explain", "sun.toml", "--size", "64x48"});
+        const Outcome outcome = run({"explain", "sun.toml", "--size", "640x480"});
         EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
         return outcome.out;
     };
