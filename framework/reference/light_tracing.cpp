@@ -164,9 +164,8 @@ double irradianceScale(const EmbreeScene& scene) {
     }
     for (const scene::Emitter& emitter : scene.scene().emitters) {
         if (!emitter.object) {
-            const glm::dvec3 whole = emitter.environment
-                                         ? emitter.environment->fluxPerSquareMeter()
-                                         : glm::dvec3(emitter.light.power);
+            const glm::dvec3 whole = emitter.environment ? emitter.environment->fluxPerSquareMeter()
+                                                         : glm::dvec3(emitter.light.power);
             scale += std::max({whole.r, whole.g, whole.b});
             continue;
         }

@@ -42,8 +42,8 @@ std::vector<Samples> batchesOfGrids(const FrameBuilder& frame, int together, boo
     // As many whole grids as a list has room for, or parts of one.
     if (const int grids = maximumRows / photons.height; grids > 0) {
         for (int light = 0; light < lights; light += grids) {
-            batches.push_back({light, std::min(grids, lights - light), 0, photons.height, suffix(),
-                               {}});
+            batches.push_back(
+                {light, std::min(grids, lights - light), 0, photons.height, suffix(), {}});
         }
         return batches;
     }

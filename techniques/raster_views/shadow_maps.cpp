@@ -39,11 +39,11 @@ ShadowMaps drawShadowMaps(FrameBuilder& frame, const Geometry& geometry) {
         views.push_back({render::between(frame.view(), sight.view), sight.view.projection()});
     // All maps lie in one array. Faces of 90 degrees see the scene larger than one map of all of
     // it.
-    // The points of a light that has a size take no more memory than four lights together: what each
-    // has of an edge is told by the mean of all.
+    // The points of a light that has a size take no more memory than four lights together: what
+    // each has of an edge is told by the mean of all.
     const double share = std::min(2.0 / std::sqrt(mostLightPoints(frame.scene())), 1.0);
-    const int size = std::max(
-        static_cast<int>(frame.params<ShadowMapParams>("shadow.map").size * share), 16);
+    const int size =
+        std::max(static_cast<int>(frame.params<ShadowMapParams>("shadow.map").size * share), 16);
     const int lights = frame.needs().lights;
     return {
         drawLightDepths(frame,
