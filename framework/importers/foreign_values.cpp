@@ -112,4 +112,15 @@ void ForeignNotes::add(NoteKind kind, const std::string& subject, const std::str
     notes_.push_back({kind, subject, isWithin ? place.substr(prefix_.size()) : place, reason});
 }
 
+void setColor(ForeignMaterial& foreign, const ForeignColor& color) {
+    Material& material = foreign.material;
+    material.kind = MaterialKind::lambertian;
+    material.albedo = reflectanceOf(color.color);
+    material.pattern = color.pattern;
+    material.patternAlbedo = reflectanceOf(color.second);
+    material.uvScale = glm::vec2(color.uvScale);
+    foreign.image = color.image;
+    foreign.turnsTexture = color.turnsTexture;
+}
+
 }  // namespace kaustik::scene

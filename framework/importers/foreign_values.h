@@ -50,6 +50,23 @@ void requireFinite(const glm::dmat4& matrix, const std::string& place);
 [[nodiscard]] double exponentOfRoughness(double alpha);
 // Reflects less than it receives; a material's albedo is then in range.
 [[nodiscard]] glm::vec3 reflectanceOf(const glm::dvec3& color);
+
+// A colour of a surface, with what varies it.
+struct ForeignColor {
+    glm::dvec3 color{0.0};
+    std::optional<ForeignImage> image = {};
+    Pattern pattern = Pattern::none;
+    glm::dvec3 second{0.0};
+    glm::dvec2 uvScale{1.0};
+    bool turnsTexture = false;  // ForeignMaterial
+};
+// Makes a material a Lambertian one of that colour.
+void setColor(ForeignMaterial& foreign, const ForeignColor& color);
+
+// How deep BSDFs may lie in one another.
+inline constexpr int kMaxNesting = 16;
+// Rougher metals are receivers with a lobe; light goes on from smoother ones.
+inline constexpr double kSmoothAlpha = 0.1;
 // A glossy material whose parts add up to at most 1.
 void setGlossy(Material& material, const glm::dvec3& diffuse, const glm::dvec3& specular,
                double exponent);

@@ -101,7 +101,7 @@ glm::dvec3 colorOfTypedSpectrum(const MitsubaImport& importer, const MitsubaElem
     return glm::dvec3(element.number("value", 1.0));
 }
 
-void setPicture(MitsubaImport& importer, const MitsubaElement& texture, MitsubaColor& color) {
+void setPicture(MitsubaImport& importer, const MitsubaElement& texture, ForeignColor& color) {
     const MitsubaElement* const name = texture.child("filename");
     if (name == nullptr) failAt(texture.place, "a bitmap needs a 'filename'.");
     color.image = ForeignImage{importer.document.file(name->required("value")), name->place};
@@ -116,7 +116,7 @@ bool isWhole(double number) {
 
 // How often it repeats, and whether it is turned over, which scenes do to have a picture upright.
 // What else turns and moves it has no counterpart.
-void setScale(MitsubaImport& importer, const MitsubaElement& texture, MitsubaColor& color) {
+void setScale(MitsubaImport& importer, const MitsubaElement& texture, ForeignColor& color) {
     const glm::dmat4 toUv = texture.transform("to_uv");
     const glm::dvec2 scale(toUv[0][0] * texture.number("uscale", 1.0),
                            toUv[1][1] * texture.number("vscale", 1.0));
@@ -147,9 +147,9 @@ std::optional<glm::dvec3> constantColor(const MitsubaImport& importer,
     return threeOrOne(parseNumbers(value, element.place), element.place);
 }
 
-MitsubaColor surfaceColor(MitsubaImport& importer, const MitsubaElement& parent, const char* name,
+ForeignColor surfaceColor(MitsubaImport& importer, const MitsubaElement& parent, const char* name,
                           const glm::dvec3& otherwise) {
-    MitsubaColor result;
+    ForeignColor result;
     result.color = otherwise;
     const MitsubaElement* const child = parent.child(name);
     if (child == nullptr) return result;

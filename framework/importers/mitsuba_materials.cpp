@@ -12,21 +12,6 @@
 namespace kaustik::scene {
 namespace {
 
-constexpr int kMaxNesting = 16;
-// Rougher metals are receivers with a lobe; light goes on from smoother ones.
-constexpr double kSmoothAlpha = 0.1;
-
-void setColor(ForeignMaterial& foreign, const MitsubaColor& color) {
-    Material& material = foreign.material;
-    material.kind = MaterialKind::lambertian;
-    material.albedo = reflectanceOf(color.color);
-    material.pattern = color.pattern;
-    material.patternAlbedo = reflectanceOf(color.second);
-    material.uvScale = glm::vec2(color.uvScale);
-    foreign.image = color.image;
-    foreign.turnsTexture = color.turnsTexture;
-}
-
 // By number or by name; `name` is given where the property is not.
 double iorOf(const MitsubaElement& bsdf, const char* property, const char* name) {
     const MitsubaElement* const found = bsdf.child(property);
@@ -116,7 +101,7 @@ void makeConductor(MitsubaImport& importer, const MitsubaElement& bsdf, Material
 }
 
 void makePlastic(MitsubaImport& importer, const MitsubaElement& bsdf, ForeignMaterial& foreign) {
-    const MitsubaColor diffuse =
+    const ForeignColor diffuse =
         surfaceColor(importer, bsdf, "diffuse_reflectance", glm::dvec3(0.5));
     setColor(foreign, diffuse);
     if (bsdf.type() == "phong") {
@@ -141,7 +126,7 @@ void makePlastic(MitsubaImport& importer, const MitsubaElement& bsdf, ForeignMat
 
 // The mixture of all of them, by what it is most.
 void makePrincipled(MitsubaImport& importer, const MitsubaElement& bsdf, ForeignMaterial& foreign) {
-    const MitsubaColor base = surfaceColor(importer, bsdf, "base_color", glm::dvec3(0.5));
+    const ForeignColor base = surfaceColor(importer, bsdf, "base_color", glm::dvec3(0.5));
     const double metallic = evenColor(importer, bsdf, "metallic", glm::dvec3(0.0)).r;
     const double transmission = evenColor(importer, bsdf, "spec_trans", glm::dvec3(0.0)).r;
     const double roughness = evenColor(importer, bsdf, "roughness", glm::dvec3(0.5)).r;

@@ -29,15 +29,7 @@ struct MitsubaImport {
 };
 
 // What a colour property of a surface may be: an even colour, times a picture, or two in a pattern.
-struct MitsubaColor {
-    glm::dvec3 color{0.0};
-    std::optional<ForeignImage> image;
-    Pattern pattern = Pattern::none;
-    glm::dvec3 second{0.0};
-    glm::dvec2 uvScale{1.0};
-    bool turnsTexture = false;  // ForeignMaterial
-};
-[[nodiscard]] MitsubaColor surfaceColor(MitsubaImport& importer, const MitsubaElement& parent,
+[[nodiscard]] ForeignColor surfaceColor(MitsubaImport& importer, const MitsubaElement& parent,
                                         const char* name, const glm::dvec3& otherwise);
 // The same where only an even colour will do; a texture becomes its mean, or white, with a note.
 [[nodiscard]] glm::dvec3 evenColor(MitsubaImport& importer, const MitsubaElement& parent,

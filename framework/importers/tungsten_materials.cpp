@@ -9,20 +9,6 @@
 namespace kaustik::scene {
 namespace {
 
-constexpr int kMaxNesting = 16;
-// Rougher metals are receivers with a lobe; light goes on from smoother ones.
-constexpr double kSmoothAlpha = 0.1;
-
-void setColor(ForeignMaterial& foreign, const TungstenColor& color) {
-    Material& material = foreign.material;
-    material.kind = MaterialKind::lambertian;
-    material.albedo = reflectanceOf(color.color);
-    material.pattern = color.pattern;
-    material.patternAlbedo = reflectanceOf(color.second);
-    material.uvScale = glm::vec2(color.uvScale);
-    foreign.image = color.image;
-}
-
 double iorOf(const JsonTree& bsdf) {
     const double ior = jsonNumber(bsdf, "ior", 1.5);
     if (!(ior > 0.0)) failAt(bsdf.place, "an index of refraction is above 0.");
@@ -77,7 +63,7 @@ void makeConductor(TungstenImport& importer, const JsonTree& bsdf, Material& mat
 }
 
 void makePlastic(TungstenImport& importer, const JsonTree& bsdf, ForeignMaterial& foreign) {
-    const TungstenColor albedo = surfaceColor(importer, bsdf, "albedo", glm::dvec3(1.0));
+    const ForeignColor albedo = surfaceColor(importer, bsdf, "albedo", glm::dvec3(1.0));
     setColor(foreign, albedo);
     const std::string type = jsonText(bsdf, "type");
     if (type == "phong") {

@@ -42,15 +42,8 @@ struct TungstenImport {
 [[nodiscard]] glm::dmat4 jsonTransform(const JsonTree& node);
 
 // An even colour, times a picture, or two in a pattern.
-struct TungstenColor {
-    glm::dvec3 color{1.0};
-    std::optional<ForeignImage> image;
-    Pattern pattern = Pattern::none;
-    glm::dvec3 second{0.0};
-    glm::dvec2 uvScale{1.0};
-};
-[[nodiscard]] TungstenColor surfaceColor(TungstenImport& importer, const JsonTree& node,
-                                         const char* key, const glm::dvec3& otherwise);
+[[nodiscard]] ForeignColor surfaceColor(TungstenImport& importer, const JsonTree& node,
+                                        const char* key, const glm::dvec3& otherwise);
 // The same where only an even colour will do.
 [[nodiscard]] glm::dvec3 evenColor(TungstenImport& importer, const JsonTree& node, const char* key,
                                    const glm::dvec3& otherwise);

@@ -134,7 +134,7 @@ void readCap(TungstenImport& importer, const JsonTree& primitive) {
 
 void readSurrounding(TungstenImport& importer, const JsonTree& primitive) {
     ForeignScene& scene = importer.scene;
-    const TungstenColor color = surfaceColor(importer, primitive, "emission", glm::dvec3(0.0));
+    const ForeignColor color = surfaceColor(importer, primitive, "emission", glm::dvec3(0.0));
     const glm::dmat4 matrix = jsonTransform(primitive);
     scene.environment = color.image;
     scene.backgroundRadiance = glm::max(color.color, 0.0);

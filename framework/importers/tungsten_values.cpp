@@ -96,8 +96,8 @@ glm::dmat3 axesOf(const JsonTree& node, const glm::dvec3& position) {
     return {axes[0], axes[1], axes[2]};
 }
 
-TungstenColor textureOf(TungstenImport& importer, const JsonTree& node) {
-    TungstenColor result;
+ForeignColor textureOf(TungstenImport& importer, const JsonTree& node) {
+    ForeignColor result{.color = glm::dvec3(1.0)};
     const std::string type = jsonText(node, "type");
     if (type == "constant") {
         result.color = jsonVector(node, "value", glm::dvec3(1.0));
@@ -172,9 +172,9 @@ glm::dmat4 jsonTransform(const JsonTree& node) {
     return matrix;
 }
 
-TungstenColor surfaceColor(TungstenImport& importer, const JsonTree& node, const char* key,
-                           const glm::dvec3& otherwise) {
-    TungstenColor result;
+ForeignColor surfaceColor(TungstenImport& importer, const JsonTree& node, const char* key,
+                          const glm::dvec3& otherwise) {
+    ForeignColor result{.color = glm::dvec3(1.0)};
     result.color = otherwise;
     const JsonTree* const found = node.find(key);
     if (found == nullptr) return result;
@@ -191,7 +191,7 @@ TungstenColor surfaceColor(TungstenImport& importer, const JsonTree& node, const
 
 glm::dvec3 evenColor(TungstenImport& importer, const JsonTree& node, const char* key,
                      const glm::dvec3& otherwise) {
-    const TungstenColor color = surfaceColor(importer, node, key, otherwise);
+    const ForeignColor color = surfaceColor(importer, node, key, otherwise);
     if (!color.image && color.pattern == Pattern::none) return color.color;
     importer.notes.leftOut(fmt::format("texture of '{}'", key), node.place,
                            "there is only an even colour here");

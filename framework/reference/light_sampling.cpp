@@ -6,25 +6,18 @@
 #include <limits>
 #include <numbers>
 
+#include "framework/scene/basis.h"
+
 namespace kaustik::reference {
 namespace {
+
+using scene::Basis;
+using scene::basisAround;
 
 constexpr double kPi = std::numbers::pi;
 constexpr int kOrientations = 48;
 // So that rounding cuts nothing off; what misses is no event.
 constexpr double kMargin = 1e-6;
-
-struct Basis {
-    glm::dvec3 a, b;
-};
-
-// Two unit vectors at right angles to `along` and to each other; the first horizontal if possible.
-Basis basisAround(const glm::dvec3& along) {
-    const glm::dvec3 upwards =
-        std::abs(along.y) < 0.999999 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1);
-    const glm::dvec3 a = glm::normalize(glm::cross(upwards, along));
-    return {a, glm::cross(along, a)};
-}
 
 struct Rectangle {
     glm::dvec2 low{std::numeric_limits<double>::max()};

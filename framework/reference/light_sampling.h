@@ -44,6 +44,8 @@ class LightSampler {
   public:
     // Divides about `photonsPerBatch` photons among the lights by their flux.
     LightSampler(const EmbreeScene& scene, std::uint64_t photonsPerBatch);
+    LightSampler(const LightSampler&) = delete;  // shares point to its own lights
+    LightSampler& operator=(const LightSampler&) = delete;
 
     // What `photonsPerBatch` has become; 0 without a light or a specular surface.
     [[nodiscard]] std::uint64_t photonsPerBatch() const { return photonCount_; }

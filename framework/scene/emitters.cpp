@@ -9,7 +9,9 @@
 #include <limits>
 #include <memory>
 
+#include "framework/scene/basis.h"
 #include "framework/scene/emitting_environment.h"
+#include "framework/scene/triangles.h"
 
 namespace kaustik::scene {
 namespace {
@@ -25,23 +27,13 @@ bool emits(const Material& material) {
     return material.emission != glm::vec3(0.0f);
 }
 
-// Two unit vectors at right angles to a unit vector and to each other.
-struct Across {
-    glm::dvec3 a, b;
-};
-Across acrossOf(const glm::dvec3& along) {
-    const glm::dvec3 other = std::abs(along.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
-    const glm::dvec3 a = glm::normalize(glm::cross(other, along));
-    return {a, glm::cross(along, a)};
-}
-
 // Even over the disc, in a spiral of the golden angle (Vogel 1979).
 Light pointOfDisc(const Light& sun, int index, int count) {
     const double goldenAngle = glm::pi<double>() * (3.0 - std::sqrt(5.0));
     const double edge = std::tan(0.5 * static_cast<double>(sun.angularDiameterRadians));
     const double radius = edge * std::sqrt((index + 0.5) / count);
     const double turn = goldenAngle * index;
-    const Across across = acrossOf(sun.direction);
+    const Basis across = basisAround(sun.direction);
     Light point = sun;
     point.angularDiameterRadians = 0.0f;
     point.direction = glm::normalize(
@@ -88,20 +80,16 @@ bool isLevel(const Scene& scene, const Emitter& emitter) {
 
 EmittingSurface::EmittingSurface(const Scene& scene, const Object& object) {
     const Mesh& mesh = scene.meshes[object.mesh];
-    const auto place = [&](std::uint32_t vertex) {
-        return glm::dvec3(object.toWorld *
-                          glm::dvec4(mesh.origin + glm::dvec3(mesh.positions[vertex]), 1.0));
-    };
     // What is mirrored faces the other way.
     const bool isMirrored = glm::determinant(glm::dmat3(object.toWorld)) < 0.0;
     for (const glm::uvec3& triangle : mesh.triangles) {
-        Corners corners{place(triangle.x), place(triangle.y), place(triangle.z)};
-        if (isMirrored) std::swap(corners.b, corners.c);
+        Corners corners = cornersOf(mesh, triangle, object.toWorld);
+        if (isMirrored) std::swap(corners[1], corners[2]);
         triangles_.push_back(corners);
     }
     double area = 0.0;
     for (const Corners& corners : triangles_) {
-        area += glm::length(corners.area());
+        area += glm::length(areaOf(corners));
         cumulated_.push_back(area);
     }
 }
@@ -109,7 +97,7 @@ EmittingSurface::EmittingSurface(const Scene& scene, const Object& object) {
 bool EmittingSurface::isLevel() const {
     glm::dvec3 whole(0.0);
     for (const Corners& corners : triangles_)
-        whole += corners.area();
+        whole += areaOf(corners);
     return glm::length(whole) > 0.5 * areaSquareMeters();
 }
 
@@ -122,23 +110,23 @@ void EmittingSurface::addMiddles(Range range, int parts, std::vector<Point>& all
     glm::dvec3 facing(0.0);
     double area = 0.0;
     for (const Corners* t = begin; t != end; ++t) {
-        const double own = glm::length(t->area());
-        low = glm::min(low, t->middle());
-        high = glm::max(high, t->middle());
-        middle += own * t->middle();
-        facing += t->area();
+        const double own = glm::length(areaOf(*t));
+        low = glm::min(low, middleOf(*t));
+        high = glm::max(high, middleOf(*t));
+        middle += own * middleOf(*t);
+        facing += areaOf(*t);
         area += own;
     }
     if (parts <= 1 || end - begin < 2) {
         const Corners* const nearest =
             std::min_element(begin, end, [&](const Corners& one, const Corners& other) {
-                return glm::distance(one.middle(), middle / area) <
-                       glm::distance(other.middle(), middle / area);
+                return glm::distance(middleOf(one), middle / area) <
+                       glm::distance(middleOf(other), middle / area);
             });
         const double size = glm::length(facing);
         const glm::dvec3 normal = size > 0.0 ? facing / size : glm::dvec3(0, 1, 0);
         for (int i = 0; i < parts; ++i)
-            all.push_back({nearest->middle(), normal});
+            all.push_back({middleOf(*nearest), normal});
         return;
     }
     const glm::dvec3 extent = high - low;
@@ -146,13 +134,13 @@ void EmittingSurface::addMiddles(Range range, int parts, std::vector<Point>& all
                                : extent.y >= extent.z                       ? 1
                                                                             : 2;
     std::sort(begin, end, [&](const Corners& one, const Corners& other) {
-        return one.middle()[axis] < other.middle()[axis];
+        return middleOf(one)[axis] < middleOf(other)[axis];
     });
     const int first = parts / 2;
     double before = 0.0;
     Corners* split = begin;
     while (split + 1 != end && before < area * first / parts)
-        before += glm::length((split++)->area());
+        before += glm::length(areaOf(*split++));
     addMiddles({begin, split}, first, all);
     addMiddles({split, end}, parts - first, all);
 }
@@ -166,16 +154,17 @@ std::vector<EmittingSurface::Point> EmittingSurface::middles(int parts) const {
     while (!waiting.empty()) {
         const Corners t = waiting.back();
         waiting.pop_back();
-        const double own = glm::length(t.area());
+        const double own = glm::length(areaOf(t));
         if (!(own > 0.0)) continue;
         if (own <= maximum) {
             pieces.push_back(t);
             continue;
         }
-        const glm::dvec3 ab = 0.5 * (t.a + t.b);
-        const glm::dvec3 bc = 0.5 * (t.b + t.c);
-        const glm::dvec3 ca = 0.5 * (t.c + t.a);
-        waiting.insert(waiting.end(), {{t.a, ab, ca}, {ab, t.b, bc}, {ca, bc, t.c}, {ab, bc, ca}});
+        const glm::dvec3 ab = 0.5 * (t[0] + t[1]);
+        const glm::dvec3 bc = 0.5 * (t[1] + t[2]);
+        const glm::dvec3 ca = 0.5 * (t[2] + t[0]);
+        waiting.insert(waiting.end(),
+                       {{t[0], ab, ca}, {ab, t[1], bc}, {ca, bc, t[2]}, {ab, bc, ca}});
     }
     std::vector<Point> all;
     if (!pieces.empty()) addMiddles({pieces.data(), pieces.data() + pieces.size()}, parts, all);
@@ -190,9 +179,9 @@ EmittingSurface::Point EmittingSurface::at(double which, double u, double v) con
         std::min(static_cast<std::size_t>(found - cumulated_.begin()), triangles_.size() - 1);
     const Corners& t = triangles_[index];
     const double root = std::sqrt(u);
-    const glm::dvec3 normal = t.area();
+    const glm::dvec3 normal = areaOf(t);
     const double size = glm::length(normal);
-    return {(1.0 - root) * t.a + root * (1.0 - v) * t.b + root * v * t.c,
+    return {(1.0 - root) * t[0] + root * (1.0 - v) * t[1] + root * v * t[2],
             size > 0.0 ? normal / size : glm::dvec3(0, 1, 0)};
 }
 

@@ -5,6 +5,7 @@
 // (Scene::lights, with Light::emitter), by low discrepancy; the reference samples the whole.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <glm/glm.hpp>
 #include <string>
@@ -36,11 +37,7 @@ class EmittingSurface {
     [[nodiscard]] std::vector<Point> middles(int parts) const;
 
   private:
-    struct Corners {
-        glm::dvec3 a, b, c;
-        [[nodiscard]] glm::dvec3 middle() const { return (a + b + c) / 3.0; }
-        [[nodiscard]] glm::dvec3 area() const { return 0.5 * glm::cross(b - a, c - a); }
-    };
+    using Corners = std::array<glm::dvec3, 3>;
     using Range = std::pair<Corners*, Corners*>;
     static void addMiddles(Range range, int parts, std::vector<Point>& all);
 

@@ -23,4 +23,13 @@ namespace kaustik::scene {
     return corners;
 }
 
+// Along the normal, as long as the triangle's area.
+[[nodiscard]] inline glm::dvec3 areaOf(const std::array<glm::dvec3, 3>& corners) {
+    return 0.5 * glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+}
+
+[[nodiscard]] inline glm::dvec3 middleOf(const std::array<glm::dvec3, 3>& corners) {
+    return (corners[0] + corners[1] + corners[2]) / 3.0;
+}
+
 }  // namespace kaustik::scene

@@ -158,7 +158,7 @@ TEST_F(Import, NamesMeshesWhereTheyLieAndBakesWhatNoKeysSay) {
     EXPECT_EQ(run({"explain", "there/made.toml"}).exitCode, 0);
 }
 
-TEST_F(Import, ATextureThatIsNotThereIsAnErrorUnlessItMayBeGrey) {
+TEST_F(Import, AMissingTextureIsAnErrorOrGrey) {
     const std::string scene = mitsuba(
         "<shape type=\"disk\"/><shape type=\"sphere\"><bsdf type=\"diffuse\"><texture "
         "type=\"bitmap\" "

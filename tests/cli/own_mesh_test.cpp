@@ -41,7 +41,7 @@ class OwnMesh : public CommandLine {
     }
 };
 
-TEST_F(OwnMesh, StandsInAnyPlaceThatIsMadeForIt) {
+TEST_F(OwnMesh, StandsOnTheTableInThePoolAndInTheRoom) {
     for (const char* place : {"table", "pool", "room"}) {
         SCOPED_TRACE(place);
         const Outcome outcome = render("thing.obj", {"--on", place});
@@ -59,7 +59,7 @@ TEST_F(OwnMesh, AloneStandsOnATableOfGlass) {
     expectCaustic();
 }
 
-TEST_F(OwnMesh, IsOfTheMaterialThatIsAskedFor) {
+TEST_F(OwnMesh, HasTheRequestedMaterial) {
     ASSERT_EQ(render("thing.obj", {"--material", "gold"}).exitCode, 0);
     EXPECT_EQ(report().at("scene").at("needs").at("refractors"), 0);
     EXPECT_EQ(report().at("scene").at("needs").at("reflectors"), 1);

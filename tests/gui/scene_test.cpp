@@ -293,7 +293,7 @@ TEST_F(ScenePanel, AFileThatIsDroppedIsTheScene) {
     EXPECT_GT(*std::max_element(dropped.values.begin(), dropped.values.end()), 0.2f);
 }
 
-TEST_F(ScenePanel, AMeshThatIsDroppedStandsOnATable) {
+TEST_F(ScenePanel, ADroppedMeshStandsOnATable) {
     start();
     const std::string mesh =
         "v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4";

@@ -228,13 +228,8 @@ Scene loadOwnMesh(const OwnMesh& mesh) {
 
 std::vector<std::string> listStands() {
     std::vector<std::string> names;
-    std::error_code error;
-    for (const fs::directory_entry& entry : fs::directory_iterator(standFolder(), error)) {
-        const fs::path file = entry.path();
-        if (file.extension() == ".toml" && !file.filename().string().starts_with('.'))
-            names.push_back(file.stem().string());
-    }
-    std::sort(names.begin(), names.end());
+    for (const fs::path& file : sceneFilesIn(standFolder()))
+        names.push_back(file.stem().string());
     return names;
 }
 

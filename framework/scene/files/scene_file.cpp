@@ -30,20 +30,6 @@ fs::path sceneFolder() {
     return projectRoot() / "experiments" / "scenes";
 }
 
-// By name.
-std::vector<fs::path> shippedSceneFiles() {
-    std::vector<fs::path> files;
-    std::error_code error;
-    for (const fs::directory_entry& entry : fs::directory_iterator(sceneFolder(), error)) {
-        const fs::path file = entry.path();
-        if (file.extension() == ".toml" && !file.filename().string().starts_with('.'))
-            files.push_back(file);
-    }
-    std::sort(files.begin(), files.end(),
-              [](const fs::path& a, const fs::path& b) { return a.stem() < b.stem(); });
-    return files;
-}
-
 // Of a scene that does not say its name.
 std::string nameOf(const fs::path& path) {
     return path.has_stem() ? path.stem().string() : "scene";
@@ -93,6 +79,19 @@ Scene loadGltf(const std::string& path) {
 }
 
 }  // namespace
+
+std::vector<fs::path> sceneFilesIn(const fs::path& folder) {
+    std::vector<fs::path> files;
+    std::error_code error;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+        const fs::path file = entry.path();
+        if (file.extension() == ".toml" && !file.filename().string().starts_with('.'))
+            files.push_back(file);
+    }
+    std::sort(files.begin(), files.end(),
+              [](const fs::path& a, const fs::path& b) { return a.stem() < b.stem(); });
+    return files;
+}
 
 std::string lowerExtension(const fs::path& path) {
     std::string extension = path.extension().string();
@@ -154,7 +153,7 @@ Scene loadScene(const std::string& nameOrPath) {
                                                      : loadGltf(nameOrPath);
     }
     std::vector<std::string> names;
-    for (const fs::path& file : shippedSceneFiles()) {
+    for (const fs::path& file : sceneFilesIn(sceneFolder())) {
         names.push_back(file.stem().string());
         if (names.back() == nameOrPath) return loadSceneFile(file);
     }
@@ -172,7 +171,7 @@ Scene loadScene(const std::string& nameOrPath) {
 std::vector<SceneListing> listScenes() {
     std::vector<SceneListing> listings;
     reading::ReaderProcess reader;
-    for (const fs::path& file : shippedSceneFiles()) {
+    for (const fs::path& file : sceneFilesIn(sceneFolder())) {
         SceneListing listing{file.stem().string(), "", file};
         try {
             const TomlNode document = readToml(file, reader);

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "framework/scene/files/scene_keys.h"
 #include "framework/scene/scene.h"
@@ -37,6 +38,9 @@ void readEnvironment(TableReader& reader, Scene& scene);
 
 // The mesh of a shape; `reader` is the object's, for errors.
 [[nodiscard]] Mesh makeShape(const Shape& shape, const TableReader& reader, double timeSeconds);
+
+// The .toml files of a folder, by name; hidden ones are left out.
+[[nodiscard]] std::vector<std::filesystem::path> sceneFilesIn(const std::filesystem::path& folder);
 
 // ".pfm" of "a/B.PFM".
 [[nodiscard]] std::string lowerExtension(const std::filesystem::path& path);

@@ -7,7 +7,7 @@
 namespace kaustik::scene {
 namespace {
 
-constexpr glm::dvec3 kNothing{0.0};
+constexpr glm::dvec3 kZero{0.0};
 
 // As a scene file takes it, which refuses a field of view of 0 or of 180 degrees.
 constexpr double kMinFov = 1e-3;
@@ -22,8 +22,8 @@ void writePower(TomlLines& lines, const char* key, const glm::dvec3& power) {
 }
 
 void writePlace(TomlLines& lines, const Placement& placement) {
-    lines.setUnless(kNothing, "position", placement.position);
-    lines.setUnless(kNothing, "rotation_degrees", placement.rotationDegrees);
+    lines.setUnless(kZero, "position", placement.position);
+    lines.setUnless(kZero, "rotation_degrees", placement.rotationDegrees);
 }
 
 void writeScale(TomlLines& lines, const glm::dvec3& scale) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "framework/scene/meshes/position_welding.h"
+#include "framework/scene/triangles.h"
 
 namespace kaustik::scene {
 namespace {
@@ -68,12 +69,6 @@ std::vector<std::vector<Neighbour>> neighboursOf(const Mesh& mesh, const std::ve
     return neighbours;
 }
 
-double areaOf(const Mesh& mesh, const glm::uvec3& triangle) {
-    const glm::dvec3 a(mesh.positions[triangle.x]);
-    return 0.5 * glm::length(glm::cross(glm::dvec3(mesh.positions[triangle.y]) - a,
-                                        glm::dvec3(mesh.positions[triangle.z]) - a));
-}
-
 }  // namespace
 
 Orientation orientTriangles(Mesh& mesh) {
@@ -95,7 +90,8 @@ Orientation orientTriangles(Mesh& mesh) {
         for (std::size_t next = 0; next < surface.size(); ++next) {
             const std::uint32_t triangle = surface[next];
             const Side side = sides[triangle];
-            areas[side] += areaOf(mesh, mesh.triangles[triangle]);
+            areas[side] +=
+                glm::length(areaOf(cornersOf(mesh, mesh.triangles[triangle], glm::dmat4(1.0))));
             for (const auto& [other, isAgainst] : neighbours[triangle]) {
                 const Side wanted = isAgainst == (side == asTheFirst) ? against : asTheFirst;
                 if (sides[other] == unknown) {

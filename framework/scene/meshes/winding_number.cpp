@@ -2,36 +2,31 @@
 #include "framework/scene/meshes/winding_number.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <glm/gtc/constants.hpp>
 #include <vector>
 
+#include "framework/scene/triangles.h"
+
 namespace kaustik::scene {
 namespace {
 
-struct Corners {
-    glm::dvec3 a, b, c;
-};
+using Corners = std::array<glm::dvec3, 3>;
 
-Corners cornersOf(const Mesh& mesh, const glm::uvec3& triangle) {
-    return {glm::dvec3(mesh.positions[triangle.x]), glm::dvec3(mesh.positions[triangle.y]),
-            glm::dvec3(mesh.positions[triangle.z])};
-}
-
-// Along the normal, as long as the triangle's area.
-glm::dvec3 areaOf(const Corners& t) {
-    return 0.5 * glm::cross(t.b - t.a, t.c - t.a);
+Corners ownCorners(const Mesh& mesh, const glm::uvec3& triangle) {
+    return cornersOf(mesh, triangle, glm::dmat4(1.0));
 }
 
 // Of a triangle as seen from the origin, positive from behind (van Oosterom, Strackee 1983).
 double exactSolidAngle(const Corners& t) {
-    const double a = glm::length(t.a);
-    const double b = glm::length(t.b);
-    const double c = glm::length(t.c);
-    const double volume = glm::dot(t.a, glm::cross(t.b, t.c));
+    const double a = glm::length(t[0]);
+    const double b = glm::length(t[1]);
+    const double c = glm::length(t[2]);
+    const double volume = glm::dot(t[0], glm::cross(t[1], t[2]));
     const double rest =
-        a * b * c + glm::dot(t.a, t.b) * c + glm::dot(t.b, t.c) * a + glm::dot(t.c, t.a) * b;
+        a * b * c + glm::dot(t[0], t[1]) * c + glm::dot(t[1], t[2]) * a + glm::dot(t[2], t[0]) * b;
     if (volume == 0.0 && rest <= 0.0) return 0.0;  // the origin lies in it: as much on either side
     return 2.0 * std::atan2(volume, rest);
 }
@@ -49,10 +44,10 @@ std::vector<Patch> patchesOf(const Mesh& mesh) {
     std::vector<Patch> patches;
     patches.reserve(mesh.triangles.size());
     for (const glm::uvec3& triangle : mesh.triangles) {
-        const Corners t = cornersOf(mesh, triangle);
-        const double longest =
-            std::max({glm::distance(t.a, t.b), glm::distance(t.b, t.c), glm::distance(t.c, t.a)});
-        patches.push_back({t, (t.a + t.b + t.c) / 3.0, areaOf(t), kFar * kFar * longest * longest});
+        const Corners t = ownCorners(mesh, triangle);
+        const double longest = std::max(
+            {glm::distance(t[0], t[1]), glm::distance(t[1], t[2]), glm::distance(t[2], t[0])});
+        patches.push_back({t, middleOf(t), areaOf(t), kFar * kFar * longest * longest});
     }
     return patches;
 }
@@ -68,7 +63,7 @@ double windingNumber(const std::vector<Patch>& patches, const glm::dvec3& point,
             sum += glm::dot(patch.area, there) / (squared * std::sqrt(squared));
         } else if (i != leftOut) {
             sum += exactSolidAngle(
-                {patch.corners.a - point, patch.corners.b - point, patch.corners.c - point});
+                {patch.corners[0] - point, patch.corners[1] - point, patch.corners[2] - point});
         }
     }
     return sum / (4.0 * glm::pi<double>());
@@ -103,7 +98,7 @@ double meanWindingBehind(const Mesh& mesh) {
             v = 1.0 - v;
         }
         const Corners& t = patches[at].corners;
-        const glm::dvec3 point = t.a + u * (t.b - t.a) + v * (t.c - t.a);
+        const glm::dvec3 point = t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0]);
         // Its own triangle is half of what is seen from just behind it.
         sum += 0.5 + windingNumber(patches, point, at);
     }
@@ -118,11 +113,11 @@ bool turnsBack(const Mesh& mesh) {
     constexpr double kShare = 1e-3;
     glm::dvec3 mean(0.0);
     for (const glm::uvec3& triangle : mesh.triangles)
-        mean += areaOf(cornersOf(mesh, triangle));
+        mean += areaOf(ownCorners(mesh, triangle));
     double away = 0.0;
     double total = 0.0;
     for (const glm::uvec3& triangle : mesh.triangles) {
-        const glm::dvec3 area = areaOf(cornersOf(mesh, triangle));
+        const glm::dvec3 area = areaOf(ownCorners(mesh, triangle));
         total += glm::length(area);
         if (glm::dot(area, mean) < 0.0) away += glm::length(area);
     }

@@ -52,7 +52,7 @@ TEST_F(Mitsuba, ACameraLooksFromItsOriginAtItsTarget) {
 }
 
 // A point on the edge that the field of view is measured to, in a picture of 200 by 100.
-TEST_F(Mitsuba, TheFieldOfViewIsAlongTheAxisThatIsNamed) {
+TEST_F(Mitsuba, FieldOfViewIsAlongTheNamedAxis) {
     const auto seen = [&](const char* axis, const glm::dvec3& point) {
         const std::string properties = std::string("<float name=\"fov\" value=\"90\"/>") +
                                        "<string name=\"fovAxis\" value=\"" + axis + "\"/>";
