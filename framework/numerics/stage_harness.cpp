@@ -76,9 +76,12 @@ Hits inject(FrameBuilder& frame, const Batch& batch) {
         [&list](const Hits& hits, gl::PassContext& context) {
             context.buffer(hits.incoming.ledger).clear();
             fillList(context, hits.incoming);
-            context.compute("numerics/inject.comp")
-                .storage("InjectedPhotons", list)
-                .dispatchOver(hits.incoming.capacity(), 64);
+            for (const bool isOfHits : {false, true}) {
+                gl::Command command = context.compute("numerics/inject.comp");
+                if (isOfHits) command.define("INJECT_HITS");
+                command.storage("InjectedPhotons", list)
+                    .dispatchOver(hits.incoming.capacity(), 64);
+            }
         });
 }
 

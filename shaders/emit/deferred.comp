@@ -3,6 +3,7 @@
 // specular, with the flux that the light sends through the cell (WN09, section 3.2). One thread a
 // photon of one light.
 #include "include/photons/next_photon_thread.glsl"
+#include "include/photons/store_photons.glsl"
 #include "emit/deferred_cell.glsl"
 #include "include/photons/neighbour_batch.glsl"
 #include "include/surfaces/specular.glsl"

@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: MIT
 // One photon a vertex of a specular mesh, for one light: a thread a vertex. What the light does not
-// see first is nobody. ONLY_BEAMS: their beams and extents instead, since OpenGL grants a shader no
+// see first is nobody. ONLY_BEAMS: their beams and extents instead, since OpenGL grants a program no
 // more than eight images. VERTEX_GRID: the mesh is a grid, whose vertices stand for quarters of its
 // cells.
 #include "include/thread.glsl"
 #include "include/photons/neighbour_batch.glsl"
 #include "include/photons/cell_extent.glsl"
 #include "include/views/light_depth.glsl"
+#include "include/photons/beam.glsl"
 #include "include/photons/lights.glsl"
 #include "include/surfaces/specular.glsl"
+#include "include/photons/next_photon_list.glsl"
+#ifdef ONLY_BEAMS
+#include "include/photons/store_beams.glsl"
+#else
 #include "include/photons/store_hits.glsl"
 #include "include/photons/store_photons.glsl"
+#endif
 
 layout(std430) readonly buffer Instances {
     InstanceData instances[];

@@ -3,7 +3,7 @@
 // receivers that the ray would hit beyond it.
 #include "include/photons/photon_thread.glsl"
 #include "include/photons/store_hits.glsl"
-#include "include/photons/store_photons.glsl"
+#include "include/photons/next_photon_list.glsl"
 #include "include/photons/traced_photon.glsl"
 
 uniform int slot;

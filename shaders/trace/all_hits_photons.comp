@@ -2,6 +2,7 @@
 // Every photon of a list `slots` times, slot by slot; it is on its way in slot 0 alone. One thread a
 // photon. (With hits a shader would store into more images than the eight that OpenGL grants it.)
 #include "include/photons/photon_thread.glsl"
+#include "include/photons/store_beams.glsl"
 #include "include/photons/store_photons.glsl"
 
 uniform int slots;

@@ -4,6 +4,7 @@
 #include "include/photons/hits.glsl"
 #include "include/photons/interaction.glsl"
 #include "include/photons/photon_thread.glsl"
+#include "include/photons/store_beams.glsl"
 #include "include/photons/store_photons.glsl"
 
 layout(std430) readonly buffer NextFirsts {

@@ -74,6 +74,6 @@ float visibleShare(ShadowPlace place, vec3 normalVs) {
             }
         }
     }
-    // Exactly 1 or 0 where all texels say the same.
-    return lit / (lit + dark);
+    // Exactly 1 or 0 where all texels say the same, whatever a driver makes of x / x.
+    return dark > 0.0 ? lit / (lit + dark) : 1.0;
 }

@@ -61,8 +61,8 @@ std::string withLines(const std::string& log, const RecordedProgram& program) {
     return shown.empty() ? "\n    " + log : shown;
 }
 
-// Sizes of what a module declares in workgroup memory and as uniforms outside of blocks, neither of
-// which spirv-cross lists. (SPIR-V 1.0, section 3.32.)
+// Sizes of what a module declares in workgroup memory, as uniforms outside of blocks and as images,
+// none of which spirv-cross lists before what is unused is gone. (SPIR-V 1.0, section 3.32.)
 class ModuleSizes {
   public:
     explicit ModuleSizes(const fs::path& file) {
@@ -79,11 +79,14 @@ class ModuleSizes {
             const std::size_t pointer = types_.at(words_[i + 1]);
             const std::uint32_t size = components(words_[pointer + 3]);
             if (words_[i + 3] == kWorkgroup) shared_ += size;
-            if (words_[i + 3] == kUniformConstant) uniforms_ += size;
+            if (words_[i + 3] != kUniformConstant) continue;
+            uniforms_ += size;
+            images_ += images(words_[pointer + 3]);
         }
     }
     [[nodiscard]] int sharedBytes() const { return static_cast<int>(4 * shared_); }
     [[nodiscard]] int uniformComponents() const { return static_cast<int>(uniforms_); }
+    [[nodiscard]] int imageUniforms() const { return static_cast<int>(images_); }
 
   private:
     static constexpr std::uint32_t kTypeVoid = 19;
@@ -92,6 +95,7 @@ class ModuleSizes {
     static constexpr std::uint32_t kTypeFloat = 22;
     static constexpr std::uint32_t kTypeVector = 23;
     static constexpr std::uint32_t kTypeMatrix = 24;
+    static constexpr std::uint32_t kTypeImage = 25;
     static constexpr std::uint32_t kTypeArray = 28;
     static constexpr std::uint32_t kTypeStruct = 30;
     static constexpr std::uint32_t kTypePointer = 32;
@@ -100,6 +104,15 @@ class ModuleSizes {
     static constexpr std::uint32_t kUniformConstant = 0;
     static constexpr std::uint32_t kWorkgroup = 4;
 
+    // Those that can be written; a sampler holds one that can't.
+    [[nodiscard]] std::uint32_t images(std::uint32_t type) const {
+        constexpr std::uint32_t kWithoutSampler = 2;
+        const std::size_t at = types_.at(type);
+        const std::uint32_t code = words_[at] & 0xffffU;
+        if (code == kTypeImage) return words_[at + 7] == kWithoutSampler ? 1 : 0;
+        if (code == kTypeArray) return images(words_[at + 2]) * constants_.at(words_[at + 3]);
+        return 0;
+    }
     // Of 4 bytes each; images and samplers have none.
     [[nodiscard]] std::uint32_t components(std::uint32_t type) const {
         const std::size_t at = types_.at(type);
@@ -130,10 +143,11 @@ class ModuleSizes {
     std::map<std::uint32_t, std::uint32_t> constants_;  // the first word of each
     std::uint32_t shared_ = 0;
     std::uint32_t uniforms_ = 0;
+    std::uint32_t images_ = 0;
 };
 
 StageResources resourcesOf(const std::string& kind, const nlohmann::json& reflected,
-                           const ModuleSizes& sizes) {
+                           const ModuleSizes& declared, const ModuleSizes& used) {
     // An array takes as many as it has elements.
     const auto count = [&](const char* resource) {
         int sum = 0;
@@ -147,13 +161,13 @@ StageResources resourcesOf(const std::string& kind, const nlohmann::json& reflec
     };
     StageResources found;
     found.kind = kind;
-    found.images = count("images");
+    found.images = declared.imageUniforms();
     found.storageBlocks = count("ssbos");
     found.uniformBlocks = count("ubos");
     found.samplers = count("textures");
     if (kind == "frag") found.outputs = count("outputs");
-    found.uniformComponents = sizes.uniformComponents();
-    found.sharedBytes = sizes.sharedBytes();
+    found.uniformComponents = used.uniformComponents();
+    found.sharedBytes = used.sharedBytes();
     const nlohmann::json& entry = reflected.at("entryPoints").at(0);
     if (entry.contains("workgroup_size")) {
         for (std::size_t i = 0; i < 3; ++i)
@@ -174,7 +188,7 @@ take glslangValidator -G --amb --aml shader.*
 for module in comp vert geom frag; do
     [ -e "$module.spv" ] || continue
     take spirv-val --target-env opengl4.5 "$module.spv"
-    # What is declared and not used takes nothing.
+    # What is declared and not used takes nothing, images apart.
     take spirv-opt --eliminate-dead-functions --eliminate-dead-variables -o "$module.used" \
         "$module.spv"
     take spirv-cross "$module.used" --output "$module.json" --reflect
@@ -202,6 +216,7 @@ CheckedProgram checkedIn(const fs::path& folder, const RecordedProgram& program)
     for (const RecordedStage& stage : program) {
         checked.stages.push_back(resourcesOf(
             stage.kind, nlohmann::json::parse(readFile(folder / (stage.kind + ".json"))),
+            ModuleSizes(folder / (stage.kind + ".spv")),
             ModuleSizes(folder / (stage.kind + ".used"))));
     }
     return checked;

@@ -137,6 +137,21 @@ TEST_F(StrictCompiler, CountsWhatAProgramTakes) {
               "MAX_COMPUTE_IMAGE_UNIFORMS is 8 where 9 are used; "
               "MAX_IMAGE_UNITS is 8 where 9 are used; "
               "MAX_COMBINED_IMAGE_UNIFORMS is 8 where 9 are used");
+    // An image that is declared counts all the same (driver_limits.cpp, g).
+    const auto withUnusedImages = [](int count) {
+        std::string images;
+        for (int i = 0; i < count; ++i)
+            images += fmt::format("layout(r32f) writeonly uniform image2D unused{};\n", i);
+        return "layout(local_size_x = 1) in;\nuniform sampler2D from;\n"
+               "layout(r32f) writeonly uniform image2D picture;\n" +
+               images +
+               "void main() { imageStore(picture, ivec2(0), texelFetch(from, ivec2(0), 0)); }\n";
+    };
+    EXPECT_EQ(problemOf(withUnusedImages(7)), "");
+    EXPECT_EQ(problemOf(withUnusedImages(8)),
+              "MAX_COMPUTE_IMAGE_UNIFORMS is 8 where 9 are used; "
+              "MAX_IMAGE_UNITS is 8 where 9 are used; "
+              "MAX_COMBINED_IMAGE_UNIFORMS is 8 where 9 are used");
     EXPECT_EQ(problemOf("layout(local_size_x = 32, local_size_y = 32) in;\n"
                         "shared vec4 sums[2049];\n"
                         "layout(std430) buffer Sums { vec4 sum; };\n"
