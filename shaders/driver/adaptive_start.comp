@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The cells that an adaptive traversal begins with: all of every light's. One thread a cell.
+// The cells that an adaptive traversal begins with, all of every light's, and what is counted from
+// there on. One thread a cell.
 #include "include/thread.glsl"
-#include "framework/transport/types.h"
+#include "light_cells/cell_lists.glsl"
 
 layout(std430) writeonly buffer WaitingCells {
     LightCell waitingCells[];
@@ -10,8 +11,26 @@ uniform uint side;
 uniform uint level;
 uniform uint cellCount;
 
+void startCounting() {
+    counting.moreCells = 1u;
+    counting.moreBatches = 0u;
+    counting.waiting = cellCount;
+    counting.taken = 0u;
+    counting.photons = 0u;
+    counting.probes = 0u;
+    counting.emitted = 0u;
+    counting.merged = 0u;
+    counting.discarded = 0u;
+    counting.deepest = 0u;
+    counting.rounds = 0u;
+    counting.batches = 0u;
+    for (uint i = 0u; i < kSquareLevels; ++i)
+        counting.squares[i] = 0u;
+}
+
 void main() {
     uint index = threadNumber();
+    if (index == 0u) startCounting();
     if (index >= cellCount) return;
     uint perLight = side * side;
     uint at = index % perLight;

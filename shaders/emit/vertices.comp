@@ -193,7 +193,8 @@ bool isSeen(vec3 positionVs, vec3 normalVs) {
         vec2 axis = mix(1.0 - f, f, vec2(step));
         vec4 nearest = texelFetch(lightDepths, ivec3(texel, lightIndex), 0);
         vec2 neighbourOffset = at - (vec2(texel) + 0.5);
-        bool reaches = reachesLight(nearest, neighbourOffset, texelMeters, -positionLs.z, normalLs);
+        bool reaches = reachesLight(nearest, neighbourOffset, texelMeters, -positionLs.z,
+                                    length(positionVs), normalLs);
         seen += reaches ? axis.x * axis.y : 0.0;
     }
     return seen >= 0.5;

@@ -103,16 +103,15 @@ Start start(FrameBuilder& frame, const Purpose& purpose) {
             context.buffer(data.ledger).clear();
             context.buffer(data.scratch).clear();
             context.buffer(data.traversal.photons.list).clear();
-            CellCounts counts{};
-            counts.waiting = static_cast<unsigned>(cells);
-            counts.moreCells = 1;
-            context.buffer(data.traversal.counts).upload(0, sizeof(counts), &counts);
+            // The counts too: no bytes come from the processor in a frame. NVIDIA's 580.159.04 lost
+            // them where it had cleared the buffer before and the processor had read it.
             context.compute("driver/adaptive_start.comp")
                 .storage("WaitingCells", data.traversal.waiting)
+                .storage("CellCounting", data.traversal.counts)
                 .set("side", side)
                 .set("level", static_cast<unsigned>(level))
                 .set("cellCount", static_cast<unsigned>(cells))
-                .dispatchOver(static_cast<int>(cells), 64);
+                .dispatchOver(std::max(static_cast<int>(cells), 1), 64);
         });
 }
 
@@ -169,12 +168,18 @@ CellTraversal probe(FrameBuilder& frame, CellTraversal traversal, const Surfaces
                 "landings", "nothing has landed yet",
                 [&](graph::PassSetup& setup, CellTraversal& data) {
                     data = before;
-                    data.landings = setup.createBuffer<light_cells::Landing>(
-                        "adaptive.landings" + before.suffix,
-                        static_cast<std::size_t>(before.probes.capacity() * before.branches));
+                    setup.storage("ProbeList", before.probes.list);
+                    data.landings = setup.storage(
+                        "Landings",
+                        setup.createBuffer<light_cells::Landing>(
+                            "adaptive.landings" + before.suffix,
+                            static_cast<std::size_t>(before.probes.capacity() * before.branches)));
                 },
                 [](const CellTraversal& data, gl::PassContext& context) {
-                    context.buffer(data.landings).clear();
+                    context.compute("light_cells/landings_none.comp")
+                        .set("branches", static_cast<unsigned>(data.branches))
+                        .dispatchIndirect(data.probes.list,
+                                          offsetof(transport::PhotonList, groupsX));
                 });
         }
         hits = frame.run<TraceStage>(photons, surfaces);

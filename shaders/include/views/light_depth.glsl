@@ -8,10 +8,17 @@
 // 0.12 % (400x300).
 const float kCurvature = 0.5;
 
+// How far off a point of the eye's view may lie, as a share of its distance: what 32 bits round, and
+// rasterisers that move corners to a 256th of a pixel. A flat scene lies at the light's near plane,
+// whose own depth says nothing of that.
+const float kUncertainty = 1e-5;
+
 // `nearest`: a texel, x: planar depth from the light, m, 0 none; yz: its growth a texel, as a share
-// of it. `neighbourOffset`: the point from the texel's middle, texels; `depth`: its own, m; `normalLs`: of
-// the surface it lies on, unit; `texelMeters`: what a texel covers at the point.
-bool reachesLight(vec4 nearest, vec2 neighbourOffset, vec2 texelMeters, float depth, vec3 normalLs) {
+// of it. `neighbourOffset`: the point from the texel's middle, texels; `depth`: its own, m;
+// `fromEye`: how far from the eye it is, m; `normalLs`: of the surface it lies on, unit;
+// `texelMeters`: what a texel covers at the point.
+bool reachesLight(vec4 nearest, vec2 neighbourOffset, vec2 texelMeters, float depth, float fromEye,
+                  vec3 normalLs) {
     vec2 growth = nearest.yz * nearest.x;
     float extent = abs(growth.x) + abs(growth.y);
     float plane = nearest.x + clamp(dot(growth, neighbourOffset), -2.0 * extent, 2.0 * extent);
@@ -19,6 +26,6 @@ bool reachesLight(vec4 nearest, vec2 neighbourOffset, vec2 texelMeters, float de
     vec3 blocker = vec3(growth / texelMeters, 1.0);
     float facing = dot(blocker, normalLs);
     bool isSame = facing * facing > 0.25 * dot(blocker, blocker);
-    float margin = (isSame ? kCurvature * extent : 0.0) + 1e-4 * depth;
+    float margin = (isSame ? kCurvature * extent : 0.0) + 1e-4 * depth + kUncertainty * fromEye;
     return nearest.x <= 0.0 || depth <= plane + margin;
 }

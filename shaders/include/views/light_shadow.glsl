@@ -32,6 +32,7 @@ struct ShadowPlace {
     vec2 at;    // texels
     vec2 texelMeters;  // what a texel covers there
     float depth;       // from the light, m
+    float fromEye;     // m
 };
 
 ShadowPlace shadowPlaceOf(vec3 positionVs, ivec2 layers) {
@@ -43,9 +44,9 @@ ShadowPlace shadowPlaceOf(vec3 positionVs, ivec2 layers) {
         if (clip.w <= 0.0 || any(greaterThan(abs(clip.xy), vec2(clip.w)))) continue;
         return ShadowPlace(layer, (clip.xy / clip.w * 0.5 + 0.5) * size,
                            2.0 * clip.w / (vec2(projection[0][0], projection[1][1]) * size),
-                           -positionLs.z);
+                           -positionLs.z, length(positionVs));
     }
-    return ShadowPlace(-1, vec2(0.0), vec2(1.0), 0.0);
+    return ShadowPlace(-1, vec2(0.0), vec2(1.0), 0.0, 0.0);
 }
 
 // Share of the light that reaches the place: of the square around it each texel has the part that
@@ -67,7 +68,8 @@ float visibleShare(ShadowPlace place, vec3 normalVs) {
             vec2 fromTexel = place.at - (vec2(texel) + 0.5);
             vec2 part = vec2(x == 0 ? 1.0 - neighbour.x : x == kTexels - 1 ? neighbour.x : 1.0,
                              y == 0 ? 1.0 - neighbour.y : y == kTexels - 1 ? neighbour.y : 1.0);
-            if (reachesLight(nearest, fromTexel, place.texelMeters, place.depth, normalLs)) {
+            if (reachesLight(nearest, fromTexel, place.texelMeters, place.depth, place.fromEye,
+                             normalLs)) {
                 lit += part.x * part.y;
             } else {
                 dark += part.x * part.y;
