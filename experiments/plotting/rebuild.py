@@ -69,6 +69,8 @@ RUNS = {
 # Made of the pictures too, by a program of its own.
 PARTS = {"error_parts": "error_parts/parts.csv"}
 STUDIES = {**TABLE, **PARTS, **RUNS}
+# Of a device that this machine may not have: their commands say how its rows come to stand next to others'. Only tried here, never run.
+DEVICE = {"device_errors": "device/errors.csv", "device_times": "device/times.csv"}
 
 SOURCES = "sources.json"  # in a study's folder of results: the key of each run's sources
 SMALL = {"size": "64x48", "frames": 1, "warmup": 0, "reference_photons": 65536, "emit.photons": "32x32",
@@ -161,6 +163,8 @@ def csv_of(results: pathlib.Path, study: str, target: pathlib.Path) -> None:
     target.parent.mkdir(parents=True, exist_ok=True)
     if study in TABLE:
         call(sys.executable, "-B", PLOTTING / "table.py", results, "--csv", target)
+    elif study in DEVICE:
+        call(sys.executable, "-B", PLOTTING / "device.py", "slim", results, "--csv", target)
     elif study in PARTS:
         call(sys.executable, "-B", PLOTTING / "error_parts.py", results, "--out", target.parent)
     else:
@@ -176,7 +180,7 @@ def quick(kaustik: pathlib.Path, out: pathlib.Path, studies: list[str]) -> list[
             # A part of so many has no run, but the whole plan is made and checked.
             call(kaustik, "experiment", "run", f"experiments/{study}.toml", "--shard", "9999/9999", "--out", out / f"{study}-plan")
             call(kaustik, "experiment", "run", file, "--out", out / study)
-            csv_of(out / study, study, out / STUDIES[study])
+            csv_of(out / study, study, out / (STUDIES | DEVICE)[study])
             print(f"{study}: its first run works", flush=True)
         except Failure as failure:
             if "run experiments/fetch_meshes.sh" in str(failure):
@@ -239,7 +243,7 @@ def main() -> int:
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("studies", nargs="*", metavar="STUDY")
     arguments = parser.parse_args()
-    if unknown := set(arguments.studies) - set(STUDIES):
+    if unknown := set(arguments.studies) - set(STUDIES | DEVICE if arguments.quick else STUDIES):
         sys.exit(f"rebuild: there is no study '{sorted(unknown)[0]}'; --list names them")
     studies = arguments.studies or list(STUDIES)
     if arguments.list:
@@ -256,7 +260,7 @@ def main() -> int:
         with tempfile.TemporaryDirectory() as folder:
             out = arguments.out.resolve() if arguments.out else pathlib.Path(folder)
             out.mkdir(parents=True, exist_ok=True)
-            failures = quick(kaustik, out, studies)
+            failures = quick(kaustik, out, arguments.studies or [*STUDIES, *DEVICE])
     else:
         if arguments.anew and arguments.shard:
             sys.exit("rebuild: --anew with --shard would take from other shards what they have made")

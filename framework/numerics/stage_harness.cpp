@@ -79,8 +79,7 @@ Hits inject(FrameBuilder& frame, const Batch& batch) {
             for (const bool isOfHits : {false, true}) {
                 gl::Command command = context.compute("numerics/inject.comp");
                 if (isOfHits) command.define("INJECT_HITS");
-                command.storage("InjectedPhotons", list)
-                    .dispatchOver(hits.incoming.capacity(), 64);
+                command.storage("InjectedPhotons", list).dispatchOver(hits.incoming.capacity(), 64);
             }
         });
 }
