@@ -40,6 +40,7 @@ TABLE = {
     "best_mixtures": "all_techniques/best_mixtures.csv",
     "defaults": "defaults.csv",
     "lamps": "lamps/runs.csv",
+    "normal_maps": "normal_maps/runs.csv",
     "vertices_and_gather": "vertices_and_gather.csv",
     "wyman2008_interpolants": "wyman2008/interpolants.csv",
     "wyman2008_iterations": "wyman2008/iterations.csv",

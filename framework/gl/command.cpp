@@ -63,6 +63,8 @@ Command::Command(PassContext& context, std::vector<std::string> files) : context
         this->texture(name, *texture);
     for (const auto& [name, value] : globals.values)
         set(name, value);
+    for (const std::string& name : globals.defines)
+        define(name);
     for (const graph::Binding& binding : context.bindings()) {
         switch (binding.as) {
             case graph::BindAs::sampler:

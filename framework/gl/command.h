@@ -33,6 +33,7 @@ struct Globals {
     std::vector<std::pair<std::string, const Buffer*>> storage;
     std::vector<std::pair<std::string, const Texture*>> textures;
     std::vector<std::pair<std::string, float>> values;
+    std::vector<std::string> defines;
 };
 
 enum class Blend { none, add };

@@ -83,8 +83,19 @@ class MaterialImporter {
             warn("alphaMode",
                  fmt::format("{} is left out: the surface is whole", source.alphaMode));
         }
-        if (source.normalTexture.index >= 0) warn("normalTexture", "is left out");
+        if (source.normalTexture.index >= 0) convertNormals(source.normalTexture, material);
         return material;
+    }
+
+    void convertNormals(const tinygltf::NormalTextureInfo& source, Material& material) {
+        if (isReceiver(material.kind)) {
+            warn("normalTexture", "is left out: receivers are as flat as their triangles");
+            return;
+        }
+        if (source.extensions.contains("KHR_texture_transform"))
+            warn("normalTexture.extensions.KHR_texture_transform", "is left out");
+        material.normalMap = importImage(static_cast<std::size_t>(source.index), true);
+        material.normalScale = static_cast<float>(source.scale);
     }
 
     // In candela a square metre. A texture is no even lamp: most of it is black.
@@ -166,7 +177,7 @@ class MaterialImporter {
     }
 
     // The place of the texture's image in the scene, appended at its first use; -1 for none.
-    int importImage(std::size_t textureIndex) {
+    int importImage(std::size_t textureIndex, bool isNormalMap = false) {
         const int source = model_.textures[textureIndex].source;
         if (source < 0) {
             scene_.warnings.push_back(
@@ -174,8 +185,13 @@ class MaterialImporter {
                             path_.string(), textureIndex));
             return -1;
         }
-        const auto [entry, isNew] = imported_.try_emplace(source, scene_.images.size());
-        if (isNew) scene_.images.push_back(encodedImage(static_cast<std::size_t>(source)));
+        const auto [entry, isNew] =
+            imported_.try_emplace({source, isNormalMap}, scene_.images.size());
+        if (isNew) {
+            scene_.images.push_back(encodedImage(static_cast<std::size_t>(source)));
+            scene_.images.back().srgb = !isNormalMap;
+            scene_.images.back().isNormalMap = isNormalMap;
+        }
         return static_cast<int>(entry->second);
     }
 
@@ -210,7 +226,7 @@ class MaterialImporter {
     const fs::path& path_;
     Scene& scene_;
     std::size_t index_ = 0;
-    std::map<int, std::size_t> imported_;
+    std::map<std::pair<int, bool>, std::size_t> imported_;  // by source, and as a normal map
 };
 
 }  // namespace
@@ -234,6 +250,10 @@ void importGltfMaterials(const tinygltf::Model& model, const fs::path& path, Sce
 int gltfUvSet(const tinygltf::Model& model, int materialIndex) {
     if (materialIndex < 0) return 0;
     const auto& material = model.materials[static_cast<std::size_t>(materialIndex)];
+    // Of glass and mirrors no colour is taken from a texture.
+    if (material.pbrMetallicRoughness.baseColorTexture.index < 0 &&
+        material.normalTexture.index >= 0)
+        return material.normalTexture.texCoord;
     return material.pbrMetallicRoughness.baseColorTexture.texCoord;
 }
 

@@ -106,7 +106,7 @@ void setPicture(MitsubaImport& importer, const MitsubaElement& texture, ForeignC
     if (name == nullptr) failAt(texture.place, "a bitmap needs a 'filename'.");
     color.image = ForeignImage{importer.document.file(name->required("value")), name->place};
     color.color = glm::dvec3(1.0);
-    if (texture.flag("raw", false))
+    if (texture.flag("raw", false) && texture.attribute("name") != "normalmap")
         importer.change(texture, "its raw values are taken for a picture, coded as sRGB");
 }
 

@@ -167,6 +167,20 @@ const MitsubaElement& innerOf(MitsubaImport& importer, const MitsubaElement& bsd
     return *inner;
 }
 
+// Of the surface around another bsdf's; diffusers stay as flat as their triangles.
+void setNormalMap(MitsubaImport& importer, const MitsubaElement& bsdf, ForeignMaterial& foreign) {
+    const MitsubaElement* const child = bsdf.child("normalmap");
+    if (child == nullptr) return importer.change(bsdf, "it names no normal map");
+    const MitsubaElement& texture = importer.document.resolve(*child);
+    if (isReceiver(foreign.material.kind))
+        return importer.leaveOut(texture, "only glass and mirrors have normal maps");
+    const ForeignColor picture = surfaceColor(importer, bsdf, "normalmap", glm::dvec3(0.5));
+    if (!picture.image) return importer.leaveOut(texture, "a normal map is a bitmap");
+    foreign.normalMap = picture.image;
+    foreign.material.uvScale = glm::vec2(picture.uvScale);
+    foreign.turnsTexture = picture.turnsTexture;
+}
+
 void makeMaterial(MitsubaImport& importer, const MitsubaElement& bsdf, ForeignMaterial& foreign,
                   std::string& whyNot, int depth) {
     const std::string& type = bsdf.type();
@@ -174,7 +188,9 @@ void makeMaterial(MitsubaImport& importer, const MitsubaElement& bsdf, ForeignMa
     if (type == "twosided" || type == "mask" || type == "bumpmap" || type == "normalmap" ||
         type == "blendbsdf" || type == "coating" || type == "roughcoating" || type == "bump") {
         const MitsubaElement& inner = innerOf(importer, bsdf);
-        return makeMaterial(importer, inner, foreign, whyNot, depth + 1);
+        makeMaterial(importer, inner, foreign, whyNot, depth + 1);
+        if (type == "normalmap") setNormalMap(importer, bsdf, foreign);
+        return;
     }
     if (type == "dielectric" || type == "roughdielectric") {
         makeDielectric(importer, bsdf, foreign.material);

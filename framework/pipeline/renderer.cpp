@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "framework/pipeline/renderer.h"
-#include "framework/pipeline/photon_texels.h"
 
 #include <fmt/format.h>
 
@@ -137,10 +136,13 @@ Renderer::Renderer(gl::Context& context, const Registry& registry, const scene::
 // By the names of include/views/view.glsl, surface_data.glsl, lights.glsl, scene_images.glsl and
 // ledger.glsl.
 void Renderer::bindToAll() {
+    std::vector<std::string> defines;
+    if (scene::hasNormalMaps(scene_)) defines.emplace_back("NORMAL_MAPS");
     executor_.bindToAll({{{"View", &viewBlock_}},
                          {{"Materials", &gpuScene_.materials()}, {"Lights", &lights_}},
                          {{"sceneImages", &gpuScene_.images()}},
-                         {{"ledgerUnitsPerWatt", 1.0f / ledgerQuantumWatts_}}});
+                         {{"ledgerUnitsPerWatt", 1.0f / ledgerQuantumWatts_}},
+                         defines});
 }
 
 void Renderer::update(RenderSettings settings) {

@@ -70,6 +70,20 @@ glm::dvec3 Appearance::albedo(std::uint32_t index, const glm::dvec2& uv) const {
     return albedo;
 }
 
+glm::dvec3 Appearance::mappedVector(std::uint32_t index, const glm::dvec2& uv) const {
+    const scene::Material& material = scene_.materials[index];
+    const glm::dvec3 vector = sample(images_[static_cast<std::size_t>(material.normalMap)],
+                                     uv * glm::dvec2(material.uvScale), Edge::repeat, Edge::repeat);
+    const auto scale = static_cast<double>(material.normalScale);
+    return {vector.x * scale, vector.y * scale, vector.z};
+}
+
+glm::dvec2 Appearance::normalTexels(std::uint32_t index, const glm::dvec2& uvStep) const {
+    const scene::Material& material = scene_.materials[index];
+    const Image& image = images_[static_cast<std::size_t>(material.normalMap)];
+    return uvStep * glm::dvec2(material.uvScale) * glm::dvec2(image.width, image.height);
+}
+
 glm::dvec3 Appearance::brdf(std::uint32_t index, const glm::dvec2& uv, const glm::dvec3& normal,
                             const glm::dvec3& toLight, const glm::dvec3& toEye) const {
     const scene::Material& material = scene_.materials[index];

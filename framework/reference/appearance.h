@@ -25,6 +25,10 @@ class Appearance {
     [[nodiscard]] glm::dvec3 brdf(std::uint32_t material, const glm::dvec2& uv,
                                   const glm::dvec3& normal, const glm::dvec3& toLight,
                                   const glm::dvec3& toEye) const;
+    // What a material's normal map holds at `uv`, of any length; the material has one.
+    [[nodiscard]] glm::dvec3 mappedVector(std::uint32_t material, const glm::dvec2& uv) const;
+    // Its texels that a step of uv crosses.
+    [[nodiscard]] glm::dvec2 normalTexels(std::uint32_t material, const glm::dvec2& uvStep) const;
     // What a spot's image makes of its intensity in `direction` (unit, within the outer cone).
     [[nodiscard]] glm::dvec3 spotColor(const scene::Light& light,
                                        const glm::dvec3& direction) const;

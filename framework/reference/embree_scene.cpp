@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <glm/gtc/matrix_transform.hpp>
@@ -11,9 +12,19 @@
 #include <utility>
 
 #include "framework/core/error.h"
+#include "framework/transport/normal_map.h"
 
 namespace kaustik::reference {
 namespace {
+
+// Of a normal of any length the unit one that lies on the triangle's side.
+glm::dvec3 onItsSide(const glm::dvec3& normal, const glm::dvec3& geometric) {
+    const double size2 = glm::dot(normal, normal);
+    if (!(size2 > 1e-24)) return geometric;
+    const glm::dvec3 unit = normal * (1.0 / std::sqrt(size2));
+    const double side = glm::dot(unit, geometric);
+    return side > 0.0 ? unit : glm::normalize(unit + (1e-3 - side) * geometric);
+}
 
 using scene::MaterialKind;
 
@@ -135,6 +146,7 @@ void EmbreeScene::addObject(const scene::Object& object) {
     auto placed = std::make_unique<ObjectMesh>();
     placed->info = {scene_.materials[object.material].kind, object.material, mesh.closed};
     placed->triangles = &mesh.triangles;
+    placed->hasNormalMap = scene_.materials[object.material].normalMap >= 0;
     // In double up to here, so that what is left is small.
     const glm::dmat4 toLocal = glm::translate(glm::dmat4(1.0), -center_) * object.toWorld *
                                glm::translate(glm::dmat4(1.0), mesh.origin);
@@ -186,6 +198,28 @@ void EmbreeScene::attach(Filters filters) {
     checkDevice(device_);
 }
 
+glm::dvec3 EmbreeScene::shadingNormal(const ObjectMesh& mesh, const glm::uvec3& corners,
+                                      const glm::dvec3& weights,
+                                      const glm::dvec3& geometric) const {
+    const std::array<const transport::VertexData*, 3> at{
+        &mesh.vertices[corners.x], &mesh.vertices[corners.y], &mesh.vertices[corners.z]};
+    const glm::dvec3 interpolated = weights.x * glm::dvec3(at[0]->normal) +
+                                    weights.y * glm::dvec3(at[1]->normal) +
+                                    weights.z * glm::dvec3(at[2]->normal);
+    const glm::dvec3 normal = onItsSide(interpolated, geometric);
+    if (!mesh.hasNormalMap) return normal;
+    std::array<glm::dvec2, 3> uvs;
+    for (std::size_t i = 0; i < 3; ++i)
+        uvs[i] = glm::dvec2(at[i]->u, at[i]->v);
+    const glm::dvec2 uv = weights.x * uvs[0] + weights.y * uvs[1] + weights.z * uvs[2];
+    const glm::dvec3 a = at[0]->position;
+    return onItsSide(
+        transport::mappedNormal(normal, glm::dvec3(at[1]->position) - a,
+                                glm::dvec3(at[2]->position) - a, uvs[1] - uvs[0], uvs[2] - uvs[0],
+                                appearance_.mappedVector(mesh.info.material, uv)),
+        geometric);
+}
+
 // Only the triangle is Embree's word; the point on it is computed again in double.
 void EmbreeScene::refine(const glm::dvec3& origin, const glm::dvec3& direction, const RTCHit& found,
                          float t, SurfaceHit& hit) const {
@@ -216,25 +250,42 @@ void EmbreeScene::refine(const glm::dvec3& origin, const glm::dvec3& direction, 
     hit.position = origin + hit.distance * direction;
     hit.geometricNormal = area * (1.0 / std::sqrt(glm::dot(area, area)));
     const double w = 1.0 - u - v;
-    const glm::dvec3 normal = w * glm::dvec3(cornerA.normal) + u * glm::dvec3(cornerB.normal) +
-                              v * glm::dvec3(cornerC.normal);
-    const double size2 = glm::dot(normal, normal);
-    if (size2 > 1e-24) {
-        hit.shadingNormal = normal * (1.0 / std::sqrt(size2));
-        const double side = glm::dot(hit.shadingNormal, hit.geometricNormal);
-        if (!(side > 0.0)) {
-            hit.shadingNormal =
-                glm::normalize(hit.shadingNormal + (1e-3 - side) * hit.geometricNormal);
-        }
-    } else {
-        hit.shadingNormal = hit.geometricNormal;
-    }
+    hit.shadingNormal = shadingNormal(mesh, corners, {w, u, v}, hit.geometricNormal);
     hit.uv = {w * static_cast<double>(cornerA.u) + u * static_cast<double>(cornerB.u) +
                   v * static_cast<double>(cornerC.u),
               w * static_cast<double>(cornerA.v) + u * static_cast<double>(cornerB.v) +
                   v * static_cast<double>(cornerC.v)};
     hit.material = mesh.info.material;
     hit.triangle = {found.geomID, found.primID};
+}
+
+// By differences over a texel: the map is linear between two.
+glm::dmat3 EmbreeScene::mappedTurning(const ObjectMesh& mesh, const glm::uvec3& corners,
+                                      const glm::dvec3& position) const {
+    const transport::VertexData& a = mesh.vertices[corners.x];
+    const transport::VertexData& b = mesh.vertices[corners.y];
+    const transport::VertexData& c = mesh.vertices[corners.z];
+    const glm::dvec3 ab = glm::dvec3(b.position) - glm::dvec3(a.position);
+    const glm::dvec3 ac = glm::dvec3(c.position) - glm::dvec3(a.position);
+    const glm::dvec3 area = glm::cross(ab, ac);
+    const double area2 = glm::dot(area, area);
+    const glm::dvec3 geometric = area / std::sqrt(area2);
+    const glm::dvec3 acrossB = glm::cross(ac, area) / area2;
+    const glm::dvec3 acrossC = glm::cross(area, ab) / area2;
+    const glm::dvec3 fromA = position - glm::dvec3(a.position);
+    const double u = glm::dot(fromA, acrossB);
+    const double v = glm::dot(fromA, acrossC);
+    const auto change = [&](const glm::dvec3& step, const glm::dvec2& uvStep) {
+        const double texels = glm::length(appearance_.normalTexels(mesh.info.material, uvStep));
+        const double reach = 0.5 / std::max(texels, 1.0);
+        const glm::dvec3 weights(1.0 - u - v, u, v);
+        return (shadingNormal(mesh, corners, weights + reach * step, geometric) -
+                shadingNormal(mesh, corners, weights - reach * step, geometric)) /
+               (2.0 * reach);
+    };
+    const glm::dvec2 uvOfA(a.u, a.v);
+    return glm::outerProduct(change({-1.0, 1.0, 0.0}, glm::dvec2(b.u, b.v) - uvOfA), acrossB) +
+           glm::outerProduct(change({-1.0, 0.0, 1.0}, glm::dvec2(c.u, c.v) - uvOfA), acrossC);
 }
 
 glm::dmat3 EmbreeScene::normalTurning(const TriangleId& triangle,
@@ -249,6 +300,7 @@ glm::dmat3 EmbreeScene::normalTurning(const TriangleId& triangle,
     const glm::dvec3 area = glm::cross(ab, ac);
     const double area2 = glm::dot(area, area);
     if (!(area2 > 0.0)) return glm::dmat3(0.0);
+    if (mesh.hasNormalMap) return mappedTurning(mesh, corners, position);
     const glm::dmat3 turning =
         glm::outerProduct(glm::dvec3(b.normal) - glm::dvec3(a.normal), glm::cross(ac, area)) /
             area2 +

@@ -118,12 +118,20 @@ class EmbreeScene {
   private:
     struct ObjectMesh {
         ObjectInfo info;
+        bool hasNormalMap = false;
         // Local; normals by the inverse transpose, not unit, as on the GPU.
         std::vector<transport::VertexData> vertices;
         const std::vector<glm::uvec3>* triangles = nullptr;
     };
     void addObject(const scene::Object& object);
     void attach(Filters filters);
+    // The normal that light is bent by at a point of a triangle: `weights` of its corners, which
+    // add up to 1 and may lie outside of it.
+    [[nodiscard]] glm::dvec3 shadingNormal(const ObjectMesh& mesh, const glm::uvec3& corners,
+                                           const glm::dvec3& weights,
+                                           const glm::dvec3& geometric) const;
+    [[nodiscard]] glm::dmat3 mappedTurning(const ObjectMesh& mesh, const glm::uvec3& corners,
+                                           const glm::dvec3& position) const;
     void refine(const glm::dvec3& origin, const glm::dvec3& direction, const RTCHit& found, float t,
                 SurfaceHit& hit) const;
 

@@ -218,6 +218,7 @@ void GpuScene::uploadMaterials() {
                             isOpen(scene_, m) ? 1.0f : 0.0f);
         data.specular = glm::vec4(material.specular, material.exponent);
         data.emission = glm::vec4(material.emission, 0.0f);
+        data.normalMap = {static_cast<float>(material.normalMap), material.normalScale, 0.0f, 0.0f};
         data.medium = mediumOf(m);
         materials.push_back(data);
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "framework/scene/scene.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -91,6 +92,11 @@ std::optional<glm::dvec3> topOfImage(const glm::dvec3& direction, const glm::dve
 glm::dvec3 defaultTopOfImage(const glm::dvec3& direction) {
     const bool isVertical = std::abs(direction.y) > 1.0 - 1e-9;
     return isVertical ? glm::dvec3(0, 0, -1) : glm::dvec3(0, 1, 0);
+}
+
+bool hasNormalMaps(const Scene& scene) {
+    return std::any_of(scene.materials.begin(), scene.materials.end(),
+                       [](const Material& material) { return material.normalMap >= 0; });
 }
 
 double spotFalloff(const Light& light, double cosine) {

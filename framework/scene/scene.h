@@ -84,6 +84,10 @@ struct Material {
     float exponent = 50.0f;    // of the cosine to the mirror direction, >= 1
     // Radiance of its front, the same in all directions, W/m²/sr; of receivers alone.
     glm::vec3 emission{0.0f};
+    // Dielectrics and mirrors: the vectors of transport/normal_map.h, an index into Scene::images;
+    // -1: none.
+    int normalMap = -1;
+    float normalScale = 1.0f;  // of their x and y
 };
 
 // An image used as a texture: an encoded file in memory or on disk, decoded later through image/.
@@ -92,6 +96,7 @@ struct TextureImage {
     std::filesystem::path file;  // empty when `bytes` is used
     std::string bytes;           // encoded image (embedded glTF)
     bool srgb = true;
+    bool isNormalMap = false;  // decoded to vectors
 };
 
 // One wave of a height field: amplitude * cos(k·x - omega t + phase), k = 2π/wavelength ·
@@ -188,6 +193,7 @@ struct Bounds {
 // Of all that is no receiver.
 [[nodiscard]] Bounds specularBounds(const Scene& scene);
 [[nodiscard]] std::size_t triangleCount(const Scene& scene);
+[[nodiscard]] bool hasNormalMaps(const Scene& scene);
 
 // The top of the image of a light that shines in `direction` (unit), as near to `wanted` as the
 // image's plane allows; nothing where that is along the direction.

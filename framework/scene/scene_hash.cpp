@@ -38,11 +38,13 @@ void addTo(ContentHash& hash, const Scene& scene) {
         hash.add(material.ior).add(material.absorptionPerMeter);
         hash.add(material.specular).add(material.exponent);
         if (material.emission != glm::vec3(0.0f)) hash.add(material.emission);
+        if (material.normalMap >= 0) hash.add(material.normalMap).add(material.normalScale);
     }
     hash.add(scene.images.size());
     for (const TextureImage& image : scene.images) {
         hash.addBytes(image.file.empty() ? image.bytes : readFile(image.file));
         hash.add(static_cast<std::uint8_t>(image.srgb));
+        if (image.isNormalMap) hash.add(image.isNormalMap);
     }
     hash.add(scene.meshes.size());
     for (const Mesh& mesh : scene.meshes) {

@@ -57,9 +57,10 @@ struct MaterialData {
     vec4 albedo;         // rgb: reflectance; w: kind
     vec4 patternAlbedo;  // rgb: second colour; w: pattern (0 none, 1 checker, 2 tiles)
     vec4 absorption;     // rgb: 1/m inside; w: index of refraction
-    vec4 uv;        // xy: scale; z: image layer, -1 none; w: 1 where the surface is open (water)
-    vec4 specular;  // glossy, the lobe of brdf.h: rgb its reflectance; w: exponent
-    vec4 emission;  // rgb: radiance of its front, W/m²/sr
+    vec4 uv;         // xy: scale; z: image layer, -1 none; w: 1 where the surface is open (water)
+    vec4 specular;   // glossy, the lobe of brdf.h: rgb its reflectance; w: exponent
+    vec4 emission;   // rgb: radiance of its front, W/m²/sr
+    vec4 normalMap;  // x: image layer, -1 none; y: what its x and y are multiplied by
     // x: a dielectric's number (scene/dielectrics.h), 0 for what is none; y: index + 1 of the
     // material with the number of this one's index + 1; z: the base of stacks of such numbers, and
     // w: what is above all that fit (media_stack.h), the same in every material.

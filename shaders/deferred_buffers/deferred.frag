@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Of a front or a back: its depth, its normal, with SHAPES how that turns, and with TRIANGLES which
 // triangle it is; all in the view's space.
+#include "include/surfaces/fragment_normal.glsl"
 #include "include/surfaces/scene_fragment.glsl"
 #include "include/surfaces/surface.glsl"
 #ifdef SHAPES
@@ -28,7 +29,7 @@ void main() {
     float depth = -positionVs.z;
     float extent = 0.5 * fwidth(depth);
     vec3 geometric = geometricNormal(positionVs, towardsViewer(positionVs));
-    vec3 normal = shadingNormal(normalVs, geometric);
+    vec3 normal = fragmentNormal(geometric);
 #ifdef SHAPES
     mat2x3 positions = mat2x3(dFdx(positionVs), dFdy(positionVs));
     seenShape = vec4(shapeFrom(normal, positions, mat2x3(dFdx(normal), dFdy(normal))), 0.0);

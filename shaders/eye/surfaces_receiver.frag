@@ -2,6 +2,7 @@
 // The receiver of each pixel of a view: depth, the area seen, normal, material, reflectance. A
 // mirror is none but hides what is beyond it: its depth is negative, and the normal and the
 // material are its own.
+#include "include/surfaces/fragment_normal.glsl"
 #include "include/surfaces/scene_fragment.glsl"
 #include "include/surfaces/surface.glsl"
 #include "include/views/view.glsl"
@@ -25,6 +26,6 @@ void main() {
     vec3 ray = viewRay(gl_FragCoord.xy);
     receiver = isLit ? vec4(depth, pixelArea(ray, depth, geometric), 0.0, 0.0)
                      : vec4(-depth, 0.0, 0.0, 0.0);
-    receiverSurface = vec4(shadingNormal(normalVs, geometric), float(material + 1u));
+    receiverSurface = vec4(fragmentNormal(geometric), float(material + 1u));
     receiverAlbedo = isLit ? vec4(albedo, 1.0) : vec4(0.0);
 }

@@ -2,6 +2,7 @@
 // The first surface that rays next to the pixels' middles see (SightTexel): of a receiver, where
 // nothing specular lies before it, the depth is negative.
 #include "include/views/octahedral.glsl"
+#include "include/surfaces/fragment_normal.glsl"
 #include "include/surfaces/scene_fragment.glsl"
 #include "include/surfaces/surface.glsl"
 
@@ -13,5 +14,5 @@ void main() {
     vec3 geometric = geometricNormal(positionVs, towardsViewer(positionVs));
     sight = vec4(isReceiver(materialKind(material)) ? -depth : depth, packUnitVector(geometric),
                  float(material + 1u));
-    sightSurface = vec4(shadingNormal(normalVs, geometric), float(material + 1u));
+    sightSurface = vec4(fragmentNormal(geometric), float(material + 1u));
 }

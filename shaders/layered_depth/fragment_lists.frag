@@ -2,6 +2,7 @@
 // Adds a fragment to the list of its pixel (Yang et al. 2010) and to its count: what peel.frag
 // writes, as bits, and the number of its triangle.
 #include "include/views/octahedral.glsl"
+#include "include/surfaces/fragment_normal.glsl"
 #include "include/surfaces/scene_fragment.glsl"
 #include "include/surfaces/surface.glsl"
 #include "layered_depth/fragment_lists.glsl"
@@ -22,7 +23,7 @@ layout(std430) writeonly buffer FragmentTriangles {
 
 void main() {
     vec3 geometric = geometricNormal(positionVs, towardsViewer(positionVs));
-    vec3 shading = shadingNormal(normalVs, geometric);
+    vec3 shading = fragmentNormal(geometric);
     count = 1.0;
     uint place = atomicAdd(fragmentCounts[face], 1u);
     if (place >= capacity) return;

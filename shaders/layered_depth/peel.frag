@@ -3,6 +3,7 @@
 // holds view depth itself, scaled by a power of two and so without rounding: layers are told apart
 // down to what 32-bit view depth can (hard cases 12, 13).
 #include "include/views/octahedral.glsl"
+#include "include/surfaces/fragment_normal.glsl"
 #include "include/surfaces/scene_fragment.glsl"
 #include "include/surfaces/surface.glsl"
 
@@ -24,5 +25,5 @@ void main() {
     }
     gl_FragDepth = min(depth * kDepthScale, 1.0 - 1.0 / 16777216.0);
     layerDepth = vec4(depth, packUnitVector(geometric), float(material + 1u));
-    layerSurface = vec4(shadingNormal(normalVs, geometric), float(material + 1u));
+    layerSurface = vec4(fragmentNormal(geometric), float(material + 1u));
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The back faces of the transmitting objects, the farthest of each pixel (W05).
+#include "include/surfaces/fragment_normal.glsl"
 #include "include/surfaces/scene_fragment.glsl"
 #include "include/surfaces/surface.glsl"
 #ifdef SHAPES
@@ -16,7 +17,7 @@ void main() {
     float depth = -positionVs.z;
     float extent = 0.5 * fwidth(depth);
     vec3 geometric = geometricNormal(positionVs, towardsViewer(positionVs));
-    vec3 normal = shadingNormal(normalVs, geometric);
+    vec3 normal = fragmentNormal(geometric);
 #ifdef SHAPES
     mat2x3 positions = mat2x3(dFdx(positionVs), dFdy(positionVs));
     backShape = vec4(shapeFrom(normal, positions, mat2x3(dFdx(normal), dFdy(normal))), 0.0);

@@ -20,6 +20,7 @@
 #include <string>
 #include <vector>
 
+#include "framework/core/error.h"
 #include "framework/core/names.h"
 #include "framework/pipeline/frame_builder.h"
 #include "framework/scene/light_paths.h"
@@ -288,6 +289,11 @@ Hits emitVertices(FrameBuilder& frame, const VertexEmissionParams& params, Surfa
     const params::Extent all = verticesOfALight(frame);
     const auto emission = frame.once<Emission>(
         "emit.vertices", [&] { return makeEmission(frame, params, surfaces.geometry); });
+    if (scene::hasNormalMaps(frame.scene())) {
+        throw ConfigError(
+            "emit=vertices sends light on from the meshes' vertices, between which a normal map "
+            "turns the surface unseen; take emit=grid or emit=deferred.");
+    }
     const bool isGrid = emission->grid.has_value();
     // Vertices that lie in no grid are nobody's neighbours.
     if (!isGrid) samples.borderRows = 0;

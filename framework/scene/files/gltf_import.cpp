@@ -20,7 +20,7 @@ bool isWhole(const Scene& scene) {
     for (const Light& light : scene.lights)
         whole = whole && isImage(light.image);
     for (const Material& material : scene.materials)
-        whole = whole && isImage(material.image);
+        whole = whole && isImage(material.image) && isImage(material.normalMap);
     for (const Object& object : scene.objects) {
         whole =
             whole && object.mesh < scene.meshes.size() && object.material < scene.materials.size();

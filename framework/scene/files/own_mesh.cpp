@@ -121,6 +121,7 @@ void putParts(Scene& scene, std::size_t placeholder, Scene own) {
     std::move(own.images.begin(), own.images.end(), std::back_inserter(scene.images));
     for (Material& material : own.materials) {
         if (material.image >= 0) material.image += firstImage;
+        if (material.normalMap >= 0) material.normalMap += firstImage;
         scene.materials.push_back(std::move(material));
     }
     for (Object& object : own.objects) {

@@ -10,6 +10,7 @@
 #include "framework/image/pfm.h"
 #include "framework/scene/environment.h"
 #include "framework/scene/files/scene_file_parts.h"
+#include "framework/scene/texture.h"
 
 namespace kaustik::scene {
 namespace {
@@ -45,7 +46,7 @@ bool isEncoded(const std::filesystem::path& file) {
 
 // The index of an image that a key names.
 int addImage(const TableReader& reader, const std::string& name, Scene& scene,
-             const char* key = "texture") {
+             const char* key = "texture", bool isNormalMap = false) {
     const std::filesystem::path file = reader.file().parent_path() / name;
     std::error_code error;
     if (!std::filesystem::is_regular_file(file, error)) {
@@ -53,10 +54,22 @@ int addImage(const TableReader& reader, const std::string& name, Scene& scene,
                                   reader.subject(), key, file.string()));
     }
     for (std::size_t i = 0; i < scene.images.size(); ++i) {
-        if (scene.images[i].file == file) return static_cast<int>(i);
+        if (scene.images[i].file == file && scene.images[i].isNormalMap == isNormalMap)
+            return static_cast<int>(i);
     }
-    scene.images.push_back({name, file, "", isEncoded(file)});
+    scene.images.push_back({name, file, "", isEncoded(file) && !isNormalMap, isNormalMap});
     return static_cast<int>(scene.images.size() - 1);
+}
+
+int addNormalMap(const TableReader& reader, const std::string& name, Scene& scene) {
+    const int index = addImage(reader, name, scene, "normal_map", true);
+    try {
+        static_cast<void>(decodeTexture(scene.images[static_cast<std::size_t>(index)]));
+    } catch (const IoError& error) {
+        throw IoError(
+            fmt::format("{}: {}: {}", reader.place("normal_map"), reader.subject(), error.what()));
+    }
+    return index;
 }
 
 void setSpotImage(const TableReader& reader, const LightKeys& keys, Light& light, Scene& scene) {
@@ -142,9 +155,10 @@ Light readLight(TableReader& reader, Scene& scene) {
 }
 
 Material readMaterial(TableReader& reader, Scene& scene) {
-    auto [material, texture] = reader.read<MaterialKeys>();
+    auto [material, texture, normalMap] = reader.read<MaterialKeys>();
     if (material.kind == MaterialKind::glossy) requireNoGain(reader, material);
     if (texture) material.image = addImage(reader, *texture, scene);
+    if (normalMap) material.normalMap = addNormalMap(reader, *normalMap, scene);
     return material;
 }
 

@@ -117,7 +117,22 @@ void reflect(R& r, LightKeys& light) {
 struct MaterialKeys {
     Material material;
     std::optional<std::string> texture;
+    std::optional<std::string> normalMap;
 };
+template <class R>
+void reflectNormalMap(R& r, MaterialKeys& keys) {
+    r.text(keys.normalMap,
+           {"normal_map",
+            "An image beside the scene file of what its normals are turned to: x along u, y along "
+            "v, z out of the surface, each as (1 + x) / 2"});
+    if (r.onlyWith("normal_scale", "normal_map"))
+        r.number(keys.material.normalScale, {"normal_scale", "Of the normal map's x and y"},
+                 {-100.0, 100.0, false, false}, kHasDefault);
+    if (r.onlyWith("uv_scale", "normal_map"))
+        r.uniformOrVector(keys.material.uvScale,
+                          {"uv_scale", "Repeats of the normal map a unit of uv"}, kPositive,
+                          kHasDefault);
+}
 template <class R>
 void reflect(R& r, MaterialKeys& keys) {
     Material& material = keys.material;
@@ -133,12 +148,14 @@ void reflect(R& r, MaterialKeys& keys) {
         r.uniformOrVector(material.absorptionPerMeter,
                           {"absorption_per_meter", "Absorption inside", "1/m"}, kNotNegative,
                           kHasDefault);
+        reflectNormalMap(r, keys);
         return;
     }
     if (material.kind == MaterialKind::mirror) {
         material.albedo = glm::vec3(1.0f);
         r.uniformOrVector(material.albedo, {"reflectance", "Share of light that is reflected"},
                           kUnitInterval, kHasDefault);
+        reflectNormalMap(r, keys);
         return;
     }
     r.uniformOrVector(material.albedo,

@@ -26,15 +26,15 @@ auto partsOf(T& light) {
 template <SameButConst<Material> T>
 auto partsOf(T& material) {
     auto& [name, kind, albedo, pattern, patternAlbedo, uvScale, image, ior, absorption, specular,
-           exponent, emission] = material;
+           exponent, emission, normalMap, normalScale] = material;
     return std::tie(name, kind, albedo, pattern, patternAlbedo, uvScale, image, ior, absorption,
-                    specular, exponent, emission);
+                    specular, exponent, emission, normalMap, normalScale);
 }
 
 template <SameButConst<TextureImage> T>
 auto partsOf(T& texture) {
-    auto& [name, file, bytes, srgb] = texture;
-    return std::tie(name, file, bytes, srgb);
+    auto& [name, file, bytes, srgb, isNormalMap] = texture;
+    return std::tie(name, file, bytes, srgb, isNormalMap);
 }
 
 template <SameButConst<HeightField> T>

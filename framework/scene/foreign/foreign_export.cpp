@@ -81,6 +81,7 @@ class Exporter {
         require(scene_.environment);
         for (const ForeignShape& shape : scene_.shapes) {
             require(scene_.materials[shape.material].image);
+            require(scene_.materials[shape.material].normalMap);
         }
     }
 
@@ -186,7 +187,7 @@ class Exporter {
     }
 
     static bool isTextured(const ForeignMaterial& foreign) {
-        return foreign.image || foreign.material.pattern != Pattern::none;
+        return foreign.image || foreign.normalMap || foreign.material.pattern != Pattern::none;
     }
 
     static bool mustBake(const ForeignShape& shape, const ForeignMaterial& foreign,
@@ -228,7 +229,15 @@ class Exporter {
             texture = pictureOf(*foreign.image);
             if (texture.empty()) material.albedo *= static_cast<float>(kGrey);
         }
-        writeMaterial(materials_, material, name->second, texture);
+        std::string normals;
+        if (foreign.normalMap && isThere(*foreign.normalMap)) {
+            normals = files_.picture(foreign.normalMap->file, foreign.normalMap->place);
+        } else if (foreign.normalMap) {
+            note(NoteKind::leftOut,
+                 fmt::format("texture '{}'", foreign.normalMap->file.filename().string()),
+                 foreign.normalMap->place, "the file is not there; the surface is smooth");
+        }
+        writeMaterial(materials_, material, name->second, {texture, normals});
     }
 
     [[nodiscard]] std::string head() const {

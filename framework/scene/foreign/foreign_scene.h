@@ -36,8 +36,9 @@ struct ForeignImage {
 };
 
 struct ForeignMaterial {
-    Material material;  // Material::image is not used
+    Material material;  // Material::image and normalMap are not used
     std::optional<ForeignImage> image;
+    std::optional<ForeignImage> normalMap;
     bool turnsTexture = false;  // the picture stands on its head once more than the shape says
 };
 
@@ -101,8 +102,8 @@ auto partsOf(T& image) {
 
 template <SameButConst<ForeignMaterial> T>
 auto partsOf(T& foreign) {
-    auto& [material, image, turnsTexture] = foreign;
-    return std::tie(material, image, turnsTexture);
+    auto& [material, image, normalMap, turnsTexture] = foreign;
+    return std::tie(material, image, normalMap, turnsTexture);
 }
 
 template <SameButConst<ForeignShape> T>

@@ -86,8 +86,18 @@ void writeLight(TomlLines& lines, const Light& light, const std::string& name) {
     writePower(lines, "intensity", light.power);
 }
 
+namespace {
+
+void writeNormalMap(TomlLines& lines, const Material& material, const std::string& normalMap) {
+    if (normalMap.empty()) return;
+    lines.set("normal_map", normalMap);
+    if (material.uvScale != glm::vec2(1.0f)) lines.set("uv_scale", glm::dvec2(material.uvScale));
+}
+
+}  // namespace
+
 void writeMaterial(TomlLines& lines, const Material& material, const std::string& name,
-                   const std::string& texture) {
+                   const MaterialPictures& pictures) {
     lines.table("[[material]]");
     lines.set("name", name);
     if (material.kind == MaterialKind::dielectric) {
@@ -95,18 +105,18 @@ void writeMaterial(TomlLines& lines, const Material& material, const std::string
         lines.set("ior", double(material.ior));
         if (material.absorptionPerMeter != glm::vec3(0.0f))
             lines.setColor("absorption_per_meter", material.absorptionPerMeter);
-        return;
+        return writeNormalMap(lines, material, pictures.normalMap);
     }
     if (material.kind == MaterialKind::mirror) {
         lines.set("type", "mirror");
         if (material.albedo != glm::vec3(1.0f)) lines.setColor("reflectance", material.albedo);
-        return;
+        return writeNormalMap(lines, material, pictures.normalMap);
     }
     const bool isGlossy = material.kind == MaterialKind::glossy;
     lines.set("type", isGlossy ? "glossy" : "lambertian");
     lines.setColor("albedo", material.albedo);
     if (material.emission != glm::vec3(0.0f)) lines.setColor("emission", material.emission);
-    if (!texture.empty()) lines.set("texture", texture);
+    if (!pictures.texture.empty()) lines.set("texture", pictures.texture);
     if (material.pattern == Pattern::checker) {
         lines.set("pattern", "checker");
         lines.setColor("pattern_albedo", material.patternAlbedo);

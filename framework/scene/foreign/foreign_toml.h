@@ -16,9 +16,13 @@ namespace kaustik::scene {
 void writeCamera(TomlLines& lines, const Camera& camera);
 void writeMedium(TomlLines& lines, const Medium& medium);
 void writeLight(TomlLines& lines, const Light& light, const std::string& name);
-// `texture`: as the scene file names it; "" for none.
+// As the scene file names them; "" for none.
+struct MaterialPictures {
+    std::string texture;
+    std::string normalMap;
+};
 void writeMaterial(TomlLines& lines, const Material& material, const std::string& name,
-                   const std::string& texture);
+                   const MaterialPictures& pictures);
 // The keys of a shape that is no mesh, with its placement.
 void writeShape(TomlLines& lines, const ForeignShape& shape, const Placement& placement);
 void writeMesh(TomlLines& lines, const std::string& file, const Placement& placement);

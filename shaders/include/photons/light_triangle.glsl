@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The triangles that a light sees, and where its rays meet them.
+#include "include/surfaces/normal_map.glsl"
 #include "include/surfaces/scene_triangle.glsl"
 
 layout(std430) readonly buffer Instances {
@@ -42,6 +43,31 @@ vec3 weightsOnRay(vec3 corners[3], vec2 place, bool isParallel) {
     return abs(sum) > minimum ? weights / sum : vec3(1.0 / 3.0);
 }
 
+#ifdef NORMAL_MAPS
+// What a normal map makes of the point's normal, and of how that turns: by differences over a texel,
+// since the map is linear between two.
+void mapNormal(inout PointOnTriangle point, uint material, vec2 uvs[3], vec3 weights) {
+    if (!hasNormalMap(material)) return;
+    mat2 uvSides = mat2(uvs[1] - uvs[0], uvs[2] - uvs[0]);
+    mat2x3 turns = point.turns;
+    vec2 uv = weights.x * uvs[0] + weights.y * uvs[1] + weights.z * uvs[2];
+    vec3 normal = point.normal;
+    point.normal = mappedNormalAt(material, shadingNormal(normal, point.geometric), point.places,
+                                  uvSides, uv);
+    for (int side = 0; side < 2; ++side) {
+        float texels = length(normalTexels(material, uvSides[side]));
+        float reach = 0.5 / max(texels, 1.0);
+        vec3 ends[2];
+        for (int i = 0; i < 2; ++i) {
+            float at = i == 0 ? -reach : reach;
+            vec3 there = shadingNormal(normal + at * turns[side], point.geometric);
+            ends[i] = mappedNormalAt(material, there, point.places, uvSides, uv + at * uvSides[side]);
+        }
+        point.turns[side] = (ends[1] - ends[0]) / (2.0 * reach);
+    }
+}
+#endif
+
 // Where the light's ray hits the triangle. `place`: as in weightsOnRay. `minimum`: of its weights, less
 // than 0 where the ray passes the triangle by.
 PointOnTriangle pointOnTriangle(uvec2 seen, vec2 place, bool isParallel, out float minimum) {
@@ -49,22 +75,28 @@ PointOnTriangle pointOnTriangle(uvec2 seen, vec2 place, bool isParallel, out flo
     vec3 positions[3];
     vec3 normals[3];
     vec3 ofLight[3];  // in its view
+    vec2 uvs[3];
     for (uint i = 0u; i < 3u; ++i) {
         VertexData corner = cornerOfTriangle(instances[object], seen.y, i);
         positions[i] = (instances[object].modelToView * vec4(corner.position, 1.0)).xyz;
         normals[i] = mat3(instances[object].normalToView) * corner.normal;
+        uvs[i] = vec2(corner.u, corner.v);
         ofLight[i] = (lightFromEye * vec4(positions[i], 1.0)).xyz;
     }
     vec3 weights = weightsOnRay(ofLight, place, isParallel);
     minimum = min(weights.x, min(weights.y, weights.z));
     vec3 area = cross(positions[1] - positions[0], positions[2] - positions[0]);
     float size = length(area);
-    return PointOnTriangle(
+    PointOnTriangle point = PointOnTriangle(
         weights.x * positions[0] + weights.y * positions[1] + weights.z * positions[2],
         weights.x * normals[0] + weights.y * normals[1] + weights.z * normals[2],
         size > 0.0 ? area / size : vec3(0.0),
         mat2x3(positions[1] - positions[0], positions[2] - positions[0]),
         mat2x3(normals[1] - normals[0], normals[2] - normals[0]));
+#ifdef NORMAL_MAPS
+    mapNormal(point, instances[object].material.x, uvs, weights);
+#endif
+    return point;
 }
 PointOnTriangle pointOnTriangle(uvec2 seen, vec2 place, bool isParallel) {
     float minimum;

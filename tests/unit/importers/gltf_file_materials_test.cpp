@@ -171,6 +171,24 @@ TEST_F(GltfImport, AnImageInADataUriStaysEncoded) {
     EXPECT_EQ(scene.images.at(0).bytes, "\x89PNG and");
 }
 
+TEST_F(GltfImport, ANormalTextureIsTheMapOfGlassAndMirrorsAndOfNothingElse) {
+    Json document = texturedScene({{"uri", "data:image/png;base64,iVBORyBhbmQ="}});
+    document["materials"][0] = {
+        {"pbrMetallicRoughness", {{"metallicFactor", 1}, {"roughnessFactor", 0}}},
+        {"normalTexture", {{"index", 0}, {"scale", 0.25}}}};
+    const Scene mirror = import(document);
+    EXPECT_EQ(mirror.materials.at(0).kind, MaterialKind::mirror);
+    EXPECT_EQ(mirror.materials.at(0).normalMap, 0);
+    EXPECT_EQ(mirror.materials.at(0).normalScale, 0.25f);
+    EXPECT_TRUE(mirror.images.at(0).isNormalMap);
+    EXPECT_FALSE(mirror.images.at(0).srgb);
+    document["materials"][0]["pbrMetallicRoughness"]["metallicFactor"] = 0;
+    const Scene diffuse = import(document);
+    EXPECT_EQ(diffuse.materials.at(0).normalMap, -1);
+    EXPECT_THAT(diffuse.warnings,
+                testing::Contains(HasSubstr("materials[0].normalTexture is left out")));
+}
+
 TEST_F(GltfImport, AnImageBesideTheSceneIsNamedAndMustBeThere) {
     const Json document = texturedScene({{"uri", "wood%20grain.png"}});
     EXPECT_THAT(errorOf<IoError>(document),

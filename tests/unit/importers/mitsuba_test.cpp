@@ -199,6 +199,21 @@ TEST_F(Mitsuba, WhatIsAroundABsdfIsTakenOffAndNoted) {
                                           "(scene.xml:4)"));
 }
 
+TEST_F(Mitsuba, ANormalMapIsThatOfTheGlassOrMirrorInIt) {
+    const std::string map =
+        "<texture type=\"bitmap\" name=\"normalmap\"><boolean name=\"raw\" value=\"true\"/>"
+        "<string name=\"filename\" value=\"n.png\"/></texture>";
+    const ForeignMaterial mirror =
+        material("<bsdf type=\"normalmap\">" + map + "<bsdf type=\"conductor\"/></bsdf>");
+    EXPECT_EQ(mirror.material.kind, MaterialKind::mirror);
+    ASSERT_TRUE(mirror.normalMap);
+    EXPECT_EQ(mirror.normalMap->file, folder / "n.png");
+    const ForeignScene diffuse = read(sceneOf("<shape type=\"sphere\"><bsdf type=\"normalmap\">" +
+                                              map + "<bsdf type=\"diffuse\"/></bsdf></shape>"));
+    EXPECT_FALSE(diffuse.materials.at(0).normalMap);
+    EXPECT_THAT(notesOf(diffuse), HasSubstr("only glass and mirrors have normal maps"));
+}
+
 TEST_F(Mitsuba, TexturesAreFilesAndCheckers) {
     const ForeignMaterial picture = material(
         "<bsdf type=\"diffuse\"><texture type=\"bitmap\" name=\"reflectance\"><string "

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "framework/core/error.h"
+#include "framework/image/image.h"
 #include "framework/scene/files/scene_file.h"
 #include "tests/unit/scene/files/scene_file_fixture.h"
 
@@ -137,6 +138,10 @@ TEST_F(SceneFileMistakes, InAMaterial) {
         {head + "type = 'lambertian'\nalbedo = 1\nuv_scale = [1,2,3]", 5, {"a list of 3"}},
         {head + "type = 'lambertian'\nalbedo = 1\nior = 1.5", 5, {"'ior' is not a key"}},
         {head + "type = 'lambertian'\nalbedo = 1\nspecular = 0", 5, {"'specular' is not a key"}},
+        {head + "type = 'lambertian'\nalbedo = 1\nnormal_map = 'a.png'",
+         5,
+         {"'normal_map' is not a key"}},
+        {head + "type = 'mirror'\nnormal_scale = 2", 4, {"'normal_scale' is not a key"}},
         {head + "type = 'glossy'\nalbedo = 1", 1, {"'specular' is missing"}},
         {head + "type = 'glossy'\nalbedo = 0.5\nspecular = 1.5", 5, {"specular", "at most 1"}},
         {head + "type = 'glossy'\nalbedo = [0.2, 0.75, 0]\nspecular = 0.5",
@@ -266,6 +271,20 @@ TEST_F(SceneFileMistakes, AMissingMeshSaysWhereItWasSoughtAndWhatToDo) {
     EXPECT_NE(message.find(folder.string() + ","), std::string::npos);
     EXPECT_NE(message.find((projectRoot() / "meshes").string()), std::string::npos);
     EXPECT_NE(message.find("/nowhere/meshes"), std::string::npos);
+}
+
+TEST_F(SceneFileMistakes, InANormalMapThatIsNone) {
+    const std::string text = "[[material]]\nname='m'\ntype='mirror'\nnormal_map='map.pfm'\n";
+    EXPECT_NE(messageOf<IoError>(text).find("scene.toml:4: material 'm': the normal_map"),
+              std::string::npos);
+    Image picture(4, 4, 3);
+    for (int i = 0; i < 16; ++i)
+        picture.at(i % 4, i / 4, 0) = 0.5f;  // black but for red: into the surface
+    writeImage(folder / "map.pfm", picture);
+    const std::string message = messageOf<IoError>(text);
+    EXPECT_NE(message.find("scene.toml:4: material 'm': "), std::string::npos) << message;
+    EXPECT_NE(message.find("map.pfm is no normal map: 0% of its texels"), std::string::npos)
+        << message;
 }
 
 TEST_F(SceneFileMistakes, AMissingTextureOrFileIsNamed) {
