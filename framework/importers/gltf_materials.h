@@ -30,7 +30,8 @@ inline constexpr float kOpaquePerMeter = 1e20f;
 void importGltfMaterials(const tinygltf::Model& model, const std::filesystem::path& path,
                          Scene& scene);
 
-// The uv set that the material's base colour texture uses, or else its normal texture (materialIndex -1: none, set 0).
+// The uv set that the material's base colour texture uses, or else its normal texture
+// (materialIndex -1: none, set 0).
 [[nodiscard]] int gltfUvSet(const tinygltf::Model& model, int materialIndex);
 
 }  // namespace kaustik::scene

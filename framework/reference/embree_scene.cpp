@@ -26,6 +26,10 @@ glm::dvec3 onItsSide(const glm::dvec3& normal, const glm::dvec3& geometric) {
     return side > 0.0 ? unit : glm::normalize(unit + (1e-3 - side) * geometric);
 }
 
+glm::dvec2 uvOf(const transport::VertexData& vertex) {
+    return {vertex.u, vertex.v};
+}
+
 using scene::MaterialKind;
 
 // Embree hands the context to the filters: what the ray may not hit.
@@ -113,6 +117,23 @@ void checkDevice(RTCDevice device) {
 }
 
 }  // namespace
+
+// The sides of a triangle from its first corner; none where it has no area.
+struct EmbreeScene::Sides {
+    glm::dvec3 normal;  // unit, by the winding
+    // What tells how far along each side a step is: 1 over all of it, 0 along the other.
+    glm::dvec3 acrossFirst;
+    glm::dvec3 acrossSecond;
+};
+
+std::optional<EmbreeScene::Sides> EmbreeScene::sidesOf(const glm::dvec3& a, const glm::dvec3& b,
+                                                       const glm::dvec3& c) {
+    const glm::dvec3 area = glm::cross(b - a, c - a);
+    const double area2 = glm::dot(area, area);
+    if (!(area2 > 0.0)) return std::nullopt;
+    return Sides{area / std::sqrt(area2), glm::cross(c - a, area) / area2,
+                 glm::cross(area, b - a) / area2};
+}
 
 EmbreeScene::EmbreeScene(const scene::Scene& scene, Filters filters)
     : scene_(scene), appearance_(scene) {
@@ -208,9 +229,7 @@ glm::dvec3 EmbreeScene::shadingNormal(const ObjectMesh& mesh, const glm::uvec3& 
                                     weights.z * glm::dvec3(at[2]->normal);
     const glm::dvec3 normal = onItsSide(interpolated, geometric);
     if (!mesh.hasNormalMap) return normal;
-    std::array<glm::dvec2, 3> uvs;
-    for (std::size_t i = 0; i < 3; ++i)
-        uvs[i] = glm::dvec2(at[i]->u, at[i]->v);
+    const std::array<glm::dvec2, 3> uvs{uvOf(*at[0]), uvOf(*at[1]), uvOf(*at[2])};
     const glm::dvec2 uv = weights.x * uvs[0] + weights.y * uvs[1] + weights.z * uvs[2];
     const glm::dvec3 a = at[0]->position;
     return onItsSide(
@@ -261,31 +280,22 @@ void EmbreeScene::refine(const glm::dvec3& origin, const glm::dvec3& direction, 
 
 // By differences over a texel: the map is linear between two.
 glm::dmat3 EmbreeScene::mappedTurning(const ObjectMesh& mesh, const glm::uvec3& corners,
-                                      const glm::dvec3& position) const {
-    const transport::VertexData& a = mesh.vertices[corners.x];
-    const transport::VertexData& b = mesh.vertices[corners.y];
-    const transport::VertexData& c = mesh.vertices[corners.z];
-    const glm::dvec3 ab = glm::dvec3(b.position) - glm::dvec3(a.position);
-    const glm::dvec3 ac = glm::dvec3(c.position) - glm::dvec3(a.position);
-    const glm::dvec3 area = glm::cross(ab, ac);
-    const double area2 = glm::dot(area, area);
-    const glm::dvec3 geometric = area / std::sqrt(area2);
-    const glm::dvec3 acrossB = glm::cross(ac, area) / area2;
-    const glm::dvec3 acrossC = glm::cross(area, ab) / area2;
-    const glm::dvec3 fromA = position - glm::dvec3(a.position);
-    const double u = glm::dot(fromA, acrossB);
-    const double v = glm::dot(fromA, acrossC);
+                                      const Sides& sides, const glm::dvec3& fromFirst) const {
+    const std::array<glm::dvec2, 3> uvs{uvOf(mesh.vertices[corners.x]),
+                                        uvOf(mesh.vertices[corners.y]),
+                                        uvOf(mesh.vertices[corners.z])};
+    const double u = glm::dot(fromFirst, sides.acrossFirst);
+    const double v = glm::dot(fromFirst, sides.acrossSecond);
+    const glm::dvec3 weights(1.0 - u - v, u, v);
     const auto change = [&](const glm::dvec3& step, const glm::dvec2& uvStep) {
         const double texels = glm::length(appearance_.normalTexels(mesh.info.material, uvStep));
         const double reach = 0.5 / std::max(texels, 1.0);
-        const glm::dvec3 weights(1.0 - u - v, u, v);
-        return (shadingNormal(mesh, corners, weights + reach * step, geometric) -
-                shadingNormal(mesh, corners, weights - reach * step, geometric)) /
+        return (shadingNormal(mesh, corners, weights + reach * step, sides.normal) -
+                shadingNormal(mesh, corners, weights - reach * step, sides.normal)) /
                (2.0 * reach);
     };
-    const glm::dvec2 uvOfA(a.u, a.v);
-    return glm::outerProduct(change({-1.0, 1.0, 0.0}, glm::dvec2(b.u, b.v) - uvOfA), acrossB) +
-           glm::outerProduct(change({-1.0, 0.0, 1.0}, glm::dvec2(c.u, c.v) - uvOfA), acrossC);
+    return glm::outerProduct(change({-1.0, 1.0, 0.0}, uvs[1] - uvs[0]), sides.acrossFirst) +
+           glm::outerProduct(change({-1.0, 0.0, 1.0}, uvs[2] - uvs[0]), sides.acrossSecond);
 }
 
 glm::dmat3 EmbreeScene::normalTurning(const TriangleId& triangle,
@@ -295,18 +305,14 @@ glm::dmat3 EmbreeScene::normalTurning(const TriangleId& triangle,
     const transport::VertexData& a = mesh.vertices[corners.x];
     const transport::VertexData& b = mesh.vertices[corners.y];
     const transport::VertexData& c = mesh.vertices[corners.z];
-    const glm::dvec3 ab = glm::dvec3(b.position) - glm::dvec3(a.position);
-    const glm::dvec3 ac = glm::dvec3(c.position) - glm::dvec3(a.position);
-    const glm::dvec3 area = glm::cross(ab, ac);
-    const double area2 = glm::dot(area, area);
-    if (!(area2 > 0.0)) return glm::dmat3(0.0);
-    if (mesh.hasNormalMap) return mappedTurning(mesh, corners, position);
+    const std::optional<Sides> sides = sidesOf(a.position, b.position, c.position);
+    if (!sides) return glm::dmat3(0.0);
+    const glm::dvec3 fromFirst = position - glm::dvec3(a.position);
+    if (mesh.hasNormalMap) return mappedTurning(mesh, corners, *sides, fromFirst);
     const glm::dmat3 turning =
-        glm::outerProduct(glm::dvec3(b.normal) - glm::dvec3(a.normal), glm::cross(ac, area)) /
-            area2 +
-        glm::outerProduct(glm::dvec3(c.normal) - glm::dvec3(a.normal), glm::cross(area, ab)) /
-            area2;
-    const glm::dvec3 normal = glm::dvec3(a.normal) + turning * (position - glm::dvec3(a.position));
+        glm::outerProduct(glm::dvec3(b.normal) - glm::dvec3(a.normal), sides->acrossFirst) +
+        glm::outerProduct(glm::dvec3(c.normal) - glm::dvec3(a.normal), sides->acrossSecond);
+    const glm::dvec3 normal = glm::dvec3(a.normal) + turning * fromFirst;
     const double size = glm::length(normal);
     if (!(size > 1e-12)) return glm::dmat3(0.0);
     const glm::dvec3 unit = normal / size;

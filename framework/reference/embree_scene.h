@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "framework/reference/appearance.h"
@@ -130,8 +131,12 @@ class EmbreeScene {
     [[nodiscard]] glm::dvec3 shadingNormal(const ObjectMesh& mesh, const glm::uvec3& corners,
                                            const glm::dvec3& weights,
                                            const glm::dvec3& geometric) const;
+    struct Sides;
+    [[nodiscard]] static std::optional<Sides> sidesOf(const glm::dvec3& a, const glm::dvec3& b,
+                                                      const glm::dvec3& c);
+    // `fromFirst`: the point from the triangle's first corner.
     [[nodiscard]] glm::dmat3 mappedTurning(const ObjectMesh& mesh, const glm::uvec3& corners,
-                                           const glm::dvec3& position) const;
+                                           const Sides& sides, const glm::dvec3& fromFirst) const;
     void refine(const glm::dvec3& origin, const glm::dvec3& direction, const RTCHit& found, float t,
                 SurfaceHit& hit) const;
 
