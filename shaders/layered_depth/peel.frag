@@ -18,12 +18,14 @@ const float kDepthScale = 1.0 / 1048576.0;
 
 void main() {
     float depth = -positionVs.z;
+    // Derivatives, and so both normals, come before any discard.
     vec3 geometric = geometricNormal(positionVs, towardsViewer(positionVs));
+    vec3 shading = fragmentNormal(geometric);
     if (layer > 0) {
         float depthBefore = texelFetch(layerDepths, ivec3(gl_FragCoord.xy, before), 0).x;
         if (depthBefore <= 0.0 || depth <= depthBefore) discard;
     }
     gl_FragDepth = min(depth * kDepthScale, 1.0 - 1.0 / 16777216.0);
     layerDepth = vec4(depth, packUnitVector(geometric), float(material + 1u));
-    layerSurface = vec4(fragmentNormal(geometric), float(material + 1u));
+    layerSurface = vec4(shading, float(material + 1u));
 }

@@ -103,8 +103,8 @@ Start start(FrameBuilder& frame, const Purpose& purpose) {
             context.buffer(data.ledger).clear();
             context.buffer(data.scratch).clear();
             context.buffer(data.traversal.photons.list).clear();
-            // The counts too: no bytes come from the processor in a frame. NVIDIA's 580.159.04 lost
-            // them where it had cleared the buffer before and the processor had read it.
+            // The counts too, on the device: uploaded, they were gone in a graph's first frame on
+            // NVIDIA's 580.159.04, which clears the buffer just before (results/device.md).
             context.compute("driver/adaptive_start.comp")
                 .storage("WaitingCells", data.traversal.waiting)
                 .storage("CellCounting", data.traversal.counts)

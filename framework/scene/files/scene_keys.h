@@ -123,7 +123,7 @@ template <class R>
 void reflectNormalMap(R& r, MaterialKeys& keys) {
     r.text(keys.normalMap,
            {"normal_map",
-            "An image beside the scene file of what its normals are turned to: x along u, y along "
+            "An image next to the scene file with tangent-space normals: x along u, y along "
             "v, z out of the surface, each as (1 + x) / 2"});
     if (r.onlyWith("normal_scale", "normal_map"))
         r.number(keys.material.normalScale, {"normal_scale", "Of the normal map's x and y"},

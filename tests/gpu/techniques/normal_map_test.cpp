@@ -103,7 +103,7 @@ double thrown(double angle) {
     return kDepth * std::tan(angle - std::asin(std::sin(angle) / numerics::kWaterIndex));
 }
 
-TEST_F(NormalMap, OfEvenTiltThrowsAllLightAsOneSurfaceThatIsTurned) {
+TEST_F(NormalMap, OfConstantTiltRefractsLikeATiltedPlane) {
     const double angle = 0.3;
     for (const bool isAlongV : {false, true}) {
         writeMap(folder_ / "tilt.pfm", 4, [&](double, double) {

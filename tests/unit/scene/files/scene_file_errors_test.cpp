@@ -273,7 +273,7 @@ TEST_F(SceneFileMistakes, AMissingMeshSaysWhereItWasSoughtAndWhatToDo) {
     EXPECT_NE(message.find("/nowhere/meshes"), std::string::npos);
 }
 
-TEST_F(SceneFileMistakes, InANormalMapThatIsNone) {
+TEST_F(SceneFileMistakes, InvalidNormalMap) {
     const std::string text = "[[material]]\nname='m'\ntype='mirror'\nnormal_map='map.pfm'\n";
     EXPECT_NE(messageOf<IoError>(text).find("scene.toml:4: material 'm': the normal_map"),
               std::string::npos);
