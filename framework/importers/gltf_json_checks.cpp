@@ -93,6 +93,8 @@ constexpr std::array kRules{
          "an index of refraction of at least 1 (0, which the extension gives a special meaning, "
          "cannot be rendered here)",
          1, kAny},
+    Rule{"materials[].extensions.KHR_materials_dispersion.dispersion", Kind::number,
+         "a number of at least 0", 0, kAny},
     Rule{"materials[].extensions.KHR_materials_volume.thicknessFactor", Kind::number,
          "a number of at least 0", 0, kAny},
     Rule{"materials[].extensions.KHR_materials_volume.attenuationDistance", Kind::number,
@@ -265,7 +267,8 @@ class Checker {
 
     void checkExtensions() const {
         const std::vector<std::string> known{"KHR_lights_punctual", "KHR_materials_transmission",
-                                             "KHR_materials_ior", "KHR_materials_volume"};
+                                             "KHR_materials_ior", "KHR_materials_volume",
+                                             "KHR_materials_dispersion"};
         for (const auto& required : document_.value("extensionsRequired", Json::array())) {
             const std::string extension = required;
             if (std::find(known.begin(), known.end(), extension) != known.end()) continue;

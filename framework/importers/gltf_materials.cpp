@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "framework/core/error.h"
+#include "framework/scene/dispersion.h"
 
 namespace kaustik::scene {
 namespace {
@@ -132,6 +133,19 @@ class MaterialImporter {
         material.kind = MaterialKind::dielectric;
         material.ior =
             static_cast<float>(Extension(source, "KHR_materials_ior").number("ior", 1.5));
+        // 20 over the Abbe number.
+        const double strength =
+            Extension(source, "KHR_materials_dispersion").number("dispersion", 0.0);
+        if (strength > 0.0) {
+            const Dispersion dispersion =
+                byAbbeNumber(static_cast<double>(material.ior), 20.0 / strength);
+            if (isPossible(dispersion)) {
+                material.dispersion = glm::vec4(dispersion.polynomial);
+            } else {
+                warn("extensions.KHR_materials_dispersion.dispersion",
+                     "is left out: the index of refraction would be less than 1");
+            }
+        }
         const Extension volume(source, "KHR_materials_volume");
         if (volume.number("thicknessFactor", 0.0) > 0.0) {
             material.absorptionPerMeter = absorptionFromAttenuation(

@@ -266,7 +266,7 @@ Bent emitAndInteract(Lab& lab, const Lab::Choice& emitter, const scene::Scene& s
         const EyeBuffer eye = builder.run<EyeStage>(geometry);
         const Hits hits = builder.run<EmitStage>(
             Surfaces{geometry, eye, {}},
-            Samples{0, builder.needs().lights, 0, builder.photonsOfALight().height, "", {}});
+            Samples{0, builder.needs().photonLights, 0, builder.photonsOfALight().height, "", {}});
         before = keepPhotons(builder, hits.incoming);
         after = keepPhotons(builder, builder.run<SpecularStage>(hits, Surfaces{geometry, eye, {}}));
         const NoData noData = addNothing(builder, after.ledger);

@@ -60,6 +60,7 @@ float ledgerQuantum(const scene::Scene& scene) {
     const glm::dvec3 size = bounds.empty ? glm::dvec3(1.0) : bounds.maximum - bounds.minimum;
     double total = 1e-30;
     for (const scene::Light& light : scene.lights) {
+        if (light.band > 0) continue;
         const double power = static_cast<double>(light.power.r + light.power.g + light.power.b);
         // No rectangle around the bounds is larger than the square of their diagonal.
         const double spread = light.kind == scene::LightKind::directional
@@ -133,6 +134,7 @@ std::vector<LightsView> viewsOfSpecular(const scene::Scene& scene) {
     std::vector<LightsView> all;
     for (std::size_t i = 0; i < scene.lights.size() && !target.empty; ++i) {
         const scene::Light& light = scene.lights[i];
+        if (light.band > 0) continue;  // what it sends is measured with the first
         const int number = static_cast<int>(i);
         const render::RasterView view = render::makeLightView(light, target, sceneBounds(scene));
         if (!view.isClipped) {

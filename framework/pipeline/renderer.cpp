@@ -11,6 +11,7 @@
 #include "framework/pipeline/photon_texels.h"
 #include "framework/pipeline/pixel_mean.h"
 #include "framework/pipeline/stage_params.h"
+#include "framework/scene/spectrum.h"
 
 namespace kaustik {
 namespace {
@@ -26,6 +27,21 @@ gl::Buffer makeLights(const scene::Scene& scene, const render::RasterView& view)
         lights.push_back(lightData(light, view));
     lights.push_back({});  // a scene without lights still binds a block
     return {lights, "lights"};
+}
+
+gl::Buffer makeBands(const scene::Scene& scene) {
+    transport::BandTable table{};
+    for (int c = 0; c < 3; ++c)
+        table.rec709FromFlux[c] = glm::vec4(glm::vec3(scene::rec709FromFlux()[c]), 0.0f);
+    const std::size_t count = std::min<std::size_t>(scene.bands.size(), transport::kMaxBands);
+    if (count > 0) table.lights.x = static_cast<float>(scene.lights.size() / scene.bands.size());
+    for (std::size_t b = 0; b < count; ++b) {
+        const scene::Band& band = scene.bands[b];
+        table.bands[b].tint = glm::vec4(band.tint, static_cast<float>(band.place));
+        for (int c = 0; c < 3; ++c)
+            table.bands[b].ofLight[c] = glm::vec4(band.ofLight[c], 0.0f);
+    }
+    return {sizeof(table), &table, "bands"};
 }
 
 std::vector<std::string> namesOf(const graph::Compiled& compiled) {
@@ -115,6 +131,7 @@ Renderer::Renderer(gl::Context& context, const Registry& registry, const scene::
       gpuScene_(scene),
       viewBlock_(makeViewBlock(scene, view_)),
       lights_(makeLights(scene, view_)),
+      bands_(makeBands(scene)),
       instances_(gpuScene_.makeInstances(view_.worldToView)),
       needs_(sceneNeeds(scene)),
       ledgerQuantumWatts_(ledgerQuantum(scene)),
@@ -133,12 +150,13 @@ Renderer::Renderer(gl::Context& context, const Registry& registry, const scene::
     context_.check();
 }
 
-// By the names of include/views/view.glsl, surface_data.glsl, lights.glsl, scene_images.glsl and
-// ledger.glsl.
+// By the names of include/views/view.glsl, bands.glsl, surface_data.glsl, lights.glsl,
+// scene_images.glsl and ledger.glsl.
 void Renderer::bindToAll() {
     std::vector<std::string> defines;
     if (scene::hasNormalMaps(scene_)) defines.emplace_back("NORMAL_MAPS");
-    executor_.bindToAll({{{"View", &viewBlock_}},
+    if (!scene_.bands.empty()) defines.emplace_back("BANDS");
+    executor_.bindToAll({{{"View", &viewBlock_}, {"Bands", &bands_}},
                          {{"Materials", &gpuScene_.materials()}, {"Lights", &lights_}},
                          {{"sceneImages", &gpuScene_.images()}},
                          {{"ledgerUnitsPerWatt", 1.0f / ledgerQuantumWatts_}},
@@ -151,6 +169,7 @@ void Renderer::update(RenderSettings settings) {
     inputs_.samplesPerSide = samplesPerSideOf(settings_);
     viewBlock_ = makeViewBlock(scene_, view_);
     lights_ = makeLights(scene_, view_);
+    bands_ = makeBands(scene_);
     instances_ = gpuScene_.makeInstances(view_.worldToView);
     const int measuredDepthComplexity = needs_.measuredDepthComplexity;
     needs_ = sceneNeeds(scene_);

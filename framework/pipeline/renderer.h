@@ -139,6 +139,7 @@ class Renderer {
     render::GpuScene gpuScene_;
     gl::Buffer viewBlock_;
     gl::Buffer lights_;
+    gl::Buffer bands_;
     render::ViewInstances instances_;
     scene::SceneNeeds needs_;
     float ledgerQuantumWatts_;

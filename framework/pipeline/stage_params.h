@@ -46,6 +46,7 @@ struct LayersParams {
 struct EmitParams {
     params::Extent photons{256, 256};
     int lightPoints = 0;
+    int wavelengths = 0;
     int batch = 4194304;
     template <class R>
     void reflect(R& r) {
@@ -72,6 +73,16 @@ struct EmitParams {
                 return facts.needs == nullptr || facts.needs->emitters > 0
                            ? ""
                            : "no light of the scene has a size";
+            });
+        r.field(wavelengths, "wavelengths",
+                "Parts that white light is taken into where a dielectric disperses it, each with "
+                "photons of its own in every light's grid. 0: from 8 to 32, by how far it parts "
+                "colours; 1: none, all of it goes as the d line",
+                "", params::range(0, 64))
+            .when([](const FrameFacts& facts) -> std::string {
+                return facts.needs == nullptr || facts.needs->disperses
+                           ? ""
+                           : "no dielectric of the scene disperses";
             });
         r.field(
              batch, "batch",

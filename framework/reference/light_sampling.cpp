@@ -150,7 +150,7 @@ void LightSampler::add(Share share) {
 }
 
 LightSampler::LightSampler(const EmbreeScene& scene, std::uint64_t photonsPerBatch)
-    : appearance_(&scene.appearance()) {
+    : appearance_(&scene.appearance()), disperses_(scene::disperses(scene.scene())) {
     if (scene.specularVertices().empty()) return;
     glm::dvec3 low(std::numeric_limits<double>::max());
     glm::dvec3 high(std::numeric_limits<double>::lowest());
@@ -171,7 +171,7 @@ LightSampler::LightSampler(const EmbreeScene& scene, std::uint64_t photonsPerBat
                                                         : aimCone(light, scene));
     };
     for (const scene::Light& light : scene.scene().lights) {
-        if (light.emitter < 0) aim(light);
+        if (light.emitter < 0 && light.band == 0) aim(light);
     }
     for (const scene::Emitter& emitter : scene.scene().emitters) {
         if (emitter.isDisc()) {
@@ -214,6 +214,16 @@ LightSampler::LightSampler(const EmbreeScene& scene, std::uint64_t photonsPerBat
 }
 
 EmittedPhoton LightSampler::sample(std::uint64_t index, Random& random) const {
+    EmittedPhoton photon = sampleColor(index, random);
+    if (!disperses_) return photon;
+    const scene::DrawnWavelength drawn = scene::drawWavelength(random.uniform());
+    photon.fluxWatts = drawn.ofLight * photon.fluxWatts;
+    photon.wavelength = {scene::dispersionPlace(drawn.nanometers), drawn.tint};
+    return photon;
+}
+
+// As if light of all wavelengths went one way.
+EmittedPhoton LightSampler::sampleColor(std::uint64_t index, Random& random) const {
     std::size_t s = shares_.size() - 1;
     while (shares_[s].first > index)
         --s;

@@ -29,6 +29,7 @@ struct EmittedPhoton {
     glm::dvec3 origin{0.0};     // local
     glm::dvec3 direction{0.0};  // unit
     glm::dvec3 fluxWatts{0.0};  // such that a whole batch is the light's flux
+    Wavelength wavelength;      // drawn at random where the scene disperses
     LightReach reach;
 };
 
@@ -37,6 +38,7 @@ struct EmittedPhoton {
     photon.origin = emitted.origin;
     photon.direction = emitted.direction;
     photon.fluxWatts = emitted.fluxWatts;
+    photon.wavelength = emitted.wavelength;
     return photon;
 }
 
@@ -55,6 +57,7 @@ class LightSampler {
     [[nodiscard]] EmittedPhoton sample(std::uint64_t index, Random& random) const;
 
   private:
+    [[nodiscard]] EmittedPhoton sampleColor(std::uint64_t index, Random& random) const;
     struct Share {
         const scene::Light* light = nullptr;
         std::uint64_t first = 0;  // photon of the batch
@@ -83,6 +86,7 @@ class LightSampler {
                                               Random& random) const;
 
     const Appearance* appearance_;
+    bool disperses_ = false;
     std::vector<Share> shares_;
     std::deque<scene::Light> surfaceLights_;  // whose radiance and name shares have
     glm::dvec3 targetMiddle_{0.0};            // of the ball around all that is specular, local

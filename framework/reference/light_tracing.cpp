@@ -74,8 +74,9 @@ class Camera {
         const glm::dvec3 toEye = glm::normalize(eye_.position() - hit.position);
         const double side = glm::dot(hit.geometricNormal, toEye) > 0.0 ? 1.0 : -1.0;
         splat(radiance_ + at.pixel * std::size_t{3},
-              irradiance * scene_.appearance().brdf(hit.material, hit.uv, side * hit.shadingNormal,
-                                                    -photon.direction, toEye));
+              irradiance *
+                  photon.wavelength.tinted(scene_.appearance().brdf(
+                      hit.material, hit.uv, side * hit.shadingNormal, -photon.direction, toEye)));
     }
 
     // One point of the path, chosen by its angle from the eye (Kulla and Fajardo 2012, section 4):
@@ -99,10 +100,11 @@ class Camera {
         const glm::dvec3 ray = eye_.position() - point;
         const double eyeDistance = glm::length(ray);
         const double scattered = phase(anisotropy_, glm::dot(photon.direction, ray) / eyeDistance);
+        const glm::dvec3 toEyeExtinction = photon.wavelength.tinted(mediumExtinction_);
         const glm::dvec3 arriving =
-            photon.fluxWatts * glm::exp(-extinction * along - mediumExtinction_ * eyeDistance);
+            photon.fluxWatts * glm::exp(-extinction * along - toEyeExtinction * eyeDistance);
         splat(inScattered_ + at.pixel * std::size_t{3},
-              arriving * scattering_ *
+              arriving * photon.wavelength.tinted(scattering_) *
                   (scattered * perDensity * eye_.coverageOfPoint(point, at.depth)));
     }
 
@@ -157,7 +159,7 @@ double irradianceScale(const EmbreeScene& scene) {
     const scene::Bounds& bounds = scene.bounds();
     const double size = bounds.empty ? 1.0 : glm::length(bounds.maximum - bounds.minimum);
     for (const scene::Light& light : scene.scene().lights) {
-        if (light.emitter >= 0) continue;
+        if (light.emitter >= 0 || light.band > 0) continue;
         const auto power =
             static_cast<double>(std::max({light.power.r, light.power.g, light.power.b}));
         scale += light.kind == scene::LightKind::directional ? power : power / (size * size);

@@ -17,6 +17,7 @@
 #include "framework/reference/embree_scene.h"
 #include "framework/reference/optics.h"
 #include "framework/reference/random.h"
+#include "framework/scene/spectrum.h"
 #include "framework/transport/types.h"
 
 namespace kaustik::reference {
@@ -41,10 +42,21 @@ struct LightReach {
     bool isDistant = false;
 };
 
+// What a photon is of where the scene disperses; else it is of all wavelengths, and what colours do
+// to it they do by channels.
+struct Wavelength {
+    double place = 0.0;    // scene/spectrum.h
+    glm::dvec3 tint{0.0};  // times a colour: the share that it lets through; 0: of all
+    [[nodiscard]] glm::dvec3 tinted(const glm::dvec3& color) const {
+        return tint == glm::dvec3(0.0) ? color : glm::dvec3(glm::dot(color, tint));
+    }
+};
+
 struct PhotonState {
     glm::dvec3 origin{0.0};
     glm::dvec3 direction{0.0};  // unit
     glm::dvec3 fluxWatts{0.0};
+    Wavelength wavelength;
     TriangleId start;
     MediaStack media;
     int interactions = 0;
@@ -131,7 +143,11 @@ class LightTransport {
         if (material.kind == scene::MaterialKind::dielectric &&
             glm::dot(photon.direction, hit.geometricNormal) > 0.0) {
             photon.media.enter(hit.material + 1);
-            if (!reach.isDistant) photon.fluxWatts *= transmittance(material, hit.distance);
+            if (!reach.isDistant) {
+                photon.fluxWatts *=
+                    decay(photon.wavelength.tinted(glm::dvec3(material.absorptionPerMeter)),
+                          hit.distance);
+            }
         }
         photon.origin = hit.position;
         sink.emitted(photon.fluxWatts);
@@ -154,10 +170,6 @@ class LightTransport {
             return glm::dvec3(std::exp(-perMeter.x * distance));
         return glm::exp(-perMeter * distance);
     }
-    static glm::dvec3 transmittance(const scene::Material& material, double distance) {
-        if (material.absorptionPerMeter == glm::vec3(0.0f)) return glm::dvec3(1.0);
-        return decay(glm::dvec3(material.absorptionPerMeter), distance);
-    }
 
     // Follows the photon to the next specular surface; false when it has ended before.
     template <class Sink>
@@ -171,6 +183,7 @@ class LightTransport {
             glm::dvec3 extinction = mediumExtinction_;
             if (inner != 0)
                 extinction += glm::dvec3(scene_.scene().materials[inner - 1].absorptionPerMeter);
+            extinction = photon.wavelength.tinted(extinction);
             if (hasMedium_) sink.passed(photon, distance, extinction, random);
             if (isHit && extinction != glm::dvec3(0.0)) {
                 const glm::dvec3 arriving = photon.fluxWatts * decay(extinction, distance);
@@ -201,11 +214,13 @@ class LightTransport {
     };
     // The indices of refraction before and behind a surface of the material with that index; of no
     // use at a mirror. Both are the same where one dielectric ends inside of another.
-    [[nodiscard]] Indices indicesAt(const MediaStack& media, std::uint32_t material,
+    [[nodiscard]] Indices indicesAt(const PhotonState& photon, std::uint32_t material,
                                     bool enters) const {
+        const MediaStack& media = photon.media;
         const std::vector<scene::Material>& materials = scene_.scene().materials;
         const auto indexOf = [&](std::uint32_t medium) {
-            return medium == 0 ? 1.0 : static_cast<double>(materials[medium - 1].ior);
+            return medium == 0 ? 1.0
+                               : scene::indexAt(materials[medium - 1], photon.wavelength.place);
         };
         const double before = indexOf(media.inner());
         if (enters) return {before, indexOf(material + 1)};
@@ -219,7 +234,7 @@ class LightTransport {
         const scene::Material& material = scene_.scene().materials[hit.material];
         const bool isMirror = material.kind == scene::MaterialKind::mirror;
         const bool enters = glm::dot(photon.direction, hit.geometricNormal) < 0.0;
-        const Indices indices = indicesAt(photon.media, hit.material, enters);
+        const Indices indices = indicesAt(photon, hit.material, enters);
         const Branches branches =
             branchesAt(hit, photon.direction, indices.before, indices.behind, isMirror);
         photon.origin = hit.position;
@@ -228,7 +243,8 @@ class LightTransport {
         if (isMirror) {
             photon.direction = branches.reflected;
             photon.reflectedInside = photon.media.inner() != 0;
-            const glm::dvec3 kept = photon.fluxWatts * glm::dvec3(material.albedo);
+            const glm::dvec3 kept =
+                photon.fluxWatts * photon.wavelength.tinted(glm::dvec3(material.albedo));
             sink.absorbed(photon.fluxWatts - kept);
             photon.fluxWatts = kept;
             return kept != glm::dvec3(0.0);

@@ -153,8 +153,8 @@ class Gatherer {
         if (!hasRadiance_) return;
         const Reflector& at = reflectors_[pixel];
         const glm::dvec3 reflected =
-            atPoint * scene_.appearance().brdf(at.material, at.uv, at.shadingNormal,
-                                               -photon.direction, at.toEye);
+            atPoint * photon.wavelength.tinted(scene_.appearance().brdf(
+                          at.material, at.uv, at.shadingNormal, -photon.direction, at.toEye));
         double* radiance = result_.values.data() + radiance_ + 3 * pixel;
         for (int channel = 0; channel < 3; ++channel)
             radiance[channel] += reflected[channel];

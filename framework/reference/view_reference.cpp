@@ -51,6 +51,7 @@ class Receivers {
                          (appearance.albedo(hit.material, hit.uv) + glm::dvec3(material.specular)) /
                          glm::pi<double>();
         for (const scene::Light& light : scene.lights) {
+            if (light.band > 0) continue;
             const Arriving arriving = fromLight(light, hit.position);
             const double cosine = glm::dot(shading, arriving.toLight);
             if (cosine <= 0.0 || glm::dot(geometric, arriving.toLight) <= 0.0) continue;

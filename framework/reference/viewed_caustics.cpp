@@ -94,10 +94,11 @@ void ViewedCaustics::add(const SurfaceHit& hit, const PhotonState& photon, doubl
                 continue;
             }
             const glm::dvec3 value =
-                photon.fluxWatts * point.throughput *
-                densityExtrapolated(distanceSquared, point.radiusSquared) *
-                scene_.appearance().brdf(point.material, point.uv, point.shadingNormal,
-                                         -photon.direction, point.toEye);
+                photon.fluxWatts * densityExtrapolated(distanceSquared, point.radiusSquared) *
+                photon.wavelength.tinted(point.throughput *
+                                         scene_.appearance().brdf(point.material, point.uv,
+                                                                  point.shadingNormal,
+                                                                  -photon.direction, point.toEye));
             for (int channel = 0; channel < 3; ++channel)
                 radiance[std::size_t{3} * point.pixel + static_cast<std::size_t>(channel)] +=
                     value[channel];

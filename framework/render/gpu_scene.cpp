@@ -219,6 +219,7 @@ void GpuScene::uploadMaterials() {
         data.specular = glm::vec4(material.specular, material.exponent);
         data.emission = glm::vec4(material.emission, 0.0f);
         data.normalMap = {static_cast<float>(material.normalMap), material.normalScale, 0.0f, 0.0f};
+        data.dispersion = material.dispersion;
         data.medium = mediumOf(m);
         materials.push_back(data);
     }

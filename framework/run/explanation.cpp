@@ -10,6 +10,7 @@
 #include "framework/gl/objects.h"
 #include "framework/pipeline/effect.h"
 #include "framework/scene/emitters.h"
+#include "framework/scene/spectrum.h"
 
 namespace kaustik::run {
 namespace {
@@ -67,6 +68,18 @@ std::string emittersText(const Renderer& renderer) {
     return text;
 }
 
+// Into how many parts white light is taken, and whether that can be seen.
+std::string bandsText(const Renderer& renderer) {
+    const scene::Scene& scene = renderer.scene();
+    if (!renderer.needs().disperses) return "";
+    const int bands = renderer.needs().bands;
+    const scene::BandCount count = bandsOf(scene, bands, renderer.pictureView().height);
+    return fmt::format(
+        "  light is followed at {} wavelength{} (emit.wavelengths); colours part by {:.2g} m at "
+        "most, where a pixel sees {:.2g} m; the eye's rays are bent as the d line is\n",
+        bands, bands == 1 ? "" : "s", count.partingMeters, count.pixelMeters);
+}
+
 std::string describe(const graph::ResourceDesc& desc) {
     if (const auto* texture = std::get_if<graph::TextureDesc>(&desc)) {
         return fmt::format("{}x{}{} {}", texture->width, texture->height,
@@ -97,7 +110,7 @@ std::string effectText(const Renderer& renderer) {
 
 std::string explain(const Renderer& renderer) {
     std::string text = needsText(renderer.scene(), renderer.needs());
-    text += emittersText(renderer);
+    text += emittersText(renderer) + bandsText(renderer);
     text += fmt::format("technique {}{}\n", renderer.settings().technique.name,
                         renderer.settings().technique.isAsPublished ? ", as published" : "");
     const std::vector<graph::PassRecord>& passes = renderer.compiled().records;

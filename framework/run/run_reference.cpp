@@ -239,7 +239,7 @@ std::vector<fs::path> RunReference::judge(const Renderer& renderer, const fs::pa
     const graph::ResourceRef& visibility = renderer.outputs().shadows.visibility;
     if (visibility.valid()) {
         audit::ShadowAudit shadows;
-        const std::size_t lights = renderer.scene().lights.size();
+        const auto lights = static_cast<std::size_t>(renderer.needs().lights);
         for (std::size_t light = 0; light < lights; ++light) {
             shadows.add(audit::auditShadow(
                 readTexture(renderer.texture(visibility), static_cast<int>(light), 1), light,

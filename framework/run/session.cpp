@@ -15,6 +15,7 @@
 #include "framework/run/output.h"
 #include "framework/scene/emitters.h"
 #include "framework/scene/shapes/height_field.h"
+#include "framework/scene/spectrum.h"
 
 namespace kaustik::run {
 namespace {
@@ -28,12 +29,11 @@ void checkCount(const char* name, int count, int minimum) {
         throw ConfigError(fmt::format("{}: {} is not from {} to 1000000.", name, count, minimum));
 }
 
-// Two sessions may have one scene, with other points in the place of its lights.
+// Two sessions may have one scene, with other points in the place of its lights, and other bands.
 scene::Scene& withLightPoints(scene::Scene& scene, const RenderSettings& settings) {
-    if (!scene.emitters.empty()) {
-        const int wanted = settings.params.get<EmitParams>(EmitStage::name).lightPoints;
-        scene::placeLightPoints(scene, wanted, settings.height);
-    }
+    const auto& emit = settings.params.get<EmitParams>(EmitStage::name);
+    if (!scene.emitters.empty()) scene::placeLightPoints(scene, emit.lightPoints, settings.height);
+    scene::placeBands(scene, emit.wavelengths, settings.height);
     return scene;
 }
 

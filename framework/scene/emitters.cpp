@@ -11,6 +11,8 @@
 
 #include "framework/scene/basis.h"
 #include "framework/scene/emitting_environment.h"
+#include "framework/scene/pixel_size.h"
+#include "framework/scene/spectrum.h"
 #include "framework/scene/triangles.h"
 
 namespace kaustik::scene {
@@ -222,9 +224,7 @@ EmitterPoints pointsOf(const Scene& scene, const Emitter& emitter, int wanted, i
     // As far as light can go on from there within the scene.
     points.blurMeters =
         2.0 * std::tan(0.5 * std::min(angleOf(scene, emitter, specular), 3.0)) * extentOf(all);
-    const double sight = glm::length(middleOf(all) - scene.camera.position);
-    points.pixelMeters =
-        2.0 * std::tan(0.5 * glm::radians(scene.camera.verticalFovDegrees)) * sight / rows;
+    points.pixelMeters = pixelMeters(scene, rows);
     if (wanted > 0) {
         points.points = wanted;
     } else if (emitter.environment) {
@@ -240,6 +240,7 @@ EmitterPoints pointsOf(const Scene& scene, const Emitter& emitter, int wanted, i
 }
 
 void placeLightPoints(Scene& scene, int wanted, int rows) {
+    forgetBands(scene);
     std::erase_if(scene.lights, [](const Light& light) { return light.emitter >= 0; });
     for (std::size_t e = 0; e < scene.emitters.size(); ++e) {
         const Emitter& emitter = scene.emitters[e];

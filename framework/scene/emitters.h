@@ -65,7 +65,8 @@ struct EmitterPoints {
 [[nodiscard]] EmitterPoints pointsOf(const Scene& scene, const Emitter& emitter, int wanted,
                                      int rows);
 
-// Puts the points of all emitters in the place of those that are there.
+// Puts the points of all emitters in the place of those that are there; the scene has no bands
+// then.
 void placeLightPoints(Scene& scene, int wanted, int rows);
 
 // How many points the emitter with the most has; 1 where all lights are points of their own.

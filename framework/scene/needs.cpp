@@ -7,6 +7,7 @@
 #include "framework/scene/connected_bodies.h"
 #include "framework/scene/meshes/winding_number.h"
 #include "framework/scene/shapes/height_field.h"
+#include "framework/scene/spectrum.h"
 
 namespace kaustik::scene {
 namespace {
@@ -67,7 +68,10 @@ SceneNeeds sceneNeeds(const Scene& scene) {
     needs.concaveBody = concaveBody(scene);
     needs.bodies = connectedBodies(scene);
     needs.nestedBodies = needs.closedDielectrics && hasNestedBodies(scene);
-    needs.lights = static_cast<int>(scene.lights.size());
+    needs.photonLights = static_cast<int>(scene.lights.size());
+    needs.disperses = disperses(scene);
+    needs.bands = std::max(static_cast<int>(scene.bands.size()), 1);
+    needs.lights = needs.photonLights / needs.bands;
     needs.emitters = static_cast<int>(scene.emitters.size());
     const glm::vec3 none(0.0f);
     needs.medium = scene.medium && (scene.medium->scatteringPerMeter != none ||

@@ -36,6 +36,9 @@ struct SceneNeeds {
     bool emission = false;             // some object shines
     bool animated = false;             // a height field has a wave that moves
     int lights = 0;                    // points of those that have a size included
+    int photonLights = 0;              // the same, once for each of the scene's bands
+    bool disperses = false;            // a dielectric's index changes with the wavelength
+    int bands = 1;                     // parts of the spectrum that are followed apart
     int emitters = 0;                  // lights that have a size
     bool receivers = false;            // a diffuse or glossy surface that light ends on
     int measuredDepthComplexity = -1;  // most layers behind one pixel; -1 until a renderer counts

@@ -46,6 +46,16 @@ struct Light {
     // Directional: the angle that its disc takes of the sky; 0: a point of it.
     float angularDiameterRadians = 0.0f;
     int emitter = -1;  // that it is a point of (Scene::emitters); -1: a light of its own
+    // What it sends of its photons, of Scene::bands where there are any. Those after the first are
+    // copies of lights, for photons alone.
+    int band = 0;
+};
+
+// A part of the visible spectrum (scene/spectrum.h), with light of one wavelength in its place.
+struct Band {
+    double place = 0.0;       // of the wavelength: dispersionPlace
+    glm::vec3 tint{0.0f};     // times a colour: the share of its light that this lets through
+    glm::mat3 ofLight{0.0f};  // times a light's linear Rec.709: its flux, as fluxFromRec709 has it
 };
 
 class EmittingEnvironment;
@@ -79,6 +89,10 @@ struct Material {
     int image = -1;                      // index into Scene::images, multiplies albedo; -1: none
     float ior = 1.5f;                    // dielectric, relative to vacuum, >= 1
     glm::vec3 absorptionPerMeter{0.0f};  // dielectric: Beer-Lambert coefficient inside, 1/m, >= 0
+    // Dielectric: what is added to its index at other wavelengths than the d line, as a polynomial
+    // of dispersionPlace (scene/spectrum.h) without a constant, from the first power on; 0:
+    // nothing.
+    glm::vec4 dispersion{0.0f};
     // Glossy: the lobe of transport/brdf.h; albedo + specular <= 1.
     glm::vec3 specular{0.0f};  // its reflectance at normal incidence, [0,1]
     float exponent = 50.0f;    // of the cosine to the mirror direction, >= 1
@@ -158,6 +172,7 @@ struct Scene {
     std::vector<std::filesystem::path> extendedFiles;  // that `file` builds on, nearest first
     Camera camera;
     std::vector<Light> lights;      // and, with an emitter, the points that stand for those
+    std::vector<Band> bands;        // that their light is taken apart into; none where it is not
     std::vector<Emitter> emitters;  // lights that have a size
     std::vector<Material> materials;
     std::vector<TextureImage> images;

@@ -13,7 +13,7 @@ void addTo(ContentHash& hash, const Scene& scene) {
     hash.add(camera.position).add(camera.target).add(camera.up);
     hash.add(camera.verticalFovDegrees).add(camera.nearMeters);
     // Points that stand for emitters are no part of the scene.
-    const auto isOwn = [](const Light& light) { return light.emitter < 0; };
+    const auto isOwn = [](const Light& light) { return light.emitter < 0 && light.band == 0; };
     hash.add(
         static_cast<std::size_t>(std::count_if(scene.lights.begin(), scene.lights.end(), isOwn)));
     for (const Light& light : scene.lights) {
@@ -36,6 +36,7 @@ void addTo(ContentHash& hash, const Scene& scene) {
         hash.add(material.kind).add(material.albedo).add(material.pattern);
         hash.add(material.patternAlbedo).add(material.uvScale).add(material.image);
         hash.add(material.ior).add(material.absorptionPerMeter);
+        if (material.dispersion != glm::vec4(0.0f)) hash.add(material.dispersion);
         hash.add(material.specular).add(material.exponent);
         if (material.emission != glm::vec3(0.0f)) hash.add(material.emission);
         if (material.normalMap >= 0) hash.add(material.normalMap).add(material.normalScale);

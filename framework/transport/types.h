@@ -57,10 +57,11 @@ struct MaterialData {
     vec4 albedo;         // rgb: reflectance; w: kind
     vec4 patternAlbedo;  // rgb: second colour; w: pattern (0 none, 1 checker, 2 tiles)
     vec4 absorption;     // rgb: 1/m inside; w: index of refraction
-    vec4 uv;         // xy: scale; z: image layer, -1 none; w: 1 where the surface is open (water)
-    vec4 specular;   // glossy, the lobe of brdf.h: rgb its reflectance; w: exponent
-    vec4 emission;   // rgb: radiance of its front, W/m²/sr
-    vec4 normalMap;  // x: image layer, -1 none; y: what its x and y are multiplied by
+    vec4 uv;          // xy: scale; z: image layer, -1 none; w: 1 where the surface is open (water)
+    vec4 specular;    // glossy, the lobe of brdf.h: rgb its reflectance; w: exponent
+    vec4 emission;    // rgb: radiance of its front, W/m²/sr
+    vec4 normalMap;   // x: image layer, -1 none; y: what its x and y are multiplied by
+    vec4 dispersion;  // of the index (include/surfaces/bands.glsl)
     // x: a dielectric's number (scene/dielectrics.h), 0 for what is none; y: index + 1 of the
     // material with the number of this one's index + 1; z: the base of stacks of such numbers, and
     // w: what is above all that fit (media_stack.h), the same in every material.
@@ -80,6 +81,19 @@ struct LightData {
     vec4 rightVs;  // spot, the image that multiplies its power: unit, to its right; w: layer, -1
                    // none
     vec4 upVs;     // unit, to its top
+};
+
+// A part of the spectrum (scene/spectrum.h), in a uniform block (std140). Lights come band by band,
+// as many in each.
+struct BandData {
+    vec4 tint;        // xyz: times a colour, the share of light that it lets through; w: the place
+    vec4 ofLight[3];  // columns: times a light's Rec.709, its flux
+};
+const uint kMaxBands = 64u;
+struct BandTable {
+    vec4 rec709FromFlux[3];  // columns
+    vec4 lights;             // x: how many there are in each band
+    BandData bands[kMaxBands];
 };
 
 // One vertex (std430); also a vertex buffer.
@@ -175,8 +189,8 @@ struct Photon {
                             // it is emitted: interactions leave it as it is
     vec3 directionVs;       // unit
     uint fate;
-    vec3 fluxWatts;
-    uint media;  // the dielectrics around it, and the side that it has just left: media_stack.h
+    vec3 fluxWatts;  // where the scene has bands: as scene/spectrum.h has it
+    uint media;      // the dielectrics around it, and the side that it has just left: media_stack.h
 };
 
 // The place where a photon arrived: three RGBA32F textures, and a fourth where photons have beams,

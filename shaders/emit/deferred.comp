@@ -51,6 +51,7 @@ void main() {
         store(index, texel, cell, photon, vec3(0.0), 0u);
         return;
     }
+    takeBandOf(uint(lightIndex));
     LightData light = lights[lightIndex];
     vec3 direction = lightDirection(light, point.position);
     vec3 geometric = point.geometric == vec3(0.0) ? -direction : point.geometric;
@@ -67,7 +68,7 @@ void main() {
         if ((cell.quarters & (1u << i)) != 0u)
             flux += fluxOf(light, quarterOf(cell, i), 0.5 * cell.size, reach, 1.0);
     }
-    flux *= left;
+    flux = fluxOfBand(flux * left);
 #ifndef CELL_LIST
     int row = int((index % perLight) / uint(gridSize.x)) + firstRow;
     if (row < ownRows.x || row >= ownRows.y) flux *= kNegligible;

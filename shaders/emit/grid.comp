@@ -125,6 +125,7 @@ Emitted emittedFrom(ivec2 cell) {
     uvec2 seen = seenAt(cell, ivec2(0));
     uint material = seen.x == 0u ? 0u : instances[seen.x - 1u].material.x;
     if (seen.x == 0u || isReceiver(materialKind(material))) return kNotEmitted;
+    takeBandOf(uint(lightIndex));
     LightData light = lights[lightIndex];
     bool isParallel = uint(light.positionVs.w) == kLightDirectional;
     vec2 place = placeOfCell(cell);
@@ -149,6 +150,7 @@ Emitted emittedFrom(ivec2 cell) {
                mediumTransmittance(innerMedium(media), distance);
         footprint = sqrt(solidAngle) * distance;
     }
+    flux = fluxOfBand(flux);
     if (!(flux.r + flux.g + flux.b > 0.0)) return kNotEmitted;
     uvec2 extent = uvec2(0u);
 #ifdef CELL_EXTENTS

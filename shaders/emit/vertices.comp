@@ -191,7 +191,7 @@ bool isSeen(vec3 positionVs, vec3 normalVs) {
         ivec2 step = ivec2(i & 1, i >> 1);
         ivec2 texel = clamp(first + step, ivec2(0), size - 1);
         vec2 axis = mix(1.0 - f, f, vec2(step));
-        vec4 nearest = texelFetch(lightDepths, ivec3(texel, lightIndex), 0);
+        vec4 nearest = texelFetch(lightDepths, ivec3(texel, lightOfBand(uint(lightIndex))), 0);
         vec2 neighbourOffset = at - (vec2(texel) + 0.5);
         bool reaches = reachesLight(nearest, neighbourOffset, texelMeters, -positionLs.z,
                                     length(positionVs), normalLs);
@@ -206,6 +206,7 @@ void main() {
     uint cell = firstCell + vertex;
     int inBatch = int(cell) - firstOfBatch;
     if (inBatch < 0 || inBatch >= batchCells) return;
+    takeBandOf(uint(lightIndex));
     InstanceData instance = instances[object];
     LightData light = lights[lightIndex];
     VertexData data = meshVertices[firstVertex + vertex];
@@ -232,6 +233,7 @@ void main() {
                (lit.across / (distance * distance)) *
                mediumTransmittance(innerMedium(media), distance);
     }
+    flux = fluxOfBand(flux);
     if (!isFinite(flux) || !(flux.r + flux.g + flux.b > 0.0)) return;
     if (int(cell) < ownCells.x || int(cell) >= ownCells.y) flux *= kNegligible;
     vec3 shading = mat3(instance.normalToView) * data.normal;

@@ -4,6 +4,7 @@
 //   HAS_DIRECTION  and where it comes from
 // What both branches include is included before them: each file is so once.
 #include "include/photons/ledger_unit.glsl"
+#include "include/surfaces/bands.glsl"
 #include "framework/transport/types.h"
 #ifdef IS_FILTERED
 uniform sampler2DArray filteredFlux;
@@ -38,9 +39,9 @@ void main() {
     float area = texelFetch(receiver, pixel, 0).y;
     float overArea = area > 0.0 ? 1.0 / area : 0.0;
     vec3 flux = storedAt(pixel, 0);
-    irradiance = vec4(flux * overArea, 0.0);
+    irradiance = vec4(rec709OfFlux(flux) * overArea, 0.0);
 #ifdef HAS_INTENSITY
-    radiance = vec4(storedAt(pixel, 1) * overArea, 0.0);
+    radiance = vec4(rec709OfFlux(storedAt(pixel, 1)) * overArea, 0.0);
 #endif
 #ifdef HAS_DIRECTION
     radiance = vec4(0.0);

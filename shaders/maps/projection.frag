@@ -4,6 +4,7 @@
 //   MAP_HAS_PARTS        parts of it are in finer maps (reconstruct.map_cascades)
 //   GLOSSY_RECEIVERS     also what glossy receivers reflect, of light from where the map is seen from
 //   USES_MEAN_DIRECTION  or from about the mean of the directions in which it arrives
+#include "include/surfaces/bands.glsl"
 #include "include/views/view.glsl"
 #ifdef GLOSSY_RECEIVERS
 #ifdef USES_MEAN_DIRECTION
@@ -102,7 +103,7 @@ void main() {
         sum.direction += one.direction;
     }
     float overPlaces = 1.0 / float(places * places);
-    irradiance = vec4(sum.irradiance * overPlaces, 0.0);
+    irradiance = vec4(rec709OfFlux(sum.irradiance) * overPlaces, 0.0);
     if (wanted > places && any(greaterThan(sum.irradiance, vec3(0.0))))
         countUndersampled(float(wanted) / float(places));
 #ifdef GLOSSY_RECEIVERS

@@ -91,7 +91,7 @@ bool setPath(ivec2 texel) {
     pathDirection = photon.directionVs;
     pathExtinction = extinctionAround(photon.media);
     float pixel = view.frustum.w;
-    pathPower = photon.fluxWatts * view.mediumScattering.rgb *
+    pathPower = photon.fluxWatts * tinted(view.mediumScattering.rgb) *
                 ((path.farT - path.nearT) * path.nearNearness * path.farNearness / (pixel * pixel));
     // A line of less than a pixel has no direction on the screen.
     float slope = abs(along.x) > 1.0 ? along.y / along.x : 0.0;
@@ -133,7 +133,7 @@ vec3 scatteredTo(ivec2 pixel, vec2 part) {
         vec3 ray = viewRay(isSteep ? at.yx : at);
         float slant = length(ray);
         vec3 opticalDepth = pathExtinction * t +
-                            view.mediumExtinction.rgb * (slant * depth);
+                            tinted(view.mediumExtinction.rgb) * (slant * depth);
         float cosine = -dot(pathDirection, ray) / slant;
         sum += across * slant * phaseFunction(cosine) * exp(-opticalDepth);
     }

@@ -89,7 +89,7 @@ void main() {
     uint index = photonOfThread();
     if (index >= photons.count) return;
     ivec2 texel = ivec2(photonTexel(photons, index));
-    if (int(originAt(texel).light) != lightIndex) return;
+    if (int(lightOfBand(originAt(texel).light)) != lightIndex) return;
     Photon photon = photonAt(texel);
     Hit hit = emptyHit();
     if (photon.fate == kFateInFlight) hit = traced(photon, texel);

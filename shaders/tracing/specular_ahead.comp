@@ -17,7 +17,7 @@ void main() {
     uint index = photonOfThread();
     if (index >= photons.count) return;
     ivec2 texel = ivec2(photonTexel(photons, index));
-    if (int(originAt(texel).light) != lightIndex) return;
+    if (int(lightOfBand(originAt(texel).light)) != lightIndex) return;
     Photon photon = photonAt(texel);
     vec4 surface = vec4(0.0);
     vec4 triangle = vec4(0.0);

@@ -90,6 +90,7 @@ vec3 radianceOf(vec3 positionVs, vec3 direction, vec3 normal, uint material) {
         stored.irradiance += one.irradiance;
         stored.direction += one.direction;
     }
+    stored.irradiance = rec709OfFlux(stored.irradiance);
     float all = stored.irradiance.r + stored.irradiance.g + stored.irradiance.b;
     if (all > 0.0) {
         MeanDirection mean = MeanDirection(normal, 1.0);

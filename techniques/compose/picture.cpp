@@ -61,6 +61,7 @@ float automaticExposure(const scene::Scene& scene) {
     const scene::Bounds bounds = sceneBounds(scene);
     double irradiance = static_cast<double>(scene.ambientIrradiance.g);
     for (const scene::Light& light : scene.lights) {
+        if (light.band > 0) continue;
         const bool isSky = light.emitter >= 0 &&
                            scene.emitters[static_cast<std::size_t>(light.emitter)].environment;
         // What comes from all around brings a surface a quarter of itself.

@@ -74,7 +74,7 @@ struct Start {
 // The cells of which the first probes are the quarters.
 Start start(FrameBuilder& frame, const Purpose& purpose) {
     const TraversalSizes& sizes = purpose.sizes;
-    const int lights = frame.needs().lights;
+    const int lights = frame.needs().photonLights;
     const auto side = static_cast<unsigned>(1 << sizes.startLevel);
     const auto cells = static_cast<std::size_t>(side) * side * static_cast<std::size_t>(lights);
     // A round leaves no more than four cells a level for each that it takes.
@@ -280,7 +280,7 @@ TraversalSizes sizesOf(const FrameBuilder& frame, const RefineParams& params) {
     const double maximum = static_cast<double>(params.memoryMebibytes) * 1048576.0 / each;
     // There are no more than there are finest cells; more at once would be no faster, and textures
     // have an end.
-    const double cells = frame.needs().lights * std::exp2(2.0 * sizes.finestLevel);
+    const double cells = frame.needs().photonLights * std::exp2(2.0 * sizes.finestLevel);
     const double end = std::clamp(std::ceil(cells / 4096.0) * 4096.0, 4096.0, 16777216.0);
     const int photons = static_cast<int>(std::clamp(maximum, 4096.0, end)) / 4096 * 4096;
     sizes.photons = {2048, std::max(photons / 2048, 2)};

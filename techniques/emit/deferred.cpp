@@ -22,11 +22,11 @@ void dispatchOverLights(const FrameInputs& inputs, gl::PassContext& context, con
     const bool isList = samples.cells.valid();
     const CellGrid& cells = hits.incoming.cells;
     const int first = isList ? 0 : samples.firstLight;
-    const int end =
-        isList ? static_cast<int>(buffers.size())
-               : std::min(samples.firstLight + samples.lights, static_cast<int>(buffers.size()));
+    const int end = buffers.empty() ? 0
+                    : isList        ? inputs.needs.photonLights
+                                    : samples.firstLight + samples.lights;
     for (int light = first; light < end; ++light) {
-        const DeferredBuffers& seen = buffers[static_cast<std::size_t>(light)];
+        const DeferredBuffers& seen = buffers[static_cast<std::size_t>(light) % buffers.size()];
         gl::Command command =
             context.compute(onlyBeams ? "emit/deferred_beams.comp" : "emit/deferred.comp");
         if (isList) {

@@ -178,10 +178,10 @@ Hits emitGrid(FrameBuilder& frame, const GridEmissionParams& params, Surfaces su
                                                              gl::PassContext& context) {
                 const Photons& photons = data.hits.incoming;
                 beginEmission(context, photons, samples);
-                const int end =
-                    std::min(samples.firstLight + samples.lights, static_cast<int>(grids->size()));
+                const int end = grids->empty() ? 0 : samples.firstLight + samples.lights;
                 for (int light = samples.firstLight; light < end; ++light) {
-                    const LightSight& seen = (*grids)[static_cast<std::size_t>(light)];
+                    const LightSight& seen =
+                        (*grids)[static_cast<std::size_t>(light) % grids->size()];
                     for (int band = rows.firstBand(); band < rows.endBand(); ++band)
                         emitFrom(inputs, context, data, seen, rows, samples, band, light);
                 }

@@ -250,7 +250,7 @@ void emitObject(const FrameInputs& inputs, gl::PassContext& context, const Verte
                 const Emission& emission, const CellGrid& rows, const Samples& samples, int light,
                 const EmittingObject& emitting, const std::string& part) {
     const auto number = static_cast<std::size_t>(light);
-    const LightSight& sight = emission.lights[number];
+    const LightSight& sight = emission.lights[number % emission.lights.size()];
     const Photons& photons = data.hits.incoming;
     gl::Command command = context.compute("emit/vertices.comp");
     if (!part.empty()) command.define(part);
@@ -328,8 +328,8 @@ Hits emitVertices(FrameBuilder& frame, const VertexEmissionParams& params, Surfa
                 if (photons.extents.valid()) context.texture(photons.extents).clear({0, 0, 0, 0});
                 // Vertices that the light does not see are no photons.
                 clearEmitted(context, data.hits);
-                const int end = std::min(samples.firstLight + samples.lights,
-                                         static_cast<int>(emission->lights.size()));
+                const int end =
+                    emission->lights.empty() ? 0 : samples.firstLight + samples.lights;
                 for (int light = samples.firstLight; light < end; ++light) {
                     for (const EmittingObject& emitting : emission->objects) {
                         emitObject(inputs, context, data, *emission, rows, samples, light, emitting,

@@ -31,7 +31,7 @@ std::vector<Samples> batchesOfGrids(const FrameBuilder& frame, int together, boo
     // Lists have room for all that these may become.
     const int maximum = std::max(frame.params<EmitParams>("emit").batch >> branchLevels(frame), 1);
     const params::Extent photons = frame.photonsOfALight();
-    const int lights = std::max(frame.needs().lights, 1);
+    const int lights = std::max(frame.needs().photonLights, 1);
     const int listRows =
         (kTextureRows / frame.traits<TraceStage>().texelRows) >> branchLevels(frame);
     const int maximumRows = std::max(std::min(maximum / photons.width, listRows), 1);

@@ -208,6 +208,7 @@ const PlannedMaps& plannedMaps(FrameBuilder& frame) {
         double maps = 0.0;  // in sides of the size asked for
         const bool isMeasured = params.cascadesBy == CascadeChoice::magnification;
         for (const scene::Light& light : frame.scene().lights) {
+            if (light.band > 0) continue;
             planned->whole.push_back(
                 render::makeLightView(light, target, sceneBounds(frame.scene())));
             maps += needsCube(planned->whole.back()) ? kMapsOfCube : 1.0;

@@ -13,6 +13,7 @@ std::vector<LightSight> sightsOfSpecular(FrameBuilder& frame) {
     std::vector<LightSight> sights;
     if (target.empty) return sights;
     for (const scene::Light& light : scene.lights) {
+        if (light.band > 0) continue;
         const render::RasterView view = render::makeLightView(light, target, sceneBounds(scene));
         if (view.isClipped) {
             frame.warn(fmt::format(

@@ -14,7 +14,8 @@ struct LightSight {
     const render::ViewInstances* instances = nullptr;
 };
 // The tightest view from each light that holds all that is specular; none where nothing is. Warns
-// of lights that would have to see wider than a view can.
+// of lights that would have to see wider than a view can. All bands of a light have the same one:
+// a photon's is that of `lightOfBand`.
 [[nodiscard]] std::vector<LightSight> sightsOfSpecular(FrameBuilder& frame);
 
 // Nearest surfaces as raster_views/light_sight.frag draws them. x: planar depth from the light, m,

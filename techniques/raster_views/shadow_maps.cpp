@@ -29,6 +29,7 @@ ShadowMaps drawShadowMaps(FrameBuilder& frame, const Geometry& geometry) {
     std::vector<LightSight> sights;
     bool hasCube = false;
     for (const scene::Light& light : frame.scene().lights) {
+        if (light.band > 0) continue;
         const std::vector<LightSight> own = sightsOf(frame, light);
         sights.insert(sights.end(), own.begin(), own.end());
         hasCube = hasCube || own.size() > 1;

@@ -95,6 +95,7 @@ void warnOmittedPaths(FrameBuilder& frame, const DeferredSpecularParams& params)
     const std::string sentence = omittedPathsMessage(frame);
     if (!sentence.empty()) frame.warn(sentence);
     for (const scene::Light& light : frame.scene().lights) {
+        if (light.band > 0) continue;
         const std::vector<Body> bodies = nearestFirst(bodiesOf(frame), light);
         const std::string names = omittedNames(bodies, params.layers);
         if (names.empty()) continue;

@@ -72,6 +72,7 @@ void warnHiddenReceivers(FrameBuilder& frame) {
     if (*said) return;
     *said = true;
     for (const scene::Light& light : frame.scene().lights) {
+        if (light.band > 0) continue;
         const std::vector<std::string> names = turnedAway(frame.scene(), light);
         if (names.empty()) continue;
         std::string list;

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
 #include "framework/core/error.h"
 #include "framework/image/pfm.h"
+#include "framework/scene/dispersion.h"
 #include "framework/scene/environment.h"
 #include "framework/scene/files/scene_file_parts.h"
 #include "framework/scene/texture.h"
@@ -99,6 +101,42 @@ void requireNoGain(const TableReader& reader, const Material& material) {
     if (material.pattern != Pattern::none) check(material.patternAlbedo, "pattern_albedo");
 }
 
+Dispersion dispersionOf(const TableReader& reader, const DispersionKeys& keys) {
+    if (keys.cauchy) return byCauchy(*keys.cauchy);
+    if (keys.sellmeier) {
+        const std::array<glm::dvec2, 3> terms{glm::dvec2(keys.sellmeier->x, keys.sellmeierPoles.x),
+                                              glm::dvec2(keys.sellmeier->y, keys.sellmeierPoles.y),
+                                              glm::dvec2(keys.sellmeier->z, keys.sellmeierPoles.z)};
+        return bySellmeier(terms);
+    }
+    if (keys.glass) {
+        std::vector<std::string> names;
+        for (const NamedGlass& glass : namedGlasses()) {
+            if (glass.name == *keys.glass) return bySellmeier(glass.sellmeier);
+            names.push_back(glass.name);
+        }
+        reader.fail("glass", fmt::format("glass {}", TableReader::notOneOf(*keys.glass, names)));
+    }
+    if (keys.abbeNumber) return byAbbeNumber(*keys.ior, *keys.abbeNumber);
+    return {*keys.ior};
+}
+
+void setIndex(const TableReader& reader, const DispersionKeys& keys, Material& material) {
+    const Dispersion dispersion = dispersionOf(reader, keys);
+    const char* const key = keys.cauchy       ? "cauchy"
+                            : keys.sellmeier  ? "sellmeier"
+                            : keys.abbeNumber ? "abbe_number"
+                                              : "ior";
+    if (!isPossible(dispersion)) {
+        reader.fail(key,
+                    fmt::format("{} makes the index of refraction less than 1 (or more than 10, "
+                                "or no number) somewhere from 380 to 700 nm",
+                                key));
+    }
+    material.ior = static_cast<float>(dispersion.ior);
+    material.dispersion = glm::vec4(dispersion.polynomial);
+}
+
 }  // namespace
 
 Camera readCamera(TableReader& reader) {
@@ -155,7 +193,8 @@ Light readLight(TableReader& reader, Scene& scene) {
 }
 
 Material readMaterial(TableReader& reader, Scene& scene) {
-    auto [material, texture, normalMap] = reader.read<MaterialKeys>();
+    auto [material, index, texture, normalMap] = reader.read<MaterialKeys>();
+    if (material.kind == MaterialKind::dielectric) setIndex(reader, index, material);
     if (material.kind == MaterialKind::glossy) requireNoGain(reader, material);
     if (texture) material.image = addImage(reader, *texture, scene);
     if (normalMap) material.normalMap = addNormalMap(reader, *normalMap, scene);

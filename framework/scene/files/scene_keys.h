@@ -114,8 +114,43 @@ void reflect(R& r, LightKeys& light) {
             "intensity"});
 }
 
+// How a dielectric's index changes with the wavelength: one of these, or nothing.
+struct DispersionKeys {
+    std::optional<double> ior;
+    std::optional<double> abbeNumber;
+    std::optional<glm::dvec3> cauchy;
+    std::optional<glm::dvec3> sellmeier;
+    glm::dvec3 sellmeierPoles{0.0};
+    std::optional<std::string> glass;
+};
+template <class R>
+void reflect(R& r, DispersionKeys& keys) {
+    r.number(keys.ior, {"ior", "Index of refraction, on the d line (587.6 nm) where it disperses"},
+             {1.0, 10.0, false, false});
+    if (r.onlyWith("abbe_number", "ior"))
+        r.number(keys.abbeNumber,
+                 {"abbe_number", "Takes colours apart: (n_d - 1) / (n_F - n_C), of glass 20 to 90"},
+                 {1.0, 1e6, false, false});
+    r.vector(keys.cauchy, {"cauchy", "In place of ior: A, B and C of n = A + B/λ² + C/λ⁴, λ in µm"},
+             kAnyNumber);
+    r.vector(keys.sellmeier,
+             {"sellmeier", "In place of ior: the b of n² = 1 + Σ b λ²/(λ² - c), λ in µm"},
+             kAnyNumber);
+    if (r.onlyWith("sellmeier_poles", "sellmeier"))
+        r.vector(keys.sellmeierPoles, {"sellmeier_poles", "The c of the three terms", "µm²"},
+                 kAnyNumber);
+    r.text(keys.glass,
+           {"glass", "In place of ior: a material by its name, such as N-BK7 or water"});
+    r.rule({{"ior", "cauchy", "sellmeier", "glass"},
+            true,
+            "",
+            "one of ior, cauchy, sellmeier and glass is given",
+            "ior"});
+}
+
 struct MaterialKeys {
     Material material;
+    DispersionKeys dispersion;
     std::optional<std::string> texture;
     std::optional<std::string> normalMap;
 };
@@ -144,7 +179,7 @@ void reflect(R& r, MaterialKeys& keys) {
             {"glossy", MaterialKind::glossy}});
     if (material.kind == MaterialKind::dielectric) {
         material.albedo = glm::vec3(0.0f);
-        r.number(material.ior, {"ior", "Index of refraction"}, {1.0, 10.0, false, false});
+        reflect(r, keys.dispersion);
         r.uniformOrVector(material.absorptionPerMeter,
                           {"absorption_per_meter", "Absorption inside", "1/m"}, kNotNegative,
                           kHasDefault);

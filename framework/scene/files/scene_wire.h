@@ -18,17 +18,17 @@ concept SameButConst = std::is_same_v<std::remove_const_t<T>, Wanted>;
 template <SameButConst<Light> T>
 auto partsOf(T& light) {
     auto& [name, kind, position, direction, power, inner, outer, range, image, up, diameter,
-           emitter] = light;
+           emitter, band] = light;
     return std::tie(name, kind, position, direction, power, inner, outer, range, image, up,
-                    diameter, emitter);
+                    diameter, emitter, band);
 }
 
 template <SameButConst<Material> T>
 auto partsOf(T& material) {
-    auto& [name, kind, albedo, pattern, patternAlbedo, uvScale, image, ior, absorption, specular,
-           exponent, emission, normalMap, normalScale] = material;
+    auto& [name, kind, albedo, pattern, patternAlbedo, uvScale, image, ior, absorption, dispersion,
+           specular, exponent, emission, normalMap, normalScale] = material;
     return std::tie(name, kind, albedo, pattern, patternAlbedo, uvScale, image, ior, absorption,
-                    specular, exponent, emission, normalMap, normalScale);
+                    dispersion, specular, exponent, emission, normalMap, normalScale);
 }
 
 template <SameButConst<TextureImage> T>
@@ -65,9 +65,10 @@ auto partsOf(T& object) {
 
 template <SameButConst<Scene> T>
 auto partsOf(T& scene) {
-    auto& [name, description, file, extendedFiles, camera, lights, emitters, materials, images,
-           meshes, objects, medium, background, environment, environmentTurn, environmentLights,
-           ambient, time, warnings] = scene;
+    // Bands are placed when it is rendered.
+    auto& [name, description, file, extendedFiles, camera, lights, bands, emitters, materials,
+           images, meshes, objects, medium, background, environment, environmentTurn,
+           environmentLights, ambient, time, warnings] = scene;
     return std::tie(name, description, file, extendedFiles, camera, lights, emitters, materials,
                     images, meshes, objects, medium, background, environment, environmentTurn,
                     environmentLights, ambient, time, warnings);

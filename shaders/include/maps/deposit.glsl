@@ -4,6 +4,7 @@
 //   GLOSSY_RECEIVERS  how it goes to the eye, W/sr: the map is of the eye's own pixels
 //   MEAN_DIRECTION    the flux of all channels times 1 + its direction, which is nowhere negative
 #include "include/maps/flux_sum.glsl"
+#include "include/surfaces/bands.glsl"
 #include "include/views/view.glsl"
 #ifdef GLOSSY_RECEIVERS
 #include "include/surfaces/receiver_brdf.glsl"
@@ -14,7 +15,7 @@
 void depositGlossy(ivec2 texel, int set, vec3 flux, vec3 directionVs) {
 #ifdef GLOSSY_RECEIVERS
     vec4 surface = texelFetch(receiverSurface, texel, 0);
-    vec3 intensity = flux * receiverReflection(texel, surface, -directionVs);
+    vec3 intensity = reflectedFlux(flux, receiverReflection(texel, surface, -directionVs));
     sumAdd(texel, set, intensity * (ledgerUnitsPerWatt / kIntensityQuantum));
 #endif
 #ifdef MEAN_DIRECTION

@@ -3,6 +3,7 @@
 // that have left one caustic generator last.
 #include "include/photons/hits.glsl"
 #include "include/photons/photon_thread.glsl"
+#include "include/surfaces/bands.glsl"
 
 #ifdef ONE_LIGHT
 uniform int lightOfMap;
@@ -15,7 +16,7 @@ uniform int generatorOfMap;
 // Whichever generator it has left.
 bool hasArrivedFromAny(ivec2 texel) {
 #ifdef ONE_LIGHT
-    if (int(originAt(texel).light) != lightOfMap) return false;
+    if (int(lightOfBand(originAt(texel).light)) != lightOfMap) return false;
 #endif
     return uint(texelFetch(hitFlux, texel, 0).w) == kFateReceiver;
 }

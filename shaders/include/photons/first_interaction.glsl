@@ -35,7 +35,7 @@ bool arrivalOfThread(out Arrival arrival) {
     if (lightIndex == 0) countTraced();
     if (!continues) return false;
     arrival.origin = originAt(arrival.texel);
-    if (int(arrival.origin.light) != lightIndex) return false;
+    if (int(lightOfBand(arrival.origin.light)) != lightIndex) return false;
     arrival.hit = hitAt(arrival.texel);
     arrival.photon = photonAt(arrival.texel);
     if (arrival.origin.path != kEmittedPath) {

@@ -28,8 +28,9 @@ Branches branchesOf(Photon photon, Hit hit) {
         branches.transmitted.fate = kFateNone;
         branches.transmitted.fluxWatts = vec3(0.0);
         branches.reflected.directionVs = normalize(reflect(photon.directionVs, hit.normalVs));
-        ledgerAdd(kAccountAbsorbed, photon.fluxWatts * (1.0 - data.albedo.rgb));
-        branches.reflected.fluxWatts *= data.albedo.rgb;
+        vec3 reflectance = tinted(data.albedo.rgb);
+        ledgerAdd(kAccountAbsorbed, photon.fluxWatts * (1.0 - reflectance));
+        branches.reflected.fluxWatts *= reflectance;
         if (isOpen(surface)) {
             branches.reflected.media =
                 withLeftSide(photon.media, enters ? kLeftOutside : kLeftInside);

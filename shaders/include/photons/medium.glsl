@@ -9,7 +9,7 @@
 
 // Of the scene's medium and of the innermost dielectric around a photon, 1/m.
 vec3 extinctionAround(uint media) {
-    return view.mediumExtinction.rgb + mediumAbsorption(innerMedium(media));
+    return tinted(view.mediumExtinction.rgb) + mediumAbsorption(innerMedium(media));
 }
 
 // Where a ray enters and leaves the scene's bounding box, in lengths of `direction`; the first is

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A list of photons to read, as Photons::sample binds it.
 #include "include/photons/transfer_map.glsl"
+#include "include/surfaces/bands.glsl"
 #include "framework/transport/photon_list.h"
 #ifdef PHOTON_BEAMS
 #include "include/photons/beam.glsl"
@@ -14,7 +15,9 @@ layout(std430) readonly buffer Photons {
     PhotonList photons;
 };
 
+// What colours do, and how much dielectrics bend, is what they do to this photon from here on.
 Photon photonAt(ivec2 texel) {
+    takeBandOf(texelFetch(photonOrigin, texel, 0).y & 0xffffu);
     return unpackPhoton(texelFetch(photonPosition, texel, 0), texelFetch(photonDirection, texel, 0),
                         texelFetch(photonFlux, texel, 0));
 }

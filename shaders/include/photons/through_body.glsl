@@ -40,7 +40,7 @@ Passage throughBody(Photon before, Hit hit, Photon inside, int steps, int distan
         onward = along;
     }
     // The scene's medium is in bodies, too.
-    vec3 left = transmittanceOver(view.mediumExtinction.rgb + mediumAbsorption(hit.material),
+    vec3 left = transmittanceOver(tinted(view.mediumExtinction.rgb) + mediumAbsorption(hit.material),
                                   passage.way.lengthMeters);
     ledgerAdd(kAccountAbsorbed, inside.fluxWatts * (1.0 - left));
     inside.fluxWatts *= left;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Materials for shaders that are no fragments (include/surfaces/surface.glsl needs derivatives).
+#include "include/surfaces/bands.glsl"
 #include "framework/transport/types.h"
 
 layout(std430) readonly buffer Materials {
@@ -22,7 +23,7 @@ bool isOpen(uint material) {
 
 // Index of refraction of a medium: material index + 1, or 0 for vacuum.
 float mediumIndex(uint medium) {
-    return medium == 0u ? 1.0 : materials[medium - 1u].absorption.w;
+    return medium == 0u ? 1.0 : dispersedIndex(materials[medium - 1u]);
 }
 
 // Share of the flux that is left after a path (Beer-Lambert). Zero length or zero extinction leave
@@ -34,7 +35,7 @@ vec3 transmittanceOver(vec3 extinctionPerMeter, float distanceMeters) {
 
 // What a dielectric absorbs, 1/m.
 vec3 mediumAbsorption(uint medium) {
-    return medium == 0u ? vec3(0.0) : materials[medium - 1u].absorption.rgb;
+    return medium == 0u ? vec3(0.0) : tinted(materials[medium - 1u].absorption.rgb);
 }
 
 // The share that a path through a dielectric leaves.
