@@ -81,6 +81,7 @@ Suite commonCases() {
     addMediaCases(suite);
     addMirrorCases(suite);
     addBallCases(suite);
+    addDispersionCases(suite);
     addWholeFrameCases(suite);
     return suite;
 }

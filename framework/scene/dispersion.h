@@ -19,7 +19,7 @@ struct Dispersion {
 [[nodiscard]] Dispersion byAbbeNumber(double ior, double abbeNumber);
 // n = A + B/λ² + C/λ⁴, λ in µm.
 [[nodiscard]] Dispersion byCauchy(const glm::dvec3& terms);
-// n² = 1 + Σ b λ²/(λ² - c), λ in µm: a term is (b, c), c in µm². Within 4e-6 of it in the visible.
+// n² = 1 + Σ b λ²/(λ² - c), λ in µm: a term is (b, c), c in µm². Within 2e-5 of it in the visible.
 [[nodiscard]] Dispersion bySellmeier(std::span<const glm::dvec2> terms);
 // The formula itself; not a number where n² would be negative.
 [[nodiscard]] double sellmeierIndex(std::span<const glm::dvec2> terms, double nanometers);

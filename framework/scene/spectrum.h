@@ -25,7 +25,7 @@ inline constexpr double kHeliumNanometers = 587.5618;  // the d line, to which a
 // 1/λ² less that of the d line, 1/µm²: what Material::dispersion is a polynomial of. 0 stands for
 // light that is not taken apart, too.
 [[nodiscard]] double dispersionPlace(double nanometers);
-// Of a dielectric's `ior`; at most 4e-6 from the formula that the scene file has.
+// Of a dielectric's `ior`; at most 2e-5 from the formula that the scene file has.
 [[nodiscard]] double indexAt(const Material& material, double place);
 
 [[nodiscard]] const glm::dmat3& fluxFromRec709();

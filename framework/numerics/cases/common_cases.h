@@ -17,6 +17,7 @@ void addReconstructionCases(Suite& suite);  // D31, D32, D34, D34a: reconstructi
 void addMediaCases(Suite& suite);           // D34, D36: nodes of media
 void addMirrorCases(Suite& suite);          // D37: every node of view
 void addBallCases(Suite& suite);            // D39, D41: every tracer and interaction
+void addDispersionCases(Suite& suite);      // D42 to D44: interaction, tracing, reconstruction
 void addWholeFrameCases(Suite& suite);      // A10, B18 and E: every technique
 
 }  // namespace kaustik::numerics
