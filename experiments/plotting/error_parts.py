@@ -149,7 +149,7 @@ def draw(table: list[dict], file: Path) -> None:
         axes.set_ylabel(scene, rotation=0, ha="right", va="center", fontsize=8)
     rows[-1, 0].set_xticks(range(len(techniques)), techniques, rotation=30, ha="right", fontsize=8)
     handles = [plt.Rectangle((0, 0), 1, 1, color=color) for color in COLORS[:len(PARTS)]]
-    figure.legend(handles, PARTS, loc="upper center", ncols=len(PARTS), fontsize=8)
+    rows[0][0].legend(handles, PARTS, loc="lower center", bbox_to_anchor=(0.5, 1.15), ncols=len(PARTS), fontsize=8, frameon=False)
     figure.savefig(file, bbox_inches="tight", metadata={"Date": None})
     plt.close(figure)
 

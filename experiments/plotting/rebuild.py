@@ -39,6 +39,7 @@ TABLE = {
     "best_mixtures_choice": "all_techniques/choice.csv",
     "best_mixtures": "all_techniques/best_mixtures.csv",
     "defaults": "defaults.csv",
+    "dispersion": "dispersion/runs.csv",
     "lamps": "lamps/runs.csv",
     "normal_maps": "normal_maps/runs.csv",
     "vertices_and_gather": "vertices_and_gather.csv",

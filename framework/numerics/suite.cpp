@@ -82,6 +82,7 @@ Suite commonCases() {
     addMirrorCases(suite);
     addBallCases(suite);
     addDispersionCases(suite);
+    addForeignSceneCases(suite);
     addWholeFrameCases(suite);
     return suite;
 }

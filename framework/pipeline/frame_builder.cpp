@@ -44,9 +44,9 @@ bool FrameBuilder::joinsCells() const {
 params::Extent FrameBuilder::photonsOfALight() const {
     const auto& own = traits<EmitStage>().photons;
     if (own) return own(*this);
-    // The points of a light that has a size share out its photons.
+    // The points of a light that has a size share out its photons, and so do wavelengths.
     const params::Extent photons = params<EmitParams>("emit").photons;
-    const double side = 1.0 / std::sqrt(scene::mostLightPoints(scene()));
+    const double side = 1.0 / std::sqrt(scene::mostLightPoints(scene()) * needs().bands);
     const auto part = [&](int count) {
         return std::max(static_cast<int>(std::lround(count * side)), 1);
     };

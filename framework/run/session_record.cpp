@@ -2,6 +2,7 @@
 // What a session's frames leave behind: the record that reports are made of, and files.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -49,6 +50,18 @@ void addReflectionWarnings(report::RunRecord& record, const Renderer& renderer) 
             "has entered a ball is totally reflected in it.",
             node, 100.0 * reflected));
     }
+}
+
+// Light below the horizon of the true triangle.
+void addNormalWarning(report::RunRecord& record) {
+    constexpr double kWorthSaying = 1e-3;
+    const double turned = record.ledger.watts[transport::kAccountTriangleNormal] /
+                          std::max(record.ledger.watts[transport::kAccountEmitted], 1e-30);
+    if (!(turned > kWorthSaying)) return;
+    record.warnings.push_back(fmt::format(
+        "{:.2g}% of the flux met a normal, of a mesh or a normal map, that would send it to the "
+        "wrong side of its triangle; there the triangle's own normal bends it.",
+        100.0 * turned));
 }
 
 }  // namespace
@@ -100,6 +113,7 @@ std::optional<report::RunRecord> Session::measure(const RunReference& reference,
     for (const auto* warnings : {&renderer_.warnings(), &renderer_.scene().warnings})
         record.warnings.insert(record.warnings.begin(), warnings->begin(), warnings->end());
     addReflectionWarnings(record, renderer_);
+    addNormalWarning(record);
     if (!renderer_.isRandom() && record.seed != report::RunRecord{}.seed) {
         record.warnings.push_back(fmt::format(
             "--seed {} has no effect: nothing in this frame is drawn at random.", record.seed));

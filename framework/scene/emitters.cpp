@@ -280,6 +280,7 @@ void placeLightPoints(Scene& scene, int wanted, int rows) {
 int mostLightPoints(const Scene& scene) {
     std::vector<int> counts(scene.emitters.size(), 0);
     for (const Light& light : scene.lights) {
+        if (light.band > 0) continue;
         if (light.emitter < 0) return 1;
         ++counts[static_cast<std::size_t>(light.emitter)];
     }

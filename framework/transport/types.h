@@ -254,7 +254,10 @@ const uint kReferenceAccounts = 21u;
 const uint kAccountEmittable = 22u;
 // Not part of the balance: rays with more receivers than slots.
 const uint kAccountFullSlots = 23u;
-const uint kAccountCount = 24u;
+// Not part of the balance: light that a shading normal would send to the wrong side of its
+// triangle, and that is bent by the triangle's own normal.
+const uint kAccountTriangleNormal = 24u;
+const uint kAccountCount = 25u;
 
 // A sum of watts in 64-bit fixed point, so that it neither drifts nor depends on the order:
 // watts = (high * 2^32 + low) * quantum. `events` counts the additions.

@@ -5,6 +5,7 @@
 #include "include/photons/next_photon_thread.glsl"
 #include "include/photons/store_photons.glsl"
 #include "emit/deferred_cell.glsl"
+#include "include/photons/ledger.glsl"
 #include "include/photons/neighbour_batch.glsl"
 #include "include/surfaces/specular.glsl"
 #define HITS_WITHOUT_SHAPE
@@ -82,8 +83,9 @@ void main() {
     float side = sqrt(across.x * across.y);
     float footprint =
         kIsParallel ? side : side * reach * pow(1.0 + dot(place, place), -0.75);
-    vec3 normal = bendingNormal(direction, shadingNormal(point.normal, geometric), geometric,
-                                point.material, media);
+    vec3 shading = shadingNormal(point.normal, geometric);
+    vec3 normal = bendingNormal(direction, shading, geometric, point.material, media);
+    if (normal != shading) ledgerAdd(kAccountTriangleNormal, flux);
     photon = Photon(point.position, footprint, direction, kFateSpecular, flux, media);
     store(index, texel, cell, photon, normal, point.material);
 }

@@ -5,6 +5,7 @@
 // opaque surface nearer to the light leaves the cell empty. One thread a cell.
 #include "include/photons/neighbour_batch.glsl"
 #include "include/photons/cell_extent.glsl"
+#include "include/photons/ledger.glsl"
 #include "include/photons/light_grid.glsl"
 #include "include/surfaces/specular.glsl"
 #include "include/photons/store_photons.glsl"
@@ -158,8 +159,9 @@ Emitted emittedFrom(ivec2 cell) {
 #endif
     flux *= areaOfExtent(extent);
     if (cell.y < ownRows.x || cell.y >= ownRows.y) flux *= kNegligible;
-    vec3 normal = bendingNormal(direction, shadingNormal(point.normal, geometric), geometric,
-                                material + 1u, media);
+    vec3 shading = shadingNormal(point.normal, geometric);
+    vec3 normal = bendingNormal(direction, shading, geometric, material + 1u, media);
+    if (normal != shading) ledgerAdd(kAccountTriangleNormal, flux);
     Photon photon = Photon(point.position, footprint, direction, kFateSpecular, flux, media);
     return Emitted(photon, normal, material + 1u, extent);
 }

@@ -21,9 +21,10 @@ CellGrid cellsOf(const Samples& samples, const params::Extent& grid) {
 
 Hits storeEmitted(graph::PassSetup& setup, Photons photons, const Samples& samples) {
     photons.batch = samples.suffix;
-    photons.ledger = samples.ledger.valid() ? setup.write(samples.ledger)
-                                            : setup.createBuffer<transport::LedgerEntry>(
-                                                  "ledger", transport::kLedgerEntryCount);
+    photons.ledger = setup.storage(
+        "LedgerEntries", samples.ledger.valid() ? setup.write(samples.ledger)
+                                                : setup.createBuffer<transport::LedgerEntry>(
+                                                      "ledger", transport::kLedgerEntryCount));
     photons.store(setup);
     Hits hits = Hits::create(setup, photons);
     hits.store(setup);

@@ -18,6 +18,7 @@ void addMediaCases(Suite& suite);           // D34, D36: nodes of media
 void addMirrorCases(Suite& suite);          // D37: every node of view
 void addBallCases(Suite& suite);            // D39, D41: every tracer and interaction
 void addDispersionCases(Suite& suite);      // D42 to D44: interaction, tracing, reconstruction
+void addForeignSceneCases(Suite& suite);    // D45 to D47: tracing, emission
 void addWholeFrameCases(Suite& suite);      // A10, B18 and E: every technique
 
 }  // namespace kaustik::numerics

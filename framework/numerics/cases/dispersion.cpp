@@ -108,11 +108,11 @@ void rainbowOfABall(Lab& lab) {
             object("drop", "sphere", "dispersive", {0, 0, 0}, "radius = 0.004\nsegments = 512") +
             object("wall", "box", "white", {1.05, 0, 1.2}, "size = [0.1, 1, 1.2]"));
     Lab::Choice choice = lab.choose(TraceStage::name, "raytraced");
-    for (const int nanometers : {400, 550, 700}) {
+    for (const int nanometers : {400, 700}) {
         setWavelength(scene, nanometers);
         FrameRequest request{320,
                              240,
-                             {{"emit.photons", "512x512"},
+                             {{"emit.photons", "256x256"},
                               {"specular", "split"},
                               {"specular.bounces", "3"},
                               {"specular.split.levels", "3"}}};
@@ -133,8 +133,8 @@ void rainbowOfABall(Lab& lab) {
             choice.subject, fmt::format("angle of the rainbow at {} nm, degrees", nanometers),
             glm::degrees(rainbow(indexOf("water", nanometers))), glm::degrees(std::atan2(1.0, z)),
             {0.3,
-             "a pixel is 0.13 degrees wide, the drop 1.5 percent of the distance, which "
-             "is 0.4, and the bow is brightest within its edge"});
+             "a pixel is 0.13 degrees wide, the drop 0.4 percent of the distance, which is 0.2, "
+             "and the bow is brightest within its edge"});
     }
 }
 

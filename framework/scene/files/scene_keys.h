@@ -120,7 +120,7 @@ struct DispersionKeys {
     std::optional<double> abbeNumber;
     std::optional<glm::dvec3> cauchy;
     std::optional<glm::dvec3> sellmeier;
-    glm::dvec3 sellmeierPoles{0.0};
+    std::optional<glm::dvec3> sellmeierPoles;
     std::optional<std::string> glass;
 };
 template <class R>

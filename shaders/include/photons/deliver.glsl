@@ -40,6 +40,8 @@ Hit deliverTo(Photon photon, float distance, vec3 shading, vec3 geometric, uint 
     vec3 left = transmittanceOver(extinctionAround(photon.media), hit.distanceMeters);
     hit.fluxWatts = photon.fluxWatts * left;
     hit.fate = arrives ? kFateReceiver : kFateSpecular;
+    if (!arrives && hit.normalVs != shading)
+        ledgerAdd(kAccountTriangleNormal, hit.fluxWatts);
     accountForHit(photon, left, hit.fluxWatts, arrives);
     return hit;
 }

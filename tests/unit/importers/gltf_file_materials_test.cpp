@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "framework/importers/gltf_materials.h"
+#include "framework/scene/dispersion.h"
 #include "tests/unit/importers/gltf_file_fixture.h"
 
 namespace kaustik::scene::test {
@@ -23,6 +24,19 @@ TEST_F(GltfImport, ATransmittingMaterialIsADielectricWithItsIndexOfRefraction) {
     EXPECT_EQ(material.kind, MaterialKind::dielectric);
     EXPECT_EQ(material.ior, 1.333f);
     EXPECT_EQ(material.absorptionPerMeter, glm::vec3(0.0f));
+}
+
+// KHR_materials_dispersion: 20 over the Abbe number.
+TEST_F(GltfImport, DispersionIsByTheAbbeNumber) {
+    Json document = tetrahedronScene();
+    document["materials"][0]["extensions"]["KHR_materials_ior"]["ior"] = 1.6;
+    document["materials"][0]["extensions"]["KHR_materials_dispersion"]["dispersion"] = 0.5;
+    const Material material = import(document).materials.at(0);
+    const Dispersion expected = byAbbeNumber(1.6, 40.0);
+    EXPECT_NEAR(static_cast<double>(material.dispersion.x), expected.polynomial.x, 1e-7);
+    EXPECT_EQ(material.ior, 1.6f);
+    document["materials"][0]["extensions"]["KHR_materials_dispersion"]["dispersion"] = -1.0;
+    EXPECT_THAT(errorOf<IoError>(document), HasSubstr("KHR_materials_dispersion.dispersion"));
 }
 
 TEST_F(GltfImport, TheIndexOfRefractionIsOnePointFiveWhereTheFileHasNone) {
