@@ -116,7 +116,7 @@ def tabled(results: Path) -> list[dict]:
         line = {"scene": scene, "technique": technique, "version": group[0].get("version", "")}
         failed = next((row for row in group if row["status"] != "done"), None)
         if failed or len(group) < wanted:
-            line["status"] = failed["message"] if failed else f"{len(group)} of {wanted} runs are there"
+            line["status"] = failed["message"].split(",")[0] if failed else f"{len(group)} of {wanted} runs are there"
         elif wanted < FEWEST:
             line["status"] = f"{wanted} runs are too few to tell parts"
         else:

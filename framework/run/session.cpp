@@ -33,7 +33,8 @@ void checkCount(const char* name, int count, int minimum) {
 scene::Scene& withLightPoints(scene::Scene& scene, const RenderSettings& settings) {
     const auto& emit = settings.params.get<EmitParams>(EmitStage::name);
     if (!scene.emitters.empty()) scene::placeLightPoints(scene, emit.lightPoints, settings.height);
-    scene::placeBands(scene, emit.wavelengths, settings.height);
+    scene::placeBands(scene, emit.wavelengths, settings.height,
+                      static_cast<double>(emit.photons.width) * emit.photons.height);
     return scene;
 }
 

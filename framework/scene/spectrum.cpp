@@ -21,8 +21,9 @@ constexpr std::array kRows = std::to_array<Row>({
 #include "framework/scene/spectrum.inc"
 });
 constexpr double kStep = 5.0;  // nm
-constexpr int kLeastBands = 8;
-constexpr int kMostBands = 32;
+constexpr double kLeastBands = 8.0;
+constexpr double kMostBands = 32.0;
+constexpr double kPhotonsOfABand = 64.0 * 64.0;
 constexpr double kPixelsApart = 2.0;
 
 Row rowAt(double nanometers) {
@@ -177,7 +178,7 @@ bool disperses(const Scene& scene) {
     });
 }
 
-BandCount bandsOf(const Scene& scene, int wanted, int rows) {
+BandCount bandsOf(const Scene& scene, int wanted, int rows, double photons) {
     BandCount count;
     if (!disperses(scene) || rows < 1) return count;
     double spread = 0.0;
@@ -189,11 +190,9 @@ BandCount bandsOf(const Scene& scene, int wanted, int rows) {
     count.partingMeters = spread * extentOf(sceneBounds(scene));
     count.pixelMeters = pixelMeters(scene, rows);
     const double apart = count.partingMeters / (kPixelsApart * count.pixelMeters);
+    const double most = std::clamp(photons / kPhotonsOfABand, kLeastBands, kMostBands);
     count.bands =
-        wanted > 0
-            ? wanted
-            : static_cast<int>(std::lround(std::clamp(apart, static_cast<double>(kLeastBands),
-                                                      static_cast<double>(kMostBands))));
+        wanted > 0 ? wanted : static_cast<int>(std::lround(std::clamp(apart, kLeastBands, most)));
     return count;
 }
 
@@ -202,9 +201,9 @@ void forgetBands(Scene& scene) {
     scene.bands.clear();
 }
 
-void placeBands(Scene& scene, int wanted, int rows) {
+void placeBands(Scene& scene, int wanted, int rows, double photons) {
     forgetBands(scene);
-    const int count = bandsOf(scene, wanted, rows).bands;
+    const int count = bandsOf(scene, wanted, rows, photons).bands;
     if (count < 2) return;
     scene.bands = spectralBands(count);
     const std::vector<Light> lights = scene.lights;

@@ -58,10 +58,11 @@ struct BandCount {
     double pixelMeters = 0.0;
 };
 // `wanted`: 0 says that it is to be found out: as many, from 8 to 32, as leave neighbours two
-// pixels apart in a picture of so many rows.
-[[nodiscard]] BandCount bandsOf(const Scene& scene, int wanted, int rows);
+// pixels apart in a picture of so many rows, and a light's `photons`, which they share out, no
+// fewer than 64 x 64 for each (results/dispersion.md).
+[[nodiscard]] BandCount bandsOf(const Scene& scene, int wanted, int rows, double photons);
 // Gives the scene its bands, and each of them the lights; one that does not disperse has none.
-void placeBands(Scene& scene, int wanted, int rows);
+void placeBands(Scene& scene, int wanted, int rows, double photons);
 // Takes them away again.
 void forgetBands(Scene& scene);
 

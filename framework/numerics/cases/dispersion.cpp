@@ -150,7 +150,7 @@ void slabStaysWhite(Lab& lab) {
         camera, material("N-SF11") + sun({0.5, -1.0, 0.2}) +
                     object("slab", "box", "dispersive", {-0.6, 1.2, -0.2}, "size = [3, 0.3, 3]") +
                     floorPlane("floor", "white", 12, {0, 0, 0}));
-    scene::placeBands(scene, 8, 120);
+    scene::placeBands(scene, 8, 120, 0.0);
     // What both faces let through, which is some less of blue than of red.
     const glm::dvec3 direction = scene.lights.front().direction;
     glm::dvec3 expected(0.0);

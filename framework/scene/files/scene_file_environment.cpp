@@ -104,12 +104,9 @@ void requireNoGain(const TableReader& reader, const Material& material) {
 Dispersion dispersionOf(const TableReader& reader, const DispersionKeys& keys) {
     if (keys.cauchy) return byCauchy(*keys.cauchy);
     if (keys.sellmeier) {
-        if (!keys.sellmeierPoles)
-            reader.fail("sellmeier", "sellmeier needs sellmeier_poles, the c of its terms");
-        const std::array<glm::dvec2, 3> terms{
-            glm::dvec2(keys.sellmeier->x, keys.sellmeierPoles->x),
-            glm::dvec2(keys.sellmeier->y, keys.sellmeierPoles->y),
-            glm::dvec2(keys.sellmeier->z, keys.sellmeierPoles->z)};
+        const std::array<glm::dvec2, 3> terms{glm::dvec2(keys.sellmeier->b.x, keys.sellmeier->c.x),
+                                              glm::dvec2(keys.sellmeier->b.y, keys.sellmeier->c.y),
+                                              glm::dvec2(keys.sellmeier->b.z, keys.sellmeier->c.z)};
         return bySellmeier(terms);
     }
     if (keys.glass) {

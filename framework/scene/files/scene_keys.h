@@ -114,13 +114,22 @@ void reflect(R& r, LightKeys& light) {
             "intensity"});
 }
 
+struct SellmeierKeys {
+    glm::dvec3 b{0.0};
+    glm::dvec3 c{0.0};
+};
+template <class R>
+void reflect(R& r, SellmeierKeys& keys) {
+    r.vector(keys.b, {"b", "The numerators of the three terms"}, kAnyNumber);
+    r.vector(keys.c, {"c", "Their poles", "µm²"}, kAnyNumber);
+}
+
 // How a dielectric's index changes with the wavelength: one of these, or nothing.
 struct DispersionKeys {
     std::optional<double> ior;
     std::optional<double> abbeNumber;
     std::optional<glm::dvec3> cauchy;
-    std::optional<glm::dvec3> sellmeier;
-    std::optional<glm::dvec3> sellmeierPoles;
+    std::optional<SellmeierKeys> sellmeier;
     std::optional<std::string> glass;
 };
 template <class R>
@@ -133,12 +142,7 @@ void reflect(R& r, DispersionKeys& keys) {
                  {1.0, 1e6, false, false});
     r.vector(keys.cauchy, {"cauchy", "In place of ior: A, B and C of n = A + B/λ² + C/λ⁴, λ in µm"},
              kAnyNumber);
-    r.vector(keys.sellmeier,
-             {"sellmeier", "In place of ior: the b of n² = 1 + Σ b λ²/(λ² - c), λ in µm"},
-             kAnyNumber);
-    if (r.onlyWith("sellmeier_poles", "sellmeier"))
-        r.vector(keys.sellmeierPoles, {"sellmeier_poles", "The c of the three terms", "µm²"},
-                 kAnyNumber);
+    r.table(keys.sellmeier, {"sellmeier", "In place of ior: n² = 1 + Σ b λ²/(λ² - c), λ in µm"});
     r.text(keys.glass,
            {"glass", "In place of ior: a material by its name, such as N-BK7 or water"});
     r.rule({{"ior", "cauchy", "sellmeier", "glass"},

@@ -36,7 +36,7 @@ TEST_F(GltfImport, DispersionIsByTheAbbeNumber) {
     EXPECT_NEAR(static_cast<double>(material.dispersion.x), expected.polynomial.x, 1e-7);
     EXPECT_EQ(material.ior, 1.6f);
     document["materials"][0]["extensions"]["KHR_materials_dispersion"]["dispersion"] = -1.0;
-    EXPECT_THAT(errorOf<IoError>(document), HasSubstr("KHR_materials_dispersion.dispersion"));
+    EXPECT_THAT(errorOf<ConfigError>(document), HasSubstr("KHR_materials_dispersion.dispersion"));
 }
 
 TEST_F(GltfImport, TheIndexOfRefractionIsOnePointFiveWhereTheFileHasNone) {

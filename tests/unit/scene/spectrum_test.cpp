@@ -89,17 +89,22 @@ TEST(Spectrum, BandsHaveTheirOwnLights) {
     scene.objects.push_back({});
     scene.lights.resize(2);
     scene.lights[1].name = "second";
-    placeBands(scene, 8, 600);
+    placeBands(scene, 8, 600, 1.0);
     EXPECT_TRUE(scene.bands.empty());
     EXPECT_EQ(scene.lights.size(), 2u);
     scene.materials[0].dispersion.x = 0.005f;
-    placeBands(scene, 8, 600);
+    placeBands(scene, 8, 600, 1.0);
     ASSERT_EQ(scene.lights.size(), 16u);
     EXPECT_EQ(scene.lights[15].band, 7);
     EXPECT_EQ(scene.lights[15].name, "second");
-    placeBands(scene, 1, 600);
+    placeBands(scene, 1, 600, 1.0);
     EXPECT_EQ(scene.lights.size(), 2u);
     EXPECT_TRUE(scene.bands.empty());
+    // However far colors part, no more than leave each 64 x 64 photons, and no fewer than 8.
+    scene.materials[0].dispersion.x = 0.1f;
+    EXPECT_EQ(bandsOf(scene, 0, 600, 16.0 * 4096.0).bands, 16);
+    EXPECT_EQ(bandsOf(scene, 0, 600, 1.0).bands, 8);
+    EXPECT_EQ(bandsOf(scene, 0, 600, 1e9).bands, 32);
 }
 
 TEST(Dispersion, NamedGlassesAreThoseOfTheirDataSheets) {
