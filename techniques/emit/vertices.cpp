@@ -328,8 +328,7 @@ Hits emitVertices(FrameBuilder& frame, const VertexEmissionParams& params, Surfa
                 if (photons.extents.valid()) context.texture(photons.extents).clear({0, 0, 0, 0});
                 // Vertices that the light does not see are no photons.
                 clearEmitted(context, data.hits);
-                const int end =
-                    emission->lights.empty() ? 0 : samples.firstLight + samples.lights;
+                const int end = emission->lights.empty() ? 0 : samples.firstLight + samples.lights;
                 for (int light = samples.firstLight; light < end; ++light) {
                     for (const EmittingObject& emitting : emission->objects) {
                         emitObject(inputs, context, data, *emission, rows, samples, light, emitting,
