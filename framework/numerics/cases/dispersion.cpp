@@ -162,7 +162,7 @@ void slabStaysWhite(Lab& lab) {
     }
     for (const Lab::Choice& choice : lab.each<ReconstructStage>()) {
         const Frame frame = lab.render(
-            choice, scene, {160, 120, {{"emit.photons", "96x96"}, {"trace", "raytraced"}}});
+            choice, scene, {160, 120, {{"emit.photons", "272x272"}, {"trace", "raytraced"}}});
         const Texels irradiance = frame.causticIrradiance();
         glm::dvec3 sum(0.0);
         for (int y = 40; y < 80; ++y) {

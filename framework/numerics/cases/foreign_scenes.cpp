@@ -87,26 +87,25 @@ void panelThroughAPane(Lab& lab) {
                    fmt::format("size = [{0}, {0}]\nrotation_degrees = [180, 0, 0]", kSide)) +
             floorPlane("pane", "air", 1.2, {0, 0.5, 0}) +
             floorPlane("floor", "grey", 4, {0, 0, 0}));
-    scene::placeLightPoints(scene, 64, 120);
+    scene::placeLightPoints(scene, 16, 120);
     const double expected = 10.0 * glm::pi<double>() * factorOfSquare(kSide, kHeight);
-    for (const Lab::Choice& emitter : lab.each<EmitStage>()) {
-        const Frame frame = lab.render(
-            emitter, scene,
-            {80,
-             60,
-             {{"emit.photons", "48x48"}, {"trace", "raytraced"}, {"specular", "interface"}}});
-        const Texels irradiance = frame.causticIrradiance();
-        double sum = 0.0;
-        for (int y = 27; y < 33; ++y) {
-            for (int x = 37; x < 43; ++x)
-                sum += irradiance.rgb(x, y).g;
-        }
-        lab.expect(emitter.subject, "irradiance below a panel, through a pane, relative", 1.0,
-                   sum / (36.0 * expected),
-                   {0.02,
-                    "64 points for the panel are 2e-4 off; splats of 48 x 48 photons that "
-                    "overlap unevenly are more"});
+    // Their number and their grids are the same for every emitter of photons; vertices are too far
+    // apart on a pane.
+    const Lab::Choice emitter = lab.choose(EmitStage::name, "grid");
+    const Frame frame = lab.render(
+        emitter, scene,
+        {80, 60, {{"emit.photons", "256x256"}, {"trace", "raytraced"}, {"specular", "interface"}}});
+    const Texels irradiance = frame.causticIrradiance();
+    double sum = 0.0;
+    for (int y = 27; y < 33; ++y) {
+        for (int x = 37; x < 43; ++x)
+            sum += irradiance.rgb(x, y).g;
     }
+    lab.expect(emitter.subject, "irradiance below a panel, through a pane, relative", 1.0,
+               sum / (36.0 * expected),
+               {0.02,
+                "of 16 points the nearest to the closed form are 1e-3 off, and cells of 64 x "
+                "64 at the border of the pane more"});
 }
 
 // A file of one normal, which leans along u.
@@ -164,7 +163,9 @@ void mapOfOneTilt(Lab& lab) {
         lab.expectAtLeast(emitter.subject, "photons that are bent", 100.0,
                           static_cast<double>(count), kTooFewReason);
         lab.expectDeviation(emitter.subject, "direction below a map of one tilt", worst,
-                            {1e-6, "some roundings of 6e-8"});
+                            {2e-5,
+                             "the map is in 16-bit floats on the device: 3e-5 of the normal, of "
+                             "which water shows a quarter"});
     }
 }
 
