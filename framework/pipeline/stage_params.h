@@ -77,7 +77,8 @@ struct EmitParams {
         r.field(wavelengths, "wavelengths",
                 "Parts that white light is taken into where a dielectric disperses it, each with a "
                 "grid of its own; they share out a light's photons. 0: from 8 to 32, by how far it "
-                "parts colors; 1: none, all of it goes as the d line",
+                "parts colors and by what it leaves of photons to each; 1: none, all of it goes as "
+                "the d line",
                 "", params::range(0, 64))
             .when([](const FrameFacts& facts) -> std::string {
                 return facts.needs == nullptr || facts.needs->disperses

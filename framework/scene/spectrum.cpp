@@ -74,12 +74,14 @@ const Sums& sums() {
     return all;
 }
 
+// Y of white, in the unit of the sums.
+double luminance() {
+    const glm::dmat3& all = sums().responses.back();
+    return all[0].y + all[1].y + all[2].y;
+}
 // Columns: each primary's X, Y and Z, of which the white point is that of the table.
 const glm::dmat3& xyzFromRec709() {
-    static const glm::dmat3 matrix = sums().responses.back() / [] {
-        const glm::dmat3& all = sums().responses.back();
-        return all[0].y + all[1].y + all[2].y;
-    }();
+    static const glm::dmat3 matrix = sums().responses.back() / luminance();
     return matrix;
 }
 // What each of X, Y and Z counts in the sum of Rec.709's channels.
@@ -88,10 +90,6 @@ glm::dvec3 channelWeights() {
 }
 glm::dmat3 diagonal(const glm::dvec3& v) {
     return {{v.x, 0.0, 0.0}, {0.0, v.y, 0.0}, {0.0, 0.0, v.z}};
-}
-double luminance() {
-    const glm::dmat3& all = sums().responses.back();
-    return all[0].y + all[1].y + all[2].y;
 }
 
 double extentOf(const Bounds& bounds) {
