@@ -5,11 +5,14 @@
 #include "include/photons/next_photon_thread.glsl"
 #include "include/photons/store_photons.glsl"
 #include "emit/deferred_cell.glsl"
-#include "include/photons/ledger.glsl"
 #include "include/photons/neighbour_batch.glsl"
 #include "include/surfaces/specular.glsl"
 #define HITS_WITHOUT_SHAPE
 #include "include/photons/store_hits.glsl"
+// OpenGL grants a shader no more than eight storage blocks, of which a list of cells is one.
+#ifndef CELL_LIST
+#include "include/photons/ledger.glsl"
+#endif
 
 uniform ivec2 ownRows;
 
@@ -85,7 +88,9 @@ void main() {
         kIsParallel ? side : side * reach * pow(1.0 + dot(place, place), -0.75);
     vec3 shading = shadingNormal(point.normal, geometric);
     vec3 normal = bendingNormal(direction, shading, geometric, point.material, media);
+#ifndef CELL_LIST
     if (normal != shading) ledgerAdd(kAccountTriangleNormal, flux);
+#endif
     photon = Photon(point.position, footprint, direction, kFateSpecular, flux, media);
     store(index, texel, cell, photon, normal, point.material);
 }

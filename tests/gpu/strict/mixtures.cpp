@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "framework/core/error.h"
+#include "framework/scene/spectrum.h"
 #include "techniques/light_cells/refine_stage.h"
 #include "tests/gpu/fixture.h"
 
@@ -88,6 +89,10 @@ pattern = "sky"
     } else if (name == "foggy") {
         text += "[medium]\nscattering_per_meter = 0.1\nabsorption_per_meter = 0.1\n";
     }
+    if (name == "dispersive") {
+        const std::string index = "ior = 1.5";
+        text.replace(text.find(index), index.size(), "glass = \"N-BK7\"");
+    }
     return "name = \"" + name + "\"\n" + text;
 }
 
@@ -141,8 +146,9 @@ std::vector<std::string> otherValues(const params::NamedField& named) {
 class Mixtures {
   public:
     Mixtures() {
-        for (const char* name : {"plain", "glossy", "foggy"})
+        for (const char* name : {"plain", "glossy", "foggy", "dispersive"})
             scenes_.emplace(name, sceneFromText(sceneText(name)));
+        scene::placeBands(scenes_.at("dispersive"), 2, 60, 0.0);
         for (const auto& [name, scene] : scenes_)
             nodes_[kSceneChoice].push_back(name);
         for (const Registry::Node& node : registry().nodes())
