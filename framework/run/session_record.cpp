@@ -54,13 +54,15 @@ void addReflectionWarnings(report::RunRecord& record, const Renderer& renderer) 
 
 // Light below the horizon of the true triangle.
 void addNormalWarning(report::RunRecord& record) {
-    constexpr double kWorthSaying = 1e-3;
+    constexpr double kWorthSaying = 0.01;
     const double turned = record.ledger.watts[transport::kAccountTriangleNormal] /
                           std::max(record.ledger.watts[transport::kAccountEmitted], 1e-30);
     if (!(turned > kWorthSaying)) return;
     record.warnings.push_back(fmt::format(
-        "{:.2g}% of the flux met a normal, of a mesh or a normal map, that would send it to the "
-        "wrong side of its triangle; there the triangle's own normal bends it.",
+        "{:.2g}% of the flux, counted at each surface that it meets, met a normal, of a mesh or a "
+        "normal map, that would send it to the wrong side of its triangle; there the triangle's "
+        "own "
+        "normal bends it.",
         100.0 * turned));
 }
 
