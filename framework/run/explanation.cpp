@@ -75,7 +75,7 @@ std::string bandsText(const Renderer& renderer) {
     const int bands = renderer.needs().bands;
     const scene::BandCount count = bandsOf(scene, bands, renderer.pictureView().height, 0.0);
     return fmt::format(
-        "  light is followed at {} wavelength{} (emit.wavelengths); colours part by {:.2g} m at "
+        "  light is followed at {} wavelength{} (emit.wavelengths); colors part by {:.2g} m at "
         "most, where a pixel sees {:.2g} m; the eye's rays are bent as the d line is\n",
         bands, bands == 1 ? "" : "s", count.partingMeters, count.pixelMeters);
 }

@@ -56,10 +56,6 @@ Light pointOfSurface(const EmittingSurface::Point& at, double areaSquareMeters,
     return point;
 }
 
-double extentOf(const Bounds& bounds) {
-    return bounds.empty ? 0.0 : glm::length(bounds.maximum - bounds.minimum);
-}
-
 glm::dvec3 middleOf(const Bounds& bounds) {
     return 0.5 * (bounds.minimum + bounds.maximum);
 }
@@ -70,8 +66,8 @@ double angleOf(const Scene& scene, const Emitter& emitter, const Bounds& specula
     if (!emitter.object) return static_cast<double>(emitter.light.angularDiameterRadians);
     const Bounds bounds = objectBounds(scene, scene.objects[*emitter.object]);
     const double distance = std::max(
-        glm::length(middleOf(bounds) - middleOf(specular)) - 0.5 * extentOf(specular), 1e-9);
-    return std::min(extentOf(bounds) / distance, glm::pi<double>());
+        glm::length(middleOf(bounds) - middleOf(specular)) - 0.5 * diagonalOf(specular), 1e-9);
+    return std::min(diagonalOf(bounds) / distance, glm::pi<double>());
 }
 
 bool isLevel(const Scene& scene, const Emitter& emitter) {
@@ -223,7 +219,7 @@ EmitterPoints pointsOf(const Scene& scene, const Emitter& emitter, int wanted, i
     if (all.empty || rows < 1) return points;
     // As far as light can go on from there within the scene.
     points.blurMeters =
-        2.0 * std::tan(0.5 * std::min(angleOf(scene, emitter, specular), 3.0)) * extentOf(all);
+        2.0 * std::tan(0.5 * std::min(angleOf(scene, emitter, specular), 3.0)) * diagonalOf(all);
     points.pixelMeters = pixelMeters(scene, rows);
     if (wanted > 0) {
         points.points = wanted;

@@ -5,6 +5,10 @@
 
 namespace kaustik::scene {
 
+double diagonalOf(const Bounds& bounds) {
+    return bounds.empty ? 0.0 : glm::length(bounds.maximum - bounds.minimum);
+}
+
 double pixelMeters(const Scene& scene, int rows) {
     const Bounds all = sceneBounds(scene);
     const double sight = glm::length(0.5 * (all.minimum + all.maximum) - scene.camera.position);

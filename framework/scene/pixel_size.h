@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// What a pixel sees, about: a scale for what may be left out.
+// How large a scene is, and what a pixel sees of it, about: scales for what may be left out.
 #pragma once
 
 #include "framework/scene/scene.h"
 
 namespace kaustik::scene {
 
+// m; 0 of what is empty.
+[[nodiscard]] double diagonalOf(const Bounds& bounds);
 // Of a picture of so many rows, at the middle of the scene, m.
 [[nodiscard]] double pixelMeters(const Scene& scene, int rows);
 

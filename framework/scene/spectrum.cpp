@@ -21,8 +21,8 @@ constexpr std::array kRows = std::to_array<Row>({
 #include "framework/scene/spectrum.inc"
 });
 constexpr double kStep = 5.0;  // nm
-constexpr double kLeastBands = 8.0;
-constexpr double kMostBands = 32.0;
+constexpr double kMinBands = 8.0;
+constexpr double kMaxBands = 32.0;
 constexpr double kPhotonsOfABand = 64.0 * 64.0;
 constexpr double kPixelsApart = 2.0;
 
@@ -90,10 +90,6 @@ glm::dvec3 channelWeights() {
 }
 glm::dmat3 diagonal(const glm::dvec3& v) {
     return {{v.x, 0.0, 0.0}, {0.0, v.y, 0.0}, {0.0, 0.0, v.z}};
-}
-
-double extentOf(const Bounds& bounds) {
-    return bounds.empty ? 0.0 : glm::length(bounds.maximum - bounds.minimum);
 }
 
 }  // namespace
@@ -185,12 +181,12 @@ BandCount bandsOf(const Scene& scene, int wanted, int rows, double photons) {
                                            indexAt(material, dispersionPlace(700.0))));
     }
     // A prism of a radian turns light by its index less 1.
-    count.partingMeters = spread * extentOf(sceneBounds(scene));
+    count.partingMeters = spread * diagonalOf(sceneBounds(scene));
     count.pixelMeters = pixelMeters(scene, rows);
     const double apart = count.partingMeters / (kPixelsApart * count.pixelMeters);
-    const double most = std::clamp(photons / kPhotonsOfABand, kLeastBands, kMostBands);
+    const double most = std::clamp(photons / kPhotonsOfABand, kMinBands, kMaxBands);
     count.bands =
-        wanted > 0 ? wanted : static_cast<int>(std::lround(std::clamp(apart, kLeastBands, most)));
+        wanted > 0 ? wanted : static_cast<int>(std::lround(std::clamp(apart, kMinBands, most)));
     return count;
 }
 

@@ -138,7 +138,7 @@ void reflect(R& r, DispersionKeys& keys) {
              {1.0, 10.0, false, false});
     if (r.onlyWith("abbe_number", "ior"))
         r.number(keys.abbeNumber,
-                 {"abbe_number", "Takes colours apart: (n_d - 1) / (n_F - n_C), of glass 20 to 90"},
+                 {"abbe_number", "Takes colors apart: (n_d - 1) / (n_F - n_C), of glass 20 to 90"},
                  {1.0, 1e6, false, false});
     r.vector(keys.cauchy, {"cauchy", "In place of ior: A, B and C of n = A + B/λ² + C/λ⁴, λ in µm"},
              kAnyNumber);
