@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The exact first hits of photons that somebody else has traced: what the photon audit compares a
-// tracer with. The same side rule as shaders/include/views/hit_test.glsl (`isFacing`).
+// tracer with. The same side rule as shaders/include/surfaces/side_rule.glsl (`isFacing`).
 #pragma once
 
 #include <cstdint>

@@ -329,7 +329,12 @@ void GpuScene::bindTriangles(gl::Command& command, const Geometry& geometry) con
 
 std::size_t GpuScene::bytes() const {
     return vertices_.bytes() + indices_.bytes() + commands_.bytes() + materials_.bytes() +
-           images_.desc().bytes();
+           images_.desc().bytes() + (bvh_ ? bvh_->bytes() : 0);
+}
+
+const SceneBvh& GpuScene::bvh() const {
+    if (!bvh_) bvh_ = std::make_unique<SceneBvh>(scene_);
+    return *bvh_;
 }
 
 }  // namespace kaustik::render

@@ -4,9 +4,11 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "framework/gl/executor.h"
+#include "framework/render/scene_bvh.h"
 #include "framework/render/view.h"
 #include "framework/scene/scene.h"
 #include "framework/transport/geometry.h"
@@ -62,6 +64,8 @@ class GpuScene {
         return heightFields_;
     }
     [[nodiscard]] std::size_t bytes() const;
+    // Built when it is first asked for.
+    [[nodiscard]] const SceneBvh& bvh() const;
 
   private:
     // Commands are sorted by kind; a set is a run of them.
@@ -91,6 +95,7 @@ class GpuScene {
     std::vector<glm::uvec3> firsts_;
     Group staticGroup_;
     Group heightFieldGroup_;
+    mutable std::unique_ptr<SceneBvh> bvh_;
 };
 
 }  // namespace kaustik::render

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The exact first hits that the photon audit compares with: the side rule of hit_test.glsl.
+// The exact first hits that the photon audit compares with: the side rule of side_rule.glsl.
 #include "framework/reference/photon_audit.h"
 
 #include <cmath>

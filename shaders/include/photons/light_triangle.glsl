@@ -1,21 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The triangles that a light sees, and where its rays meet them.
-#include "include/surfaces/normal_map.glsl"
+#include "include/surfaces/point_on_triangle.glsl"
 #include "include/surfaces/scene_triangle.glsl"
 
 layout(std430) readonly buffer Instances {
     InstanceData instances[];  // in the eye's view
 };
 uniform mat4 lightFromEye;  // from the eye's view space to the light's
-
-// A point of a triangle, in the eye's view.
-struct PointOnTriangle {
-    vec3 position;   // m
-    vec3 normal;     // interpolated, of any length
-    vec3 geometric;  // unit, to the side that the triangle's winding calls the outside; 0: has none
-    mat2x3 places;   // along two sides, m
-    mat2x3 turns;    // of `normal`
-};
 
 float crossed(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
 
@@ -42,31 +33,6 @@ vec3 weightsOnRay(vec3 corners[3], vec2 place, bool isParallel) {
     float minimum = 1e-6 * (abs(weights.x) + abs(weights.y) + abs(weights.z));
     return abs(sum) > minimum ? weights / sum : vec3(1.0 / 3.0);
 }
-
-#ifdef NORMAL_MAPS
-// What a normal map makes of the point's normal, and of how that turns: by differences over a texel,
-// since the map is linear between two.
-void mapNormal(inout PointOnTriangle point, uint material, vec2 uvs[3], vec3 weights) {
-    if (!hasNormalMap(material)) return;
-    mat2 uvSides = mat2(uvs[1] - uvs[0], uvs[2] - uvs[0]);
-    mat2x3 turns = point.turns;
-    vec2 uv = weights.x * uvs[0] + weights.y * uvs[1] + weights.z * uvs[2];
-    vec3 normal = point.normal;
-    point.normal = mappedNormalAt(material, shadingNormal(normal, point.geometric), point.places,
-                                  uvSides, uv);
-    for (int side = 0; side < 2; ++side) {
-        float texels = length(normalTexels(material, uvSides[side]));
-        float reach = 0.5 / max(texels, 1.0);
-        vec3 ends[2];
-        for (int i = 0; i < 2; ++i) {
-            float at = i == 0 ? -reach : reach;
-            vec3 there = shadingNormal(normal + at * turns[side], point.geometric);
-            ends[i] = mappedNormalAt(material, there, point.places, uvSides, uv + at * uvSides[side]);
-        }
-        point.turns[side] = (ends[1] - ends[0]) / (2.0 * reach);
-    }
-}
-#endif
 
 // Where the light's ray hits the triangle. `place`: as in weightsOnRay. `minimum`: of its weights, less
 // than 0 where the ray passes the triangle by.

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+// The first triangle on a ray through the hierarchy of the scene (framework/transport/bvh.h), in
+// its local space: exact, whatever the eye sees. BVH_STACK: how many children may wait.
+#include "include/surfaces/point_on_triangle.glsl"
+#include "framework/transport/bvh.h"
+
+layout(std430) readonly buffer BvhNodes {
+    BvhNode bvhNodes[];
+};
+layout(std430) readonly buffer BvhCorners {
+    VertexData bvhCorners[];  // three a triangle
+};
+layout(std430) readonly buffer BvhSources {
+    BvhSource bvhSources[];
+};
+uniform mat4 localFromEye;  // rigid
+
+struct BvhRay {
+    vec3 origin;
+    vec3 direction;  // unit
+};
+
+BvhRay bvhRay(vec3 positionVs, vec3 directionVs) {
+    return BvhRay((localFromEye * vec4(positionVs, 1.0)).xyz, mat3(localFromEye) * directionVs);
+}
+vec3 localToEye(vec3 direction) { return direction * mat3(localFromEye); }
+
+struct BvhHit {
+    float distance;  // m
+    uint triangle;   // of the hierarchy; kBvhNone: none
+};
+
+// Whether a triangle that the ray crosses is one that it hits: whoever includes this says so.
+// `normal`: unit, by its winding; `height`: of the ray's origin above its plane, m.
+bool isSurfaceHit(BvhRay ray, uint triangle, vec3 normal, float height);
+
+// On which side a ray from the origin passes an edge, as a volume (the edge's Pluecker coordinates):
+// of the two triangles that share one exactly opposite numbers, so that no ray slips between them.
+float sideOfEdge(vec3 from, vec3 to, vec3 direction) {
+    precise vec3 edge = to - from;
+    precise vec3 sum = to + from;
+    precise vec3 moment = vec3(edge.y * sum.z - edge.z * sum.y, edge.z * sum.x - edge.x * sum.z,
+                               edge.x * sum.y - edge.y * sum.x);
+    precise float side = moment.x * direction.x + moment.y * direction.y + moment.z * direction.z;
+    return side;
+}
+
+// The sides of the edges that lie across from each corner: its weights, up to their sum. `corners`
+// are from the ray's origin.
+vec3 sidesOfEdges(vec3 corners[3], vec3 direction) {
+    return vec3(sideOfEdge(corners[1], corners[2], direction),
+                sideOfEdge(corners[2], corners[0], direction),
+                sideOfEdge(corners[0], corners[1], direction));
+}
+
+void testTriangle(BvhRay ray, uint triangle, inout BvhHit best) {
+    vec3 corners[3];
+    for (uint i = 0u; i < 3u; ++i)
+        corners[i] = bvhCorners[3u * triangle + i].position - ray.origin;
+    vec3 sides = sidesOfEdges(corners, ray.direction);
+    if (min(sides.x, min(sides.y, sides.z)) < 0.0 && max(sides.x, max(sides.y, sides.z)) > 0.0)
+        return;
+    vec3 area = cross(corners[1] - corners[0], corners[2] - corners[0]);
+    float closing = dot(ray.direction, area);
+    float rise = dot(corners[0], area);
+    float t = rise / closing;
+    if (!(t >= 0.0 && t < best.distance)) return;
+    float size = length(area);
+    if (isSurfaceHit(ray, triangle, area / size, -rise / size)) best = BvhHit(t, triangle);
+}
+
+// Where a ray enters the four children of a node, m; further than `farthest` where it does not
+// before that.
+vec4 entriesOf(BvhNode node, vec3 origin, vec3 inverse, float farthest) {
+    vec4 entries = vec4(3.4e38);
+    for (uint i = 0u; i < kBvhWidth; ++i) {
+        if (node.children[i] == kBvhNone) continue;
+        vec3 lower = (bvhCorner(node.origin, node.exponents, node.lower, i) - origin) * inverse;
+        vec3 upper = (bvhCorner(node.origin, node.exponents, node.upper, i) - origin) * inverse;
+        vec3 first = min(lower, upper);
+        vec3 last = max(lower, upper);
+        float enters = max(first.x, max(first.y, max(first.z, 0.0)));
+        // By a few roundings more, so that no box is missed whose triangle is hit (Ize 2013).
+        float leaves = min(last.x, min(last.y, last.z)) * 1.000001;
+        if (enters <= leaves && enters < farthest) entries[i] = enters;
+    }
+    return entries;
+}
+
+void orderTwo(inout float a, inout uint childA, inout float b, inout uint childB) {
+    if (a <= b) return;
+    float nearer = b;
+    uint nearerChild = childB;
+    b = a;
+    childB = childA;
+    a = nearer;
+    childA = nearerChild;
+}
+
+// The nearest hit before `farthest`, m.
+BvhHit traceBvh(BvhRay ray, float farthest) {
+    BvhHit best = BvhHit(farthest, kBvhNone);
+    // Where a ray is parallel to an axis 0 times this is still 0.
+    vec3 safe = mix(ray.direction, vec3(1e-30), lessThan(abs(ray.direction), vec3(1e-30)));
+    vec3 inverse = 1.0 / safe;
+    uvec2 waiting[BVH_STACK];  // children, and the bits of where the ray enters them
+    int count = 0;
+    uint child = 0u;
+    while (true) {
+        if ((child & kBvhLeaf) != 0u) {
+            uint first = bvhLeafFirst(child);
+            uint end = first + bvhLeafCount(child);
+            for (uint triangle = first; triangle < end; ++triangle)
+                testTriangle(ray, triangle, best);
+        } else {
+            BvhNode node = bvhNodes[child];
+            vec4 at = entriesOf(node, ray.origin, inverse, best.distance);
+            uvec4 children = node.children;
+            orderTwo(at.x, children.x, at.y, children.y);
+            orderTwo(at.z, children.z, at.w, children.w);
+            orderTwo(at.x, children.x, at.z, children.z);
+            orderTwo(at.y, children.y, at.w, children.w);
+            orderTwo(at.y, children.y, at.z, children.z);
+            for (int i = 3; i >= 0; --i) {
+                if (at[i] < 3.4e38) waiting[count++] = uvec2(children[i], floatBitsToUint(at[i]));
+            }
+        }
+        do {
+            if (count == 0) return best;
+            --count;
+        } while (uintBitsToFloat(waiting[count].y) >= best.distance);
+        child = waiting[count].x;
+    }
+    return best;
+}
+
+// Of a hit, in local space.
+PointOnTriangle pointOfHit(BvhRay ray, BvhHit hit) {
+    vec3 positions[3];
+    vec3 normals[3];
+    vec2 uvs[3];
+    vec3 fromOrigin[3];
+    for (uint i = 0u; i < 3u; ++i) {
+        VertexData corner = bvhCorners[3u * hit.triangle + i];
+        positions[i] = corner.position;
+        normals[i] = corner.normal;
+        uvs[i] = vec2(corner.u, corner.v);
+        fromOrigin[i] = corner.position - ray.origin;
+    }
+    vec3 weights = sidesOfEdges(fromOrigin, ray.direction);
+    float sum = weights.x + weights.y + weights.z;
+    weights = sum != 0.0 ? weights / sum : vec3(1.0 / 3.0);
+    vec3 area = cross(positions[1] - positions[0], positions[2] - positions[0]);
+    PointOnTriangle point = PointOnTriangle(
+        ray.origin + hit.distance * ray.direction,
+        weights.x * normals[0] + weights.y * normals[1] + weights.z * normals[2], normalize(area),
+        mat2x3(positions[1] - positions[0], positions[2] - positions[0]),
+        mat2x3(normals[1] - normals[0], normals[2] - normals[0]));
+#ifdef NORMAL_MAPS
+    mapNormal(point, bvhSources[hit.triangle].material - 1u, uvs, weights);
+#endif
+    return point;
+}

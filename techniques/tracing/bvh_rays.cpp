@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include "techniques/tracing/bvh_rays.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace kaustik {
+namespace {
+
+struct MovedBvh {
+    BvhOfFrame bvh;
+    graph::Buffer<BvhNodeBounds> bounds;
+    Geometry geometry;
+};
+
+void makeCorners(const MovedBvh& data, const FrameInputs& inputs,
+                 const render::ViewInstances& instances, gl::PassContext& context) {
+    const render::SceneBvh& still = inputs.gpuScene.bvh();
+    gl::Command command = context.compute("tracing/bvh_corners.comp");
+    inputs.gpuScene.bindTriangles(command, data.geometry);
+    command.storage("StillCorners", still.corners())
+        .storage("BvhSources", still.sources())
+        .storage("LocalInstances", instances.instances)
+        .storage("BvhCorners", data.bvh.corners)
+        .set("triangleCount", static_cast<unsigned>(still.triangleCount()))
+        .dispatchOver(static_cast<int>(still.triangleCount()), 64);
+}
+
+// From the leaves up: a level needs that below it.
+void refit(const MovedBvh& data, const FrameInputs& inputs, gl::PassContext& context) {
+    const render::SceneBvh& still = inputs.gpuScene.bvh();
+    for (auto level = still.levels().rbegin(); level != still.levels().rend(); ++level) {
+        context.compute("tracing/bvh_refit.comp")
+            .storage("StillNodes", still.nodes())
+            .storage("BvhCorners", data.bvh.corners)
+            .storage("BvhBounds", data.bounds)
+            .storage("BvhNodes", data.bvh.nodes)
+            .set("firstNode", static_cast<unsigned>(level->first))
+            .set("nodeCount", static_cast<unsigned>(level->count))
+            .dispatchOver(static_cast<int>(level->count), 64);
+    }
+}
+
+BvhOfFrame movedBvh(FrameBuilder& frame, const Geometry& geometry) {
+    const render::SceneBvh& still = frame.gpuScene().bvh();
+    const auto instances = frame.once<render::ViewInstances>("tracing.bvh.instances", [&] {
+        return std::make_shared<render::ViewInstances>(
+            frame.gpuScene().makeInstances(still.worldToLocal()));
+    });
+    return frame
+        .pass<MovedBvh>(
+            "trace.bvh.refit",
+            fmt::format("height fields move among {} triangles", still.triangleCount()),
+            [&](graph::PassSetup& setup, MovedBvh& data) {
+                data.geometry = geometry;
+                setup.read(data.geometry.heightFields);
+                data.bvh.nodes =
+                    setup.createBuffer<transport::BvhNode>("bvh.nodes", still.nodeCount());
+                data.bvh.corners = setup.createBuffer<transport::VertexData>(
+                    "bvh.corners", 3 * still.triangleCount());
+                data.bounds = setup.createBuffer<BvhNodeBounds>("bvh.bounds", still.nodeCount());
+            },
+            [&inputs = frame.inputs(), instances](const MovedBvh& data, gl::PassContext& context) {
+                makeCorners(data, inputs, *instances, context);
+                refit(data, inputs, context);
+            })
+        .bvh;
+}
+
+// Programs for depths that differ a little are the same.
+std::string stackOf(std::size_t size) {
+    return fmt::format("BVH_STACK {}", (size + 15) / 16 * 16);
+}
+
+}  // namespace
+
+void BvhOfFrame::read(graph::PassSetup& setup) const {
+    if (!nodes.valid()) return;
+    setup.read(nodes);
+    setup.read(corners);
+}
+
+void BvhOfFrame::bindTo(gl::Command& command, const FrameInputs& inputs) const {
+    const render::SceneBvh& still = inputs.gpuScene.bvh();
+    if (nodes.valid()) {
+        command.storage("BvhNodes", nodes).storage("BvhCorners", corners);
+    } else {
+        command.storage("BvhNodes", still.nodes()).storage("BvhCorners", still.corners());
+    }
+    command.storage("BvhSources", still.sources())
+        .set("localFromEye",
+             glm::mat4(still.worldToLocal() * glm::inverse(inputs.view.worldToView)))
+        .define(stackOf(still.stackSize()));
+}
+
+BvhOfFrame bvhOfFrame(FrameBuilder& frame, const Geometry& geometry) {
+    return *frame.once<BvhOfFrame>("tracing.bvh", [&] {
+        const bool isMoving = frame.gpuScene().bvh().isMoving() && geometry.heightFields.valid();
+        return std::make_shared<BvhOfFrame>(isMoving ? movedBvh(frame, geometry) : BvhOfFrame{});
+    });
+}
+
+}  // namespace kaustik
