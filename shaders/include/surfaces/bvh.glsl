@@ -54,13 +54,17 @@ vec3 sidesOfEdges(vec3 corners[3], vec3 direction) {
 }
 
 void testTriangle(BvhRay ray, uint triangle, inout BvhHit best) {
+    vec3 positions[3];
     vec3 corners[3];
-    for (uint i = 0u; i < 3u; ++i)
-        corners[i] = bvhCorners[3u * triangle + i].position - ray.origin;
+    for (uint i = 0u; i < 3u; ++i) {
+        positions[i] = bvhCorners[3u * triangle + i].position;
+        corners[i] = positions[i] - ray.origin;
+    }
     vec3 sides = sidesOfEdges(corners, ray.direction);
     if (min(sides.x, min(sides.y, sides.z)) < 0.0 && max(sides.x, max(sides.y, sides.z)) > 0.0)
         return;
-    vec3 area = cross(corners[1] - corners[0], corners[2] - corners[0]);
+    // Not of the corners from the origin, whose rounding turns the normal of a sliver.
+    vec3 area = cross(positions[1] - positions[0], positions[2] - positions[0]);
     float closing = dot(ray.direction, area);
     float rise = dot(corners[0], area);
     float t = rise / closing;

@@ -7,19 +7,12 @@
 #include "include/views/hit_test.glsl"
 #include "include/views/view_sample.glsl"
 #include "include/surfaces/environment.glsl"
-#include "framework/transport/brdf.h"
-#if defined(LOOK_IN_LAYERS) || defined(GLOSSY_RECEIVERS)
-#include "include/photons/lights.glsl"
-
-uniform int lightCount;
-#endif
+#include "include/views/mirror_path.glsl"
+#include "include/views/shown_radiance.glsl"
 #ifdef LOOK_IN_LAYERS
 uniform sampler2DArray sceneDepths;
 uniform sampler2DArray sceneSurfaces;
 uniform int sceneLayers;
-#endif
-#ifdef GLOSSY_RECEIVERS
-uniform sampler2DArray directVisibility;
 #endif
 
 uniform int searchesScene;  // else only at the environment
@@ -54,58 +47,6 @@ SceneHit emptySceneHit(vec3 origin, vec3 direction, bool isOpen) {
     vec2 pixel = pixelOf(vec3(end.xy, min(end.z, -view.frustum.z)));
     none.lastPixel = ivec2(clamp(floor(pixel), vec2(0.0), view.sizePixels.xy - 1.0));
     return none;
-}
-
-// Bilinear between those of the four pixels around the hit whose receivers lie on the hit's plane.
-vec3 radianceAround(vec3 hitVs, ivec2 texel, vec3 normal) {
-    vec2 corner = pixelOf(hitVs) - 0.5;
-    ivec2 first = ivec2(floor(corner));
-    vec2 f = corner - vec2(first);
-    float reach = 2.0 * pixelFootprint(-hitVs.z);
-    vec3 sum = vec3(0.0);
-    float weights = 0.0;
-    for (int i = 0; i < 4; ++i) {
-        ivec2 step = ivec2(i & 1, i >> 1);
-        ivec2 other = clamp(first + step, ivec2(0), ivec2(view.sizePixels.xy) - 1);
-        float depth = texelFetch(receiver, other, 0).x;
-        if (depth <= 0.0) continue;
-        if (abs(dot(normal, viewRay(vec2(other) + 0.5) * depth - hitVs)) > reach) continue;
-        vec2 axis = mix(1.0 - f, f, vec2(step));
-        sum += axis.x * axis.y * texelFetch(receiverRadiance, other, 0).rgb;
-        weights += axis.x * axis.y;
-    }
-    return weights > 1e-3 ? sum / weights : texelFetch(receiverRadiance, texel, 0).rgb;
-}
-
-#ifdef GLOSSY_RECEIVERS
-// What a glossy receiver sends back along a ray instead of to the eye, of the direct light that the
-// image has there, W/m²/sr; the caustic's part stays as the eye sees it. `shaded`: unit, the
-// receiver's outward normal.
-vec3 lobeRadiance(vec3 hitVs, vec3 direction, ivec2 texel, vec3 shaded, uint material) {
-    vec4 lobe = materials[material - 1u].specular;
-    vec3 difference = vec3(0.0);
-    if (lobe.rgb == vec3(0.0)) return difference;
-    vec3 normal = dot(shaded, hitVs) > 0.0 ? -shaded : shaded;
-    vec3 toEye = -normalize(hitVs);
-    for (int i = 0; i < lightCount; ++i) {
-        vec3 toLight = -lightDirection(lights[i], hitVs);
-        vec3 reflected =
-            receiverBrdf(vec3(0.0), lobe.rgb, lobe.w, normal, toLight, -direction) -
-            receiverBrdf(vec3(0.0), lobe.rgb, lobe.w, normal, toLight, toEye);
-        difference += lightIrradiance(lights[i], hitVs) * max(dot(normal, toLight), 0.0) *
-                      texelFetch(directVisibility, ivec3(texel, i), 0).x * reflected;
-    }
-    return difference;
-}
-#endif
-
-// Radiance of a receiver that the image shows, back along a ray.
-vec3 radianceOfSeen(vec3 hitVs, vec3 direction, ivec2 texel, LayerSurface surface, vec3 shaded) {
-    vec3 radiance = radianceAround(hitVs, texel, surface.normal);
-#ifdef GLOSSY_RECEIVERS
-    radiance += lobeRadiance(hitVs, direction, texel, shaded, surface.material);
-#endif
-    return max(radiance, vec3(0.0));
 }
 
 // A mirror's normal, which may be curved, between the pixels around; `surface` is the hit pixel's.
@@ -172,7 +113,8 @@ SceneHit searchScene(TracedRay ray) {
                                 mirrorNormalAround(hitVs, shaded), vec3(0.0));
             }
             return SceneHit(surface.material, false, false, t, at.texel, vec3(0.0),
-                            radianceOfSeen(hitVs, ray.direction, at.texel, surface, surface.normal));
+                            radianceOfSeen(hitVs, ray.direction, at.texel, surface.normal,
+                                           surface.material, surface.normal));
         }
     }
     return emptySceneHit(ray.origin, ray.direction,
@@ -275,7 +217,8 @@ SceneHit searchScene(TracedRay ray) {
     bool isShown = isSeen && seen > 0.0 && isFront == (dot(hitVs, surface.normal) < 0.0);
     vec3 emitted = isFront ? materials[surface.material - 1u].emission.rgb : vec3(0.0);
     vec3 radiance = isShown
-                        ? radianceOfSeen(hitVs, ray.direction, hit.texel, surface, shaded.xyz)
+                        ? radianceOfSeen(hitVs, ray.direction, hit.texel, surface.normal,
+                                         surface.material, shaded.xyz)
                         : emitted + radianceOfHidden(hitVs, ray.direction,
                                                      isFront ? shaded.xyz : -shaded.xyz,
                                                      surface.material);
@@ -287,26 +230,6 @@ SceneHit searchScene(TracedRay ray) {
 SceneHit lookThrough(vec3 origin, vec3 direction, uint media) {
     return searchesScene != 0 ? searchScene(tracedRay(origin, direction, media))
                                : noSceneHit();
-}
-
-// A ray at mirrors.
-struct MirrorPath {
-    vec3 origin;     // of its last piece
-    vec3 direction;  // unit
-    vec3 share;      // of the radiance that mirrors and the medium leave
-    uint media;
-    int mirrors;     // that it has hit
-};
-
-// The path goes on reflected at a mirror (material index + 1) with this outward normal.
-void reflectAt(inout MirrorPath path, vec3 positionVs, vec3 normal, uint material) {
-    bool enters = dot(path.direction, normal) < 0.0;
-    path.origin = positionVs;
-    path.direction = normalize(reflect(path.direction, normal));
-    path.share *= materials[material - 1u].albedo.rgb;
-    uint left = isOpen(material - 1u) ? (enters ? kLeftOutside : kLeftInside) : kLeftNone;
-    path.media = withLeftSide(path.media, left);
-    ++path.mirrors;
 }
 
 // From mirror to mirror through the medium `medium` (material index + 1) or 0, until something

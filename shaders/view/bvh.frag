@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: MIT
+// What the eye sees in and through specular surfaces, by rays that are traced exactly: refracted
+// and totally reflected as often as it takes, both branches followed at the first interfaces.
+// Receivers that the picture shows have their light from it, caustics and all; the others are lit
+// here, with the lights' own shadows. Radiance changes by T or R at every interface and by 1/n² where
+// what is seen lies in a medium of index n (hard case 28a), and is absorbed on the way.
+#include "include/surfaces/albedo.glsl"
+#include "include/surfaces/bvh.glsl"
+#include "include/surfaces/environment.glsl"
+#include "include/surfaces/side_rule.glsl"
+#include "include/views/mirror_path.glsl"
+#include "include/views/shown_radiance.glsl"
+#include "include/views/view_sample.glsl"
+
+layout(location = 0) out vec4 radiance;
+layout(location = 1) out vec4 exitPosition;
+layout(location = 2) out vec4 exitDirection;
+
+// What the ray that is being traced may hit.
+const uint kHitsAll = 0u;        // from the eye: every surface from both sides
+const uint kHitsBySide = 1u;     // as a photon would
+const uint kHitsBlockers = 2u;   // to a light: every surface, but for the triangle that it starts on
+uint raysHits = kHitsAll;
+TracedRay tracedNow;
+uint startTriangle = kBvhNone;
+float resolvedNow = 0.0;  // m
+
+bool isSurfaceHit(BvhRay ray, uint triangle, vec3 normal, float height) {
+    if (raysHits == kHitsAll) return true;
+    if (raysHits == kHitsBlockers) return triangle != startTriangle && abs(height) > resolvedNow;
+    return isFacing(tracedNow, bvhSources[triangle].material, normal, height, resolvedNow);
+}
+
+const uint kMaxBranches = 4u;  // view.bvh.branches, at most
+
+struct EyePath {
+    MirrorPath at;  // its last piece; its share: also what interfaces leave, without 1/n²
+    int interfaces;  // of dielectrics that it has hit
+    int refractions;
+    int reflections;  // total ones
+    float length;     // m
+    float ending;     // kPath…
+};
+
+// A surface that a path has hit.
+struct Seen {
+    vec3 positionVs;
+    vec3 shading;    // unit, outward
+    vec3 geometric;  // the same of the triangle
+    uint material;   // + 1; 0: there is none
+    BvhHit hit;
+    BvhRay ray;
+};
+
+Seen seenAlong(BvhRay ray, vec3 originVs, vec3 directionVs) {
+    BvhHit hit = traceBvh(ray, 3.0e38);
+    Seen seen = Seen(originVs, vec3(0.0), vec3(0.0), 0u, hit, ray);
+    if (hit.triangle == kBvhNone) return seen;
+    PointOnTriangle point = pointOfHit(ray, hit);
+    seen.positionVs = originVs + hit.distance * directionVs;
+    seen.shading = localToEye(shadingNormal(point.normal, point.geometric));
+    seen.geometric = localToEye(point.geometric);
+    seen.material = bvhSources[hit.triangle].material;
+    return seen;
+}
+
+Seen seenBy(EyePath path) {
+    BvhRay ray = bvhRay(path.at.origin, path.at.direction);
+    raysHits = kHitsBySide;
+    tracedNow = tracedRay(ray.origin, ray.direction, path.at.media);
+    // A ray that is traced exactly is known to a few roundings.
+    resolvedNow = 4e-6 * length(path.at.origin);
+    return seenAlong(ray, path.at.origin, path.at.direction);
+}
+
+// Reflectance at the hit, over what a pixel's footprint after a path of this length covers.
+vec3 albedoOfSeen(Seen seen, float pathMeters) {
+    VertexData corners[3];
+    vec3 fromOrigin[3];
+    for (uint i = 0u; i < 3u; ++i) {
+        corners[i] = bvhCorners[3u * seen.hit.triangle + i];
+        fromOrigin[i] = corners[i].position - seen.ray.origin;
+    }
+    vec3 weights = sidesOfEdges(fromOrigin, seen.ray.direction);
+    float sum = weights.x + weights.y + weights.z;
+    weights = sum != 0.0 ? weights / sum : vec3(1.0 / 3.0);
+    vec2 uv = weights.x * vec2(corners[0].u, corners[0].v) +
+              weights.y * vec2(corners[1].u, corners[1].v) +
+              weights.z * vec2(corners[2].u, corners[2].v);
+    vec2 uvSide = vec2(corners[1].u - corners[0].u, corners[1].v - corners[0].v);
+    float side = max(distance(corners[1].position, corners[0].position), 1e-12);
+    float width = pixelFootprint(pathMeters) * length(uvSide) / side;
+    return albedoOver(seen.material - 1u, uv, vec2(width, 0.0), vec2(0.0, width));
+}
+
+// Whether anything lies between the hit and the light, `toLight` away, unit, `reach` m far.
+bool isShadowed(Seen seen, vec3 toLight, float reach) {
+    BvhRay ray = bvhRay(seen.positionVs, toLight);
+    raysHits = kHitsBlockers;
+    startTriangle = seen.hit.triangle;
+    resolvedNow = 4e-6 * length(seen.positionVs);
+    return traceBvh(ray, reach).triangle != kBvhNone;
+}
+
+// Of a receiver that the picture does not show, back along the ray.
+vec3 radianceOfHidden(Seen seen, vec3 direction, float pathMeters) {
+    bool isFront = dot(direction, seen.geometric) < 0.0;
+    // A sheet is lit on the side that is looked at.
+    float side = !isFront && isOpen(seen.material - 1u) ? -1.0 : 1.0;
+    vec3 normal = side * seen.shading;
+    vec3 albedo = albedoOfSeen(seen, pathMeters);
+    vec4 lobe = materials[seen.material - 1u].specular;
+    vec3 sum = (albedo + lobe.rgb) * (1.0 / 3.14159265) * view.ambient.rgb;
+    if (isFront) sum += materials[seen.material - 1u].emission.rgb;
+    for (int i = 0; i < lightCount; ++i) {
+        LightData light = lights[i];
+        vec3 toLight = -lightDirection(light, seen.positionVs);
+        float cosine = dot(normal, toLight);
+        if (cosine <= 0.0 || side * dot(seen.geometric, toLight) <= 0.0) continue;
+        bool isSun = uint(light.positionVs.w) == kLightDirectional;
+        float reach = isSun ? 3.0e38 : length(light.positionVs.xyz - seen.positionVs);
+        if (isShadowed(seen, toLight, reach)) continue;
+        sum += lightIrradiance(light, seen.positionVs) * cosine *
+               receiverBrdf(albedo, lobe.rgb, lobe.w, normal, toLight, -direction);
+    }
+    return sum;
+}
+
+// What the receiver sends back along the ray.
+vec3 radianceOfReceiver(Seen seen, vec3 direction, float pathMeters) {
+    vec3 there = seen.positionVs;
+    ivec2 texel = ivec2(floor(pixelOf(there)));
+    ivec2 last = ivec2(view.sizePixels.xy) - 1;
+    bool isOnScreen = there.z < -view.frustum.z && all(greaterThanEqual(texel, ivec2(0))) &&
+                      all(lessThanEqual(texel, last));
+    // The picture shows one side of a surface.
+    bool isSameSide = dot(direction, seen.geometric) < 0.0 == dot(there, seen.geometric) < 0.0;
+    vec3 shown;
+    if (isOnScreen && isSameSide && radianceAround(there, seen.geometric, shown)) {
+#ifdef GLOSSY_RECEIVERS
+        shown += lobeRadiance(there, direction, texel, seen.shading, seen.material);
+#endif
+        return max(shown, vec3(0.0));
+    }
+    return radianceOfHidden(seen, direction, pathMeters);
+}
+
+// What is seen in the end, times what the path leaves of it. `indexAtEye`: of what is around that.
+vec3 radianceAtEnd(EyePath path, Seen seen, float indexAtEye) {
+    uint media = path.at.media;
+    // What was not traced out of an object is taken to see what one outside of it would.
+    if (isInsideClosed(media) && seen.material == 0u) media = leaveMedium(media, innerMedium(media));
+    uint medium = innerMedium(media);
+    float ratio = indexAtEye / mediumIndex(medium);
+    vec3 sum = seen.material == 0u
+                   ? environmentRadiance(path.at.direction) * mediumTransmittance(medium, 1e30)
+                   : radianceOfReceiver(seen, path.at.direction, path.length);
+    return path.at.share * ratio * ratio * sum;
+}
+
+EyePath waiting[kMaxBranches];  // reflections that are still to be followed
+int waitingCount = 0;
+
+// At a dielectric: the path goes on refracted, or totally reflected; what is reflected besides waits,
+// where it is to be followed.
+void bend(inout EyePath path, vec3 normal, uint material) {
+    bool enters = dot(path.at.direction, normal) < 0.0;
+    vec2 indices = indicesAt(material, path.at.media, enters);
+    Interface interaction = interactAt(path.at.direction, normal, indices.x, indices.y);
+    path.at.media = withLeftSide(path.at.media, kLeftNone);
+    ++path.interfaces;
+    if (interaction.reflectance >= 1.0) {
+        ++path.reflections;
+        path.at.direction = interaction.reflected;
+        return;
+    }
+    if (path.interfaces <= view_bvh_branches && interaction.reflectance > 0.0) {
+        EyePath reflected = path;
+        reflected.at.direction = interaction.reflected;
+        reflected.at.share *= interaction.reflectance;
+        waiting[waitingCount++] = reflected;
+    }
+    ++path.refractions;
+    path.at.direction = interaction.refracted;
+    path.at.share *= 1.0 - interaction.reflectance;
+    if (enters && !canEnter(path.at.media, material)) {
+        path.ending = kPathNestingLimit;
+    } else {
+        path.at.media = enters ? enterMedium(path.at.media, material)
+                               : leaveMedium(path.at.media, material);
+    }
+}
+
+// From a surface that the path has hit on to what it sees in the end.
+Seen follow(inout EyePath path, Seen seen) {
+    while (seen.material != 0u) {
+        uint kind = materialKind(seen.material - 1u);
+        path.at.share *= mediumTransmittance(innerMedium(path.at.media), seen.hit.distance);
+        path.length += seen.hit.distance;
+        if (isReceiver(kind)) return seen;
+        path.at.origin = seen.positionVs;
+        vec3 normal = bendingNormal(path.at.direction, seen.shading, seen.geometric, seen.material,
+                                    path.at.media);
+        if (kind == kMaterialMirror) {
+            if (path.at.mirrors >= view_bvh_mirrors) path.ending = kPathMirrorLimit;
+            reflectAt(path.at, seen.positionVs, normal, seen.material);
+        } else {
+            bend(path, normal, seen.material);
+        }
+        if (path.reflections > view_bvh_reflections) path.ending = kPathReflectionLimit;
+        if (path.refractions > view_bvh_interfaces) path.ending = kPathEndedInside;
+        seen.material = 0u;
+        if (path.ending != kPathExited) return seen;
+        seen = seenBy(path);
+    }
+    if (isInsideClosed(path.at.media)) path.ending = kPathLost;
+    return seen;
+}
+
+void look(ivec2 pixel) {
+    radiance = radianceStraight(pixel);
+    exitPosition = vec4(0.0);
+    exitDirection = vec4(0.0);
+    if (firstDepth(pixel) <= 0.0) return;
+    vec3 viewing = viewRay(positionOfSample());
+    vec3 direction = normalize(viewing);
+    vec3 start = viewing * view.frustum.z;
+    raysHits = kHitsAll;
+    Seen first = seenAlong(bvhRay(start, direction), start, direction);
+    EyePath path =
+        EyePath(MirrorPath(start, direction, vec3(1.0), 0u, 0), 0, 0, 0, view.frustum.z, kPathExited);
+    // An eye that looks at a dielectric from within is inside of it.
+    bool isDielectric =
+        first.material != 0u && materialKind(first.material - 1u) == kMaterialDielectric;
+    if (isDielectric && dot(direction, first.geometric) > 0.0)
+        path.at.media = enterMedium(0u, first.material);
+    float indexAtEye = mediumIndex(innerMedium(path.at.media));
+    Seen seen = follow(path, first);
+    // At a silhouette the ray may pass what the picture has there.
+    bool isSpecular = path.interfaces + path.at.mirrors > 0;
+    exitPosition = vec4(path.at.origin, float(path.interfaces + path.at.mirrors));
+    exitDirection = isSpecular ? vec4(path.at.direction, path.ending) : vec4(0.0);
+    vec3 sum = radianceAtEnd(path, seen, indexAtEye);
+    while (waitingCount > 0) {
+        --waitingCount;
+        EyePath branch = waiting[waitingCount];
+        Seen next = seenBy(branch);
+        next = follow(branch, next);
+        sum += radianceAtEnd(branch, next, indexAtEye);
+    }
+    radiance = vec4(sum, 1.0);
+}
+
+void main() {
+    look(ivec2(gl_FragCoord.xy));
+    weigh(radiance);
+}

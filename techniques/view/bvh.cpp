@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// view.bvh: what the eye sees through specular surfaces, by exact rays through the hierarchy of the
+// scene on the device (framework/transport/bvh.h). In: eye buffer, radiance of the receivers; out:
+// radiance, W/m²/sr, and where each ray left for good, view space, m. Receivers that the picture
+// does not show are lit by their own shadow rays; caustics are seen where the picture has them.
+#include "framework/pipeline/frame_builder.h"
+#include "framework/scene/dielectrics.h"
+#include "techniques/eye_rays/view_passes.h"
+#include "techniques/tracing/bvh_rays.h"
+
+namespace kaustik {
+namespace {
+
+struct BvhViewParams {
+    int interfaces = 32;
+    int reflections = 32;
+    int mirrors = 16;
+    int branches = 2;
+    template <class R>
+    void reflect(R& r) {
+        r.field(interfaces, "interfaces", "Most refractions of an eye ray", "",
+                params::range(0, 256));
+        r.field(reflections, "reflections",
+                "Most total internal reflections of an eye ray; what needs more is lost", "",
+                params::range(0, 256));
+        r.field(mirrors, "mirrors", "Most mirrors that a ray hits one after the other", "",
+                params::range(1, 256))
+            .when([](const FrameFacts& facts) {
+                const bool mayHit = facts.needs == nullptr || facts.needs->reflectors > 0;
+                return mayHit ? "" : "the scene has no mirror";
+            });
+        r.field(branches, "branches",
+                "At how many of the first interfaces what is reflected is followed too; 0: the "
+                "refracted ray alone",
+                "", params::range(0, 4));
+    }
+};
+
+void reportLimits(FrameBuilder& frame, const BvhViewParams& params, const View& seen) {
+    reportExitLimit(frame, "view.bvh", seen, "view.bvh.interfaces", "refractions",
+                    params.interfaces, &EyeRays::endedInside,
+                    "end inside of an object and are taken to see what they would outside");
+    reportExitLimit(frame, "view.bvh", seen, "view.bvh.reflections", "reflections",
+                    params.reflections, &EyeRays::reflectionLimit,
+                    "are lost between total reflections");
+    reportExitLimit(frame, "view.bvh", seen, "view.bvh.nesting", "dielectrics",
+                    numberDielectrics(frame.scene()).depth, &EyeRays::nestingLimit,
+                    "are lost in a dielectric inside of more others");
+    if (frame.needs().reflectors > 0) {
+        reportExitLimit(frame, "view.bvh", seen, "view.bvh.mirrors", "mirrors", params.mirrors,
+                        &EyeRays::mirrorLimit,
+                        "hit one more mirror, in which they see the environment");
+    }
+    reportLostRays(frame, "view.bvh", seen,
+                   "no way out of the object that they are in was found; its surface has a hole "
+                   "there");
+}
+
+View traceView(FrameBuilder& frame, const BvhViewParams& params, Geometry geometry, EyeBuffer eye,
+               LayeredDepth sceneLayers, Radiance receivers, Shadows shadows, CausticMap /*map*/) {
+    if (!eye.interface.valid()) return renderReceiversOnly(frame, "view.bvh", receivers);
+    const BvhOfFrame bvh = bvhOfFrame(frame, geometry);
+    const View seen =
+        frame
+            .pass<ViewPass>(
+                "view.bvh", lookReason(frame),
+                [&](graph::PassSetup& setup, ViewPass& pass) {
+                    pass = declareLook(frame, setup, {}, geometry, eye, sceneLayers, receivers,
+                                       shadows);
+                    bvh.read(setup);
+                },
+                [&inputs = frame.inputs(), params, bvh](const ViewPass& pass,
+                                                        gl::PassContext& context) {
+                    drawSpecular(inputs, context, pass, "view/bvh.frag",
+                                 {[&](gl::Command& command) {
+                                     command.params("view.bvh", params)
+                                         .set("lightCount", inputs.needs.lights);
+                                     bvh.bindTo(command, inputs);
+                                     if (pass.isGlossy) command.define("GLOSSY_RECEIVERS");
+                                 }});
+                })
+            .seen;
+    reportLimits(frame, params, seen);
+    return seen;
+}
+
+}  // namespace
+
+void registerViewBvh(Registry& registry) {
+    registry.node<ViewStage>(
+        "bvh",
+        {"Traces the eye's rays exactly, through a hierarchy over all triangles.", "",
+         "Receivers that the picture does not show are lit directly, and have no caustic. What is "
+         "reflected after view.bvh.branches interfaces is not followed. The hierarchy is that of "
+         "trace.bvh."},
+        &traceView);
+}
+
+}  // namespace kaustik
