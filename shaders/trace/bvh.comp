@@ -7,7 +7,7 @@
 #include "include/surfaces/side_rule.glsl"
 
 TracedRay photonRay;       // its media; directions are local
-float photonReach = 0.0;  // what a pixel resolves where the photon starts, m
+float photonReach = 0.0;  // within which the surface that it has left may lie, m
 
 bool isSurfaceHit(BvhRay ray, uint triangle, vec3 normal, float height) {
     return isFacing(photonRay, bvhSources[triangle].material, normal, height, photonReach);
@@ -16,8 +16,11 @@ bool isSurfaceHit(BvhRay ray, uint triangle, vec3 normal, float height) {
 Hit hitOf(Photon photon) {
     BvhRay ray = bvhRay(photon.positionVs, photon.directionVs);
     photonRay = tracedRay(ray.origin, ray.direction, photon.media);
-    // Where an open mirror sent it on may be known to a pixel alone.
-    photonReach = 2.0 * pixelFootprint(abs(photon.positionVs.z));
+    // Where an open mirror sent it on may be known to a pixel alone. A ray that looks for a light
+    // starts on what the eye sees, which is known to a few roundings.
+    photonReach = leftSide(photon.media) == kLeftBothSides
+                      ? 4e-6 * length(photon.positionVs)
+                      : 2.0 * pixelFootprint(abs(photon.positionVs.z));
     BvhHit found = traceBvh(ray, 3.0e38);
     if (found.triangle == kBvhNone) {
         ledgerAdd(kAccountLeftScene, photon.fluxWatts);

@@ -238,7 +238,7 @@ void main() {
     float depth = firstDepth(pixel);
     if (depth <= 0.0) discard;
     vec3 viewing =
-        vec3((positionOfSample() * eyeSizePixels.zw * 2.0 - 1.0) * eyeFrustum.xy, -1.0);
+        vec3((positionOfSample(pixel) * eyeSizePixels.zw * 2.0 - 1.0) * eyeFrustum.xy, -1.0);
     vec3 entry = viewing * depth;
     if (generators.count.x > 1u && generatorOf(entry) != generatorIndex) discard;
     vec4 surface = firstSurface(pixel);

@@ -34,7 +34,7 @@ void look(ivec2 pixel) {
     vec4 surface = firstSurface(pixel);
     uint material = uint(surface.w) - 1u;
     MaterialData data = materials[material];
-    vec3 ray = viewRay(positionOfSample());
+    vec3 ray = viewRay(positionOfSample(pixel));
     vec3 direction = normalize(ray);
     if (uint(data.albedo.w) == kMaterialMirror) {
         MirrorView mirrored = lookIntoMirror(pixel, ray);

@@ -135,7 +135,7 @@ void look(ivec2 pixel) {
     exitPosition = vec4(0.0);
     exitDirection = vec4(0.0);
     if (firstDepth(pixel) <= 0.0) return;
-    vec3 viewing = viewRay(positionOfSample());
+    vec3 viewing = viewRay(positionOfSample(pixel));
 #ifndef DIELECTRICS
     MirrorView mirrored = lookIntoMirror(pixel, viewing);
     radiance = vec4(mirrored.radiance, 1.0);

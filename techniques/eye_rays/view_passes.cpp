@@ -136,10 +136,8 @@ DielectricsBox boxOfDielectrics(const FrameBuilder& frame) {
     return box;
 }
 
-ViewPass declareLook(const FrameBuilder& frame, graph::PassSetup& setup,
-                     const SceneLookParams& look, const Geometry& geometry, const EyeBuffer& eye,
-                     const LayeredDepth& sceneLayers, const Radiance& receivers,
-                     const Shadows& shadows) {
+ViewPass declareView(const FrameBuilder& frame, graph::PassSetup& setup, const Geometry& geometry,
+                     const EyeBuffer& eye, const Radiance& receivers, const Shadows& shadows) {
     setup.sample("interfaceDepth", eye.interface);
     setup.sample("interfaceSurface", eye.interfaceSurface);
     setup.sample("receiver", eye.receiver);
@@ -150,19 +148,11 @@ ViewPass declareLook(const FrameBuilder& frame, graph::PassSetup& setup,
         pass.isGlossy = true;
         setup.sample("directVisibility", shadows.visibility);
     }
-    if (look.surfaces == LookSurfaces::layers) {
-        needsEyesView("surfaces=layers of a view", "the layers", sceneLayers.views);
-        pass.sceneLayers = sceneLayers.layers;
-        setup.sample("sceneDepths", sceneLayers.depth);
-        setup.sample("sceneSurfaces", sceneLayers.surface);
-    }
     const int w = frame.width();
     const int h = frame.height();
     pass.seen.radiance = setup.create<RadianceTexel>("view.radiance", w, h);
     pass.seen.exitPosition = setup.create<ExitPosition>("view.exit_position", w, h);
     pass.seen.exitDirection = setup.create<ExitDirection>("view.exit_direction", w, h);
-    pass.marks = setup.create<DepthBuffer>("view.marks", w, h);
-    setup.bypass(pass.marks, {0, 0, 0, 0});
     setup.bypass(pass.seen.radiance, receivers.radiance);
     setup.bypass(pass.seen.exitPosition, {0, 0, 0, 0});
     setup.bypass(pass.seen.exitDirection, {0, 0, 0, 0});
@@ -181,27 +171,63 @@ ViewPass declareLook(const FrameBuilder& frame, graph::PassSetup& setup,
     return pass;
 }
 
-void drawSpecular(const FrameInputs& inputs, gl::PassContext& context, const ViewPass& pass,
-                  const std::string& shader, const std::vector<Tell>& tells) {
+ViewPass declareLook(const FrameBuilder& frame, graph::PassSetup& setup,
+                     const SceneLookParams& look, const Geometry& geometry, const EyeBuffer& eye,
+                     const LayeredDepth& sceneLayers, const Radiance& receivers,
+                     const Shadows& shadows) {
+    ViewPass pass = declareView(frame, setup, geometry, eye, receivers, shadows);
+    if (look.surfaces == LookSurfaces::layers) {
+        needsEyesView("surfaces=layers of a view", "the layers", sceneLayers.views);
+        pass.sceneLayers = sceneLayers.layers;
+        setup.sample("sceneDepths", sceneLayers.depth);
+        setup.sample("sceneSurfaces", sceneLayers.surface);
+    }
+    pass.marks = setup.create<DepthBuffer>("view.marks", frame.width(), frame.height());
+    setup.bypass(pass.marks, {0, 0, 0, 0});
+    return pass;
+}
+
+void lookBySamples(const FrameInputs& inputs, gl::PassContext& context, const ViewPass& pass,
+                   const LookOnce& look) {
     const ViewSamples& samples = pass.samples;
     const float share = 1.0f / static_cast<float>(samples.count);
+    const auto lookAt = [&](float shareOfRay, const glm::vec2& offset) {
+        const bool isMiddle = offset == glm::vec2(0.0f);
+        look(
+            [&](gl::Command& command) {
+                if (samples.count > 1)
+                    command.define("MORE_SAMPLES").set("sampleShare", shareOfRay);
+                if (isMiddle) return;
+                command.define("BESIDE_MIDDLE")
+                    .set("sampleOffset", offset)
+                    .texture("sight", samples.sight)
+                    .texture("sightSurface", samples.surface);
+            },
+            isMiddle);
+    };
+    std::vector<glm::vec2> sampleOffsets = samplesOfPixel(samples.count);
+    const bool isMiddleOne = std::erase(sampleOffsets, glm::vec2(0.0f)) > 0;
+    lookAt(isMiddleOne ? share : 0.0f, glm::vec2(0.0f));
+    for (const glm::vec2& offset : sampleOffsets) {
+        drawSights(inputs, context, samples, offset);
+        lookAt(share, offset);
+    }
+}
+
+void drawSpecular(const FrameInputs& inputs, gl::PassContext& context, const ViewPass& pass,
+                  const std::string& shader, const std::vector<Tell>& tells) {
     // First pixels that need no look, then the others, by the marks that the first have left.
-    const auto drawSample = [&](float shareOfRay, const glm::vec2& offset) {
-        const bool isOffset = offset != glm::vec2(0.0f);
+    lookBySamples(inputs, context, pass, [&](const Tell& tellSample, bool isMiddle) {
         for (std::size_t draw = 0; draw <= tells.size(); ++draw) {
             const bool looks = draw > 0;
             gl::Command command = context.fullscreen(looks ? shader : "eye_rays/straight.frag");
             if (looks) tells[draw - 1](command);
-            if (samples.count > 1) command.define("MORE_SAMPLES").set("sampleShare", shareOfRay);
+            tellSample(command);
             command.target(pass.seen.radiance);
-            if (isOffset) {
-                command.define("BESIDE_MIDDLE")
-                    .set("sampleOffset", offset)
-                    .texture("sight", samples.sight)
-                    .texture("sightSurface", samples.surface)
-                    .blend(gl::Blend::add);
-            } else {
+            if (isMiddle) {
                 command.target(pass.seen.exitPosition).target(pass.seen.exitDirection);
+            } else {
+                command.blend(gl::Blend::add);
             }
             // 1 is left where no look is needed.
             command.depth(pass.marks,
@@ -209,14 +235,7 @@ void drawSpecular(const FrameInputs& inputs, gl::PassContext& context, const Vie
             if (!looks) command.clear();
             command.draw();
         }
-    };
-    std::vector<glm::vec2> sampleOffsets = samplesOfPixel(samples.count);
-    const bool isMiddleOne = std::erase(sampleOffsets, glm::vec2(0.0f)) > 0;
-    drawSample(isMiddleOne ? share : 0.0f, glm::vec2(0.0f));
-    for (const glm::vec2& offset : sampleOffsets) {
-        drawSights(inputs, context, samples, offset);
-        drawSample(share, offset);
-    }
+    });
 }
 
 void drawLook(const FrameInputs& inputs, gl::PassContext& context, const ViewPass& pass,

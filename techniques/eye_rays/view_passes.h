@@ -101,8 +101,14 @@ struct ViewPass {
 // Why such a pass runs, for pass().
 [[nodiscard]] std::string lookReason(const FrameBuilder& frame);
 
-// Declares what such a pass reads, by the names of include/views/scene_look.glsl, and the outputs
-// of its View. A pass that is disabled shows the receivers and no exits.
+// Declares what such a pass reads of the eye buffer and of light, by the names of
+// include/views/view_sample.glsl and shown_radiance.glsl, and the outputs of its View. A pass that
+// is disabled shows the receivers and no exits.
+[[nodiscard]] ViewPass declareView(const FrameBuilder& frame, graph::PassSetup& setup,
+                                   const Geometry& geometry, const EyeBuffer& eye,
+                                   const Radiance& receivers, const Shadows& shadows);
+// The same of one that draws, and by the names of include/views/scene_look.glsl what it looks for
+// the scene in.
 [[nodiscard]] ViewPass declareLook(const FrameBuilder& frame, graph::PassSetup& setup,
                                    const SceneLookParams& look, const Geometry& geometry,
                                    const EyeBuffer& eye, const LayeredDepth& sceneLayers,
@@ -110,6 +116,12 @@ struct ViewPass {
 
 // Tells a shader what it asks for.
 using Tell = std::function<void(gl::Command&)>;
+// Calls `look` once for each sample of a pixel: `tell` says which to a shader that includes
+// include/views/first_surface.glsl; the middle of the pixels comes first, whose ray is followed for
+// its exit where it is none of the samples.
+using LookOnce = std::function<void(const Tell& tell, bool isMiddle)>;
+void lookBySamples(const FrameInputs& inputs, gl::PassContext& context, const ViewPass& pass,
+                   const LookOnce& look);
 // Draws all that such a pass gives: `shader` once for each sample of a pixel that meets a specular
 // surface first (eye_rays/straight.frag draws the others), as often as there are `tells`. Exits
 // are those of the middle, whose ray is followed for them where it is not one of the samples.

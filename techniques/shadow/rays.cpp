@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// shadow.rays: from every receiver pixel a ray back to each light, traced through the layers by the
-// node that answers stage `trace` (K06, section 5, Figs. 11 and 12). What is hidden beyond the last
-// layer or off the screen throws no shadow. In: eye buffer and layered depth; out: visibility, 0 or
+// shadow.rays: from every receiver pixel a ray back to each light, traced by the node that answers
+// stage `trace` (K06, section 5, Figs. 11 and 12): through the layers, where what is hidden beyond
+// the last one or off the screen throws no shadow, or exactly (trace.bvh). In: eye buffer and layered depth; out: visibility, 0 or
 // 1 a pixel and light.
 #include <fmt/format.h>
 
@@ -44,10 +44,11 @@ Shadows traceShadowRays(FrameBuilder& frame, const params::NoParams&, Geometry g
         frame.skip("shadow.rays", "the scene has no light");
         return {};
     }
-    if (frame.tracerReach() != TracerReach::eyeLayers) {
+    const TraceStage::Traits& tracer = frame.traits<TraceStage>();
+    if (tracer.reach != TracerReach::eyeLayers && !tracer.bothSides) {
         throw ConfigError(
             "shadow.rays looks through the layers that the eye sees, and the chosen tracer does "
-            "not: take shadow=map, or a tracer of the layers, trace=hierarchical say.");
+            "not: take shadow=map, trace=bvh, or a tracer of the layers, trace=hierarchical say.");
     }
     const FrameBuilder::PassScope within(frame, "shadow");
     Shadows shadows;
@@ -83,9 +84,11 @@ Shadows traceShadowRays(FrameBuilder& frame, const params::NoParams&, Geometry g
 void registerShadowRays(Registry& registry) {
     registry.node<ShadowStage>(
         "rays",
-        {"Traces a ray from every receiver to the light through the layers.", "K06, section 5",
-         "What is off the screen or beyond the last layer throws no shadow, and a shadow is there "
-         "or not, once a pixel. It takes a tracer of the eye's layers and refuses every other."},
+        {"Traces a ray from every receiver to the light, through the layers or exactly.",
+         "K06, section 5",
+         "A shadow is there or not, once a pixel. It takes a tracer of the eye's layers, of which "
+         "what is off the screen or beyond the last one throws no shadow, or trace.bvh, which knows "
+         "all, and refuses every other."},
         &traceShadowRays);
 }
 

@@ -40,7 +40,7 @@ void registerTraceBvh(Registry& registry) {
          "",
          "The hierarchy is built on the processor once, in a second for a million triangles, and "
          "takes 110 bytes for each of them; where water moves it is fitted anew in each frame."},
-        {.reach = TracerReach::everything}, &traceBvh);
+        {.reach = TracerReach::everything, .bothSides = true}, &traceBvh);
 }
 
 }  // namespace kaustik

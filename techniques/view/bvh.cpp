@@ -57,7 +57,8 @@ void reportLimits(FrameBuilder& frame, const BvhViewParams& params, const View& 
 }
 
 View traceView(FrameBuilder& frame, const BvhViewParams& params, Geometry geometry, EyeBuffer eye,
-               LayeredDepth sceneLayers, Radiance receivers, Shadows shadows, CausticMap /*map*/) {
+               LayeredDepth /*sceneLayers*/, Radiance receivers, Shadows shadows,
+               CausticMap /*map*/) {
     if (!eye.interface.valid()) return renderReceiversOnly(frame, "view.bvh", receivers);
     const BvhOfFrame bvh = bvhOfFrame(frame, geometry);
     const View seen =
@@ -65,19 +66,26 @@ View traceView(FrameBuilder& frame, const BvhViewParams& params, Geometry geomet
             .pass<ViewPass>(
                 "view.bvh", lookReason(frame),
                 [&](graph::PassSetup& setup, ViewPass& pass) {
-                    pass = declareLook(frame, setup, {}, geometry, eye, sceneLayers, receivers,
-                                       shadows);
+                    pass = declareView(frame, setup, geometry, eye, receivers, shadows);
                     bvh.read(setup);
                 },
                 [&inputs = frame.inputs(), params, bvh](const ViewPass& pass,
                                                         gl::PassContext& context) {
-                    drawSpecular(inputs, context, pass, "view/bvh.frag",
-                                 {[&](gl::Command& command) {
-                                     command.params("view.bvh", params)
-                                         .set("lightCount", inputs.needs.lights);
-                                     bvh.bindTo(command, inputs);
-                                     if (pass.isGlossy) command.define("GLOSSY_RECEIVERS");
-                                 }});
+                    const auto look = [&](const Tell& tellSample, bool isMiddle) {
+                        gl::Command command = context.compute("view/bvh.comp");
+                        tellSample(command);
+                        command.params("view.bvh", params)
+                            .set("lightCount", inputs.needs.lights)
+                            .image("viewRadiance", pass.seen.radiance);
+                        if (isMiddle) {
+                            command.image("viewExitPosition", pass.seen.exitPosition)
+                                .image("viewExitDirection", pass.seen.exitDirection);
+                        }
+                        if (pass.isGlossy) command.define("GLOSSY_RECEIVERS");
+                        bvh.bindTo(command, inputs);
+                        command.dispatchOver(inputs.view.width, 8, inputs.view.height, 8);
+                    };
+                    lookBySamples(inputs, context, pass, look);
                 })
             .seen;
     reportLimits(frame, params, seen);

@@ -35,10 +35,13 @@ inline std::vector<std::string> shippedScenes() {
 
 // A frame of the default technique, rendered for a purpose. `registry` and `scene` must outlive it.
 inline std::unique_ptr<Renderer> rendered(const Registry& registry, const scene::Scene& scene,
-                                          int width, int height, Purpose purpose) {
+                                          int width, int height, Purpose purpose,
+                                          const numerics::Settings& more = {}) {
     RenderSettings settings;
     settings.technique = registry.findTechnique("screen_space_photons");
     settings.params = registry.makeParams(settings.technique);
+    for (const auto& [name, value] : more)
+        settings.params.set(name, value, "test");
     settings.width = width;
     settings.height = height;
     auto renderer = std::make_unique<Renderer>(context(), registry, scene, std::move(settings));

@@ -64,7 +64,7 @@ void look(ivec2 pixel) {
     exitDirection = vec4(0.0);
     float depth = firstDepth(pixel);
     if (depth <= 0.0) return;
-    vec3 viewing = viewRay(positionOfSample());
+    vec3 viewing = viewRay(positionOfSample(pixel));
     vec4 surface = firstSurface(pixel);
     if (materialKind(uint(surface.w) - 1u) == kMaterialMirror) {
         MirrorView mirrored = lookIntoMirror(pixel, viewing);

@@ -15,12 +15,12 @@ uniform sampler2D sight;    // SightTexel
 uniform sampler2D sightSurface;
 #endif
 
-// Where in the picture the ray of this fragment starts, px.
-vec2 positionOfSample() {
+// Where in the picture the pixel's ray starts, px.
+vec2 positionOfSample(ivec2 pixel) {
 #ifdef BESIDE_MIDDLE
-    return gl_FragCoord.xy + sampleOffset;
+    return vec2(pixel) + 0.5 + sampleOffset;
 #else
-    return gl_FragCoord.xy;
+    return vec2(pixel) + 0.5;
 #endif
 }
 

@@ -13,7 +13,7 @@ vec4 radianceStraight(ivec2 pixel) {
     float middle = texelFetch(receiver, pixel, 0).x;
     float nearest = abs(depth - middle);
     vec3 normal = texelFetch(receiverSurface, pixel, 0).xyz;
-    if (middle > 0.0 && nearest <= depthMargin(viewRay(gl_FragCoord.xy), middle, normal))
+    if (middle > 0.0 && nearest <= depthMargin(viewRay(vec2(pixel) + 0.5), middle, normal))
         return texelFetch(receiverRadiance, pixel, 0);
     ivec2 towards = ivec2(sampleOffset.x < 0.0 ? -1 : 1, sampleOffset.y < 0.0 ? -1 : 1);
     ivec2 best = pixel;

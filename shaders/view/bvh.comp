@@ -12,9 +12,13 @@
 #include "include/views/shown_radiance.glsl"
 #include "include/views/view_sample.glsl"
 
-layout(location = 0) out vec4 radiance;
-layout(location = 1) out vec4 exitPosition;
-layout(location = 2) out vec4 exitDirection;
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(rgba32f) uniform image2D viewRadiance;
+#ifndef BESIDE_MIDDLE
+layout(rgba32f) writeonly uniform image2D viewExitPosition;
+layout(rgba32f) writeonly uniform image2D viewExitDirection;
+#endif
 
 // What the ray that is being traced may hit.
 const uint kHitsAll = 0u;        // from the eye: every surface from both sides
@@ -35,12 +39,15 @@ const uint kMaxBranches = 4u;  // view.bvh.branches, at most
 
 struct EyePath {
     MirrorPath at;  // its last piece; its share: also what interfaces leave, without 1/n²
+    bool isFromEye;  // it has met nothing yet
     int interfaces;  // of dielectrics that it has hit
     int refractions;
     int reflections;  // total ones
-    float length;     // m
+    float meters;     // long
     float ending;     // kPath…
 };
+
+float indexAtEye = 1.0;  // of what is around it
 
 // A surface that a path has hit.
 struct Seen {
@@ -52,25 +59,21 @@ struct Seen {
     BvhRay ray;
 };
 
-Seen seenAlong(BvhRay ray, vec3 originVs, vec3 directionVs) {
+Seen seenBy(EyePath path) {
+    BvhRay ray = bvhRay(path.at.origin, path.at.direction);
+    raysHits = path.isFromEye ? kHitsAll : kHitsBySide;
+    tracedNow = tracedRay(ray.origin, ray.direction, path.at.media);
+    // A ray that is traced exactly is known to a few roundings.
+    resolvedNow = 4e-6 * length(path.at.origin);
     BvhHit hit = traceBvh(ray, 3.0e38);
-    Seen seen = Seen(originVs, vec3(0.0), vec3(0.0), 0u, hit, ray);
+    Seen seen = Seen(path.at.origin, vec3(0.0), vec3(0.0), 0u, hit, ray);
     if (hit.triangle == kBvhNone) return seen;
     PointOnTriangle point = pointOfHit(ray, hit);
-    seen.positionVs = originVs + hit.distance * directionVs;
+    seen.positionVs = path.at.origin + hit.distance * path.at.direction;
     seen.shading = localToEye(shadingNormal(point.normal, point.geometric));
     seen.geometric = localToEye(point.geometric);
     seen.material = bvhSources[hit.triangle].material;
     return seen;
-}
-
-Seen seenBy(EyePath path) {
-    BvhRay ray = bvhRay(path.at.origin, path.at.direction);
-    raysHits = kHitsBySide;
-    tracedNow = tracedRay(ray.origin, ray.direction, path.at.media);
-    // A ray that is traced exactly is known to a few roundings.
-    resolvedNow = 4e-6 * length(path.at.origin);
-    return seenAlong(ray, path.at.origin, path.at.direction);
 }
 
 // Reflectance at the hit, over what a pixel's footprint after a path of this length covers.
@@ -145,8 +148,8 @@ vec3 radianceOfReceiver(Seen seen, vec3 direction, float pathMeters) {
     return radianceOfHidden(seen, direction, pathMeters);
 }
 
-// What is seen in the end, times what the path leaves of it. `indexAtEye`: of what is around that.
-vec3 radianceAtEnd(EyePath path, Seen seen, float indexAtEye) {
+// What is seen in the end, times what the path leaves of it.
+vec3 radianceAtEnd(EyePath path, Seen seen) {
     uint media = path.at.media;
     // What was not traced out of an object is taken to see what one outside of it would.
     if (isInsideClosed(media) && seen.material == 0u) media = leaveMedium(media, innerMedium(media));
@@ -154,11 +157,11 @@ vec3 radianceAtEnd(EyePath path, Seen seen, float indexAtEye) {
     float ratio = indexAtEye / mediumIndex(medium);
     vec3 sum = seen.material == 0u
                    ? environmentRadiance(path.at.direction) * mediumTransmittance(medium, 1e30)
-                   : radianceOfReceiver(seen, path.at.direction, path.length);
+                   : radianceOfReceiver(seen, path.at.direction, path.meters);
     return path.at.share * ratio * ratio * sum;
 }
 
-EyePath waiting[kMaxBranches];  // reflections that are still to be followed
+EyePath waiting[kMaxBranches + 1u];  // still to be followed
 int waitingCount = 0;
 
 // At a dielectric: the path goes on refracted, or totally reflected; what is reflected besides waits,
@@ -191,12 +194,27 @@ void bend(inout EyePath path, vec3 normal, uint material) {
     }
 }
 
-// From a surface that the path has hit on to what it sees in the end.
-Seen follow(inout EyePath path, Seen seen) {
-    while (seen.material != 0u) {
+// An eye that looks at a dielectric from within is inside of it.
+void meetFirst(inout EyePath path, Seen seen) {
+    path.isFromEye = false;
+    bool isDielectric = materialKind(seen.material - 1u) == kMaterialDielectric;
+    if (isDielectric && dot(path.at.direction, seen.geometric) > 0.0)
+        path.at.media = enterMedium(0u, seen.material);
+    indexAtEye = mediumIndex(innerMedium(path.at.media));
+}
+
+// To what the path sees in the end.
+Seen follow(inout EyePath path) {
+    while (true) {
+        Seen seen = seenBy(path);
+        if (seen.material == 0u) {
+            if (isInsideClosed(path.at.media)) path.ending = kPathLost;
+            return seen;
+        }
+        if (path.isFromEye) meetFirst(path, seen);
         uint kind = materialKind(seen.material - 1u);
         path.at.share *= mediumTransmittance(innerMedium(path.at.media), seen.hit.distance);
-        path.length += seen.hit.distance;
+        path.meters += seen.hit.distance;
         if (isReceiver(kind)) return seen;
         path.at.origin = seen.positionVs;
         vec3 normal = bendingNormal(path.at.direction, seen.shading, seen.geometric, seen.material,
@@ -211,47 +229,59 @@ Seen follow(inout EyePath path, Seen seen) {
         if (path.refractions > view_bvh_interfaces) path.ending = kPathEndedInside;
         seen.material = 0u;
         if (path.ending != kPathExited) return seen;
-        seen = seenBy(path);
     }
-    if (isInsideClosed(path.at.media)) path.ending = kPathLost;
-    return seen;
 }
 
-void look(ivec2 pixel) {
-    radiance = radianceStraight(pixel);
-    exitPosition = vec4(0.0);
-    exitDirection = vec4(0.0);
-    if (firstDepth(pixel) <= 0.0) return;
-    vec3 viewing = viewRay(positionOfSample());
-    vec3 direction = normalize(viewing);
-    vec3 start = viewing * view.frustum.z;
-    raysHits = kHitsAll;
-    Seen first = seenAlong(bvhRay(start, direction), start, direction);
-    EyePath path =
-        EyePath(MirrorPath(start, direction, vec3(1.0), 0u, 0), 0, 0, 0, view.frustum.z, kPathExited);
-    // An eye that looks at a dielectric from within is inside of it.
-    bool isDielectric =
-        first.material != 0u && materialKind(first.material - 1u) == kMaterialDielectric;
-    if (isDielectric && dot(direction, first.geometric) > 0.0)
-        path.at.media = enterMedium(0u, first.material);
-    float indexAtEye = mediumIndex(innerMedium(path.at.media));
-    Seen seen = follow(path, first);
+void storeExit(ivec2 pixel, EyePath path) {
+#ifndef BESIDE_MIDDLE
     // At a silhouette the ray may pass what the picture has there.
-    bool isSpecular = path.interfaces + path.at.mirrors > 0;
-    exitPosition = vec4(path.at.origin, float(path.interfaces + path.at.mirrors));
-    exitDirection = isSpecular ? vec4(path.at.direction, path.ending) : vec4(0.0);
-    vec3 sum = radianceAtEnd(path, seen, indexAtEye);
+    int hits = path.interfaces + path.at.mirrors;
+    imageStore(viewExitPosition, pixel, vec4(path.at.origin, float(hits)));
+    imageStore(viewExitDirection, pixel,
+               hits > 0 ? vec4(path.at.direction, path.ending) : vec4(0.0));
+#endif
+}
+
+vec3 radianceThrough(ivec2 pixel) {
+    vec3 viewing = viewRay(positionOfSample(pixel));
+    waiting[0] = EyePath(MirrorPath(viewing * view.frustum.z, normalize(viewing), vec3(1.0), 0u, 0),
+                         true, 0, 0, 0, length(viewing * view.frustum.z), kPathExited);
+    waitingCount = 1;
+    bool isFirst = true;
+    vec3 sum = vec3(0.0);
     while (waitingCount > 0) {
-        --waitingCount;
-        EyePath branch = waiting[waitingCount];
-        Seen next = seenBy(branch);
-        next = follow(branch, next);
-        sum += radianceAtEnd(branch, next, indexAtEye);
+        EyePath path = waiting[--waitingCount];
+        Seen seen = follow(path);
+        if (isFirst) storeExit(pixel, path);
+        isFirst = false;
+        sum += radianceAtEnd(path, seen);
     }
-    radiance = vec4(sum, 1.0);
+    return sum;
+}
+
+// Threads that run together look at pixels that lie together: squares of squares.
+ivec2 pixelOfThread() {
+    uint i = gl_LocalInvocationIndex;
+    uvec2 at = uvec2((i & 1u) | (i >> 1u & 2u) | (i >> 2u & 4u),
+                     (i >> 1u & 1u) | (i >> 2u & 2u) | (i >> 3u & 4u));
+    return ivec2(8u * gl_WorkGroupID.xy + at);
 }
 
 void main() {
-    look(ivec2(gl_FragCoord.xy));
+    ivec2 pixel = pixelOfThread();
+    if (any(greaterThanEqual(pixel, ivec2(view.sizePixels.xy)))) return;
+    vec4 radiance = radianceStraight(pixel);
+    if (firstDepth(pixel) > 0.0) {
+        radiance = vec4(radianceThrough(pixel), 1.0);
+    } else {
+#ifndef BESIDE_MIDDLE
+        imageStore(viewExitPosition, pixel, vec4(0.0));
+        imageStore(viewExitDirection, pixel, vec4(0.0));
+#endif
+    }
     weigh(radiance);
+#ifdef BESIDE_MIDDLE
+    radiance += imageLoad(viewRadiance, pixel);
+#endif
+    imageStore(viewRadiance, pixel, radiance);
 }

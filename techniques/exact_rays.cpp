@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// Exact rays on the device in place of K06's searches on the screen.
+#include "framework/pipeline/registry.h"
+
+namespace kaustik {
+
+void registerExactRays(Registry& registry) {
+    registry.technique({"exact_rays",
+                        "Photons, the eye's rays and shadows are traced exactly on the device; else "
+                        "as screen_space_photons.",
+                        "",
+                        {{"layers", "auto"},
+                         {"trace", "bvh"},
+                         {"reconstruct", "triangles"},
+                         {"shadow", "rays"},
+                         {"view", "bvh"}}});
+}
+
+}  // namespace kaustik
