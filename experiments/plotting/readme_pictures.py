@@ -20,6 +20,7 @@ STRIP_SIZE = (216, 162)
 THUMBNAIL_SIZE = (132, 99)
 SCENES = {  # one that shows what the technique is for
     "screen_space_photons": "pool",
+    "exact_rays": "concave-glass",
     "raytraced": "cornell-bunny",
     "planar": "pool",
     "differential_area": "flat-water",

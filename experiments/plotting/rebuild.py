@@ -70,9 +70,11 @@ RUNS = {
 }
 # Made of the pictures too, by a program of its own.
 PARTS = {"error_parts": "error_parts/parts.csv"}
-STUDIES = {**TABLE, **PARTS, **RUNS}
+# Of the reports, whose passes are summed by stage.
+REPORTS = {"exact_rays": "exact_rays/errors.csv"}
+STUDIES = {**TABLE, **PARTS, **REPORTS, **RUNS}
 # Of a device that this machine may not have: their commands say how its rows come to stand next to others'. Only tried here, never run.
-DEVICE = {"device_errors": "device/errors.csv", "device_times": "device/times.csv"}
+DEVICE = {"device_errors": "device/errors.csv", "device_times": "device/times.csv", "exact_rays_times": "exact_rays/times.csv"}
 
 SOURCES = "sources.json"  # in a study's folder of results: the key of each run's sources
 SMALL = {"size": "64x48", "frames": 1, "warmup": 0, "reference_photons": 65536, "emit.photons": "32x32",
@@ -165,6 +167,8 @@ def csv_of(results: pathlib.Path, study: str, target: pathlib.Path) -> None:
     target.parent.mkdir(parents=True, exist_ok=True)
     if study in TABLE:
         call(sys.executable, "-B", PLOTTING / "table.py", results, "--csv", target)
+    elif study.startswith("exact_rays"):
+        call(sys.executable, "-B", PLOTTING / "exact_rays.py", "slim", results, "--csv", target)
     elif study in DEVICE:
         call(sys.executable, "-B", PLOTTING / "device.py", "slim", results, "--csv", target)
     elif study in PARTS:

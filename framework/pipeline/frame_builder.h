@@ -111,6 +111,10 @@ class FrameBuilder {
             : frame_(frame), before_(frame.prefix_) {
             frame.prefix_ += stage + ".";
         }
+        // None: for what several stages share, whichever of them asks first.
+        explicit PassScope(FrameBuilder& frame) : frame_(frame), before_(frame.prefix_) {
+            frame.prefix_.clear();
+        }
         ~PassScope() { frame_.prefix_ = before_; }
         PassScope(const PassScope&) = delete;
         PassScope& operator=(const PassScope&) = delete;

@@ -43,6 +43,7 @@ void refit(const MovedBvh& data, const FrameInputs& inputs, gl::PassContext& con
 }
 
 BvhOfFrame movedBvh(FrameBuilder& frame, const Geometry& geometry) {
+    const FrameBuilder::PassScope shared(frame);
     const render::SceneBvh& still = frame.gpuScene().bvh();
     const auto instances = frame.once<render::ViewInstances>("tracing.bvh.instances", [&] {
         return std::make_shared<render::ViewInstances>(
@@ -50,7 +51,7 @@ BvhOfFrame movedBvh(FrameBuilder& frame, const Geometry& geometry) {
     });
     return frame
         .pass<MovedBvh>(
-            "trace.bvh.refit",
+            "geometry.bvh",
             fmt::format("height fields move among {} triangles", still.triangleCount()),
             [&](graph::PassSetup& setup, MovedBvh& data) {
                 data.geometry = geometry;

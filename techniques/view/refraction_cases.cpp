@@ -25,7 +25,8 @@ struct Tested {
     std::string subject;
 };
 
-std::vector<Tested> refractions(const Lab& lab) {
+// Those that look for each interface along the ray.
+std::vector<Tested> tracedViews(const Lab& lab) {
     std::vector<Tested> tested;
     for (const char* search : {"monotonic", "all"}) {
         Lab::Choice choice = lab.choose(ViewStage::name, "refraction");
@@ -33,11 +34,13 @@ std::vector<Tested> refractions(const Lab& lab) {
         choice.subject += fmt::format(" ({})", search);
         tested.push_back({choice, choice.subject});
     }
+    const Lab::Choice exact = lab.choose(ViewStage::name, "bvh");
+    tested.push_back({exact, exact.subject});
     return tested;
 }
 
 std::vector<Tested> rayFollowingViews(const Lab& lab) {
-    std::vector<Tested> tested = refractions(lab);
+    std::vector<Tested> tested = tracedViews(lab);
     const Lab::Choice other = lab.choose(ViewStage::name, "image_space");
     tested.push_back({other, other.subject});
     return tested;
@@ -131,7 +134,7 @@ void slab(Lab& lab) {
         lab.expectDeviation(tested.subject, "exit direction, less the entry's", found.direction,
                             {2e-6, "roundings of 6e-8 in two refractions, and in the eye's ray"});
     }
-    for (const Tested& tested : refractions(lab)) {
+    for (const Tested& tested : tracedViews(lab)) {
         const Frame frame = lab.render(tested.choice, scene, kRequest);
         const Deviation found = compare(frame, exitsOf(frame), exact);
         lab.expectDeviation(tested.subject, "exit point of a slab, m", found.position,
@@ -162,7 +165,7 @@ void ball(Lab& lab) {
         makeScene({{}, {0.0, 0.0, -1.0}, 36.0, 0.01},
                   object("ball", "sphere", "glass", {0, 0, -4}, "radius = 1\nsegments = 512"));
     std::vector<Exits> exits;
-    for (const Tested& tested : refractions(lab)) {
+    for (const Tested& tested : tracedViews(lab)) {
         const Frame frame = lab.render(tested.choice, scene, kRequest);
         exits.push_back(exitsOf(frame));
         const Deviation found = compare(frame, exits.back(), throughBall);
