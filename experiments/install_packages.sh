@@ -14,7 +14,7 @@ packages=(
     libepoxy-dev libegl-dev libegl-mesa0 libgl1-mesa-dri
     # Libraries
     libglm-dev libfmt-dev nlohmann-json3-dev libtomlplusplus-dev libcli11-dev
-    libtinygltf-dev libpugixml-dev zlib1g-dev libopenimageio-dev
+    libtinygltf-dev libpugixml-dev zlib1g-dev libopenimageio-dev libopenexr-dev libpng-dev patchelf
     # The ray-traced reference
     libembree-dev libtbb-dev
     # The workbench

@@ -35,9 +35,7 @@ void printDevices(const gl::DeviceInfo& inUse) {
 void checkCommand() {
     fmt::print("kaustik {}\n", versionString());
     fmt::print("project files     {}\n", projectRoot().string());
-    fmt::print("images            {}\n", hasOpenImageIO()
-                                             ? "EXR, PNG and more, through OpenImageIO"
-                                             : "PFM and PPM only: no OpenImageIO in this build");
+    fmt::print("images            {}\n", imageFormats());
     const std::unique_ptr<gl::Context> context = gl::Context::createHeadless();
     const gl::DeviceInfo& device = context->info();
     fmt::print("device            {}\n", device.renderer);

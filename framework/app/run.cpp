@@ -86,7 +86,7 @@ void runCommand(const RunOptions& options, const Registry& registry) {
             progress.update(done);
             run::throwIfInterrupted();
         };
-        session.render(series, {{}, onFrame}, &reference);
+        session.render(series, {{}, onFrame}, &reference, &options.saved);
     }
 
     std::vector<fs::path> captures;

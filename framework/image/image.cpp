@@ -13,8 +13,8 @@
 #include "framework/image/eight_bits.h"
 #include "framework/image/image_limits.h"
 #include "framework/image/image_wire.h"
-#include "framework/image/openimageio_images.h"
-#include "framework/image/openimageio_loader.h"
+#include "framework/image/module_images.h"
+#include "framework/image/module_loader.h"
 #include "framework/image/pfm.h"
 #include "framework/reading/reader_process.h"
 
@@ -22,7 +22,7 @@ namespace kaustik {
 namespace fs = std::filesystem;
 namespace {
 
-// The process that reads the images that need OpenImageIO. It is kept, since OpenImageIO takes a
+// The process that reads the images that need a module. It is kept, since OpenImageIO takes a
 // quarter of a second to load; images of several threads wait for one another.
 Image readInReader(const reading::Request& request) {
     static std::mutex mutex;
@@ -82,16 +82,21 @@ float Image::at(int x, int y, int c) const {
     return const_cast<Image*>(this)->at(x, y, c);
 }
 
-bool hasOpenImageIO() {
-    return openImageIo().functions != nullptr;
+bool hasImageModule() {
+    return imageModule().functions != nullptr;
+}
+
+std::string imageFormats() {
+    return hasImageModule() ? imageModule().functions->formats
+                            : "PFM and PPM only: no OpenImageIO in this build";
 }
 
 std::string floatImageExtension() {
-    return hasOpenImageIO() ? ".exr" : ".pfm";
+    return hasImageModule() ? ".exr" : ".pfm";
 }
 
 std::string displayImageExtension() {
-    return hasOpenImageIO() ? ".png" : ".ppm";
+    return hasImageModule() ? ".png" : ".ppm";
 }
 
 Image readImage(const fs::path& path) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Images in memory and in files. Everything outside this folder sees only this header; OpenImageIO
-// sits in a module that is loaded when the first EXR, PNG or JPEG is read or written.
+// Images in memory and in files. Everything outside this folder sees only this header; OpenImageIO,
+// or OpenEXR and libpng where that is not to be had, sits in a module that is loaded when the first
+// EXR, PNG or JPEG is read or written.
 #pragma once
 
 #include <cstddef>
@@ -24,14 +25,17 @@ struct Image {
     [[nodiscard]] float at(int x, int y, int c) const;
 };
 
-// True when files such as .exr and .png can be read and written: the OpenImageIO module is there.
-[[nodiscard]] bool hasOpenImageIO();
+// True when files such as .exr and .png can be read and written: a module for them is there.
+[[nodiscard]] bool hasImageModule();
 
-// ".exr" and ".png" with OpenImageIO, ".pfm" and ".ppm" without.
+// What can be read, for people.
+[[nodiscard]] std::string imageFormats();
+
+// ".exr" and ".png" with a module, ".pfm" and ".ppm" without.
 [[nodiscard]] std::string floatImageExtension();
 [[nodiscard]] std::string displayImageExtension();
 
-// Reads by extension: .pfm here, everything else through OpenImageIO, values as stored
+// Reads by extension: .pfm here, everything else through the module, values as stored
 // (8-bit as [0,1]). Throws IoError that names the file and what is wrong with it.
 [[nodiscard]] Image readImage(const std::filesystem::path& path);
 

@@ -2,7 +2,7 @@
 #include "framework/importers/answer_request.h"
 
 #include "framework/image/image_wire.h"
-#include "framework/image/openimageio_images.h"
+#include "framework/image/module_images.h"
 #include "framework/importers/foreign_file.h"
 #include "framework/importers/gltf_file.h"
 #include "framework/importers/mesh_file.h"
@@ -17,8 +17,8 @@ using reading::Request;
 using reading::RequestKind;
 
 Image readAnyImage(const Request& request) {
-    return request.file.empty() ? decodeByOpenImageIo(request.bytes, request.name)
-                                : readByOpenImageIo(request.file, request.name);
+    return request.file.empty() ? decodeByModule(request.bytes, request.name)
+                                : readByModule(request.file, request.name);
 }
 
 }  // namespace

@@ -15,6 +15,9 @@ install(TARGETS kaustik_reader RUNTIME DESTINATION lib/kaustik)
 if(TARGET kaustik_openimageio)
     install(TARGETS kaustik_openimageio LIBRARY DESTINATION lib/kaustik)
 endif()
+if(TARGET kaustik_exr_png)
+    install(TARGETS kaustik_exr_png LIBRARY DESTINATION lib/kaustik)
+endif()
 
 # What editors are told about files.
 file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/schemas)

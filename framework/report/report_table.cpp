@@ -152,9 +152,12 @@ std::string makeTable(const RunRecord& record) {
                              frame > 0.0 ? 100.0 * gpu.median / frame : 0.0);
     }
     table += fmt::format("{:<24}{:>10.3f}\n", "all passes", sum);
-    table += fmt::format("{:<24}{:>10.3f}{:>9.3f}   median of {}, bookkeeping {:.3f} ms\n", "frame",
-                         frame, summarize(frameSamples(record)).standardDeviation,
-                         record.frames.size(), summarize(bookkeepingSamples(record)).median);
+    table += fmt::format("{:<24}{:>10.3f}{:>9.3f}   {}, bookkeeping {:.3f} ms\n", "frame", frame,
+                         summarize(frameSamples(record)).standardDeviation,
+                         record.timing.isOfMeasuredFrame
+                             ? "with the measurement in it"
+                             : fmt::format("median of {}", record.frames.size()),
+                         summarize(bookkeepingSamples(record)).median);
     // Less is what a system does by itself.
     if (record.timing.otherProcessors.value_or(0.0) > 0.1) {
         table += fmt::format("{:<24}{:>10.1f}   processors were busy with other work\n",

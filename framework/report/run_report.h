@@ -23,6 +23,7 @@ struct Timing {
     // That were rendered but whose times the device did not give in time: not among the samples.
     std::size_t droppedFrames = 0;
     double measuringMilliseconds = 0.0;  // of a frame: its passes by gl::measuringMilliseconds
+    bool isOfMeasuredFrame = false;      // with all that only a measurement asks for
 };
 
 // Everything but the times and the ledger is read from the renderer.

@@ -120,7 +120,7 @@ std::vector<std::string> Session::keptTextures() const {
 }
 
 void Session::forgetBuild() {
-    isBuilt_ = hasFrame_ = false;
+    isBuilt_ = isMeasured_ = hasFrame_ = false;
 }
 
 void Session::update(const RenderSettings& settings) {
@@ -143,12 +143,20 @@ void Session::bringUpToDate(const RenderSettings* other) {
 void Session::prepare() {
     bringUpToDate();
     if (isBuilt_) return;
-    hasFrame_ = false;
+    forgetBuild();
     renderer_.build(Purpose::picture);
     // What is kept may not be in the graph of other settings.
     const std::vector<std::string> kept = keptTextures();
     if (!kept.empty()) renderer_.build(Purpose::picture, kept);
     isBuilt_ = true;
+    restartRecord();
+}
+
+void Session::prepareMeasured(Purpose purpose, const std::vector<std::string>& saved) {
+    bringUpToDate();
+    forgetBuild();
+    renderer_.build(purpose, saved);
+    isMeasured_ = true;
     restartRecord();
 }
 
@@ -222,7 +230,7 @@ bool Session::renderUntimed(const ShouldContinue& shouldContinue) {
 }
 
 RenderedSeries Session::render(const FrameSeries& series, const SeriesWatch& watch,
-                               RunReference* reference) {
+                               RunReference* reference, const std::vector<std::string>* saved) {
     RenderedSeries rendered;
     const auto collect = [&](bool waits) {
         for (gl::FrameTime& time : timer_.takeFinished(waits))
@@ -239,13 +247,20 @@ RenderedSeries Session::render(const FrameSeries& series, const SeriesWatch& wat
         const double seconds = series.secondsOf(std::max(frame - series.warmup, 0), begin);
         if (seconds != scene_.timeSeconds) collect(true);
         setTime(seconds);
-        prepare();
+        if (total == 1 && reference != nullptr && saved != nullptr) {
+            prepareMeasured(reference->purpose(), *saved);
+        } else {
+            prepare();
+        }
         if (frame == series.warmup) {
             processors = processorTimes();
             date = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
         }
         rendered.isWhole = renderBuilt(timer_, watch.shouldContinue);
-        if (!rendered.isWhole) break;
+        if (!rendered.isWhole) {
+            isMeasured_ = false;
+            break;
+        }
         // A ring slot is read when its frame is done; no frame may be lost, so that the ring is
         // emptied before it is full.
         collect(options_.isPrecise || frame % 2 == 1);
@@ -267,7 +282,7 @@ RenderedSeries Session::render(const FrameSeries& series, const SeriesWatch& wat
         all.erase(all.begin(), all.end() - static_cast<std::ptrdiff_t>(options_.framesKept));
     if (!date.empty()) {
         record_.timing = {date, otherWork, timer_.droppedFrames() - droppedBefore,
-                          measuringMilliseconds()};
+                          measuringMilliseconds(), isMeasured_};
     }
     return rendered;
 }

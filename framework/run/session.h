@@ -107,8 +107,11 @@ class Session {
     [[nodiscard]] RunReference referenceFor(const FrameSeries& series, const std::string& wanted,
                                             std::uint64_t photons, const Watch& watch = {});
     // Renders and times frames: the only loop over them. `reference`: what referenceFor() gave.
+    // `saved`: what measure() or finish(), which must follow, will be asked for; then a series of
+    // one frame is the one that they measure, and none is rendered for them.
     RenderedSeries render(const FrameSeries& series, const SeriesWatch& watch = {},
-                          RunReference* reference = nullptr);
+                          RunReference* reference = nullptr,
+                          const std::vector<std::string>* saved = nullptr);
     // Whether the textures hold a whole frame of what was asked for last.
     [[nodiscard]] bool hasFrame() const { return hasFrame_; }
     // Renders the same frame once more, not timed. False: it was ended early.
@@ -124,7 +127,7 @@ class Session {
     // The record with ledger, layers, limits and violations, after a frame for
     // Purpose::measurement.
     [[nodiscard]] report::RunRecord measured() const;
-    // Renders one more frame at the last one's time, not timed, for ledger, pictures, the textures
+    // Renders one more frame at the last one's time, not timed (see render()), for ledger, pictures, the textures
     // `saved` and the reference's judgement, and completes the record but for that. None where it
     // was ended early.
     [[nodiscard]] std::optional<report::RunRecord> measure(
@@ -148,6 +151,7 @@ class Session {
     // rendered next alone.
     void bringUpToDate(const RenderSettings* other = nullptr);
     void forgetBuild();
+    void prepareMeasured(Purpose purpose, const std::vector<std::string>& saved);
     void restartRecord();
     bool renderBuilt(gl::PassTimer& timer, const ShouldContinue& shouldContinue);
     bool renderUntimed(const ShouldContinue& shouldContinue);
@@ -165,6 +169,7 @@ class Session {
     bool needsUpdate_;           // settings or scene are not the renderer's
     bool forgetsTimes_ = false;  // with the next update
     bool isBuilt_ = false;       // for pictures and what is kept
+    bool isMeasured_ = false;    // the last frame is one that measure() can take
     bool hasFrame_ = false;
     std::optional<double> measuringMilliseconds_;  // of a pass
 };

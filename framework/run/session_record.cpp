@@ -92,10 +92,12 @@ report::RunRecord Session::measured() const {
 std::optional<report::RunRecord> Session::measure(const RunReference& reference,
                                                   const std::vector<std::string>& saved,
                                                   const ShouldContinue& shouldContinue) {
-    bringUpToDate();
-    forgetBuild();
-    renderer_.build(reference.purpose(), saved);
-    if (!renderUntimed(shouldContinue)) return std::nullopt;
+    if (!isMeasured_) {
+        bringUpToDate();
+        forgetBuild();
+        renderer_.build(reference.purpose(), saved);
+        if (!renderUntimed(shouldContinue)) return std::nullopt;
+    }
     // What judges the frame may render another one, and what is kept may not be in this one.
     hasFrame_ = reference.purpose() == Purpose::measurement && saved == keptTextures();
     report::RunRecord record = measured();

@@ -17,10 +17,12 @@ Hit hitOf(Photon photon) {
     BvhRay ray = bvhRay(photon.positionVs, photon.directionVs);
     photonRay = tracedRay(ray.origin, ray.direction, photon.media);
     // Where an open mirror sent it on may be known to a pixel alone. A ray that looks for a light
-    // starts on what the eye sees, which is known to a few roundings.
+    // starts on what was drawn, which is known to the 1/256 of a pixel to which rasterisers move
+    // corners, and to a few roundings.
+    float footprint = pixelFootprint(abs(photon.positionVs.z));
     photonReach = leftSide(photon.media) == kLeftBothSides
-                      ? 4e-6 * length(photon.positionVs)
-                      : 2.0 * pixelFootprint(abs(photon.positionVs.z));
+                      ? footprint / 128.0 + 4e-6 * length(photon.positionVs)
+                      : 2.0 * footprint;
     BvhHit found = traceBvh(ray, 3.0e38);
     if (found.triangle == kBvhNone) {
         ledgerAdd(kAccountLeftScene, photon.fluxWatts);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The module kaustik_openimageio.so: every image format that OpenImageIO 2.4 knows, behind the C
-// boundary of openimageio_interface.h. Values come and go as stored: no premultiplication by alpha,
+// boundary of module_interface.h. Values come and go as stored: no premultiplication by alpha,
 // no colour conversion; 8- and 16-bit integers are read as [0,1].
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -16,27 +16,12 @@
 #include <string_view>
 
 #include "framework/image/image_limits.h"
-#include "framework/image/openimageio_interface.h"
+#include "framework/image/module_guard.h"
 
 namespace {
 
+using kaustik::guarded;
 using kaustik::imageSizeProblem;
-
-// Runs `body` behind the C boundary: whatever it throws goes to the sink as a message.
-template <class Body>
-bool guarded(const KaustikImageSink* sink, Body body) noexcept {
-    try {
-        body();
-        return true;
-    } catch (const std::bad_alloc&) {
-        sink->fail(sink->context, "out of memory");
-    } catch (const std::exception& exception) {
-        sink->fail(sink->context, exception.what());
-    } catch (...) {
-        sink->fail(sink->context, "OpenImageIO failed without a reason");
-    }
-    return false;
-}
 
 // OpenImageIO's messages may have several lines, and end in a period or not.
 std::string oneLine(std::string message, const char* fallback) {
@@ -154,12 +139,16 @@ bool encodePng(const unsigned char* values, int width, int height, int channels,
     });
 }
 
-constexpr KaustikOpenImageIoFunctions kFunctions{kKaustikOpenImageIoVersion, readFile, readMemory,
-                                                 encodeExr, encodePng};
+constexpr KaustikImageFunctions kFunctions{kKaustikImageModuleVersion,
+                                           "EXR, PNG and more, through OpenImageIO",
+                                           readFile,
+                                           readMemory,
+                                           encodeExr,
+                                           encodePng};
 
 }  // namespace
 
-extern "C" __attribute__((visibility("default"))) const KaustikOpenImageIoFunctions*
-kaustikOpenImageIoFunctions() {
+extern "C" __attribute__((visibility("default"))) const KaustikImageFunctions*
+kaustikImageFunctions() {
     return &kFunctions;
 }

@@ -9,7 +9,7 @@
 
 #include "framework/core/error.h"
 #include "framework/image/image.h"
-#include "framework/image/openimageio_loader.h"
+#include "framework/image/module_loader.h"
 #include "tests/unit/temporary_folder.h"
 
 namespace kaustik {
@@ -105,7 +105,7 @@ class FullDisk {
 TEST(ImageFile, OnAFullDiskTheOldFileStaysAndNothingHalfWrittenIsLeft) {
     const TemporaryFolder folder;
     std::vector<std::string> names{"a.pfm", "a.ppm"};
-    if (hasOpenImageIO()) names.insert(names.end(), {"a.exr", "a.png"});
+    if (hasImageModule()) names.insert(names.end(), {"a.exr", "a.png"});
     for (const std::string& name : names) {
         writeImage(folder / name, ramp(1, 1, 3));
         const auto before = folder.fileCount();
@@ -121,24 +121,24 @@ TEST(ImageFile, OnAFullDiskTheOldFileStaysAndNothingHalfWrittenIsLeft) {
     }
 }
 
-TEST(OpenImageIoModule, AMissingModuleSaysThatThisBuildHasNoneAndWhatToUse) {
+TEST(ImageModule, AMissingModuleSaysThatThisBuildHasNoneAndWhatToUse) {
     const TemporaryFolder folder;
-    const OpenImageIoModule module = loadOpenImageIoModule(folder / "kaustik_openimageio.so");
+    const ImageModule module = loadImageModule(folder / "kaustik_openimageio.so");
     EXPECT_EQ(module.functions, nullptr);
     EXPECT_THAT(module.problem, AllOf(HasSubstr("no OpenImageIO"), HasSubstr("use .pfm")));
 }
 
-TEST(OpenImageIoModule, AFileThatIsNoModuleIsRefusedWithTheReason) {
+TEST(ImageModule, AFileThatIsNoModuleIsRefusedWithTheReason) {
     const TemporaryFolder folder;
     const auto file = folder.file("kaustik_openimageio.so", "not a library");
-    const OpenImageIoModule module = loadOpenImageIoModule(file);
+    const ImageModule module = loadImageModule(file);
     EXPECT_EQ(module.functions, nullptr);
     EXPECT_THAT(module.problem, AllOf(HasSubstr("cannot be loaded"), HasSubstr("use .pfm")));
 }
 
-TEST(OpenImageIoModule, DecidesWhichExtensionsAreUsed) {
-    EXPECT_EQ(floatImageExtension(), hasOpenImageIO() ? ".exr" : ".pfm");
-    EXPECT_EQ(displayImageExtension(), hasOpenImageIO() ? ".png" : ".ppm");
+TEST(ImageModule, DecidesWhichExtensionsAreUsed) {
+    EXPECT_EQ(floatImageExtension(), hasImageModule() ? ".exr" : ".pfm");
+    EXPECT_EQ(displayImageExtension(), hasImageModule() ? ".png" : ".ppm");
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 
 #include "framework/core/error.h"
 #include "framework/image/image.h"
-#include "framework/image/openimageio_images.h"
+#include "framework/image/module_images.h"
 #include "tests/unit/peak_memory.h"
 #include "tests/unit/temporary_folder.h"
 
@@ -72,7 +72,7 @@ const std::string kJpeg = fromHex(
 class OpenImageIo : public ::testing::Test {
   protected:
     void SetUp() override {
-        if (!hasOpenImageIO()) GTEST_SKIP() << "built without OpenImageIO";
+        if (!hasImageModule()) GTEST_SKIP() << "built without OpenImageIO";
     }
     TemporaryFolder folder_;
 };
@@ -145,7 +145,7 @@ void expectWholeOrError(const std::string& bytes) {
                                     bytes.begin() + static_cast<std::ptrdiff_t>(length));
         try {
             const Image image =
-                decodeByOpenImageIo(std::string_view(cut.data(), cut.size()), "cut");
+                decodeByModule(std::string_view(cut.data(), cut.size()), "cut");
             EXPECT_EQ(image.values, whole.values) << "cut after byte " << length;
         } catch (const IoError& error) {
             EXPECT_THAT(error.what(), HasSubstr("cut cannot be read")) << length;
@@ -182,7 +182,7 @@ TEST_F(OpenImageIo, AHeaderThatClaimsTooManyPixelsIsAnErrorBeforeMemoryIsTaken) 
 
 TEST_F(OpenImageIo, AHeaderThatClaimsMoreThanItsBytesCanHoldIsAnErrorBeforeMemoryIsTaken) {
     const std::size_t before = test::peakBytes();
-    EXPECT_THAT(messageOf<IoError>([] { (void)decodeByOpenImageIo(kHollowPng, "hollow"); }),
+    EXPECT_THAT(messageOf<IoError>([] { (void)decodeByModule(kHollowPng, "hollow"); }),
                 AllOf(HasSubstr("hollow cannot be read"),
                       HasSubstr("69 bytes cannot hold the 16384x10000 pixels")));
     // OpenImageIO itself; the image would take 1875 MiB.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The C boundary between the program and its OpenImageIO module, kaustik_openimageio.so. No memory
+// The C boundary between the program and the modules that know formats of images:
+// kaustik_openimageio.so, and kaustik_exr_png.so where OpenImageIO is not to be had. No memory
 // changes owner across it and no exception crosses it: results and messages go back through calls.
 #pragma once
 
@@ -9,8 +10,8 @@
 extern "C" {
 
 // Raised with every change of the structs below, so that a stale module is refused.
-inline constexpr std::uint32_t kKaustikOpenImageIoVersion = 1;
-inline constexpr const char* kKaustikOpenImageIoSymbol = "kaustikOpenImageIoFunctions";
+inline constexpr std::uint32_t kKaustikImageModuleVersion = 2;
+inline constexpr const char* kKaustikImageModuleSymbol = "kaustikImageFunctions";
 
 // The functions that the module hands its results to. `context` is handed back to every call.
 struct KaustikImageSink {
@@ -24,9 +25,11 @@ struct KaustikImageSink {
 };
 
 // All functions return true when they succeeded; otherwise `fail` was called once.
-struct KaustikOpenImageIoFunctions {
+struct KaustikImageFunctions {
     std::uint32_t version;
-    // Reads an image file of any format that OpenImageIO knows.
+    // What it reads, for people: "EXR, PNG and more, through OpenImageIO".
+    const char* formats;
+    // Reads an image file of any format that the module knows.
     bool (*readFile)(const char* path, const KaustikImageSink* sink);
     // Reads an image file that is held in memory.
     bool (*readMemory)(const unsigned char* bytes, std::size_t count, const KaustikImageSink* sink);
@@ -39,5 +42,5 @@ struct KaustikOpenImageIoFunctions {
 };
 
 // The one symbol that the module exports.
-using KaustikOpenImageIoEntry = const KaustikOpenImageIoFunctions* (*)();
+using KaustikImageEntry = const KaustikImageFunctions* (*)();
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "framework/image/openimageio_images.h"
+#include "framework/image/module_images.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 
 #include "framework/core/error.h"
 #include "framework/image/image_limits.h"
-#include "framework/image/openimageio_loader.h"
+#include "framework/image/module_loader.h"
 
 namespace kaustik {
 namespace {
@@ -66,12 +66,12 @@ KaustikImageSink sinkFor(Received& received) {
     return sink;
 }
 
-using ModuleCall = std::function<bool(const KaustikOpenImageIoFunctions&, const KaustikImageSink&)>;
+using ModuleCall = std::function<bool(const KaustikImageFunctions&, const KaustikImageSink&)>;
 
 // Calls the module; an IoError that names the file where it is missing or fails.
-Received callOpenImageIo(const std::string& name, const char* verb, std::uintmax_t sourceBytes,
+Received callModule(const std::string& name, const char* verb, std::uintmax_t sourceBytes,
                          const ModuleCall& call) {
-    const OpenImageIoModule& module = openImageIo();
+    const ImageModule& module = imageModule();
     if (module.functions == nullptr) {
         throw IoError(fmt::format("{} cannot be {}: {}.", name, verb, module.problem));
     }
@@ -87,18 +87,18 @@ Received callOpenImageIo(const std::string& name, const char* verb, std::uintmax
 
 }  // namespace
 
-Image readByOpenImageIo(const std::filesystem::path& path, const std::string& name) {
+Image readByModule(const std::filesystem::path& path, const std::string& name) {
     std::error_code error;
     const std::uintmax_t size = std::filesystem::file_size(path, error);
-    return callOpenImageIo(name, "read", error ? 0 : size,
+    return callModule(name, "read", error ? 0 : size,
                            [&](const auto& functions, const auto& sink) {
                                return functions.readFile(path.c_str(), &sink);
                            })
         .image;
 }
 
-Image decodeByOpenImageIo(std::string_view bytes, const std::string& name) {
-    return callOpenImageIo(name, "read", bytes.size(),
+Image decodeByModule(std::string_view bytes, const std::string& name) {
+    return callModule(name, "read", bytes.size(),
                            [&](const auto& functions, const auto& sink) {
                                return functions.readMemory(
                                    reinterpret_cast<const unsigned char*>(bytes.data()),
@@ -108,7 +108,7 @@ Image decodeByOpenImageIo(std::string_view bytes, const std::string& name) {
 }
 
 std::string encodeExr(const Image& image, const std::string& name) {
-    return callOpenImageIo(name, "written", 0,
+    return callModule(name, "written", 0,
                            [&](const auto& functions, const auto& sink) {
                                return functions.encodeExr(image.values.data(), image.width,
                                                           image.height, image.channels, &sink);
@@ -118,7 +118,7 @@ std::string encodeExr(const Image& image, const std::string& name) {
 
 std::string encodePng(const Image& image, const std::vector<unsigned char>& values,
                       const std::string& name) {
-    return callOpenImageIo(name, "written", 0,
+    return callModule(name, "written", 0,
                            [&](const auto& functions, const auto& sink) {
                                return functions.encodePng(values.data(), image.width, image.height,
                                                           image.channels, &sink);

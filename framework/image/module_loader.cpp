@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "framework/image/openimageio_loader.h"
+#include "framework/image/module_loader.h"
 
 #include <dlfcn.h>
 #include <fmt/format.h>
@@ -15,7 +15,7 @@ constexpr const char* kAlternative = "use .pfm for float images and .ppm for pic
 
 }  // namespace
 
-OpenImageIoModule loadOpenImageIoModule(const std::filesystem::path& file) {
+ImageModule loadImageModule(const std::filesystem::path& file) {
     std::error_code error;
     if (!std::filesystem::exists(file, error)) {
         return {nullptr, fmt::format("this build has no OpenImageIO ({} is not there); {}",
@@ -24,24 +24,28 @@ OpenImageIoModule loadOpenImageIoModule(const std::filesystem::path& file) {
     void* const library = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (library == nullptr) {
         const char* const reason = ::dlerror();
-        return {nullptr, fmt::format("OpenImageIO cannot be loaded ({}); {}",
+        return {nullptr, fmt::format("{} cannot be loaded ({}); {}", file.filename().string(),
                                      reason != nullptr ? reason : file.c_str(), kAlternative)};
     }
     const auto entry =
-        reinterpret_cast<KaustikOpenImageIoEntry>(::dlsym(library, kKaustikOpenImageIoSymbol));
-    const KaustikOpenImageIoFunctions* const functions = entry != nullptr ? entry() : nullptr;
-    if (functions == nullptr || functions->version != kKaustikOpenImageIoVersion) {
+        reinterpret_cast<KaustikImageEntry>(::dlsym(library, kKaustikImageModuleSymbol));
+    const KaustikImageFunctions* const functions = entry != nullptr ? entry() : nullptr;
+    if (functions == nullptr || functions->version != kKaustikImageModuleVersion) {
         ::dlclose(library);
         return {nullptr, fmt::format("{} belongs to another version of the program; build the "
-                                     "target kaustik_openimageio again, or {}",
-                                     file.string(), kAlternative)};
+                                     "target {} again, or {}",
+                                     file.string(), file.stem().string(), kAlternative)};
     }
     return {functions, ""};
 }
 
-const OpenImageIoModule& openImageIo() {
-    static const OpenImageIoModule module =
-        loadOpenImageIoModule(helperFolder() / "kaustik_openimageio.so");
+const ImageModule& imageModule() {
+    static const ImageModule module = [] {
+        const ImageModule all = loadImageModule(helperFolder() / "kaustik_openimageio.so");
+        if (all.functions != nullptr) return all;
+        const ImageModule few = loadImageModule(helperFolder() / "kaustik_exr_png.so");
+        return few.functions != nullptr ? few : all;
+    }();
     return module;
 }
 

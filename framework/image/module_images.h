@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Images by OpenImageIO, in this process. What it reads comes from anyone, so that only a reader
+// Images by a module, in this process. What it reads comes from anyone, so that only a reader
 // process calls the first two (`readImage` and `decodeImage` have it do so). All throw IoError that
-// begins with `name`, and says so where this build has no OpenImageIO.
+// begins with `name`, and says so where this build has no module.
 #pragma once
 
 #include <filesystem>
@@ -13,8 +13,8 @@
 
 namespace kaustik {
 
-[[nodiscard]] Image readByOpenImageIo(const std::filesystem::path& path, const std::string& name);
-[[nodiscard]] Image decodeByOpenImageIo(std::string_view bytes, const std::string& name);
+[[nodiscard]] Image readByModule(const std::filesystem::path& path, const std::string& name);
+[[nodiscard]] Image decodeByModule(std::string_view bytes, const std::string& name);
 
 // The bytes of an OpenEXR file, 32-bit float.
 [[nodiscard]] std::string encodeExr(const Image& image, const std::string& name);

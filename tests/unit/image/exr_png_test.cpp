@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+// The module of OpenEXR and PNG alone next to OpenImageIO's: each reads what the other has written.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "framework/core/files.h"
+#include "framework/image/eight_bits.h"
+#include "framework/image/image.h"
+#include "framework/image/module_images.h"
+#include "framework/image/module_loader.h"
+#include "tests/unit/temporary_folder.h"
+
+namespace kaustik {
+namespace {
+
+using test::TemporaryFolder;
+using ::testing::HasSubstr;
+
+// What a module hands over.
+struct Received {
+    Image image;
+    std::string bytes;
+    std::string problem;
+};
+
+KaustikImageSink sinkFor(Received& received) {
+    KaustikImageSink sink{};
+    sink.context = &received;
+    sink.allocate = [](void* context, int width, int height, int channels) {
+        auto& target = *static_cast<Received*>(context);
+        target.image = Image(width, height, channels);
+        return target.image.values.data();
+    };
+    sink.append = [](void* context, const unsigned char* bytes, std::size_t count) {
+        static_cast<Received*>(context)->bytes.append(reinterpret_cast<const char*>(bytes), count);
+        return true;
+    };
+    sink.fail = [](void* context, const char* message) {
+        static_cast<Received*>(context)->problem = message;
+    };
+    return sink;
+}
+
+class ExrPng : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        if (module().functions == nullptr) GTEST_SKIP() << module().problem;
+    }
+    static const ImageModule& module() {
+        static const ImageModule loaded =
+            loadImageModule(helperFolder() / "kaustik_exr_png.so");
+        return loaded;
+    }
+    static Received decode(const std::string& bytes) {
+        Received received;
+        const KaustikImageSink sink = sinkFor(received);
+        const bool isRead = module().functions->readMemory(
+            reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(), &sink);
+        EXPECT_EQ(isRead, received.problem.empty());
+        return received;
+    }
+    static std::string exrOf(const Image& image) {
+        Received received;
+        const KaustikImageSink sink = sinkFor(received);
+        EXPECT_TRUE(module().functions->encodeExr(image.values.data(), image.width, image.height,
+                                                  image.channels, &sink))
+            << received.problem;
+        return received.bytes;
+    }
+    static std::string pngOf(const Image& image) {
+        Received received;
+        const KaustikImageSink sink = sinkFor(received);
+        const std::vector<unsigned char> values = toEightBits(image);
+        EXPECT_TRUE(module().functions->encodePng(values.data(), image.width, image.height,
+                                                  image.channels, &sink))
+            << received.problem;
+        return received.bytes;
+    }
+    static bool hasOther() {
+        return loadImageModule(helperFolder() / "kaustik_openimageio.so").functions != nullptr;
+    }
+    TemporaryFolder folder_;
+};
+
+// Every pixel another, none between 0 and 1 alone.
+Image someImage(int channels) {
+    Image image(5, 4, channels);
+    for (std::size_t i = 0; i < image.values.size(); ++i)
+        image.values[i] = std::ldexp(1.0f + 0x1p-23f, static_cast<int>(i) - 30);
+    image.values[1] = -0.1f;
+    image.values.back() = std::numeric_limits<float>::infinity();
+    return image;
+}
+
+TEST_F(ExrPng, KeepsEveryFloatOfAnExrBitForBit) {
+    for (const int channels : {1, 2, 3, 4}) {
+        const Image image = someImage(channels);
+        const Received back = decode(exrOf(image));
+        EXPECT_EQ(back.image.channels, channels);
+        EXPECT_EQ(back.image.values, image.values) << channels;
+    }
+}
+
+TEST_F(ExrPng, ReadsWhatOpenImageIoWritesAndTheOtherWayRound) {
+    if (!hasOther()) GTEST_SKIP() << "built without OpenImageIO";
+    for (const int channels : {1, 2, 3, 4}) {
+        const Image image = someImage(channels);
+        EXPECT_EQ(decode(encodeExr(image, "a.exr")).image.values, image.values) << channels;
+        EXPECT_EQ(decodeByModule(exrOf(image), "a.exr").values, image.values) << channels;
+        const Image decodedOurs = decode(encodePng(image, toEightBits(image), "a.png")).image;
+        const Image decodedTheirs = decodeByModule(pngOf(image), "a.png");
+        EXPECT_EQ(decodedOurs.channels, channels);
+        EXPECT_EQ(decodedOurs.values, decodedTheirs.values) << channels;
+        EXPECT_FLOAT_EQ(decodedOurs.values.back(), 1.0f);
+    }
+}
+
+TEST_F(ExrPng, ReadsAFileAndSaysThatOneIsNotThere) {
+    const Image image = someImage(3);
+    writeFileWhole(folder_ / "a.exr", exrOf(image));
+    for (const char* name : {"a.exr", "none.exr"}) {
+        Received received;
+        const KaustikImageSink sink = sinkFor(received);
+        const bool isRead = module().functions->readFile((folder_ / name).c_str(), &sink);
+        EXPECT_EQ(isRead, std::strcmp(name, "a.exr") == 0);
+        if (isRead) EXPECT_EQ(received.image.values, image.values);
+        if (!isRead) EXPECT_THAT(received.problem, HasSubstr("cannot be opened"));
+    }
+}
+
+// Without its last bytes a file is an error or, where only a trailer is missing, the whole image.
+TEST_F(ExrPng, AFileCutOffAnywhereIsAnErrorOrWhole) {
+    Image image(3, 2, 3);
+    image.values.assign(image.values.size(), 0.5f);
+    image.values[4] = 1.0f;
+    for (const std::string& whole : {exrOf(image), pngOf(image)}) {
+        const std::vector<float> values = decode(whole).image.values;
+        ASSERT_EQ(values.size(), image.values.size());
+        for (std::size_t size = 0; size < whole.size(); ++size) {
+            const Received cut = decode(whole.substr(0, size));
+            if (cut.problem.empty()) EXPECT_EQ(cut.image.values, values) << size;
+        }
+    }
+}
+
+TEST_F(ExrPng, AnyOtherFileIsRefusedInASentence) {
+    EXPECT_THAT(decode("\xff\xd8\xff and so on").problem, HasSubstr("nor of a PNG"));
+    EXPECT_THAT(decode("").problem, HasSubstr("nor of a PNG"));
+}
+
+// 100,000 pixels a side, by its header.
+TEST_F(ExrPng, AHeaderThatClaimsTooManyPixelsIsAnError) {
+    std::string bytes = pngOf(Image(2, 2, 4));
+    const char side[] = {'\x00', '\x01', '\x86', '\xa0'};
+    bytes.replace(16, 4, side, 4);
+    EXPECT_FALSE(decode(bytes).problem.empty());
+}
+
+}  // namespace
+}  // namespace kaustik
