@@ -5,15 +5,16 @@
 namespace kaustik {
 
 void registerExactRays(Registry& registry) {
-    registry.technique({"exact_rays",
-                        "Photons, the eye's rays and shadows are traced exactly on the device; else "
-                        "as screen_space_photons.",
-                        "",
-                        {{"layers", "auto"},
-                         {"trace", "bvh"},
-                         {"reconstruct", "triangles"},
-                         {"shadow", "rays"},
-                         {"view", "bvh"}}});
+    registry.technique(
+        {"exact_rays",
+         "Photons, the eye's rays and shadows are traced exactly on the device; else "
+         "as screen_space_photons.",
+         "",
+         {{"layers", "auto"},
+          {"trace", "bvh"},
+          {"reconstruct", "triangles"},
+          {"shadow", "rays"},
+          {"view", "bvh"}}});
 }
 
 }  // namespace kaustik

@@ -70,7 +70,7 @@ using ModuleCall = std::function<bool(const KaustikImageFunctions&, const Kausti
 
 // Calls the module; an IoError that names the file where it is missing or fails.
 Received callModule(const std::string& name, const char* verb, std::uintmax_t sourceBytes,
-                         const ModuleCall& call) {
+                    const ModuleCall& call) {
     const ImageModule& module = imageModule();
     if (module.functions == nullptr) {
         throw IoError(fmt::format("{} cannot be {}: {}.", name, verb, module.problem));
@@ -91,38 +91,38 @@ Image readByModule(const std::filesystem::path& path, const std::string& name) {
     std::error_code error;
     const std::uintmax_t size = std::filesystem::file_size(path, error);
     return callModule(name, "read", error ? 0 : size,
-                           [&](const auto& functions, const auto& sink) {
-                               return functions.readFile(path.c_str(), &sink);
-                           })
+                      [&](const auto& functions, const auto& sink) {
+                          return functions.readFile(path.c_str(), &sink);
+                      })
         .image;
 }
 
 Image decodeByModule(std::string_view bytes, const std::string& name) {
     return callModule(name, "read", bytes.size(),
-                           [&](const auto& functions, const auto& sink) {
-                               return functions.readMemory(
-                                   reinterpret_cast<const unsigned char*>(bytes.data()),
-                                   bytes.size(), &sink);
-                           })
+                      [&](const auto& functions, const auto& sink) {
+                          return functions.readMemory(
+                              reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(),
+                              &sink);
+                      })
         .image;
 }
 
 std::string encodeExr(const Image& image, const std::string& name) {
     return callModule(name, "written", 0,
-                           [&](const auto& functions, const auto& sink) {
-                               return functions.encodeExr(image.values.data(), image.width,
-                                                          image.height, image.channels, &sink);
-                           })
+                      [&](const auto& functions, const auto& sink) {
+                          return functions.encodeExr(image.values.data(), image.width, image.height,
+                                                     image.channels, &sink);
+                      })
         .bytes;
 }
 
 std::string encodePng(const Image& image, const std::vector<unsigned char>& values,
                       const std::string& name) {
     return callModule(name, "written", 0,
-                           [&](const auto& functions, const auto& sink) {
-                               return functions.encodePng(values.data(), image.width, image.height,
-                                                          image.channels, &sink);
-                           })
+                      [&](const auto& functions, const auto& sink) {
+                          return functions.encodePng(values.data(), image.width, image.height,
+                                                     image.channels, &sink);
+                      })
         .bytes;
 }
 

@@ -157,8 +157,8 @@ struct TraceStage : Stage<Hits(Photons, Surfaces)> {
         bool tiles = false;
         // Rows of texels that it takes for a row of a list.
         int texelRows = 1;
-        // It knows rays that hit every surface from either side (kLeftBothSides), though it reads no
-        // layers of the eye.
+        // It knows rays that hit every surface from either side (kLeftBothSides), though it reads
+        // no layers of the eye.
         bool bothSides = false;
     };
 };

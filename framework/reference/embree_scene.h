@@ -7,9 +7,9 @@
 //
 // No ray needs an epsilon to leave a surface. A ray names the triangle that it starts on, which it
 // cannot hit again, and the dielectric that it is inside of: that one it hits only from within,
-// any other only from outside (shaders/include/surfaces/side_rule.glsl, `isFacing`), so rounding at the
-// seam to a neighbouring triangle does no harm either. Where dielectrics overlap, one farther out
-// may end inside of the innermost.
+// any other only from outside (shaders/include/surfaces/side_rule.glsl, `isFacing`), so rounding at
+// the seam to a neighbouring triangle does no harm either. Where dielectrics overlap, one farther
+// out may end inside of the innermost.
 #pragma once
 
 #include <array>

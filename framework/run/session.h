@@ -127,9 +127,9 @@ class Session {
     // The record with ledger, layers, limits and violations, after a frame for
     // Purpose::measurement.
     [[nodiscard]] report::RunRecord measured() const;
-    // Renders one more frame at the last one's time, not timed (see render()), for ledger, pictures, the textures
-    // `saved` and the reference's judgement, and completes the record but for that. None where it
-    // was ended early.
+    // Renders one more frame at the last one's time, not timed (see render()), for ledger,
+    // pictures, the textures `saved` and the reference's judgement, and completes the record but
+    // for that. None where it was ended early.
     [[nodiscard]] std::optional<report::RunRecord> measure(
         const RunReference& reference, const std::vector<std::string>& saved,
         const ShouldContinue& shouldContinue = {});

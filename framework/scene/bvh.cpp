@@ -187,8 +187,8 @@ Bvh buildBvh(std::span<const BoxBounds> bounds) {
     if (!binary.empty()) level.push_back(0);
     if (binary.empty()) {
         const std::array<glm::vec3, 4> none{};
-        bvh.nodes.push_back(transport::bvhNodeOf(glm::uvec4(transport::kBvhNone), none.data(),
-                                                 none.data()));
+        bvh.nodes.push_back(
+            transport::bvhNodeOf(glm::uvec4(transport::kBvhNone), none.data(), none.data()));
         bvh.nodes.front().origin = glm::vec3(0.0f);
         bvh.levels.push_back({0, 1});
     }

@@ -28,15 +28,15 @@ using uint = unsigned int;
 
 const uint kBvhWidth = 4u;
 const uint kBvhNone = 0xffffffffu;  // a child that is not there
-// A child that is a leaf: this bit, in the three bits below it its triangles less one, in the others
-// the first of them. Any other child is the number of a node.
+// A child that is a leaf: this bit, in the three bits below it its triangles less one, in the
+// others the first of them. Any other child is the number of a node.
 const uint kBvhLeaf = 0x80000000u;
 const uint kBvhLeafShift = 28u;
 const uint kBvhLeafMost = 4u;  // triangles in a leaf
 
 // 64 bytes (std430).
 struct BvhNode {
-    vec3 origin;  // the lower corner of its bounds, m
+    vec3 origin;     // the lower corner of its bounds, m
     uint exponents;  // by the byte, for x, y and z: 2^(byte - 127) m is a step
     uvec4 children;
     uvec4 lower;  // x, y, z: steps from the origin along each axis, a byte a child

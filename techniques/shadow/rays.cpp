@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // shadow.rays: from every receiver pixel a ray back to each light, traced by the node that answers
 // stage `trace` (K06, section 5, Figs. 11 and 12): through the layers, where what is hidden beyond
-// the last one or off the screen throws no shadow, or exactly (trace.bvh). In: eye buffer and layered depth; out: visibility, 0 or
-// 1 a pixel and light.
+// the last one or off the screen throws no shadow, or exactly (trace.bvh). In: eye buffer and
+// layered depth; out: visibility, 0 or 1 a pixel and light.
 #include <fmt/format.h>
 
 #include "framework/core/error.h"
@@ -87,7 +87,8 @@ void registerShadowRays(Registry& registry) {
         {"Traces a ray from every receiver to the light, through the layers or exactly.",
          "K06, section 5",
          "A shadow is there or not, once a pixel. It takes a tracer of the eye's layers, of which "
-         "what is off the screen or beyond the last one throws no shadow, or trace.bvh, which knows "
+         "what is off the screen or beyond the last one throws no shadow, or trace.bvh, which "
+         "knows "
          "all, and refuses every other."},
         &traceShadowRays);
 }

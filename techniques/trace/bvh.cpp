@@ -15,8 +15,7 @@ Hits traceBvh(FrameBuilder& frame, const params::NoParams&, Photons photons, Sur
     return frame.pass<Hits>(
         "trace.bvh",
         fmt::format("one thread a photon, through {} triangles in a tree of {} levels",
-                    frame.gpuScene().bvh().triangleCount(),
-                    frame.gpuScene().bvh().levels().size()),
+                    frame.gpuScene().bvh().triangleCount(), frame.gpuScene().bvh().levels().size()),
         [&](graph::PassSetup& setup, Hits& hits) {
             photons.sample(setup);
             bvh.read(setup);
@@ -38,8 +37,9 @@ void registerTraceBvh(Registry& registry) {
         "bvh",
         {"Exact first hits by ray tracing on the device, through a hierarchy over all triangles.",
          "",
-         "The hierarchy is built on the processor once, in a second for a million triangles, and "
-         "takes 110 bytes for each of them; where water moves it is fitted anew in each frame."},
+         "The hierarchy is built on the processor once, in 0.3 s for 200,000 triangles, and takes "
+         "112 bytes for each of them and 64 for each of its nodes; where water moves it is fitted "
+         "anew in each frame."},
         {.reach = TracerReach::everything, .bothSides = true}, &traceBvh);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rays through the hierarchy on the device (trace.bvh, view.bvh, shadow.rays by it) beside Embree's,
-// in every scene that the project ships: they differ by ties and roundings alone.
+// Rays through the hierarchy on the device (trace.bvh, view.bvh, shadow.rays by it) beside
+// Embree's, in every scene that the project ships: they differ by ties and roundings alone.
 #include <gtest/gtest.h>
 
 #include "framework/audit/hit_audit.h"
@@ -14,10 +14,8 @@ namespace {
 
 constexpr int kWidth = 160;
 constexpr int kHeight = 120;
-const numerics::Settings kExact = {{"emit.photons", "128x128"},
-                                   {"trace", "bvh"},
-                                   {"view", "bvh"},
-                                   {"shadow", "rays"}};
+const numerics::Settings kExact = {
+    {"emit.photons", "128x128"}, {"trace", "bvh"}, {"view", "bvh"}, {"shadow", "rays"}};
 
 class ExactRays : public testing::TestWithParam<std::string> {
   protected:

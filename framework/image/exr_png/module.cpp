@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The module kaustik_exr_png.so: OpenEXR and PNG alone, by their own libraries, behind the C boundary
-// of module_interface.h. It needs no more than these, so that it can go along to a machine that has
-// no OpenImageIO. Values come and go as stored, as OpenImageIO's module has them.
+// The module kaustik_exr_png.so: OpenEXR and PNG alone, by their own libraries, behind the C
+// boundary of module_interface.h. It needs no more than these, so that it can go along to a machine
+// that has no OpenImageIO. Values come and go as stored, as OpenImageIO's module has them.
 #include <ImfChannelList.h>
 #include <ImfCompression.h>
 #include <ImfFrameBuffer.h>
@@ -106,8 +106,7 @@ void readExr(std::string_view bytes, const KaustikImageSink* sink) {
     const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
     const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
     const std::vector<std::string> names = channelsOf(file.header().channels());
-    float* const values =
-        allocate(sink, width, height, static_cast<std::int64_t>(names.size()));
+    float* const values = allocate(sink, width, height, static_cast<std::int64_t>(names.size()));
     const std::size_t pixelBytes = sizeof(float) * names.size();
     const std::size_t rowBytes = pixelBytes * static_cast<std::size_t>(width);
     Imf::FrameBuffer target;
@@ -147,7 +146,8 @@ struct PngHeader {
     bool has16Bits = false;
 };
 
-// libpng leaves by longjmp: nothing with a destructor may begin between here and what it returns to.
+// libpng leaves by longjmp: nothing with a destructor may begin between here and what it returns
+// to.
 bool readPngHeader(png_structp png, png_infop info, PngHeader& header) {
     if (setjmp(png_jmpbuf(png)) != 0) return false;
     png_read_info(png, info);
@@ -205,8 +205,7 @@ class PngReader {
   private:
     void check(bool isRight) const {
         if (isRight) return;
-        throw std::runtime_error(
-            fmt::format("it is damaged or cut off ({})", call_.problem));
+        throw std::runtime_error(fmt::format("it is damaged or cut off ({})", call_.problem));
     }
     PngCall call_;
     png_structp png_ = nullptr;
@@ -225,8 +224,7 @@ void writePngBytes(png_structp png, png_bytep bytes, std::size_t count) {
 }
 void flushPng(png_structp) {}
 
-bool writePng(png_structp png, png_infop info, int width, int height, int color,
-              png_bytepp rows) {
+bool writePng(png_structp png, png_infop info, int width, int height, int color, png_bytepp rows) {
     if (setjmp(png_jmpbuf(png)) != 0) return false;
     png_set_IHDR(png, info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), 8,
                  color, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
@@ -256,9 +254,8 @@ bool readFile(const char* path, const KaustikImageSink* sink) {
 }
 
 bool readMemory(const unsigned char* bytes, std::size_t count, const KaustikImageSink* sink) {
-    return guarded(sink, [&] {
-        read(std::string_view(reinterpret_cast<const char*>(bytes), count), sink);
-    });
+    return guarded(
+        sink, [&] { read(std::string_view(reinterpret_cast<const char*>(bytes), count), sink); });
 }
 
 bool encodeExr(const float* values, int width, int height, int channels,
@@ -313,8 +310,7 @@ bool encodePng(const unsigned char* values, int width, int height, int channels,
                      rows.data());
         png_destroy_write_struct(&png, &info);
         if (!isWritten) throw std::runtime_error(call.problem);
-        if (!sink->append(sink->context,
-                          reinterpret_cast<const unsigned char*>(call.output.data()),
+        if (!sink->append(sink->context, reinterpret_cast<const unsigned char*>(call.output.data()),
                           call.output.size())) {
             throw std::bad_alloc();
         }

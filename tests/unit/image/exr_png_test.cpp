@@ -51,8 +51,7 @@ class ExrPng : public ::testing::Test {
         if (module().functions == nullptr) GTEST_SKIP() << module().problem;
     }
     static const ImageModule& module() {
-        static const ImageModule loaded =
-            loadImageModule(helperFolder() / "kaustik_exr_png.so");
+        static const ImageModule loaded = loadImageModule(helperFolder() / "kaustik_exr_png.so");
         return loaded;
     }
     static Received decode(const std::string& bytes) {

@@ -144,8 +144,7 @@ void expectWholeOrError(const std::string& bytes) {
         const std::vector<char> cut(bytes.begin(),
                                     bytes.begin() + static_cast<std::ptrdiff_t>(length));
         try {
-            const Image image =
-                decodeByModule(std::string_view(cut.data(), cut.size()), "cut");
+            const Image image = decodeByModule(std::string_view(cut.data(), cut.size()), "cut");
             EXPECT_EQ(image.values, whole.values) << "cut after byte " << length;
         } catch (const IoError& error) {
             EXPECT_THAT(error.what(), HasSubstr("cut cannot be read")) << length;

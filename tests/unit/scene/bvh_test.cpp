@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The bounding volume hierarchy: everything is in one leaf, and in the bounds of all nodes above it.
+// The bounding volume hierarchy: everything is in one leaf, and in the bounds of all nodes above
+// it.
 #include "framework/scene/bvh.h"
 
 #include <gtest/gtest.h>
