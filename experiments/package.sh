@@ -40,7 +40,7 @@ rm --recursive --force "$whole/include" "$whole"/lib/*.a "$whole/lib/cmake" "$wh
 find "$whole/share/kaustik/meshes" -type f ! -name '*.3ds' ! -name bunny.obj -delete 2> /dev/null || true
 
 programs=("$whole/bin/kaustik" "$whole/lib/kaustik/kaustik_reader" "$whole/lib/kaustik/kaustik_exr_png.so")
-shared=$whole/lib/shared    # by $ORIGIN, always
+shared=$whole/lib/shared    # by $ORIGIN, unless LD_LIBRARY_PATH has the same
 runtime=$whole/lib/runtime  # the C++ runtime, only where the host's is older: its driver may need its own newer one
 licences=$whole/licences
 mkdir --parents "$shared" "$runtime" "$licences"
@@ -75,14 +75,19 @@ done < "$work/libraries"
 strip --strip-unneeded "${programs[@]}" "$shared"/* "$runtime"/*
 # shellcheck disable=SC2016
 for program in "${programs[@]}"; do
-    [[ $program == */bin/* ]] && patchelf --set-rpath '$ORIGIN/../lib/shared' "$program" || patchelf --set-rpath '$ORIGIN/../shared' "$program"
+    if [[ $program == "$whole"/bin/* ]]; then
+        patchelf --set-rpath '$ORIGIN/../lib/shared' "$program"
+    else
+        patchelf --set-rpath '$ORIGIN/../shared' "$program"
+    fi
 done
 # shellcheck disable=SC2016
 for library in "$shared"/*; do
     patchelf --set-rpath '$ORIGIN' "$library"
 done
 cp "$root/LICENSE" "$licences/kaustik.txt"
-[[ ! -e /usr/share/doc/glmark2-data/copyright ]] || cp /usr/share/doc/glmark2-data/copyright "$licences/meshes.txt"
+[[ -s $root/meshes/glmark2-data.txt ]] || fail "the meshes' licence is missing; experiments/fetch_meshes.sh fetches it"
+cp "$root/meshes/glmark2-data.txt" "$licences/meshes.txt"
 
 cat > "$whole/kaustik" << 'SCRIPT'
 #!/bin/sh

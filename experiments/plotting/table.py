@@ -74,6 +74,11 @@ def spread(row: dict) -> float | None:
     return deviation / mean if mean and deviation is not None else None
 
 
+def timed(row: dict, value: float | None) -> float | None:
+    """Nothing where the one frame was also measured: its passes and memory are not a picture's."""
+    return None if row.get("of_measured_frame") == "true" else value
+
+
 def mebibytes(row: dict) -> float | None:
     peak = number(row, "memory.peak_bytes")
     return peak / 2.0**20 if peak is not None else None
@@ -103,11 +108,11 @@ MEASURED = [
     ("view energy", ".3f", lambda row: number(row, VIEW + "energy_ratio")),
     ("view interfaces right", ".4f", lambda row: number(row, "error.view.interfaces_right")),
     ("view lost", ".4f", lambda row: number(row, "error.view.lost")),
-    ("ms", ".0f", lambda row: sum_of_passes(row, CAUSTIC)),
-    ("view ms", ".0f", lambda row: sum_of_passes(row, ("view.",))),
-    ("frame, ms", ".0f", lambda row: number(row, "frame_ms.median")),
+    ("ms", ".0f", lambda row: timed(row, sum_of_passes(row, CAUSTIC))),
+    ("view ms", ".0f", lambda row: timed(row, sum_of_passes(row, ("view.",)))),
+    ("frame, ms", ".0f", lambda row: timed(row, number(row, "frame_ms.median"))),
     ("spread", ".3f", lambda row: spread(row)),
-    ("peak MiB", ".0f", lambda row: mebibytes(row)),
+    ("peak MiB", ".0f", lambda row: timed(row, mebibytes(row))),
 ]
 
 

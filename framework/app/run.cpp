@@ -86,7 +86,9 @@ void runCommand(const RunOptions& options, const Registry& registry) {
             progress.update(done);
             run::throwIfInterrupted();
         };
-        session.render(series, {{}, onFrame}, &reference, &options.saved);
+        // A capture renders the picture once more.
+        session.render(series, {{}, onFrame}, &reference,
+                       options.captures ? nullptr : &options.saved);
     }
 
     std::vector<fs::path> captures;

@@ -94,6 +94,7 @@ Row resultColumns(const json& report) {
     row.emplace_back("other_processors", timing.value("other_processors", json()));
     row.emplace_back("dropped_frames", timing.value("dropped_frames", json()));
     row.emplace_back("measuring_ms", timing.value("measuring_ms", json()));
+    row.emplace_back("of_measured_frame", timing.value("of_measured_frame", json()));
     row.emplace_back("date", timing.value("date", ""));
     row.emplace_back("version", report.value("version", ""));
     return row;

@@ -88,7 +88,7 @@ bool hasImageModule() {
 
 std::string imageFormats() {
     return hasImageModule() ? imageModule().functions->formats
-                            : "PFM and PPM only: no OpenImageIO in this build";
+                            : "PFM and PPM only: " + imageModule().problem;
 }
 
 std::string floatImageExtension() {

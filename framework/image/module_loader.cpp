@@ -43,8 +43,10 @@ const ImageModule& imageModule() {
     static const ImageModule module = [] {
         const ImageModule all = loadImageModule(helperFolder() / "kaustik_openimageio.so");
         if (all.functions != nullptr) return all;
-        const ImageModule few = loadImageModule(helperFolder() / "kaustik_exr_png.so");
-        return few.functions != nullptr ? few : all;
+        const std::filesystem::path other = helperFolder() / "kaustik_exr_png.so";
+        std::error_code error;
+        // What is there but cannot be loaded is the cause.
+        return std::filesystem::exists(other, error) ? loadImageModule(other) : all;
     }();
     return module;
 }

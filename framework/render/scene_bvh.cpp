@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "framework/render/scene_bvh.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "framework/core/error.h"
 #include "framework/transport/types.h"
 
 namespace kaustik::render {
@@ -38,6 +42,18 @@ void addObject(const scene::Scene& scene, std::uint32_t number, const glm::dmat4
     }
 }
 
+void requireRoom(const Triangles& triangles) {
+    GLint64 allowed = 0;
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &allowed);
+    const std::size_t bytes = triangles.corners.size() * sizeof(VertexData);
+    constexpr std::size_t kNumbers = std::size_t{1} << transport::kBvhLeafShift;
+    if (bytes <= static_cast<std::size_t>(allowed) && triangles.sources.size() <= kNumbers) return;
+    throw ConfigError(fmt::format(
+        "A hierarchy over {} triangles takes {} MiB in one block, and this device allows {}: take "
+        "trace=hierarchical, view=refraction and shadow=map.",
+        triangles.sources.size(), bytes >> 20, allowed >> 20));
+}
+
 template <class T>
 gl::Buffer upload(std::vector<T>& values, const char* label) {
     if (values.empty()) values.emplace_back();  // a block is never empty
@@ -53,10 +69,15 @@ SceneBvh::SceneBvh(const scene::Scene& scene) {
     for (std::uint32_t i = 0; i < scene.objects.size(); ++i)
         addObject(scene, i, worldToLocal(), given);
     std::vector<scene::BoxBounds> bounds(given.sources.size());
+    requireRoom(given);
+    scene::BoxBounds whole;
     for (std::size_t i = 0; i < bounds.size(); ++i) {
         for (std::size_t corner = 0; corner < 3; ++corner)
             bounds[i].include(given.corners[3 * i + corner].position);
+        whole.include(bounds[i]);
     }
+    const glm::vec3 farthest = glm::max(glm::abs(whole.lower), glm::abs(whole.upper));
+    if (!bounds.empty()) roundingMeters_ = 1e-6f * std::max({farthest.x, farthest.y, farthest.z});
     scene::Bvh bvh = scene::buildBvh(bounds);
     nodeCount_ = bvh.nodes.size();
     triangleCount_ = bvh.order.size();

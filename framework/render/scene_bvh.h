@@ -15,7 +15,8 @@ namespace kaustik::render {
 
 class SceneBvh {
   public:
-    // Height fields lie as they do at Scene::timeSeconds.
+    // Height fields lie as they do at Scene::timeSeconds. ConfigError where the device takes no
+    // block of so many triangles.
     explicit SceneBvh(const scene::Scene& scene);
 
     [[nodiscard]] const gl::Buffer& nodes() const { return nodes_; }      // BvhNode
@@ -25,6 +26,8 @@ class SceneBvh {
     [[nodiscard]] std::size_t triangleCount() const { return triangleCount_; }
     [[nodiscard]] const std::vector<scene::Bvh::Level>& levels() const { return levels_; }
     [[nodiscard]] std::size_t stackSize() const { return stackSize_; }
+    // That local coordinates may be off by after a few operations in 32 bits, m.
+    [[nodiscard]] float roundingMeters() const { return roundingMeters_; }
     // Whether there are height fields, whose corners and bounds are to be made anew.
     [[nodiscard]] bool isMoving() const { return isMoving_; }
     [[nodiscard]] glm::dmat4 worldToLocal() const;
@@ -39,6 +42,7 @@ class SceneBvh {
     std::size_t triangleCount_ = 0;
     std::vector<scene::Bvh::Level> levels_;
     std::size_t stackSize_ = 0;
+    float roundingMeters_ = 0.0f;
     bool isMoving_ = false;
 };
 

@@ -246,7 +246,7 @@ void reflect(F& f, const Timing& timing) {
             "That timing its passes adds to a frame, at least");
     f.field("of_measured_frame", timing.isOfMeasuredFrame,
             "Whether one frame was asked for, without a warm-up, which then is also the one that "
-            "is measured and judged: its times hold what only that takes");
+            "is measured and judged: times, passes and memory hold what only that takes");
 }
 template <class F>
 void reflect(F& f, const ReportTable& report) {

@@ -87,6 +87,7 @@ void Session::adopt(RenderSettings settings) {
 void Session::noteSceneChange() {
     needsUpdate_ = true;
     hasFrame_ = false;
+    measuredFrame_.reset();
 }
 
 void Session::setTime(double seconds) {
@@ -97,6 +98,7 @@ void Session::setTime(double seconds) {
 
 void Session::forgetTimes() {
     forgetsTimes_ = needsUpdate_ = true;
+    measuredFrame_.reset();
 }
 
 void Session::setPrecise(bool isPrecise) {
@@ -120,7 +122,8 @@ std::vector<std::string> Session::keptTextures() const {
 }
 
 void Session::forgetBuild() {
-    isBuilt_ = isMeasured_ = hasFrame_ = false;
+    isBuilt_ = hasFrame_ = false;
+    measuredFrame_.reset();
 }
 
 void Session::update(const RenderSettings& settings) {
@@ -152,11 +155,10 @@ void Session::prepare() {
     restartRecord();
 }
 
-void Session::prepareMeasured(Purpose purpose, const std::vector<std::string>& saved) {
+void Session::prepareMeasured(const MeasuredFrame& wanted) {
     bringUpToDate();
     forgetBuild();
-    renderer_.build(purpose, saved);
-    isMeasured_ = true;
+    renderer_.build(wanted.purpose, wanted.saved);
     restartRecord();
 }
 
@@ -247,8 +249,11 @@ RenderedSeries Session::render(const FrameSeries& series, const SeriesWatch& wat
         const double seconds = series.secondsOf(std::max(frame - series.warmup, 0), begin);
         if (seconds != scene_.timeSeconds) collect(true);
         setTime(seconds);
-        if (total == 1 && reference != nullptr && saved != nullptr) {
-            prepareMeasured(reference->purpose(), *saved);
+        std::optional<MeasuredFrame> measured;
+        if (total == 1 && reference != nullptr && saved != nullptr)
+            measured = MeasuredFrame{reference->purpose(), *saved};
+        if (measured) {
+            prepareMeasured(*measured);
         } else {
             prepare();
         }
@@ -257,10 +262,8 @@ RenderedSeries Session::render(const FrameSeries& series, const SeriesWatch& wat
             date = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
         }
         rendered.isWhole = renderBuilt(timer_, watch.shouldContinue);
-        if (!rendered.isWhole) {
-            isMeasured_ = false;
-            break;
-        }
+        if (!rendered.isWhole) break;
+        measuredFrame_ = std::move(measured);
         // A ring slot is read when its frame is done; no frame may be lost, so that the ring is
         // emptied before it is full.
         collect(options_.isPrecise || frame % 2 == 1);
@@ -282,7 +285,7 @@ RenderedSeries Session::render(const FrameSeries& series, const SeriesWatch& wat
         all.erase(all.begin(), all.end() - static_cast<std::ptrdiff_t>(options_.framesKept));
     if (!date.empty()) {
         record_.timing = {date, otherWork, timer_.droppedFrames() - droppedBefore,
-                          measuringMilliseconds(), isMeasured_};
+                          measuringMilliseconds(), measuredFrame_.has_value()};
     }
     return rendered;
 }

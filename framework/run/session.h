@@ -151,7 +151,13 @@ class Session {
     // rendered next alone.
     void bringUpToDate(const RenderSettings* other = nullptr);
     void forgetBuild();
-    void prepareMeasured(Purpose purpose, const std::vector<std::string>& saved);
+    // A frame that is timed and measured at once.
+    struct MeasuredFrame {
+        Purpose purpose;
+        std::vector<std::string> saved;
+        friend bool operator==(const MeasuredFrame&, const MeasuredFrame&) = default;
+    };
+    void prepareMeasured(const MeasuredFrame& wanted);
     void restartRecord();
     bool renderBuilt(gl::PassTimer& timer, const ShouldContinue& shouldContinue);
     bool renderUntimed(const ShouldContinue& shouldContinue);
@@ -169,8 +175,8 @@ class Session {
     bool needsUpdate_;           // settings or scene are not the renderer's
     bool forgetsTimes_ = false;  // with the next update
     bool isBuilt_ = false;       // for pictures and what is kept
-    bool isMeasured_ = false;    // the last frame is one that measure() can take
     bool hasFrame_ = false;
+    std::optional<MeasuredFrame> measuredFrame_;   // the last one, until measure() takes it
     std::optional<double> measuringMilliseconds_;  // of a pass
 };
 

@@ -92,7 +92,7 @@ report::RunRecord Session::measured() const {
 std::optional<report::RunRecord> Session::measure(const RunReference& reference,
                                                   const std::vector<std::string>& saved,
                                                   const ShouldContinue& shouldContinue) {
-    if (!isMeasured_) {
+    if (std::exchange(measuredFrame_, {}) != MeasuredFrame{reference.purpose(), saved}) {
         bringUpToDate();
         forgetBuild();
         renderer_.build(reference.purpose(), saved);

@@ -21,8 +21,8 @@ Hit hitOf(Photon photon) {
     // corners, and to a few roundings.
     float footprint = pixelFootprint(abs(photon.positionVs.z));
     photonReach = leftSide(photon.media) == kLeftBothSides
-                      ? footprint / 128.0 + 4e-6 * length(photon.positionVs)
-                      : 2.0 * footprint;
+                      ? localRounding + footprint / 128.0 + 4e-6 * length(photon.positionVs)
+                      : localRounding + 2.0 * footprint;
     BvhHit found = traceBvh(ray, 3.0e38);
     if (found.triangle == kBvhNone) {
         ledgerAdd(kAccountLeftScene, photon.fluxWatts);

@@ -64,7 +64,7 @@ Seen seenBy(EyePath path) {
     raysHits = path.isFromEye ? kHitsAll : kHitsBySide;
     tracedNow = tracedRay(ray.origin, ray.direction, path.at.media);
     // A ray that is traced exactly is known to a few roundings.
-    resolvedNow = 4e-6 * length(path.at.origin);
+    resolvedNow = localRounding + 4e-6 * length(path.at.origin);
     BvhHit hit = traceBvh(ray, 3.0e38);
     Seen seen = Seen(path.at.origin, vec3(0.0), vec3(0.0), 0u, hit, ray);
     if (hit.triangle == kBvhNone) return seen;
@@ -101,7 +101,7 @@ bool isShadowed(Seen seen, vec3 toLight, float reach) {
     BvhRay ray = bvhRay(seen.positionVs, toLight);
     raysHits = kHitsBlockers;
     startTriangle = seen.hit.triangle;
-    resolvedNow = 4e-6 * length(seen.positionVs);
+    resolvedNow = localRounding + 4e-6 * length(seen.positionVs);
     return traceBvh(ray, reach).triangle != kBvhNone;
 }
 
@@ -152,7 +152,8 @@ vec3 radianceOfReceiver(Seen seen, vec3 direction, float pathMeters) {
 vec3 radianceAtEnd(EyePath path, Seen seen) {
     uint media = path.at.media;
     // What was not traced out of an object is taken to see what one outside of it would.
-    if (isInsideClosed(media) && seen.material == 0u) media = leaveMedium(media, innerMedium(media));
+    while (seen.material == 0u && isInsideClosed(media))
+        media = leaveMedium(media, innerMedium(media));
     uint medium = innerMedium(media);
     float ratio = indexAtEye / mediumIndex(medium);
     vec3 sum = seen.material == 0u

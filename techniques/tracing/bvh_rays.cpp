@@ -92,6 +92,7 @@ void BvhOfFrame::bindTo(gl::Command& command, const FrameInputs& inputs) const {
     command.storage("BvhSources", still.sources())
         .set("localFromEye",
              glm::mat4(still.worldToLocal() * glm::inverse(inputs.view.worldToView)))
+        .set("localRounding", still.roundingMeters())
         .define(stackOf(still.stackSize()));
 }
 

@@ -27,7 +27,10 @@ while read -r library; do
         *) fail "it loads $library" ;;
     esac
 done < <(ldd "$here/bin/kaustik" "$here/lib/kaustik/kaustik_exr_png.so" | sed --quiet 's/.*=> \(\/.*\) (0x.*/\1/p')
-ldd "$here/bin/kaustik" "$here"/lib/kaustik/* "$here"/lib/shared/* | grep -q 'not found' && fail "a library is missing"
+missing=$(ldd "$here/bin/kaustik" "$here"/lib/kaustik/* "$here"/lib/shared/* || true)
+[[ $missing != *'not found'* ]] || fail "a library is missing"
+[[ -s $here/licences/kaustik.txt && -s $here/licences/meshes.txt ]] || fail "a licence is missing"
+(($(find "$here/licences" -size +0 | wc -l) >= 15)) || fail "licences of libraries are missing"
 
 program() { (cd / && exec env -i HOME="$work" PATH=/usr/bin:/bin LD_LIBRARY_PATH=/nonsense LC_ALL=no_NO "$here/kaustik" "$@") > "$work/log" 2>&1; }
 program check || fail "'kaustik check' failed"
@@ -36,6 +39,6 @@ program run pool --technique exact_rays --size 64x48 --frames 1 --warmup 0 --out
 program compare "$work/run/caustic.exr" "$work/run/caustic.exr" || fail "it cannot read what it has written"
 [[ -s $work/run/beauty.png ]] || fail "it has written no PNG"
 
-missing() { "$sources/experiments/package.sh" "$@" > "$work/log" 2>&1 && fail "'package.sh $*' did not fail"; grep -q '^package: ' "$work/log"; }
-missing --build "$work" || fail "a folder without a program is refused without a sentence"
-missing --into nowhere || fail "an unknown option is refused without a sentence"
+refused() { "$sources/experiments/package.sh" "$@" > "$work/log" 2>&1 && fail "'package.sh $*' did not fail"; grep -q '^package: ' "$work/log"; }
+refused --build "$work" || fail "a folder without a program is refused without a sentence"
+refused --into nowhere || fail "an unknown option is refused without a sentence"

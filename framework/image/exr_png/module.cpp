@@ -2,6 +2,7 @@
 // The module kaustik_exr_png.so: OpenEXR and PNG alone, by their own libraries, behind the C
 // boundary of module_interface.h. It needs no more than these, so that it can go along to a machine
 // that has no OpenImageIO. Values come and go as stored, as OpenImageIO's module has them.
+#include <IexBaseExc.h>
 #include <ImfChannelList.h>
 #include <ImfCompression.h>
 #include <ImfFrameBuffer.h>
@@ -29,10 +30,14 @@ namespace {
 
 using kaustik::guarded;
 
-float* allocate(const KaustikImageSink* sink, std::int64_t width, std::int64_t height,
-                std::int64_t channels) {
+void requireSize(std::int64_t width, std::int64_t height, std::int64_t channels) {
     const std::string problem = kaustik::imageSizeProblem(width, height, channels);
     if (!problem.empty()) throw std::runtime_error("it " + problem);
+}
+
+float* allocate(const KaustikImageSink* sink, std::int64_t width, std::int64_t height,
+                std::int64_t channels) {
+    requireSize(width, height, channels);
     float* const values = sink->allocate(sink->context, static_cast<int>(width),
                                          static_cast<int>(height), static_cast<int>(channels));
     if (values == nullptr) throw std::bad_alloc();
@@ -99,7 +104,20 @@ std::vector<std::string> channelsOf(const Imf::ChannelList& list) {
     return names;
 }
 
-void readExr(std::string_view bytes, const KaustikImageSink* sink) {
+// OpenEXR's sentence without the name that it has for the file, and without its period.
+std::string reasonOf(const Iex::BaseExc& error) {
+    const std::string_view name = "\"memory\". ";
+    std::string reason = error.what();
+    if (const std::size_t at = reason.find(name); at != std::string::npos)
+        reason.erase(0, at + name.size());
+    while (!reason.empty() && (reason.back() == '.' || reason.back() == '\n'))
+        reason.pop_back();
+    return reason;
+}
+
+void readExrPixels(std::string_view bytes, const KaustikImageSink* sink) {
+    // Asked before anything is allocated by what the header says.
+    Imf::Header::setMaxImageSize(kaustik::kLargestImageSide, kaustik::kLargestImageSide);
     MemoryInput stream(bytes);
     Imf::InputFile file(stream);
     const Imath::Box2i window = file.header().dataWindow();
@@ -116,6 +134,14 @@ void readExr(std::string_view bytes, const KaustikImageSink* sink) {
     }
     file.setFrameBuffer(target);
     file.readPixels(window.min.y, window.max.y);
+}
+
+void readExr(std::string_view bytes, const KaustikImageSink* sink) {
+    try {
+        readExrPixels(bytes, sink);
+    } catch (const Iex::BaseExc& error) {
+        throw std::runtime_error(fmt::format("it is damaged or cut off ({})", reasonOf(error)));
+    }
 }
 
 // What libpng is handed, and what it says.
@@ -151,12 +177,18 @@ struct PngHeader {
 bool readPngHeader(png_structp png, png_infop info, PngHeader& header) {
     if (setjmp(png_jmpbuf(png)) != 0) return false;
     png_read_info(png, info);
+    header.width = png_get_image_width(png, info);
+    header.height = png_get_image_height(png, info);
+    header.channels = png_get_channels(png, info);
+    return true;
+}
+// As samples of eight or sixteen bits.
+bool expandPng(png_structp png, png_infop info, PngHeader& header) {
+    if (setjmp(png_jmpbuf(png)) != 0) return false;
     png_set_expand(png);
     if (png_get_bit_depth(png, info) == 16) png_set_swap(png);
     png_set_interlace_handling(png);
     png_read_update_info(png, info);
-    header.width = png_get_image_width(png, info);
-    header.height = png_get_image_height(png, info);
     header.channels = png_get_channels(png, info);
     header.has16Bits = png_get_bit_depth(png, info) == 16;
     return true;
@@ -174,8 +206,11 @@ class PngReader {
         call_.input = bytes;
         png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, &call_, failPng, ignorePngWarning);
         info_ = png_ != nullptr ? png_create_info_struct(png_) : nullptr;
-        if (info_ == nullptr) throw std::bad_alloc();
-        png_set_user_limits(png_, kaustik::kLargestImageSide, kaustik::kLargestImageSide);
+        if (info_ == nullptr) {
+            png_destroy_read_struct(&png_, nullptr, nullptr);
+            throw std::bad_alloc();
+        }
+        png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // ours are asked below
         png_set_read_fn(png_, &call_, readPngBytes);
     }
     ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
@@ -185,6 +220,8 @@ class PngReader {
     void read(const KaustikImageSink* sink) {
         PngHeader header;
         check(readPngHeader(png_, info_, header));
+        requireSize(header.width, header.height, header.channels);
+        check(expandPng(png_, info_, header));
         float* const values = allocate(sink, header.width, header.height, header.channels);
         const std::size_t samples =
             static_cast<std::size_t>(header.width) * static_cast<std::size_t>(header.channels);
@@ -291,6 +328,11 @@ bool encodePng(const unsigned char* values, int width, int height, int channels,
     return guarded(sink, [&] {
         static constexpr std::array kColors{PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA,
                                             PNG_COLOR_TYPE_RGB, PNG_COLOR_TYPE_RGB_ALPHA};
+        std::vector<png_bytep> rows(static_cast<std::size_t>(height));
+        const std::size_t rowBytes =
+            static_cast<std::size_t>(width) * static_cast<std::size_t>(channels);
+        for (std::size_t row = 0; row < rows.size(); ++row)
+            rows[row] = const_cast<png_bytep>(values + row * rowBytes);
         PngCall call;
         png_structp png =
             png_create_write_struct(PNG_LIBPNG_VER_STRING, &call, failPng, ignorePngWarning);
@@ -300,11 +342,6 @@ bool encodePng(const unsigned char* values, int width, int height, int channels,
             throw std::bad_alloc();
         }
         png_set_write_fn(png, &call, writePngBytes, flushPng);
-        std::vector<png_bytep> rows(static_cast<std::size_t>(height));
-        const std::size_t rowBytes =
-            static_cast<std::size_t>(width) * static_cast<std::size_t>(channels);
-        for (std::size_t row = 0; row < rows.size(); ++row)
-            rows[row] = const_cast<png_bytep>(values + row * rowBytes);
         const bool isWritten =
             writePng(png, info, width, height, kColors.at(static_cast<std::size_t>(channels - 1)),
                      rows.data());

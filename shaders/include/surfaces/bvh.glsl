@@ -14,6 +14,7 @@ layout(std430) readonly buffer BvhSources {
     BvhSource bvhSources[];
 };
 uniform mat4 localFromEye;  // rigid
+uniform float localRounding;  // that local coordinates may be off by, m
 
 struct BvhRay {
     vec3 origin;
@@ -70,6 +71,7 @@ void testTriangle(BvhRay ray, uint triangle, inout BvhHit best) {
     float t = rise / closing;
     if (!(t >= 0.0 && t < best.distance)) return;
     float size = length(area);
+    if (!(size > 0.0)) return;
     if (isSurfaceHit(ray, triangle, area / size, -rise / size)) best = BvhHit(t, triangle);
 }
 

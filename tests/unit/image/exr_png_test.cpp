@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <limits>
 
@@ -151,12 +152,36 @@ TEST_F(ExrPng, AnyOtherFileIsRefusedInASentence) {
     EXPECT_THAT(decode("").problem, HasSubstr("nor of a PNG"));
 }
 
-// 100,000 pixels a side, by its header.
+std::string bigEndian(std::uint32_t value) {
+    std::string bytes;
+    for (const unsigned shift : {24u, 16u, 8u, 0u})
+        bytes += static_cast<char>(value >> shift);
+    return bytes;
+}
+
+// Of PNG, section 5.5 (ISO 15948).
+std::uint32_t checksum(const std::string& bytes) {
+    std::uint32_t sum = ~0u;
+    for (const char byte : bytes) {
+        sum ^= static_cast<unsigned char>(byte);
+        for (int bit = 0; bit < 8; ++bit)
+            sum = (sum >> 1u) ^ ((sum & 1u) != 0 ? 0xedb88320u : 0u);
+    }
+    return ~sum;
+}
+
 TEST_F(ExrPng, AHeaderThatClaimsTooManyPixelsIsAnError) {
     std::string bytes = pngOf(Image(2, 2, 4));
-    const char side[] = {'\x00', '\x01', '\x86', '\xa0'};
-    bytes.replace(16, 4, side, 4);
-    EXPECT_FALSE(decode(bytes).problem.empty());
+    // Signature and length, "IHDR", width, …, and its checksum.
+    bytes.replace(16, 4, bigEndian(100'000));
+    bytes.replace(29, 4, bigEndian(checksum(bytes.substr(12, 17))));
+    EXPECT_THAT(decode(bytes).problem, HasSubstr("100000x2"));
+    // The data window's last column follows its name, its type and its size.
+    std::string exr = exrOf(Image(2, 2, 3));
+    const std::string window = std::string("dataWindow") + '\0' + "box2i" + '\0';
+    const std::size_t at = exr.find(window) + window.size() + 4;
+    exr.replace(at + 8, 4, std::string("\x00\x00\x00\x08", 4));
+    EXPECT_THAT(decode(exr).problem, HasSubstr("data window"));
 }
 
 }  // namespace
