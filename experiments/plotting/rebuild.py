@@ -151,7 +151,7 @@ def forget_stale(results: pathlib.Path, tree: Tree) -> None:
 
 
 def write_slim(runs: pathlib.Path, target: pathlib.Path) -> None:
-    """As it is, but for the constants of the errors' formulas, with nine digits a number: what is committed has to be small."""
+    """As it is, but for the constants of the errors' formulas, with six digits a number: what is committed has to be small."""
     csv.field_size_limit(sys.maxsize)
     with runs.open(newline="") as stream:
         reader = csv.DictReader(stream)
