@@ -292,8 +292,38 @@ def imports():
     yield '{"primitives": ' + "[" * 1000
 
 
+def png(depth, color, pixels, interlaced=0, more=b""):
+    def chunk(name, data):
+        return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 2, 2, depth, color, 0, 0, interlaced)) + more +
+            chunk(b"IDAT", zlib.compress(pixels)) + chunk(b"IEND", b""))
+
+
+def exr():
+    """2 x 2 pixels of one channel, not compressed."""
+    def attribute(name, kind, data):
+        return name + b"\0" + kind + b"\0" + struct.pack("<I", len(data)) + data
+    window = struct.pack("<4i", 0, 0, 1, 1)
+    header = (struct.pack("<II", 20000630, 2) + attribute(b"channels", b"chlist", b"Y\0" + struct.pack("<IIII", 2, 0, 1, 1) + b"\0") +
+              attribute(b"compression", b"compression", b"\0") + attribute(b"dataWindow", b"box2i", window) +
+              attribute(b"displayWindow", b"box2i", window) + attribute(b"lineOrder", b"lineOrder", b"\0") +
+              attribute(b"pixelAspectRatio", b"float", struct.pack("<f", 1)) + attribute(b"screenWindowCenter", b"v2f", struct.pack("<2f", 0, 0)) +
+              attribute(b"screenWindowWidth", b"float", struct.pack("<f", 1)) + b"\0")
+    lines = [struct.pack("<iI2f", y, 8, 0.5, 1.5) for y in range(2)]
+    first = len(header) + 16
+    return header + struct.pack("<2Q", first, first + len(lines[0])) + b"".join(lines)
+
+
+def exr_pngs():
+    yield exr()
+    yield png(8, 2, b"\0abcdef\0ghijkl")
+    yield png(16, 4, b"\0abcdefgh\0ijklmnop")
+    yield png(1, 3, b"\0\x40\0\x80", more=b"\0\0\0\6PLTE\1\2\3\4\5\6" + struct.pack(">I", zlib.crc32(b"PLTE\1\2\3\4\5\6")))
+    yield png(8, 0, b"\0a\0b\0cd", interlaced=1)
+
+
 SEEDS = {
-    "scene": scenes, "import": imports, "experiment": experiments, "gltf": gltfs, "obj": objs, "ply": plys, "stl": stls,
+    "scene": scenes, "exr_png": exr_pngs, "import": imports, "experiment": experiments, "gltf": gltfs, "obj": objs, "ply": plys, "stl": stls,
     "3ds": threes, "gzip": lambda: (gzip.compress(seed, mtime=0) for seed in plys()),
     "pfm": lambda: (b"Pf\n1 1\n1.0\n\0\0\0\0", b"P6 1 1 65535\n\0\0\0\0\0\0"),
     "image": lambda: (struct.pack("<2sIIIIiiHHIIiiII", b"BM", 70, 0, 54, 40, 2, 2, 1, 24, 0, 16, 0,
@@ -309,7 +339,7 @@ SOURCES = {
     "scene": ["scene/files/*.cpp"], "experiment": ["experiment/*.cpp", "scene/files/*.cpp"],
     "gltf": ["importers/gltf_*.cpp"],
     "import": ["importers/mitsuba_*.cpp", "importers/tungsten_*.cpp", "importers/foreign_*.cpp"], "obj": ["importers/obj.cpp"],
-    "ply": ["importers/ply.cpp"], "stl": ["importers/stl.cpp"], "3ds": [], "gzip": [], "pfm": [], "image": [],
+    "ply": ["importers/ply.cpp"], "stl": ["importers/stl.cpp"], "3ds": [], "gzip": [], "pfm": [], "image": [], "exr_png": [],
     "settings": ["gui/document.cpp", "gui/state.cpp"], "reference": ["reference/*_file.cpp"],
     "cache": [], "part": ["reference/part_file.cpp", "reference/request_json.cpp"],
     "tile": ["run/tile_file.cpp"],
