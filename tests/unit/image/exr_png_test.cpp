@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <string>
+#include <string_view>
 
 #include "framework/core/files.h"
 #include "framework/image/eight_bits.h"
@@ -20,6 +22,13 @@ namespace {
 
 using test::TemporaryFolder;
 using ::testing::HasSubstr;
+
+std::string fromHex(std::string_view digits) {
+    std::string bytes;
+    for (std::size_t i = 0; i + 1 < digits.size(); i += 2)
+        bytes += static_cast<char>(std::stoi(std::string(digits.substr(i, 2)), nullptr, 16));
+    return bytes;
+}
 
 // What a module hands over.
 struct Received {
@@ -150,6 +159,34 @@ TEST_F(ExrPng, AFileCutOffAnywhereIsAnErrorOrWhole) {
 TEST_F(ExrPng, AnyOtherFileIsRefusedInASentence) {
     EXPECT_THAT(decode("\xff\xd8\xff and so on").problem, HasSubstr("nor of a PNG"));
     EXPECT_THAT(decode("").problem, HasSubstr("nor of a PNG"));
+}
+
+// Written by Python's zlib and struct: 2 x 2 pixels of 16 bits, grey with alpha, "abcdefgh" and
+// "ijklmnop"; of one bit, in two colors; of 8 bits, interlaced.
+const std::string k16Bits = fromHex(
+    "89504e470d0a1a0a0000000d4948445200000002000000021004000000882f19ec0000001a49444154789c63"
+    "484c4a4e494d4bcf60c8cccacec9cdcb2f0000396606898a9bec280000000049454e44ae426082");
+const std::string kPalette = fromHex(
+    "89504e470d0a1a0a0000000d494844520000000200000002010300000048789f6700000006504c5445010203"
+    "04050695536f480000000c49444154789c637060680000014400c13a7a1c560000000049454e44ae426082");
+const std::string kInterlaced = fromHex(
+    "89504e470d0a1a0a0000000d494844520000000200000002080000000120da626e0000000f49444154789c63"
+    "48644862484e010004ff018bd537d1f80000000049454e44ae426082");
+
+TEST_F(ExrPng, ReadsPngsOfAllDepths) {
+    const Received wide = decode(k16Bits);
+    ASSERT_EQ(wide.image.channels, 2);
+    EXPECT_FLOAT_EQ(wide.image.at(1, 0, 0), static_cast<float>(0x6566) / 65535.0f);
+    EXPECT_FLOAT_EQ(wide.image.at(0, 1, 1), static_cast<float>(0x6b6c) / 65535.0f);
+    const Received colors = decode(kPalette);
+    ASSERT_EQ(colors.image.channels, 3);
+    EXPECT_FLOAT_EQ(colors.image.at(0, 0, 0), 1.0f / 255.0f);
+    EXPECT_FLOAT_EQ(colors.image.at(1, 0, 2), 6.0f / 255.0f);
+    EXPECT_FLOAT_EQ(colors.image.at(0, 1, 1), 5.0f / 255.0f);
+    const Received passes = decode(kInterlaced);
+    ASSERT_EQ(passes.image.channels, 1);
+    for (int i = 0; i < 4; ++i)
+        EXPECT_FLOAT_EQ(passes.image.at(i % 2, i / 2, 0), static_cast<float>('a' + i) / 255.0f);
 }
 
 std::string bigEndian(std::uint32_t value) {
