@@ -79,14 +79,9 @@ Seen seenBy(EyePath path) {
 // Reflectance at the hit, over what a pixel's footprint after a path of this length covers.
 vec3 albedoOfSeen(Seen seen, float pathMeters) {
     VertexData corners[3];
-    vec3 fromOrigin[3];
-    for (uint i = 0u; i < 3u; ++i) {
+    for (uint i = 0u; i < 3u; ++i)
         corners[i] = bvhCorners[3u * seen.hit.triangle + i];
-        fromOrigin[i] = corners[i].position - seen.ray.origin;
-    }
-    vec3 weights = sidesOfEdges(fromOrigin, seen.ray.direction);
-    float sum = weights.x + weights.y + weights.z;
-    weights = sum != 0.0 ? weights / sum : vec3(1.0 / 3.0);
+    vec3 weights = weightsOfHit(seen.ray, seen.hit.triangle);
     vec2 uv = weights.x * vec2(corners[0].u, corners[0].v) +
               weights.y * vec2(corners[1].u, corners[1].v) +
               weights.z * vec2(corners[2].u, corners[2].v);
@@ -165,8 +160,8 @@ vec3 radianceAtEnd(EyePath path, Seen seen) {
 EyePath waiting[kMaxBranches + 1u];  // still to be followed
 int waitingCount = 0;
 
-// At a dielectric: the path goes on refracted, or totally reflected; what is reflected besides waits,
-// where it is to be followed.
+// At a dielectric: the path goes on refracted, or totally reflected; the other branch waits where it
+// is to be followed.
 void bend(inout EyePath path, vec3 normal, uint material) {
     bool enters = dot(path.at.direction, normal) < 0.0;
     vec2 indices = indicesAt(material, path.at.media, enters);

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "framework/scene/dielectrics.h"
 #include "techniques/eye_rays/view_params.h"
 
 namespace kaustik {
@@ -289,11 +290,22 @@ void reportLostRays(FrameBuilder& frame, const std::string& pass, const View& se
          }});
 }
 
+void reportDielectricLimits(FrameBuilder& frame, const std::string& pass, const View& seen,
+                            int interfaces, int reflections) {
+    reportExitLimit(frame, pass, seen, pass + ".interfaces", "refractions", interfaces,
+                    &EyeRays::endedInside,
+                    "end inside of an object and are taken to see what they would outside");
+    reportExitLimit(frame, pass, seen, pass + ".reflections", "reflections", reflections,
+                    &EyeRays::reflectionLimit, "are lost between total reflections");
+    reportExitLimit(frame, pass, seen, pass + ".nesting", "dielectrics",
+                    numberDielectrics(frame.scene()).depth, &EyeRays::nestingLimit,
+                    "are lost in a dielectric inside of more others");
+}
+
 void reportMirrorLimit(FrameBuilder& frame, const std::string& pass, const View& seen,
-                       const SceneLookParams& look) {
+                       int mirrors) {
     if (frame.needs().reflectors == 0) return;
-    reportExitLimit(frame, pass, seen, pass + ".mirrors", "mirrors", look.mirrors,
-                    &EyeRays::mirrorLimit,
+    reportExitLimit(frame, pass, seen, pass + ".mirrors", "mirrors", mirrors, &EyeRays::mirrorLimit,
                     "hit one more mirror, in which they see the environment");
 }
 

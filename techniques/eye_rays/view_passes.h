@@ -138,8 +138,10 @@ void reportExitLimit(FrameBuilder& frame, const std::string& pass, const View& s
 // What is told where more than a hundredth of the pixels' rays are lost. `why`: a sentence's end.
 void reportLostRays(FrameBuilder& frame, const std::string& pass, const View& seen,
                     const std::string& why);
+// The caps on refractions, total reflections and nested dielectrics, of the node `pass`.
+void reportDielectricLimits(FrameBuilder& frame, const std::string& pass, const View& seen,
+                            int interfaces, int reflections);
 // The cap on mirrors, of the node `pass`; nothing where the scene has none.
-void reportMirrorLimit(FrameBuilder& frame, const std::string& pass, const View& seen,
-                       const SceneLookParams& look);
+void reportMirrorLimit(FrameBuilder& frame, const std::string& pass, const View& seen, int mirrors);
 
 }  // namespace kaustik

@@ -4,7 +4,6 @@
 // radiance, W/m²/sr, and where each ray left for good, view space, m. Receivers that the picture
 // does not show are lit by their own shadow rays; caustics are seen where the picture has them.
 #include "framework/pipeline/frame_builder.h"
-#include "framework/scene/dielectrics.h"
 #include "techniques/eye_rays/view_passes.h"
 #include "techniques/tracing/bvh_rays.h"
 
@@ -37,20 +36,8 @@ struct BvhViewParams {
 };
 
 void reportLimits(FrameBuilder& frame, const BvhViewParams& params, const View& seen) {
-    reportExitLimit(frame, "view.bvh", seen, "view.bvh.interfaces", "refractions",
-                    params.interfaces, &EyeRays::endedInside,
-                    "end inside of an object and are taken to see what they would outside");
-    reportExitLimit(frame, "view.bvh", seen, "view.bvh.reflections", "reflections",
-                    params.reflections, &EyeRays::reflectionLimit,
-                    "are lost between total reflections");
-    reportExitLimit(frame, "view.bvh", seen, "view.bvh.nesting", "dielectrics",
-                    numberDielectrics(frame.scene()).depth, &EyeRays::nestingLimit,
-                    "are lost in a dielectric inside of more others");
-    if (frame.needs().reflectors > 0) {
-        reportExitLimit(frame, "view.bvh", seen, "view.bvh.mirrors", "mirrors", params.mirrors,
-                        &EyeRays::mirrorLimit,
-                        "hit one more mirror, in which they see the environment");
-    }
+    reportDielectricLimits(frame, "view.bvh", seen, params.interfaces, params.reflections);
+    reportMirrorLimit(frame, "view.bvh", seen, params.mirrors);
     reportLostRays(frame, "view.bvh", seen,
                    "no way out of the object that they are in was found; its surface has a hole "
                    "there");

@@ -94,7 +94,7 @@ View refractDeferred(FrameBuilder& frame, const DeferredViewParams& params, Geom
                                            });
                               })
                           .seen;
-    reportMirrorLimit(frame, "view.deferred", view, params.look);
+    reportMirrorLimit(frame, "view.deferred", view, params.look.mirrors);
     reportLostRays(frame, "view.deferred", view,
                    "they are totally reflected inside, which it does not follow");
     return view;

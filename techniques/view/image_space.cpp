@@ -57,7 +57,7 @@ View refractInImageSpace(FrameBuilder& frame, const ImageSpaceViewParams& params
                         [&](gl::Command& command) { command.params("view.image_space", params); });
                 })
             .seen;
-    reportMirrorLimit(frame, "view.image_space", view, params.look);
+    reportMirrorLimit(frame, "view.image_space", view, params.look.mirrors);
     reportLostRays(frame, "view.image_space", view,
                    "they are totally reflected inside, which it does not follow");
     return view;

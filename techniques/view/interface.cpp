@@ -41,7 +41,7 @@ View viewThroughInterface(FrameBuilder& frame, const InterfaceViewParams& params
                         [&](gl::Command& command) { command.params("view.interface", params); });
                 })
             .seen;
-    reportMirrorLimit(frame, "view.interface", view, params.look);
+    reportMirrorLimit(frame, "view.interface", view, params.look.mirrors);
     return view;
 }
 

@@ -16,7 +16,6 @@
 #include <algorithm>
 
 #include "framework/pipeline/frame_builder.h"
-#include "framework/scene/dielectrics.h"
 #include "framework/scene/meshes/winding_number.h"
 #include "techniques/eye_rays/view_passes.h"
 #include "techniques/layered_depth/fragment_lists.h"
@@ -93,15 +92,7 @@ int neededLayers(const RefractionViewParams& params) {
 
 void reportLimits(FrameBuilder& frame, const RefractionViewParams& params,
                   const LayeredDepth& layers, const View& seen) {
-    reportExitLimit(frame, "view.refraction", seen, "view.refraction.interfaces", "refractions",
-                    params.interfaces, &EyeRays::endedInside,
-                    "end inside of an object and are taken to see what they would outside");
-    reportExitLimit(frame, "view.refraction", seen, "view.refraction.reflections", "reflections",
-                    params.reflections, &EyeRays::reflectionLimit,
-                    "are lost between total reflections");
-    reportExitLimit(frame, "view.refraction", seen, "view.refraction.nesting", "dielectrics",
-                    numberDielectrics(frame.scene()).depth, &EyeRays::nestingLimit,
-                    "are lost in a dielectric inside of more others");
+    reportDielectricLimits(frame, "view.refraction", seen, params.interfaces, params.reflections);
     reportLostRays(frame, "view.refraction", seen,
                    "no way out of the object that they are in was found; its surface has a hole "
                    "there, is off the screen, or lies beyond view.refraction.layers");
@@ -178,7 +169,7 @@ View traceRefraction(FrameBuilder& frame, const RefractionViewParams& wanted, Ge
                              });
                 })
             .look.seen;
-    reportMirrorLimit(frame, "view.refraction", view, params.look);
+    reportMirrorLimit(frame, "view.refraction", view, params.look.mirrors);
     if (dielectrics.depth.valid()) reportLimits(frame, params, dielectrics, view);
     return view;
 }

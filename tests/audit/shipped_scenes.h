@@ -33,6 +33,13 @@ inline std::vector<std::string> shippedScenes() {
     return names;
 }
 
+// Of these what the reference of the view, which knows no medium, can be asked about.
+inline std::vector<std::string> scenesWithViews() {
+    std::vector<std::string> names = shippedScenes();
+    names.erase(std::remove(names.begin(), names.end(), "god-rays"), names.end());
+    return names;
+}
+
 // A frame of the default technique, rendered for a purpose. `registry` and `scene` must outlive it.
 inline std::unique_ptr<Renderer> rendered(const Registry& registry, const scene::Scene& scene,
                                           int width, int height, Purpose purpose,

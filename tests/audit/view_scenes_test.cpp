@@ -36,13 +36,6 @@ Bounds boundsOf(const std::string& scene) {
     return {};
 }
 
-std::vector<std::string> scenesWithViews() {
-    std::vector<std::string> names = shippedScenes();
-    // The reference of the view knows no medium.
-    names.erase(std::remove(names.begin(), names.end(), "god-rays"), names.end());
-    return names;
-}
-
 class ShippedView : public testing::TestWithParam<std::string> {};
 
 TEST_P(ShippedView, ShowsWhatTheReferenceShows) {

@@ -18,11 +18,11 @@ struct Received {
 };
 
 // As the program's, no more than its bytes can hold.
-constexpr std::int64_t kMostValues = std::int64_t{1} << 24;
+constexpr std::int64_t kMaxValues = std::int64_t{1} << 24;
 
 float* allocate(void* context, int width, int height, int channels) {
     const std::int64_t values = std::int64_t{width} * height * channels;
-    if (values > kMostValues) return nullptr;
+    if (values > kMaxValues) return nullptr;
     auto& received = *static_cast<Received*>(context);
     received.values.assign(static_cast<std::size_t>(values), 0.0f);
     return received.values.data();

@@ -140,22 +140,28 @@ BvhHit traceBvh(BvhRay ray, float farthest) {
     return best;
 }
 
+// Of the corners of a triangle that the ray hits; they add up to 1.
+vec3 weightsOfHit(BvhRay ray, uint triangle) {
+    vec3 corners[3];
+    for (uint i = 0u; i < 3u; ++i)
+        corners[i] = bvhCorners[3u * triangle + i].position - ray.origin;
+    vec3 weights = sidesOfEdges(corners, ray.direction);
+    float sum = weights.x + weights.y + weights.z;
+    return sum != 0.0 ? weights / sum : vec3(1.0 / 3.0);
+}
+
 // Of a hit, in local space.
 PointOnTriangle pointOfHit(BvhRay ray, BvhHit hit) {
     vec3 positions[3];
     vec3 normals[3];
     vec2 uvs[3];
-    vec3 fromOrigin[3];
     for (uint i = 0u; i < 3u; ++i) {
         VertexData corner = bvhCorners[3u * hit.triangle + i];
         positions[i] = corner.position;
         normals[i] = corner.normal;
         uvs[i] = vec2(corner.u, corner.v);
-        fromOrigin[i] = corner.position - ray.origin;
     }
-    vec3 weights = sidesOfEdges(fromOrigin, ray.direction);
-    float sum = weights.x + weights.y + weights.z;
-    weights = sum != 0.0 ? weights / sum : vec3(1.0 / 3.0);
+    vec3 weights = weightsOfHit(ray, hit.triangle);
     vec3 area = cross(positions[1] - positions[0], positions[2] - positions[0]);
     PointOnTriangle point = PointOnTriangle(
         ray.origin + hit.distance * ray.direction,
