@@ -124,8 +124,11 @@ vec3 radianceOfHidden(Seen seen, vec3 direction, float pathMeters) {
     return sum;
 }
 
-// What the receiver sends back along the ray.
-vec3 radianceOfReceiver(Seen seen, vec3 direction, float pathMeters) {
+ivec2 pixelNow = ivec2(0);
+
+// What the receiver sends back along the path's last piece.
+vec3 radianceOfReceiver(Seen seen, EyePath path) {
+    vec3 direction = path.at.direction;
     vec3 there = seen.positionVs;
     ivec2 texel = ivec2(floor(pixelOf(there)));
     ivec2 last = ivec2(view.sizePixels.xy) - 1;
@@ -140,7 +143,13 @@ vec3 radianceOfReceiver(Seen seen, vec3 direction, float pathMeters) {
 #endif
         return max(shown, vec3(0.0));
     }
-    return radianceOfHidden(seen, direction, pathMeters);
+    // Under water nearly all light is caustic, which hidden receivers lack: it is taken to be that of
+    // the receiver straight beyond the surface, as by the searches on the screen (scene_look.glsl).
+    uint medium = innerMedium(path.at.media);
+    bool isUnderWater = medium != 0u && isOpen(medium - 1u) && path.refractions > 0;
+    if (isUnderWater && texelFetch(receiver, pixelNow, 0).x > -path.at.origin.z)
+        return texelFetch(receiverRadiance, pixelNow, 0).rgb;
+    return radianceOfHidden(seen, direction, path.meters);
 }
 
 // What is seen in the end, times what the path leaves of it.
@@ -153,7 +162,7 @@ vec3 radianceAtEnd(EyePath path, Seen seen) {
     float ratio = indexAtEye / mediumIndex(medium);
     vec3 sum = seen.material == 0u
                    ? environmentRadiance(path.at.direction) * mediumTransmittance(medium, 1e30)
-                   : radianceOfReceiver(seen, path.at.direction, path.meters);
+                   : radianceOfReceiver(seen, path);
     return path.at.share * ratio * ratio * sum;
 }
 
@@ -266,6 +275,7 @@ ivec2 pixelOfThread() {
 void main() {
     ivec2 pixel = pixelOfThread();
     if (any(greaterThanEqual(pixel, ivec2(view.sizePixels.xy)))) return;
+    pixelNow = pixel;
     vec4 radiance = radianceStraight(pixel);
     if (firstDepth(pixel) > 0.0) {
         radiance = vec4(radianceThrough(pixel), 1.0);

@@ -85,7 +85,8 @@ void registerViewBvh(Registry& registry) {
     registry.node<ViewStage>(
         "bvh",
         {"Traces the eye's rays exactly, through a hierarchy over all triangles.", "",
-         "Receivers that the picture does not show are lit directly, and have no caustic. What is "
+         "Receivers that the picture does not show are lit directly, and have no caustic; under "
+         "water they look like the one straight beyond the surface. What is "
          "reflected after view.bvh.branches interfaces is not followed. The hierarchy is that of "
          "trace.bvh."},
         &traceView);
