@@ -1,11 +1,23 @@
 // SPDX-License-Identifier: MIT
 // reconstruct.triangles: a patch's flux onto the pixels that it covers, on every face that sees a
-// part of it. One thread a patch; those that cover many pixels go to a list of their own.
+// part of it. One thread a patch of one kind (triangles_patch_made.glsl); those that cover many pixels
+// go to a list of their own, as long as there is room.
 #include "include/photons/clamped.glsl"
-#include "reconstruct/triangles_patch.glsl"
+#include "include/surfaces/surface_data.glsl"
 #include "reconstruct/triangles_patch_deposit.glsl"
+#include "reconstruct/triangles_patch_made.glsl"
+#include "reconstruct/triangles_wide.glsl"
 
-uniform int firstWide;  // where those of a workgroup begin
+uniform int wideCapacity;
+uniform int listCapacity;
+
+#if defined(JOINED_PATCHES)
+const uint kKind = kPatchesJoined;
+#elif defined(CREASE_PATCHES)
+const uint kKind = kPatchesAtCreases;
+#else
+const uint kKind = kPatchesOfBeams;
+#endif
 
 // Pixels of the rectangles around a patch for one thread.
 const int kMaxPixelsPerThread = 400;
@@ -39,27 +51,31 @@ void cover(uint item) {
         pixels += size.x * size.y;
     }
     if (pixels > kMaxPixelsPerThread) {
-        patchList[uint(firstWide) + atomicAdd(widePatches.count, 1u)] = item;
-        return;
+        uint place = atomicAdd(widePatches.count, 1u);
+        if (place < uint(wideCapacity)) {
+            widePatchList[place] = packedPatch(whole);
+            return;
+        }
     }
     PatchParts parts = PatchParts(0.0, 0.0, 0.0);
     for (int face = 0; face < viewCount; ++face) {
         if ((faces & (1u << face)) == 0u) continue;
         if (viewCount > 1) seenInFace(whole, face, there, onto);
-        addParts(onto, parts);
+        addParts(onto, 0, 1, parts);
     }
     // The faces of a cube see in all directions.
-    float total = account(item, whole, viewCount > 1 || onto.isWhole, parts);
-    if (total <= 0.0) depositNear(item, whole);
-    if (parts.on <= 0.0) return;
+    PatchBalance balance = balanceOf(parts, viewCount > 1 || onto.isWhole);
+    account(whole, balance);
+    if (balance.total <= 0.0) depositNear(whole);
+    if (balance.on <= 0.0) return;
     for (int face = 0; face < viewCount; ++face) {
         if ((faces & (1u << face)) == 0u) continue;
         if (viewCount > 1) seenInFace(whole, face, there, onto);
-        depositParts(there, onto, total);
+        depositParts(there, onto, 0, 1, balance.total);
     }
 }
 
 void main() {
     uint index = photonOfThread();
-    if (index < patches.count) cover(patchList[index]);
+    if (index < patches[kKind].count) cover(patchList[patchPlace(kKind, index, uint(listCapacity))]);
 }

@@ -1,27 +1,30 @@
 // SPDX-License-Identifier: MIT
-// The workgroups for so many patches: of 64 threads one each, or one each.
+// The workgroups for so many patches: 64 threads each.
 #include "framework/transport/types.h"
 #include "reconstruct/triangles_patch_list.glsl"
 
 layout(local_size_x = 1) in;
 
 uniform int isWide;  // below 0: there are none yet
+uniform int wideCapacity;
+
+void setGroups(inout PatchCount of, uint threads) {
+    uint groups = (threads + 63u) / 64u;
+    of.groupsX = min(groups, kMaxGroupsX);
+    of.groupsY = (groups + kMaxGroupsX - 1u) / kMaxGroupsX;
+    of.groupsZ = 1u;
+}
 
 void main() {
     if (isWide < 0) {
-        patches.count = 0u;
+        for (uint kind = 0u; kind < kPatchKinds; ++kind) patches[kind].count = 0u;
         widePatches.count = 0u;
-        return;
-    }
-    uint groups = isWide == 1 ? widePatches.count : (patches.count + 63u) / 64u;
-    uvec3 size = uvec3(min(groups, kMaxGroupsX), (groups + kMaxGroupsX - 1u) / kMaxGroupsX, 1u);
-    if (isWide == 1) {
-        widePatches.groupsX = size.x;
-        widePatches.groupsY = size.y;
-        widePatches.groupsZ = size.z;
+    } else if (isWide == 0) {
+        for (uint kind = 0u; kind < kPatchKinds; ++kind)
+            setGroups(patches[kind], patches[kind].count);
     } else {
-        patches.groupsX = size.x;
-        patches.groupsY = size.y;
-        patches.groupsZ = size.z;
+        // The others found no room and are covered already.
+        widePatches.count = min(widePatches.count, uint(wideCapacity));
+        setGroups(widePatches, kThreadsOfPatch * widePatches.count);
     }
 }

@@ -11,17 +11,40 @@
 layout(std430) readonly buffer CellJoins {
     uint cellJoins[];
 };
+uniform int listCapacity;
 layout(std430) writeonly buffer PhotonShares {
     VertexShares photonShares[];
 };
 
+// The photon and those of the cells around its own, row by row; index + 1, 0 where there is none.
+struct Neighbourhood {
+    uint photons[9];
+};
+Neighbourhood neighbourhoodOf(PhotonOrigin origin) {
+    Neighbourhood around;
+    for (int i = 0; i < 9; ++i)
+        around.photons[i] = neighbourAt(origin, ivec2(i % 3, i / 3) - 1);
+    return around;
+}
+
+// The photons at the corners of the quadrilateral towards `quarter`; false where one is missing.
+bool photonsTowards(Neighbourhood around, uint quarter, out uint found[4]) {
+    uint first = (quarter & 1u) + 3u * (quarter >> 1u);
+    bool isWhole = true;
+    for (uint i = 0u; i < 4u; ++i) {
+        found[i] = around.photons[first + (i & 1u) + 3u * (i >> 1u)];
+        isWhole = isWhole && found[i] > 0u;
+    }
+    return isWhole;
+}
+
 // The areas of the triangles that the photon is a corner of, in cells that are joined: bits by the
 // corner of its cell (U08, section 5: in a pass of its own, once a photon).
-void addAreas(PhotonOrigin origin, uint joined, inout VertexShares shares) {
+void addAreas(Neighbourhood around, uint joined, inout VertexShares shares) {
     for (uint i = 0u; i < 4u; ++i) {
         if ((joined & (1u << i)) == 0u) continue;
         uint found[4];
-        photonsAround(origin, i ^ 3u, found);
+        photonsTowards(around, i, found);
         vec3 corners[4];  // around the cell, from its lower left
         for (uint k = 0u; k < 4u; ++k) {
             uint corner = found[k ^ (k >> 1u)];
@@ -39,24 +62,35 @@ void addAreas(PhotonOrigin origin, uint joined, inout VertexShares shares) {
     }
 }
 
-bool isJoined(PhotonOrigin origin, ivec2 corner) {
-    uint found = neighbourAt(origin, corner);
-    return found > 0u && cellJoins[found - 1u] == 1u;
+// What of an arrival says which surface it is on.
+struct Landing {
+    uint path;
+    uint material;
+    vec3 normal;
+};
+Landing landingOf(uint photon) {
+    ivec2 texel = ivec2(photonTexel(photons, photon));
+    vec4 surface = texelFetch(hitSurface, texel, 0);
+    return Landing(originAt(texel).path, uint(surface.w), surface.xyz);
 }
 
 // Whether the light of four neighbours comes down on more than one surface.
-bool isAtCrease(PhotonOrigin origin, uint quarter) {
+bool isAtCrease(Neighbourhood around, uint quarter) {
     uint found[4];
-    if (!photonsAround(origin, quarter ^ 3u, found)) return false;
-    ArrivalsAround around = arrivalsOf(found);
-    Arrival first = around.corners[0];
+    if (!photonsTowards(around, quarter, found)) return false;
+    Landing first = landingOf(found[0] - 1u);
     bool isOne = true;
     for (uint i = 1u; i < 4u; ++i) {
-        Arrival corner = around.corners[i];
+        Landing corner = landingOf(found[i] - 1u);
         if (corner.path != first.path) return false;
         isOne = isOne && corner.material == first.material && dot(corner.normal, first.normal) >= 0.5;
     }
     return !isOne;
+}
+
+void list(uint index, uint part, uint kind) {
+    uint place = patchPlace(kind, atomicAdd(patches[kind].count, 1u), uint(listCapacity));
+    patchList[place] = index * kPatchParts + part;
 }
 
 void main() {
@@ -69,7 +103,8 @@ void main() {
     float ofMap = arrivedShare(texel);
     PhotonOrigin origin = originAt(texel);
     bool isOther = isFromOtherBatch(origin);
-    Arrival own;
+    Neighbourhood around = neighbourhoodOf(origin);
+    Arrival own = arrivalOf(texel);
     // By the corner: those that are joined, and what is listed of the rest.
     uint joined = 0u;
     uint parts[4];
@@ -77,16 +112,14 @@ void main() {
     float whole = 0.0;
     float discarded = 0.0;
     bool isPlain = true;
-    bool isRead = false;
     for (uint i = 0u; i < 4u; ++i) {
-        if (isJoined(origin, ivec2((i & 1u), (i >> 1u)) - 1)) {
+        uint lowerLeft = around.photons[(i & 1u) + 3u * (i >> 1u)];
+        if (lowerLeft > 0u && cellJoins[lowerLeft - 1u] == 1u) {
             joined |= 1u << i;
             whole += 1.0;
             continue;
         }
-        if (!isRead) own = arrivalOf(texel);
-        isRead = true;
-        bool isCrease = isAtCrease(origin, i);
+        bool isCrease = isAtCrease(around, i);
         isPlain = isPlain && !isCrease && own.extent == uvec2(0u);
         float area = areaOf(cornersOf(own, i));
         whole += area;
@@ -100,19 +133,19 @@ void main() {
     // What the parts that light can come through take is all of its flux.
     VertexShares shares = VertexShares(whole > 0.0 ? 1.0 / whole : 0.0, 0.0, 0.0, 0.0);
     if (reconstruct_triangles_shading == reconstruct_triangles_shading_vertices)
-        addAreas(origin, joined, shares);
+        addAreas(around, joined, shares);
     photonShares[index] = shares;
     if (ofMap <= 0.0 || isOther) return;
     if (discarded > 0.0)
         ledgerAdd(kAccountDiscardedTriangle, flux.rgb * (ofMap * shares.quarter * discarded));
+    // Where cells may be merged, their own pass lists them.
+    if ((joined & 8u) != 0u && reconstruct_triangles_merge <= 0.0)
+        list(index, kPatchJoined, kPatchesJoined);
     // A cell of its own is covered at once.
     if (joined == 0u && isPlain && count == 4u) {
-        parts[0] = kPatchBeam;
-        count = 1u;
+        list(index, kPatchBeam, kPatchesOfBeams);
+        return;
     }
-    // Where cells may be merged, their own pass lists them.
-    if ((joined & 8u) != 0u && reconstruct_triangles_merge <= 0.0) parts[count++] = kPatchJoined;
-    if (count == 0u) return;
-    uint at = atomicAdd(patches.count, count);
-    for (uint i = 0u; i < count; ++i) patchList[at + i] = index * kPatchParts + parts[i];
+    for (uint i = 0u; i < count; ++i)
+        list(index, parts[i], parts[i] >= kPatchCrease ? kPatchesAtCreases : kPatchesOfBeams);
 }

@@ -3,7 +3,7 @@
 // work): four squares of joined cells that together cover no more than so many texels are one. Step
 // 0 makes squares of single cells, steps 1 to kMaxMerges merge, the last one lists what is left.
 // One thread a photon.
-#include "reconstruct/triangles_patch.glsl"
+#include "reconstruct/triangles_patch_made.glsl"
 
 layout(std430) readonly buffer CellJoins {
     uint cellJoins[];
@@ -74,6 +74,6 @@ void main() {
                !isFromOtherBatch(originAt(ivec2(photonTexel(photons, index))))) {
         uint merges = uint(blocks[index].flux.w);
         uint part = merges == 0u ? kPatchJoined : kPatchMerged + merges - 1u;
-        patchList[atomicAdd(patches.count, 1u)] = index * kPatchParts + part;
+        patchList[atomicAdd(patches[kPatchesJoined].count, 1u)] = index * kPatchParts + part;
     }
 }

@@ -4,13 +4,9 @@
 // densities at their corners. Whatever their shape, size and slant, the shares of all pixels add up
 // to one.
 #include "include/maps/coverage.glsl"
-#include "include/photons/arriving.glsl"
+#include "include/photons/beam.glsl"
 #include "include/photons/ledger.glsl"
-#include "include/surfaces/surface_data.glsl"
-#include "reconstruct/triangles_crease.glsl"
-#include "reconstruct/triangles_patch_list.glsl"
 #include "include/views/seen_receiver.glsl"
-
 
 struct Patch {
     vec3 corners[4];  // around it
@@ -21,214 +17,36 @@ struct Patch {
     vec3 flux;
     float tolerance;  // of the depths that pixels see, m, next to their own footprint
     float narrowing;  // by which factor a beam is narrower than it was to be; 1: it is not
+    bool isJoined;    // between photons; false: a beam's
 };
-
-// What a beam covers between four places, in cells from its own and none farther than `farthest`
-// along either axis.
-Patch patchOfBeam(Arrival at, vec2 ends[4], float farthest) {
-    vec3 extent = farthest * (abs(at.spacing[0]) + abs(at.spacing[1]));
-    // In front of the view, and of bounded size on the screen.
-    float scale = 1.0;
-#ifdef MANY_VIEWS
-    float depth = length(at.position);
-    float widest = 2.0 * length(extent) / pixelFootprint(depth);
-#else
-    float depth = -at.position.z;
-#ifndef ORTHOGRAPHIC_VIEW
-    float room = 0.5 * (depth - view.frustum.z);
-    if (extent.z > room) scale = max(room, 0.0) / extent.z;
-#endif
-    float widest = 2.0 * max(extent.x, extent.y) / pixelFootprint(depth);
-#endif
-    float largest = float(reconstruct_triangles_maximum);
-    Patch made;
-    made.narrowing = 1.0;
-    if (widest * scale > largest) {
-        scale = largest / widest;
-        made.narrowing = widest / largest;
-    }
-    mat2x3 spacing = at.spacing * scale;
-    for (int i = 0; i < 4; ++i) made.corners[i] = at.position + spacing * ends[i];
-    made.densities = float[4](1.0, 1.0, 1.0, 1.0);
-    made.first = 0.5;
-    made.normal = at.normal;
-    made.direction = at.direction;
-    made.flux = at.flux;
-    made.tolerance = 0.25 * scale * length(extent);
-    return made;
-}
-
-layout(std430) readonly buffer PhotonShares {
-    VertexShares photonShares[];
-};
-
-// Twice the area of the triangle, m².
-float twiceArea(vec3 a, vec3 b, vec3 c) {
-    return length(cross(b - a, c - a));
-}
-
-// Irradiance at the corners by the areas of all triangles there (U08, section 4.2): a photon's flux
-// is shared out among them as they are large, so that the flux between three corners is their
-// triangle's area by a third of what each has over all of its own; linear between the corners. Where
-// none has any area, in equal parts.
-void shareByAreas(inout Patch made, uint photonsOf[4]) {
-    // By the same numbers as those round the vertices were.
-    vec3 corners[4];
-    for (int i = 0; i < 4; ++i)
-        corners[i] = texelFetch(hitPosition, ivec2(photonTexel(photons, photonsOf[i])), 0).xyz;
-    vec2 areas = 0.5 * vec2(twiceArea(corners[0], corners[1], corners[2]),
-                            twiceArea(corners[0], corners[2], corners[3]));
-    vec3 first = vec3(0.0);
-    vec3 second = vec3(0.0);
-    for (int i = 0; i < 4; ++i) {
-        VertexShares shares = photonShares[photonsOf[i]];
-        ivec2 texel = ivec2(photonTexel(photons, photonsOf[i]));
-        vec3 flux = wholeFlux(originAt(texel), texelFetch(hitFlux, texel, 0).rgb) *
-                    (shares.quarter * shares.cells);
-        bool hasArea = shares.area > 0.0;
-        vec2 part = hasArea ? areas / shares.area : vec2(1.0 / max(shares.triangles, 1.0));
-        if (i != 3) first += flux * part.x;
-        if (i != 1) second += flux * part.y;
-        made.densities[i] = hasArea ? (flux.r + flux.g + flux.b) / shares.area : 0.0;
-    }
-    made.flux = first + second;
-    float all = made.flux.r + made.flux.g + made.flux.b;
-    made.first = all > 0.0 ? (first.r + first.g + first.b) / all : 0.5;
-}
-
-// Between four photons, from the one at the lower left.
-Patch patchBetween(Arrival a, Arrival b, Arrival c, Arrival d) {
-    Patch made;
-    made.first = 0.5;
-    made.narrowing = 1.0;
-    made.corners = vec3[4](a.position, b.position, c.position, d.position);
-    made.densities = float[4](a.density, b.density, c.density, d.density);
-    made.normal = normalize(a.normal + b.normal + c.normal + d.normal);
-    made.direction = normalize(a.direction + b.direction + c.direction + d.direction);
-    made.flux = a.flux + b.flux + c.flux + d.flux;
-    // A surface that turns between the corners leaves the triangles.
-    float turn = max(max(length(a.normal - c.normal), length(b.normal - d.normal)), 0.02);
-    float wide = max(length(a.position - c.position), length(b.position - d.position));
-    made.tolerance = 0.25 * turn * wide;
-    return made;
-}
-
-uint neighbourOf(PhotonOrigin origin, ivec2 neighbourOffset) {
-    return neighbourAt(origin, neighbourOffset) - 1u;
-}
-
-// With the flux of a quarter of its cell.
-Arrival cornerOf(uint index) {
-    Arrival corner = arrivalOf(ivec2(photonTexel(photons, index)));
-    corner.flux *= photonShares[index].quarter;
-    return corner;
-}
-
-// What a photon's flux has of a quarter of its cell.
-float fluxShare(Arrival at, uint index, uint quarter) {
-    return photonShares[index].quarter * areaOf(cornersOf(at, quarter));
-}
-
-Patch patchOfQuarter(Arrival own, QuarterCorners corners, float farthest) {
-    vec2 ends[4] = vec2[4](vec2(0.0), corners.along, corners.across, corners.up);
-    return patchOfBeam(own, ends, farthest);
-}
-
-// What the quarters between four photons have is shared out anew, by what each covers now.
-Patch patchAtCrease(PhotonOrigin origin, uint quarter) {
-    uint found[4];
-    photonsAround(origin, quarter ^ 3u, found);
-    ArrivalsAround around = arrivalsOf(found);
-    vec3 flux = vec3(0.0);
-    float weights = 0.0;
-    float ownWeight = 0.0;
-    QuarterCorners ownCorners;
-    for (uint i = 0u; i < 4u; ++i) {
-        Arrival corner = around.corners[i];
-        // Seen from the corner, the others lie the other way.
-        flux += corner.flux * fluxShare(corner, found[i] - 1u, i ^ 3u);
-        QuarterCorners corners =
-            cornersOf(corner, quarterAtCrease(around, i), sideOfQuarter(i ^ 3u));
-        float weight = sumOfChannels(corner.flux) * areaOf(corners);
-        weights += weight;
-        if (i != (quarter ^ 3u)) continue;
-        ownWeight = weight;
-        ownCorners = corners;
-    }
-    Arrival own = around.corners[quarter ^ 3u];
-    own.flux = weights > 0.0 ? flux * (ownWeight / weights)
-                             : own.flux * fluxShare(own, found[quarter ^ 3u] - 1u, quarter);
-    return patchOfQuarter(own, ownCorners, 1.0);
-}
-
-// Between the photons at the corners of so many cells.
-Patch patchOfCells(uint index, int side) {
-    PhotonOrigin origin = originAt(ivec2(photonTexel(photons, index)));
-    uint around[4] = uint[4](index, neighbourOf(origin, ivec2(side, 0)),
-                             neighbourOf(origin, ivec2(side)), neighbourOf(origin, ivec2(0, side)));
-    Patch made = patchBetween(cornerOf(around[0]), cornerOf(around[1]), cornerOf(around[2]),
-                              cornerOf(around[3]));
-    if (reconstruct_triangles_shading == reconstruct_triangles_shading_vertices)
-        shareByAreas(made, around);
-    return made;
-}
-
-#ifdef MERGES
-layout(std430) buffer PatchBlocks {
-    PatchBlock blocks[];
-};
-
-// Its power is the sum of all that it is made of (U08, section 5).
-Patch patchOfBlock(uint index, uint merges) {
-    Patch made = patchOfCells(index, 1 << merges);
-    made.flux = blocks[index].flux.rgb;
-    float first = twiceArea(made.corners[0], made.corners[1], made.corners[2]);
-    float second = twiceArea(made.corners[0], made.corners[2], made.corners[3]);
-    made.first = first + second > 0.0 ? first / (first + second) : 0.5;
-    return made;
-}
-#endif
-
-Patch wholePatchOf(uint item) {
-    uint index = item / kPatchParts;
-    uint part = item % kPatchParts;
-    ivec2 texel = ivec2(photonTexel(photons, index));
-    if (part == kPatchJoined) return patchOfCells(index, 1);
-#ifdef MERGES
-    if (part >= kPatchMerged) return patchOfBlock(index, part - kPatchMerged + 1u);
-#endif
-    if (part >= kPatchCrease) return patchAtCrease(originAt(texel), part - kPatchCrease);
-    Arrival own = arrivalOf(texel);
-    if (part == kPatchBeam) {
-        vec2 ends[4] = vec2[4](vec2(-0.5), vec2(0.5, -0.5), vec2(0.5), vec2(-0.5, 0.5));
-        for (int i = 0; i < 4; ++i) ends[i] *= reachTowards(own, ends[i]);
-        return patchOfBeam(own, ends, 0.5);
-    }
-    own.flux *= fluxShare(own, index, part);
-    // Photons at a border reach beyond their cells.
-    return patchOfQuarter(own, cornersOf(own, part), own.extent == uvec2(0u) ? 0.5 : 1.0);
-}
-
-// With the share of its flux that this map takes.
-Patch patchOf(uint item) {
-    Patch made = wholePatchOf(item);
-    made.flux *= arrivedShare(ivec2(photonTexel(photons, item / kPatchParts)));
-    return made;
-}
 
 // One of a patch's two triangles on the screen.
 struct PatchTriangle {
     Triangle onScreen;
+    // Barycentric coordinates of a place on the screen, of x, y, 1, and by how much they change from
+    // the middle of a pixel to the farthest of its corners.
+    mat3 weights;
+    vec3 changes;
     vec3 plane;      // unit normal, of the view
     vec3 middle;
     float perArea;   // share of the patch's flux over the triangle's area, 1/m²
     vec3 densities;  // at its corners, about 1
 };
 
+void setWeights(inout PatchTriangle made) {
+    Triangle at = made.onScreen;
+    vec3 x = vec3(at.b.y - at.c.y, at.c.y - at.a.y, at.a.y - at.b.y);
+    vec3 y = vec3(at.c.x - at.b.x, at.a.x - at.c.x, at.b.x - at.a.x);
+    vec3 begin = -x * vec3(at.b.x, at.c.x, at.a.x) - y * vec3(at.b.y, at.c.y, at.a.y);
+    made.weights = mat3(x, y, begin) * (0.5 / at.area);
+    made.changes = 0.5 * (abs(made.weights[0]) + abs(made.weights[1]));
+}
+
 PatchTriangle patchTriangle(Patch whole, vec3 a, vec3 b, vec3 c, vec3 densities, float part,
                             vec2 base) {
     PatchTriangle made;
     made.onScreen = triangleOf(pixelOf(a) - base, pixelOf(b) - base, pixelOf(c) - base);
+    setWeights(made);
     vec3 area = cross(b - a, c - a);
     float size = length(area);
     // A triangle that is nearly a line has no plane of its own.
@@ -288,15 +106,46 @@ PatchOnScreen onScreen(Patch whole) {
     return made;
 }
 
-// The least and the largest column that a row's pixels can be covered in; empty where x > y.
-ivec2 columnsOf(PatchOnScreen onto, int row) {
-    vec2 heights = vec2(row - onto.base.y) + vec2(0.0, 1.0);
+// The lines of pixels along the shorter side of the rectangle around a patch, so that those of
+// different threads are about as long: rows, or columns.
+struct PatchLines {
+    bool areColumns;
+    Triangle first;  // with its x and y exchanged where they are columns
+    Triangle second;
+    ivec2 base;
+    ivec2 low;   // x: of a line's pixels; y: of the lines
+    ivec2 high;
+};
+
+Triangle exchanged(Triangle of) {
+    vec3 slopes = vec3(slopeOf((of.b - of.a).yx), slopeOf((of.c - of.b).yx),
+                       slopeOf((of.a - of.c).yx));
+    return Triangle(of.a.yx, of.b.yx, of.c.yx, slopes, -of.area);
+}
+
+PatchLines linesOf(PatchOnScreen onto) {
+    ivec2 size = onto.high - onto.low;
+    if (size.x <= size.y) {
+        return PatchLines(false, onto.first.onScreen, onto.second.onScreen, onto.base, onto.low,
+                          onto.high);
+    }
+    return PatchLines(true, exchanged(onto.first.onScreen), exchanged(onto.second.onScreen),
+                      onto.base.yx, onto.low.yx, onto.high.yx);
+}
+
+// The first and the last of its pixels that can be covered; none where x > y.
+ivec2 spanOf(PatchLines lines, int line) {
+    vec2 heights = vec2(line - lines.base.y) + vec2(0.0, 1.0);
     vec2 span = vec2(1e9, -1e9);
-    addToSpan(span, onto.first.onScreen, heights);
-    addToSpan(span, onto.second.onScreen, heights);
+    addToSpan(span, lines.first, heights);
+    addToSpan(span, lines.second, heights);
     if (span.x > span.y) return ivec2(1, 0);
-    ivec2 columns = ivec2(floor(span)) + onto.base.x;
-    return ivec2(max(columns.x, onto.low.x), min(columns.y, onto.high.x));
+    ivec2 pixels = ivec2(floor(span)) + lines.base.x;
+    return ivec2(max(pixels.x, lines.low.x), min(pixels.y, lines.high.x));
+}
+
+ivec2 pixelOnLine(PatchLines lines, int line, int place) {
+    return lines.areColumns ? ivec2(line, place) : ivec2(place, line);
 }
 
 struct PatchPixel {
@@ -311,22 +160,23 @@ int seenOnPlane(ivec2 pixel, vec3 plane, vec3 point, vec3 normal, float toleranc
     vec3 ray = viewRay(vec2(pixel) + 0.5);
     float facing = boundedSlant(dot(plane, ray), 1e-4);
     float depth = max(depthOnPlane(pixel, plane, point, facing), view.frustum.z);
-    area = pixelArea(ray, depth, plane);
-    return seenAt(pixel, depth, normal, tolerance + depthMargin(ray, depth, plane), area);
+    int seen = seenAt(pixel, depth, normal, tolerance + depthMargin(ray, depth, plane), area);
+    if (seen != kSeenOn) area = pixelArea(ray, depth, plane);
+    return seen;
 }
 
 float partOf(PatchTriangle triangle, vec2 corner) {
-    float covered = coverageOf(triangle.onScreen, corner);
-    if (covered <= 0.0) return 0.0;
-    // The density at the pixel's middle, or where the triangle is nearest to it.
-    Triangle at = triangle.onScreen;
-    vec2 p = corner + 0.5;
-    vec3 weights = vec3((at.c.x - at.b.x) * (p.y - at.b.y) - (at.c.y - at.b.y) * (p.x - at.b.x),
-                        (at.a.x - at.c.x) * (p.y - at.c.y) - (at.a.y - at.c.y) * (p.x - at.c.x),
-                        (at.b.x - at.a.x) * (p.y - at.a.y) - (at.b.y - at.a.y) * (p.x - at.a.x));
-    weights = max(weights / (2.0 * at.area), 0.0);
-    float density = dot(weights, triangle.densities) / (weights.x + weights.y + weights.z);
-    return covered * triangle.perArea * density;
+    vec3 weights = triangle.weights * vec3(corner + 0.5, 1.0);
+    if (any(lessThanEqual(weights, -triangle.changes))) return 0.0;
+    float covered = 1.0;
+    if (any(lessThan(weights, triangle.changes))) {
+        covered = coverageOf(triangle.onScreen, corner);
+        if (covered <= 0.0) return 0.0;
+        // The density where the triangle is nearest to the pixel's middle.
+        weights = max(weights, 0.0);
+        weights /= weights.x + weights.y + weights.z;
+    }
+    return covered * triangle.perArea * dot(weights, triangle.densities);
 }
 
 PatchPixel patchAt(PatchOnScreen onto, ivec2 pixel) {
@@ -382,10 +232,12 @@ bool seenInFace(Patch whole, int face, out Patch there, out PatchOnScreen onto) 
 #endif
 }
 
-void addParts(PatchOnScreen onto, inout PatchParts parts) {
-    for (int row = onto.low.y; row <= onto.high.y; ++row) {
-        ivec2 columns = columnsOf(onto, row);
-        for (int column = columns.x; column <= columns.y; ++column)
-            addPart(parts, patchAt(onto, ivec2(column, row)));
+// What every `step`th line from the first one on covers.
+void addParts(PatchOnScreen onto, int first, int step, inout PatchParts parts) {
+    PatchLines lines = linesOf(onto);
+    for (int line = lines.low.y + first; line <= lines.high.y; line += step) {
+        ivec2 span = spanOf(lines, line);
+        for (int place = span.x; place <= span.y; ++place)
+            addPart(parts, patchAt(onto, pixelOnLine(lines, line, place)));
     }
 }

@@ -1,37 +1,46 @@
 // SPDX-License-Identifier: MIT
 // What becomes of a patch's flux once it is known what the pixels show of it.
+#include "reconstruct/triangles_patch.glsl"
 #include "include/maps/deposit.glsl"
 #include "framework/transport/primitives.h"
 
 // By what primitive flux has gone to pixels.
-void bookDeposit(uint item, vec3 flux) {
-    uint part = item % kPatchParts;
-    bool isJoined = part == kPatchJoined || part >= kPatchMerged;
-    ledgerAdd(isJoined ? kSumTriangles : kSumBeams, flux);
+void bookDeposit(Patch whole, vec3 flux) {
+    ledgerAdd(whole.isJoined ? kSumTriangles : kSumBeams, flux);
 }
 
 void deposit(Patch whole, ivec2 pixel, float share) {
     depositFlux(pixel, whole.flux * share, directionToEye(whole.direction));
 }
 
-// What shares are divided by; 0 where no pixel shows any of it. Books what is hidden or next to the
-// view.
-float account(uint item, Patch whole, bool isWhole, PatchParts parts) {
+// The shares of a patch that pixels show, that something nearer hides, and that lie next to the view,
+// and what they add up to; 0 where no pixel shows any of it.
+struct PatchBalance {
+    float on;
+    float hidden;
+    float outside;
+    float total;
+};
+
+PatchBalance balanceOf(PatchParts parts, bool isWhole) {
     float within = parts.on + parts.occluded;
     // All pixels' shares add up to 1 but for their rounding and the bend of perspective within one;
     // what is missing lies next to the view.
     float outside = isWhole ? 0.0 : max(1.0 - within - parts.outside, 0.0);
-    float total = within + outside;
-    if (total <= 0.0) return 0.0;
-    if (parts.on > 0.0) bookDeposit(item, whole.flux * (parts.on / total));
-    if (parts.occluded > 0.0) ledgerAdd(kAccountHidden, whole.flux * (parts.occluded / total));
-    if (outside > 0.0) ledgerAdd(kAccountOutside, whole.flux * (outside / total));
-    return total;
+    return PatchBalance(parts.on, parts.occluded, outside, within + outside);
+}
+
+void account(Patch whole, PatchBalance balance) {
+    if (balance.total <= 0.0) return;
+    vec3 flux = whole.flux / balance.total;
+    if (balance.on > 0.0) bookDeposit(whole, flux * balance.on);
+    if (balance.hidden > 0.0) ledgerAdd(kAccountHidden, flux * balance.hidden);
+    if (balance.outside > 0.0) ledgerAdd(kAccountOutside, flux * balance.outside);
 }
 
 // No pixel under the patch shows its surface: the nearest that do get its flux, or else it is edge-on
 // or smaller than a pixel, or hidden by its own object.
-void depositNear(uint item, Patch whole) {
+void depositNear(Patch whole) {
     vec3 middle = 0.25 * (whole.corners[0] + whole.corners[1] + whole.corners[2] + whole.corners[3]);
 #ifdef MANY_VIEWS
     // The face that it lies on sees it at the largest depth.
@@ -77,21 +86,24 @@ void depositNear(uint item, Patch whole) {
         if (nearness[i] > 0.0) deposit(whole, pixel, nearness[i] / sum);
     }
     if (sum > 0.0) {
-        bookDeposit(item, whole.flux);
+        bookDeposit(whole, whole.flux);
         return;
     }
     bool seesFront = dot(whole.normal, viewDirection(middle)) < 0.0;
     ledgerAdd(seesFront ? kAccountEdgeOn : kAccountHidden, whole.flux);
 }
 
-// To all pixels of the view that show the patch's surface, of shares that add up to `total`.
-void depositParts(Patch whole, PatchOnScreen onto, float total) {
-    for (int row = onto.low.y; row <= onto.high.y; ++row) {
-        ivec2 columns = columnsOf(onto, row);
-        for (int column = columns.x; column <= columns.y; ++column) {
-            PatchPixel pixel = patchAt(onto, ivec2(column, row));
-            if (pixel.where == kSeenOn && pixel.share > 0.0)
-                deposit(whole, ivec2(column, row), pixel.share / total);
+// To all pixels on every `step`th line from the first one on that show the patch's surface, of shares
+// that add up to `total`.
+void depositParts(Patch whole, PatchOnScreen onto, int first, int step, float total) {
+    PatchLines lines = linesOf(onto);
+    for (int line = lines.low.y + first; line <= lines.high.y; line += step) {
+        ivec2 span = spanOf(lines, line);
+        for (int place = span.x; place <= span.y; ++place) {
+            ivec2 pixel = pixelOnLine(lines, line, place);
+            PatchPixel part = patchAt(onto, pixel);
+            if (part.where == kSeenOn && part.share > 0.0)
+                deposit(whole, pixel, part.share / total);
         }
     }
 }

@@ -8,11 +8,28 @@ struct PatchCount {
     uint groupsY;
     uint groupsZ;
 };
+
+// They are made by shaders of their own, since they have little in common.
+const uint kPatchesJoined = 0u;
+const uint kPatchesOfBeams = 1u;
+const uint kPatchesAtCreases = 2u;
+const uint kPatchKinds = 3u;
+
 layout(std430) buffer Patches {
-    PatchCount patches;      // of one thread each
-    PatchCount widePatches;  // of a workgroup each
+    PatchCount patches[kPatchKinds];
+    PatchCount widePatches;  // of those (triangles_wide.glsl)
     uint patchList[];
 };
+
+// At most one is joined a photon, and no more than four are not: beams from the begin of their part
+// of the list, those at creases from its end.
+uint patchPlace(uint kind, uint number, uint capacity) {
+    if (kind == kPatchesJoined) return number;
+    return kind == kPatchesOfBeams ? capacity + number : 5u * capacity - 1u - number;
+}
+
+// Of a wide one.
+const uint kThreadsOfPatch = 8u;
 
 const uint kPatchQuarter = 0u;  // 0 to 3: of its beam, by the cell next to it: right, up: bits
 const uint kPatchBeam = 4u;     // all of its beam

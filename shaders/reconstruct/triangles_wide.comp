@@ -1,60 +1,45 @@
 // SPDX-License-Identifier: MIT
-// reconstruct.triangles: a wide patch's flux onto the pixels that it covers. A workgroup a patch.
-#include "reconstruct/triangles_patch.glsl"
+// reconstruct.triangles: a wide patch's flux onto the pixels that it covers. Eight threads a patch,
+// which take its lines of pixels in turn: with more, what there is to do once a patch outweighs
+// them, since most patches that are wide are slivers.
+#include "include/thread.glsl"
 #include "reconstruct/triangles_patch_deposit.glsl"
+#include "reconstruct/triangles_patch_list.glsl"
+#include "reconstruct/triangles_wide.glsl"
 
-uniform int firstWide;
+const int kThreads = int(kThreadsOfPatch);
 shared PatchParts partsOfThreads[64];
 
 void main() {
-    uint index = workgroupNumber();
+    uint index = threadNumber() / kThreadsOfPatch;
     bool isHere = index < widePatches.count;
-    Patch whole;
+    Patch whole = unpackedPatch(widePatchList[isHere ? index : 0u]);
     Patch there;
     PatchOnScreen onto;
     PatchParts parts = PatchParts(0.0, 0.0, 0.0);
-    ivec2 local = ivec2(gl_LocalInvocationIndex & 7u, gl_LocalInvocationIndex >> 3u);
-    uint item = 0u;
-    if (isHere) {
-        item = patchList[uint(firstWide) + index];
-        whole = patchOf(item);
-        for (int face = 0; face < viewCount; ++face) {
-            if (!seenInFace(whole, face, there, onto)) continue;
-            for (int row = onto.low.y + local.y; row <= onto.high.y; row += 8) {
-                ivec2 columns = columnsOf(onto, row);
-                for (int column = columns.x + local.x; column <= columns.y; column += 8)
-                    addPart(parts, patchAt(onto, ivec2(column, row)));
-            }
-        }
+    int thread = int(gl_LocalInvocationIndex) % kThreads;
+    for (int face = 0; face < viewCount && isHere; ++face) {
+        if (seenInFace(whole, face, there, onto)) addParts(onto, thread, kThreads, parts);
     }
     partsOfThreads[gl_LocalInvocationIndex] = parts;
     barrier();
-    // Always in the same order.
-    if (gl_LocalInvocationIndex == 0u) {
-        for (int i = 1; i < 64; ++i) {
-            parts.on += partsOfThreads[i].on;
-            parts.occluded += partsOfThreads[i].occluded;
-            parts.outside += partsOfThreads[i].outside;
-        }
-        float total = 0.0;
-        if (isHere) {
-            total = account(item, whole, viewCount > 1 || onto.isWhole, parts);
-            if (total <= 0.0) depositNear(item, whole);
-        }
-        partsOfThreads[0].on = parts.on > 0.0 ? total : 0.0;
+    // Always in the same order, each for itself.
+    int first = int(gl_LocalInvocationIndex) - thread;
+    parts = partsOfThreads[first];
+    for (int i = 1; i < kThreads; ++i) {
+        parts.on += partsOfThreads[first + i].on;
+        parts.occluded += partsOfThreads[first + i].occluded;
+        parts.outside += partsOfThreads[first + i].outside;
     }
-    barrier();
-    float total = partsOfThreads[0].on;
-    if (!isHere || total <= 0.0) return;
+    if (!isHere) return;
+    PatchBalance balance = balanceOf(parts, viewCount > 1 || onto.isWhole);
+    if (thread == 0) {
+        account(whole, balance);
+        if (balance.total <= 0.0) depositNear(whole);
+    }
+    if (balance.on <= 0.0) return;
     for (int face = 0; face < viewCount; ++face) {
-        if (!seenInFace(whole, face, there, onto)) continue;
-        for (int row = onto.low.y + local.y; row <= onto.high.y; row += 8) {
-            ivec2 columns = columnsOf(onto, row);
-            for (int column = columns.x + local.x; column <= columns.y; column += 8) {
-                PatchPixel pixel = patchAt(onto, ivec2(column, row));
-                if (pixel.where == kSeenOn && pixel.share > 0.0)
-                    deposit(there, ivec2(column, row), pixel.share / total);
-            }
-        }
+        if (seenInFace(whole, face, there, onto))
+            depositParts(there, onto, thread, kThreads, balance.total);
     }
 }

@@ -66,7 +66,14 @@ struct TrianglesParams {
 struct PatchCount {
     std::uint32_t count, groupsX, groupsY, groupsZ;
 };
-constexpr std::size_t kPatchCountWords = 2 * sizeof(PatchCount) / sizeof(std::uint32_t);
+enum PatchKind { joined, ofBeams, atCreases, wide, kPatchCounts };
+constexpr std::size_t kPatchCountWords = kPatchCounts * sizeof(PatchCount) / sizeof(std::uint32_t);
+// As triangles_wide.glsl has it.
+struct WidePatch {
+    glm::vec4 corners[4], normal, direction, flux;
+};
+// Wide patches that are kept; more are covered by one thread each.
+constexpr std::size_t kMaxWidePatches = 1u << 18u;
 struct VertexShares {
     float quarter, area, triangles, cells;
 };
@@ -97,10 +104,13 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Hits& h
         graph::Buffer<std::uint32_t> photonOfCell;
         graph::Buffer<std::uint32_t> joins;
         graph::Buffer<VertexShares> shares;
-        graph::Buffer<std::uint32_t> patches;  // counts; those of one thread, of a workgroup
-        graph::Buffer<PatchBlock> blocks;      // where any are merged
+        graph::Buffer<std::uint32_t> patches;  // counts, and a list
+        graph::Buffer<WidePatch> wide;
+        graph::Buffer<PatchBlock> blocks;  // where any are merged
         graph::Buffer<transport::Clamped> clamped;
     };
+    const auto capacity = static_cast<std::size_t>(hits.incoming.capacity());
+    const std::size_t wideCapacity = std::min(4 * capacity, kMaxWidePatches);
     const std::string reason = hits.incoming.cells.width > 0
                                    ? "what neighbours bring is spread between them"
                                    : "no photon has neighbours: each is covered by its own beam";
@@ -114,7 +124,6 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Hits& h
                 setup.sample("cellExtents", hits.incoming.extents);
                 setup.define("CELL_EXTENTS");
             }
-            const auto capacity = static_cast<std::size_t>(hits.incoming.capacity());
             const auto create = [&]<class T>(graph::Buffer<T>& buffer, const char* block,
                                              const char* name, std::size_t count) {
                 buffer = setup.storage(
@@ -127,50 +136,67 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Hits& h
                    std::max<std::size_t>(hits.incoming.cells.places(), 1));
             create(data.joins, "CellJoins", "joins", capacity);
             create(data.shares, "PhotonShares", "shares", capacity);
-            create(data.patches, "Patches", "patches", kPatchCountWords + 8 * capacity);
+            create(data.patches, "Patches", "patches", kPatchCountWords + 5 * capacity);
+            create(data.wide, "WidePatches", "wide", wideCapacity);
             if (params.merge > 0.0f) {
                 setup.define("MERGES");
                 create(data.blocks, "PatchBlocks", "blocks", capacity);
             }
             create(data.clamped, "ClampedWidths", "clamped", 1);
         },
-        [params, sets, store, list = hits.incoming](const Data& data, gl::PassContext& context) {
+        [params, sets, store, wideCapacity, list = hits.incoming](const Data& data,
+                                                                  gl::PassContext& context) {
             clearIfFirst(context, data.stored);
             context.buffer(data.photonOfCell).clear();
             if (!context.isRepeated()) context.buffer(data.clamped).clear();
             const auto shader = [&](const char* name) {
                 gl::Command command = context.compute(name);
                 bindStore(command, store).params("reconstruct.triangles", params);
+                return command;
+            };
+            const auto shaderOfPhotons = [&](const char* name) {
+                gl::Command command = shader(name);
                 setCells(command, list.cells);
                 return command;
             };
             const auto countGroups = [&](int isWide) {
                 context.compute("reconstruct/triangles_groups.comp")
                     .set("isWide", isWide)
+                    .set("wideCapacity", static_cast<int>(wideCapacity))
                     .dispatch(1);
             };
             countGroups(-1);
             for (const char* name :
-                 {"reconstruct/triangles_cells.comp", "reconstruct/triangles_join.comp",
-                  "reconstruct/triangles_list.comp"}) {
-                gl::Command command = shader(name);
+                 {"reconstruct/triangles_cells.comp", "reconstruct/triangles_join.comp"}) {
+                gl::Command command = shaderOfPhotons(name);
                 dispatchOver(command, list);
             }
+            const int listCapacity = list.capacity();
+            gl::Command lists = shaderOfPhotons("reconstruct/triangles_list.comp");
+            lists.set("listCapacity", listCapacity);
+            dispatchOver(lists, list);
             for (int step = 0; params.merge > 0.0f && step <= kMaxMerges + 1; ++step) {
-                gl::Command command = shader("reconstruct/triangles_merge.comp");
+                gl::Command command = shaderOfPhotons("reconstruct/triangles_merge.comp");
                 command.set("mergeStep", step);
                 dispatchOver(command, list);
             }
-            for (int isWide = 0; isWide < 2; ++isWide) {
-                countGroups(isWide);
-                gl::Command command = shader(isWide == 1 ? "reconstruct/triangles_wide.comp"
-                                                         : "reconstruct/triangles.comp");
+            const auto dispatchOverPatches = [&](gl::Command command, PatchKind kind) {
                 setDeposit(command, sets);
-                command.set("firstWide", 4 * list.capacity());
                 command.dispatchIndirect(data.patches,
-                                         static_cast<std::size_t>(isWide) * sizeof(PatchCount) +
+                                         static_cast<std::size_t>(kind) * sizeof(PatchCount) +
                                              offsetof(PatchCount, groupsX));
+            };
+            countGroups(0);
+            for (const PatchKind kind : {joined, ofBeams, atCreases}) {
+                gl::Command command = shaderOfPhotons("reconstruct/triangles.comp");
+                if (kind == joined) command.define("JOINED_PATCHES");
+                if (kind == atCreases) command.define("CREASE_PATCHES");
+                command.set("wideCapacity", static_cast<int>(wideCapacity))
+                    .set("listCapacity", listCapacity);
+                dispatchOverPatches(std::move(command), kind);
             }
+            countGroups(1);
+            dispatchOverPatches(shader("reconstruct/triangles_wide.comp"), wide);
         });
     reportWidthLimit(frame,
                      {"reconstruct.triangles", "maximum", WidthBound::largest,

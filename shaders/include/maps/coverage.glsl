@@ -7,8 +7,14 @@ const float kMinHeight = 1.0 / 64.0;
 
 struct Triangle {
     vec2 a, b, c;  // px, from the corner of some pixel
+    vec3 slopes;   // x by y of its sides a b, b c, c a; 0 of a level one
     float area;    // px², with its orientation's sign; never 0
 };
+
+// Its x by its y.
+float slopeOf(vec2 side) {
+    return side.y != 0.0 ? side.x / side.y : 0.0;
+}
 
 Triangle triangleOf(vec2 a, vec2 b, vec2 c) {
     vec2 ab = b - a;
@@ -41,7 +47,7 @@ Triangle triangleOf(vec2 a, vec2 b, vec2 c) {
         twice = (b.x - a.x) * (c.y - b.y) - (b.y - a.y) * (c.x - b.x);
     }
     if (twice == 0.0) twice = sign * kMinHeight * kMinHeight;
-    return Triangle(a, b, c, 0.5 * twice);
+    return Triangle(a, b, c, vec3(slopeOf(b - a), slopeOf(c - b), slopeOf(a - c)), 0.5 * twice);
 }
 
 // ∫ clamp(x, 0, 1) dx from 0.
@@ -51,12 +57,11 @@ float clampedIntegral(float x) {
 }
 
 // ∫ clamp(x, 0, 1) dy along a side within the pixel [0, 1]².
-float sideCoverage(vec2 from, vec2 to) {
+float sideCoverage(vec2 from, vec2 to, float slope) {
     float low = clamp(from.y, 0.0, 1.0);
     float high = clamp(to.y, 0.0, 1.0);
     float rise = high - low;
     if (rise == 0.0) return 0.0;
-    float slope = (to.x - from.x) / (to.y - from.y);
     float first = from.x + (low - from.y) * slope;
     float last = from.x + (high - from.y) * slope;
     float run = last - first;
@@ -70,7 +75,8 @@ float coverageOf(Triangle triangle, vec2 corner) {
     vec2 a = triangle.a - corner;
     vec2 b = triangle.b - corner;
     vec2 c = triangle.c - corner;
-    float sum = sideCoverage(a, b) + sideCoverage(b, c) + sideCoverage(c, a);
+    float sum = sideCoverage(a, b, triangle.slopes.x) + sideCoverage(b, c, triangle.slopes.y) +
+                sideCoverage(c, a, triangle.slopes.z);
     return max(triangle.area < 0.0 ? -sum : sum, 0.0);
 }
 
