@@ -14,7 +14,7 @@ KAUSTIK=$(command -v "$KAUSTIK")
 mkdir -p "$out"
 for scene in pool glass-bunny; do
     for tracer in hierarchical lines; do
-        settings=(run "$scene" --frames 1 --warmup 0 --set "trace=$tracer")
+        settings=(run "$scene" --technique screen_space_photons --frames 1 --warmup 0 --set "trace=$tracer")
         # Rows of 800 texels would take an hour on a software rasteriser.
         [[ $tracer != lines ]] || settings+=(--size 400x300 --set emit.photons=128x128)
         whole=$out/$scene-$tracer

@@ -13,7 +13,7 @@ void registerExactRays(Registry& registry) {
          {{"layers", "auto"},
           {"trace", "bvh"},
           {"reconstruct", "triangles"},
-          {"shadow", "rays"},
+          {"shadow", "bvh"},
           {"view", "bvh"}}});
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "framework/params/assignment.h"
+#include "framework/pipeline/default_technique.h"
 
 namespace kaustik::app {
 
@@ -22,7 +23,7 @@ struct SceneOptions {
     std::string scene = "pool";
     OwnMeshOptions own;
     std::string scenePlace;  // of a file that names it; "" for the command line
-    std::string technique = "screen_space_photons";
+    std::string technique = kDefaultTechnique;
     bool isAsPublished = false;                  // the technique's row is its paper's
     std::vector<std::string> merged;             // files of settings; mergeSettings() reads them
     std::vector<params::Assignment> parameters;  // what they set, in order; before `assignments`

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "framework/params/field.h"
+#include "framework/pipeline/default_technique.h"
 #include "framework/pipeline/renderer.h"
 #include "framework/scene/scene_edits.h"
 
@@ -20,7 +21,7 @@ namespace kaustik::gui {
 // One way to render: what `kaustik run` takes as --technique,
 // --as-published, --set and --disable.
 struct Variant {
-    std::string technique = "screen_space_photons";
+    std::string technique = kDefaultTechnique;
     std::map<std::string, std::string> assignments;  // by full name
     std::set<std::string> disabled;                  // passes, by full name
     bool isAsPublished = false;                      // of the technique its paper's row

@@ -56,8 +56,14 @@ Technique Registry::findTechnique(const std::string& name, bool isAsPublished) c
     Technique technique = findTechnique(name);
     if (!isAsPublished) return technique;
     if (technique.asPublished.empty()) {
+        std::vector<std::string> papers;
+        for (const Technique& other : techniques_) {
+            if (!other.asPublished.empty()) papers.push_back(other.name);
+        }
         throw ConfigError(fmt::format(
-            "The technique '{}' is no paper's: it has no row as published.", technique.name));
+            "The technique '{}' is no paper's: it has no row as published. Those that have one: "
+            "{}.",
+            technique.name, joinNames(papers)));
     }
     // A later one counts more.
     technique.defaults.insert(technique.defaults.end(), technique.asPublished.begin(),

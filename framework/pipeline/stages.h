@@ -157,9 +157,6 @@ struct TraceStage : Stage<Hits(Photons, Surfaces)> {
         bool tiles = false;
         // Rows of texels that it takes for a row of a list.
         int texelRows = 1;
-        // It knows rays that hit every surface from either side (kLeftBothSides), though it reads
-        // no layers of the eye.
-        bool bothSides = false;
     };
 };
 // Adds what arrives with these hits to what has arrived before.

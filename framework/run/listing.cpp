@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/core/number_text.h"
+#include "framework/pipeline/default_technique.h"
 #include "framework/pipeline/effect.h"
 #include "framework/scene/files/scene_file.h"
 
@@ -70,8 +71,7 @@ json describe(const params::NamedField& named) {
 }
 
 json listParams(const Registry& registry, const std::string& techniqueName, bool isAsPublished) {
-    const std::string name =
-        techniqueName.empty() ? registry.techniques().front().name : techniqueName;
+    const std::string name = techniqueName.empty() ? kDefaultTechnique : techniqueName;
     const params::ParamSet params =
         registry.makeParams(registry.findTechnique(name, isAsPublished));
     json entries = json::array();

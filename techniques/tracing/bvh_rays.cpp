@@ -103,4 +103,24 @@ BvhOfFrame bvhOfFrame(FrameBuilder& frame, const Geometry& geometry) {
     });
 }
 
+Hits hitsByBvh(FrameBuilder& frame, const Photons& photons, const Geometry& geometry) {
+    const BvhOfFrame bvh = bvhOfFrame(frame, geometry);
+    return frame.pass<Hits>(
+        "trace.bvh",
+        fmt::format("one thread a photon, through {} triangles in a tree of {} levels",
+                    frame.gpuScene().bvh().triangleCount(), frame.gpuScene().bvh().levels().size()),
+        [&](graph::PassSetup& setup, Hits& hits) {
+            photons.sample(setup);
+            bvh.read(setup);
+            hits = Hits::create(setup, photons);
+            hits.incoming.account(setup);
+            hits.store(setup);
+        },
+        [&inputs = frame.inputs(), bvh](const Hits& hits, gl::PassContext& context) {
+            gl::Command command = context.compute("trace/bvh.comp");
+            bvh.bindTo(command, inputs);
+            dispatchOver(command, hits.incoming);
+        });
+}
+
 }  // namespace kaustik

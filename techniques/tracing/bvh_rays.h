@@ -25,4 +25,7 @@ struct BvhOfFrame {
 
 [[nodiscard]] BvhOfFrame bvhOfFrame(FrameBuilder& frame, const Geometry& geometry);
 
+// The exact first hit of every photon, as a pass "trace.bvh".
+[[nodiscard]] Hits hitsByBvh(FrameBuilder& frame, const Photons& photons, const Geometry& geometry);
+
 }  // namespace kaustik

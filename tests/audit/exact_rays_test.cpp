@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rays through the hierarchy on the device (trace.bvh, view.bvh, shadow.rays by it) next to
+// Rays through the hierarchy on the device (trace.bvh, view.bvh, shadow.bvh) next to
 // Embree's, in every scene that the project ships: they differ by ties and roundings alone.
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace {
 constexpr int kWidth = 160;
 constexpr int kHeight = 120;
 const numerics::Settings kExact = {
-    {"emit.photons", "128x128"}, {"trace", "bvh"}, {"view", "bvh"}, {"shadow", "rays"}};
+    {"emit.photons", "128x128"}, {"trace", "bvh"}, {"view", "bvh"}, {"shadow", "bvh"}};
 
 class ExactRays : public testing::TestWithParam<std::string> {
   protected:

@@ -138,12 +138,12 @@ TEST_F(List, WithATechniqueHasTheParametersOfItsNodesOnly) {
 TEST_F(Explain, SaysOfEveryNodeWhyItRunsOrNot) {
     const Outcome outcome = run({"explain", "ring", "--size", "64x48"});
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-    expectAllIn(outcome.out, {"scene ring", "technique screen_space_photons", "emit.grid",
-                              "photons.flux", "caustic.irradiance"});
+    expectAllIn(outcome.out, {"scene ring", "technique exact_rays", "emit.grid", "photons.flux",
+                              "caustic.irradiance"});
     EXPECT_TRUE(
         std::regex_search(outcome.out, std::regex("geometry\\.height_field +skipped +\\w+")))
         << outcome.out;
-    EXPECT_TRUE(std::regex_search(outcome.out, std::regex("trace\\.hierarchical +runs +\\w+")))
+    EXPECT_TRUE(std::regex_search(outcome.out, std::regex("trace\\.bvh +runs +\\w+")))
         << outcome.out;
     EXPECT_TRUE(files().empty());
 }
@@ -178,8 +178,7 @@ TEST_F(Explain, DrawsEveryPassAndResourceAsGraphviz) {
     const std::string dot = contents("graph.dot");
     EXPECT_TRUE(dot.starts_with("digraph")) << dot;
     EXPECT_TRUE(dot.ends_with("}\n")) << dot;
-    expectAllIn(
-        dot, {"trace.hierarchical", "reconstruct.triangles", "photons.flux", "caustic.irradiance"});
+    expectAllIn(dot, {"trace.bvh", "reconstruct.triangles", "photons.flux", "caustic.irradiance"});
     // Each arrow joins two nodes that are declared with a label.
     const std::regex arrow(R"( (\w+) -> (\w+);)");
     std::size_t arrows = 0;

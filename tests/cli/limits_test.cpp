@@ -17,7 +17,8 @@ class Limits : public CommandLine {
                                          const std::vector<std::string>& settings,
                                          const std::vector<std::string>& disabled = {}) {
         static_cast<void>(folder.file("wavy.toml", kWavyWater));
-        std::vector<std::string> arguments = smallRun(scene, {"--out", "out"});
+        std::vector<std::string> arguments =
+            smallRun(scene, {"--technique", "screen_space_photons", "--out", "out"});
         for (const std::string& setting : settings)
             arguments.insert(arguments.end(), {"--set", setting});
         for (const std::string& pass : disabled)

@@ -188,9 +188,10 @@ position = [0, 1, -1]
 name = "pane"
 material = "water"
 )";
-    [[nodiscard]] Outcome look(const std::string& object) {
+    [[nodiscard]] Outcome look(const std::string& object, std::vector<std::string> options = {}) {
         static_cast<void>(folder.file("room.toml", kRoom + object));
-        return run(smallRun("room.toml", {"--set", "photons=32x32", "--out", "out"}));
+        options.insert(options.end(), {"--set", "photons=32x32", "--out", "out"});
+        return run(smallRun("room.toml", options));
     }
     [[nodiscard]] double shareOf(const char* fate) const {
         const json rays = report().at("eye_rays");
@@ -233,7 +234,7 @@ TEST_F(EyesRays, GoThroughAPaneWithSlivers) {
 TEST_F(EyesRays, ThatAreLostAreTold) {
     const std::string body =
         "shape = \"box\"\nsize = [1.5, 1.5, 0.5]\nopen = [\"-z\"]\nposition = [0, 1, -0.5]\n";
-    const Outcome outcome = look(body);
+    const Outcome outcome = look(body, {"--technique", "screen_space_photons"});
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_GT(shareOf("lost"), 0.5);
     EXPECT_TRUE(isLimitReached("view.refraction")) << report().at("limits");

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "framework/image/image.h"
+#include "framework/pipeline/default_technique.h"
 #include "tests/cli/fixture.h"
 
 namespace kaustik::test {
@@ -83,7 +84,7 @@ TEST_F(Report, SaysWhatWasAskedFor) {
     const json report = this->report();
     EXPECT_EQ(report.at("scene").at("name"), "wavy");
     EXPECT_EQ(report.at("scene").at("triangles"), 2 + 2 * 16 * 16);
-    EXPECT_EQ(report.at("technique"), "screen_space_photons");
+    EXPECT_EQ(report.at("technique"), kDefaultTechnique);
     EXPECT_EQ(report.at("size"), json({64, 48}));
     EXPECT_EQ(report.at("frames"), 1);
     EXPECT_EQ(report.at("warmup"), 0);
@@ -275,12 +276,12 @@ TEST_F(Disable, OfTheReconstructionLeavesNoCaustic) {
 
 TEST_F(Disable, OfTheShadowsLightsWhatTheyDarkened) {
     static_cast<void>(renderWater({}, "shadows"));
-    static_cast<void>(renderWater({"--disable", "shadow.map"}));
+    static_cast<void>(renderWater({"--disable", "shadow.bvh"}));
     const json withShadows = report("shadows");
     const json withoutShadows = report();
-    EXPECT_EQ(passNamed(withShadows, "shadow.map").at("ran"), true);
-    EXPECT_EQ(passNamed(withoutShadows, "shadow.map").at("ran"), false);
-    // Water blocks direct light, so without the shadow map the floor below it is brighter.
+    EXPECT_EQ(passNamed(withShadows, "shadow.bvh").at("ran"), true);
+    EXPECT_EQ(passNamed(withoutShadows, "shadow.bvh").at("ran"), false);
+    // Water blocks direct light, so without shadows the floor below it is brighter.
     double brighter = 0.0;
     const Image with = readImage(folder / "shadows/beauty.exr");
     const Image without = readImage(folder / "out/beauty.exr");
@@ -291,8 +292,8 @@ TEST_F(Disable, OfTheShadowsLightsWhatTheyDarkened) {
 }
 
 TEST_F(Disable, TakesAUniqueShortFormAndReportsTheFullName) {
-    static_cast<void>(renderWater({"--disable", "triangles", "--disable", "map"}));
-    EXPECT_EQ(report().at("disabled"), json({"reconstruct.triangles", "shadow.map"}));
+    static_cast<void>(renderWater({"--disable", "triangles", "--disable", "view.bvh"}));
+    EXPECT_EQ(report().at("disabled"), json({"reconstruct.triangles", "view.bvh"}));
     EXPECT_TRUE(isBlack(readImage(folder / "out/caustic.exr")));
 }
 

@@ -39,7 +39,7 @@ TEST_F(RunCommand, WritesSixFilesAndNamesThem) {
 TEST_F(RunCommand, WritesIntoAFolderNamedAfterSceneAndTechniqueByDefault) {
     const std::filesystem::path scene = folder.file("wavy.toml", kWavyWater);
     EXPECT_EQ(run(smallRun(scene.string())).exitCode, 0);
-    EXPECT_TRUE(files().contains("results/runs/wavy-screen_space_photons/report.json"));
+    EXPECT_TRUE(files().contains("results/runs/wavy-exact_rays/report.json"));
 }
 
 TEST_F(RunCommand, RendersTheDefaultSceneWhenNoneIsNamed) {

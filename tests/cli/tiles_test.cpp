@@ -16,7 +16,9 @@ class TilesOfTheScreen : public CommandLine {
     TilesOfTheScreen() { static_cast<void>(folder.file("wavy.toml", kWavyWater)); }
 
     [[nodiscard]] Outcome water(const std::vector<std::string>& more) const {
-        return run(smallRun("wavy.toml", more));
+        std::vector<std::string> arguments = {"--technique", "screen_space_photons"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run(smallRun("wavy.toml", arguments));
     }
     void trace(const std::string& tile, const std::vector<std::string>& more = {}) const {
         std::vector<std::string> arguments = {"--tile", tile, "--tiles", "t"};

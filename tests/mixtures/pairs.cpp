@@ -173,11 +173,11 @@ std::vector<Apart> answersApart() {
         if (!registry().traits<EmitStage>(emit).emitsCells)
             apart.push_back({{DriverStage::name, "adaptive"}, {EmitStage::name, emit}});
     }
-    // Rays of shadow want the layers that the eye sees, or what knows a surface from both sides.
+    // Rays of shadow go through the layers that the eye sees.
     // What is inside of bodies some tracers do not see, and of a photon others make several.
     for (const std::string& trace : nodesOf(TraceStage::name)) {
         const auto& traits = registry().traits<TraceStage>(trace);
-        if (traits.reach != TracerReach::eyeLayers && !traits.bothSides)
+        if (traits.reach != TracerReach::eyeLayers)
             apart.push_back({{ShadowStage::name, "rays"}, {TraceStage::name, trace}});
         for (const std::string& specular : nodesOf(SpecularStage::name)) {
             if (traits.onlyReceivers && !registry().traits<SpecularStage>(specular).throughBodies)

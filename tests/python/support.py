@@ -26,7 +26,11 @@ WATER = {
         {"name": "ball", "material": "water", "shape": "sphere", "radius": 0.4, "position": [0, 0.5, 0]},
     ],
 }
-SMALL = {"size": (64, 48), "set": {"emit.photons": (32, 32), "shadow.map.size": 64}}
+SMALL = {
+    "size": (64, 48),
+    "technique": "screen_space_photons",
+    "set": {"emit.photons": (32, 32), "shadow.map.size": 64},
+}
 
 
 class TestCase(unittest.TestCase):

@@ -51,7 +51,7 @@ class Settings(TestCase):
         r.step()
 
     def test_are_those_of_the_paper_where_that_is_asked_for(self):
-        r = kaustik.open("ring", technique="caustic_map", as_published=True, **SMALL)
+        r = kaustik.open("ring", **{**SMALL, "technique": "caustic_map", "as_published": True})
         self.assertTrue(r.as_published)
         self.assertEqual(r.get("trace.background.steps"), 0)
         self.assertFalse(self.open().as_published)
@@ -87,6 +87,7 @@ class Frames(TestCase):
         out = self.folder()
         said = command_line(
             "run", "ring", "--size", "64x48", "--set", "emit.photons=32x32",
+            "--technique", "screen_space_photons",
             "--set", "shadow.map.size=64", "--frames", "1", "--warmup", "0", "--out", out,
             "--save", "caustic.irradiance", "--save", "layers.depth")  # fmt: skip
         self.assertEqual(said.returncode, 0, said.stderr)
@@ -201,6 +202,7 @@ class Lifetime(TestCase):
         r = self.open()
         said = command_line(
             "explain", "ring", "--size", "64x48", "--set", "emit.photons=32x32",
+            "--technique", "screen_space_photons",
             "--set", "shadow.map.size=64")  # fmt: skip
         self.assertEqual(r.explain(), said.stdout)
         self.assertEqual(r.needs()["depth_complexity"], 5)

@@ -287,7 +287,7 @@ def open(
     scene: Scene = "pool",
     *,
     size: Size = (800, 600),
-    technique: str = "screen_space_photons",
+    technique: str = "exact_rays",
     as_published: bool = False,
     set: Optional[Mapping[str, Value]] = None,
     disable: Iterable[str] = (),
