@@ -80,6 +80,7 @@ struct PatchOnScreen {
     bool isWhole;  // none of it is next to the view
     float tolerance;
     vec3 normal;
+    vec3 direction;
 };
 
 PatchOnScreen onScreen(Patch whole) {
@@ -103,6 +104,7 @@ PatchOnScreen onScreen(Patch whole) {
                                 vec3(q[0], q[2], q[3]), 1.0 - whole.first, base);
     made.tolerance = whole.tolerance;
     made.normal = whole.normal;
+    made.direction = whole.direction;
     return made;
 }
 
@@ -153,15 +155,30 @@ struct PatchPixel {
     int where;
 };
 
-// What the pixel sees where a plane of the patch's surface would be: kSeen…; `area`, m², of the
-// surface or, where it is not seen, of the plane.
-int seenOnPlane(ivec2 pixel, vec3 plane, vec3 point, vec3 normal, float tolerance,
+// A beam that grazes a plane by less than this sine tells nothing of how light falls on what turns
+// away from it.
+const float kMinLitSlant = 0.05;
+
+// What the pixel sees where a plane of the patch's surface would be: kSeen…; `area`, m²: of the plane,
+// through which the light comes that falls on what is seen, or, where it is not seen, that is before
+// the pixel. Light from `direction` falls on what turns away from it by its cosine, and on none of
+// what is turned off it.
+int seenOnPlane(ivec2 pixel, vec3 plane, vec3 point, vec3 normal, vec3 direction, float tolerance,
                 out float area) {
     vec3 ray = viewRay(vec2(pixel) + 0.5);
     float facing = boundedSlant(dot(plane, ray), 1e-4);
     float depth = max(depthOnPlane(pixel, plane, point, facing), view.frustum.z);
-    int seen = seenAt(pixel, depth, normal, tolerance + depthMargin(ray, depth, plane), area);
-    if (seen != kSeenOn) area = pixelArea(ray, depth, plane);
+    // A surface that lies less slanted than the plane is another one, next to it or in front.
+    vec3 seenNormal = receiverSurfaceAt(pixel).xyz;
+    float margin = min(depthMargin(ray, depth, plane),
+                       depthMargin(ray, abs(receiverAt(pixel).x), seenNormal));
+    int seen = seenAt(pixel, depth, normal, tolerance + margin, area);
+    if (seen != kSeenOn) {
+        area = pixelArea(ray, depth, plane);
+    } else {
+        float lit = dot(seenNormal, direction) * sign(dot(normal, direction));
+        area *= max(lit, 0.0) / max(abs(dot(plane, direction)), kMinLitSlant);
+    }
     return seen;
 }
 
@@ -189,7 +206,7 @@ PatchPixel patchAt(PatchOnScreen onto, ivec2 pixel) {
     float area;
     int where = seenOnPlane(pixel, isFirst ? onto.first.plane : onto.second.plane,
                             isFirst ? onto.first.middle : onto.second.middle, onto.normal,
-                            onto.tolerance, area);
+                            onto.direction, onto.tolerance, area);
     return PatchPixel(covered * area, where);
 }
 

@@ -27,7 +27,12 @@ PatchBalance balanceOf(PatchParts parts, bool isWhole) {
     // All pixels' shares add up to 1 but for their rounding and the bend of perspective within one;
     // what is missing lies next to the view.
     float outside = isWhole ? 0.0 : max(1.0 - within - parts.outside, 0.0);
-    return PatchBalance(parts.on, parts.occluded, outside, within + outside);
+    float found = within + outside;
+    // Where the surface ends, its light is all on what there is of it. An edge through what lies around
+    // a photon leaves it half of that at least: with less the photon is beyond, on what the view does
+    // not see.
+    float beyond = found > 0.0 ? max(0.5 - found, 0.0) : 0.0;
+    return PatchBalance(parts.on, parts.occluded + beyond, outside, found + beyond);
 }
 
 void account(Patch whole, PatchBalance balance) {
@@ -76,8 +81,9 @@ void depositNear(Patch whole) {
         if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, size))) continue;
         float area;
         int where =
-            seenOnPlane(pixel, whole.normal, middle, whole.normal, whole.tolerance, area);
-        if (where != kSeenOn) continue;
+            seenOnPlane(pixel, whole.normal, middle, whole.normal, whole.direction,
+                        whole.tolerance, area);
+        if (where != kSeenOn || area <= 0.0) continue;
         nearness[i] = max(1.5 - length(vec2(pixel) + 0.5 - at), 1e-3);
         sum += nearness[i];
     }

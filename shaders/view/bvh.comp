@@ -3,16 +3,17 @@
 // and totally reflected as often as it takes, both branches followed at the first interfaces.
 // Receivers that the picture shows have their light from it, caustics and all; the others are lit
 // here, with the lights' own shadows. Radiance changes by T or R at every interface and by 1/n² where
-// what is seen lies in a medium of index n (hard case 28a), and is absorbed on the way.
+// what is seen lies in a medium of index n (hard case 28a), and is absorbed on the way. One thread a
+// pixel of those that look at something specular.
 #include "include/surfaces/albedo.glsl"
 #include "include/surfaces/bvh.glsl"
 #include "include/surfaces/environment.glsl"
 #include "include/surfaces/side_rule.glsl"
 #include "include/views/mirror_path.glsl"
 #include "include/views/shown_radiance.glsl"
+#include "include/thread.glsl"
 #include "include/views/view_sample.glsl"
-
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "view/bvh_pixels.glsl"
 
 layout(rgba32f) uniform image2D viewRadiance;
 #ifndef BESIDE_MIDDLE
@@ -264,27 +265,12 @@ vec3 radianceThrough(ivec2 pixel) {
     return sum;
 }
 
-// Threads that run together look at pixels that lie together: squares of squares.
-ivec2 pixelOfThread() {
-    uint i = gl_LocalInvocationIndex;
-    uvec2 at = uvec2((i & 1u) | (i >> 1u & 2u) | (i >> 2u & 4u),
-                     (i >> 1u & 1u) | (i >> 2u & 2u) | (i >> 3u & 4u));
-    return ivec2(8u * gl_WorkGroupID.xy + at);
-}
-
 void main() {
-    ivec2 pixel = pixelOfThread();
-    if (any(greaterThanEqual(pixel, ivec2(view.sizePixels.xy)))) return;
+    uint index = threadNumber();
+    if (index >= lookedThrough.count) return;
+    ivec2 pixel = listedPixel(index);
     pixelNow = pixel;
-    vec4 radiance = radianceStraight(pixel);
-    if (firstDepth(pixel) > 0.0) {
-        radiance = vec4(radianceThrough(pixel), 1.0);
-    } else {
-#ifndef BESIDE_MIDDLE
-        imageStore(viewExitPosition, pixel, vec4(0.0));
-        imageStore(viewExitDirection, pixel, vec4(0.0));
-#endif
-    }
+    vec4 radiance = vec4(radianceThrough(pixel), 1.0);
     weigh(radiance);
 #ifdef BESIDE_MIDDLE
     radiance += imageLoad(viewRadiance, pixel);

@@ -3,6 +3,9 @@
 // scene on the device (framework/transport/bvh.h). In: eye buffer, radiance of the receivers; out:
 // radiance, W/m²/sr, and where each ray left for good, view space, m. Receivers that the picture
 // does not show are lit by their own shadow rays; caustics are seen where the picture has them.
+#include <cstddef>
+#include <cstdint>
+
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/eye_rays/view_passes.h"
 #include "techniques/tracing/bvh_rays.h"
@@ -43,6 +46,17 @@ void reportLimits(FrameBuilder& frame, const BvhViewParams& params, const View& 
                    "there");
 }
 
+// As shaders/view/bvh_pixels.glsl has it.
+struct PixelCount {
+    std::uint32_t count, groupsX, groupsY, groupsZ;
+};
+constexpr std::size_t kPixelCountWords = sizeof(PixelCount) / sizeof(std::uint32_t);
+
+struct BvhViewPass {
+    ViewPass view;
+    graph::Buffer<std::uint32_t> pixels;  // PixelCount, and a list
+};
+
 View traceView(FrameBuilder& frame, const BvhViewParams& params, Geometry geometry, EyeBuffer eye,
                LayeredDepth /*sceneLayers*/, Radiance receivers, Shadows shadows,
                CausticMap /*map*/) {
@@ -50,31 +64,49 @@ View traceView(FrameBuilder& frame, const BvhViewParams& params, Geometry geomet
     const BvhOfFrame bvh = bvhOfFrame(frame, geometry);
     const View seen =
         frame
-            .pass<ViewPass>(
+            .pass<BvhViewPass>(
                 "view.bvh", lookReason(frame),
-                [&](graph::PassSetup& setup, ViewPass& pass) {
-                    pass = declareView(frame, setup, geometry, eye, receivers, shadows);
+                [&](graph::PassSetup& setup, BvhViewPass& pass) {
+                    pass.view = declareView(frame, setup, geometry, eye, receivers, shadows);
+                    const auto pixels = static_cast<std::size_t>(frame.width()) *
+                                        static_cast<std::size_t>(frame.height());
+                    pass.pixels = setup.storage("LookedThrough",
+                                                setup.createBuffer<std::uint32_t>(
+                                                    "view.bvh.pixels", kPixelCountWords + pixels));
+                    setup.bypass(pass.pixels, {0, 0, 0, 0});
                     bvh.read(setup);
                 },
-                [&inputs = frame.inputs(), params, bvh](const ViewPass& pass,
+                [&inputs = frame.inputs(), params, bvh](const BvhViewPass& pass,
                                                         gl::PassContext& context) {
-                    const auto look = [&](const Tell& tellSample, bool isMiddle) {
-                        gl::Command command = context.compute("view/bvh.comp");
-                        tellSample(command);
-                        command.params("view.bvh", params)
-                            .set("lightCount", inputs.needs.lights)
-                            .image("viewRadiance", pass.seen.radiance);
-                        if (isMiddle) {
-                            command.image("viewExitPosition", pass.seen.exitPosition)
-                                .image("viewExitDirection", pass.seen.exitDirection);
-                        }
-                        if (pass.isGlossy) command.define("GLOSSY_RECEIVERS");
-                        bvh.bindTo(command, inputs);
-                        command.dispatchOver(inputs.view.width, 8, inputs.view.height, 8);
+                    const auto countGroups = [&](int isListed) {
+                        context.compute("view/bvh_groups.comp")
+                            .set("isListed", isListed)
+                            .dispatch(1);
                     };
-                    lookBySamples(inputs, context, pass, look);
+                    const auto look = [&](const Tell& tellSample, bool isMiddle) {
+                        const auto shader = [&](const char* name) {
+                            gl::Command command = context.compute(name);
+                            tellSample(command);
+                            command.image("viewRadiance", pass.view.seen.radiance);
+                            if (isMiddle) {
+                                command.image("viewExitPosition", pass.view.seen.exitPosition)
+                                    .image("viewExitDirection", pass.view.seen.exitDirection);
+                            }
+                            return command;
+                        };
+                        countGroups(0);
+                        shader("view/bvh_list.comp")
+                            .dispatchOver(inputs.view.width, 8, inputs.view.height, 8);
+                        countGroups(1);
+                        gl::Command command = shader("view/bvh.comp");
+                        command.params("view.bvh", params).set("lightCount", inputs.needs.lights);
+                        if (pass.view.isGlossy) command.define("GLOSSY_RECEIVERS");
+                        bvh.bindTo(command, inputs);
+                        command.dispatchIndirect(pass.pixels, offsetof(PixelCount, groupsX));
+                    };
+                    lookBySamples(inputs, context, pass.view, look);
                 })
-            .seen;
+            .view.seen;
     reportLimits(frame, params, seen);
     return seen;
 }
