@@ -30,7 +30,7 @@ void cover(uint item) {
         countClamped(0u, whole.narrowing, whole.flux);
     uint material = uint(texelFetch(hitSurface, photon, 0).w);
     if (isOpen(material - 1u) &&
-        !seesLitSide(whole.corners[0], whole.normal, whole.direction)) {
+        !seesLitSide(whole.corners[0], whole.side.normal, whole.side.direction)) {
         ledgerAdd(kAccountHidden, whole.flux);
         return;
     }

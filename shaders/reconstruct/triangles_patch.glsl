@@ -8,12 +8,18 @@
 #include "include/photons/ledger.glsl"
 #include "include/views/seen_receiver.glsl"
 
+// How the surface lies, and from where light comes to it.
+struct PatchSide {
+    vec3 normal;
+    vec3 direction;
+    bool isFromBehind;  // to the back of a sheet
+};
+
 struct Patch {
     vec3 corners[4];  // around it
     float densities[4];
     float first;      // share of the flux in the first of its two triangles
-    vec3 normal;
-    vec3 direction;
+    PatchSide side;
     vec3 flux;
     float tolerance;  // of the depths that pixels see, m, next to their own footprint
     float narrowing;  // by which factor a beam is narrower than it was to be; 1: it is not
@@ -31,6 +37,9 @@ struct PatchTriangle {
     vec3 middle;
     float perArea;   // share of the patch's flux over the triangle's area, 1/m²
     vec3 densities;  // at its corners, about 1
+    // These are of irradiance, and tell how the surface turns away from the light; false: of flux
+    // through what lies across it.
+    bool isShaded;
 };
 
 void setWeights(inout PatchTriangle made) {
@@ -52,9 +61,9 @@ PatchTriangle patchTriangle(Patch whole, vec3 a, vec3 b, vec3 c, vec3 densities,
     // A triangle that is nearly a line has no plane of its own.
     vec3 edges = abs(b - a) + abs(c - a);
     bool isFlat = size > 1e-3 * dot(edges, edges);
-    made.plane = isFlat ? area / size : whole.normal;
+    made.plane = isFlat ? area / size : whole.side.normal;
     // One that hardly faces as the surface does is a fold of the light's.
-    if (abs(dot(made.plane, whole.normal)) < 0.5) made.plane = whole.normal;
+    if (abs(dot(made.plane, whole.side.normal)) < 0.5) made.plane = whole.side.normal;
     vec3 middle = (a + b + c) / 3.0;
     made.middle = middle;
     float covered = abs(made.onScreen.area) *
@@ -67,7 +76,10 @@ PatchTriangle patchTriangle(Patch whole, vec3 a, vec3 b, vec3 c, vec3 densities,
     bool isSmooth = reconstruct_triangles_shading == reconstruct_triangles_shading_smooth
                         ? maximum <= 4.0 * minimum
                         : reconstruct_triangles_shading == reconstruct_triangles_shading_vertices;
-    made.densities = isSmooth && mean > 0.0 ? densities / mean : vec3(1.0);
+    isSmooth = isSmooth && mean > 0.0;
+    made.densities = isSmooth ? densities / mean : vec3(1.0);
+    made.isShaded = whole.isJoined &&
+                    reconstruct_triangles_shading != reconstruct_triangles_shading_smooth;
     return made;
 }
 
@@ -79,8 +91,7 @@ struct PatchOnScreen {
     ivec2 high;
     bool isWhole;  // none of it is next to the view
     float tolerance;
-    vec3 normal;
-    vec3 direction;
+    PatchSide side;
 };
 
 PatchOnScreen onScreen(Patch whole) {
@@ -103,8 +114,7 @@ PatchOnScreen onScreen(Patch whole) {
     made.second = patchTriangle(whole, whole.corners[0], whole.corners[2], whole.corners[3],
                                 vec3(q[0], q[2], q[3]), 1.0 - whole.first, base);
     made.tolerance = whole.tolerance;
-    made.normal = whole.normal;
-    made.direction = whole.direction;
+    made.side = whole.side;
     return made;
 }
 
@@ -161,9 +171,9 @@ const float kMinLitSlant = 0.05;
 
 // What the pixel sees where a plane of the patch's surface would be: kSeen…; `area`, m²: of the plane,
 // through which the light comes that falls on what is seen, or, where it is not seen, that is before
-// the pixel. Light from `direction` falls on what turns away from it by its cosine, and on none of
-// what is turned off it.
-int seenOnPlane(ivec2 pixel, vec3 plane, vec3 point, vec3 normal, vec3 direction, float tolerance,
+// the pixel. Light falls on what turns away from it by its cosine, unless that is known already, and
+// on none of what is turned off it.
+int seenOnPlane(ivec2 pixel, vec3 plane, vec3 point, bool isShaded, PatchSide side, float tolerance,
                 out float area) {
     vec3 ray = viewRay(vec2(pixel) + 0.5);
     float facing = boundedSlant(dot(plane, ray), 1e-4);
@@ -172,12 +182,13 @@ int seenOnPlane(ivec2 pixel, vec3 plane, vec3 point, vec3 normal, vec3 direction
     vec3 seenNormal = receiverSurfaceAt(pixel).xyz;
     float margin = min(depthMargin(ray, depth, plane),
                        depthMargin(ray, abs(receiverAt(pixel).x), seenNormal));
-    int seen = seenAt(pixel, depth, normal, tolerance + margin, area);
+    int seen = seenAt(pixel, depth, side.normal, tolerance + margin, area);
     if (seen != kSeenOn) {
         area = pixelArea(ray, depth, plane);
     } else {
-        float lit = dot(seenNormal, direction) * sign(dot(normal, direction));
-        area *= max(lit, 0.0) / max(abs(dot(plane, direction)), kMinLitSlant);
+        float lit = dot(seenNormal, side.direction) * (side.isFromBehind ? 1.0 : -1.0);
+        if (lit <= 0.0) area = 0.0;
+        if (!isShaded) area *= lit / max(abs(dot(plane, side.direction)), kMinLitSlant);
     }
     return seen;
 }
@@ -205,8 +216,9 @@ PatchPixel patchAt(PatchOnScreen onto, ivec2 pixel) {
     bool isFirst = first >= second;
     float area;
     int where = seenOnPlane(pixel, isFirst ? onto.first.plane : onto.second.plane,
-                            isFirst ? onto.first.middle : onto.second.middle, onto.normal,
-                            onto.direction, onto.tolerance, area);
+                            isFirst ? onto.first.middle : onto.second.middle,
+                            isFirst ? onto.first.isShaded : onto.second.isShaded, onto.side,
+                            onto.tolerance, area);
     return PatchPixel(covered * area, where);
 }
 
@@ -236,8 +248,8 @@ bool seenInFace(Patch whole, int face, out Patch there, out PatchOnScreen onto) 
 #ifdef MANY_VIEWS
     mat3 turn = mat3(views[face].fromEye) * transpose(mat3(views[0].fromEye));
     for (int i = 0; i < 4; ++i) there.corners[i] = turn * whole.corners[i];
-    there.normal = turn * whole.normal;
-    there.direction = turn * whole.direction;
+    there.side.normal = turn * whole.side.normal;
+    there.side.direction = turn * whole.side.direction;
     viewIndex = face;
     if (!isBeforeView(there)) return false;
 #endif

@@ -10,7 +10,7 @@ void bookDeposit(Patch whole, vec3 flux) {
 }
 
 void deposit(Patch whole, ivec2 pixel, float share) {
-    depositFlux(pixel, whole.flux * share, directionToEye(whole.direction));
+    depositFlux(pixel, whole.flux * share, directionToEye(whole.side.direction));
 }
 
 // The shares of a patch that pixels show, that something nearer hides, and that lie next to the view,
@@ -60,8 +60,8 @@ void depositNear(Patch whole) {
     viewIndex = nearest;
     mat3 turn = mat3(view.fromEye) * toEye;
     middle = turn * middle;
-    whole.normal = turn * whole.normal;
-    whole.direction = turn * whole.direction;
+    whole.side.normal = turn * whole.side.normal;
+    whole.side.direction = turn * whole.side.direction;
 #endif
     if (-middle.z <= view.frustum.z) {
         ledgerAdd(kAccountBehind, whole.flux);
@@ -81,8 +81,7 @@ void depositNear(Patch whole) {
         if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, size))) continue;
         float area;
         int where =
-            seenOnPlane(pixel, whole.normal, middle, whole.normal, whole.direction,
-                        whole.tolerance, area);
+            seenOnPlane(pixel, whole.side.normal, middle, false, whole.side, whole.tolerance, area);
         if (where != kSeenOn || area <= 0.0) continue;
         nearness[i] = max(1.5 - length(vec2(pixel) + 0.5 - at), 1e-3);
         sum += nearness[i];
@@ -95,7 +94,7 @@ void depositNear(Patch whole) {
         bookDeposit(whole, whole.flux);
         return;
     }
-    bool seesFront = dot(whole.normal, viewDirection(middle)) < 0.0;
+    bool seesFront = dot(whole.side.normal, viewDirection(middle)) < 0.0;
     ledgerAdd(seesFront ? kAccountEdgeOn : kAccountHidden, whole.flux);
 }
 

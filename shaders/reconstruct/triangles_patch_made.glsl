@@ -4,9 +4,14 @@
 //   CREASE_PATCHES  of one photon's beam, as far as it goes to where surfaces meet
 //   or else of one photon's beam
 #include "include/photons/arriving.glsl"
+#include "include/surfaces/surface_data.glsl"
 #include "reconstruct/triangles_crease.glsl"
 #include "reconstruct/triangles_patch.glsl"
 #include "reconstruct/triangles_patch_list.glsl"
+
+PatchSide sideOf(vec3 normal, vec3 direction, uint material) {
+    return PatchSide(normal, direction, isOpen(material - 1u) && dot(normal, direction) > 0.0);
+}
 
 // What a beam covers between four places, in cells from its own and none farther than `farthest`
 // along either axis.
@@ -37,8 +42,7 @@ Patch patchOfBeam(Arrival at, vec2 ends[4], float farthest) {
     for (int i = 0; i < 4; ++i) made.corners[i] = at.position + spacing * ends[i];
     made.densities = float[4](1.0, 1.0, 1.0, 1.0);
     made.first = 0.5;
-    made.normal = at.normal;
-    made.direction = at.direction;
+    made.side = sideOf(at.normal, at.direction, at.material);
     made.flux = at.flux;
     made.tolerance = 0.25 * scale * length(extent);
     return made;
@@ -82,6 +86,11 @@ void shareByAreas(inout Patch made, uint photonsOf[4]) {
     made.first = all > 0.0 ? (first.r + first.g + first.b) / all : 0.5;
 }
 
+// Of flux through what lies across the light, W/m²: how the surface turns away from it the pixels know.
+float densityOf(Arrival corner) {
+    return corner.density / max(abs(dot(corner.normal, corner.direction)), kMinLitSlant);
+}
+
 // Between four photons, from the one at the lower left.
 Patch patchBetween(Arrival a, Arrival b, Arrival c, Arrival d) {
     Patch made;
@@ -89,9 +98,9 @@ Patch patchBetween(Arrival a, Arrival b, Arrival c, Arrival d) {
     made.first = 0.5;
     made.narrowing = 1.0;
     made.corners = vec3[4](a.position, b.position, c.position, d.position);
-    made.densities = float[4](a.density, b.density, c.density, d.density);
-    made.normal = normalize(a.normal + b.normal + c.normal + d.normal);
-    made.direction = normalize(a.direction + b.direction + c.direction + d.direction);
+    made.densities = float[4](densityOf(a), densityOf(b), densityOf(c), densityOf(d));
+    made.side = sideOf(normalize(a.normal + b.normal + c.normal + d.normal),
+                       normalize(a.direction + b.direction + c.direction + d.direction), a.material);
     made.flux = a.flux + b.flux + c.flux + d.flux;
     // A surface that turns between the corners leaves the triangles.
     float turn = max(max(length(a.normal - c.normal), length(b.normal - d.normal)), 0.02);

@@ -6,7 +6,7 @@ struct WidePatch {
     vec4 corners[4];  // xyz, m; w: the density there
     vec4 normal;      // xyz; w: the share of the flux in the first of its triangles
     vec4 direction;   // xyz; w: its tolerance, m
-    vec4 flux;        // rgb, W; w: 1 between photons, 0 a beam's
+    vec4 flux;        // rgb, W; w: 1 between photons, 0 a beam's; 2 more: to the back of a sheet
 };
 layout(std430) buffer WidePatches {
     WidePatch widePatchList[];
@@ -15,9 +15,9 @@ layout(std430) buffer WidePatches {
 WidePatch packedPatch(Patch whole) {
     WidePatch made;
     for (int i = 0; i < 4; ++i) made.corners[i] = vec4(whole.corners[i], whole.densities[i]);
-    made.normal = vec4(whole.normal, whole.first);
-    made.direction = vec4(whole.direction, whole.tolerance);
-    made.flux = vec4(whole.flux, whole.isJoined ? 1.0 : 0.0);
+    made.normal = vec4(whole.side.normal, whole.first);
+    made.direction = vec4(whole.side.direction, whole.tolerance);
+    made.flux = vec4(whole.flux, (whole.isJoined ? 1.0 : 0.0) + (whole.side.isFromBehind ? 2.0 : 0.0));
     return made;
 }
 
@@ -27,12 +27,11 @@ Patch unpackedPatch(WidePatch from) {
         made.corners[i] = from.corners[i].xyz;
         made.densities[i] = from.corners[i].w;
     }
-    made.normal = from.normal.xyz;
+    made.side = PatchSide(from.normal.xyz, from.direction.xyz, from.flux.w >= 2.0);
     made.first = from.normal.w;
-    made.direction = from.direction.xyz;
     made.tolerance = from.direction.w;
     made.flux = from.flux.rgb;
-    made.isJoined = from.flux.w > 0.0;
+    made.isJoined = from.flux.w == 1.0 || from.flux.w == 3.0;
     made.narrowing = 1.0;
     return made;
 }
