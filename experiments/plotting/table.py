@@ -8,8 +8,8 @@ RESULTS is a folder of `kaustik experiment run`, or one of its runs.csv. Prints 
 same columns, with six digits. Errors of the caustic are against all light, but those named "modelled", which are
 against the paths that the run's photons can take; "not formed" is the light of all others; "too bright" and "too dark" are the shares of
 pixels that are so, against those paths, by more than the reference's noise. "reference's own" is what its noise alone
-would give. ms: of all passes of the caustic, from emission to gather, and of those of what the eye sees through
-specular surfaces (view); their spread is that of whole frames, as a share. A run that failed has its message instead.
+would give. ms: of all passes of the caustic, from emission to gather; media ms: of these, of light that a medium
+scatters; and of what the eye sees through specular surfaces (view); their spread is that of whole frames, as a share. A run that failed has its message instead.
 """
 
 import argparse
@@ -109,6 +109,7 @@ MEASURED = [
     ("view interfaces right", ".4f", lambda row: number(row, "error.view.interfaces_right")),
     ("view lost", ".4f", lambda row: number(row, "error.view.lost")),
     ("ms", ".0f", lambda row: timed(row, sum_of_passes(row, CAUSTIC))),
+    ("media ms", ".0f", lambda row: timed(row, sum_of_passes(row, ("media.",)))),
     ("view ms", ".0f", lambda row: timed(row, sum_of_passes(row, ("view.",)))),
     ("frame, ms", ".0f", lambda row: timed(row, number(row, "frame_ms.median"))),
     ("spread", ".3f", lambda row: spread(row)),

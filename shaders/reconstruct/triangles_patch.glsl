@@ -187,8 +187,10 @@ int seenOnPlane(ivec2 pixel, vec3 plane, vec3 point, bool isShaded, PatchSide si
         area = pixelArea(ray, depth, plane);
     } else {
         float lit = dot(seenNormal, side.direction) * (side.isFromBehind ? 1.0 : -1.0);
+        float slant = abs(dot(plane, side.direction));
+        float least = max(kMinLitSlant - slant, 0.0);
         if (lit <= 0.0) area = 0.0;
-        if (!isShaded) area *= lit / max(abs(dot(plane, side.direction)), kMinLitSlant);
+        if (!isShaded) area *= (lit + least) / (slant + least);
     }
     return seen;
 }

@@ -86,9 +86,12 @@ void shareByAreas(inout Patch made, uint photonsOf[4]) {
     made.first = all > 0.0 ? (first.r + first.g + first.b) / all : 0.5;
 }
 
-// Of flux through what lies across the light, W/m²: how the surface turns away from it the pixels know.
-float densityOf(Arrival corner) {
-    return corner.density / max(abs(dot(corner.normal, corner.direction)), kMinLitSlant);
+// Irradiance without how the surface turns away from light that comes in this direction, which the
+// pixels know, W/m².
+float densityOf(Arrival corner, vec3 direction) {
+    return reconstruct_triangles_shading == reconstruct_triangles_shading_smooth
+               ? corner.density / max(abs(dot(corner.normal, direction)), kMinLitSlant)
+               : corner.density;
 }
 
 // Between four photons, from the one at the lower left.
@@ -98,9 +101,11 @@ Patch patchBetween(Arrival a, Arrival b, Arrival c, Arrival d) {
     made.first = 0.5;
     made.narrowing = 1.0;
     made.corners = vec3[4](a.position, b.position, c.position, d.position);
-    made.densities = float[4](densityOf(a), densityOf(b), densityOf(c), densityOf(d));
     made.side = sideOf(normalize(a.normal + b.normal + c.normal + d.normal),
                        normalize(a.direction + b.direction + c.direction + d.direction), a.material);
+    vec3 direction = made.side.direction;
+    made.densities = float[4](densityOf(a, direction), densityOf(b, direction),
+                              densityOf(c, direction), densityOf(d, direction));
     made.flux = a.flux + b.flux + c.flux + d.flux;
     // A surface that turns between the corners leaves the triangles.
     float turn = max(max(length(a.normal - c.normal), length(b.normal - d.normal)), 0.02);
