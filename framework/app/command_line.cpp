@@ -260,6 +260,27 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry,
         "--max-slower", bench.maxSlowerPercent,
         "compare: ends with 1 where a scene is slower by more than so many percent");
 
+    TuneOptions tune;
+    CLI::App* tuneApp = app.add_subcommand(
+        "tune",
+        "Looks for the technique and the number of photons that have an error first, or the least "
+        "error within a time, on this device");
+    tuneApp->add_option("scene", tune.scene, "As 'run' takes it")->capture_default_str();
+    tuneApp->add_option("--error", tune.error,
+                        "relMSE of the caustic, net of the reference's noise, to be had in the "
+                        "least time");
+    tuneApp->add_option("--time", tune.milliseconds,
+                        "ms of the caustic's passes, in which to have the least error");
+    tuneApp->add_option("--size", tune.size, "WIDTHxHEIGHT of the picture")->capture_default_str();
+    tuneApp
+        ->add_option("--reference-photons", tune.referencePhotons,
+                     "Of the reference that all are judged by, at least")
+        ->check(integerRangeError)
+        ->capture_default_str();
+    tuneApp->add_option("--out", tune.out,
+                        "Folder for runs and settings; else results/runs/tune/SCENE. What is there "
+                        "is not done again");
+
     ListOptions list;
     CLI::App* listApp = app.add_subcommand("list", "Prints what there is");
     listApp->add_option("what", list.what, "scenes, techniques, nodes or params")
@@ -392,6 +413,7 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry,
         }
         if (tilesApp->parsed()) tilesCommand(tilesFolder);
         if (benchApp->parsed()) benchCommand(bench, registry);
+        if (tuneApp->parsed()) tuneCommand(tune, registry);
         if (listApp->parsed()) listCommand(list, registry);
         if (docApp->parsed()) docCommand(doc, registry);
         if (explainApp->parsed()) {

@@ -17,6 +17,7 @@ void checkTileOptions(const RunOptions& options);
 void traceTileCommand(const RunOptions& options, const Registry& registry);
 void tilesCommand(const std::string& folder);
 void benchCommand(const BenchOptions& options, const Registry& registry);
+void tuneCommand(const TuneOptions& options, const Registry& registry);
 void listCommand(const ListOptions& options, const Registry& registry);
 void docCommand(const DocOptions& options, const Registry& registry);
 void explainCommand(const ExplainOptions& options, const Registry& registry);

@@ -8,6 +8,7 @@
 
 #include "framework/app/commands.h"
 #include "framework/app/numerics.h"
+#include "framework/app/study_defaults.h"
 #include "framework/core/error.h"
 #include "framework/core/files.h"
 #include "framework/core/names.h"
@@ -23,17 +24,8 @@ namespace {
 namespace fs = std::filesystem;
 using namespace experiment;
 
-// This very program, even when it is built anew while the experiment runs.
-constexpr const char* kThisProgram = "/proc/self/exe";
 // Debian's, for which Debian's matplotlib is made; another may come first on the path.
 constexpr const char* kPython = "/usr/bin/python3";
-
-RunDefaults runDefaults() {
-    const RunOptions options;
-    return {options.scene.scene, options.scene.technique, options.scene.size,
-            options.frames,      options.warmup,          options.seed,
-            options.reference,   options.referencePhotons};
-}
 
 // What is to be done again to go on.
 std::string commandLine(const ExperimentOptions& options) {
@@ -90,7 +82,7 @@ void runStudy(const ExperimentOptions& options, const Registry& registry,
     const auto makeParams = [&](const std::string& technique, bool isAsPublished) {
         return registry.makeParams(registry.findTechnique(technique, isAsPublished));
     };
-    const Plan plan = makePlan(spec, runDefaults(), makeParams);
+    const Plan plan = makePlan(spec, studyDefaults(), makeParams);
     const fs::path out = options.out.empty() ? fs::path("results/runs/experiments") / plan.spec.name
                                              : fs::path(options.out);
     run::catchInterrupts();

@@ -63,6 +63,15 @@ struct BenchOptions {
     std::optional<double> maxSlowerPercent;  // compare: else an error
 };
 
+struct TuneOptions {
+    std::string scene = "pool";
+    std::optional<double> error;         // relMSE of the caustic
+    std::optional<double> milliseconds;  // of its passes; one of the two
+    std::string size = "400x300";
+    long long referencePhotons = 1LL << 24;
+    std::string out;  // "" for results/runs/tune/<scene>
+};
+
 struct ReferenceOptions {
     std::string scene;
     OwnMeshOptions own;

@@ -429,6 +429,7 @@ set_tests_properties([=[TilesOfTheScreen.GiveTheFilesOfTheWholePicture]=] PROPER
 set_tests_properties([=[Tracers/Tiles.GiveTheBitsOfTheWholePicture/glass_sphere_hierarchical_compute_2]=] PROPERTIES LABELS "gpu;slow")
 set_tests_properties([=[Tracers/Tiles.GiveTheBitsOfTheWholePicture/glass_sphere_lines_2]=] PROPERTIES LABELS "gpu;slow")
 set_tests_properties([=[Tracers/Tiles.GiveTheBitsOfTheWholePicture/glass_sphere_march_2]=] PROPERTIES LABELS "gpu;slow")
+set_tests_properties([=[Tune.WritesSettingsThatARunTakes]=] PROPERTIES LABELS "cli;slow")
 set_tests_properties([=[UnderASun/Plate.HidesTheFloorFromTrianglesToWithinACell/0]=] PROPERTIES LABELS "gpu;slow")
 set_tests_properties([=[ViewSamples.GiveEachPixelTheShareThatASilhouetteCoversOfIt]=] PROPERTIES LABELS "gpu;slow")
 set_tests_properties([=[ViewSamples.LeaveTheRayThroughTheMiddleAsItIs]=] PROPERTIES LABELS "gpu;slow")
