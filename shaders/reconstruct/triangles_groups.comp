@@ -1,19 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The workgroups for so many patches: 64 threads each.
-#include "framework/transport/types.h"
 #include "reconstruct/triangles_patch_list.glsl"
 
 layout(local_size_x = 1) in;
 
 uniform int isWide;  // below 0: there are none yet
 uniform int wideCapacity;
-
-void setGroups(inout PatchCount of, uint threads) {
-    uint groups = (threads + 63u) / 64u;
-    of.groupsX = min(groups, kMaxGroupsX);
-    of.groupsY = (groups + kMaxGroupsX - 1u) / kMaxGroupsX;
-    of.groupsZ = 1u;
-}
 
 void main() {
     if (isWide < 0) {

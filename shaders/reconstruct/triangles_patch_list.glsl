@@ -1,13 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a reconstruction has to cover: a photon's index and which part of its light.
 
-// How many there are, and the arguments of an indirect dispatch over them.
-struct PatchCount {
-    uint count;
-    uint groupsX;
-    uint groupsY;
-    uint groupsZ;
-};
+#include "include/thread_list.glsl"
 
 // They are made by shaders of their own, since they have little in common.
 const uint kPatchesJoined = 0u;
@@ -16,8 +10,8 @@ const uint kPatchesAtCreases = 2u;
 const uint kPatchKinds = 3u;
 
 layout(std430) buffer Patches {
-    PatchCount patches[kPatchKinds];
-    PatchCount widePatches;  // of those (triangles_wide.glsl)
+    ThreadList patches[kPatchKinds];
+    ThreadList widePatches;  // of those (triangles_wide.glsl)
     uint patchList[];
 };
 

@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: MIT
-// view.bvh: the pixels that look at something specular, and the arguments of an indirect dispatch
-// over them.
-struct PixelCount {
-    uint count;
-    uint groupsX;
-    uint groupsY;
-    uint groupsZ;
-};
+// view.bvh: the pixels that look at something specular.
+#include "include/thread_list.glsl"
+
 layout(std430) buffer LookedThrough {
-    PixelCount lookedThrough;
+    ThreadList lookedThrough;
     uint listedPixels[];  // x + 65536 y
 };
 

@@ -4,10 +4,11 @@
 // radiance, W/m²/sr, and where each ray left for good, view space, m. Receivers that the picture
 // does not show are lit by their own shadow rays; caustics are seen where the picture has them.
 #include <cstddef>
-#include <cstdint>
+#include <utility>
 
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/eye_rays/view_passes.h"
+#include "techniques/thread_lists/thread_list.h"
 #include "techniques/tracing/bvh_rays.h"
 
 namespace kaustik {
@@ -46,15 +47,9 @@ void reportLimits(FrameBuilder& frame, const BvhViewParams& params, const View& 
                    "there");
 }
 
-// As shaders/view/bvh_pixels.glsl has it.
-struct PixelCount {
-    std::uint32_t count, groupsX, groupsY, groupsZ;
-};
-constexpr std::size_t kPixelCountWords = sizeof(PixelCount) / sizeof(std::uint32_t);
-
 struct BvhViewPass {
     ViewPass view;
-    graph::Buffer<std::uint32_t> pixels;  // PixelCount, and a list
+    ThreadList pixels;
 };
 
 View traceView(FrameBuilder& frame, const BvhViewParams& params, Geometry geometry, EyeBuffer eye,
@@ -68,21 +63,13 @@ View traceView(FrameBuilder& frame, const BvhViewParams& params, Geometry geomet
                 "view.bvh", lookReason(frame),
                 [&](graph::PassSetup& setup, BvhViewPass& pass) {
                     pass.view = declareView(frame, setup, geometry, eye, receivers, shadows);
-                    const auto pixels = static_cast<std::size_t>(frame.width()) *
-                                        static_cast<std::size_t>(frame.height());
-                    pass.pixels = setup.storage("LookedThrough",
-                                                setup.createBuffer<std::uint32_t>(
-                                                    "view.bvh.pixels", kPixelCountWords + pixels));
-                    setup.bypass(pass.pixels, {0, 0, 0, 0});
+                    pass.pixels = ThreadList::create(setup, "LookedThrough", "view.bvh.pixels",
+                                                     static_cast<std::size_t>(frame.width()) *
+                                                         static_cast<std::size_t>(frame.height()));
                     bvh.read(setup);
                 },
                 [&inputs = frame.inputs(), params, bvh](const BvhViewPass& pass,
                                                         gl::PassContext& context) {
-                    const auto countGroups = [&](int isListed) {
-                        context.compute("view/bvh_groups.comp")
-                            .set("isListed", isListed)
-                            .dispatch(1);
-                    };
                     const auto look = [&](const Tell& tellSample, bool isMiddle) {
                         const auto shader = [&](const char* name) {
                             gl::Command command = context.compute(name);
@@ -94,15 +81,14 @@ View traceView(FrameBuilder& frame, const BvhViewParams& params, Geometry geomet
                             }
                             return command;
                         };
-                        countGroups(0);
+                        pass.pixels.clear(context);
                         shader("view/bvh_list.comp")
                             .dispatchOver(inputs.view.width, 8, inputs.view.height, 8);
-                        countGroups(1);
                         gl::Command command = shader("view/bvh.comp");
                         command.params("view.bvh", params).set("lightCount", inputs.needs.lights);
                         if (pass.view.isGlossy) command.define("GLOSSY_RECEIVERS");
                         bvh.bindTo(command, inputs);
-                        command.dispatchIndirect(pass.pixels, offsetof(PixelCount, groupsX));
+                        pass.pixels.dispatchOver(context, std::move(command));
                     };
                     lookBySamples(inputs, context, pass.view, look);
                 })

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#include "techniques/thread_lists/thread_list.h"
+
+#include <utility>
+
+#include "framework/gl/executor.h"
+
+namespace kaustik {
+namespace {
+
+// As shaders/include/thread_list.glsl has it.
+struct Header {
+    std::uint32_t count, groupsX, groupsY, groupsZ;
+};
+constexpr std::size_t kHeaderWords = sizeof(Header) / sizeof(std::uint32_t);
+
+}  // namespace
+
+ThreadList ThreadList::create(graph::PassSetup& setup, const char* block, const std::string& name,
+                              std::size_t capacity) {
+    ThreadList made;
+    made.list_ =
+        setup.storage(block, setup.createBuffer<std::uint32_t>(name, kHeaderWords + capacity));
+    setup.bypass(made.list_, {0, 0, 0, 0});
+    return made;
+}
+
+void ThreadList::countGroups(gl::PassContext& context, int isListed) const {
+    context.compute("thread_lists/groups.comp")
+        .storage("ListedThreads", list_)
+        .set("isListed", isListed)
+        .dispatch(1);
+}
+
+void ThreadList::clear(gl::PassContext& context) const {
+    countGroups(context, 0);
+}
+
+void ThreadList::dispatchOver(gl::PassContext& context, gl::Command command) const {
+    countGroups(context, 1);
+    command.dispatchIndirect(list_, offsetof(Header, groupsX));
+}
+
+}  // namespace kaustik

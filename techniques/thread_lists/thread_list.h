@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// A list of work for compute threads that a shader makes on the device, so that those alone run
+// that have any: a software rasteriser lets all threads of a group go the longest of their ways,
+// and a GPU does so for each warp. In the buffer: include/thread_list.glsl, then a number each.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "framework/gl/command.h"
+#include "framework/graph/graph.h"
+
+namespace kaustik {
+
+class ThreadList {
+  public:
+    // Declares a pass' own buffer, the storage block `block` of its shaders.
+    static ThreadList create(graph::PassSetup& setup, const char* block, const std::string& name,
+                             std::size_t capacity);
+    // Nothing is listed.
+    void clear(gl::PassContext& context) const;
+    // All is listed: `command` may be dispatched.
+    void dispatchOver(gl::PassContext& context, gl::Command command) const;
+
+  private:
+    void countGroups(gl::PassContext& context, int isListed) const;
+    graph::Buffer<std::uint32_t> list_;
+};
+
+}  // namespace kaustik
