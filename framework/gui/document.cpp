@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "framework/core/json_number.h"
 #include "framework/run/settings.h"
@@ -121,6 +122,13 @@ SceneEdits editsFrom(const json& j) {
 }
 
 }  // namespace
+
+bool areSwapped(const Document& a, const Document& b) {
+    if (!b.other || b.variant == *b.other) return false;
+    Document exchanged = b;
+    std::swap(exchanged.variant, *exchanged.other);
+    return a == exchanged;
+}
 
 RenderSettings settingsOf(const Variant& variant, const params::Extent& size,
                           const Registry& registry) {

@@ -37,6 +37,9 @@ struct Document {
     friend bool operator==(const Document&, const Document&) = default;
 };
 
+// Whether they differ in this alone: each one's A is the other's B.
+[[nodiscard]] bool areSwapped(const Document& a, const Document& b);
+
 // Throws ConfigError for what the registry does not have or a parameter does not take.
 [[nodiscard]] RenderSettings settingsOf(const Variant& variant, const params::Extent& size,
                                         const Registry& registry);

@@ -185,6 +185,7 @@ void RenderWorker::run() {
 void RenderWorker::serve(Device& device) {
     while (!stop_) {
         std::optional<RecordRequest> request;
+        bool isSwapped = false;
         {
             std::unique_lock lock(mutex_);
             progress_.isBusy = false;
@@ -198,10 +199,15 @@ void RenderWorker::serve(Device& device) {
             if (stop_) return;
             request = std::exchange(request_, {});
             if (order_ && number_ != device.number) {
-                const bool isSame = device.order.document == order_->document &&
+                isSwapped = areSwapped(device.order.document, order_->document);
+                const bool isSame = (isSwapped || device.order.document == order_->document) &&
                                     device.order.viewing == order_->viewing &&
                                     device.order.isPreview == order_->isPreview &&
                                     device.order.sceneReloads == order_->sceneReloads;
+                if (isSwapped) {
+                    std::swap(device.renderers[0], device.renderers[1]);
+                    std::swap(working_.variants[0], working_.variants[1]);
+                }
                 device.order = *order_;
                 device.number = number_;
                 working_.order = number_;
@@ -211,7 +217,8 @@ void RenderWorker::serve(Device& device) {
                     if (isSame) variant.order = number_;
                     variant.isSettled = variant.isSettled && isSame;
                 }
-                device.hasExtras = false;
+                // Energy and limits go with what they are of; photons are A's.
+                device.hasExtras = device.hasExtras && isSwapped && isSame && !device.order.probe;
                 device.toRender = 0;
             } else if (!request && !hasWork) {
                 lock.unlock();
@@ -219,6 +226,7 @@ void RenderWorker::serve(Device& device) {
                 continue;
             }
         }
+        if (isSwapped) post();
         reloadShaders(device);
         if (device.number == 0 || !loadScene(device)) {
             if (request)

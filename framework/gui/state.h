@@ -4,6 +4,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -41,6 +42,8 @@ struct PanelState {
     float rightWidth = 360.0f;
     float chartHeight = 120.0f;
     std::string parameterSearch;
+    // What there is to say of what was typed last, by the parameter's full name.
+    std::map<std::string, std::string> parameterProblems;
     bool showsAllParameters = false;
     int edited = 0;  // variant: 0 A, 1 B
     bool isPrecise = false;

@@ -8,8 +8,10 @@
 #include <array>
 #include <cfloat>
 #include <cmath>
+#include <limits>
 #include <utility>
 
+#include "framework/gui/typed_value.h"
 #include "framework/report/statistics.h"
 
 namespace kaustik::gui {
@@ -22,6 +24,45 @@ struct Overloaded : Ts... {
 
 constexpr std::size_t kOptionsToSearch = 16;
 
+// The number's field that is being typed into; one at a time.
+struct Typing {
+    ImGuiID field = 0;
+    bool isNew = false;
+    std::string text;
+};
+
+ParameterChange changeBy(const TypedValue& typed) {
+    return {!typed.text.empty(), typed.text, typed.problem};
+}
+
+// In a slider's place while its number is typed: the slider's own field leaves out what it does not
+// know, and reads 0,05 as 5. Whether it is there; Ctrl and a click on the slider begin it.
+bool typeNumber(const params::NamedField& named, const std::string& id, ParameterChange& change) {
+    static thread_local Typing typing;
+    const ImGuiID field = ImGui::GetID(id.c_str());
+    if (typing.field != field) {
+        const ImVec2 low = ImGui::GetCursorScreenPos();
+        const ImVec2 high(low.x + ImGui::CalcItemWidth(), low.y + ImGui::GetFrameHeight());
+        const bool begins = ImGui::GetIO().KeyCtrl && ImGui::IsMouseClicked(0) &&
+                            ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect(low, high);
+        if (!begins) return false;
+        typing = {field, true, named.field.text()};
+    }
+    if (typing.isNew) ImGui::SetKeyboardFocusHere();
+    const std::string before = typing.text;
+    const bool isEntered =
+        ImGui::InputText((id + ".typed").c_str(), &typing.text,
+                         ImGuiInputTextFlags_AutoSelectAll | ImGuiInputTextFlags_EnterReturnsTrue);
+    const bool isOver = isEntered || ImGui::IsItemDeactivated();
+    if (isOver && !typing.isNew) {
+        typing.field = 0;
+        // Escape has put back what was there.
+        if (typing.text != named.field.text()) change = changeBy(typedValue(named, typing.text));
+    }
+    if (ImGui::IsItemActive()) typing.isNew = false;
+    return true;
+}
+
 }  // namespace
 
 ParameterChange drawParameter(Bench& bench, const params::NamedField& named,
@@ -31,39 +72,41 @@ ParameterChange drawParameter(Bench& bench, const params::NamedField& named,
     const std::string control = "parameter." + named.fullName;
     ParameterChange change;
     const ImGuiSliderFlags flags =
-        ImGuiSliderFlags_AlwaysClamp |
+        ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoInput |
         (isLogarithmic(field) ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None);
     std::visit(
         Overloaded{[&](const bool* v) {
                        bool value = *v;
                        if (ImGui::Checkbox(id.c_str(), &value))
-                           change = {true, value ? "true" : "false"};
+                           change = {true, value ? "true" : "false", ""};
                    },
                    [&](const int* v) {
+                       if (typeNumber(named, id, change)) return;
                        int value = *v;
                        if (ImGui::SliderInt(id.c_str(), &value, static_cast<int>(field.minimum),
                                             static_cast<int>(field.maximum), "%d", flags)) {
-                           change = {true, fmt::format("{}", value)};
+                           change = {true, fmt::format("{}", value), ""};
                        }
                    },
                    [&](const float* v) {
+                       if (typeNumber(named, id, change)) return;
                        float value = *v;
                        if (ImGui::SliderFloat(id.c_str(), &value, static_cast<float>(field.minimum),
                                               static_cast<float>(field.maximum), "%.5g", flags)) {
-                           change = {true, fmt::format("{}", value)};
+                           change = {true, fmt::format("{}", value), ""};
                        }
                    },
                    [&](const params::Extent* v) {
                        params::Extent value = *v;
-                       if (inputExtent(id.c_str(), value, static_cast<int>(field.minimum),
-                                       static_cast<int>(field.maximum))) {
-                           change = {true, fmt::format("{}x{}", value.width, value.height)};
-                       }
+                       // What is out of range is said, and not only taken back.
+                       if (inputExtent(id.c_str(), value, std::numeric_limits<int>::min(),
+                                       std::numeric_limits<int>::max()))
+                           change = changeBy(typedExtent(named, value));
                    },
                    [&](params::ChoiceRef v) {
                        int index = *v.index;
                        if (choose(bench, id.c_str(), field.choices, index, control))
-                           change = {true, field.choices[static_cast<std::size_t>(index)]};
+                           change = {true, field.choices[static_cast<std::size_t>(index)], ""};
                    }},
         field.target);
     bench.map.control(control, field.text());
@@ -245,6 +288,11 @@ ImVec4 stageColor(const Registry& registry, const std::string& stage) {
 
 double medianOf(std::vector<double> values) {
     return report::summarize(std::move(values)).median;
+}
+
+double settledMedianOf(const std::vector<double>& values) {
+    if (values.size() < 2) return medianOf(values);
+    return medianOf({values.begin() + 1, values.end()});
 }
 
 }  // namespace kaustik::gui

@@ -4,6 +4,7 @@
 
 #include <imgui.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,11 +13,16 @@
 
 namespace kaustik::gui {
 
+// Of what is wrong.
+inline const ImVec4 kProblemColor(1.0f, 0.45f, 0.4f, 1.0f);
+
 // A parameter with the control that its declaration asks for: true, with its new text, when the
 // user has changed it.
 struct ParameterChange {
     bool changed = false;
     std::string text;
+    // What there is to say of what the user has just done (typed_value.h); none where nothing was.
+    std::optional<std::string> problem = {};
 };
 [[nodiscard]] ParameterChange drawParameter(Bench& bench, const params::NamedField& named,
                                             const std::string& label);
@@ -61,5 +67,8 @@ void chooseVariant(Bench& bench, const std::string& panel);
 
 // The median as the report has it.
 [[nodiscard]] double medianOf(std::vector<double> values);
+// Of the frames since a change, without the first, which compiles what the change asks for, where
+// there are more.
+[[nodiscard]] double settledMedianOf(const std::vector<double>& values);
 
 }  // namespace kaustik::gui

@@ -144,6 +144,19 @@ double Workbench::patience() const {
                                                                                          : 0.25;
 }
 
+// Results have the letters of the document: where A and B have just changed places, before the
+// renderer knows.
+std::shared_ptr<const FrameResult> Workbench::labelled(std::shared_ptr<const FrameResult> latest) {
+    if (!latest || !areSwapped(latest->document, bench_.document)) return latest;
+    if (relabelledOf_ == latest) return relabelled_;
+    auto exchanged = std::make_shared<FrameResult>(*latest);
+    std::swap(exchanged->variants[0], exchanged->variants[1]);
+    std::swap(exchanged->document.variant, *exchanged->document.other);
+    relabelledOf_ = std::move(latest);
+    relabelled_ = std::move(exchanged);
+    return relabelled_;
+}
+
 void Workbench::pollWorkers() {
     if (bench_.wantsRestart) {
         bench_.wantsRestart = false;
@@ -157,7 +170,7 @@ void Workbench::pollWorkers() {
         judgedOrder_ = 0;
         bench_.notify("The renderer was started again.");
     }
-    if (const auto latest = renderer_->latest(); latest && latest != bench_.result) {
+    if (const auto latest = labelled(renderer_->latest()); latest && latest != bench_.result) {
         bench_.result = latest;
         framesToDraw_ = std::max(framesToDraw_, 2);
         dropAbsentPasses();
@@ -260,7 +273,7 @@ void Workbench::submitChanges() {
     order.viewing.layer = bench_.view.layer;
     order.viewing.readsOutputs =
         bench_.reference->photons > 0 || !(bench_.panels.isEndless || bench_.isPlaying);
-    const double frameMs = medianOf(bench_.result->variants[0].frameMs);
+    const double frameMs = settledMedianOf(bench_.result->variants[0].frameMs);
     const bool isSlow = frameMs > kSlowFrameMs;
     order.frames = bench_.panels.isEndless ? 0
                    : bench_.isPlaying      ? 1

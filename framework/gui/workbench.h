@@ -35,6 +35,8 @@ class Workbench {
     using Clock = std::chrono::steady_clock;
     void keep();
     void saveRegularly();
+    [[nodiscard]] std::shared_ptr<const FrameResult> labelled(
+        std::shared_ptr<const FrameResult> latest);
     void pollWorkers();
     void takeDropped();
     void dropAbsentPasses();
@@ -67,6 +69,8 @@ class Workbench {
 
     FrameOrder submitted_;
     bool hasSubmitted_ = false;
+    std::shared_ptr<const FrameResult> relabelledOf_;  // with A and B exchanged
+    std::shared_ptr<const FrameResult> relabelled_;
     std::uint64_t judgedOrder_ = 0;
     std::uint64_t judgedPhotons_ = 0;
     int judgedReloads_ = 0;

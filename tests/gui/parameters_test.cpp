@@ -38,10 +38,26 @@ TEST_F(ParametersPanel, AValueThatIsTypedIsMarkedAndCanBeTakenBack) {
     EXPECT_EQ(bench->value("parameter.trace.epsilon"), "0.01");
 }
 
+TEST_F(ParametersPanel, AValueThatIsNoNumberLeavesAllAsItWasAndSaysSo) {
+    start();
+    bench->typeInto("parameter.trace.epsilon", "0,05", Entry::controlClick);
+    EXPECT_FALSE(set().contains("trace.epsilon"));
+    EXPECT_EQ(bench->value("parameter.trace.epsilon"), "0.01");
+    ASSERT_TRUE(bench->has("problem.trace.epsilon"));
+    EXPECT_NE(bench->value("problem.trace.epsilon").find("cannot be '0,05'"), std::string::npos)
+        << bench->value("problem.trace.epsilon");
+    bench->keepScreenshot("parameters-problem");
+    bench->typeInto("parameter.trace.epsilon", "0.05", Entry::controlClick);
+    EXPECT_EQ(set().at("trace.epsilon"), "0.05");
+    EXPECT_FALSE(bench->has("problem.trace.epsilon"));
+}
+
 TEST_F(ParametersPanel, AValueOutOfRangeBecomesTheNearestWithin) {
     start();
     bench->typeInto("parameter.layers.count", "1000", Entry::controlClick);
     EXPECT_EQ(set().at("layers.count"), "64");
+    EXPECT_NE(bench->value("problem.layers.count").find("of 1000 it has taken 64"),
+              std::string::npos);
     bench->typeInto("parameter.layers.count", "-3", Entry::controlClick);
     EXPECT_EQ(set().at("layers.count"), "1");
     bench->typeInto("parameter.emit.photons", "0", Entry::click, "Return", {0.2, 0.5});

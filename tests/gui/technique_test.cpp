@@ -141,8 +141,18 @@ TEST_F(TechniquePanel, TwoVariantsAreSeenSideBySide) {
     EXPECT_EQ(largestDifference(wider, columns(lit, lit.width - wider.width, lit.width)), 0.0);
     EXPECT_FALSE(document().at("edits").contains("camera")) << "the hand held the split";
 
+    // Times go with what they are of, at once, and nothing is rendered again.
+    open("Passes");
+    const std::string timeOfA = bench->value("passes.frame");
+    open("Technique");
+    const std::string timeOfB = bench->value("variant.table");
     bench->click("variant.swap");
+    EXPECT_EQ(bench->value("variant.table"), timeOfA);
     untilSettled();
+    EXPECT_EQ(bench->value("variant.table"), timeOfA);
+    open("Passes");
+    EXPECT_EQ(bench->value("passes.frame"), timeOfB);
+    open("Technique");
     EXPECT_EQ(document().at("variant").at("disable"), json::array());
     const Image swapped = imageOfSide(true);
     EXPECT_EQ(largestDifference(swapped, columns(lit, 0, swapped.width)), 0.0);

@@ -25,7 +25,7 @@ void drawReference(Bench& bench) {
     const ReferenceState& reference = *bench.reference;
     ImGui::PushTextWrapPos(0.0f);
     if (!reference.problem.empty())
-        ImGui::TextColored(ImVec4(1.0f, 0.45f, 0.4f, 1.0f), "%s", reference.problem.c_str());
+        ImGui::TextColored(kProblemColor, "%s", reference.problem.c_str());
     bench.map.area("error.problem", 0, 0, 0, 0, reference.problem);
     const ReferenceWorker::Progress& progress = bench.referenceProgress;
     const bool isOfThisView = hasSameView(reference, bench.document);
@@ -155,7 +155,7 @@ void drawLedger(Bench& bench) {
     bench.map.area("error.balance", 0, 0, 0, 0, fmt::format("{:.3g}", ledger.balance()));
     for (const std::string& violation : result.violations) {
         ImGui::PushTextWrapPos(0.0f);
-        ImGui::TextColored(ImVec4(1.0f, 0.45f, 0.4f, 1.0f), "%s", violation.c_str());
+        ImGui::TextColored(kProblemColor, "%s", violation.c_str());
         ImGui::PopTextWrapPos();
     }
     for (const ReachedLimit& limit : result.limits) {

@@ -50,15 +50,25 @@ void drawRow(Bench& bench, const params::ParamSet& params, const params::NamedFi
         std::max(40.0f, ImGui::GetContentRegionAvail().x - unitWidth - markWidth));
     const ParameterChange change = drawParameter(bench, named, "##value");
     if (change.changed) bench.edited().assignments[named.fullName] = change.text;
+    std::map<std::string, std::string>& problems = bench.panels.parameterProblems;
+    if (change.problem) problems[named.fullName] = *change.problem;
     if (!named.field.unit.empty()) {
         ImGui::SameLine();
         ImGui::TextDisabled("%s", named.field.unit.c_str());
     }
     if (isChanged) {
         ImGui::SameLine();
-        if (resetMark(bench, named.fullName, named.defaultText))
+        if (resetMark(bench, named.fullName, named.defaultText)) {
             bench.edited().assignments.erase(named.fullName);
+            problems.erase(named.fullName);
+        }
     }
+    const auto problem = problems.find(named.fullName);
+    if (problem == problems.end() || problem->second.empty()) return;
+    ImGui::PushTextWrapPos(0.0f);
+    ImGui::TextColored(kProblemColor, "%s", problem->second.c_str());
+    ImGui::PopTextWrapPos();
+    bench.map.control("problem." + named.fullName, problem->second);
 }
 
 }  // namespace

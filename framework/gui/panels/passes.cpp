@@ -75,7 +75,7 @@ void drawPassRow(Bench& bench, const VariantResult& result, const graph::PassRec
                        pass.reason);
         return;
     }
-    const double median = medianOf(times->gpuMilliseconds);
+    const double median = settledMedianOf(times->gpuMilliseconds);
     ImGui::TableNextColumn();
     ImGui::Text("%.2f", median);
     bench.map.control("passes.median." + pass.name, fmt::format("{:.4f}", median));
@@ -123,10 +123,10 @@ void drawSwitchedOff(Bench& bench, const VariantResult& result) {
 }
 
 void drawSummary(Bench& bench, const VariantResult& result) {
-    const double median = medianOf(result.frameMs);
+    const double median = settledMedianOf(result.frameMs);
     if (!result.frameMs.empty()) {
         ImGui::Text("Frame %.1f ms  (median of %zu: %.1f ms)", result.frameMs.back(),
-                    result.frameMs.size(), median);
+                    std::max<std::size_t>(result.frameMs.size() - 1, 1), median);
     } else {
         ImGui::TextUnformatted("No frame yet.");
     }
@@ -143,6 +143,28 @@ void drawSummary(Bench& bench, const VariantResult& result) {
     tooltip(
         "Waits for the device around each pass instead of reading timestamps: what --precise "
         "does, and what a software rasteriser needs for true times.");
+}
+
+// What a frame takes besides its passes, so that all shares add up.
+void drawRest(Bench& bench, const VariantResult& result, double frameMs) {
+    double ofPasses = 0.0;
+    for (const report::PassTimes& times : result.times) {
+        if (!times.gpuMilliseconds.empty()) ofPasses += settledMedianOf(times.gpuMilliseconds);
+    }
+    const double rest = frameMs - ofPasses;
+    if (!(frameMs > 0.0)) return;
+    ImGui::TableNextRow();
+    ImGui::TableSetColumnIndex(1);
+    ImGui::TextColored(kGrey, "the rest");
+    bench.map.control("passes.rest", fmt::format("{:.4f}", rest));
+    tooltip(
+        "Between passes: building the graph, memory, and waiting. Medians are of each by itself, "
+        "so "
+        "that it may be below 0.");
+    ImGui::TableNextColumn();
+    ImGui::Text("%.2f", rest);
+    ImGui::TableNextColumn();
+    if (ImGui::TableNextColumn()) ImGui::Text("%.0f%%", 100.0 * rest / frameMs);
 }
 
 }  // namespace
@@ -164,7 +186,7 @@ void drawPasses(Bench& bench) {
     ImGui::TableSetupScrollFreeze(0, 1);
     setUpColumns();
     ImGui::TableHeadersRow();
-    const double frameMs = medianOf(result.frameMs);
+    const double frameMs = settledMedianOf(result.frameMs);
     std::string stage;
     for (const graph::PassRecord& pass : result.passes) {
         if (stageOf(pass.name) != stage) {
@@ -175,6 +197,7 @@ void drawPasses(Bench& bench) {
         }
         drawPassRow(bench, result, pass, frameMs);
     }
+    drawRest(bench, result, frameMs);
     ImGui::EndTable();
 }
 

@@ -102,7 +102,7 @@ void drawRecord(Bench& bench) {
         bench.renderer->cancelRecording();
     ImGui::PushTextWrapPos(0.0f);
     if (recording.hasFailed) {
-        ImGui::TextColored(ImVec4(1.0f, 0.45f, 0.4f, 1.0f), "%s", recording.message.c_str());
+        ImGui::TextColored(kProblemColor, "%s", recording.message.c_str());
     } else {
         ImGui::TextUnformatted(recording.message.c_str());
     }

@@ -108,10 +108,10 @@ void drawVariants(Bench& bench) {
                 ImGui::TextUnformatted(cell.c_str());
             }
         };
-        row("frame", fmt::format("{:.1f} ms", medianOf(bench.result->variants[0].frameMs)),
-            fmt::format("{:.1f} ms", medianOf(bench.result->variants[1].frameMs)));
+        row("frame", fmt::format("{:.1f} ms", settledMedianOf(bench.result->variants[0].frameMs)),
+            fmt::format("{:.1f} ms", settledMedianOf(bench.result->variants[1].frameMs)));
         bench.map.area("variant.table", 0, 0, 0, 0,
-                       fmt::format("{:.4f}", medianOf(bench.result->variants[1].frameMs)));
+                       fmt::format("{:.4f}", settledMedianOf(bench.result->variants[1].frameMs)));
         std::set<std::string> names;
         for (const auto& [name, value] : document.variant.assignments)
             names.insert(name);
