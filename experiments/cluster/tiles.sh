@@ -5,8 +5,8 @@
 #   tiles.sh --tiles N [--jobs J] -- run SCENE … --out FOLDER
 # J tiles are traced at a time, as many as there are processors; within an allocation of Slurm's
 # (sbatch --ntasks=N, salloc) each is a task of its own. What tiles exchange lies in FOLDER.tiles.
-#   tiles.sh --tiles 4 -- run glass-bunny --out out/bunny
-#   sbatch --ntasks=4 --wrap 'experiments/cluster/tiles.sh --tiles 4 --jobs 4 -- run pool --out out/pool'
+#   tiles.sh --tiles 4 -- run glass-bunny --technique screen_space_photons --out out/bunny
+#   sbatch --ntasks=4 --wrap 'experiments/cluster/tiles.sh --tiles 4 --jobs 4 -- run pool --technique screen_space_photons --out out/pool'
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)

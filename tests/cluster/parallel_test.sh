@@ -84,7 +84,7 @@ expect "something was written" test ! -e a.exr -a ! -e a.shards
 
 # One picture on tiles of the screen, which needs no GNU parallel.
 tiles_sh() { "$root/experiments/cluster/tiles.sh" "$@"; }
-picture=(run glass-sphere --size 32x24 --frames 1 --warmup 0 --set photons=16x16
+picture=(run glass-sphere --technique screen_space_photons --size 32x24 --frames 1 --warmup 0 --set photons=16x16
     --set specular.bounces=2 --set shadow.map.size=64)
 "$KAUSTIK" "${picture[@]}" --out whole
 tiles_sh --tiles 3 --jobs 2 -- "${picture[@]}" --out "in tiles"
