@@ -21,6 +21,7 @@
 #include "framework/pipeline/stages.h"
 #include "framework/run/output.h"
 #include "framework/run/progress.h"
+#include "framework/scene/files/scene_file.h"
 
 namespace kaustik::app {
 namespace {
@@ -88,9 +89,12 @@ class Tuning {
                        fmt::format("{:.1f} +- {:.1f}", point.milliseconds, point.deviation),
                        point.error, point.noise);
         }
-        if (!failures_.empty()) {
-            fmt::print("{} of {} ways to render do not go with this scene: {}\n", failures_.size(),
-                       mixtures_.size(), firstFailure_);
+        std::set<std::size_t> failed = failures_;
+        for (const TunePoint& point : points_)
+            failed.erase(point.mixture);
+        if (!failed.empty()) {
+            fmt::print("{} of {} ways to render do not go with this scene, the first because: {}\n",
+                       failed.size(), mixtures_.size(), firstFailure_);
         }
     }
 
@@ -117,16 +121,23 @@ class Tuning {
     // Of the mixtures that are expected to do best, the runs that are not done yet.
     [[nodiscard]] std::vector<Wanted> mostPromising(std::size_t count) const {
         std::vector<Wanted> wanted;
+        const TunePoint* const found = best();
         for (const TuneGuess& guess : guesses(points_, goal_)) {
             if (wanted.size() == count) break;
+            // Once something meets the goal, what is not expected to be better is no longer tried.
+            const bool isWorse = found != nullptr &&
+                                 (goal_.error ? guess.milliseconds >= found->milliseconds ||
+                                                    guess.error > 1.1 * *goal_.error
+                                              : guess.error >= found->error ||
+                                                    guess.milliseconds > 1.1 * *goal_.milliseconds);
             const Wanted one{guess.mixture, guess.side};
-            if (asked_.count(one) == 0) wanted.push_back(one);
+            if (!isWorse && asked_.count(one) == 0) wanted.push_back(one);
         }
         return wanted;
     }
 
     [[nodiscard]] std::string studyOf(const std::vector<Wanted>& wanted) const {
-        const bool isFile = fs::is_regular_file(options_.scene);
+        const bool isFile = scene::isSceneFile(options_.scene);
         const std::string scene = isFile ? fs::absolute(options_.scene).string() : options_.scene;
         std::string text = fmt::format(
             "name = \"tune-{}\"\ndescription = \"What kaustik tune tried.\"\n[base]\nscene = {}\n"
@@ -147,9 +158,10 @@ class Tuning {
         if (wanted.empty()) return;
         ++round_;
         asked_.insert(wanted.begin(), wanted.end());
-        const fs::path folder = out_ / fmt::format("round-{}", round_);
-        fs::create_directories(folder);
-        const fs::path file = folder / "study.toml";
+        // All in one folder, so that another goal finds them there too.
+        const fs::path folder = out_ / "runs";
+        fs::create_directories(out_);
+        const fs::path file = out_ / fmt::format("round-{}.toml", round_);
         writeFileWhole(file, studyOf(wanted));
         const Plan plan = makePlan(
             readSpec(file), studyDefaults(), [&](const std::string& technique, bool isAsPublished) {
@@ -173,13 +185,17 @@ class Tuning {
         const fs::path place = runFolder(folder, run, 1);
         for (const int product : run.products) {
             const Wanted& one = wanted.at(static_cast<std::size_t>(product));
-            if (!fs::is_directory(place)) {
+            if (fs::exists(failureFile(folder, run, 1)) || !fs::is_directory(place)) {
                 failures_.insert(one.mixture);
                 continue;
             }
             const json report = readFinishedRun(place, run, 1).report;
-            if (const std::optional<TunePoint> point = pointOf(report, one))
+            if (const std::optional<TunePoint> point = pointOf(report, one)) {
                 points_.push_back(*point);
+            } else {
+                failures_.insert(one.mixture);
+                if (firstFailure_.empty()) firstFailure_ = "its report has no error of a caustic.";
+            }
         }
     }
 

@@ -12,6 +12,7 @@ namespace {
 // part of the time of 128² is theirs.
 constexpr double kUsualErrorSlope = -0.6;
 constexpr double kUsualShareOfPhotons = 0.6;
+constexpr double kFarthest = 16.0;
 // An error that falls more slowly comes to nothing.
 constexpr double kLeastErrorSlope = -0.05;
 
@@ -76,7 +77,8 @@ TuneGuess guess(const std::vector<TunePoint>& of, const TuneGoal& goal) {
     const ErrorLaw error(other, near);
     double photons = photonsOf(kMostSide);
     if (goal.error) {
-        if (near.error <= 0.0) photons = photonsOf(near.side);
+        // Below the reference's noise: fewer photons may do.
+        if (near.error <= 0.0) photons = 0.25 * photonsOf(near.side);
         if (near.error > 0.0 && error.slope < kLeastErrorSlope)
             photons = error.photonsFor(*goal.error);
         if (near.error > 0.0 && error.slope >= kLeastErrorSlope)
@@ -84,7 +86,9 @@ TuneGuess guess(const std::vector<TunePoint>& of, const TuneGoal& goal) {
     } else {
         photons = time.photonsFor(*goal.milliseconds);
     }
-    const int side = sideOf(photons);
+    // Farther than this a line and a power say nothing.
+    const double measured = photonsOf(near.side);
+    const int side = sideOf(std::clamp(photons, measured / kFarthest, measured * kFarthest));
     return {near.mixture, side, time.of(photonsOf(side)), error.of(photonsOf(side))};
 }
 
@@ -125,10 +129,11 @@ const TunePoint* bestOf(const std::vector<TunePoint>& points, const TuneGoal& go
     const TunePoint* best = nullptr;
     for (const TunePoint& point : points) {
         if (!isMet(point, goal)) continue;
-        const bool isBetter =
-            best == nullptr ||
-            (goal.error ? point.milliseconds < best->milliseconds : point.error < best->error);
-        if (isBetter) best = &point;
+        const auto rank = [&](const TunePoint& of) {
+            return goal.error ? std::pair(of.milliseconds, of.error)
+                              : std::pair(of.error, of.milliseconds);
+        };
+        if (best == nullptr || rank(point) < rank(*best)) best = &point;
     }
     return best;
 }

@@ -42,6 +42,7 @@ struct TuneGuess {
     double error = 0.0;
 };
 
+// Of what is tried.
 inline constexpr int kLeastSide = 16;
 inline constexpr int kMostSide = 2048;
 

@@ -207,6 +207,7 @@ void RenderWorker::serve(Device& device) {
                 if (isSwapped) {
                     std::swap(device.renderers[0], device.renderers[1]);
                     std::swap(working_.variants[0], working_.variants[1]);
+                    working_.probe.reset();  // of what was A
                 }
                 device.order = *order_;
                 device.number = number_;

@@ -42,8 +42,14 @@ struct PanelState {
     float rightWidth = 360.0f;
     float chartHeight = 120.0f;
     std::string parameterSearch;
-    // What there is to say of what was typed last, by the parameter's full name.
-    std::map<std::string, std::string> parameterProblems;
+    // What there is to say of what was typed last, by the parameter's full name, as long as the
+    // same variant is edited and has the same value.
+    struct TypedProblem {
+        std::string sentence;
+        std::size_t variant = 0;
+        std::string assigned;  // "": its default
+    };
+    std::map<std::string, TypedProblem> parameterProblems;
     bool showsAllParameters = false;
     int edited = 0;  // variant: 0 A, 1 B
     bool isPrecise = false;

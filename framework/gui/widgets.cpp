@@ -27,6 +27,7 @@ constexpr std::size_t kOptionsToSearch = 16;
 // The number's field that is being typed into; one at a time.
 struct Typing {
     ImGuiID field = 0;
+    int frame = 0;  // in which it was drawn last
     bool isNew = false;
     std::string text;
 };
@@ -40,16 +41,18 @@ ParameterChange changeBy(const TypedValue& typed) {
 bool typeNumber(const params::NamedField& named, const std::string& id, ParameterChange& change) {
     static thread_local Typing typing;
     const ImGuiID field = ImGui::GetID(id.c_str());
+    // One that was not drawn for a frame has lost what was typed.
+    if (typing.field == field && ImGui::GetFrameCount() > typing.frame + 1) typing.field = 0;
     if (typing.field != field) {
         const ImVec2 low = ImGui::GetCursorScreenPos();
         const ImVec2 high(low.x + ImGui::CalcItemWidth(), low.y + ImGui::GetFrameHeight());
         const bool begins = ImGui::GetIO().KeyCtrl && ImGui::IsMouseClicked(0) &&
                             ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect(low, high);
         if (!begins) return false;
-        typing = {field, true, named.field.text()};
+        typing = {field, 0, true, named.field.text()};
     }
+    typing.frame = ImGui::GetFrameCount();
     if (typing.isNew) ImGui::SetKeyboardFocusHere();
-    const std::string before = typing.text;
     const bool isEntered =
         ImGui::InputText((id + ".typed").c_str(), &typing.text,
                          ImGuiInputTextFlags_AutoSelectAll | ImGuiInputTextFlags_EnterReturnsTrue);
@@ -57,6 +60,7 @@ bool typeNumber(const params::NamedField& named, const std::string& id, Paramete
     if (isOver && !typing.isNew) {
         typing.field = 0;
         // Escape has put back what was there.
+        change.problem = "";
         if (typing.text != named.field.text()) change = changeBy(typedValue(named, typing.text));
     }
     if (ImGui::IsItemActive()) typing.isNew = false;

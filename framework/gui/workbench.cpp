@@ -152,6 +152,7 @@ std::shared_ptr<const FrameResult> Workbench::labelled(std::shared_ptr<const Fra
     auto exchanged = std::make_shared<FrameResult>(*latest);
     std::swap(exchanged->variants[0], exchanged->variants[1]);
     std::swap(exchanged->document.variant, *exchanged->document.other);
+    exchanged->probe.reset();  // of what was A
     relabelledOf_ = std::move(latest);
     relabelled_ = std::move(exchanged);
     return relabelled_;

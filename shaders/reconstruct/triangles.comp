@@ -2,7 +2,9 @@
 // reconstruct.triangles: a patch's flux onto the pixels that it covers, on every face that sees a
 // part of it. One thread a patch of one kind (triangles_patch_made.glsl); those that cover many pixels
 // go to a list of their own, as long as there is room.
+#ifndef JOINED_PATCHES
 #include "include/photons/clamped.glsl"
+#endif
 #include "include/surfaces/surface_data.glsl"
 #include "reconstruct/triangles_patch_deposit.glsl"
 #include "reconstruct/triangles_patch_made.glsl"
@@ -25,9 +27,11 @@ const int kMaxPixelsPerThread = 400;
 void cover(uint item) {
     Patch whole = patchOf(item);
     ivec2 photon = ivec2(photonTexel(photons, item / kPatchParts));
+#ifndef JOINED_PATCHES
     // What neighbours share out is covered in each of their batches, and counts in the photon's own.
     if (whole.narrowing > 1.0 && !isFromOtherBatch(originAt(photon)))
         countClamped(0u, whole.narrowing, whole.flux);
+#endif
     uint material = uint(texelFetch(hitSurface, photon, 0).w);
     if (isOpen(material - 1u) &&
         !seesLitSide(whole.corners[0], whole.side.normal, whole.side.direction)) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What a patch of a receiver, four corners that light arrives between, covers of each pixel: two
 // triangles with half of the flux each, evenly spread over each as it lies in space, or by the
-// densities at their corners. Whatever their shape, size and slant, the shares of all pixels add up
-// to one.
+// densities at their corners. Whatever their shape, size and slant, what all pixels have of them
+// adds up to one, but for how what they see is turned.
 #include "include/maps/coverage.glsl"
 #include "include/photons/beam.glsl"
 #include "include/photons/ledger.glsl"
@@ -162,6 +162,7 @@ ivec2 pixelOnLine(PatchLines lines, int line, int place) {
 
 struct PatchPixel {
     float share;
+    float inView;  // the same without how its surface is turned
     int where;
 };
 
@@ -171,10 +172,10 @@ const float kMinLitSlant = 0.05;
 
 // What the pixel sees where a plane of the patch's surface would be: kSeen…; `area`, m²: of the plane,
 // through which the light comes that falls on what is seen, or, where it is not seen, that is before
-// the pixel. Light falls on what turns away from it by its cosine, unless that is known already, and
-// on none of what is turned off it.
+// the pixel. `lit`: how much of the light through that area falls on what is seen: what turns away from
+// it has less by its cosine, unless that is known already, and what is turned off it none.
 int seenOnPlane(ivec2 pixel, vec3 plane, vec3 point, bool isShaded, PatchSide side, float tolerance,
-                out float area) {
+                out float area, out float lit) {
     vec3 ray = viewRay(vec2(pixel) + 0.5);
     float facing = boundedSlant(dot(plane, ray), 1e-4);
     float depth = max(depthOnPlane(pixel, plane, point, facing), view.frustum.z);
@@ -183,14 +184,15 @@ int seenOnPlane(ivec2 pixel, vec3 plane, vec3 point, bool isShaded, PatchSide si
     float margin = min(depthMargin(ray, depth, plane),
                        depthMargin(ray, abs(receiverAt(pixel).x), seenNormal));
     int seen = seenAt(pixel, depth, side.normal, tolerance + margin, area);
+    lit = 1.0;
     if (seen != kSeenOn) {
         area = pixelArea(ray, depth, plane);
     } else {
-        float lit = dot(seenNormal, side.direction) * (side.isFromBehind ? 1.0 : -1.0);
+        float cosine = dot(seenNormal, side.direction) * (side.isFromBehind ? 1.0 : -1.0);
         float slant = abs(dot(plane, side.direction));
         float least = max(kMinLitSlant - slant, 0.0);
-        if (lit <= 0.0) area = 0.0;
-        if (!isShaded) area *= (lit + least) / (slant + least);
+        if (!isShaded) lit = (cosine + least) / (slant + least);
+        if (cosine <= 0.0) lit = 0.0;
     }
     return seen;
 }
@@ -214,26 +216,27 @@ PatchPixel patchAt(PatchOnScreen onto, ivec2 pixel) {
     float first = partOf(onto.first, corner);
     float second = partOf(onto.second, corner);
     float covered = first + second;
-    if (covered <= 0.0) return PatchPixel(0.0, kSeenOutside);
+    if (covered <= 0.0) return PatchPixel(0.0, 0.0, kSeenOutside);
     bool isFirst = first >= second;
     float area;
+    float lit;
     int where = seenOnPlane(pixel, isFirst ? onto.first.plane : onto.second.plane,
                             isFirst ? onto.first.middle : onto.second.middle,
                             isFirst ? onto.first.isShaded : onto.second.isShaded, onto.side,
-                            onto.tolerance, area);
-    return PatchPixel(covered * area, where);
+                            onto.tolerance, area, lit);
+    return PatchPixel(covered * area * lit, covered * area, where);
 }
 
 struct PatchParts {
     float on;
     float occluded;
-    float outside;  // but within the view
+    float inView;  // seen or not: all of it but for rounding where none is next to the view
 };
 
 void addPart(inout PatchParts parts, PatchPixel pixel) {
     if (pixel.where == kSeenOn) parts.on += pixel.share;
     if (pixel.where == kSeenOccluded) parts.occluded += pixel.share;
-    if (pixel.where == kSeenOutside) parts.outside += pixel.share;
+    parts.inView += pixel.inView;
 }
 
 bool isBeforeView(Patch whole) {

@@ -29,7 +29,7 @@ void main() {
     for (int i = 1; i < kThreads; ++i) {
         parts.on += partsOfThreads[first + i].on;
         parts.occluded += partsOfThreads[first + i].occluded;
-        parts.outside += partsOfThreads[first + i].outside;
+        parts.inView += partsOfThreads[first + i].inView;
     }
     if (!isHere) return;
     PatchBalance balance = balanceOf(parts, viewCount > 1 || onto.isWhole);

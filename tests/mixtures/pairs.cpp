@@ -173,8 +173,8 @@ std::vector<Apart> answersApart() {
         if (!registry().traits<EmitStage>(emit).emitsCells)
             apart.push_back({{DriverStage::name, "adaptive"}, {EmitStage::name, emit}});
     }
-    // Rays of shadow go through the layers that the eye sees.
-    // What is inside of bodies some tracers do not see, and of a photon others make several.
+    // Rays of shadow go through the layers that the eye sees. What is inside of bodies some tracers
+    // do not see, and of a photon others make several.
     for (const std::string& trace : nodesOf(TraceStage::name)) {
         const auto& traits = registry().traits<TraceStage>(trace);
         if (traits.reach != TracerReach::eyeLayers)

@@ -50,8 +50,13 @@ void drawRow(Bench& bench, const params::ParamSet& params, const params::NamedFi
         std::max(40.0f, ImGui::GetContentRegionAvail().x - unitWidth - markWidth));
     const ParameterChange change = drawParameter(bench, named, "##value");
     if (change.changed) bench.edited().assignments[named.fullName] = change.text;
-    std::map<std::string, std::string>& problems = bench.panels.parameterProblems;
-    if (change.problem) problems[named.fullName] = *change.problem;
+    const auto assigned = [&] {
+        const auto found = bench.edited().assignments.find(named.fullName);
+        return found == bench.edited().assignments.end() ? std::string() : found->second;
+    };
+    auto& problems = bench.panels.parameterProblems;
+    if (change.problem)
+        problems[named.fullName] = {*change.problem, bench.editedIndex(), assigned()};
     if (!named.field.unit.empty()) {
         ImGui::SameLine();
         ImGui::TextDisabled("%s", named.field.unit.c_str());
@@ -64,11 +69,15 @@ void drawRow(Bench& bench, const params::ParamSet& params, const params::NamedFi
         }
     }
     const auto problem = problems.find(named.fullName);
-    if (problem == problems.end() || problem->second.empty()) return;
+    if (problem == problems.end()) return;
+    const PanelState::TypedProblem& typed = problem->second;
+    if (typed.sentence.empty() || typed.variant != bench.editedIndex() ||
+        typed.assigned != assigned())
+        return;
     ImGui::PushTextWrapPos(0.0f);
-    ImGui::TextColored(kProblemColor, "%s", problem->second.c_str());
+    ImGui::TextColored(kProblemColor, "%s", typed.sentence.c_str());
     ImGui::PopTextWrapPos();
-    bench.map.control("problem." + named.fullName, problem->second);
+    bench.map.control("problem." + named.fullName, typed.sentence);
 }
 
 }  // namespace
