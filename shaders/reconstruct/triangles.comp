@@ -2,13 +2,13 @@
 // reconstruct.triangles: a patch's flux onto the pixels that it covers, on every face that sees a
 // part of it. One thread a patch of one kind (triangles_patch_made.glsl); those that cover many pixels
 // go to a list of their own, as long as there is room.
+#include "reconstruct/triangles_patch_made.glsl"
+#include "reconstruct/triangles_patch_deposit.glsl"
+#include "reconstruct/triangles_wide.glsl"
+// What is joined has the width that it has, and OpenGL grants a program no more than eight blocks.
 #ifndef JOINED_PATCHES
 #include "include/photons/clamped.glsl"
 #endif
-#include "include/surfaces/surface_data.glsl"
-#include "reconstruct/triangles_patch_deposit.glsl"
-#include "reconstruct/triangles_patch_made.glsl"
-#include "reconstruct/triangles_wide.glsl"
 
 uniform int wideCapacity;
 uniform int listCapacity;
