@@ -40,7 +40,8 @@ inline std::vector<std::string> scenesWithViews() {
     return names;
 }
 
-// A frame of the screen's own technique (exact_rays_test.cpp has the default), rendered for a purpose. `registry` and `scene` must outlive it.
+// A frame of the screen's own technique (exact_rays_test.cpp has the default), rendered for a
+// purpose. `registry` and `scene` must outlive it.
 inline std::unique_ptr<Renderer> rendered(const Registry& registry, const scene::Scene& scene,
                                           int width, int height, Purpose purpose,
                                           const numerics::Settings& more = {}) {
