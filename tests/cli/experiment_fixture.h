@@ -12,8 +12,7 @@
 
 namespace kaustik::test {
 
-inline constexpr const char* kStudyBase = R"(
-name = "layers"
+inline constexpr const char* kStudyBase = R"(name = "layers"
 repeats = 2
 [base]
 scene = "wavy.toml"
@@ -22,6 +21,7 @@ frames = 1
 warmup = 0
 "emit.photons" = "16x16"
 "shadow.map.size" = 64
+technique = "screen_space_photons"
 )";
 
 class ExperimentCommand : public CommandLine {
