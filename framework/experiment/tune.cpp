@@ -24,7 +24,7 @@ int sideOf(double photons) {
     const double side = std::sqrt(std::clamp(photons, 1.0, 1e12));
     // Sixteen photons are what some devices take at once, and fewer steps are not felt.
     const int rounded = 16 * static_cast<int>(std::lround(side / 16.0));
-    return std::clamp(rounded, kLeastSide, kMostSide);
+    return std::clamp(rounded, kMinSide, kMaxSide);
 }
 
 // The error of so many photons: error(at) (photons / at)^slope.
@@ -75,14 +75,14 @@ TuneGuess guess(const std::vector<TunePoint>& of, const TuneGoal& goal) {
     const TunePoint& other = nearest.size() > 1 ? nearest[1] : near;
     const TimeLaw time(other, near);
     const ErrorLaw error(other, near);
-    double photons = photonsOf(kMostSide);
+    double photons = photonsOf(kMaxSide);
     if (goal.error) {
         // Below the reference's noise: fewer photons may do.
         if (near.error <= 0.0) photons = 0.25 * photonsOf(near.side);
         if (near.error > 0.0 && error.slope < kLeastErrorSlope)
             photons = error.photonsFor(*goal.error);
         if (near.error > 0.0 && error.slope >= kLeastErrorSlope)
-            photons = near.error <= *goal.error ? photonsOf(near.side) : photonsOf(kMostSide);
+            photons = near.error <= *goal.error ? photonsOf(near.side) : photonsOf(kMaxSide);
     } else {
         photons = time.photonsFor(*goal.milliseconds);
     }

@@ -43,8 +43,8 @@ struct TuneGuess {
 };
 
 // Of what is tried.
-inline constexpr int kLeastSide = 16;
-inline constexpr int kMostSide = 2048;
+inline constexpr int kMinSide = 16;
+inline constexpr int kMaxSide = 2048;
 
 // Where the goal is met by one of the mixtures that have points, by its two points that lie
 // nearest to it: time is a line of the photons, error a power; with one point by what is usual. The

@@ -38,7 +38,7 @@ TEST_F(ParametersPanel, AValueThatIsTypedIsMarkedAndCanBeTakenBack) {
     EXPECT_EQ(bench->value("parameter.trace.epsilon"), "0.01");
 }
 
-TEST_F(ParametersPanel, AValueThatIsNoNumberLeavesAllAsItWasAndSaysSo) {
+TEST_F(ParametersPanel, AValueThatIsNoNumberIsRefusedWithASentence) {
     start();
     bench->typeInto("parameter.trace.epsilon", "0,05", Entry::controlClick);
     EXPECT_FALSE(set().contains("trace.epsilon"));

@@ -145,7 +145,7 @@ void drawSummary(Bench& bench, const VariantResult& result) {
         "does, and what a software rasteriser needs for true times.");
 }
 
-// What a frame takes besides its passes, so that all shares add up.
+// What a frame takes outside of its passes, so that all shares add up.
 void drawRest(Bench& bench, const VariantResult& result, double frameMs) {
     double ofPasses = 0.0;
     for (const report::PassTimes& times : result.times) {

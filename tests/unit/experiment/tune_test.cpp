@@ -53,10 +53,10 @@ TEST(TuneGuesses, KeepToATime) {
 
 TEST(TuneGuesses, AreSidesThatThereAre) {
     for (const double error : {1e-12, 1e6}) {
-        for (const int side : {kLeastSide, 128, kMostSide}) {
+        for (const int side : {kMinSide, 128, kMaxSide}) {
             const TuneGuess guess = guesses({kCheap.at(0, side)}, {.error = error}).front();
-            EXPECT_GE(guess.side, kLeastSide);
-            EXPECT_LE(guess.side, kMostSide);
+            EXPECT_GE(guess.side, kMinSide);
+            EXPECT_LE(guess.side, kMaxSide);
             EXPECT_EQ(guess.side % 16, 0);
             // No farther from what is measured than 16 times the photons.
             EXPECT_LE(guess.side, 4 * side);
