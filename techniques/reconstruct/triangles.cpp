@@ -17,6 +17,7 @@
 #include "framework/pipeline/frame_builder.h"
 #include "techniques/splats/clamped.h"
 #include "techniques/stores/stores.h"
+#include "techniques/thread_lists/thread_list.h"
 
 namespace kaustik {
 namespace {
@@ -62,12 +63,10 @@ struct TrianglesParams {
     }
 };
 
-// As shaders/reconstruct/triangles_patch_list.glsl has it.
-struct PatchCount {
-    std::uint32_t count, groupsX, groupsY, groupsZ;
-};
+// The lists of shaders/reconstruct/triangles_patch_list.glsl.
 enum PatchKind { joined, ofBeams, atCreases, wide, kPatchCounts };
-constexpr std::size_t kPatchCountWords = kPatchCounts * sizeof(PatchCount) / sizeof(std::uint32_t);
+constexpr std::size_t kPatchCountWords =
+    kPatchCounts * sizeof(ThreadListHeader) / sizeof(std::uint32_t);
 // As triangles_wide.glsl has it.
 struct WidePatch {
     glm::vec4 corners[4], normal, direction, flux;
@@ -183,8 +182,8 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Hits& h
             const auto dispatchOverPatches = [&](gl::Command command, PatchKind kind) {
                 setDeposit(command, sets);
                 command.dispatchIndirect(data.patches,
-                                         static_cast<std::size_t>(kind) * sizeof(PatchCount) +
-                                             offsetof(PatchCount, groupsX));
+                                         static_cast<std::size_t>(kind) * sizeof(ThreadListHeader) +
+                                             offsetof(ThreadListHeader, groupsX));
             };
             countGroups(0);
             for (const PatchKind kind : {joined, ofBeams, atCreases}) {

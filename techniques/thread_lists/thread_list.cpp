@@ -8,11 +8,7 @@
 namespace kaustik {
 namespace {
 
-// As shaders/include/thread_list.glsl has it.
-struct Header {
-    std::uint32_t count, groupsX, groupsY, groupsZ;
-};
-constexpr std::size_t kHeaderWords = sizeof(Header) / sizeof(std::uint32_t);
+constexpr std::size_t kHeaderWords = sizeof(ThreadListHeader) / sizeof(std::uint32_t);
 
 }  // namespace
 
@@ -38,7 +34,7 @@ void ThreadList::clear(gl::PassContext& context) const {
 
 void ThreadList::dispatchOver(gl::PassContext& context, gl::Command command) const {
     countGroups(context, 1);
-    command.dispatchIndirect(list_, offsetof(Header, groupsX));
+    command.dispatchIndirect(list_, offsetof(ThreadListHeader, groupsX));
 }
 
 }  // namespace kaustik

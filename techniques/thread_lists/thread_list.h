@@ -13,6 +13,11 @@
 
 namespace kaustik {
 
+// As shaders/include/thread_list.glsl has it.
+struct ThreadListHeader {
+    std::uint32_t count, groupsX, groupsY, groupsZ;
+};
+
 class ThreadList {
   public:
     // Declares a pass' own buffer, the storage block `block` of its shaders.
