@@ -66,7 +66,7 @@ Hits inject(FrameBuilder& frame, const Batch& batch) {
         "bench.inject", "the case makes its photons up",
         [&](graph::PassSetup& setup, Hits& hits) {
             Photons photons =
-                Photons::create(setup, batch.width, batch.height, "", frame.usesBeams());
+                Photons::create(setup, batch.width, batch.height, "", {frame.usesBeams()});
             photons.ledger =
                 setup.createBuffer<transport::LedgerEntry>("ledger", transport::kLedgerEntryCount);
             photons.store(setup);

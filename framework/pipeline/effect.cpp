@@ -38,6 +38,12 @@ bool FrameFacts::usesBeams() const {
     return areUsed && traits<EmitStage>().beams;
 }
 
+bool FrameFacts::widensByLights() const {
+    const auto widens = traits<ReconstructStage>().widensByLights;
+    return usesBeams() && widens != nullptr && needs != nullptr && needs->emitters > 0 &&
+           widens(*this);
+}
+
 std::string FrameFacts::whyNoNeighbours() const {
     const auto why = traits<DriverStage>().whyNoNeighbours;
     return why == nullptr ? "" : why(*this);

@@ -34,6 +34,8 @@ struct FrameFacts {
     [[nodiscard]] bool isRead(const std::string& name) const;
     // Whether photons have beams: the emitter makes them, and a chosen node uses them, or may.
     [[nodiscard]] bool usesBeams() const;
+    // Whether photons carry by how much their lights, which have a size, spread them.
+    [[nodiscard]] bool widensByLights() const;
     // Why photons have no neighbours that they could be joined with; "" where they have, or may.
     [[nodiscard]] std::string whyNoNeighbours() const;
 };

@@ -6,11 +6,12 @@ namespace {
 
 // The shaders of a pass that handles beams are another variant.
 const char* const kBeamVariant = "PHOTON_BEAMS";
+const char* const kSpreadVariant = "LIGHT_SPREAD";
 
 }  // namespace
 
 Photons Photons::create(graph::PassSetup& setup, int width, int height, const std::string& suffix,
-                        bool hasBeams, const LightCells& cells) {
+                        PhotonExtras extras, const LightCells& cells) {
     Photons photons;
     photons.width = width;
     photons.height = height;
@@ -20,14 +21,20 @@ Photons Photons::create(graph::PassSetup& setup, int width, int height, const st
     photons.direction = setup.create<PhotonDirection>("photons.direction" + suffix, width, height);
     photons.flux = setup.create<PhotonFlux>("photons.flux" + suffix, width, height);
     photons.origin = setup.create<OriginTexel>("photons.origin" + suffix, width, height);
-    if (hasBeams) {
+    if (extras.beams) {
         photons.beamPlace = setup.create<BeamPlace>("photons.place" + suffix, width, height);
         photons.beamTurn = setup.create<BeamTurn>("photons.turn" + suffix, width, height);
     }
+    if (extras.lightSpread) photons.createSpread(setup);
     photons.list = cells.valid()
                        ? cells.list
                        : setup.createBuffer<transport::PhotonList>("photons.list" + suffix, 1);
     return photons;
+}
+
+void Photons::createSpread(graph::PassSetup& setup) {
+    spreadPlace = setup.create<BeamPlace>("photons.spread_place" + suffix, width, height);
+    spreadTurn = setup.create<BeamTurn>("photons.spread_turn" + suffix, width, height);
 }
 
 void Photons::sample(graph::PassSetup& setup) const {
@@ -40,6 +47,10 @@ void Photons::sample(graph::PassSetup& setup) const {
     setup.sample("photonBeamPlace", beamPlace);
     setup.sample("photonBeamTurn", beamTurn);
     setup.define(kBeamVariant);
+    if (!hasLightSpread()) return;
+    setup.sample("photonSpreadPlace", spreadPlace);
+    setup.sample("photonSpreadTurn", spreadTurn);
+    setup.define(kSpreadVariant);
 }
 
 void Photons::store(graph::PassSetup& setup) const {
@@ -52,6 +63,10 @@ void Photons::store(graph::PassSetup& setup) const {
     setup.image("nextBeamPlace", beamPlace);
     setup.image("nextBeamTurn", beamTurn);
     setup.define(kBeamVariant);
+    if (!hasLightSpread()) return;
+    setup.image("nextSpreadPlace", spreadPlace);
+    setup.image("nextSpreadTurn", spreadTurn);
+    setup.define(kSpreadVariant);
 }
 
 void Photons::rewrite(graph::PassSetup& setup) {
@@ -62,11 +77,15 @@ void Photons::rewrite(graph::PassSetup& setup) {
     if (!hasBeams()) return;
     beamPlace = setup.write(beamPlace);
     beamTurn = setup.write(beamTurn);
+    if (!hasLightSpread()) return;
+    spreadPlace = setup.write(spreadPlace);
+    spreadTurn = setup.write(spreadTurn);
 }
 
 std::vector<graph::ResourceRef> Photons::textures() const {
     std::vector<graph::ResourceRef> all{position, direction, flux, origin};
     if (hasBeams()) all.insert(all.end(), {beamPlace, beamTurn});
+    if (hasLightSpread()) all.insert(all.end(), {spreadPlace, spreadTurn});
     return all;
 }
 

@@ -53,6 +53,12 @@ struct CellGrid {
     }
 };
 
+// What photons of a list have next to place, direction and flux.
+struct PhotonExtras {
+    bool beams = false;
+    bool lightSpread = false;
+};
+
 // A list of photons, as texels of the transfer map (K06, section 2; PhotonList says how many), with
 // the account of what they have lost so far. Names in shaders: include/photons/photons.glsl.
 struct Photons {
@@ -63,6 +69,10 @@ struct Photons {
     // Both are invalid where no node uses beams (FrameBuilder::usesBeams).
     graph::Texture<BeamPlace> beamPlace;
     graph::Texture<BeamTurn> beamTurn;
+    // How the disc that the photon's light stands for spreads it; invalid where none does
+    // (FrameBuilder::widensByLights).
+    graph::Texture<BeamPlace> spreadPlace;
+    graph::Texture<BeamTurn> spreadTurn;
     graph::Buffer<transport::PhotonList> list;
     Ledger ledger;
     ModelledPaths paths;
@@ -78,13 +88,18 @@ struct Photons {
     std::string suffix;  // tells the names of its resources from those of other lists
     [[nodiscard]] int capacity() const { return width * height; }
     [[nodiscard]] bool hasBeams() const { return beamPlace.valid(); }
+    [[nodiscard]] bool hasLightSpread() const { return spreadPlace.valid(); }
+    [[nodiscard]] PhotonExtras extras() const { return {hasBeams(), hasLightSpread()}; }
 
     // New textures, to be filled by the pass, and a new list, unless it is that of `cells`.
     static Photons create(graph::PassSetup& setup, int width, int height, const std::string& suffix,
-                          bool hasBeams, const LightCells& cells = {});
+                          PhotonExtras extras, const LightCells& cells = {});
+    // New textures for how lights spread them.
+    void createSpread(graph::PassSetup& setup);
     // Declares what a pass reads of photons: "photonPosition", "photonDirection", "photonFlux",
     // "photonOrigin" and the block "Photons"; with beams, for which the shaders of the pass are
-    // compiled as PHOTON_BEAMS, also "photonBeamPlace" and "photonBeamTurn".
+    // compiled as PHOTON_BEAMS, also "photonBeamPlace" and "photonBeamTurn"; with the spread of
+    // their lights, as LIGHT_SPREAD, "photonSpreadPlace" and "photonSpreadTurn".
     void sample(graph::PassSetup& setup) const;
     // Declares what a pass writes that makes photons: images under the same names with "next"
     // instead of "photon", and the block "NextPhotons".

@@ -167,6 +167,8 @@ struct ReconstructStage : Stage<CausticMap(Hits, Surfaces, CausticMap)> {
     static constexpr const char* gives = "map of flux";
     struct Traits {
         bool beams = false;  // it uses photons' beams
+        // Whether these settings of it widen them by the size of their lights.
+        bool (*widensByLights)(const FrameFacts&) = nullptr;
         // It joins what neighbouring cells bring, across batches too: what one does is known from
         // those no more than kJoinedRows away.
         bool joinsCells = false;

@@ -277,7 +277,10 @@ EmittedPhoton LightSampler::sampleEnvironment(const Share& share, double u, doub
                                               Random& random) const {
     const double which = random.uniform();
     const double across = random.uniform();
-    const auto [towards, flux] = share.environment->draw(which, across, random.uniform());
+    const scene::EmittingEnvironment::Part drawn =
+        share.environment->draw(which, across, random.uniform());
+    const glm::dvec3 towards = drawn.direction;
+    const glm::dvec3 flux = drawn.fluxPerSquareMeter;
     EmittedPhoton photon;
     photon.reach.isDistant = true;
     photon.direction = -towards;

@@ -201,7 +201,7 @@ transport::LightData lightData(const scene::Light& light, const RasterView& eye)
     data.positionVs.w = static_cast<float>(light.kind);
     data.directionVs = glm::vec4(eye.worldToView * glm::dvec4(light.direction, 0.0));
     data.directionVs.w = light.rangeMeters;
-    data.power = glm::vec4(light.power, 0.0f);
+    data.power = glm::vec4(light.power, light.radius);
     data.cone = glm::vec4(std::cos(light.innerConeRadians), std::cos(light.outerConeRadians),
                           std::tan(light.outerConeRadians), 0.0f);
     const glm::dmat3 toView(eye.worldToView);

@@ -29,20 +29,37 @@ bool emits(const Material& material) {
     return material.emission != glm::vec3(0.0f);
 }
 
-// Even over the disc, in a spiral of the golden angle (Vogel 1979).
-Light pointOfDisc(const Light& sun, int index, int count) {
+double radiusOfDisc(double area) {
+    return std::sqrt(area / glm::pi<double>());
+}
+
+// Even over the unit disc, in a spiral of the golden angle (Vogel 1979), moved so that their mean
+// is the middle: one point is there.
+std::vector<glm::dvec2> pointsOnDisc(int count) {
     const double goldenAngle = glm::pi<double>() * (3.0 - std::sqrt(5.0));
+    std::vector<glm::dvec2> points;
+    glm::dvec2 sum(0.0);
+    for (int i = 0; i < count; ++i) {
+        const double turn = goldenAngle * i;
+        points.push_back(std::sqrt((i + 0.5) / count) * glm::dvec2(std::cos(turn), std::sin(turn)));
+        sum += points.back();
+    }
+    for (glm::dvec2& point : points)
+        point -= sum / static_cast<double>(count);
+    return points;
+}
+
+Light pointOfDisc(const Light& sun, const glm::dvec2& place, int count) {
     const double edge = std::tan(0.5 * static_cast<double>(sun.angularDiameterRadians));
-    const double radius = edge * std::sqrt((index + 0.5) / count);
-    const double turn = goldenAngle * index;
     const Basis across = basisAround(sun.direction);
     Light point = sun;
     point.angularDiameterRadians = 0.0f;
-    point.direction = glm::normalize(
-        sun.direction + radius * (std::cos(turn) * across.a + std::sin(turn) * across.b));
+    point.direction =
+        glm::normalize(sun.direction + edge * (place.x * across.a + place.y * across.b));
     // Together they make on what faces the middle what the whole does.
     const double cosine = glm::dot(point.direction, sun.direction);
     point.power = glm::vec3(glm::dvec3(sun.power) / (count * cosine));
+    point.radius = static_cast<float>(edge / std::sqrt(count));
     return point;
 }
 
@@ -53,6 +70,7 @@ Light pointOfSurface(const EmittingSurface::Point& at, double areaSquareMeters,
     point.position = at.position;
     point.direction = at.normal;
     point.power = glm::vec3(glm::dvec3(radiance) * areaSquareMeters);
+    point.radius = static_cast<float>(radiusOfDisc(areaSquareMeters));
     return point;
 }
 
@@ -248,8 +266,9 @@ void placeLightPoints(Scene& scene, int wanted, int rows) {
             scene.lights.push_back(std::move(point));
         };
         if (emitter.isDisc()) {
+            const std::vector<glm::dvec2> places = pointsOnDisc(count);
             for (int i = 0; i < count; ++i)
-                add(pointOfDisc(emitter.light, i, count), i);
+                add(pointOfDisc(emitter.light, places[static_cast<std::size_t>(i)], count), i);
             continue;
         }
         if (emitter.environment) {
@@ -258,6 +277,7 @@ void placeLightPoints(Scene& scene, int wanted, int rows) {
                 Light point;
                 point.direction = -part.direction;
                 point.power = glm::vec3(part.fluxPerSquareMeter);
+                point.radius = static_cast<float>(part.radius);
                 add(std::move(point), index++);
             }
             continue;

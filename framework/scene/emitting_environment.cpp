@@ -95,6 +95,11 @@ void EmittingEnvironment::addParts(const Area& area, int count, std::vector<Part
         }
         const double length = glm::length(part.direction);
         if (!(length > 0.0)) return;
+        // Unit directions of mean m are 1 - |m|² from it in the mean square, and a square cell's
+        // light a sixth of its side's square; a disc's is half of its radius' square.
+        const double mean = std::min(length / total(part.fluxPerSquareMeter), 1.0);
+        const double cell = glm::pi<double>() / rows_;
+        part.radius = std::sqrt(2.0 * (1.0 - mean * mean + cell * cell / 6.0));
         part.direction /= length;
         all.push_back(part);
         return;

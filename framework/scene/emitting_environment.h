@@ -22,6 +22,8 @@ class EmittingEnvironment {
     struct Part {
         glm::dvec3 direction{0.0};           // unit, towards that part of the sky, world space
         glm::dvec3 fluxPerSquareMeter{0.0};  // as above, of the part
+        // Of an even disc whose light is as far from its middle in the mean square, rad.
+        double radius = 0.0;
     };
     // The median cut (Debevec 2005): halves of equal flux along the longer side.
     [[nodiscard]] std::vector<Part> parts(int count) const;

@@ -46,6 +46,9 @@ struct Light {
     // Directional: the angle that its disc takes of the sky; 0: a point of it.
     float angularDiameterRadians = 0.0f;
     int emitter = -1;  // that it is a point of (Scene::emitters); -1: a light of its own
+    // Of a point of an emitter: the radius of the disc that is as large as the part that it stands
+    // for, rad (directional) or m (surface); 0: none.
+    float radius = 0.0f;
     // What it sends of its photons, of Scene::bands where there are any. Those after the first are
     // copies of lights, for photons alone.
     int band = 0;

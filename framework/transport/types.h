@@ -76,8 +76,9 @@ const uint kLightSurface = 3u;  // a point of one: its intensity falls with the 
 struct LightData {
     vec4 positionVs;   // w: kind
     vec4 directionVs;  // unit, from the light outwards; w: range in m, 0 unlimited
-    vec4 power;        // rgb: W/m² (directional) or W/sr; w: unused
-    vec4 cone;         // x: cos of the inner half-angle, y: of the outer; z: tan of the outer
+    vec4 power;    // rgb: W/m² (directional) or W/sr; w: the radius of the disc of a light with
+                   // a size that it stands for, rad (directional) or m, 0: a point
+    vec4 cone;     // x: cos of the inner half-angle, y: of the outer; z: tan of the outer
     vec4 rightVs;  // spot, the image that multiplies its power: unit, to its right; w: layer, -1
                    // none
     vec4 upVs;     // unit, to its top

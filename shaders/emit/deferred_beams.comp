@@ -16,12 +16,12 @@ Beam emittedBeam(Photon photon, LightData light, vec2 ndcSize) {
     mat2x3 across = basisAcross(photon.directionVs);
     mat2x3 step = mat2x3(toEye[0] * size.x, toEye[1] * size.y);
 #ifdef ORTHOGRAPHIC_VIEW
-    return Beam(transpose(across) * step, mat2(0.0));
+    return beamFromPoint(transpose(across) * step, mat2(0.0));
 #else
     // A cell of the plane at 1 m, seen from the light: the direction is the place, normalised.
     float cosine = max(-dot(photon.directionVs, toEye[2]), 0.0);
     mat2 turn = transpose(across) * (step * cosine);
-    return Beam(turn * length(photon.positionVs - light.positionVs.xyz), turn);
+    return beamFromPoint(turn * length(photon.positionVs - light.positionVs.xyz), turn);
 #endif
 }
 
@@ -38,7 +38,7 @@ void main() {
     if (!cell.isOwn) return;
 #endif
     Photon photon = photonAt(texel);
-    Beam beam = Beam(mat2(0.0), mat2(0.0));
+    Beam beam = beamFromPoint(mat2(0.0), mat2(0.0));
     vec3 shape = vec3(0.0);
     if (photon.fate == kFateSpecular) {
         beam = emittedBeam(photon, lights[lightIndex], cell.size);

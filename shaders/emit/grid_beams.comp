@@ -16,11 +16,11 @@ Beam emittedBeam(Photon photon, LightData light, bool isParallel) {
     vec2 size = sizeOfCell();
     mat2x3 across = basisAcross(photon.directionVs);
     mat2x3 step = mat2x3(lightToEye[0] * size.x, lightToEye[1] * size.y);
-    if (isParallel) return Beam(transpose(across) * step, mat2(0.0));
+    if (isParallel) return beamFromPoint(transpose(across) * step, mat2(0.0));
     // A cell of the plane at 1 m, seen from the light: the direction is the place, normalised.
     float cosine = max(-dot(photon.directionVs, lightToEye[2]), 0.0);
     mat2 turn = transpose(across) * (step * cosine);
-    return Beam(turn * length(photon.positionVs - light.positionVs.xyz), turn);
+    return beamFromPoint(turn * length(photon.positionVs - light.positionVs.xyz), turn);
 }
 
 void main() {
@@ -30,7 +30,7 @@ void main() {
     Photon photon = photonAt(texel);
     LightData light = lights[lightIndex];
     bool isParallel = uint(light.positionVs.w) == kLightDirectional;
-    Beam beam = Beam(mat2(0.0), mat2(0.0));
+    Beam beam = beamFromPoint(mat2(0.0), mat2(0.0));
     vec3 shape = vec3(0.0);
     if (photon.fate == kFateSpecular) {
         beam = emittedBeam(photon, light, isParallel);

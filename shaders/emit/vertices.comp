@@ -148,7 +148,7 @@ vec3 stepAlong(uint vertex, ivec2 side) {
 Beam beamOf(uint vertex, vec3 direction, float spread) {
     mat2x3 steps = mat2x3(stepAlong(vertex, ivec2(1, 0)), stepAlong(vertex, ivec2(0, 1)));
     mat2 place = transpose(basisAcross(direction)) * steps;
-    return Beam(place, spread * place);
+    return beamFromPoint(place, spread * place);
 }
 
 // A vertex at the border of the mesh stands for nothing beyond it.
@@ -168,7 +168,7 @@ uvec2 extentOf(uint vertex) {
 #else
 // A vertex has no cell: its beam is as wide as the area around it, either way.
 Beam beamOf(float footprint, float spread) {
-    return Beam(mat2(footprint), mat2(spread * footprint));
+    return beamFromPoint(mat2(footprint), mat2(spread * footprint));
 }
 #endif
 #endif

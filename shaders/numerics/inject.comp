@@ -33,7 +33,7 @@ void main() {
     storeNext(index, unpackPhoton(one.photonPosition, one.photonDirection, one.photonFlux),
               PhotonOrigin(index, 0u, kEmittedPath, 0u, 0u));
 #ifdef PHOTON_BEAMS
-    storeNextBeam(index, Beam(mat2(one.photonPosition.w), mat2(0.0)));
+    storeNextBeam(index, beamFromPoint(mat2(one.photonPosition.w), mat2(0.0)));
 #endif
 #endif
 }

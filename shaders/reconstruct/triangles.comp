@@ -4,6 +4,9 @@
 // go to a list of their own, as long as there is room.
 #include "reconstruct/triangles_patch_made.glsl"
 #include "reconstruct/triangles_patch_deposit.glsl"
+#ifdef LIGHT_SPREAD
+#include "reconstruct/triangles_spread.glsl"
+#endif
 #include "reconstruct/triangles_wide.glsl"
 // What is joined has the width that it has, and OpenGL grants a program no more than eight blocks.
 #ifndef JOINED_PATCHES
@@ -24,20 +27,7 @@ const uint kKind = kPatchesOfBeams;
 // Pixels of the rectangles around a patch for one thread.
 const int kMaxPixelsPerThread = 400;
 
-void cover(uint item) {
-    Patch whole = patchOf(item);
-    ivec2 photon = ivec2(photonTexel(photons, item / kPatchParts));
-#ifndef JOINED_PATCHES
-    // What neighbours share out is covered in each of their batches, and counts in the photon's own.
-    if (whole.narrowing > 1.0 && !isFromOtherBatch(originAt(photon)))
-        countClamped(0u, whole.narrowing, whole.flux);
-#endif
-    uint material = uint(texelFetch(hitSurface, photon, 0).w);
-    if (isOpen(material - 1u) &&
-        !seesLitSide(whole.corners[0], whole.side.normal, whole.side.direction)) {
-        ledgerAdd(kAccountHidden, whole.flux);
-        return;
-    }
+void coverPatch(Patch whole) {
 #ifndef MANY_VIEWS
     if (!isBeforeView(whole)) {
         ledgerAdd(kAccountBehind, whole.flux);
@@ -77,6 +67,29 @@ void cover(uint item) {
         if (viewCount > 1) seenInFace(whole, face, there, onto);
         depositParts(there, onto, 0, 1, balance.total);
     }
+}
+
+void cover(uint item) {
+    Patch whole = patchOf(item);
+    ivec2 photon = ivec2(photonTexel(photons, item / kPatchParts));
+#ifndef JOINED_PATCHES
+    // What neighbours share out is covered in each of their batches, and counts in the photon's own.
+    if (whole.narrowing > 1.0 && !isFromOtherBatch(originAt(photon)))
+        countClamped(0u, whole.narrowing, whole.flux);
+#endif
+    uint material = uint(texelFetch(hitSurface, photon, 0).w);
+    if (isOpen(material - 1u) &&
+        !seesLitSide(whole.corners[0], whole.side.normal, whole.side.direction)) {
+        ledgerAdd(kAccountHidden, whole.flux);
+        return;
+    }
+#ifdef LIGHT_SPREAD
+    Copies copies = copiesOf(whole, cellGrid.x > 0 ? cellOf(originAt(photon)) : photon);
+    for (int i = copies.first; i < copies.places; i += copies.stride)
+        coverPatch(copyOf(whole, copies, i));
+#else
+    coverPatch(whole);
+#endif
 }
 
 void main() {

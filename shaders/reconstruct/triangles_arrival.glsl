@@ -26,6 +26,9 @@ struct Arrival {
     uint material;  // index + 1
     uint path;
     uvec2 extent;   // include/photons/cell_extent.glsl
+#ifdef LIGHT_SPREAD
+    mat2x3 spread;  // to where light from the edge of its light's disc arrives, m
+#endif
 };
 
 // What the photon stands for besides its cell; 0: its cell.
@@ -59,10 +62,18 @@ Arrival arrivalOf(ivec2 texel) {
     uvec2 extent = extentOf(origin);
     float area = length(cross(spacing[0], spacing[1])) * areaOfExtent(extent);
     vec3 flux = wholeFlux(origin, hit.fluxWatts);
+#ifdef LIGHT_SPREAD
+    mat2x3 spread = beamOnPlane(spreadOf(beamAt(texel)), photon.directionVs, hit.distanceMeters,
+                                hit.normalVs, kMinArrivalSlant);
+#endif
     return Arrival(pointFromEye(hit.positionVs), directionFromEye(hit.normalVs),
                    directionFromEye(photon.directionVs), fromEye(spacing), farther,
                    hit.distanceMeters, flux, sumOfChannels(flux) / max(area, 1e-30),
-                   hit.material, origin.path, extent);
+                   hit.material, origin.path, extent
+#ifdef LIGHT_SPREAD
+                   , fromEye(spread)
+#endif
+    );
 }
 
 // How far a beam goes on towards a corner of its cell, as shares of the way along u and v, before it

@@ -24,6 +24,10 @@ struct Patch {
     float tolerance;  // of the depths that pixels see, m, next to their own footprint
     float narrowing;  // by which factor a beam is narrower than it was to be; 1: it is not
     bool isJoined;    // between photons; false: a beam's
+#ifdef LIGHT_SPREAD
+    mat2x3 spread[4];  // of the corners, to where the edge of a light's disc has them, m
+    float cellArea;    // that a whole cell covers about there, m²
+#endif
 };
 
 // One of a patch's two triangles on the screen.

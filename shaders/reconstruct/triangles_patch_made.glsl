@@ -45,6 +45,10 @@ Patch patchOfBeam(Arrival at, vec2 ends[4], float farthest) {
     made.side = sideOf(at.normal, at.direction, at.material);
     made.flux = at.flux;
     made.tolerance = 0.25 * scale * length(extent);
+#ifdef LIGHT_SPREAD
+    made.spread = mat2x3[4](at.spread, at.spread, at.spread, at.spread);
+    made.cellArea = length(cross(at.spacing[0], at.spacing[1]));
+#endif
     return made;
 }
 
@@ -111,6 +115,10 @@ Patch patchBetween(Arrival a, Arrival b, Arrival c, Arrival d) {
     float turn = max(max(length(a.normal - c.normal), length(b.normal - d.normal)), 0.02);
     float wide = max(length(a.position - c.position), length(b.position - d.position));
     made.tolerance = 0.25 * turn * wide;
+#ifdef LIGHT_SPREAD
+    made.spread = mat2x3[4](a.spread, b.spread, c.spread, d.spread);
+    made.cellArea = 0.5 * length(cross(c.position - a.position, d.position - b.position));
+#endif
     return made;
 }
 

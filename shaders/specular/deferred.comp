@@ -22,7 +22,12 @@ struct Traveller {
 // The same offsets, in the basis across another direction.
 Beam seenAlong(Beam beam, vec3 from, vec3 to) {
     mat2 turning = transpose(basisAcross(to)) * basisAcross(from);
-    return Beam(turning * beam.place, turning * beam.turn);
+    Beam turned = beamFromPoint(turning * beam.place, turning * beam.turn);
+#ifdef LIGHT_SPREAD
+    turned.spreadPlace = turning * beam.spreadPlace;
+    turned.spreadTurn = turning * beam.spreadTurn;
+#endif
+    return turned;
 }
 #endif
 

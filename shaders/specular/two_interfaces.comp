@@ -20,7 +20,7 @@ struct RoundBeam {
     float growth;
 };
 
-Beam beamOf(RoundBeam round) { return Beam(mat2(round.width), mat2(round.growth)); }
+Beam beamOf(RoundBeam round) { return beamFromPoint(mat2(round.width), mat2(round.growth)); }
 
 // As the light sends it to `hit`: of the area that the photon's beam has there.
 RoundBeam roundBeamAt(Beam beam, Photon photon, Hit hit) {
@@ -56,18 +56,25 @@ RoundBeam throughLens(RoundBeam round, float front, float back, float thickness,
     return refracted(within, -back, inside, outside);
 }
 
+RoundBeam roundBeamAfter(Beam beam, Photon before, Hit hit, bool isReflected) {
+    RoundBeam round = roundBeamAt(beam, before, hit);
+    bool enters = dot(before.directionVs, hit.normalVs) < 0.0;
+    float convex = (enters ? 1.0 : -1.0) * meanCurvature(hit.shape);
+    if (isReflected) return RoundBeam(round.width, round.growth + 2.0 * convex * round.width);
+    vec2 indices = indicesAt(hit.material, before.media, enters);
+    return refracted(round, convex, indices.x, indices.y);
+}
+
 // After one interaction alone: at a mirror, a sheet, or where all is reflected.
 Beam beamAfterInteraction(ivec2 texel, Photon before, Hit hit, vec3 direction, bool isReflected) {
     Beam beam = beamAt(texel);
     if (specular_two_interfaces_lens == specular_two_interfaces_lens_beam)
         return beamOfBranch(beam, before, hit, direction, isReflected);
-    RoundBeam round = roundBeamAt(beam, before, hit);
-    bool enters = dot(before.directionVs, hit.normalVs) < 0.0;
-    float convex = (enters ? 1.0 : -1.0) * meanCurvature(hit.shape);
-    if (isReflected)
-        return beamOf(RoundBeam(round.width, round.growth + 2.0 * convex * round.width));
-    vec2 indices = indicesAt(hit.material, before.media, enters);
-    return beamOf(refracted(round, convex, indices.x, indices.y));
+    Beam round = beamOf(roundBeamAfter(beam, before, hit, isReflected));
+#ifdef LIGHT_SPREAD
+    round = withSpreadOf(round, beamOfBranch(beam, before, hit, direction, isReflected));
+#endif
+    return round;
 }
 #endif
 
@@ -98,10 +105,15 @@ void goThrough(Arrival arrival, Photon inside, PhotonOrigin origin) {
     if (specular_two_interfaces_lens == specular_two_interfaces_lens_beam) {
         beam = beamThrough(beam, arrival.photon, arrival.hit, passage);
     } else {
-        beam = beamOf(throughLens(roundBeamAt(beam, arrival.photon, arrival.hit),
-                                  meanCurvature(arrival.hit.shape),
-                                  meanCurvature(shapeAtExit(passage)), passage.way.lengthMeters,
-                                  passage.indices.x, passage.indices.y));
+        Beam round = beamOf(throughLens(roundBeamAt(beam, arrival.photon, arrival.hit),
+                                        meanCurvature(arrival.hit.shape),
+                                        meanCurvature(shapeAtExit(passage)),
+                                        passage.way.lengthMeters, passage.indices.x,
+                                        passage.indices.y));
+#ifdef LIGHT_SPREAD
+        round = withSpreadOf(round, beamThrough(beam, arrival.photon, arrival.hit, passage));
+#endif
+        beam = round;
     }
     storeNextBeam(arrival.slot, beam);
 #endif

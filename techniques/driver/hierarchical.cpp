@@ -132,7 +132,8 @@ Pyramid buildPyramid(FrameBuilder& frame, const Hits& hits,
 Hits createStored(graph::PassSetup& setup, const Hits& hits, bool mayMerge) {
     const Photons& photons = hits.incoming;
     const std::string suffix = photons.suffix + ".stored";
-    Photons own = Photons::create(setup, photons.width, photons.height, suffix, photons.hasBeams());
+    Photons own =
+        Photons::create(setup, photons.width, photons.height, suffix, {photons.hasBeams()});
     own.ledger = photons.ledger;
     own.paths = photons.paths;
     own.nextRows = photons.nextRows;

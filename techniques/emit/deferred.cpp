@@ -85,7 +85,7 @@ Hits emitDeferred(FrameBuilder& frame, const DeferredParams& params, Surfaces su
                 const int width = isList ? samples.cells.width : grid.width;
                 const int height = isList ? samples.cells.height : cells.rows * samples.lights;
                 Photons photons = Photons::create(setup, width, height, samples.suffix,
-                                                  frame.usesBeams(), samples.cells);
+                                                  {frame.usesBeams()}, samples.cells);
                 photons.cells = cells;
                 data.hits = storeEmitted(setup, photons, samples);
             },

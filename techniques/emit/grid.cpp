@@ -160,7 +160,7 @@ Hits emitGrid(FrameBuilder& frame, const GridEmissionParams& params, Surfaces su
                 if (data.geometry.heightFields.valid()) setup.read(data.geometry.heightFields);
                 const int height = rows.cells.rows * samples.lights;
                 Photons photons =
-                    Photons::create(setup, grid.width, height, samples.suffix, frame.usesBeams());
+                    Photons::create(setup, grid.width, height, samples.suffix, {frame.usesBeams()});
                 photons.cells = rows.cells;
                 if (rows.subcells > 1) {
                     photons.extents = setup.create<CellExtentTexel>(

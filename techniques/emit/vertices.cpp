@@ -313,7 +313,7 @@ Hits emitVertices(FrameBuilder& frame, const VertexEmissionParams& params, Surfa
                 setup.sample("lightDepths", emission->depths);
                 const int height = rows.rows * samples.lights;
                 Photons photons =
-                    Photons::create(setup, rows.width, height, samples.suffix, frame.usesBeams());
+                    Photons::create(setup, rows.width, height, samples.suffix, {frame.usesBeams()});
                 if (isGrid) photons.cells = rows;
                 if (isGrid && photons.hasBeams()) {
                     photons.extents = setup.create<CellExtentTexel>(

@@ -31,7 +31,7 @@ NextPhotons allocateNext(FrameBuilder& frame, const Hits& hits, int levels) {
             const int rows = before.nextRows << (paths.interactions <= levels ? 1 : 0);
             data.photons = Photons::create(setup, before.width, rows,
                                            fmt::format("{}_{}", before.batch, paths.interactions),
-                                           before.hasBeams());
+                                           before.extras());
             data.photons.batch = before.batch;
             data.photons.paths = paths;
             data.photons.cells = cells;

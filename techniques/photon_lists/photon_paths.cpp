@@ -10,6 +10,7 @@
 #include "framework/pipeline/stage_params.h"
 #include "techniques/generators/culling.h"
 #include "techniques/photon_lists/branches.h"
+#include "techniques/photon_lists/light_spread.h"
 
 namespace kaustik {
 namespace {
@@ -64,7 +65,7 @@ void followPhotons(FrameBuilder& frame, const Surfaces& surfaces, Samples sample
     const bool stores = use.stores && !isTile;
     const bool scatters = use.scatters && !isTile && frame.needs().scatteringMedium;
     if (use.stores) samples.ledger = caustic.map.ledger;
-    Hits hits = frame.run<EmitStage>(surfaces, samples);
+    Hits hits = spreadByLights(frame, frame.run<EmitStage>(surfaces, samples));
     int interactions = 1;
     for (int i = 0; i < interactions; ++i) {
         hits = endAtUnseen(frame, hits);

@@ -24,6 +24,7 @@ namespace {
 
 enum class TriangleShading : int { smooth, flat, vertices };
 enum class Unjoined : int { beams, discard };
+enum class LightSize : int { points, widened };
 
 struct TrianglesParams {
     float tolerance = 0.5f;
@@ -31,6 +32,7 @@ struct TrianglesParams {
     TriangleShading shading = TriangleShading::smooth;
     Unjoined unjoined = Unjoined::beams;
     float merge = 0.0f;
+    LightSize lightSize = LightSize::widened;
     template <class R>
     void reflect(R& r) {
         const auto whyNotJoined = [](const FrameFacts& facts) { return facts.whyNoNeighbours(); };
@@ -60,8 +62,23 @@ struct TrianglesParams {
              "drawn as one, with their flux added; 0: none",
              "px", params::range(0.0f, 64.0f))
             .when(whyNotJoined);
+        r.choice(lightSize, "light_size",
+                 "What light from a lamp's part, for which a point stands, does. widened: it goes "
+                 "where all of the part would send it, to first order, so that fewer points do; "
+                 "points: where its point does",
+                 {"points", "widened"})
+            .when([](const FrameFacts& facts) -> std::string {
+                return facts.needs == nullptr || facts.needs->emitters > 0
+                           ? ""
+                           : "no light of the scene has a size";
+            });
     }
 };
+
+bool widensByLights(const FrameFacts& facts) {
+    return facts.settings.get<TrianglesParams>("reconstruct.triangles").lightSize ==
+           LightSize::widened;
+}
 
 // The lists of shaders/reconstruct/triangles_patch_list.glsl.
 enum PatchKind { joined, ofBeams, atCreases, wide, kPatchCounts };
@@ -226,7 +243,7 @@ void registerReconstructTriangles(Registry& registry) {
          "It joins photons of neighbouring cells: an emitter without neighbours leaves each photon "
          "its own beam. Cells wider than reconstruct.triangles.maximum are not joined, and what "
          "lies between four photons is taken to change evenly."},
-        {.beams = true, .joinsCells = true}, &coverTriangles);
+        {.beams = true, .widensByLights = &widensByLights, .joinsCells = true}, &coverTriangles);
 }
 
 }  // namespace kaustik

@@ -17,7 +17,7 @@ Photons aimAtLight(FrameBuilder& frame, const EyeBuffer& eye, int light) {
             setup.sample("receiver", eye.receiver);
             setup.sample("receiverSurface", eye.receiverSurface);
             const std::string suffix = fmt::format("_shadow_{}", light);
-            rays = Photons::create(setup, frame.width(), frame.height(), suffix, false);
+            rays = Photons::create(setup, frame.width(), frame.height(), suffix, {});
             rays.ledger = setup.createBuffer<transport::LedgerEntry>("ledger" + suffix,
                                                                      transport::kLedgerEntryCount);
         },

@@ -57,7 +57,7 @@ Hits traceAllHits(FrameBuilder& frame, const AllHitsParams& params, Photons phot
             readLayers(setup, surfaces.layers);
             photons.sample(setup);
             Photons every = Photons::create(setup, photons.width, photons.height * params.slots,
-                                            photons.suffix + "_all", photons.hasBeams());
+                                            photons.suffix + "_all", photons.extras());
             every.paths = photons.paths;
             every.nextRows = photons.nextRows;
             every.cells.splits = photons.cells.splits;  // no neighbours, but the same room

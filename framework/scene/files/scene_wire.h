@@ -18,9 +18,9 @@ concept SameButConst = std::is_same_v<std::remove_const_t<T>, Wanted>;
 template <SameButConst<Light> T>
 auto partsOf(T& light) {
     auto& [name, kind, position, direction, power, inner, outer, range, image, up, diameter,
-           emitter, band] = light;
+           emitter, band, radius] = light;
     return std::tie(name, kind, position, direction, power, inner, outer, range, image, up,
-                    diameter, emitter, band);
+                    diameter, emitter, band, radius);
 }
 
 template <SameButConst<Material> T>

@@ -17,13 +17,37 @@ mat2x3 basisAcross(vec3 unit) {
 struct Beam {
     mat2 place;  // m a cell, where the two rays are side by side
     mat2 turn;   // of the direction, rad a cell
+#ifdef LIGHT_SPREAD
+    // What light from two places on the edge of the disc that its light stands for has otherwise:
+    // as above, m and rad.
+    mat2 spreadPlace;
+    mat2 spreadTurn;
+#endif
 };
 
+// Of light from a point.
+Beam beamFromPoint(mat2 place, mat2 turn) {
+#ifdef LIGHT_SPREAD
+    return Beam(place, turn, mat2(0.0), mat2(0.0));
+#else
+    return Beam(place, turn);
+#endif
+}
+
 Beam unpackBeam(vec4 place, vec4 turn) {
-    return Beam(mat2(place.xy, place.zw), mat2(turn.xy, turn.zw));
+    return beamFromPoint(mat2(place.xy, place.zw), mat2(turn.xy, turn.zw));
 }
 vec4 beamPlaceTexel(Beam beam) { return vec4(beam.place[0], beam.place[1]); }
 vec4 beamTurnTexel(Beam beam) { return vec4(beam.turn[0], beam.turn[1]); }
+
+#ifdef LIGHT_SPREAD
+// What the disc does, in the place of what the cell does.
+Beam spreadOf(Beam beam) { return beamFromPoint(beam.spreadPlace, beam.spreadTurn); }
+
+Beam withSpreadOf(Beam beam, Beam other) {
+    return Beam(beam.place, beam.turn, other.spreadPlace, other.spreadTurn);
+}
+#endif
 
 // As three numbers; none where a normal or a position was no number.
 vec3 shapeOfForm(mat2 form) {
@@ -67,11 +91,9 @@ mat2x3 beamOnPlane(Beam beam, vec3 direction, float distance, vec3 normal, float
     return beamOnPlane(beam, direction, distance, normal, minSlant, farther);
 }
 
-// The beam of a photon that leaves the surface that it has hit. `before`, `after`: its directions,
-// unit; `normal`: unit, either side; `shape`: its turning; `eta`: index before over index beyond, or
-// 0 where it is reflected. Bounded where light leaves at the critical angle.
-Beam propagatedBeam(Beam beam, vec3 before, float distance, vec3 normal, vec3 shape, vec3 after,
-                float eta) {
+// One pair of a beam's vectors through one surface (propagatedBeam).
+Beam propagatedPair(Beam beam, vec3 before, float distance, vec3 normal, vec3 shape, vec3 after,
+                    float eta) {
     mat2x3 places = beamOnPlane(beam, before, distance, normal, kMinBeamSlant);
     mat2x3 turns = basisAcross(before) * beam.turn;
     mat2x3 tangents = basisAcross(normal);
@@ -89,5 +111,19 @@ Beam propagatedBeam(Beam beam, vec3 before, float distance, vec3 normal, vec3 sh
         turned = eta * turns - kept * normals - outerProduct(normal, kepts);
     }
     mat2x3 across = basisAcross(after);
-    return Beam(transpose(across) * places, transpose(across) * turned);
+    return beamFromPoint(transpose(across) * places, transpose(across) * turned);
+}
+
+// The beam of a photon that leaves the surface that it has hit. `before`, `after`: its directions,
+// unit; `normal`: unit, either side; `shape`: its turning; `eta`: index before over index beyond, or
+// 0 where it is reflected. Bounded where light leaves at the critical angle.
+Beam propagatedBeam(Beam beam, vec3 before, float distance, vec3 normal, vec3 shape, vec3 after,
+                    float eta) {
+    Beam onward = propagatedPair(beam, before, distance, normal, shape, after, eta);
+#ifdef LIGHT_SPREAD
+    Beam spread = propagatedPair(spreadOf(beam), before, distance, normal, shape, after, eta);
+    onward.spreadPlace = spread.place;
+    onward.spreadTurn = spread.turn;
+#endif
+    return onward;
 }

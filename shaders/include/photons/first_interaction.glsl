@@ -11,7 +11,7 @@ void sendNothing(uint slot, Photon photon, PhotonOrigin origin) {
     photon.fluxWatts = vec3(0.0);
     storeNext(slot, photon, origin);
 #ifdef PHOTON_BEAMS
-    storeNextBeam(slot, Beam(mat2(0.0), mat2(0.0)));
+    storeNextBeam(slot, beamFromPoint(mat2(0.0), mat2(0.0)));
 #endif
 }
 

@@ -25,9 +25,21 @@ Photon photonAt(ivec2 texel) {
 #ifdef PHOTON_BEAMS
 uniform sampler2D photonBeamPlace;
 uniform sampler2D photonBeamTurn;
+#ifdef LIGHT_SPREAD
+uniform sampler2D photonSpreadPlace;
+uniform sampler2D photonSpreadTurn;
+#endif
 
 Beam beamAt(ivec2 texel) {
-    return unpackBeam(texelFetch(photonBeamPlace, texel, 0), texelFetch(photonBeamTurn, texel, 0));
+    Beam beam =
+        unpackBeam(texelFetch(photonBeamPlace, texel, 0), texelFetch(photonBeamTurn, texel, 0));
+#ifdef LIGHT_SPREAD
+    Beam spread = unpackBeam(texelFetch(photonSpreadPlace, texel, 0),
+                             texelFetch(photonSpreadTurn, texel, 0));
+    beam.spreadPlace = spread.place;
+    beam.spreadTurn = spread.turn;
+#endif
+    return beam;
 }
 #endif
 

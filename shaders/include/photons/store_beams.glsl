@@ -6,10 +6,18 @@
 
 layout(rgba32f) writeonly uniform image2D nextBeamPlace;
 layout(rgba32f) writeonly uniform image2D nextBeamTurn;
+#ifdef LIGHT_SPREAD
+layout(rgba32f) writeonly uniform image2D nextSpreadPlace;
+layout(rgba32f) writeonly uniform image2D nextSpreadTurn;
+#endif
 
 void storeNextBeam(uint slot, Beam beam) {
     ivec2 texel = ivec2(photonTexel(nextPhotons, slot));
     imageStore(nextBeamPlace, texel, beamPlaceTexel(beam));
     imageStore(nextBeamTurn, texel, beamTurnTexel(beam));
+#ifdef LIGHT_SPREAD
+    imageStore(nextSpreadPlace, texel, beamPlaceTexel(spreadOf(beam)));
+    imageStore(nextSpreadTurn, texel, beamTurnTexel(spreadOf(beam)));
+#endif
 }
 #endif
