@@ -27,7 +27,9 @@ import time
 import tomllib
 
 from sources import Tree
+from study import device_of
 from table import rounded
+from views import PageError, printed, recorded_of, rows_of
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PLOTTING = ROOT / "experiments/plotting"
@@ -41,6 +43,7 @@ TABLE = {
     "defaults": "defaults.csv",
     "dispersion": "dispersion/runs.csv",
     "lamps": "lamps/runs.csv",
+    "krueger2006_refracted_scene": "krueger2006/refracted_scene.csv",
     "normal_maps": "normal_maps/runs.csv",
     "vertices_and_gather": "vertices_and_gather.csv",
     "wyman2008_interpolants": "wyman2008/interpolants.csv",
@@ -75,6 +78,10 @@ REPORTS = {"exact_rays": "exact_rays/errors.csv"}
 STUDIES = {**TABLE, **PARTS, **REPORTS, **RUNS}
 # Of a device that this machine may not have: their commands say how its rows come to stand next to others'. Only tried here, never run.
 DEVICE = {"device_errors": "device/errors.csv", "device_times": "device/times.csv", "exact_rays_times": "exact_rays/times.csv"}
+
+# Their tables need reports or pictures too: where their CSVs are not enough, they are kept as printed, next to them.
+PRINTED = ("umenhoffer2008_grazing", "umenhoffer2008_merge", "umenhoffer2008_reach", "wyman2008_ringing", "wyman2008_times",
+           *(f"wyman_nichols2009_{name}" for name in ("batches", "cascades", "deferred", "photons", "starts", "times")))
 
 SOURCES = "sources.json"  # in a study's folder of results: the key of each run's sources
 SMALL = {"size": "64x48", "frames": 1, "warmup": 0, "reference_photons": 65536, "emit.photons": "32x32",
@@ -177,6 +184,26 @@ def csv_of(results: pathlib.Path, study: str, target: pathlib.Path) -> None:
         write_slim(results / "runs.csv", target)
 
 
+def record(results: pathlib.Path, study: str, target: pathlib.Path) -> None:
+    """Where a study's CSV is not enough for its table, keeps that as its program prints it of the study's folder. What was kept of an older version goes."""
+    kept, program = pathlib.Path(recorded_of(str(target))), f"{target.parent.name}.py"
+    kept.unlink(missing_ok=True)
+    if study not in PRINTED:
+        return
+    try:
+        printed(program, target.stem, target)
+    except PageError:
+        with (results / "runs.csv").open(newline="") as stream:
+            runs = [row for row in csv.DictReader(stream) if row["status"] == "done"]
+        of_runs = {"command": f"experiments/rebuild_results.sh {study}", "version": runs[0]["version"], "device": device_of(runs[0]),
+                   "seed": runs[0].get("seed", ""), "date": max(row.get("date", "") for row in runs)[:10]}
+        rows = [{**{key: cell for key, cell in row.items() if key != "under"}, **of_runs} for row in rows_of(printed(program, target.stem, results))]
+        with kept.open("w", newline="", encoding="utf-8") as stream:
+            writer = csv.DictWriter(stream, rows[0], lineterminator="\n")
+            writer.writeheader()
+            writer.writerows(rows)
+
+
 def quick(kaustik: pathlib.Path, out: pathlib.Path, studies: list[str]) -> list[str]:
     failures = []
     for study in studies:
@@ -222,13 +249,14 @@ def rebuild(kaustik: pathlib.Path, out: pathlib.Path, shard: str | None, anew: b
             continue
         try:
             csv_of(out / study, study, ROOT / "results" / STUDIES[study])
+            record(out / study, study, ROOT / "results" / STUDIES[study])
             if study in ("all_techniques", "best_mixtures"):
                 compare_with_light_tracer(kaustik)
             if study == "best_mixtures_choice":
                 call(sys.executable, "-B", PLOTTING / "best_mixtures.py", ROOT / "results" / STUDIES[study],
                      "--study", ROOT / "experiments/best_mixtures.toml")
             print(f"{study}: results/{STUDIES[study]}", flush=True)
-        except Failure as failure:
+        except (Failure, PageError) as failure:
             failures.append(f"{study}: {failure}")
     try:
         if not shard:
