@@ -4,7 +4,7 @@
     <!-- = FILE [TABLE]: WHAT FORMAT; WHERE [/ WHERE] [by KEY, ...] -->0.0123<!-- / -->
 
 FILE is a CSV below results/ or a page there (its tables' rows; `under` is a row's heading); with TABLE, what the program of the CSV's folder prints of it
-(views.py). WHERE are conditions `column=value` between commas, values of one column between `|`; what has commas itself stands in quotes; `-` is all rows.
+(views.py). WHERE are conditions `column=value` between commas, alternatives of one column between ` or ` (a bar would end a table's cell); what has commas itself stands in quotes; `-` is all rows.
 WHAT is a column, or a sum, difference, product or quotient of `{column}`s; `{column}[2]` is the second number of a cell that has several, as `0.72 (0.68 to
 0.77)`; `{column}'` is of the row of the second WHERE, which is one row or, by KEY, the one whose KEY is the same. Before it may stand min, max, median, sum,
 count (of rows) or range (`0.68 to 0.77`, of the least and the largest), where several rows fit; without one of these only one row may.
@@ -17,7 +17,7 @@ import pathlib
 import re
 import statistics
 
-from views import PageError, chosen, column, plain, view
+from views import PageError, column, plain, view
 
 NUMBER = re.compile(r"<!-- = ([\w./-]+)(?: ([\w-]+))?: ([^;>]+?) (\S+); ([^>]*?) -->(.*?)<!-- / -->", re.S)
 CELL = re.compile(r"\{([^}]+)\}(?:\[(-?\d+)\])?('?)")
@@ -47,7 +47,7 @@ def numbers_in(cell: str) -> list[float]:
     found = []
     for text in IN_CELL.findall(plain(cell)):
         mantissa, _, exponent = text.replace(",", "").replace("−", "-").partition("·10")
-        found.append(float(mantissa) * 10.0 ** int(exponent.translate(SUPERSCRIPT) or 0))
+        found.append(float(f"{mantissa}e{exponent.translate(SUPERSCRIPT)}" if exponent else mantissa))
     return found
 
 
@@ -84,17 +84,26 @@ def conditions_of(text: str) -> dict[str, list[str]]:
         match = re.fullmatch(r'\s*(?:"([^"]*)"|([^=]+?))=(.*)', part, re.S)
         if not match:
             raise PageError(f"'{part.strip()}' is not column=value")
-        settings[match[1] or match[2]] = [value.strip().strip('"') for value in match[3].split("|")]
+        settings[match[1] or match[2]] = [value.strip().strip('"') for value in re.split(" or ", match[3])]
     return settings
 
 
-def fitting(rows: tuple[dict, ...], text: str) -> list[dict]:
+def columns_of(what: str) -> set[str]:
+    """Those that a quantity is made of, of either row."""
+    if "{" in what:
+        return {name for name, _, _ in CELL.findall(what)}
+    first, _, rest = what.partition(" ")
+    return {rest if first == "range" or first in REDUCE else what} - {"count"}
+
+
+def fitting(rows: tuple[dict, ...], what: str, text: str) -> list[dict]:
     settings = conditions_of(text)
-    if rows and rows[0].keys() >= {"under"}:  # of tables with other columns each
-        rows = tuple(row for row in rows if row.keys() >= settings.keys())
+    if rows and "under" in rows[0]:  # of tables with other columns each
+        needed = settings.keys() | columns_of(what)
+        rows = tuple(row for row in rows if row.keys() >= needed)
         if not rows:
-            raise PageError(f"no table has the columns {', '.join(settings)}")
-    found = chosen(rows, settings)
+            raise PageError(f"no table has the columns {', '.join(sorted(needed))}")
+    found = [row for row in rows if all(plain(column(row, key)) in values for key, values in settings.items())]
     if not found:
         raise NoRow(f"no row has {text}")
     return found
@@ -109,14 +118,14 @@ def value_of(what: str, row: dict, other: dict | None) -> float:
     return calculated(CELL.sub(cell, what) if "{" in what else repr(number_of(row, what, 1)))
 
 
-def pairs_of(rows: tuple[dict, ...], where: str) -> list[tuple[dict, dict | None]]:
+def pairs_of(rows: tuple[dict, ...], what: str, where: str) -> list[tuple[dict, dict | None]]:
     """The rows that fit the first condition, each with the one of the second that it is compared with."""
     where, _, keys = where.partition(" by ")
     first, divided, second = where.partition(" / ")
-    found = fitting(rows, first)
+    found = fitting(rows, what, first)
     if not divided:
         return [(row, None) for row in found]
-    others = fitting(rows, second)
+    others = fitting(rows, what, second)
     if not keys:
         if len(others) > 1:
             raise PageError(f"{len(others)} rows have {second}: 'by KEY' says which belongs to which")
@@ -130,7 +139,7 @@ def text_of(match: re.Match, results: pathlib.Path) -> str:
     file, table, what, style, where, _ = match.groups()
     rows = view(results, file, table or "")
     if not table and not file.endswith(".md") and "{" not in what and rows and what in rows[0]:  # a cell as it stands, words too
-        found = fitting(rows, where)
+        found = fitting(rows, what, where)
         if len(found) > 1:
             raise PageError(f"{len(found)} rows have {where}")
         if found[0].get("status", "done") != "done":
@@ -140,10 +149,10 @@ def text_of(match: re.Match, results: pathlib.Path) -> str:
     first, _, rest = what.partition(" ")
     if what == "count":
         try:
-            return formatted(str(len(pairs_of(rows, where))), style)
+            return formatted(str(len(pairs_of(rows, what, where))), style)
         except NoRow:
             return formatted("0", style)
-    pairs = pairs_of(rows, where)
+    pairs = pairs_of(rows, what, where)
     if first != "range" and first not in REDUCE:
         if len(pairs) > 1:
             raise PageError(f"{len(pairs)} rows have {where}; say min, max, median, sum, count or range")

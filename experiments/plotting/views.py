@@ -104,11 +104,14 @@ def view(results: pathlib.Path, file: str, table: str = "") -> tuple[dict, ...]:
         return tuple(rows_of((results / file).read_text()))
     if not table:
         return runs(results / file)
+    # A program of its own, or a table of the one of the folder's name.
+    own = (PLOTTING / f"{table}.py").is_file()
+    program, arguments = (f"{table}.py", "") if own else (f"{pathlib.PurePath(file).parts[0]}.py", table)
     try:
         if not (results / file).is_file():
             raise PageError(f"there is no '{file}'")
-        return tuple(rows_of(printed(f"{pathlib.PurePath(file).parts[0]}.py", table, results / file)))
+        return tuple(rows_of(printed(program, arguments, results / file)))
     except PageError:
         if not (results / recorded_of(file)).is_file():
             raise
-        return runs(results / recorded_of(file))
+        return tuple({key: plain(cell) for key, cell in row.items()} for row in runs(results / recorded_of(file)))

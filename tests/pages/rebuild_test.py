@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: MIT
+"""What rebuild.py keeps of a table that its study's CSV is not enough for."""
+
+import csv
+import pathlib
+import sys
+import tempfile
+import unittest
+from unittest import mock
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "experiments/plotting"))
+
+import rebuild  # noqa: E402
+from views import PageError  # noqa: E402
+
+RUNS = "status,version,device,cpu,threads,seed,date\ndone,2,a,c,4,7,2026-11-27T10:00:00Z\nfailed,,,,,,\n"
+
+
+class Recorded(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.study = pathlib.Path(folder.name) / "study"
+        self.target = pathlib.Path(folder.name) / "wyman2008/ringing.csv"
+        for made in (self.study, self.target.parent):
+            made.mkdir()
+        (self.study / "runs.csv").write_text(RUNS)
+        self.kept = self.target.with_name("ringing_recorded.csv")
+        self.kept.write_text("splats\nold\n")
+
+    def test_tables_that_need_the_pictures_are_kept_as_printed_of_the_studys_folder(self):
+        def printed(program, arguments, of):
+            self.assertEqual((program, arguments), ("wyman2008.py", "ringing"))
+            if of != self.study:
+                raise PageError("it has no pictures")
+            return "| splats | RMS |\n| --- | --- |\n| `fixed` | 6.97 |\n"
+
+        with mock.patch.object(rebuild, "printed", printed):
+            rebuild.record(self.study, "wyman2008_ringing", self.target)
+        with self.kept.open(newline="") as stream:
+            self.assertEqual(list(csv.DictReader(stream)), [
+                {"splats": "fixed", "RMS": "6.97", "command": "experiments/rebuild_results.sh wyman2008_ringing", "version": "2", "device": "a, c, 4 threads",
+                 "seed": "7", "date": "2026-11-27"}])
+
+    def test_tables_that_the_new_csv_can_make_are_kept_no_longer(self):
+        with mock.patch.object(rebuild, "printed", lambda *_: ""):
+            rebuild.record(self.study, "wyman2008_ringing", self.target)
+        self.assertFalse(self.kept.exists())
+
+    def test_every_study_names_a_file_and_every_file_one_study(self):
+        self.assertEqual(len(set(rebuild.STUDIES.values())), len(rebuild.STUDIES))
+        for study in {*rebuild.STUDIES, *rebuild.DEVICE}:
+            self.assertTrue((ROOT / f"experiments/{study}.toml").is_file(), study)
+        self.assertLessEqual(set(rebuild.PRINTED), set(rebuild.RUNS))
+
+
+if __name__ == "__main__":
+    unittest.main()
