@@ -252,14 +252,15 @@ def broken_links(page: pathlib.Path, text: str) -> list[tuple[int, str]]:
 
 def remade(page: pathlib.Path, results: pathlib.Path) -> str:
     """The page as the CSVs say it is."""
-    text = page.read_text()
+    text, problems = page.read_text(), []
 
     def at(match: re.Match, make):
         try:
             return make(match)
         except (PageError, tomllib.TOMLDecodeError, ValueError) as error:
             line = match.string.count("\n", 0, match.start()) + 1
-            raise PageError(f"{page}:{line}: {error}") from error
+            problems.append(f"{page}:{line}: {error}")
+            return match[0]
 
     def new_table(match):
         return f"<!-- table\n{match[1]}-->\n{table(tomllib.loads(match[1]), results)}<!-- end -->"
@@ -271,7 +272,10 @@ def remade(page: pathlib.Path, results: pathlib.Path) -> str:
     if text.count("<!-- table\n") != len(TABLE.findall(text)):
         raise PageError(f"{page}: a table is not ended by a line '<!-- end -->'")
     with_tables = TABLE.sub(lambda match: at(match, new_table), text)
-    return NUMBER.sub(lambda match: at(match, new_number), with_tables)
+    with_numbers = NUMBER.sub(lambda match: at(match, new_number), with_tables)
+    if problems:
+        raise PageError("\npages: ".join(problems))
+    return with_numbers
 
 
 def main() -> int:

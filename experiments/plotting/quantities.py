@@ -4,7 +4,7 @@
     <!-- = FILE [TABLE]: WHAT FORMAT; WHERE [/ WHERE] [by KEY, ...] -->0.0123<!-- / -->
 
 FILE is a CSV below results/ or a page there (its tables' rows; `under` is a row's heading); with TABLE, what the program of the CSV's folder prints of it
-(views.py). WHERE are conditions `column=value` between commas, alternatives of one column between ` or ` (a bar would end a table's cell); what has commas itself stands in quotes; `-` is all rows.
+(views.py). WHERE are conditions `column=value`, `column!=value`, `column above 3` or `column below 3` between commas, alternatives of one column between ` or ` (a bar would end a table's cell); what has commas itself stands in quotes; `-` is all rows.
 WHAT is a column, or a sum, difference, product or quotient of `{column}`s; `{column}[2]` is the second number of a cell that has several, as `0.72 (0.68 to
 0.77)`; `{column}'` is of the row of the second WHERE, which is one row or, by KEY, the one whose KEY is the same. Before it may stand min, max, median, sum,
 count (of rows) or range (`0.68 to 0.77`, of the least and the largest), where several rows fit; without one of these only one row may.
@@ -76,16 +76,25 @@ def calculated(expression: str) -> float:
         raise PageError(f"'{expression}': {error}") from error
 
 
-def conditions_of(text: str) -> dict[str, list[str]]:
-    settings: dict[str, list[str]] = {}
+def conditions_of(text: str) -> list[tuple[str, str, list[str]]]:
+    """Columns, how they are compared, and with what."""
+    conditions: list[tuple[str, str, list[str]]] = []
     if text.strip() in ("", "-"):
-        return settings
+        return conditions
     for part in re.findall(r'(?:"[^"]*"|[^,"])+', text):
-        match = re.fullmatch(r'\s*(?:"([^"]*)"|([^=]+?))=(.*)', part, re.S)
+        match = re.fullmatch(r'\s*(?:"([^"]*)"|([^=]+?))(!?=| above | below )(.*)', part, re.S)
         if not match:
             raise PageError(f"'{part.strip()}' is not column=value")
-        settings[match[1] or match[2]] = [value.strip().strip('"') for value in re.split(" or ", match[3])]
-    return settings
+        conditions.append((match[1] or match[2], match[3].strip(), [value.strip().strip('"') for value in re.split(" or ", match[4])]))
+    return conditions
+
+
+def has(row: dict, key: str, comparison: str, values: list[str]) -> bool:
+    cell = plain(column(row, key))
+    if comparison in ("=", "!="):
+        return (cell in values) == (comparison == "=")
+    found = numbers_in(cell)
+    return bool(found) and (found[0] > float(values[0]) if comparison == "above" else found[0] < float(values[0]))
 
 
 def columns_of(what: str) -> set[str]:
@@ -97,13 +106,13 @@ def columns_of(what: str) -> set[str]:
 
 
 def fitting(rows: tuple[dict, ...], what: str, text: str) -> list[dict]:
-    settings = conditions_of(text)
+    conditions = conditions_of(text)
     if rows and "under" in rows[0]:  # of tables with other columns each
-        needed = settings.keys() | columns_of(what)
+        needed = {key for key, _, _ in conditions} | columns_of(what)
         rows = tuple(row for row in rows if row.keys() >= needed)
         if not rows:
             raise PageError(f"no table has the columns {', '.join(sorted(needed))}")
-    found = [row for row in rows if all(plain(column(row, key)) in values for key, values in settings.items())]
+    found = [row for row in rows if all(has(row, *condition) for condition in conditions)]
     if not found:
         raise NoRow(f"no row has {text}")
     return found
@@ -118,10 +127,16 @@ def value_of(what: str, row: dict, other: dict | None) -> float:
     return calculated(CELL.sub(cell, what) if "{" in what else repr(number_of(row, what, 1)))
 
 
+def divided_at(word: str, text: str) -> tuple[str, str, str]:
+    """As partition does, but not within quotes."""
+    match = re.match(rf'((?:"[^"]*"|[^"])*?)({re.escape(word)})(.*)', text, re.S)
+    return (match[1], match[2], match[3]) if match else (text, "", "")
+
+
 def pairs_of(rows: tuple[dict, ...], what: str, where: str) -> list[tuple[dict, dict | None]]:
     """The rows that fit the first condition, each with the one of the second that it is compared with."""
-    where, _, keys = where.partition(" by ")
-    first, divided, second = where.partition(" / ")
+    where, _, keys = divided_at(" by ", where)
+    first, divided, second = divided_at(" / ", where)
     found = fitting(rows, what, first)
     if not divided:
         return [(row, None) for row in found]
@@ -130,8 +145,9 @@ def pairs_of(rows: tuple[dict, ...], what: str, where: str) -> list[tuple[dict, 
         if len(others) > 1:
             raise PageError(f"{len(others)} rows have {second}: 'by KEY' says which belongs to which")
         return [(row, others[0]) for row in found]
-    by_key = {tuple(column(row, key.strip()) for key in keys.split(",")): row for row in others}
-    pairs = [(row, by_key.get(tuple(column(row, key.strip()) for key in keys.split(",")))) for row in found]
+    names = [(quoted or bare).strip() for quoted, bare in re.findall(r'"([^"]*)"|([^,"]+)', keys) if quoted or bare.strip()]
+    by_key = {tuple(column(row, name) for name in names): row for row in others}
+    pairs = [(row, by_key.get(tuple(column(row, name) for name in names))) for row in found]
     return [pair for pair in pairs if pair[1] is not None]
 
 
@@ -161,7 +177,10 @@ def text_of(match: re.Match, results: pathlib.Path) -> str:
         return formatted(repr(value_of(what, *pairs[0])), style)
     if not pairs:
         raise PageError(f"no row of the first condition has one of the second: {where}")
-    values = [value_of(rest, *pair) for pair in pairs]
+    # What has no figure in a row is in no range.
+    values = [value_of(rest, *pair) for pair in pairs if all(plain(column(row, name)) not in ("", "–") for row in pair if row for name in columns_of(what))]
+    if not values:
+        raise PageError(f"no row with {where} has a number of '{rest}'")
     if first != "range":
         return formatted(repr(REDUCE[first](values)), style)
     low, high = formatted(repr(min(values)), style), formatted(repr(max(values)), style)

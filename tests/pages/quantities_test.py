@@ -60,6 +60,8 @@ class Quantities(unittest.TestCase):
         self.assertEqual(self.text("runs.csv: sum ms, all .0f; -"), "370")
         self.assertEqual(self.text("runs.csv: count .0f; by=lines"), "2")
         self.assertEqual(self.text("runs.csv: count .0f; by=none"), "0")
+        self.assertEqual(self.text('runs.csv: count .0f; "ms, all" above 45, "ms, all" below 100, scene!=none'), "2")
+        self.assertEqual(self.text("runs.csv: range ms, all .0f; scene!=pool or none"), "30 to 90")
 
     def test_compare_rows(self):
         self.assertEqual(self.text("runs.csv: {ms, all} / {ms, all}' .1f; scene=pool, by=lines / scene=pool, by=march"), "4.0")
