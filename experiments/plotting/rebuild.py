@@ -2,14 +2,15 @@
 # SPDX-License-Identifier: MIT
 """Runs studies and makes of them what stands in results/.
 
-    rebuild.py [--kaustik build/release/bin/kaustik] [--out results/runs/experiments] [--anew] [--shard K/N] [STUDY...]
+    rebuild.py [--kaustik build/release/bin/kaustik] [--out results/runs/experiments] [--anew] [--shard K/N] [--only KEY=VALUE]... [STUDY...]
     rebuild.py --list
     rebuild.py --stale [--out results/runs/experiments] [STUDY...]
     rebuild.py --quick [--out DIR] [STUDY...]
 
 Each study is run into OUT/STUDY, where what is finished stays (`--resume`), its CSV is written to results/, and then all pages are filled from
 the CSVs (pages.py). Each row has the key of the sources that it was made by (sources.py), as far as that is known; --stale says how many runs of a study are of
-other sources than the tree's, and --anew makes those again, and no others. A study of which runs have failed keeps them as rows with their message. With --shard
+other sources than the tree's, and --anew makes those again, and no others. A study of which runs have failed keeps them as rows with their message. With --only
+those runs alone are made that have these values of what the study varies (`kaustik experiment run --only`), and the CSV keeps its rows of all others. With --shard
 only the K-th of N equal parts is run and nothing is written to results/; when all are done, run without.
 --quick makes the plan of each study, runs its first run with few photons and pixels, makes its CSV in DIR, and checks the pages: whether the commands
 of results/ still work, in minutes. Ends with 1 where something does not.
@@ -28,7 +29,7 @@ import tomllib
 
 from sources import Tree
 from study import device_of
-from table import rounded
+from table import rounded, rows_of_others
 from views import PageError, printed, recorded_of, rows_of
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -157,23 +158,33 @@ def forget_stale(results: pathlib.Path, tree: Tree) -> None:
         print(f"{results.name}: {len(folders)} runs of other sources are made anew", flush=True)
 
 
-def write_slim(runs: pathlib.Path, target: pathlib.Path) -> None:
-    """As it is, but for the constants of the errors' formulas, with six digits a number: what is committed has to be small."""
+def write_slim(runs: pathlib.Path, target: pathlib.Path, keep: bool) -> None:
+    """As it is, but for the constants of the errors' formulas, with six digits a number: what is committed has to be small. `keep`: with the rows that the
+    file has of other runs."""
     csv.field_size_limit(sys.maxsize)
     with runs.open(newline="") as stream:
         reader = csv.DictReader(stream)
         rows = list(reader)
-    columns = [name for name in reader.fieldnames if ".formulas." not in name]
+    columns, kept = [name for name in reader.fieldnames if ".formulas." not in name], []
+    if keep and target.is_file():
+        with target.open(newline="", encoding="utf-8") as stream:
+            before = list(csv.DictReader(stream))
+        settings = columns[columns.index("message") + 1:columns.index("frame_ms.max")]
+        if missing := [key for key in settings if before and key not in before[0]]:
+            raise Failure(f"the rows of '{target}' do not say {missing[0]}, which tells runs apart")
+        kept = rows_of_others(before, rows, settings + ["repeat"])
+        columns += [name for name in (before[0] if before else {}) if name not in columns]
     with target.open("w", newline="", encoding="utf-8") as stream:
         writer = csv.writer(stream, lineterminator="\n")
         writer.writerow(columns)
-        writer.writerows([rounded(row[name]) for name in columns] for row in rows)
+        writer.writerows([rounded(row.get(name, "")) for name in columns] for row in rows)
+        writer.writerows([row.get(name, "") for name in columns] for row in kept)
 
 
-def csv_of(results: pathlib.Path, study: str, target: pathlib.Path) -> None:
+def csv_of(results: pathlib.Path, study: str, target: pathlib.Path, keep: bool = False) -> None:
     target.parent.mkdir(parents=True, exist_ok=True)
     if study in TABLE:
-        call(sys.executable, "-B", PLOTTING / "table.py", results, "--csv", target)
+        call(sys.executable, "-B", PLOTTING / "table.py", results, "--csv", target, *(["--keep"] if keep else []))
     elif study.startswith("exact_rays"):
         call(sys.executable, "-B", PLOTTING / "exact_rays.py", "slim", results, "--csv", target)
     elif study in DEVICE:
@@ -181,7 +192,7 @@ def csv_of(results: pathlib.Path, study: str, target: pathlib.Path) -> None:
     elif study in PARTS:
         call(sys.executable, "-B", PLOTTING / "error_parts.py", results, "--out", target.parent)
     else:
-        write_slim(results / "runs.csv", target)
+        write_slim(results / "runs.csv", target, keep)
 
 
 def record(results: pathlib.Path, study: str, target: pathlib.Path) -> None:
@@ -233,10 +244,11 @@ def compare_with_light_tracer(kaustik: pathlib.Path) -> None:
     call(sys.executable, "-B", PLOTTING / "speed_error.py")
 
 
-def rebuild(kaustik: pathlib.Path, out: pathlib.Path, shard: str | None, anew: bool, studies: list[str]) -> list[str]:
+def rebuild(kaustik: pathlib.Path, out: pathlib.Path, shard: str | None, anew: bool, only: list[str], studies: list[str]) -> list[str]:
     failures = []
     for study in studies:
         part, tree, begin = ["--shard", shard] if shard else [], Tree(), time.time()
+        part += [word for condition in only for word in ("--only", condition)]
         if anew:
             forget_stale(out / study, tree)
         try:
@@ -248,8 +260,9 @@ def rebuild(kaustik: pathlib.Path, out: pathlib.Path, shard: str | None, anew: b
         if shard or not (out / study / "runs.csv").is_file():
             continue
         try:
-            csv_of(out / study, study, ROOT / "results" / STUDIES[study])
-            record(out / study, study, ROOT / "results" / STUDIES[study])
+            csv_of(out / study, study, ROOT / "results" / STUDIES[study], bool(only))
+            if not only:  # of a part no whole table can be printed
+                record(out / study, study, ROOT / "results" / STUDIES[study])
             if study in ("all_techniques", "best_mixtures"):
                 compare_with_light_tracer(kaustik)
             if study == "best_mixtures_choice":
@@ -271,6 +284,7 @@ def main() -> int:
     parser.add_argument("--kaustik", type=pathlib.Path, default=ROOT / "build/release/bin/kaustik")
     parser.add_argument("--out", type=pathlib.Path)
     parser.add_argument("--shard")
+    parser.add_argument("--only", action="append", default=[], metavar="KEY=VALUE")
     parser.add_argument("--list", action="store_true")
     parser.add_argument("--stale", action="store_true")
     parser.add_argument("--anew", action="store_true")
@@ -296,12 +310,14 @@ def main() -> int:
             out.mkdir(parents=True, exist_ok=True)
             failures = quick(kaustik, out, arguments.studies or [*STUDIES, *DEVICE])
     else:
+        if arguments.only and (len(arguments.studies) != 1 or arguments.studies[0] in PARTS | REPORTS):
+            sys.exit("rebuild: --only is of one study, whose CSV has a row a run; name it")
         if arguments.anew and arguments.shard:
             sys.exit("rebuild: --anew with --shard would take from other shards what they have made")
         if kaustik.stat().st_mtime < Tree().newest_source():
             sys.exit(f"rebuild: '{kaustik}' is older than the sources; build it first")
         out = (arguments.out or ROOT / "results/runs/experiments").resolve()
-        failures = rebuild(kaustik, out, arguments.shard, arguments.anew, studies)
+        failures = rebuild(kaustik, out, arguments.shard, arguments.anew, arguments.only, studies)
     for failure in failures:
         print(f"rebuild: {failure}", file=sys.stderr)
     return 1 if failures else 0

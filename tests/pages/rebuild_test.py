@@ -55,5 +55,48 @@ class Recorded(unittest.TestCase):
         self.assertLessEqual(set(rebuild.PRINTED), set(rebuild.RUNS))
 
 
+ALL = """folder,hash,repeat,status,message,scene,trace,frame_ms.max,frame_ms.mean,frame_ms.median,frame_ms.stdev,photons.emitted,device,version
+1,1,1,done,,pool,lines,9,8,8,1,100,a,1
+2,2,1,done,,pool,march,9,8,8,1,200,a,1
+3,3,1,done,,ball,lines,9,8,8,1,300,a,1
+"""
+
+
+class Parts(unittest.TestCase):
+    """What --only leaves of a study's CSV."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.study = pathlib.Path(folder.name)
+        self.target = self.study / "kept.csv"
+        head, first, second, third = ALL.splitlines()
+        self.part = "\n".join([head, second.replace(",200,a,1", ",222,a,2")]) + "\n"
+
+    def rows(self):
+        with self.target.open(newline="") as stream:
+            return sorted((row["scene"], row["trace"], float(row.get("emitted") or row["photons.emitted"]), row["version"]) for row in csv.DictReader(stream))
+
+    def test_has_new_rows_for_those_that_were_made_and_the_old_ones_of_all_others(self):
+        for study in ("wyman2008_iterations", "wyman2008_times"):  # by table.py, and all of runs.csv
+            self.target.unlink(missing_ok=True)
+            (self.study / "runs.csv").write_text(ALL)
+            rebuild.csv_of(self.study, study, self.target)
+            self.assertEqual(len(self.rows()), 3, study)
+            (self.study / "runs.csv").write_text(self.part)
+            rebuild.csv_of(self.study, study, self.target, keep=True)
+            self.assertEqual(self.rows(), [("ball", "lines", 300.0, "1"), ("pool", "lines", 100.0, "1"), ("pool", "march", 222.0, "2")], study)
+            rebuild.csv_of(self.study, study, self.target, keep=True)
+            self.assertEqual(len(self.rows()), 3, study)
+
+    def test_is_not_mixed_where_rows_cannot_be_told_apart(self):
+        for study in ("wyman2008_iterations", "wyman2008_times"):
+            (self.study / "runs.csv").write_text(self.part.replace("trace", "tracer"))
+            self.target.write_text("scene,trace,status,message,version\npool,lines,done,,1\n")
+            with self.assertRaises(rebuild.Failure, msg=study) as raised:
+                rebuild.csv_of(self.study, study, self.target, keep=True)
+            self.assertIn("trace", str(raised.exception))
+
+
 if __name__ == "__main__":
     unittest.main()
