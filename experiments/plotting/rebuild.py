@@ -173,6 +173,9 @@ def write_slim(runs: pathlib.Path, target: pathlib.Path, keep: bool) -> None:
         if missing := [key for key in settings if before and key not in before[0]]:
             raise Failure(f"the rows of '{target}' do not say {missing[0]}, which tells runs apart")
         kept = rows_of_others(before, rows, settings + ["repeat"])
+        devices = {device_of(row) for row in [*kept, *rows] if row.get("status") == "done"}
+        if len(devices) > 1:  # its program compares times of all rows
+            raise Failure(f"'{target}' would have times of {len(devices)} models of devices, {' and '.join(sorted(devices))}; make it anew as a whole, without --only")
         columns += [name for name in (before[0] if before else {}) if name not in columns]
     with target.open("w", newline="", encoding="utf-8") as stream:
         writer = csv.writer(stream, lineterminator="\n")

@@ -97,6 +97,16 @@ class Parts(unittest.TestCase):
                 rebuild.csv_of(self.study, study, self.target, keep=True)
             self.assertIn("trace", str(raised.exception))
 
+    def test_is_not_mixed_of_devices_whose_times_a_program_compares(self):
+        (self.study / "runs.csv").write_text(ALL)
+        rebuild.csv_of(self.study, "wyman2008_times", self.target)
+        before = self.target.read_text()
+        (self.study / "runs.csv").write_text(self.part.replace(",a,2", ",b,2"))
+        with self.assertRaises(rebuild.Failure) as raised:
+            rebuild.csv_of(self.study, "wyman2008_times", self.target, keep=True)
+        self.assertIn("a and b", str(raised.exception))
+        self.assertEqual(self.target.read_text(), before)
+
 
 if __name__ == "__main__":
     unittest.main()
