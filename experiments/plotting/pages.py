@@ -37,17 +37,14 @@ import re
 import sys
 import tomllib
 
-from quantities import NUMBER, formatted, text_of
-from rebuild import STUDIES
+import studies
+from quantities import NUMBER, formatted, source_of, text_of
+from studies import anchor_of, command_of
 from views import PROVENANCE, PageError, cells_of, chosen, column, printed, recorded_of, runs
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-# What is made of other files than a study's runs here, by which file in experiments/.
-DERIVED = {"device/h100_errors.csv": "device_errors.toml", "device/h100_times.csv": "device_times.toml",
-           "wyman2008/lens_widths.csv": "plotting/lens_widths.py", "krueger2006/tiles.csv": "krueger2006_tiles.sh", "flicker/flicker.csv": "flicker.py",
-           **{f"all_techniques/{name}.csv": "plotting/speed_error.py" for name in ("answers", "costs", "equal_error", "in_time", "published", "summary", "to_error")}}
 # Pages that a program writes as a whole.
-WRITTEN = ("numerics.md", "gallery.md")
+WRITTEN = ("numerics.md", "gallery.md", studies.PAGE)
 TABLE = re.compile(r"^<!-- table\n(.*?)^-->\n(.*?)^<!-- end -->$", re.M | re.S)
 # So many processors are busy on an idle machine too.
 BUSY = 0.2
@@ -85,14 +82,6 @@ def shown(value: str) -> str:
 def devices_of(rows: list[dict]) -> list[str]:
     """A run that is not done may not say which."""
     return sorted({row["device"] for row in rows if row.get("device")})
-
-
-def command_of(file: str) -> str:
-    """The command that makes it."""
-    studies = [study for study, target in STUDIES.items() if target == file]
-    if not studies and file in DERIVED:
-        return f" by `experiments/{DERIVED[file]}`"
-    return f" by `experiments/rebuild_results.sh {studies[0]}`" if studies else ""
 
 
 def recorded(rows: list[dict], file: str, anew: str) -> str:
@@ -234,8 +223,7 @@ def typed_numbers(text: str) -> list[tuple[int, str]]:
 
 def anchors_of(page: pathlib.Path) -> set[str]:
     """As GitHub makes them of headings."""
-    heads = re.findall(r"^#+ (.*)$", page.read_text(), re.M)
-    return {re.sub(r"[^\w\- ]", "", re.sub(r"<!--.*?-->", "", head).lower()).strip().replace(" ", "-") for head in heads}
+    return {anchor_of(head) for head in re.findall(r"^#+ (.*)$", page.read_text(), re.M)}
 
 
 def broken_links(page: pathlib.Path, text: str) -> list[tuple[int, str]]:
@@ -267,7 +255,11 @@ def remade(page: pathlib.Path, results: pathlib.Path) -> str:
 
     def new_number(match):
         comment = match[0][:match[0].index("-->") + 3]
-        return f"{comment}{text_of(match, results)}<!-- / -->"
+        value, source = text_of(match, results), source_of(match, results)
+        # It leads to where its file's command stands, unless it is within a link already.
+        if match.string[match.start() - 1:match.start()] != "[" and (results / studies.PAGE).is_file():
+            value = f"[{value}]({source if source.endswith('.md') else f'{studies.PAGE}#{anchor_of(source)}'})"
+        return f"{comment}{value}<!-- / -->"
 
     if text.count("<!-- table\n") != len(TABLE.findall(text)):
         raise PageError(f"{page}: a table is not ended by a line '<!-- end -->'")
@@ -285,9 +277,13 @@ def main() -> int:
     parser.add_argument("pages", nargs="*", type=pathlib.Path)
     arguments = parser.parse_args()
     different, problems = [], 0
+    state = arguments.results / studies.PAGE
+    if state.is_file() and not arguments.check:
+        state.write_text(studies.page_of(arguments.results))
     for page in arguments.pages or sorted(arguments.results.glob("*.md")):
         try:
-            text, new = page.read_text(), remade(page, arguments.results)
+            text = page.read_text()
+            new = studies.page_of(arguments.results) if page == state else remade(page, arguments.results)
             wrong = [] if page.name in WRITTEN else [(line, f"a table outside of comments says {what}") for line, what in typed_numbers(text)]
             for line, what in wrong + broken_links(page, text):
                 print(f"pages: {page}:{line}: {what}", file=sys.stderr)
@@ -306,6 +302,8 @@ def main() -> int:
             if old != now:
                 print(f"{page}:{line}: stands there: {old}\n  the CSV says: {now}", file=sys.stderr)
                 break
+    if state.is_file() and not arguments.check:  # once more, of what the pages show now
+        state.write_text(studies.page_of(arguments.results))
     for page in different:
         print(f"{page} {'is not what its CSVs say' if arguments.check else 'is new'}")
     if problems:

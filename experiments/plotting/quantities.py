@@ -17,7 +17,7 @@ import pathlib
 import re
 import statistics
 
-from views import PageError, column, plain, view
+from views import PageError, column, is_recorded, plain, recorded_of, view
 
 NUMBER = re.compile(r"<!-- = ([\w./-]+)(?: ([\w-]+))?: ([^;>]+?) (\S+); ([^>]*?) -->(.*?)<!-- / -->", re.S)
 CELL = re.compile(r"\{([^}]+)\}(?:\[(-?\d+)\])?('?)")
@@ -149,6 +149,12 @@ def pairs_of(rows: tuple[dict, ...], what: str, where: str) -> list[tuple[dict, 
     by_key = {tuple(column(row, name) for name in names): row for row in others}
     pairs = [(row, by_key.get(tuple(column(row, name) for name in names))) for row in found]
     return [pair for pair in pairs if pair[1] is not None]
+
+
+def source_of(match: re.Match, results: pathlib.Path) -> str:
+    """The file that a quantity is of: where a table can't be made of its own, the recorded one."""
+    file, table = match[1], match[2] or ""
+    return recorded_of(file) if table and is_recorded(results, file, table) else file
 
 
 def text_of(match: re.Match, results: pathlib.Path) -> str:

@@ -158,7 +158,7 @@ def forget_stale(results: pathlib.Path, tree: Tree) -> None:
         print(f"{results.name}: {len(folders)} runs of other sources are made anew", flush=True)
 
 
-def write_slim(runs: pathlib.Path, target: pathlib.Path, keep: bool) -> None:
+def write_slim(runs: pathlib.Path, target: pathlib.Path, keep: bool = False) -> None:
     """As it is, but for the constants of the errors' formulas, with six digits a number: what is committed has to be small. `keep`: with the rows that the
     file has of other runs."""
     csv.field_size_limit(sys.maxsize)

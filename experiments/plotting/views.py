@@ -96,6 +96,28 @@ def rows_of(markdown: str) -> list[dict]:
 
 
 @functools.cache
+def printed_rows(results: pathlib.Path, file: str, table: str) -> tuple[dict, ...]:
+    """The rows of what a program of its own, or a table of the one of the folder's name, prints of a CSV."""
+    if not (results / file).is_file():
+        raise PageError(f"there is no '{file}'")
+    own = (PLOTTING / f"{table}.py").is_file()
+    program, arguments = (f"{table}.py", "") if own else (f"{pathlib.PurePath(file).parts[0]}.py", table)
+    return tuple(rows_of(printed(program, arguments, results / file)))
+
+
+@functools.cache
+def is_recorded(results: pathlib.Path, file: str, table: str) -> bool:
+    """Whether a table has to be taken as it once was printed."""
+    if not (results / recorded_of(file)).is_file():
+        return False
+    try:
+        printed_rows(results, file, table)
+        return False
+    except PageError:
+        return True
+
+
+@functools.cache
 def view(results: pathlib.Path, file: str, table: str = "") -> tuple[dict, ...]:
     """The rows of a CSV, of a page, or of `table`, which the program of the CSV's folder prints of it."""
     if file.endswith(".md"):
@@ -104,14 +126,6 @@ def view(results: pathlib.Path, file: str, table: str = "") -> tuple[dict, ...]:
         return tuple(rows_of((results / file).read_text()))
     if not table:
         return runs(results / file)
-    # A program of its own, or a table of the one of the folder's name.
-    own = (PLOTTING / f"{table}.py").is_file()
-    program, arguments = (f"{table}.py", "") if own else (f"{pathlib.PurePath(file).parts[0]}.py", table)
-    try:
-        if not (results / file).is_file():
-            raise PageError(f"there is no '{file}'")
-        return tuple(rows_of(printed(program, arguments, results / file)))
-    except PageError:
-        if not (results / recorded_of(file)).is_file():
-            raise
+    if is_recorded(results, file, table):
         return tuple({key: plain(cell) for key, cell in row.items()} for row in runs(results / recorded_of(file)))
+    return printed_rows(results, file, table)
