@@ -26,7 +26,7 @@ def sign(letter: str) -> str:
     """One letter; Greek ones by their names."""
     if letter in SIGNS:
         return SIGNS[letter]
-    match = re.fullmatch(r"GREEK (SMALL|CAPITAL) LETTER (\w+)", unicodedata.name(letter, ""))
+    match = re.fullmatch(r"GREEK (SMALL|CAPITAL) LETTER (\w+)", unicodedata.name(letter, "").replace("LAMDA", "LAMBDA"))
     return rf"$\{match[2].lower() if match[1] == 'SMALL' else match[2].capitalize()}$" if match else letter
 
 
