@@ -37,6 +37,7 @@ import re
 import sys
 import tomllib
 
+import drawings
 import studies
 from quantities import NUMBER, formatted, source_of, text_of
 from studies import anchor_of, command_of
@@ -304,6 +305,9 @@ def main() -> int:
                 break
     if state.is_file() and not arguments.check:  # once more, of what the pages show now
         state.write_text(studies.page_of(arguments.results))
+    for what in drawings.outdated(arguments.results) if not arguments.pages else ():
+        print(f"pages: {what}", file=sys.stderr)
+        problems += 1
     for page in different:
         print(f"{page} {'is not what its CSVs say' if arguments.check else 'is new'}")
     if problems:
