@@ -41,6 +41,7 @@ TABLE = {
     "all_techniques": "all_techniques/runs.csv",
     "best_mixtures_choice": "all_techniques/choice.csv",
     "best_mixtures": "all_techniques/best_mixtures.csv",
+    "bias": "bias/runs.csv",
     "defaults": "defaults.csv",
     "dispersion": "dispersion/runs.csv",
     "lamps": "lamps/runs.csv",
@@ -266,6 +267,8 @@ def rebuild(kaustik: pathlib.Path, out: pathlib.Path, shard: str | None, anew: b
             csv_of(out / study, study, ROOT / "results" / STUDIES[study], bool(only))
             if not only:  # of a part no whole table can be printed
                 record(out / study, study, ROOT / "results" / STUDIES[study])
+            if study == "bias":
+                call(sys.executable, "-B", PLOTTING / "bias.py", out / study, "--out", ROOT / "results/bias")
             if study in ("all_techniques", "best_mixtures"):
                 compare_with_light_tracer(kaustik)
             if study == "best_mixtures_choice":
