@@ -40,7 +40,7 @@ import tomllib
 import drawings
 import studies
 from quantities import NUMBER, formatted, source_of, text_of
-from studies import anchor_of, command_of
+from studies import anchor_of, command_of, seeds_of
 from views import PROVENANCE, PageError, cells_of, chosen, column, printed, recorded_of, runs
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -108,6 +108,7 @@ def of_which_runs(rows: list[dict], files: list[str]) -> str:
 
     parts = [f"{', '.join(f'[`{file}`]({file}){command_of(file)}' for file in files)}, {len(rows)} {'row' if len(rows) == 1 else 'rows'}",
              *(", ".join(filter(None, (version and f"version {version}", named(device)))) for version, device in kinds if version or device)]
+    parts += filter(None, dict.fromkeys(map(seeds_of, files)))
     dates = sorted({row["date"][:10] for row in rows if row.get("date")})
     if dates:
         parts.append(dates[0] if len(dates) == 1 else f"{dates[0]} to {dates[-1]}")

@@ -29,6 +29,19 @@ def command_of(file: str) -> str:
     return f" by `experiments/rebuild_results.sh {studies[0]}`" if studies else ""
 
 
+def seeds_of(file: str) -> str:
+    """`seed 1` where a study's runs have that, `seeds 1, 2`; nothing of what is no study's."""
+    study = next((study for study, target in STUDIES.items() if target == file), None)
+    if study is None:
+        return ""
+    described = tomllib.loads((ROOT / f"experiments/{study}.toml").read_text())
+    products = described.get("permute", {})
+    found = {seed for product in (products if isinstance(products, list) else [products]) for seed in values_of(product.get("seed", []))}
+    # Runs have seed 1 where nothing is said (framework/app/options.h).
+    found |= {described.get("base", {}).get("seed", 1)} if not found else set()
+    return ("seed " if len(found) == 1 else "seeds ") + ", ".join(map(str, sorted(found)))
+
+
 def anchor_of(heading: str) -> str:
     """As GitHub makes it."""
     return re.sub(r"[^\w\- ]", "", re.sub(r"<!--.*?-->", "", heading).lower()).strip().replace(" ", "-")
@@ -116,7 +129,7 @@ def section(results: pathlib.Path, file: str, shown: list[str]) -> str:
     if study:
         lines.append(f"- {state_of(study, rows)}")
     dates = [date[:10] for date in said(rows, "date")]
-    of = [*(f"version {version}" for version in said(rows, "version")), *said(rows, "device"), *(f"seed {seed}" for seed in said(rows, "seed")),
+    of = [*(f"version {version}" for version in said(rows, "version")), *said(rows, "device"), *([f"seed {seed}" for seed in said(rows, "seed")] or filter(None, [seeds_of(file)])),
           *([dates[0] if dates[0] == dates[-1] else f"{dates[0]} to {dates[-1]}"] if dates else ["of a day that was not kept"])]
     lines.append(f"- {'; '.join(of)}")
     if shown:
