@@ -28,7 +28,7 @@ struct RunnerOptions {
     std::optional<Shard> shard;     // does only this one's runs, and leaves tables to merge.h
     // Does only the runs of these hashes (selection.h); the tables keep what is there of the
     // others.
-    std::optional<std::set<std::string>> only;
+    std::optional<std::set<std::string>> only = std::nullopt;
 };
 
 struct RunnerHooks {
