@@ -26,6 +26,7 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parent / "plotting"))
+import drawings  # noqa: E402
 import kaustik  # noqa: E402
 from figures import COLORS, MARKERS, plt  # noqa: E402
 
@@ -99,7 +100,7 @@ def draw(rows: list[dict], file: Path) -> None:
     panels[0][0].set_ylabel("wrong change, by the truth's change")
     panels[0][-1].legend(fontsize=7, loc="center left", bbox_to_anchor=(1.0, 0.5), title="filled: default\nhollow: as published",
                          title_fontsize=7)
-    figure.savefig(file, bbox_inches="tight", metadata={"Date": None})
+    figure.savefig(file, bbox_inches="tight", metadata=drawings.metadata([file.with_name("flicker.csv")]))
     plt.close(figure)
 
 

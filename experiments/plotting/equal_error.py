@@ -4,21 +4,19 @@
 emission to reconstruction at which each reaches the error of another, interpolated between its own
 runs in the logarithms of both, with the error bars that one standard deviation of the times gives.
 
-    equal_error.py RESULTS [--base sprites] [--photons 256x256] [--against reconstruct]
+    equal_error.py RESULTS|CSV [--base sprites] [--photons 256x256] [--against reconstruct]
 
 Prints a table in Markdown. A curve that does not come down to the error, or is below it with its
 fewest photons already, is said to be beyond its range: its end is a bound, not a figure.
 """
 
 import argparse
-import csv
-import json
 import math
 import sys
 from collections import defaultdict
 from pathlib import Path
 
-from study import require_one_device
+from runs import runs_of
 
 STAGES = ("emit.", "specular.", "trace.", "reconstruct.")
 ERROR = "caustic_irradiance"
@@ -27,12 +25,14 @@ ERROR = "caustic_irradiance"
 class Run:
     """One run's cost, ms, and error."""
 
-    def __init__(self, folder: Path):
-        report = json.loads((folder / "report.json").read_text())
+    def __init__(self, report: dict):
         times = [p["gpu_ms"] for p in report["passes"]
                  if p.get("ran") and "gpu_ms" in p and p["name"].startswith(STAGES)]
         self.milliseconds = sum(time["median"] for time in times)
-        self.spread = math.sqrt(sum(time.get("stdev", 0.0) ** 2 for time in times))
+        if all("stdev" in time for time in times):
+            self.spread = math.sqrt(sum(time["stdev"] ** 2 for time in times))
+        else:  # a runs.csv has the whole frame's
+            self.spread = self.milliseconds * report["frame_ms"]["stdev"] / report["frame_ms"]["mean"]
         self.error = report["error"][ERROR]["rel_mse"]
 
 
@@ -58,23 +58,14 @@ def main() -> int:
     parser.add_argument("--against", default="reconstruct,reconstruct.beams.shape",
                         help="the settings that are compared, between commas")
     arguments = parser.parse_args()
-    table = arguments.results / "runs.csv"
-    if not table.is_file():
-        print(f"equal_error: '{table}' is not there; is '{arguments.results}' the results of "
-              "'kaustik experiment run'?", file=sys.stderr)
-        return 1
-    with table.open(newline="") as lines:
-        rows = list(csv.DictReader(lines))
-    require_one_device([row for row in rows if row.get("status") == "done"], arguments.results)
+    rows = runs_of(arguments.results)
     curves: dict = defaultdict(lambda: defaultdict(list))
     at_base = {}
     for row in rows:
-        if row.get("status") != "done":
-            continue
         scene = row["scene"]
         choices = [row.get(key) for key in arguments.against.split(",")]
         which = ", ".join(choice for choice in choices if choice)
-        run = Run(arguments.results / row["folder"])
+        run = Run(row["report"])
         curves[scene][which].append(run)
         if which == arguments.base and row["emit.photons"] == arguments.photons:
             at_base[scene] = run

@@ -28,6 +28,7 @@ from pathlib import Path
 
 import numpy as np
 
+import drawings
 from figures import COLORS, plt
 from pictures import find_image, read_image
 
@@ -150,7 +151,7 @@ def draw(table: list[dict], file: Path) -> None:
     rows[-1, 0].set_xticks(range(len(techniques)), techniques, rotation=30, ha="right", fontsize=8)
     handles = [plt.Rectangle((0, 0), 1, 1, color=color) for color in COLORS[:len(PARTS)]]
     rows[0][0].legend(handles, PARTS, loc="lower center", bbox_to_anchor=(0.5, 1.15), ncols=len(PARTS), fontsize=8, frameon=False)
-    figure.savefig(file, bbox_inches="tight", metadata={"Date": None})
+    figure.savefig(file, bbox_inches="tight", metadata=drawings.metadata([file.with_name("parts.csv")]))
     plt.close(figure)
 
 

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: MIT
 """Tables of the studies of screen-space photon tracing (experiments/krueger2006_*.toml), in Markdown.
 
-    krueger2006.py tracers|caustics|sprites|photons|shadows|refraction|needs RESULTS
+    krueger2006.py accuracy|tracers|caustics|sprites|photons|shadows|refraction|needs RESULTS
 
+accuracy:   what decides whether the lines find a photon's first hit (tracer_accuracy.toml), each setting varied by itself.
 tracers:    ms of the stage `trace`, pyramid included, and how many times as fast as lines that is.
 caustics:   the paper's Table 2: ms of caustics, of it tracing, sprites and the whole frame, by lines and by the default.
 sprites:    relMSE and RMSE by the splats' shape and kernel, against the modelled paths.
@@ -14,8 +15,9 @@ needs:      ms of a frame by what it went to, – where the scene does not need 
 """
 
 import argparse
+import statistics
 import sys
-from collections import defaultdict
+from collections import Counter, defaultdict
 from pathlib import Path
 
 from runs import error_of, head, line, ms_of, passes_of, print_table, runs_of, scene_of
@@ -37,6 +39,25 @@ def photons_of(row: dict) -> str:
 
 def by_photons(rows: list[dict]) -> list[str]:
     return sorted({photons_of(row) for row in rows}, key=lambda text: int(text.rstrip("²").split("×")[0]))
+
+
+SWEEPS = [("trace.epsilon", "epsilon of the paper's hit test, m", {"trace.test": "epsilon"}), ("trace.test", "hit test", {}), ("layers.count", "layers", {}),
+          ("trace.lines.width", "row width, texels", {}), ("emit.photons", "photons", {}), ("size", "size", {})]
+
+
+def accuracy(rows: list[dict]) -> None:
+    # What most runs have is what is not varied.
+    usual = {key: Counter(row[key] for row in rows).most_common(1)[0][0] for key, _, _ in SWEEPS}
+    print(head(["varied", "value", "agreement of visible photons", "relMSE", "frame, s", "lines + reduce, s"]))
+    for key, name, where in SWEEPS:
+        own = [row for row in rows if all(row[other] == where.get(other, usual[other]) for other, _, _ in SWEEPS if other != key)
+               and (key != "trace.test" or row["trace.epsilon"] == usual["trace.epsilon"])]
+        for value in sorted({row[key] for row in own}, key=lambda text: (len(text), text) if not text.startswith("0.") else (0, text)):
+            runs = [row["report"] for row in own if row[key] == value]
+            right = statistics.mean(run["hits"]["agreement_visible"] for run in runs)
+            error = statistics.mean(run["error"]["caustic_irradiance"]["rel_mse"] for run in runs)
+            print(line([name, f"`{value}`", f"{100 * right:.2f} %", f"{error:.3f}", f"{statistics.mean(run['frame_ms']['median'] for run in runs) / 1000:.2f}",
+                        f"{statistics.mean(ms_of(run, ('trace.lines', 'trace.reduce')) for run in runs) / 1000:.2f}"]))
 
 
 def tracers(rows: list[dict]) -> None:
@@ -128,7 +149,7 @@ def needs(rows: list[dict]) -> None:
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    tables = {f.__name__: f for f in (tracers, caustics, sprites, photons, shadows, refraction, needs)}
+    tables = {f.__name__: f for f in (accuracy, tracers, caustics, sprites, photons, shadows, refraction, needs)}
     parser.add_argument("table", choices=tables)
     parser.add_argument("results", type=Path)
     arguments = parser.parse_args()

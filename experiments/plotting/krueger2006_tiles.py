@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Counts of what each tile of the screen took (experiments/krueger2006_tiles.sh).
+"""Counts of what each tile of the screen took (experiments/krueger2006_tiles.sh), from its folder or from the tiles.csv that it has left.
 
 Reads the heads of the tiles' files, SCENE-TRACER-N.tiles/round-R-tile-K-of-N.hits, writes them to
 tiles.csv and prints, for each number of tiles, by how much the slowest tile has less to do than
@@ -58,7 +58,12 @@ def summary_of(rows):
     return work, len(rounds), sum(row["hit_bytes"] for row in rows)
 
 
-def main(out):
+def rows_of_csv(file):
+    with open(file, newline="", encoding="utf-8") as stream:
+        return [{key: int(text) if text.isdecimal() else text for key, text in row.items()} for row in csv.DictReader(stream)]
+
+
+def rows_of_folders(out):
     folders = [folder for folder in pathlib.Path(out).iterdir() if FOLDER.fullmatch(folder.name)]
     all_rows = sorted((row for folder in folders for row in rows_of(folder)),
                       key=lambda row: (row["scene"], row["tracer"], row["tiles"]))
@@ -66,15 +71,20 @@ def main(out):
         writer = csv.DictWriter(stream, all_rows[0].keys(), lineterminator="\n")
         writer.writeheader()
         writer.writerows(all_rows)
+    return all_rows
+
+
+def main(out):
+    all_rows = rows_of_csv(out) if pathlib.Path(out).is_file() else rows_of_folders(out)
     print("| scene | tracer | tiles | rounds | fragments, all | largest | steps, all | largest |"
-          " squares, all | largest | exchanged, MB |")
+          " squares, all | largest | hits exchanged, MB |")
     print("|---|---|" + "---:|" * 9)
     for scene, tracer in sorted({(row["scene"], row["tracer"]) for row in all_rows}):
         own = [row for row in all_rows if (row["scene"], row["tracer"]) == (scene, tracer)]
         whole = summary_of([row for row in own if row["tiles"] == 1])[0]
-        for tiles in sorted({row["tiles"] for row in own}):
+        for tiles in sorted({row["tiles"] for row in own} - {1}):
             work, rounds, size = summary_of([row for row in own if row["tiles"] == tiles])
-            cells = [scene, tracer, str(tiles), str(rounds)]
+            cells = [f"`{scene}`", f"`{tracer}`", str(tiles), str(rounds)]
             for name in ("fragments", "steps", "squares"):
                 total, slowest = work[name]
                 if whole[name][0] == 0:

@@ -19,7 +19,12 @@ Rewrites what stands between two comments of a page and leaves all else, which i
 
     relMSE of <!-- = traversal.csv: relMSE .3g; scene=pool, refine.finest=1024 -->0.0123<!-- / --> at 1024.
 
-A table that more is computed for has `by = "wyman2008.py error"` in place of rows and cells: what that program, which lies next to this one, prints of the file.
+More of such numbers in quantities.py. A table that more is computed for has `by = "wyman2008.py error"` in place of rows and cells: what that program, which lies next to this
+one, prints of the file. A table of `file` alone shows the CSV as it stands, but for what says where it is from; `words` are columns of names. Where a study's CSV
+cannot make its table, NAME_recorded.csv has it as it was (views.py).
+
+A table of numbers that stands outside of such comments is an error: nothing would say when it is no longer true. What is only quoted may be typed: before the table stands
+`<!-- typed: claim; section -->`, which names those columns. Links to other pages and their headings have to lead somewhere.
 
 Rows are sorted by their settings. A run that is not done has its status instead, a value that is not there "–". Runs of several devices have a row each, never one for all, and a column with the
 device's number. Under a table stand the version and the device of its runs, each where there are several, their dates, and how busy the machine was with other work while they were timed. --check writes nothing and ends with 1 where a page is not what the CSVs say. Ends with 2 where a page asks
@@ -27,61 +32,24 @@ for what is not there, with its line.
 """
 
 import argparse
-import csv
-import functools
 import pathlib
 import re
-import subprocess
 import sys
 import tomllib
 
-from rebuild import STUDIES
+import drawings
+import studies
+from quantities import NUMBER, formatted, source_of, text_of
+from studies import anchor_of, command_of, seeds_of
+from views import PROVENANCE, PageError, cells_of, chosen, column, printed, recorded_of, runs
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-# What is made of other files than a study's runs here, by which file in experiments/.
-DERIVED = {"device/h100_errors.csv": "device_errors.toml", "device/h100_times.csv": "device_times.toml",
-           "wyman2008/lens_widths.csv": "plotting/lens_widths.py", "flicker/flicker.csv": "flicker.py",
-           **{f"all_techniques/{name}.csv": "plotting/speed_error.py" for name in ("answers", "costs", "equal_error", "in_time", "published", "summary", "to_error")}}
+# Pages that a program writes as a whole.
+WRITTEN = ("numerics.md", "gallery.md", studies.PAGE)
 TABLE = re.compile(r"^<!-- table\n(.*?)^-->\n(.*?)^<!-- end -->$", re.M | re.S)
-NUMBER = re.compile(r"<!-- = ([\w./-]+): ([^;>]+?) (\S+); ([^>]*?) -->(.*?)<!-- / -->")
 # So many processors are busy on an idle machine too.
 BUSY = 0.2
-KEYS = {"file", "rows", "where", "across", "cells", "names", "by"}
-
-
-class PageError(Exception):
-    """What a page asks for and no CSV has."""
-
-
-@functools.cache
-def runs(file: pathlib.Path) -> tuple[dict, ...]:
-    if not file.is_file():
-        raise PageError(f"there is no '{file}'")
-    with file.open(newline="") as stream:
-        return tuple(csv.DictReader(stream))
-
-
-def column(row: dict, name: str) -> str:
-    if name not in row:
-        raise PageError(f"there is no column '{name}'; there are {', '.join(row)}")
-    return row[name]
-
-
-def chosen(rows: tuple[dict, ...], settings: dict) -> list[dict]:
-    return [row for row in rows
-            if all(column(row, key) in map(str, value if isinstance(value, list) else [value]) for key, value in settings.items())]
-
-
-def formatted(text: str, style: str) -> str:
-    """A cell's number as Python's format says; `.2%` of a share is a percentage with its sign apart; `s` is a word as it stands."""
-    if text in ("", "nan"):
-        return "–"
-    if style == "s":
-        return f"`{text}`"
-    number = float(text)
-    if style.endswith("%"):
-        return f"{100.0 * number:{style[:-1]}f} %"
-    return re.sub(r"e([+-])0?(\d)", r"e\1\2", f"{number:{style}}")
+KEYS = {"file", "rows", "where", "across", "cells", "names", "by", "columns", "words"}
 
 
 def cell(rows: list[dict], spec: str, names: dict) -> str:
@@ -117,12 +85,17 @@ def devices_of(rows: list[dict]) -> list[str]:
     return sorted({row["device"] for row in rows if row.get("device")})
 
 
-def command_of(file: str) -> str:
-    """The command that makes it."""
-    studies = [study for study, target in STUDIES.items() if target == file]
-    if not studies and file in DERIVED:
-        return f" by `experiments/{DERIVED[file]}`"
-    return f" by `experiments/rebuild_results.sh {studies[0]}`" if studies else ""
+def recorded(rows: list[dict], file: str, anew: str) -> str:
+    """What a table is of that was kept as it was printed, under it."""
+    def all_of(key: str) -> list[str]:
+        return sorted({row[key] for row in rows if row.get(key)})
+
+    # What rebuild.py keeps has the version alone; what was copied from a page has the commit at which it stood there.
+    is_current = not any("(" in version for version in all_of("version"))
+    parts = [f"[`{file}`]({file}), recorded {', '.join(all_of('date')) or 'earlier'}", *(f"version {version}" for version in all_of("version")), *all_of("device"),
+             *(f"seed {seed}" for seed in all_of("seed")), *(f"other work kept {load} processors busy" for load in all_of("other_processors")),
+             f"by {anew}" + ("" if is_current else ", which makes it anew: this is of an older version") if anew else "; ".join(f"by `{command}`" for command in all_of("command"))]
+    return "; ".join(filter(None, parts))
 
 
 def of_which_runs(rows: list[dict], files: list[str]) -> str:
@@ -135,6 +108,7 @@ def of_which_runs(rows: list[dict], files: list[str]) -> str:
 
     parts = [f"{', '.join(f'[`{file}`]({file}){command_of(file)}' for file in files)}, {len(rows)} {'row' if len(rows) == 1 else 'rows'}",
              *(", ".join(filter(None, (version and f"version {version}", named(device)))) for version, device in kinds if version or device)]
+    parts += filter(None, dict.fromkeys(map(seeds_of, files)))
     dates = sorted({row["date"][:10] for row in rows if row.get("date")})
     if dates:
         parts.append(dates[0] if len(dates) == 1 else f"{dates[0]} to {dates[-1]}")
@@ -144,30 +118,50 @@ def of_which_runs(rows: list[dict], files: list[str]) -> str:
     return "; ".join(parts)
 
 
-def printed(command: str, file: pathlib.Path) -> str:
-    program, *arguments = command.split()
-    done = subprocess.run([sys.executable, "-B", ROOT / "experiments/plotting" / program, *arguments, file], capture_output=True, text=True)
-    if done.returncode:
-        raise PageError(f"'{command}' ended with {done.returncode}: {done.stderr.strip()}")
-    return done.stdout.strip()
+def as_it_stands(spec: dict, file: str, anew: str, results: pathlib.Path) -> str:
+    """A recorded table."""
+    rows = chosen(runs(results / file), spec.get("where", {}))
+    if not rows:
+        raise PageError(f"no row of '{file}' has these settings")
+    columns = spec.get("columns") or [name for name in rows[0] if name not in PROVENANCE]
+    names, words = spec.get("names", {}), spec.get("words", [])
+    lines = ["| " + " | ".join(names.get(name, name) for name in columns) + " |", "|" + " --- |" * len(columns)]
+    for row in rows:
+        cells = [column(row, name) for name in columns]
+        lines.append("| " + " | ".join(f"`{cell}`" if cell and name in words else cell for name, cell in zip(columns, cells)) + " |")
+    return "\n" + "\n".join(lines) + f"\n\n*{recorded(rows, file, anew)}.*\n\n"
 
 
 def table(spec: dict, results: pathlib.Path) -> str:
     if unknown := set(spec) - KEYS:
         raise PageError(f"a table has no '{sorted(unknown)[0]}'; it has {', '.join(sorted(KEYS))}")
-    needs, never = ({"file"}, {"rows", "where", "across", "cells", "names"}) if "by" in spec else ({"file", "rows", "cells"}, set())
-    if excess := never & set(spec):
+    if "by" in spec and (excess := {"rows", "where", "across", "cells"} & set(spec)):
         raise PageError(f"a table by a program has no '{sorted(excess)[0]}'")
-    if missing := needs - set(spec):
-        raise PageError(f"a table needs '{sorted(missing)[0]}'")
+    if "file" not in spec or ("rows" in spec) != ("cells" in spec):
+        raise PageError(f"a table needs '{next(key for key in ('file', 'rows', 'cells') if key not in spec)}'")
     files = [spec["file"]] if isinstance(spec["file"], str) else spec["file"]
+    if not {"by", "rows"} & set(spec):
+        return as_it_stands(spec, files[0], "", results)
+    kept = recorded_of(files[0])
+    try:
+        return made(spec, files, results)
+    except PageError:
+        if not (results / kept).is_file():
+            raise
+        shown_as = {key: value for key, value in spec.items() if key in ("words", "names")}
+        return as_it_stands(shown_as, kept, command_of(files[0]).removeprefix(" by "), results)
+
+
+def made(spec: dict, files: list[str], results: pathlib.Path) -> str:
+    """A table of what its files say."""
     rows = [row for file in files for row in chosen(runs(results / file), spec.get("where", {}))]
     if not rows:
         raise PageError(f"no run of '{', '.join(files)}' has these settings")
     if "by" in spec:
         if len(files) > 1:
             raise PageError(f"'{spec['by']}' takes one file")
-        return f"\n{printed(spec['by'], results / files[0])}\n\n*{of_which_runs(rows, files)}.*\n\n"
+        program, _, arguments = spec["by"].partition(" ")
+        return f"\n{printed(program, arguments, results / files[0])}\n\n*{of_which_runs(rows, files)}.*\n\n"
     keys, names, across = spec["rows"], spec.get("names", {}), spec.get("across", [])
     devices = devices_of(rows)
     if len(devices) > 1:
@@ -200,34 +194,82 @@ def table(spec: dict, results: pathlib.Path) -> str:
     return "\n" + "\n".join(lines) + f"\n\n*{of_which_runs(rows, files)}.*\n\n"
 
 
-def number(match: re.Match, results: pathlib.Path) -> str:
-    file, name, style, conditions, _ = match.groups()
-    settings = dict(pair.strip().split("=", 1) for pair in conditions.split(","))
-    return cell(chosen(runs(results / file), settings), f"{name} {style}", {})
+def typed_numbers(text: str) -> list[tuple[int, str]]:
+    """The tables outside of comments that have a number which nothing says the origin of: their lines, and what stands there."""
+    blank = TABLE.sub(lambda match: "\n" * match[0].count("\n"), text)
+    found, columns, allowed, is_in_code, is_found = [], None, set(), False, False
+    lines = blank.splitlines()
+    for at, line in enumerate(lines):
+        is_in_code ^= line.startswith("```")
+        if match := re.fullmatch(r"<!-- typed: (.*) -->", line):
+            allowed = {name.strip() for name in match[1].split(";")}
+        elif is_in_code or not line.startswith("|"):
+            allowed = allowed if columns is None else set()
+            columns = None
+        elif columns is None:
+            columns, is_found = cells_of(line), False
+            if unknown := allowed - set(columns):
+                raise PageError(f"line {at + 1}: the table has no column '{sorted(unknown)[0]}'")
+        elif not is_found:
+            for name, cell in zip(columns, cells_of(line)):
+                # Links by their words (of a heading), but not by a number.
+                bare = re.sub(r"\[[^\]]*[a-z]{3}[^\]]*\]\([^)]*\)|`[^`]*`|\]\([^)]*\)|<!-- .*?-->", "", NUMBER.sub("", cell))
+                # What a setting is called (1024², 400×300) and names such as H100 are no results.
+                bare = re.sub(r"\d+²|\d+×\d+²?", "", bare)
+                if name not in allowed and (number := re.search(r"(?<![\w.])[+−-]?\d[\d.,]*", bare)):
+                    found.append((at + 1, f"'{number[0]}' in column '{name}'"))
+                    is_found = True
+                    break
+    return found
+
+
+def anchors_of(page: pathlib.Path) -> set[str]:
+    """As GitHub makes them of headings."""
+    return {anchor_of(head) for head in re.findall(r"^#+ (.*)$", page.read_text(), re.M)}
+
+
+def broken_links(page: pathlib.Path, text: str) -> list[tuple[int, str]]:
+    found = []
+    for match in re.finditer(r"\]\((?!https?:)([^)#\s]*)(?:#([^)\s]*))?\)", text):
+        target = (page.parent / match[1]) if match[1] else page
+        line = text.count("\n", 0, match.start()) + 1
+        if not target.exists():
+            found.append((line, f"there is no '{match[1]}'"))
+        elif match[2] and target.suffix == ".md" and match[2] not in anchors_of(target):
+            found.append((line, f"'{target.name}' has no heading '#{match[2]}'"))
+    return found
 
 
 def remade(page: pathlib.Path, results: pathlib.Path) -> str:
     """The page as the CSVs say it is."""
-    text = page.read_text()
+    text, problems = page.read_text(), []
 
     def at(match: re.Match, make):
         try:
             return make(match)
         except (PageError, tomllib.TOMLDecodeError, ValueError) as error:
             line = match.string.count("\n", 0, match.start()) + 1
-            raise PageError(f"{page}:{line}: {error}") from error
+            problems.append(f"{page}:{line}: {error}")
+            return match[0]
 
     def new_table(match):
         return f"<!-- table\n{match[1]}-->\n{table(tomllib.loads(match[1]), results)}<!-- end -->"
 
     def new_number(match):
         comment = match[0][:match[0].index("-->") + 3]
-        return f"{comment}{number(match, results)}<!-- / -->"
+        value, source = text_of(match, results), source_of(match, results)
+        # It leads to where its file's command stands, unless it is within a link already.
+        if match.string[match.start() - 1:match.start()] != "[" and (results / studies.PAGE).is_file():
+            value = f"[{value}]({source if source.endswith('.md') else f'{studies.PAGE}#{anchor_of(source)}'})"
+        return f"{comment}{value}<!-- / -->"
 
     if text.count("<!-- table\n") != len(TABLE.findall(text)):
         raise PageError(f"{page}: a table is not ended by a line '<!-- end -->'")
     with_tables = TABLE.sub(lambda match: at(match, new_table), text)
-    return NUMBER.sub(lambda match: at(match, new_number), with_tables)
+    with_numbers = NUMBER.sub(lambda match: at(match, new_number), with_tables)
+    if problems:
+        raise PageError("\npages: ".join(problems))
+    return with_numbers
 
 
 def main() -> int:
@@ -237,9 +279,17 @@ def main() -> int:
     parser.add_argument("pages", nargs="*", type=pathlib.Path)
     arguments = parser.parse_args()
     different, problems = [], 0
+    state = arguments.results / studies.PAGE
+    if state.is_file() and not arguments.check:
+        state.write_text(studies.page_of(arguments.results))
     for page in arguments.pages or sorted(arguments.results.glob("*.md")):
         try:
-            text, new = page.read_text(), remade(page, arguments.results)
+            text = page.read_text()
+            new = studies.page_of(arguments.results) if page == state else remade(page, arguments.results)
+            wrong = [] if page.name in WRITTEN else [(line, f"a table outside of comments says {what}") for line, what in typed_numbers(text)]
+            for line, what in wrong + broken_links(page, text):
+                print(f"pages: {page}:{line}: {what}", file=sys.stderr)
+                problems += 1
         except (PageError, OSError) as error:
             print(f"pages: {error}", file=sys.stderr)
             problems += 1
@@ -254,6 +304,11 @@ def main() -> int:
             if old != now:
                 print(f"{page}:{line}: stands there: {old}\n  the CSV says: {now}", file=sys.stderr)
                 break
+    if state.is_file() and not arguments.check:  # once more, of what the pages show now
+        state.write_text(studies.page_of(arguments.results))
+    for what in drawings.outdated(arguments.results) if not arguments.pages else ():
+        print(f"pages: {what}", file=sys.stderr)
+        problems += 1
     for page in different:
         print(f"{page} {'is not what its CSVs say' if arguments.check else 'is new'}")
     if problems:

@@ -2,14 +2,15 @@
 # SPDX-License-Identifier: MIT
 """Runs studies and makes of them what stands in results/.
 
-    rebuild.py [--kaustik build/release/bin/kaustik] [--out results/runs/experiments] [--anew] [--shard K/N] [STUDY...]
+    rebuild.py [--kaustik build/release/bin/kaustik] [--out results/runs/experiments] [--anew] [--shard K/N] [--only KEY=VALUE]... [STUDY...]
     rebuild.py --list
     rebuild.py --stale [--out results/runs/experiments] [STUDY...]
     rebuild.py --quick [--out DIR] [STUDY...]
 
 Each study is run into OUT/STUDY, where what is finished stays (`--resume`), its CSV is written to results/, and then all pages are filled from
 the CSVs (pages.py). Each row has the key of the sources that it was made by (sources.py), as far as that is known; --stale says how many runs of a study are of
-other sources than the tree's, and --anew makes those again, and no others. A study of which runs have failed keeps them as rows with their message. With --shard
+other sources than the tree's, and --anew makes those again, and no others. A study of which runs have failed keeps them as rows with their message. With --only
+those runs alone are made that have these values of what the study varies (`kaustik experiment run --only`), and the CSV keeps its rows of all others. With --shard
 only the K-th of N equal parts is run and nothing is written to results/; when all are done, run without.
 --quick makes the plan of each study, runs its first run with few photons and pixels, makes its CSV in DIR, and checks the pages: whether the commands
 of results/ still work, in minutes. Ends with 1 where something does not.
@@ -27,7 +28,9 @@ import time
 import tomllib
 
 from sources import Tree
-from table import rounded
+from study import device_of
+from table import rounded, rows_of_others
+from views import PageError, printed, recorded_of, rows_of
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PLOTTING = ROOT / "experiments/plotting"
@@ -38,9 +41,11 @@ TABLE = {
     "all_techniques": "all_techniques/runs.csv",
     "best_mixtures_choice": "all_techniques/choice.csv",
     "best_mixtures": "all_techniques/best_mixtures.csv",
+    "bias": "bias/runs.csv",
     "defaults": "defaults.csv",
     "dispersion": "dispersion/runs.csv",
     "lamps": "lamps/runs.csv",
+    "krueger2006_refracted_scene": "krueger2006/refracted_scene.csv",
     "normal_maps": "normal_maps/runs.csv",
     "vertices_and_gather": "vertices_and_gather.csv",
     "wyman2008_interpolants": "wyman2008/interpolants.csv",
@@ -75,6 +80,10 @@ REPORTS = {"exact_rays": "exact_rays/errors.csv"}
 STUDIES = {**TABLE, **PARTS, **REPORTS, **RUNS}
 # Of a device that this machine may not have: their commands say how its rows come to stand next to others'. Only tried here, never run.
 DEVICE = {"device_errors": "device/errors.csv", "device_times": "device/times.csv", "exact_rays_times": "exact_rays/times.csv"}
+
+# Their tables need reports or pictures too: where their CSVs are not enough, they are kept as printed, next to them.
+PRINTED = ("umenhoffer2008_grazing", "umenhoffer2008_merge", "umenhoffer2008_reach", "wyman2008_ringing", "wyman2008_times",
+           *(f"wyman_nichols2009_{name}" for name in ("batches", "cascades", "deferred", "photons", "starts", "times")))
 
 SOURCES = "sources.json"  # in a study's folder of results: the key of each run's sources
 SMALL = {"size": "64x48", "frames": 1, "warmup": 0, "reference_photons": 65536, "emit.photons": "32x32",
@@ -150,23 +159,36 @@ def forget_stale(results: pathlib.Path, tree: Tree) -> None:
         print(f"{results.name}: {len(folders)} runs of other sources are made anew", flush=True)
 
 
-def write_slim(runs: pathlib.Path, target: pathlib.Path) -> None:
-    """As it is, but for the constants of the errors' formulas, with six digits a number: what is committed has to be small."""
+def write_slim(runs: pathlib.Path, target: pathlib.Path, keep: bool = False) -> None:
+    """As it is, but for the constants of the errors' formulas, with six digits a number: what is committed has to be small. `keep`: with the rows that the
+    file has of other runs."""
     csv.field_size_limit(sys.maxsize)
     with runs.open(newline="") as stream:
         reader = csv.DictReader(stream)
         rows = list(reader)
-    columns = [name for name in reader.fieldnames if ".formulas." not in name]
+    columns, kept = [name for name in reader.fieldnames if ".formulas." not in name], []
+    if keep and target.is_file():
+        with target.open(newline="", encoding="utf-8") as stream:
+            before = list(csv.DictReader(stream))
+        settings = columns[columns.index("message") + 1:columns.index("frame_ms.max")]
+        if missing := [key for key in settings if before and key not in before[0]]:
+            raise Failure(f"the rows of '{target}' do not say {missing[0]}, which tells runs apart")
+        kept = rows_of_others(before, rows, settings + ["repeat"])
+        devices = {device_of(row) for row in [*kept, *rows] if row.get("status") == "done"}
+        if len(devices) > 1:  # its program compares times of all rows
+            raise Failure(f"'{target}' would have times of {len(devices)} models of devices, {' and '.join(sorted(devices))}; make it anew as a whole, without --only")
+        columns += [name for name in (before[0] if before else {}) if name not in columns]
     with target.open("w", newline="", encoding="utf-8") as stream:
         writer = csv.writer(stream, lineterminator="\n")
         writer.writerow(columns)
-        writer.writerows([rounded(row[name]) for name in columns] for row in rows)
+        writer.writerows([rounded(row.get(name, "")) for name in columns] for row in rows)
+        writer.writerows([row.get(name, "") for name in columns] for row in kept)
 
 
-def csv_of(results: pathlib.Path, study: str, target: pathlib.Path) -> None:
+def csv_of(results: pathlib.Path, study: str, target: pathlib.Path, keep: bool = False) -> None:
     target.parent.mkdir(parents=True, exist_ok=True)
     if study in TABLE:
-        call(sys.executable, "-B", PLOTTING / "table.py", results, "--csv", target)
+        call(sys.executable, "-B", PLOTTING / "table.py", results, "--csv", target, *(["--keep"] if keep else []))
     elif study.startswith("exact_rays"):
         call(sys.executable, "-B", PLOTTING / "exact_rays.py", "slim", results, "--csv", target)
     elif study in DEVICE:
@@ -174,7 +196,27 @@ def csv_of(results: pathlib.Path, study: str, target: pathlib.Path) -> None:
     elif study in PARTS:
         call(sys.executable, "-B", PLOTTING / "error_parts.py", results, "--out", target.parent)
     else:
-        write_slim(results / "runs.csv", target)
+        write_slim(results / "runs.csv", target, keep)
+
+
+def record(results: pathlib.Path, study: str, target: pathlib.Path) -> None:
+    """Where a study's CSV is not enough for its table, keeps that as its program prints it of the study's folder. What was kept of an older version goes."""
+    kept, program = pathlib.Path(recorded_of(str(target))), f"{target.parent.name}.py"
+    kept.unlink(missing_ok=True)
+    if study not in PRINTED:
+        return
+    try:
+        printed(program, target.stem, target)
+    except PageError:
+        with (results / "runs.csv").open(newline="") as stream:
+            runs = [row for row in csv.DictReader(stream) if row["status"] == "done"]
+        of_runs = {"command": f"experiments/rebuild_results.sh {study}", "version": runs[0]["version"], "device": device_of(runs[0]),
+                   "seed": runs[0].get("seed", ""), "date": max(row.get("date", "") for row in runs)[:10]}
+        rows = [{**{key: cell for key, cell in row.items() if key != "under"}, **of_runs} for row in rows_of(printed(program, target.stem, results))]
+        with kept.open("w", newline="", encoding="utf-8") as stream:
+            writer = csv.DictWriter(stream, rows[0], lineterminator="\n")
+            writer.writeheader()
+            writer.writerows(rows)
 
 
 def quick(kaustik: pathlib.Path, out: pathlib.Path, studies: list[str]) -> list[str]:
@@ -206,10 +248,11 @@ def compare_with_light_tracer(kaustik: pathlib.Path) -> None:
     call(sys.executable, "-B", PLOTTING / "speed_error.py")
 
 
-def rebuild(kaustik: pathlib.Path, out: pathlib.Path, shard: str | None, anew: bool, studies: list[str]) -> list[str]:
+def rebuild(kaustik: pathlib.Path, out: pathlib.Path, shard: str | None, anew: bool, only: list[str], studies: list[str]) -> list[str]:
     failures = []
     for study in studies:
         part, tree, begin = ["--shard", shard] if shard else [], Tree(), time.time()
+        part += [word for condition in only for word in ("--only", condition)]
         if anew:
             forget_stale(out / study, tree)
         try:
@@ -221,14 +264,18 @@ def rebuild(kaustik: pathlib.Path, out: pathlib.Path, shard: str | None, anew: b
         if shard or not (out / study / "runs.csv").is_file():
             continue
         try:
-            csv_of(out / study, study, ROOT / "results" / STUDIES[study])
+            csv_of(out / study, study, ROOT / "results" / STUDIES[study], bool(only))
+            if not only:  # of a part no whole table can be printed
+                record(out / study, study, ROOT / "results" / STUDIES[study])
+            if study == "bias":
+                call(sys.executable, "-B", PLOTTING / "bias.py", out / study, "--out", ROOT / "results/bias")
             if study in ("all_techniques", "best_mixtures"):
                 compare_with_light_tracer(kaustik)
             if study == "best_mixtures_choice":
                 call(sys.executable, "-B", PLOTTING / "best_mixtures.py", ROOT / "results" / STUDIES[study],
                      "--study", ROOT / "experiments/best_mixtures.toml")
             print(f"{study}: results/{STUDIES[study]}", flush=True)
-        except Failure as failure:
+        except (Failure, PageError) as failure:
             failures.append(f"{study}: {failure}")
     try:
         if not shard:
@@ -243,6 +290,7 @@ def main() -> int:
     parser.add_argument("--kaustik", type=pathlib.Path, default=ROOT / "build/release/bin/kaustik")
     parser.add_argument("--out", type=pathlib.Path)
     parser.add_argument("--shard")
+    parser.add_argument("--only", action="append", default=[], metavar="KEY=VALUE")
     parser.add_argument("--list", action="store_true")
     parser.add_argument("--stale", action="store_true")
     parser.add_argument("--anew", action="store_true")
@@ -268,12 +316,14 @@ def main() -> int:
             out.mkdir(parents=True, exist_ok=True)
             failures = quick(kaustik, out, arguments.studies or [*STUDIES, *DEVICE])
     else:
+        if arguments.only and (len(arguments.studies) != 1 or arguments.studies[0] in PARTS | REPORTS):
+            sys.exit("rebuild: --only is of one study, whose CSV has a row a run; name it")
         if arguments.anew and arguments.shard:
             sys.exit("rebuild: --anew with --shard would take from other shards what they have made")
         if kaustik.stat().st_mtime < Tree().newest_source():
             sys.exit(f"rebuild: '{kaustik}' is older than the sources; build it first")
         out = (arguments.out or ROOT / "results/runs/experiments").resolve()
-        failures = rebuild(kaustik, out, arguments.shard, arguments.anew, studies)
+        failures = rebuild(kaustik, out, arguments.shard, arguments.anew, arguments.only, studies)
     for failure in failures:
         print(f"rebuild: {failure}", file=sys.stderr)
     return 1 if failures else 0

@@ -35,6 +35,7 @@ import statistics
 import sys
 from collections import defaultdict
 
+import drawings
 from figures import COLORS, MARKERS, pareto_front, plt
 from study import require_one_device
 
@@ -47,6 +48,10 @@ DEFAULT, MIXTURE = "exact_rays", "best mixture"
 MIDDLE = {"256x256", "1024"}  # photons along each side of the grid, or the finest cells
 LEAST_FACTOR = 1e-4  # that is drawn
 TIMES_MS = [50, 100, 200, 500, 1000, 2000]
+
+
+def inputs(folder: pathlib.Path) -> list[pathlib.Path]:
+    return [folder / name for name in drawings.DRAWN["all_techniques"][0]]
 
 
 def rows_of(file: pathlib.Path) -> list[dict]:
@@ -231,7 +236,7 @@ def draw_headline(middle: dict[str, dict[str, dict]], file: pathlib.Path) -> Non
     axes.set(xscale="log", yticks=range(len(scenes)), xlabel="times as fast as a light tracer on the same processor, at equal error")
     axes.set_yticklabels(scenes, fontsize=8)
     axes.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.0, 0.5))
-    figure.savefig(file, bbox_inches="tight", metadata={"Date": None})
+    figure.savefig(file, bbox_inches="tight", metadata=drawings.metadata(inputs(file.parent)))
     plt.close(figure)
 
 
@@ -328,13 +333,14 @@ def draw(scene: str, by: dict[str, list[tuple[float, float]]], runs: list[dict],
              title=scene, xlabel="passes of the caustic, ms", ylabel="relMSE, net of the reference's noise")
     axes.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.0, 0.5),
                 title="filled: default\nhollow: as published", title_fontsize=7)
-    figure.savefig(file, bbox_inches="tight", metadata={"Date": None})
+    figure.savefig(file, bbox_inches="tight", metadata=drawings.metadata(inputs(file.parent)))
     plt.close(figure)
 
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--results", type=pathlib.Path, default=ROOT / "results/all_techniques")
+    parser.add_argument("--tables", action="store_true", help="draws nothing")
     arguments = parser.parse_args()
     folder = arguments.results
     runs = rows_of(folder / "runs.csv")
@@ -353,7 +359,7 @@ def main() -> int:
     equal = equal_error(runs, light_tracers(baselines))
     write(folder / "equal_error.csv", list(EQUAL_ERROR), [[row[key] for key in EQUAL_ERROR] for row in equal])
     middle = middle_runs(equal)
-    if middle:
+    if middle and not arguments.tables:
         draw_headline(middle, folder / "headline.svg")
 
     def write_table(name: str, columns: list[str], rows: list[list]) -> None:
@@ -369,7 +375,7 @@ def main() -> int:
     names = ["first", "value", "second", "times"]
     write_table("to_error.csv", ["scene", "relMSE", "status", *names], ranked(of_scenes, ERRORS, by_error=True))
     write_table("in_time.csv", ["scene", "ms", "status", *names], ranked(of_scenes, TIMES_MS, by_error=False))
-    for scene, by in of_scenes.items():
+    for scene, by in of_scenes.items() if not arguments.tables else ():
         draw(scene, by, runs, folder / f"{scene}.svg")
     return 0
 

@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: MIT
 """One table of a study: a row a run, what differs between the runs, and what was measured.
 
-    table.py RESULTS [--csv FILE]
+    table.py RESULTS [--csv FILE [--keep]]
 
 RESULTS is a folder of `kaustik experiment run`, or one of its runs.csv. Prints Markdown; --csv writes the
-same columns, with six digits. Errors of the caustic are against all light, but those named "modelled", which are
+same columns, with six digits; with --keep what FILE has of runs that RESULTS lacks stays as it is. Errors of the caustic are against all light, but those named "modelled", which are
 against the paths that the run's photons can take; "not formed" is the light of all others; "too bright" and "too dark" are the shares of
 pixels that are so, against those paths, by more than the reference's noise. "reference's own" is what its noise alone
 would give. ms: of all passes of the caustic, from emission to gather; media ms: of these, of light that a medium
@@ -133,10 +133,17 @@ def settings_of(rows: list[dict]) -> list[str]:
     return [key for key in own if len({row[key] for row in rows}) > 1]
 
 
+def rows_of_others(kept: list[dict], rows: list[dict], settings: list[str]) -> list[dict]:
+    """The rows of a CSV whose settings no run has that is there now."""
+    made = {tuple(row[key] for key in settings) for row in rows}
+    return [row for row in kept if tuple(row[key] for key in settings) not in made]
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("results", type=Path)
     parser.add_argument("--csv", type=Path)
+    parser.add_argument("--keep", action="store_true")
     arguments = parser.parse_args()
     table = arguments.results / "runs.csv" if arguments.results.is_dir() else arguments.results
     if not table.is_file():
@@ -153,9 +160,17 @@ def main() -> int:
     for row in rows:
         row["sources"] = sources.get(row.get("folder"), "")
         row["device"] = device_of(row)
-    settings = settings_of(rows)
+    kept, settings = [], settings_of(rows)
+    if arguments.keep and arguments.csv.is_file():
+        with arguments.csv.open(newline="", encoding="utf-8") as stream:
+            kept = list(csv.DictReader(stream))
+        settings = list(kept[0])[:list(kept[0]).index("status")] if kept else settings
+        if missing := [key for key in settings if key not in rows[0]]:
+            print(f"table: the rows of '{arguments.csv}' differ in {missing[0]}, which no run of '{table}' says", file=sys.stderr)
+            return 1
+        kept = rows_of_others(kept, rows, settings)
     rows.sort(key=lambda row: row.get("scene") or "")  # otherwise in the study's own order
-    measured = [m for m in MEASURED if any(m[2](row) is not None for row in rows)]
+    measured = [m for m in MEASURED if any(m[2](row) is not None for row in rows) or any(row.get(m[0]) for row in kept)]
     header = settings + [name for name, _, _ in measured]
     print("| " + " | ".join(f"`{key}`" if key in settings else key for key in header) + " |")
     print("| --- " * len(header) + "|")
@@ -176,6 +191,8 @@ def main() -> int:
                 writer.writerow([row[key] for key in settings] + [row["status"], row["message"]] +
                                 ["" if get(row) is None else rounded(str(get(row))) for _, _, get in measured] +
                                 [row.get(key, "") for key in OF_THE_RUN])
+            columns = [*settings, "status", "message", *(name for name, _, _ in measured), *OF_THE_RUN]
+            writer.writerows([row.get(name, "") for name in columns] for row in kept)
     return 0
 
 

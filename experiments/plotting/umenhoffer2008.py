@@ -146,8 +146,6 @@ def grazing(rows: list[dict], results: Path) -> None:
         return name if name == "triangles" else f"splats of {value(row, 'reconstruct.fixed.diameter')} texels"
 
     names = sorted({kind(row) for row in rows}, key=lambda n: (n != "triangles", len(n), n))
-    print("relMSE against the modelled paths; energy ratio; light that is too much where the truth has less "
-          "than a thousandth of its most, of all\n")
     print(head(["scene"] + names))
     scenes = list(dict.fromkeys(scene_of(row) for row in rows))
     for scene in scenes:
@@ -188,7 +186,6 @@ def points(rows: list[dict]) -> None:
 
 def merge(rows: list[dict]) -> None:
     sizes = sorted({value(row, "reconstruct.triangles.merge") for row in rows})
-    print("ms of `reconstruct.triangles`; relMSE against the modelled paths; stored by what has arrived, less 1\n")
     print(head(["scene", "photons"] + [f"{size:g} px" for size in sizes]))
     cells: dict = defaultdict(dict)
     for row in rows:

@@ -51,7 +51,6 @@ def share(photons: float, cells: int) -> str:
 
 def photons(rows: list[dict]) -> None:
     sizes = sorted({cells_of(row) for row in rows})
-    print("photons that are stored, and their share of the cells\n")
     print(head(["scene", "view", "method"] + [f"{n}²" for n in sizes]))
     found: dict = defaultdict(dict)
     for row in rows:
@@ -70,7 +69,6 @@ def photons(rows: list[dict]) -> None:
 
 def times(rows: list[dict]) -> None:
     sizes = sorted({cells_of(row) for row in rows})
-    print("ms from emission to gather, and over those of a dense grid drawn from the light\n")
     print(head(["scene", "triangles", "method"] + [f"{n}²" for n in sizes]))
     found: dict = defaultdict(lambda: defaultdict(dict))
     for row in rows:
@@ -152,7 +150,8 @@ def error_name(row: dict) -> str:
 def error(rows: list[dict]) -> None:
     by_scene: dict = defaultdict(list)
     for row in rows:
-        counts = row["report"].get("cells")
+        # A CSV of before it had `cells` has what those photons were.
+        counts = row["report"].get("cells") or ({"photons": row["report"]["photons"]["emitted"]} if "adaptive" in error_name(row) else None)
         by_scene[scene_of(row)].append((ms_of(row["report"], STAGES), error_of(row)["rel_mse"],
                                         row["report"]["error"]["caustic_irradiance"]["rel_mse"],
                                         error_name(row), cells_of(row), counts["photons"] if counts else None))
@@ -195,7 +194,6 @@ def god_rays(rows: list[dict]) -> None:
 
 
 def cascades(rows: list[dict]) -> None:
-    print("relMSE against the paths that the photons model; ms from emission to gather\n")
     print(head(["scene", "stored by", "in", "maps", "texels", "relMSE", "ms"]))
     for row in rows:
         maps, side, texels = maps_of(row)

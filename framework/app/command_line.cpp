@@ -374,6 +374,13 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry,
     addDeviceOption(*experimentApp);
     experimentApp->add_option("--shard", experiment.shard,
                               "K/N: run does only the K-th of N parts of the study");
+    experimentApp
+        ->add_option("--only", experiment.only,
+                     "KEY=VALUE: run does only the runs with this value of what the study varies; "
+                     "repeatable, values of one key are alternatives")
+        ->take_all()
+        ->expected(1)
+        ->allow_extra_args(false);
     experimentApp->add_flag("--incomplete", experiment.incomplete,
                             "merge takes what there is, though runs are missing");
     experimentApp->add_flag("--resume", experiment.resume, "Leaves finished runs alone");

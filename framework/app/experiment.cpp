@@ -16,6 +16,7 @@
 #include "framework/experiment/merge.h"
 #include "framework/experiment/process.h"
 #include "framework/experiment/runner.h"
+#include "framework/experiment/selection.h"
 #include "framework/run/progress.h"
 
 namespace kaustik::app {
@@ -29,9 +30,12 @@ constexpr const char* kPython = "/usr/bin/python3";
 
 // What is to be done again to go on.
 std::string commandLine(const ExperimentOptions& options) {
-    return fmt::format("kaustik experiment run {}{}{} --resume", options.targets.front(),
+    std::string only;
+    for (const std::string& condition : options.only)
+        only += " --only " + condition;
+    return fmt::format("kaustik experiment run {}{}{}{} --resume", options.targets.front(),
                        options.out.empty() ? "" : " --out " + options.out,
-                       options.shard.empty() ? "" : " --shard " + options.shard);
+                       options.shard.empty() ? "" : " --shard " + options.shard, only);
 }
 
 const std::string& onlyTarget(const ExperimentOptions& options) {
@@ -76,6 +80,11 @@ void runStudy(const ExperimentOptions& options, const Registry& registry,
                 fmt::format("--shard: {} is a suite of hard cases, which one process measures.",
                             options.targets.front()));
         }
+        if (!options.only.empty()) {
+            throw ConfigError(
+                fmt::format("--only: {} is a suite of hard cases, which varies nothing.",
+                            options.targets.front()));
+        }
         runSuite(options, spec, registry, addHardCases);
         return;
     }
@@ -85,9 +94,11 @@ void runStudy(const ExperimentOptions& options, const Registry& registry,
     const Plan plan = makePlan(spec, studyDefaults(), makeParams);
     const fs::path out = options.out.empty() ? fs::path("results/runs/experiments") / plan.spec.name
                                              : fs::path(options.out);
+    std::optional<std::set<std::string>> only;
+    if (!options.only.empty()) only = selectRuns(plan, options.only, "--only");
     run::catchInterrupts();
     requireDisabledPasses(plan, kThisProgram, run::isInterrupted);
-    const RunnerSummary summary = runAll(plan, {out, options.resume, kThisProgram, shard});
+    const RunnerSummary summary = runAll(plan, {out, options.resume, kThisProgram, shard, only});
     if (summary.interrupted) {
         throw Error(fmt::format("Interrupted; {} of {} runs are finished. '{}' does the others.",
                                 summary.skipped + summary.done - summary.failed, summary.planned,
@@ -114,8 +125,9 @@ void runStudy(const ExperimentOptions& options, const Registry& registry,
 }
 
 void mergeShards(const ExperimentOptions& options) {
-    if (!options.shard.empty() || options.resume)
-        throw ConfigError("experiment merge: --shard and --resume are of 'experiment run'.");
+    if (!options.shard.empty() || options.resume || !options.only.empty())
+        throw ConfigError(
+            "experiment merge: --shard, --only and --resume are of 'experiment run'.");
     if (options.out.empty() && options.targets.size() > 1)
         throw ConfigError("experiment merge: name the folder for the results with --out.");
     const std::vector<fs::path> folders(options.targets.begin(), options.targets.end());
@@ -141,9 +153,10 @@ void mergeShards(const ExperimentOptions& options) {
 }
 
 void drawReport(const ExperimentOptions& options) {
-    if (!options.out.empty() || options.resume || !options.shard.empty() || options.incomplete) {
+    if (!options.out.empty() || options.resume || !options.shard.empty() || !options.only.empty() ||
+        options.incomplete) {
         throw ConfigError(
-            "experiment report takes a folder and no options; --out, --resume, --shard and "
+            "experiment report takes a folder and no options; --out, --resume, --shard, --only and "
             "--incomplete are of 'experiment run' and 'experiment merge'.");
     }
     const fs::path folder = onlyTarget(options);

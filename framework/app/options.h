@@ -131,6 +131,7 @@ struct ExperimentOptions {
     std::vector<std::string> targets;  // the TOML file, or folders of results
     std::string out;                   // "" for results/runs/experiments/<name>
     std::string shard;                 // of run: K/N; "" for all
+    std::vector<std::string> only;     // of run: KEY=VALUE of axes; none for all
     bool resume = false;
     bool incomplete = false;  // merge
 };

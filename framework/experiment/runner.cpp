@@ -45,7 +45,8 @@ class Runner {
             for (const PlannedRun* run : runs)
                 tasks_.push_back({run, repeat, {}});
         }
-        summary_.planned = static_cast<int>(tasks_.size());
+        for (const Task& task : tasks_)
+            summary_.planned += isWanted(task) ? 1 : 0;
         const fs::path description = options_.out / "experiment.json";
         const std::string text = jsonText(describe(plan), 2) + "\n";
         if (options.shard && fs::exists(description) && readFile(description) != text) {
@@ -60,7 +61,9 @@ class Runner {
     RunnerSummary run() {
         std::vector<Task*> left;
         for (Task& task : tasks_) {
-            if (options_.resume && isFinished(task)) {
+            if (!isWanted(task)) {
+                gatherWhatIsThere(task);
+            } else if (options_.resume && isFinished(task)) {
                 ++summary_.skipped;
             } else {
                 left.push_back(&task);
@@ -80,6 +83,10 @@ class Runner {
     }
 
   private:
+    [[nodiscard]] bool isWanted(const Task& task) const {
+        return !options_.only || options_.only->contains(task.run->hash);
+    }
+
     [[nodiscard]] fs::path pathOf(const Task& task) const {
         return runFolder(options_.out, *task.run, task.repeat);
     }
@@ -98,6 +105,22 @@ class Runner {
     void gather(Task& task) const {
         task.result =
             resultOf(*task.run, task.repeat, readFinishedRun(pathOf(task), *task.run, task.repeat));
+    }
+
+    // Of a run that is not to be done: its row stays what it was.
+    void gatherWhatIsThere(Task& task) const {
+        try {
+            if (fs::exists(pathOf(task))) {
+                gather(task);
+            } else if (const fs::path failure = failureFile(options_.out, *task.run, task.repeat);
+                       fs::exists(failure)) {
+                task.result =
+                    failedResult(*task.run, task.repeat,
+                                 json::parse(readFile(failure)).at("message").get<std::string>());
+            }
+        } catch (const IoError&) {  // damaged: as if it were not there
+        } catch (const json::exception&) {
+        }
     }
 
     // Gives false when it was interrupted; nothing is left of the run then.

@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "framework/core/shard.h"
@@ -25,6 +26,9 @@ struct RunnerOptions {
     bool resume = false;            // leaves runs alone that are finished and undamaged
     std::filesystem::path program;  // that does one run
     std::optional<Shard> shard;     // does only this one's runs, and leaves tables to merge.h
+    // Does only the runs of these hashes (selection.h); the tables keep what is there of the
+    // others.
+    std::optional<std::set<std::string>> only = std::nullopt;
 };
 
 struct RunnerHooks {
@@ -34,7 +38,7 @@ struct RunnerHooks {
 };
 
 struct RunnerSummary {
-    int planned = 0;
+    int planned = 0;  // of this call
     int skipped = 0;  // finished before
     int damaged = 0;  // were there, but had to be done again
     int done = 0;     // now, failed ones included

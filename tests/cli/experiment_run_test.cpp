@@ -35,6 +35,40 @@ TEST_F(ExperimentRun, DoesEveryCombinationAndRepeatAndNamesThemByTheirSettings) 
         EXPECT_EQ(file.find("/."), std::string::npos) << file << " is a temporary file";
 }
 
+TEST_F(ExperimentRun, DoesThoseRunsAloneThatAreAskedForAndKeepsTheRowsOfTheOthers) {
+    const Outcome first = run(study({"--only", "layers.count=2"}));
+    ASSERT_EQ(first.exitCode, 0) << first.err;
+    EXPECT_NE(first.out.find("2 runs done, 0 there already"), std::string::npos) << first.out;
+    EXPECT_EQ(column("layers.count"), (std::vector<std::string>{"2", "2"}));
+    const std::vector<std::string> before = column("frame_ms.median");
+
+    // The rest into the same table; what was there is not done again, with --resume or without.
+    const Outcome second = run(study({"--only", "count=1", "--resume"}));
+    ASSERT_EQ(second.exitCode, 0) << second.err;
+    EXPECT_NE(second.out.find("2 runs done, 0 there already"), std::string::npos) << second.out;
+    EXPECT_EQ(column("layers.count"), (std::vector<std::string>{"1", "1", "2", "2"}));
+    const std::vector<std::string> after = column("frame_ms.median");
+    ASSERT_EQ(after.size(), 4u);
+    EXPECT_EQ((std::vector<std::string>{after[2], after[3]}), before);
+
+    const Outcome all = run(study({"--resume"}));
+    EXPECT_NE(all.out.find("0 runs done, 4 there already"), std::string::npos) << all.out;
+}
+
+TEST_F(ExperimentRun, RefusesRunsThatTheStudyDoesNotHaveBeforeAnythingIsDone) {
+    for (const auto& [condition, says] :
+         std::map<std::string, std::string>{{"layers.cuont=1", "did you mean 'layers.count'?"},
+                                            {"layers.count=3", "There is 1 and 2."},
+                                            {"layers.count", "is not KEY=VALUE"}}) {
+        const Outcome outcome = run(study({"--only", condition}));
+        EXPECT_EQ(outcome.exitCode, 2) << condition;
+        EXPECT_NE(outcome.err.find(says), std::string::npos) << outcome.err;
+        EXPECT_TRUE(runs().empty()) << condition;
+    }
+    const Outcome report = run({"experiment", "report", "out", "--only", "layers.count=1"});
+    EXPECT_EQ(report.exitCode, 2);
+}
+
 TEST_F(ExperimentRun, WritesOneRowARunWithSettingsTimesPassesAndEnergy) {
     ASSERT_EQ(run(study()).exitCode, 0);
     EXPECT_EQ(column("layers.count"), (std::vector<std::string>{"1", "1", "2", "2"}));

@@ -94,6 +94,49 @@ class Pages(unittest.TestCase):
             self.assertEqual(done.returncode, 2, wanted)
             self.assertIn(says, done.stderr)
 
+    def test_with_a_table_of_numbers_outside_of_comments_are_refused(self):
+        for cell, is_refused in [("0.12", True), ("1,024 of them", True), ("−3·10⁻⁴", True), ("[0.38](runs.csv)", True), ("none", False), ("`layers=4`", False),
+                                 ("1024²", False), ("an H100", False), ("[Table 1 of it](page.md#runs)", False),
+                                 ("<!-- = runs.csv: relMSE .1g; scene=pool, photons=256 -->0.0001<!-- / -->", False)]:
+            page = f"# Runs\n\n| what | figure |\n| --- | --- |\n| a | {cell} |\n"
+            done = self.pages("--check", page=page)
+            self.assertEqual(done.returncode, 2 if is_refused else 0, f"{cell}: {done.stderr}")
+            if is_refused:
+                self.assertIn("page.md:5: a table outside of comments says '", done.stderr)
+                # What is quoted may be typed, in the columns that say so.
+                self.assertEqual(self.pages("--check", page=page.replace("| what", "<!-- typed: figure -->\n| what")).returncode, 0, cell)
+        self.assertEqual(self.pages("--check", page="<!-- typed: nothing -->\n| what |\n| --- |\n| a |\n").returncode, 2)
+        self.assertEqual(self.pages("--check", page="```\n| what |\n| --- |\n| 3 |\n```\n").returncode, 0)
+
+    def test_whose_numbers_in_sentences_are_others_in_the_csv_fail(self):
+        self.pages(page=PAGE)
+        (self.results / "runs.csv").write_text(RUNS.replace("0.00012", "0.00034"))
+        done = self.pages("--check")
+        self.assertEqual(done.returncode, 1)
+        text = (self.results / "page.md").read_text()
+        self.assertIn("-->0.0001<!-- / -->", text)
+        self.pages()
+        self.assertIn("-->0.0003<!-- / -->", (self.results / "page.md").read_text())
+
+    def test_whose_links_lead_nowhere_are_refused(self):
+        for link, says in [("other.md", "there is no 'other.md'"), ("page.md#two", "'page.md' has no heading '#two'"), ("#two", "no heading '#two'"),
+                           ("page.md#one-more-it-is", ""), ("#one-more-it-is", ""), ("https://example.org/a.md", "")]:
+            done = self.pages("--check", page=f"# One more: \"it\" is\n\n[there]({link})\n")
+            self.assertEqual(done.returncode, 2 if says else 0, link)
+            self.assertIn(says, done.stderr)
+
+    def test_show_what_was_recorded_until_the_study_can_make_it(self):
+        (self.results / "old_recorded.csv").write_text("scene,relMSE,command,version,device,seed,date\npool,**3e-5**,make it,1 (abc),a,1,2026-11-21\n")
+        page = PAGE.split("It is")[0].replace("runs.csv", "old.csv").replace("-->\n<!-- end", 'words = ["scene"]\n-->\n<!-- end')
+        self.assertEqual(self.pages(page=page).returncode, 0)
+        text = (self.results / "page.md").read_text()
+        self.assertIn("| scene | relMSE |\n| --- | --- |\n| `pool` | **3e-5** |\n\n*[`old_recorded.csv`](old_recorded.csv), recorded 2026-11-21; version 1 (abc); a; seed 1; by `make it`.*", text)
+        (self.results / "old.csv").write_text(RUNS)
+        self.assertEqual(self.pages().returncode, 0)
+        text = (self.results / "page.md").read_text()
+        self.assertNotIn("recorded", text)
+        self.assertIn("| `pool` | 256 | 0.00012; 50.0 % |", text)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -1,0 +1,161 @@
+# SPDX-License-Identifier: MIT
+"""results/studies.md: for each file of results/ the command that makes it, how much of its study there is, of which version, device and days, and which pages
+show it. Numbers in sentences link there (pages.py), so that each leads to its command.
+"""
+
+import collections
+import itertools
+import pathlib
+import re
+import tomllib
+
+from rebuild import STUDIES
+from views import runs
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+# What is made of other files than a study's runs here, by which file in experiments/.
+DERIVED = {"device/h100_errors.csv": "device_errors.toml", "device/h100_times.csv": "device_times.toml", "exact_rays/h200_errors.csv": "exact_rays.toml",
+           "exact_rays/h200_times.csv": "exact_rays_times.toml", "wyman2008/lens_widths.csv": "plotting/lens_widths.py", "flicker/flicker.csv": "flicker.py",
+           "krueger2006/tiles.csv": "krueger2006_tiles.sh", "all_techniques/light_tracer.csv": "light_tracer.py",
+           **{f"all_techniques/{name}.csv": "plotting/speed_error.py" for name in ("answers", "costs", "equal_error", "in_time", "published", "summary", "to_error")}}
+PAGE = "studies.md"
+
+
+def command_of(file: str) -> str:
+    """The command that makes it."""
+    studies = [study for study, target in STUDIES.items() if target == file]
+    if not studies and file in DERIVED:
+        return f" by `experiments/{DERIVED[file]}`"
+    return f" by `experiments/rebuild_results.sh {studies[0]}`" if studies else ""
+
+
+def seeds_of(file: str) -> str:
+    """`seed 1` where a study's runs have that, `seeds 1, 2`; nothing of what is no study's."""
+    study = next((study for study, target in STUDIES.items() if target == file), None)
+    if study is None:
+        return ""
+    described = tomllib.loads((ROOT / f"experiments/{study}.toml").read_text())
+    products = described.get("permute", {})
+    found = {seed for product in (products if isinstance(products, list) else [products]) for seed in values_of(product.get("seed", []))}
+    # Runs have seed 1 where nothing is said (framework/app/options.h).
+    found |= {described.get("base", {}).get("seed", 1)} if not found else set()
+    return ("seed " if len(found) == 1 else "seeds ") + ", ".join(map(str, sorted(found)))
+
+
+def anchor_of(heading: str) -> str:
+    """As GitHub makes it."""
+    return re.sub(r"[^\w\- ]", "", re.sub(r"<!--.*?-->", "", heading).lower()).strip().replace(" ", "-")
+
+
+def values_of(axis) -> list:
+    """The values of a study's axis, a list or a range."""
+    if isinstance(axis, list):
+        return axis
+    if "steps" in axis:
+        return [axis["from"] + i * (axis["to"] - axis["from"]) / (axis["steps"] - 1) for i in range(axis["steps"])]
+    values, value = [], axis["from"]
+    while value <= axis["to"] * (1 + 1e-9):
+        values.append(value)
+        value = value * axis["factor"] if "factor" in axis else value + axis["step"]
+    return values
+
+
+def planned(study: dict) -> list[dict]:
+    """The settings of each of its runs, as far as it varies them."""
+    products = study.get("permute", {})
+    products = products if isinstance(products, list) else [products]
+    keys = {key for product in products for key in product}
+    base = {key: value for key, value in study.get("base", {}).items() if key in keys}
+    found = {}
+    for product in products:
+        for values in itertools.product(*map(values_of, product.values())):
+            run = {**base, **dict(zip(product, values))}
+            found.setdefault(repr(sorted(run.items(), key=str)), run)
+    return list(found.values())
+
+
+def key_of(value) -> str:
+    """A setting as one compares it: numbers by their size, scenes by the name of their file."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    try:
+        return f"{float(value):.6g}"
+    except (TypeError, ValueError):
+        return str(value).rsplit("/", 1)[-1]
+
+
+def missing_of(study: dict, rows: tuple[dict, ...]) -> tuple[int, list[dict]]:
+    """How many runs a study has, and those that no row is of. A setting that no column says is not told apart."""
+    def column_of(key: str) -> str | None:
+        ends = [name for name in rows[0] if name == key or name.endswith(f".{key}")]
+        return key if key in rows[0] else ends[0] if len(ends) == 1 else None
+
+    runs_of_it = planned(study)
+    columns = {key: column_of(key) for run in runs_of_it for key in run}
+    made: dict = {}  # what rows have in each set of columns that runs are told apart by
+    missing = []
+    for run in runs_of_it:
+        told = tuple(key for key in run if columns[key])
+        if told not in made:
+            made[told] = {tuple(key_of(row[columns[key]]) for key in told) for row in rows}
+        if tuple(key_of(run[key]) for key in told) not in made[told]:
+            missing.append(run)
+    return len(runs_of_it), missing
+
+
+def state_of(study: str, rows: tuple[dict, ...]) -> str:
+    count, missing = missing_of(tomllib.loads((ROOT / f"experiments/{study}.toml").read_text()), rows)
+    failed = sum(row.get("status") == "failed" for row in rows)
+    text = f"all {count} runs of the study" if not missing else f"{count - len(missing)} of {count} runs of the study"
+    if failed:
+        text += f", {failed} of which say why they could not be made"
+    if missing:
+        by = collections.Counter(pathlib.PurePath(str(run.get("scene", ""))).name for run in missing)
+        text += "; missing: " + ", ".join(f"`{scene}` {number}" if scene else f"{number}" for scene, number in sorted(by.items()))
+    return text
+
+
+def said(rows: tuple[dict, ...], key: str) -> list[str]:
+    return sorted({row[key] for row in rows if row.get(key)})
+
+
+def section(results: pathlib.Path, file: str, shown: list[str]) -> str:
+    rows = runs(results / file)
+    study = next((study for study, target in STUDIES.items() if target == file), None)
+    lines = [f"### {file}", ""]
+    made = command_of(file).removeprefix(" by ")
+    lines += [f"- [`{file}`]({file}), {len(rows)} {'row' if len(rows) == 1 else 'rows'}" +
+              (f", by {made}" if made else "".join(f", by `{command}`" for command in said(rows, "command")))]
+    if study:
+        lines.append(f"- {state_of(study, rows)}")
+    dates = [date[:10] for date in said(rows, "date")]
+    of = [*(f"version {version}" for version in said(rows, "version")), *said(rows, "device"), *([f"seed {seed}" for seed in said(rows, "seed")] or filter(None, [seeds_of(file)])),
+          *([dates[0] if dates[0] == dates[-1] else f"{dates[0]} to {dates[-1]}"] if dates else ["of a day that was not kept"])]
+    lines.append(f"- {'; '.join(of)}")
+    if shown:
+        lines.append("- shown on " + ", ".join(f"[{page}]({page})" for page in shown))
+    return "\n".join(lines)
+
+
+def page_of(results: pathlib.Path) -> str:
+    files = sorted(str(file.relative_to(results)) for file in results.rglob("*.csv") if "runs" not in file.relative_to(results).parts[:-1])
+    texts = {page.name: page.read_text() for page in sorted(results.glob("*.md")) if page.name != PAGE}
+
+    def shown(file: str) -> list[str]:
+        named = re.compile(rf'^file = .*"{re.escape(file)}"|<!-- = {re.escape(file)}[: ]|\(({re.escape(file)})\)', re.M)
+        return [page for page, text in texts.items() if named.search(text)]
+
+    whole, parts, absent = [], [], []
+    for study, file in STUDIES.items():
+        if not (results / file).is_file():
+            absent.append(study)
+            continue
+        _, missing = missing_of(tomllib.loads((ROOT / f"experiments/{study}.toml").read_text()), runs(results / file))
+        (parts if missing else whole).append((study, file))
+    head = ["# Studies and their files", "",
+            "By which command each file of these pages is made, how much of its study is done, of which version, device and days it is, and where it is shown; numbers in sentences lead here. Made by "
+            "`experiments/plotting/pages.py` of the files and of the studies in `experiments/`. A file that ends in `_recorded.csv` is a table as it was once printed; the others have a row a run.", "",
+            f"Of {len(STUDIES)} studies {len(whole)} are done as a whole, {len(parts)} in part" + (": " if parts else "") +
+            ", ".join(f"[{study}](#{anchor_of(file)})" for study, file in parts) + "." +
+            (f" Not there yet, or only as a table that was recorded: {', '.join(absent)}." if absent else ""), ""]
+    return "\n".join(head) + "\n" + "\n\n".join(section(results, file, shown(file)) for file in files) + "\n"
