@@ -329,6 +329,17 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry,
         ->capture_default_str();
     referenceApp->add_flag("--caustic-view", reference.causticView,
                            "Also what the eye sees of it through and in specular surfaces (sppm)");
+    referenceApp->add_option("--classes", reference.classes,
+                             "Keeps the N brightest classes of paths apart, and all others: layers "
+                             "TT, TRT, …, other of NAME.classes.exr");
+    referenceApp
+        ->add_option("--class", reference.named,
+                     "A class to keep apart, as [NAME=]PATTERN: 'L T R+ T D', 'S+ @ring'")
+        ->take_all()
+        ->expected(1)
+        ->allow_extra_args(false);
+    referenceApp->add_flag("--by-object", reference.byObject,
+                           "The classes of --classes are by the first specular object, too");
     referenceApp->add_option("--shard", reference.shard,
                              "K/N: only the K-th of N equal parts of --photons, as a .shard");
     addMergeOptions(*referenceApp, reference);

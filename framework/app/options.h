@@ -86,6 +86,9 @@ struct ReferenceOptions {
     bool transmissionOnly = false;
     int interactions = 64;
     bool causticView = false;
+    int classes = 0;                  // of paths, that are kept apart
+    std::vector<std::string> named;   // further ones, as patterns
+    bool byObject = false;            // `classes` are by the first specular object, too
     std::string out;                  // "" for results/references/<scene>-<estimator>-<size>.exr
     std::string shard;                // K/N; "" for the whole
     std::vector<std::string> merged;  // parts; then nothing else counts but `out` and
