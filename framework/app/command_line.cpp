@@ -346,6 +346,40 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry,
     referenceApp->add_option("--out", reference.out,
                              "The .exr or .pfm (with --shard: .shard) that is written");
 
+    CensusOptions census;
+    CLI::App* censusApp = app.add_subcommand(
+        "census",
+        "Prints the watts of each class of caustic paths, and what of them each technique forms, "
+        "cannot form, and loses");
+    censusApp->add_option("scene", census.scene, kSceneHelp)->capture_default_str();
+    addOwnMeshOptions(*censusApp, census.own);
+    censusApp->add_option("--photons", census.photons, "Photons of the census of paths")
+        ->check(integerRangeError)
+        ->capture_default_str();
+    censusApp
+        ->add_option(
+            "--technique", census.techniques,
+            "A name from 'list techniques'; without it all, with defaults and as published")
+        ->take_all()
+        ->expected(1)
+        ->allow_extra_args(false);
+    censusApp
+        ->add_option("--set", census.assignments, "A parameter of the techniques, as name=value")
+        ->take_all()
+        ->expected(1)
+        ->allow_extra_args(false);
+    censusApp
+        ->add_option("--technique-photons", census.techniquePhotons,
+                     "Photons of a technique's frame, WIDTHxHEIGHT")
+        ->capture_default_str();
+    censusApp->add_option("--size", census.size, "Picture size, WIDTHxHEIGHT")
+        ->capture_default_str();
+    censusApp->add_option("--time", census.time, "Time of the animation in seconds");
+    censusApp->add_flag("--json", census.json, "As JSON");
+    censusApp->add_option("--out", census.out,
+                          "Folder for classes.csv, techniques.csv and census.json");
+    addDeviceOption(*censusApp);
+
     CompareOptions compare;
     CLI::App* compareApp =
         app.add_subcommand("compare", "Prints how wrong an image is against a reference");
@@ -435,6 +469,10 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry,
         if (referenceApp->parsed()) {
             putOwnMesh(reference.scene, reference.own);
             referenceCommand(reference);
+        }
+        if (censusApp->parsed()) {
+            putOwnMesh(census.scene, census.own);
+            censusCommand(census, registry);
         }
         if (compareApp->parsed()) compareCommand(compare);
         if (importApp->parsed()) importCommand(imported);

@@ -95,6 +95,19 @@ struct ReferenceOptions {
     bool incomplete = false;
 };
 
+struct CensusOptions {
+    std::string scene = "pool";
+    OwnMeshOptions own;
+    std::string time;  // seconds; "" for the scene's own
+    std::string size = "200x150";
+    long long photons = 1LL << 22;
+    std::string techniquePhotons = "128x128";
+    std::vector<std::string> techniques;   // all where it is empty
+    std::vector<std::string> assignments;  // --set name=value
+    bool json = false;
+    std::string out;  // folder; "": nothing is written
+};
+
 struct ListOptions {
     std::string what = "scenes";
     std::string technique;

@@ -254,7 +254,8 @@ PixelSums makeEstimatorSums(const EmbreeScene& scene, const LightTraceSettings& 
 ArrivedPath arrivedPathOf(const PhotonState& photon) {
     return {{photon.reflections, std::min(photon.interactions, kLongestPathWord)},
             photon.interactions,
-            photon.firstObject};
+            photon.firstObject,
+            photon.partlyReflected};
 }
 
 int inScatteredLayer(const scene::Scene& scene) {

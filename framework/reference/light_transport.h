@@ -65,6 +65,7 @@ struct PhotonState {
     // interaction i was a reflection, of the first 64; and the first specular object.
     std::uint64_t reflections = 0;
     std::uint32_t firstObject = 0;
+    bool partlyReflected = false;  // at an interface that refracts light as well, at least once
 
     // Notes that the last interaction was a reflection.
     void noteReflection() {
@@ -264,6 +265,7 @@ class LightTransport {
         reflected.direction = branches.reflected;
         reflected.reflectedInside = !enters;
         reflected.noteReflection();
+        reflected.partlyReflected = photon.partlyReflected || branches.reflectance < 1.0;
         if (branches.reflectance >= 1.0) {
             photon = reflected;
             return true;

@@ -96,8 +96,8 @@ struct Statistic {
 
 // Orders paths that bring the same by what they are, so that equal ones do not change places.
 bool isBefore(const ArrivedPath& a, const ArrivedPath& b) {
-    return std::tuple(a.interactions, a.word.reflections, a.firstObject) <
-           std::tuple(b.interactions, b.word.reflections, b.firstObject);
+    return std::tuple(a.interactions, a.word.reflections, a.firstObject, a.partlyReflected) <
+           std::tuple(b.interactions, b.word.reflections, b.firstObject, b.partlyReflected);
 }
 
 PathCensus summed(const std::vector<Found>& batches) {

@@ -31,6 +31,9 @@ struct ArrivedPath {
     PathWord word;  // of a longer path the first interactions
     int interactions = 0;
     std::uint32_t firstObject = 0;  // of the scene
+    // Reflected at least once at an interface that refracts light as well: neither a mirror nor
+    // total.
+    bool partlyReflected = false;
     friend bool operator==(const ArrivedPath&, const ArrivedPath&) = default;
 };
 
