@@ -131,6 +131,10 @@ void requireConsistent(const PartHead& head, const fs::path& file) {
         head.sumsBytes > kMaxCompressionRatio * (head.compressedBytes + 1)) {
         failDamaged(file, "its numbers make no sense");
     }
+    const int classLayer = head.subject.firstClassLayer;
+    if (head.subject.request.classes.empty() ? classLayer != -1
+                                             : classLayer < 1 || classLayer > kMaximumClasses)
+        failDamaged(file, "its classes make no sense");
     const BatchRange own = head.own();
     std::uint64_t end = own.first;
     for (const BatchRange& range : head.batches) {
@@ -231,8 +235,7 @@ PixelSums readPartSums(const fs::path& file, const PartHead& head) {
             ? sums.layers()
             : head.subject.firstClassLayer + static_cast<int>(request.classes.size()) + 1;
     if (sums.batches() != head.batches || sums.width() != request.width ||
-        sums.height() != request.height || sums.layers() != layers ||
-        (head.subject.firstClassLayer < 0) != request.classes.empty())
+        sums.height() != request.height || sums.layers() != layers)
         failDamaged(file, "its head is not that of its sums");
     return sums;
 }

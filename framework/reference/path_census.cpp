@@ -155,6 +155,15 @@ PathFlux PathCensus::fluxOf(const std::function<bool(const ArrivedPath&)>& belon
     return statistic.flux();
 }
 
+bool isFollowed(const ArrivedPath& path, const PathFilter& filter) {
+    if (path.interactions > filter.maximumInteractions) return false;
+    if (filter.transmissionOnly && path.partlyReflected) return false;
+    const std::uint64_t all = path.word.length >= kLongestPathWord
+                                  ? ~std::uint64_t{0}
+                                  : (std::uint64_t{1} << path.word.length) - 1;
+    return !filter.reflectionOnly || path.word.reflections == all;
+}
+
 PathCensus takeCensus(const EmbreeScene& scene, const ReferenceRequest& request,
                       const CensusOptions& options) {
     const auto start = std::chrono::steady_clock::now();

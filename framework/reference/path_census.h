@@ -59,6 +59,11 @@ struct CensusOptions {
 [[nodiscard]] PathCensus takeCensus(const EmbreeScene& scene, const ReferenceRequest& request,
                                     const CensusOptions& options);
 
+// Whether light takes such a path where only those of the filter are followed. A path with a
+// reflection at an interface that would have refracted it as well is none of transmission alone;
+// mirrors and total reflection are.
+[[nodiscard]] bool isFollowed(const ArrivedPath& path, const PathFilter& filter);
+
 // Which classes a reference is to keep apart.
 struct ClassOrder {
     std::vector<std::string> patterns;  // as pathClassOf() takes them

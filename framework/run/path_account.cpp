@@ -144,13 +144,7 @@ void reflect(F& f, const UnformedTable& table) {
 }  // namespace
 
 bool isModelled(const ArrivedPath& path, const ModelledPaths& paths) {
-    if (path.interactions > paths.interactions) return false;
-    if (paths.transmissionOnly && path.partlyReflected) return false;
-    // What is followed of a dielectric is what it reflects.
-    const std::uint64_t all = path.word.length >= kLongestPathWord
-                                  ? ~std::uint64_t{0}
-                                  : (std::uint64_t{1} << path.word.length) - 1;
-    return !paths.reflectionOnly || path.word.reflections == all;
+    return isFollowed(path, modelledFilter({}, paths));
 }
 
 std::vector<ClassFlux> classFluxes(const PathCensus& census, std::size_t maximum, double leastShare,
@@ -208,13 +202,16 @@ PathFlux unformedLight(const PathCensus& census, const ModelledPaths& paths) {
     return census.fluxOf([&](const ArrivedPath& path) { return !isModelled(path, paths); });
 }
 
-std::vector<std::pair<std::string, double>> lossesOf(const EnergyLedger& ledger) {
+std::vector<std::pair<std::string, double>> lossesOf(const EnergyLedger& ledger,
+                                                     const ModelledPaths& paths) {
     using namespace transport;
+    const bool followsOne = paths.transmissionOnly || paths.reflectionOnly;
     std::vector<std::pair<std::string, double>> losses;
     for (const auto& [account, name] : lossCauses()) {
-        const bool isNotFollowed =
-            account == kAccountUntracedBranch || account == kAccountInternalReflectionLimit ||
-            account == kAccountBounceLimit || account == kAccountNestingLimit;
+        const bool isNotFollowed = (account == kAccountUntracedBranch && followsOne) ||
+                                   account == kAccountInternalReflectionLimit ||
+                                   account == kAccountBounceLimit ||
+                                   account == kAccountNestingLimit;
         if (!isNotFollowed && ledger.watts[account] != 0.0)
             losses.emplace_back(name, ledger.watts[account]);
     }

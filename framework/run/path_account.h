@@ -47,9 +47,12 @@ struct ObjectFlux {
 [[nodiscard]] reference::PathFlux unformedLight(const reference::PathCensus& census,
                                                 const ModelledPaths& paths);
 
-// What of a ledger's losses is no account of branches or interactions that are not followed: light
-// that the technique goes after and does not bring to a receiver. By cause, those above 0.
-[[nodiscard]] std::vector<std::pair<std::string, double>> lossesOf(const EnergyLedger& ledger);
+// What of a ledger's losses is of light that a technique with these paths goes after: all but that
+// beyond its last interaction, and, where it follows one branch alone, that of the other. Where it
+// follows both, a branch that it leaves (`untraced_branch`) is a loss, with what of it would have
+// reached no receiver. By cause, those that are not 0.
+[[nodiscard]] std::vector<std::pair<std::string, double>> lossesOf(const EnergyLedger& ledger,
+                                                                   const ModelledPaths& paths);
 
 // A sentence for reports: "screen_space_photons cannot form 0.86 W, 1.6% of the caustic light
 // (TRT 0.5 W, ...)"; "" where it forms all but 0.05%.

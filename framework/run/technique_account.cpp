@@ -71,7 +71,7 @@ TechniqueAccount renderedAccount(gl::Context& context, const Registry& registry,
     const EnergyLedger ledger =
         audit::resolveLedger(renderer, audit::auditHits(renderer, exact), account.emittedWatts);
     account.formedWatts = ledger.watts[kAccountDeposited];
-    account.losses = lossesOf(ledger);
+    account.losses = lossesOf(ledger, account.paths);
     for (const auto& [cause, name] : lossCauses()) {
         const bool isLoss = std::any_of(account.losses.begin(), account.losses.end(),
                                         [&](const auto& loss) { return loss.first == name; });
@@ -116,6 +116,11 @@ json pairsJson(const std::vector<std::pair<std::string, double>>& watts) {
     for (const auto& [name, value] : watts)
         result[name] = value;
     return result;
+}
+
+// Without what would have to be set instead.
+std::string shortProblem(const std::string& problem) {
+    return problem.substr(0, problem.find(';'));
 }
 
 double shareOf(double part, double all) {
@@ -249,8 +254,9 @@ std::string techniquesCsv(const SceneCensus& census) {
         text += fmt::format("{},{},{},", csvText(census.scene), account.technique,
                             account.isAsPublished ? "true" : "false");
         if (!account.problem.empty()) {
-            text += fmt::format("does not go,{},,,,,,,,,,,,,{},{}\n", csvText(account.problem),
-                                csvText(census.device), versionString());
+            text += fmt::format("does not go,{},,,,,,,,,,,,,{},{}\n",
+                                csvText(shortProblem(account.problem)), csvText(census.device),
+                                versionString());
             continue;
         }
         std::vector<std::pair<std::string, double>> classes;
@@ -263,8 +269,8 @@ std::string techniquesCsv(const SceneCensus& census) {
             csvText(account.modelled()), account.emittedWatts, all, account.formedWatts,
             shareOf(account.formedWatts, all) / 100.0, account.unformed.watts,
             account.unformed.wattsError, shareOf(account.unformed.watts, all) / 100.0,
-            csvText(pairsText(classes, 1e-4 * all)), lost, shareOf(lost, all) / 100.0,
-            csvText(pairsText(account.losses, 1e-3 * all)), csvText(census.device),
+            csvText(pairsText(classes, 1e-3 * all)), lost, shareOf(lost, all) / 100.0,
+            csvText(pairsText(account.losses, 3e-3 * all)), csvText(census.device),
             versionString());
     }
     return text;
@@ -294,7 +300,7 @@ std::string makeTable(const SceneCensus& census) {
             account.technique + (account.isAsPublished ? ", as published" : "");
         if (!account.problem.empty()) {
             text += fmt::format("  {:<40}does not go with this scene: {}\n", name,
-                                account.problem.substr(0, account.problem.find(';')));
+                                shortProblem(account.problem));
             continue;
         }
         std::vector<std::pair<std::string, double>> classes;
