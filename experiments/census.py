@@ -23,14 +23,19 @@ def scenes(kaustik: str) -> list[str]:
     return [scene["name"] for scene in json.loads(printed)]
 
 
+# In each scene's own file; in the joined one of all techniques they only take room.
+LEFT_OUT = {"emitted", "device"}
+
+
 def joined(files: list[pathlib.Path], target: pathlib.Path) -> None:
     """All rows under one head, whole or not at all."""
     heads, rows = set(), []
     for file in files:
         with file.open(newline="") as stream:
             head, *body = csv.reader(stream)
-        heads.add(tuple(head))
-        rows += body
+        kept = [i for i, name in enumerate(head) if name not in LEFT_OUT]
+        heads.add(tuple(head[i] for i in kept))
+        rows += [[row[i] for i in kept] for row in body]
     if len(heads) != 1:
         sys.exit(f"census: {', '.join(map(str, files))} are of different versions; delete those of the older one")
     target.parent.mkdir(parents=True, exist_ok=True)
