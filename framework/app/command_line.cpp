@@ -329,11 +329,56 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry,
         ->capture_default_str();
     referenceApp->add_flag("--caustic-view", reference.causticView,
                            "Also what the eye sees of it through and in specular surfaces (sppm)");
+    referenceApp->add_option("--classes", reference.classes,
+                             "Keeps the N brightest classes of paths apart, and all others: layers "
+                             "TT, TRT, …, other of NAME.classes.exr");
+    referenceApp
+        ->add_option("--class", reference.named,
+                     "A class to keep apart, as [NAME=]PATTERN: 'L T R+ T D', 'S+ @ring'")
+        ->take_all()
+        ->expected(1)
+        ->allow_extra_args(false);
+    referenceApp->add_flag("--by-object", reference.byObject,
+                           "The classes of --classes are by the first specular object, too");
     referenceApp->add_option("--shard", reference.shard,
                              "K/N: only the K-th of N equal parts of --photons, as a .shard");
     addMergeOptions(*referenceApp, reference);
     referenceApp->add_option("--out", reference.out,
                              "The .exr or .pfm (with --shard: .shard) that is written");
+
+    CensusOptions census;
+    CLI::App* censusApp = app.add_subcommand(
+        "census",
+        "Prints the watts of each class of caustic paths, and what of them each technique forms, "
+        "cannot form, and loses");
+    censusApp->add_option("scene", census.scene, kSceneHelp)->capture_default_str();
+    addOwnMeshOptions(*censusApp, census.own);
+    censusApp->add_option("--photons", census.photons, "Photons of the census of paths")
+        ->check(integerRangeError)
+        ->capture_default_str();
+    censusApp
+        ->add_option(
+            "--technique", census.techniques,
+            "A name from 'list techniques'; without it all, with defaults and as published")
+        ->take_all()
+        ->expected(1)
+        ->allow_extra_args(false);
+    censusApp
+        ->add_option("--set", census.assignments, "A parameter of the techniques, as name=value")
+        ->take_all()
+        ->expected(1)
+        ->allow_extra_args(false);
+    censusApp
+        ->add_option("--technique-photons", census.techniquePhotons,
+                     "Photons of a technique's frame, WIDTHxHEIGHT")
+        ->capture_default_str();
+    censusApp->add_option("--size", census.size, "Picture size, WIDTHxHEIGHT")
+        ->capture_default_str();
+    censusApp->add_option("--time", census.time, "Time of the animation in seconds");
+    censusApp->add_flag("--json", census.json, "As JSON");
+    censusApp->add_option("--out", census.out,
+                          "Folder for classes.csv, techniques.csv and census.json");
+    addDeviceOption(*censusApp);
 
     CompareOptions compare;
     CLI::App* compareApp =
@@ -431,6 +476,10 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry,
         if (referenceApp->parsed()) {
             putOwnMesh(reference.scene, reference.own);
             referenceCommand(reference);
+        }
+        if (censusApp->parsed()) {
+            putOwnMesh(census.scene, census.own);
+            censusCommand(census, registry);
         }
         if (compareApp->parsed()) compareCommand(compare);
         if (importApp->parsed()) importCommand(imported);

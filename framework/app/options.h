@@ -86,10 +86,26 @@ struct ReferenceOptions {
     bool transmissionOnly = false;
     int interactions = 64;
     bool causticView = false;
+    int classes = 0;                  // of paths, that are kept apart
+    std::vector<std::string> named;   // further ones, as patterns
+    bool byObject = false;            // `classes` are by the first specular object, too
     std::string out;                  // "" for results/references/<scene>-<estimator>-<size>.exr
     std::string shard;                // K/N; "" for the whole
     std::vector<std::string> merged;  // parts; then nothing else counts but `out` and
     bool incomplete = false;
+};
+
+struct CensusOptions {
+    std::string scene = "pool";
+    OwnMeshOptions own;
+    std::string time;  // seconds; "" for the scene's own
+    std::string size = "200x150";
+    long long photons = 1LL << 22;
+    std::string techniquePhotons = "128x128";
+    std::vector<std::string> techniques;   // all where it is empty
+    std::vector<std::string> assignments;  // --set name=value
+    bool json = false;
+    std::string out;  // folder; "": nothing is written
 };
 
 struct ListOptions {

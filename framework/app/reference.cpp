@@ -46,11 +46,29 @@ Order orderOf(const ReferenceOptions& options) {
             .threads = options.threads,
             .transmissionOnly = options.transmissionOnly,
             .interactions = options.interactions,
-            .causticView = options.causticView};
+            .causticView = options.causticView,
+            .classes = {options.named, options.classes, options.byObject}};
 }
 
 std::string asOption(const std::string& name) {
     return "--" + name;
+}
+
+// What each class has of the picture's light.
+void printClasses(const Reference& result) {
+    if (result.classes.empty()) return;
+    const auto sum = [](const Image& image) {
+        double total = 0.0;
+        for (const float value : image.values)
+            total += static_cast<double>(value);
+        return total;
+    };
+    const double all = sum(result.irradiance);
+    fmt::print("share of the picture's irradiance by class:\n");
+    for (const ClassImages& one : result.classes) {
+        fmt::print("  {:<16} {:7.3f} %\n", one.name,
+                   all > 0.0 ? 100.0 * sum(one.irradiance) / all : 0.0);
+    }
 }
 
 void print(const Reference& result, const fs::path& file) {
@@ -67,6 +85,7 @@ void print(const Reference& result, const fs::path& file) {
     fmt::print("emitted {:.5g} W, deposited {:.5g} W ({:.5g} W in the picture), balance {:.1e}\n",
                watts[transport::kAccountEmitted], watts[transport::kAccountDeposited],
                result.energy.visibleWatts, result.energy.balance());
+    printClasses(result);
     if (result.rejectedValues > 0)
         fmt::print("warning: {} values were no numbers and were left out\n", result.rejectedValues);
     fmt::print("wrote {}\n", file.string());
@@ -120,7 +139,7 @@ void referenceCommand(const ReferenceOptions& options) {
         throw ConfigError("reference: name a scene, or the parts of a reference with --merge.");
     }
     const Order order = orderOf(options);
-    const ReferenceRequest request = requestOf(order, asOption);
+    ReferenceRequest request = requestOf(order, asOption);
     reference::RunOptions run = optionsOf(order, asOption);
     std::optional<Shard> shard;
     if (!options.shard.empty()) {
@@ -131,6 +150,10 @@ void referenceCommand(const ReferenceOptions& options) {
                 "--seconds of the others.");
         }
     }
+    if (!order.classes.isEmpty() && !hasImageModule()) {
+        throw ConfigError(
+            "--classes: are layers of an .exr, and this build has no module that writes one.");
+    }
     const scene::Scene scene = loadRequestedScene(options.scene, options.time);
     const std::string name = nameOf(scene.name, request);
     const fs::path file =
@@ -139,6 +162,9 @@ void referenceCommand(const ReferenceOptions& options) {
                            {".shard"})
               : outputFile(options.out, name + floatImageExtension(), kImageEndings);
     const EmbreeScene embree(scene);
+    addClasses(
+        embree, order, asOption, [](const std::string& text) { fmt::print(stderr, "{}\n", text); },
+        request);
     if (shard) {
         run.stop = {};
         print(run::obtainShard(embree, request,

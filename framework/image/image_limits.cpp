@@ -22,4 +22,17 @@ std::string imageSizeProblem(std::int64_t width, std::int64_t height, std::int64
     return "";
 }
 
+std::string layeredSizeProblem(std::int64_t width, std::int64_t height, std::int64_t channels) {
+    const std::string problem = imageSizeProblem(width, height, 1);
+    if (!problem.empty()) return problem;
+    if (channels < 1 || channels > kLargestChannelCount) {
+        return fmt::format("has {} channels; 1 to {} can be used", channels, kLargestChannelCount);
+    }
+    if (width * height * channels > kLargestImageValues) {
+        return fmt::format("is too large ({}x{} with {} channels; at most {} values)", width,
+                           height, channels, kLargestImageValues);
+    }
+    return "";
+}
+
 }  // namespace kaustik

@@ -21,4 +21,9 @@ inline constexpr std::int64_t kUnaskedValues = std::int64_t{1} << 26;  // 256 Mi
 [[nodiscard]] std::string imageSizeProblem(std::int64_t width, std::int64_t height,
                                            std::int64_t channels);
 
+// The same for an image of named layers (layered_image.h), which has more channels.
+inline constexpr std::int64_t kLargestChannelCount = 1024;
+[[nodiscard]] std::string layeredSizeProblem(std::int64_t width, std::int64_t height,
+                                             std::int64_t channels);
+
 }  // namespace kaustik

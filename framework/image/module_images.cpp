@@ -7,6 +7,7 @@
 #include <exception>
 #include <functional>
 #include <system_error>
+#include <utility>
 
 #include "framework/core/error.h"
 #include "framework/image/image_limits.h"
@@ -19,6 +20,8 @@ namespace {
 struct Received {
     std::uintmax_t sourceBytes = 0;  // of the file that is read
     Image image;
+    std::vector<std::string> channels;
+    std::vector<LayeredImage::Attribute> attributes;
     std::string bytes;
     std::string problem;
 };
@@ -61,6 +64,22 @@ KaustikImageSink sinkFor(Received& received) {
             if (target.problem.empty()) target.problem = message;
         } catch (const std::exception&) {
             // The caller still learns that it failed.
+        }
+    };
+    sink.channel = [](void* context, const char* name) {
+        try {
+            static_cast<Received*>(context)->channels.emplace_back(name);
+            return true;
+        } catch (const std::exception&) {
+            return false;
+        }
+    };
+    sink.attribute = [](void* context, const char* name, const char* value) {
+        try {
+            static_cast<Received*>(context)->attributes.push_back({name, value});
+            return true;
+        } catch (const std::exception&) {
+            return false;
         }
     };
     return sink;
@@ -122,6 +141,38 @@ std::string encodePng(const Image& image, const std::vector<unsigned char>& valu
                       [&](const auto& functions, const auto& sink) {
                           return functions.encodePng(values.data(), image.width, image.height,
                                                      image.channels, &sink);
+                      })
+        .bytes;
+}
+
+LayeredImage readLayersByModule(const std::filesystem::path& path, const std::string& name) {
+    std::error_code error;
+    const std::uintmax_t size = std::filesystem::file_size(path, error);
+    Received received =
+        callModule(name, "read", error ? 0 : size, [&](const auto& functions, const auto& sink) {
+            return functions.readLayers(path.c_str(), &sink);
+        });
+    return {received.image.width, received.image.height, std::move(received.channels),
+            std::move(received.image.values), std::move(received.attributes)};
+}
+
+std::string encodeLayersByModule(const LayeredImage& image, const std::string& name) {
+    std::vector<const char*> channels;
+    for (const std::string& channel : image.channels)
+        channels.push_back(channel.c_str());
+    std::vector<const char*> attributeNames;
+    std::vector<const char*> attributeValues;
+    for (const LayeredImage::Attribute& attribute : image.attributes) {
+        attributeNames.push_back(attribute.name.c_str());
+        attributeValues.push_back(attribute.value.c_str());
+    }
+    const KaustikImageLayers layers{channels.data(), attributeNames.size(), attributeNames.data(),
+                                    attributeValues.data()};
+    return callModule(name, "written", 0,
+                      [&](const auto& functions, const auto& sink) {
+                          return functions.encodeLayers(
+                              image.values.data(), image.width, image.height,
+                              static_cast<int>(channels.size()), &layers, &sink);
                       })
         .bytes;
 }

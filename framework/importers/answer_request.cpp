@@ -2,6 +2,7 @@
 #include "framework/importers/answer_request.h"
 
 #include "framework/image/image_wire.h"
+#include "framework/image/layered_wire.h"
 #include "framework/image/module_images.h"
 #include "framework/importers/foreign_file.h"
 #include "framework/importers/gltf_file.h"
@@ -35,6 +36,9 @@ void answerRequest(const Request& request, reading::Channel& channel) {
             return reading::answer(channel, [&] { return readForeignFile(request.file); });
         case RequestKind::image:
             return reading::answer(channel, [&] { return readAnyImage(request); });
+        case RequestKind::layers:
+            return reading::answer(channel,
+                                   [&] { return readLayersByModule(request.file, request.name); });
     }
 }
 

@@ -75,7 +75,8 @@ std::shared_ptr<Reference> compute(const py::object& scene, const std::string& b
                                    std::optional<double> seconds,
                                    std::optional<double> standardError, long long seed, int threads,
                                    bool transmissionOnly, int interactions, bool causticView,
-                                   const py::object& progress) {
+                                   const std::vector<std::string>& classPatterns, int classes,
+                                   bool byObject, const py::object& progress) {
     const SceneSource source(scene, base);
     const params::Extent targetPixels = pixels(settingText("size", size));
     const Order order{.estimator = estimator,
@@ -88,7 +89,8 @@ std::shared_ptr<Reference> compute(const py::object& scene, const std::string& b
                       .threads = threads,
                       .transmissionOnly = transmissionOnly,
                       .interactions = interactions,
-                      .causticView = causticView};
+                      .causticView = causticView,
+                      .classes = {classPatterns, classes, byObject}};
     const ReferenceRequest request = requestOf(order, asArgument);
     const RunOptions options = optionsOf(order, asArgument);
     Progress told(progress);
@@ -103,8 +105,13 @@ std::shared_ptr<Reference> compute(const py::object& scene, const std::string& b
                     const run::Watch watch{
                         [&] { return shouldContinue() && !told.hasFailed(); },
                         [&](double share, const std::string& text) { told.tell(share, text); }};
+                    const EmbreeScene embree(loaded);
+                    ReferenceRequest whole = request;
+                    addClasses(
+                        embree, order, asArgument,
+                        [&](const std::string& text) { told.tell(0.0, text); }, whole);
                     found = std::make_shared<Reference>(
-                        run::obtainReference(EmbreeScene(loaded), request, options, watch));
+                        run::obtainReference(embree, whole, options, watch));
                 },
                 keepWaiting);
             return found;
@@ -119,6 +126,16 @@ std::shared_ptr<Reference> compute(const py::object& scene, const std::string& b
 py::object arrayOf(const Image& image) {
     if (image.values.empty()) return py::none();
     return py::cast(std::make_shared<Array>(image));
+}
+
+// The images of classes by their names, in their order.
+auto classesOf(Image ClassImages::*image) {
+    return [image](const Reference& reference) {
+        py::dict images;
+        for (const ClassImages& one : reference.classes)
+            images[py::str(one.name)] = arrayOf(one.*image);
+        return images;
+    };
 }
 
 // A property that hands out a copy of an image.
@@ -163,6 +180,11 @@ Irradiance in W/m2, radiance in W/m2/sr, linear Rec.709.
                                "for.")
         .def_property_readonly("in_scattered", asArray(&Reference::inScattered),
                                "H x W x 3, W/m2/sr; None without a medium that scatters.")
+        .def_property_readonly("classes", classesOf(&ClassImages::irradiance),
+                               "Irradiance of the classes of paths that were kept apart, by name, "
+                               "and of `other`: H x W x 3, W/m2 each; together the irradiance.")
+        .def_property_readonly("class_errors", classesOf(&ClassImages::irradianceError),
+                               "Their standard errors.")
         .def_property_readonly(
             "photons", [](const Reference& reference) { return reference.photons; },
             "How many photons were traced.")
@@ -192,7 +214,8 @@ Irradiance in W/m2, radiance in W/m2/sr, linear Rec.709.
     module.def("reference", &compute, py::arg("scene"), py::arg("base"), py::arg("size"),
                py::arg("time"), py::arg("estimator"), py::arg("photons"), py::arg("seconds"),
                py::arg("error"), py::arg("seed"), py::arg("threads"), py::arg("transmission_only"),
-               py::arg("interactions"), py::arg("caustic_view"), py::arg("progress"));
+               py::arg("interactions"), py::arg("caustic_view"), py::arg("class_patterns"),
+               py::arg("classes"), py::arg("by_object"), py::arg("progress"));
     module.def(
         "read_reference",
         [](const std::filesystem::path& file) {

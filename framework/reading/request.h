@@ -10,7 +10,7 @@
 
 namespace kaustik::reading {
 
-enum class RequestKind : std::uint32_t { toml, mesh, gltf, image, foreign };
+enum class RequestKind : std::uint32_t { toml, mesh, gltf, image, foreign, layers };
 
 struct Request {
     RequestKind kind = RequestKind::toml;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "framework/core/error.h"
 #include "framework/reference/eye.h"
@@ -30,10 +31,16 @@ bool scatters(const scene::Scene& scene) {
 // Turns the events of a photon's path into values of pixels.
 class Camera {
   public:
-    Camera(const EmbreeScene& scene, const Eye& eye, BatchResult& result)
+    Camera(const EmbreeScene& scene, const Eye& eye, const std::vector<PathClass>& classes,
+           BatchResult& result)
         : scene_(scene), eye_(eye), result_(result) {
         const std::size_t layerSize =
             static_cast<std::size_t>(eye.width()) * static_cast<std::size_t>(eye.height()) * 3;
+        if (!classes.empty()) {
+            classifier_.emplace(scene.scene(), classes);
+            layerSize_ = layerSize;
+            firstClass_ = layerSize * static_cast<std::size_t>(firstClassLayer(scene.scene()));
+        }
         const int radianceLayer = causticRadianceLayer(scene.scene());
         if (radianceLayer > 0) radiance_ = layerSize * static_cast<std::size_t>(radianceLayer);
         if (!scatters(scene.scene())) return;
@@ -70,6 +77,10 @@ class Camera {
         const glm::dvec3 irradiance =
             flux * eye_.coverage(hit.position, hit.geometricNormal, at.depth);
         splat(at.pixel * std::size_t{3}, irradiance);
+        if (classifier_) {
+            const std::size_t place = classifier_->classOf(arrivedPathOf(photon));
+            splat(firstClass_ + place * layerSize_ + at.pixel * std::size_t{3}, irradiance);
+        }
         if (radiance_ == 0) return;
         const glm::dvec3 toEye = glm::normalize(eye_.position() - hit.position);
         const double side = glm::dot(hit.geometricNormal, toEye) > 0.0 ? 1.0 : -1.0;
@@ -136,13 +147,53 @@ class Camera {
     double anisotropy_ = 0.0;
     std::size_t inScattered_ = 0;  // first value of the layer; 0: none
     std::size_t radiance_ = 0;     // the same
+    std::optional<PathClassifier> classifier_;
+    std::size_t firstClass_ = 0;  // first value of the first class
+    std::size_t layerSize_ = 0;   // from one class to the next
 };
+
+// The values of classes are sums of their own, as that of all is; rounded to units of the sums they
+// would differ from it by a few. Those units go to the classes that were rounded the most, so that
+// the classes are all of the light to the last bit.
+void roundClasses(BatchResult& result, double quantum, std::size_t layerSize,
+                  std::size_t firstClass, std::size_t classCount) {
+    const double unitsPerValue = 1.0 / quantum;
+    constexpr double kMaxUnits = 0x1.0p52;  // pixel_sums.cpp leaves out what is more
+    std::vector<double> units(classCount);
+    std::vector<double> rest(classCount);
+    for (std::size_t i = 0; i < layerSize; ++i) {
+        if (result.values[i] == 0.0) continue;
+        const double whole = std::nearbyint(result.values[i] * unitsPerValue);
+        const bool isCounted = std::abs(whole) <= kMaxUnits;
+        double missing = whole;
+        for (std::size_t k = 0; k < classCount; ++k) {
+            const double exact = result.values[firstClass + k * layerSize + i] * unitsPerValue;
+            units[k] = isCounted ? std::nearbyint(exact) : 0.0;
+            rest[k] = exact - units[k];
+            missing -= units[k];
+        }
+        if (isCounted && missing != 0.0) {
+            const double sign = missing > 0.0 ? 1.0 : -1.0;
+            for (std::size_t k = 0; k < classCount && missing != 0.0; ++k, missing -= sign) {
+                const auto most =
+                    std::max_element(rest.begin(), rest.end(),
+                                     [&](double a, double b) { return sign * a < sign * b; });
+                units[static_cast<std::size_t>(most - rest.begin())] += sign;
+                *most -= sign;
+            }
+            // The sums of doubles that are far apart may differ by more.
+            *std::max_element(units.begin(), units.end()) += missing;
+        }
+        for (std::size_t k = 0; k < classCount; ++k)
+            result.values[firstClass + k * layerSize + i] = units[k] * quantum;
+    }
+}
 
 void traceBatch(const EmbreeScene& scene, const Eye& eye, const LightSampler& sampler,
                 const LightTraceSettings& settings, std::uint64_t batch, BatchResult& result,
                 const TracedMore& tracedMore) {
     const LightTransport transport(scene, settings.filter);
-    Camera camera(scene, eye, result);
+    Camera camera(scene, eye, settings.classes, result);
     for (std::uint64_t i = 0; i < sampler.photonsPerBatch(); ++i) {
         if (i % kPhotonsPerPulse == 0 && !tracedMore(i == 0 ? 0 : kPhotonsPerPulse)) return;
         Random random(settings.seed, batch, i);
@@ -200,6 +251,13 @@ PixelSums makeEstimatorSums(const EmbreeScene& scene, const LightTraceSettings& 
     return {settings.width, settings.height, layers, irradianceScale(scene), sampler.fluxWatts()};
 }
 
+ArrivedPath arrivedPathOf(const PhotonState& photon) {
+    return {{photon.reflections, std::min(photon.interactions, kLongestPathWord)},
+            photon.interactions,
+            photon.firstObject,
+            photon.partlyReflected};
+}
+
 int inScatteredLayer(const scene::Scene& scene) {
     return scatters(scene) ? kIrradianceLayer + 1 : -1;
 }
@@ -209,10 +267,14 @@ int causticRadianceLayer(const scene::Scene& scene) {
     return std::max(inScatteredLayer(scene), kIrradianceLayer) + 1;
 }
 
+int firstClassLayer(const scene::Scene& scene) {
+    return std::max({kIrradianceLayer, inScatteredLayer(scene), causticRadianceLayer(scene)}) + 1;
+}
+
 PixelSums makeLightTraceSums(const EmbreeScene& scene, const LightTraceSettings& settings) {
-    const int last = std::max(
-        {kIrradianceLayer, inScatteredLayer(scene.scene()), causticRadianceLayer(scene.scene())});
-    return makeEstimatorSums(scene, settings, last + 1);
+    const int classes =
+        settings.classes.empty() ? 0 : static_cast<int>(settings.classes.size()) + 1;
+    return makeEstimatorSums(scene, settings, firstClassLayer(scene.scene()) + classes);
 }
 
 void lightTrace(const EmbreeScene& scene, const LightTraceSettings& settings,
@@ -222,6 +284,13 @@ void lightTrace(const EmbreeScene& scene, const LightTraceSettings& settings,
     runBatches(sums, options,
                [&](std::uint64_t batch, BatchResult& result, const TracedMore& tracedMore) {
                    traceBatch(scene, eye, sampler, settings, batch, result, tracedMore);
+                   if (settings.classes.empty()) return;
+                   const std::size_t layerSize =
+                       result.values.size() / static_cast<std::size_t>(sums.layers());
+                   const int firstClass = firstClassLayer(scene.scene());
+                   roundClasses(result, sums.quantum(), layerSize,
+                                layerSize * static_cast<std::size_t>(firstClass),
+                                settings.classes.size() + 1);
                });
 }
 

@@ -13,10 +13,12 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "framework/reference/batches.h"
 #include "framework/reference/embree_scene.h"
 #include "framework/reference/light_transport.h"
+#include "framework/reference/path_classes.h"
 #include "framework/reference/pixel_sums.h"
 
 namespace kaustik::reference {
@@ -27,6 +29,7 @@ struct LightTraceSettings {
     std::uint64_t photonsPerBatch = 1u << 18;
     std::uint64_t seed = 1;
     PathFilter filter;
+    std::vector<PathClass> classes;  // of irradiance, that are kept apart
 };
 
 // Layers of the sums.
@@ -35,6 +38,12 @@ inline constexpr int kIrradianceLayer = 0;
 [[nodiscard]] int inScatteredLayer(const scene::Scene& scene);
 // -1 where no receiver is glossy.
 [[nodiscard]] int causticRadianceLayer(const scene::Scene& scene);
+// The first of as many as there are classes, and one for all other paths; where classes are kept
+// apart. In units of the sums they add up to kIrradianceLayer exactly, batch by batch.
+[[nodiscard]] int firstClassLayer(const scene::Scene& scene);
+
+// By what classes tell the path of a photon that has arrived.
+[[nodiscard]] ArrivedPath arrivedPathOf(const PhotonState& photon);
 
 // Empty sums that fit the scene and the settings; what an earlier run saved fits in their place.
 // Throws ConfigError for settings out of range.

@@ -61,6 +61,16 @@ struct PhotonState {
     MediaStack media;
     int interactions = 0;
     bool reflectedInside = false;  // by the last interaction, inside a dielectric
+    // The path behind it, for those who tell paths apart (path_classes.h): bit i is set where
+    // interaction i was a reflection, of the first 64; and the first specular object.
+    std::uint64_t reflections = 0;
+    std::uint32_t firstObject = 0;
+    bool partlyReflected = false;  // at an interface that refracts light as well, at least once
+
+    // Notes that the last interaction was a reflection.
+    void noteReflection() {
+        if (interactions <= 64) reflections |= std::uint64_t{1} << (interactions - 1);
+    }
 };
 
 // What the events are told. A sink has all of these; flux in W.
@@ -150,6 +160,7 @@ class LightTransport {
             }
         }
         photon.origin = hit.position;
+        photon.firstObject = hit.triangle.object;
         sink.emitted(photon.fluxWatts);
         finish(photon, &hit, random, sink);
     }
@@ -243,6 +254,7 @@ class LightTransport {
         if (isMirror) {
             photon.direction = branches.reflected;
             photon.reflectedInside = photon.media.inner() != 0;
+            photon.noteReflection();
             const glm::dvec3 kept =
                 photon.fluxWatts * photon.wavelength.tinted(glm::dvec3(material.albedo));
             sink.absorbed(photon.fluxWatts - kept);
@@ -252,6 +264,8 @@ class LightTransport {
         PhotonState reflected = photon;
         reflected.direction = branches.reflected;
         reflected.reflectedInside = !enters;
+        reflected.noteReflection();
+        reflected.partlyReflected = photon.partlyReflected || branches.reflectance < 1.0;
         if (branches.reflectance >= 1.0) {
             photon = reflected;
             return true;

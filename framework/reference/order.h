@@ -8,6 +8,7 @@
 #include <string>
 
 #include "framework/reference/batches.h"
+#include "framework/reference/path_census.h"
 #include "framework/reference/reference.h"
 
 namespace kaustik::reference {
@@ -27,6 +28,7 @@ struct Order {
     bool transmissionOnly = false;
     int interactions = 64;
     bool causticView = false;
+    ClassOrder classes;  // none: paths are not told apart
 };
 
 // How whoever asks writes the name of a setting: "--caustic-view" for "caustic-view".
@@ -35,5 +37,11 @@ using Spelling = std::function<std::string(const std::string& name)>;
 // Both throw ConfigError, by the setting's name, for what there is not or what is out of range.
 [[nodiscard]] ReferenceRequest requestOf(const Order& order, const Spelling& spelled);
 [[nodiscard]] RunOptions optionsOf(const Order& order, const Spelling& spelled);
+
+// Chooses the classes of the request as the order has them, and tells `report` in a sentence which
+// they are and how much memory they take, before it is taken. Throws ConfigError for classes that
+// there cannot be, and where this machine has less memory.
+void addClasses(const EmbreeScene& scene, const Order& order, const Spelling& spelled,
+                const std::function<void(const std::string&)>& report, ReferenceRequest& request);
 
 }  // namespace kaustik::reference

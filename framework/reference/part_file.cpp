@@ -9,6 +9,7 @@
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "framework/core/content_hash.h"
 #include "framework/core/error.h"
@@ -80,14 +81,15 @@ json rangesToJson(const std::vector<BatchRange>& ranges) {
 }
 
 json toJson(const PartHead& head) {
+    json layers = {{"in_scattered", head.subject.inScatteredLayer},
+                   {"caustic_radiance", head.subject.causticRadianceLayer},
+                   {"caustic_view", head.subject.causticViewLayer}};
+    if (head.subject.firstClassLayer >= 0) layers["classes"] = head.subject.firstClassLayer;
     return {{"version", head.version},
             {"key", head.subject.key},
             {"scene", head.subject.scene},
             {"request", requestToJson(head.subject.request)},
-            {"layers",
-             {{"in_scattered", head.subject.inScatteredLayer},
-              {"caustic_radiance", head.subject.causticRadianceLayer},
-              {"caustic_view", head.subject.causticViewLayer}}},
+            {"layers", std::move(layers)},
             {"shard", {head.shard.number, head.shard.count}},
             {"batches_of_all", head.batchesOfAll},
             {"batches", rangesToJson(head.batches)},
@@ -107,6 +109,8 @@ PartHead headFromJson(const json& from) {
     head.subject.inScatteredLayer = wholeNumber<int>(layers.at("in_scattered"));
     head.subject.causticRadianceLayer = wholeNumber<int>(layers.at("caustic_radiance"));
     head.subject.causticViewLayer = wholeNumber<int>(layers.at("caustic_view"));
+    if (layers.contains("classes"))
+        head.subject.firstClassLayer = wholeNumber<int>(layers.at("classes"));
     head.shard = {wholeNumber<std::uint64_t>(from.at("shard").at(0)),
                   wholeNumber<std::uint64_t>(from.at("shard").at(1))};
     head.batchesOfAll = wholeNumber<std::uint64_t>(from.at("batches_of_all"));
@@ -127,6 +131,10 @@ void requireConsistent(const PartHead& head, const fs::path& file) {
         head.sumsBytes > kMaxCompressionRatio * (head.compressedBytes + 1)) {
         failDamaged(file, "its numbers make no sense");
     }
+    const int classLayer = head.subject.firstClassLayer;
+    if (head.subject.request.classes.empty() ? classLayer != -1
+                                             : classLayer < 1 || classLayer > kMaximumClasses)
+        failDamaged(file, "its classes make no sense");
     const BatchRange own = head.own();
     std::uint64_t end = own.first;
     for (const BatchRange& range : head.batches) {
@@ -222,8 +230,12 @@ PixelSums readPartSums(const fs::path& file, const PartHead& head) {
     if (checksumOf(bytes) != head.fingerprint) failDamaged(file, "its checksum is wrong");
     PixelSums sums = PixelSums::fromBytes(bytes, head.subject.key, file.string());
     const ReferenceRequest& request = head.subject.request;
+    const int layers =
+        head.subject.firstClassLayer < 0
+            ? sums.layers()
+            : head.subject.firstClassLayer + static_cast<int>(request.classes.size()) + 1;
     if (sums.batches() != head.batches || sums.width() != request.width ||
-        sums.height() != request.height)
+        sums.height() != request.height || sums.layers() != layers)
         failDamaged(file, "its head is not that of its sums");
     return sums;
 }

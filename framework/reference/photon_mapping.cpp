@@ -179,8 +179,8 @@ int firstFreeLayer(const scene::Scene& scene) {
 }
 
 LightTraceSettings lightSettings(const PhotonMappingSettings& settings) {
-    return {settings.width, settings.height, settings.photonsPerBatch, settings.seed,
-            settings.filter};
+    return {settings.width, settings.height, settings.photonsPerBatch,
+            settings.seed,  settings.filter, {}};
 }
 
 }  // namespace

@@ -56,6 +56,9 @@ class PixelSums {
     [[nodiscard]] int width() const { return width_; }
     [[nodiscard]] int height() const { return height_; }
     [[nodiscard]] int layers() const { return layers_; }
+    // A unit of the sums, a power of two: values that are whole numbers of it, up to 2^52 of them,
+    // are summed exactly.
+    [[nodiscard]] double quantum() const { return quantum_; }
 
     // The mean and its standard error of one value, by its index within BatchResult::values. The
     // error is infinite below two batches.

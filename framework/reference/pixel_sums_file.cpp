@@ -19,7 +19,7 @@ constexpr std::size_t kHashDigits = 32;
 // Sums of as many fit into 128 bits (framework/reference/pixel_sums.cpp).
 constexpr std::uint64_t kMaxBatches = 1u << 22;
 constexpr int kMaxBits = 126;
-constexpr int kMaxLayers = 16;
+constexpr int kMaxLayers = 128;
 
 class Writer {
   public:

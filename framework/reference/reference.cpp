@@ -5,6 +5,7 @@
 
 #include "framework/core/content_hash.h"
 #include "framework/core/error.h"
+#include "framework/reference/class_file.h"
 #include "framework/reference/light_sampling.h"
 #include "framework/reference/light_tracing.h"
 #include "framework/reference/photon_mapping.h"
@@ -17,7 +18,8 @@ namespace {
 constexpr std::uint32_t kEstimatorVersion = 2;
 
 LightTraceSettings lightSettings(const ReferenceRequest& request) {
-    return {request.width, request.height, request.photonsPerBatch, request.seed, request.filter};
+    return {request.width, request.height, request.photonsPerBatch,
+            request.seed,  request.filter, request.classes};
 }
 
 PhotonMappingSettings mappingSettings(const ReferenceRequest& request) {
@@ -40,6 +42,8 @@ std::string referenceKey(const scene::Scene& scene, const ReferenceRequest& requ
     hash.add(request.filter.maximumInteractions).add(request.filter.splitInteractions);
     if (request.estimator == Estimator::sppm)
         hash.add(request.initialRadiusPixels).add(request.alpha).add(request.causticView);
+    for (const PathClass& one : request.classes)
+        hash.addBytes("class").addBytes(one.name).addBytes(one.pattern);
     return hash.hex();
 }
 
@@ -68,7 +72,8 @@ Subject subjectOf(const scene::Scene& scene, const ReferenceRequest& request) {
         .inScatteredLayer = isMapped ? -1 : inScatteredLayer(scene),
         .causticRadianceLayer =
             isMapped && radianceLayer > 0 ? kMappedRadianceLayer : radianceLayer,
-        .causticViewLayer = isMapped ? viewedCausticsLayer(scene, mappingSettings(request)) : -1};
+        .causticViewLayer = isMapped ? viewedCausticsLayer(scene, mappingSettings(request)) : -1,
+        .firstClassLayer = request.classes.empty() ? -1 : firstClassLayer(scene)};
 }
 
 Reference makeReference(const Subject& subject, const PixelSums& sums, double seconds) {
@@ -89,6 +94,8 @@ Reference makeReference(const Subject& subject, const PixelSums& sums, double se
     fill(subject.inScatteredLayer, reference.inScattered, reference.inScatteredError);
     fill(subject.causticRadianceLayer, reference.causticRadiance, reference.causticRadianceError);
     fill(subject.causticViewLayer, reference.causticView, reference.causticViewError);
+    if (subject.firstClassLayer > 0)
+        reference.classes = classImages(subject.request.classes, sums, subject.firstClassLayer);
     reference.energy = sums.energy();
     reference.photons = sums.photons();
     reference.batches = sums.batchCount();

@@ -9,12 +9,14 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "framework/image/image.h"
 #include "framework/reference/batches.h"
 #include "framework/reference/embree_scene.h"
 #include "framework/reference/energy.h"
 #include "framework/reference/light_transport.h"
+#include "framework/reference/path_classes.h"
 #include "framework/reference/pixel_sums.h"
 
 namespace kaustik::reference {
@@ -31,6 +33,7 @@ struct ReferenceRequest {
     double initialRadiusPixels = 1.0;  // sppm
     double alpha = 0.7;                // sppm
     bool causticView = false;          // sppm: PhotonMappingSettings::followsView
+    std::vector<PathClass> classes;    // light: of the irradiance, that are kept apart
 };
 
 struct Reference {
@@ -43,7 +46,8 @@ struct Reference {
     Image causticRadianceError;
     Image causticView;  // as the eye sees it through specular surfaces; empty unless asked for
     Image causticViewError;
-    Image inScattered;  // empty without a medium that scatters, and for sppm
+    std::vector<ClassImages> classes;  // of the request, and then `other`; else none
+    Image inScattered;                 // empty without a medium that scatters, and for sppm
     Image inScatteredError;
     Energy energy;
     std::uint64_t photons = 0;
@@ -72,6 +76,7 @@ struct Subject {
     int inScatteredLayer = -1;  // -1: there is none
     int causticRadianceLayer = -1;
     int causticViewLayer = -1;
+    int firstClassLayer = -1;  // of the request's classes, and then `other`
 };
 [[nodiscard]] Subject subjectOf(const scene::Scene& scene, const ReferenceRequest& request);
 
@@ -88,8 +93,9 @@ struct Subject {
 // NAME.exr (or .pfm) is the irradiance; next to it NAME.stderr.exr, NAME.caustic_radiance.exr and
 // NAME.caustic_radiance.stderr.exr where a receiver is glossy, NAME.caustic_view.exr and
 // NAME.caustic_view.stderr.exr where asked for, NAME.in_scattered.exr and
-// NAME.in_scattered.stderr.exr where there is a medium, and NAME.json, which is written last and
-// holds fingerprints of the others: a reference is there whole or not at all.
+// NAME.in_scattered.stderr.exr where there is a medium, NAME.classes.exr where classes are kept
+// apart (class_file.h), and NAME.json, which is written last and holds fingerprints of the others:
+// a reference is there whole or not at all.
 void writeReference(const std::filesystem::path& path, const Reference& reference);
 
 // Throws IoError, naming the file, for a reference that is missing, cut off, mixed from two or not

@@ -5,12 +5,14 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "framework/core/content_hash.h"
 #include "framework/core/error.h"
 #include "framework/core/files.h"
 #include "framework/core/json_number.h"
 #include "framework/core/json_text.h"
+#include "framework/reference/class_file.h"
 #include "framework/reference/reference.h"
 #include "framework/reference/request_json.h"
 
@@ -97,6 +99,11 @@ void writeReference(const fs::path& path, const Reference& reference) {
         images[part.name] = {{"file", partPath(path, part).filename().string()},
                              {"fingerprint", fingerprint(image)}};
     }
+    if (!reference.classes.empty()) {
+        writeClasses(classFile(path), reference);
+        images["classes"] = {{"file", classFile(path).filename().string()},
+                             {"fingerprint", fingerprintOf(reference.classes)}};
+    }
     const json sidecar = {{"schema", kSchema},
                           {"version", versionString()},
                           {"key", reference.key},
@@ -147,6 +154,14 @@ Reference readReference(const fs::path& path, const std::string& expectedKey) {
             }
             if (!isFinite(image))
                 throw IoError(fmt::format("{} holds values that are no numbers.", file.string()));
+        }
+        if (images.contains("classes")) {
+            ClassLayers layers = readClasses(classFile(path));
+            if (images.at("classes").at("fingerprint") != fingerprintOf(layers.classes)) {
+                throw IoError(fmt::format("{} does not belong to {}, or it is damaged.",
+                                          classFile(path).string(), sidecar.string()));
+            }
+            reference.classes = std::move(layers.classes);
         }
     } catch (const json::exception& error) {
         throw IoError(fmt::format("{} is damaged: {}.", sidecar.string(), error.what()));

@@ -23,6 +23,8 @@ json requestToJson(const ReferenceRequest& request) {
         result["alpha"] = request.alpha;
         result["caustic_view"] = request.causticView;
     }
+    for (const PathClass& one : request.classes)
+        result["classes"].push_back({{"name", one.name}, {"pattern", one.pattern}});
     return result;
 }
 
@@ -40,6 +42,10 @@ ReferenceRequest requestFromJson(const json& from) {
     request.initialRadiusPixels = from.value("initial_radius_px", request.initialRadiusPixels);
     request.alpha = from.value("alpha", request.alpha);
     request.causticView = from.value("caustic_view", request.causticView);
+    if (from.contains("classes")) {
+        for (const json& one : from.at("classes"))
+            request.classes.push_back({one.at("name"), one.at("pattern")});
+    }
     return request;
 }
 

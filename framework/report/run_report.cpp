@@ -350,7 +350,8 @@ json makeReport(const RunRecord& record, const Renderer& renderer, const gl::Dev
     for (const auto& [key, value] : {std::pair("map", &record.map),
                                      {"cells", &record.cells},
                                      {"hits", &record.hits},
-                                     {"error", &record.error}}) {
+                                     {"error", &record.error},
+                                     {"cannot_form", &record.unformed}}) {
         if (!value->is_null()) report[key] = *value;
     }
     return report;

@@ -53,6 +53,7 @@ struct RunRecord {
     nlohmann::json cells;     // cellAccount
     nlohmann::json hits;      // null where no reference was asked for, as is the next
     nlohmann::json error;     //
+    nlohmann::json unformed;  // null where no census of the scene's paths is at hand
     std::vector<std::string> warnings;
     std::vector<std::string> violations;  // report/violations.h
 };

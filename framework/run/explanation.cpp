@@ -11,6 +11,9 @@
 #include "framework/pipeline/effect.h"
 #include "framework/scene/emitters.h"
 #include "framework/scene/spectrum.h"
+#ifdef KAUSTIK_HAS_EMBREE
+#include "framework/run/path_account.h"
+#endif
 
 namespace kaustik::run {
 namespace {
@@ -106,6 +109,28 @@ std::string effectText(const Renderer& renderer) {
     return text;
 }
 
+// By a census of the scene's paths, what of their light the technique forms and does not.
+std::string lightText(const Renderer& renderer) {
+#ifdef KAUSTIK_HAS_EMBREE
+    const std::optional<reference::PathCensus> census = findCensus(renderer.scene());
+    if (!census) {
+        return fmt::format(
+            "  which of the scene's light it cannot form is not known; kaustik census {} finds "
+            "out\n",
+            renderer.scene().file.string());
+    }
+    const ModelledPaths& paths = renderer.outputs().hits.incoming.paths;
+    const std::string sentence =
+        unformedSentence(*census, paths, renderer.settings().technique.name);
+    if (!sentence.empty()) return fmt::format("  {}\n", sentence);
+    return fmt::format("  of the caustic light, {:.4g} W, it cannot form {:.2g} W\n",
+                       census->all.watts, unformedLight(*census, paths).watts);
+#else
+    static_cast<void>(renderer);
+    return "";
+#endif
+}
+
 }  // namespace
 
 std::string explain(const Renderer& renderer) {
@@ -113,6 +138,7 @@ std::string explain(const Renderer& renderer) {
     text += emittersText(renderer) + bandsText(renderer);
     text += fmt::format("technique {}{}\n", renderer.settings().technique.name,
                         renderer.settings().technique.isAsPublished ? ", as published" : "");
+    text += lightText(renderer);
     const std::vector<graph::PassRecord>& passes = renderer.compiled().records;
     std::size_t longest = 0;
     for (const graph::PassRecord& pass : passes)

@@ -16,6 +16,9 @@
 #include "framework/run/output.h"
 #include "framework/run/progress.h"
 #include "framework/run/session.h"
+#ifdef KAUSTIK_HAS_EMBREE
+#include "framework/run/path_account.h"
+#endif
 
 namespace kaustik::run {
 namespace fs = std::filesystem;
@@ -118,6 +121,15 @@ std::optional<report::RunRecord> Session::measure(const RunReference& reference,
         record.warnings.insert(record.warnings.begin(), warnings->begin(), warnings->end());
     addReflectionWarnings(record, renderer_);
     addNormalWarning(record);
+#ifdef KAUSTIK_HAS_EMBREE
+    if (const std::optional<reference::PathCensus> census = findCensus(renderer_.scene())) {
+        const ModelledPaths& paths = renderer_.outputs().hits.incoming.paths;
+        record.unformed = unformedJson(*census, paths);
+        const std::string sentence =
+            unformedSentence(*census, paths, renderer_.settings().technique.name);
+        if (!sentence.empty()) record.warnings.push_back(sentence);
+    }
+#endif
     if (!renderer_.isRandom() && record.seed != report::RunRecord{}.seed) {
         record.warnings.push_back(fmt::format(
             "--seed {} has no effect: nothing in this frame is drawn at random.", record.seed));

@@ -36,8 +36,8 @@ TEST_F(Help, NamesEverySubcommand) {
     const Outcome outcome = run({"--help"});
     EXPECT_EQ(outcome.exitCode, 0);
     EXPECT_EQ(outcome.err, "");
-    expectAllIn(outcome.out, {"run", "list", "doc", "explain", "reference", "compare", "import",
-                              "experiment", "check", "--version"});
+    expectAllIn(outcome.out, {"run", "list", "doc", "explain", "reference", "census", "compare",
+                              "import", "experiment", "check", "--version"});
 }
 
 TEST_F(Help, OfRunNamesEveryOption) {

@@ -259,6 +259,10 @@ class Reports(Asks):
     def test_of_runs_are_as_the_schema_says(self):
         schema = Schema("report")
         (self.folder / "scene.toml").write_text(SCENE)
+        for time in ("0", "0.5"):  # of the runs' last frames
+            subprocess.run([KAUSTIK, "census", "scene.toml", "--size", "24x18", "--photons", "20000", "--technique",
+                            "caustic_map", "--technique-photons", "16x16", "--time", time],
+                           check=True, capture_output=True, cwd=self.folder)
         reports = []
         for words in (("--frames", "1"),
                       ("--technique", "caustic_map", "--frames", "2", "--time-step", "0.5",

@@ -48,6 +48,31 @@ class References(TestCase):
         self.assert_fails(kaustik.ConfigError, ["64x48", "32x24"], r.report, file)
         self.assertGreater(r.report()["energy"]["deposited_w"], 0)
 
+    def test_keep_classes_of_paths_apart(self):
+        kept = kaustik.reference("ring", size=(64, 48), photons=PHOTONS, classes=["once=R", "R{2,}"])
+        self.assertEqual(list(kept.classes), ["once", "R{2,}", "other"])
+        numpy.testing.assert_array_equal(kept.irradiance, self.reference.irradiance)
+        whole = numpy.asarray(kept.irradiance)
+        parts = sum(numpy.asarray(image, "float64") for image in kept.classes.values())
+        self.assertTrue((abs(parts - whole) <= numpy.spacing(whole)).all())
+        # A mirror refracts nothing.
+        self.assertEqual(numpy.asarray(kept.classes["other"]).max(), 0)
+        self.assertGreater(numpy.asarray(kept.classes["once"]).max(), 0)
+        self.assertEqual(kept.class_errors["once"].shape, (48, 64, 3))
+        self.assertEqual(self.reference.classes, {})
+        file = os.path.join(self.folder(), "ring.exr")
+        kept.save(file)
+        read = kaustik.read_reference(file)
+        numpy.testing.assert_array_equal(read.classes["once"], kept.classes["once"])
+        self.assert_fails(kaustik.ConfigError, ["class", "'X'"], kaustik.reference, "ring", classes=["X"])
+
+    def test_have_a_census_of_their_paths(self):
+        found = kaustik.census("ring", photons=100000, techniques=["planar"], size=(64, 48))
+        self.assertEqual(found["classes"][0]["class"], "R")
+        self.assertAlmostEqual(sum(one["share"] for one in found["classes"]), 1.0)
+        self.assertEqual(found["techniques"][0]["technique"], "planar")
+        self.assert_fails(kaustik.ConfigError, ["planar"], kaustik.census, "ring", techniques=["planra"])
+
     def test_end_at_ctrl_c_and_refuse_what_makes_no_sense(self):
         interrupt_after(0.3)
         with self.assertRaises(KeyboardInterrupt):

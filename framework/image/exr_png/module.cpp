@@ -10,6 +10,7 @@
 #include <ImfIO.h>
 #include <ImfInputFile.h>
 #include <ImfOutputFile.h>
+#include <ImfStringAttribute.h>
 #include <fmt/format.h>
 #include <png.h>
 
@@ -115,7 +116,9 @@ std::string reasonOf(const Iex::BaseExc& error) {
     return reason;
 }
 
-void readExrPixels(std::string_view bytes, const KaustikImageSink* sink) {
+// Reads the channels of a file into room that `allocateFor(width, height, names)` gives.
+template <class AllocateFor>
+void readExrPixels(std::string_view bytes, AllocateFor allocateFor) {
     // Asked before anything is allocated by what the header says.
     Imf::Header::setMaxImageSize(kaustik::kLargestImageSide, kaustik::kLargestImageSide);
     MemoryInput stream(bytes);
@@ -124,7 +127,7 @@ void readExrPixels(std::string_view bytes, const KaustikImageSink* sink) {
     const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
     const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
     const std::vector<std::string> names = channelsOf(file.header().channels());
-    float* const values = allocate(sink, width, height, static_cast<std::int64_t>(names.size()));
+    float* const values = allocateFor(width, height, names, file.header());
     const std::size_t pixelBytes = sizeof(float) * names.size();
     const std::size_t rowBytes = pixelBytes * static_cast<std::size_t>(width);
     Imf::FrameBuffer target;
@@ -136,12 +139,20 @@ void readExrPixels(std::string_view bytes, const KaustikImageSink* sink) {
     file.readPixels(window.min.y, window.max.y);
 }
 
-void readExr(std::string_view bytes, const KaustikImageSink* sink) {
+template <class AllocateFor>
+void readExr(std::string_view bytes, AllocateFor allocateFor) {
     try {
-        readExrPixels(bytes, sink);
+        readExrPixels(bytes, allocateFor);
     } catch (const Iex::BaseExc& error) {
         throw std::runtime_error(fmt::format("it is damaged or cut off ({})", reasonOf(error)));
     }
+}
+
+void readExr(std::string_view bytes, const KaustikImageSink* sink) {
+    readExr(bytes, [&](std::int64_t width, std::int64_t height,
+                       const std::vector<std::string>& names, const Imf::Header&) {
+        return allocate(sink, width, height, static_cast<std::int64_t>(names.size()));
+    });
 }
 
 // What libpng is handed, and what it says.
@@ -295,31 +306,81 @@ bool readMemory(const unsigned char* bytes, std::size_t count, const KaustikImag
         sink, [&] { read(std::string_view(reinterpret_cast<const char*>(bytes), count), sink); });
 }
 
+bool readLayers(const char* path, const KaustikImageSink* sink) {
+    return guarded(sink, [&] {
+        std::ifstream file(path, std::ios::binary);
+        const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+        if (!file) throw std::runtime_error("it cannot be opened");
+        readExr(bytes, [&](std::int64_t width, std::int64_t height,
+                           const std::vector<std::string>& names, const Imf::Header& header) {
+            const auto channels = static_cast<std::int64_t>(names.size());
+            const std::string problem = kaustik::layeredSizeProblem(width, height, channels);
+            if (!problem.empty()) throw std::runtime_error("it " + problem);
+            float* const values =
+                sink->allocate(sink->context, static_cast<int>(width), static_cast<int>(height),
+                               static_cast<int>(channels));
+            if (values == nullptr) throw std::bad_alloc();
+            for (const std::string& name : names) {
+                if (!sink->channel(sink->context, name.c_str())) throw std::bad_alloc();
+            }
+            for (auto i = header.begin(); i != header.end(); ++i) {
+                const auto* text = dynamic_cast<const Imf::StringAttribute*>(&i.attribute());
+                if (text != nullptr &&
+                    !sink->attribute(sink->context, i.name(), text->value().c_str()))
+                    throw std::bad_alloc();
+            }
+            return values;
+        });
+    });
+}
+
+// Channel i has the name that `nameOf(i)` gives.
+template <class NameOf>
+void encode(const float* values, int width, int height, int channels, Imf::Header& header,
+            NameOf nameOf, const KaustikImageSink* sink) {
+    header.compression() = Imf::ZIP_COMPRESSION;
+    const std::size_t pixelBytes = sizeof(float) * static_cast<std::size_t>(channels);
+    const std::size_t rowBytes = pixelBytes * static_cast<std::size_t>(width);
+    Imf::FrameBuffer source;
+    for (int i = 0; i < channels; ++i) {
+        header.channels().insert(nameOf(i), Imf::Channel(Imf::FLOAT));
+        source.insert(nameOf(i), Imf::Slice::Make(Imf::FLOAT, values + i, {0, 0}, width, height,
+                                                  pixelBytes, rowBytes));
+    }
+    MemoryOutput stream;
+    {
+        Imf::OutputFile file(stream, header);
+        file.setFrameBuffer(source);
+        file.writePixels(height);
+    }
+    const std::vector<char>& bytes = stream.bytes();
+    if (!sink->append(sink->context, reinterpret_cast<const unsigned char*>(bytes.data()),
+                      bytes.size())) {
+        throw std::bad_alloc();
+    }
+}
+
 bool encodeExr(const float* values, int width, int height, int channels,
                const KaustikImageSink* sink) {
     return guarded(sink, [&] {
         Imf::Header header(width, height);
-        header.compression() = Imf::ZIP_COMPRESSION;
-        const std::size_t pixelBytes = sizeof(float) * static_cast<std::size_t>(channels);
-        const std::size_t rowBytes = pixelBytes * static_cast<std::size_t>(width);
-        Imf::FrameBuffer source;
-        for (int i = 0; i < channels; ++i) {
-            header.channels().insert(channelName(channels, i), Imf::Channel(Imf::FLOAT));
-            source.insert(channelName(channels, i),
-                          Imf::Slice::Make(Imf::FLOAT, values + i, {0, 0}, width, height,
-                                           pixelBytes, rowBytes));
+        encode(
+            values, width, height, channels, header,
+            [&](int channel) { return channelName(channels, channel); }, sink);
+    });
+}
+
+bool encodeLayers(const float* values, int width, int height, int channels,
+                  const KaustikImageLayers* layers, const KaustikImageSink* sink) {
+    return guarded(sink, [&] {
+        Imf::Header header(width, height);
+        for (std::size_t i = 0; i < layers->attributeCount; ++i) {
+            header.insert(layers->attributeNames[i],
+                          Imf::StringAttribute(layers->attributeValues[i]));
         }
-        MemoryOutput stream;
-        {
-            Imf::OutputFile file(stream, header);
-            file.setFrameBuffer(source);
-            file.writePixels(height);
-        }
-        const std::vector<char>& bytes = stream.bytes();
-        if (!sink->append(sink->context, reinterpret_cast<const unsigned char*>(bytes.data()),
-                          bytes.size())) {
-            throw std::bad_alloc();
-        }
+        encode(
+            values, width, height, channels, header,
+            [&](int channel) { return layers->channels[channel]; }, sink);
     });
 }
 
@@ -359,7 +420,9 @@ constexpr KaustikImageFunctions kFunctions{kKaustikImageModuleVersion,
                                            readFile,
                                            readMemory,
                                            encodeExr,
-                                           encodePng};
+                                           encodePng,
+                                           readLayers,
+                                           encodeLayers};
 
 }  // namespace
 

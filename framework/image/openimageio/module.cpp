@@ -139,12 +139,61 @@ bool encodePng(const unsigned char* values, int width, int height, int channels,
     });
 }
 
+bool readLayers(const char* path, const KaustikImageSink* sink) {
+    return guarded(sink, [&] {
+        auto input = OIIO::ImageInput::open(path);
+        if (!input) {
+            throw std::runtime_error("it is damaged or no image (" +
+                                     oneLine(OIIO::geterror(), "unknown kind of file") + ")");
+        }
+        const OIIO::ImageSpec spec = input->spec();
+        const std::string problem =
+            kaustik::layeredSizeProblem(spec.width, spec.height, spec.nchannels);
+        if (!problem.empty()) throw std::runtime_error("it " + problem);
+        if (spec.deep || spec.depth > 1)
+            throw std::runtime_error("it is deep or a volume, not an image");
+        float* const values =
+            sink->allocate(sink->context, spec.width, spec.height, spec.nchannels);
+        if (values == nullptr) throw std::bad_alloc();
+        for (const std::string& name : spec.channelnames) {
+            if (!sink->channel(sink->context, name.c_str())) throw std::bad_alloc();
+        }
+        for (const OIIO::ParamValue& value : spec.extra_attribs) {
+            if (value.type() != OIIO::TypeDesc::STRING) continue;
+            if (!sink->attribute(sink->context, value.name().c_str(), value.get_string().c_str()))
+                throw std::bad_alloc();
+        }
+        const bool isComplete =
+            input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values);
+        if (!isComplete || input->has_error()) {
+            throw std::runtime_error("it is damaged or cut off (" +
+                                     oneLine(input->geterror(), "its pixels end early") + ")");
+        }
+    });
+}
+
+bool encodeLayers(const float* values, int width, int height, int channels,
+                  const KaustikImageLayers* layers, const KaustikImageSink* sink) {
+    return guarded(sink, [&] {
+        OIIO::ImageSpec spec(width, height, channels, OIIO::TypeDesc::FLOAT);
+        spec.channelnames.assign(layers->channels, layers->channels + channels);
+        spec["compression"] = "zip";
+        spec["DateTime"] = "1970:01:01 00:00:00";
+        spec["oiio:ColorSpace"] = "Linear";
+        for (std::size_t i = 0; i < layers->attributeCount; ++i)
+            spec[layers->attributeNames[i]] = layers->attributeValues[i];
+        encode("exr", spec, OIIO::TypeDesc::FLOAT, values, sink);
+    });
+}
+
 constexpr KaustikImageFunctions kFunctions{kKaustikImageModuleVersion,
                                            "EXR, PNG and more, through OpenImageIO",
                                            readFile,
                                            readMemory,
                                            encodeExr,
-                                           encodePng};
+                                           encodePng,
+                                           readLayers,
+                                           encodeLayers};
 
 }  // namespace
 

@@ -41,7 +41,7 @@ def run_experiment(
             command.append("--resume")
         if shard:
             command += ["--shard", shard]
-        return _results_of(_run(command))
+        return _results_of(run_program(command))
 
 
 def merge_experiments(
@@ -60,7 +60,7 @@ def merge_experiments(
         command += ["--out", os.fspath(out)]
     if incomplete:
         command.append("--incomplete")
-    return _results_of(_run(command))
+    return _results_of(run_program(command))
 
 
 def read_results(folder: Path) -> List[Dict[str, Any]]:
@@ -120,7 +120,7 @@ def _toml(key: str, value: Any) -> str:
     return json.dumps(text, ensure_ascii=False)
 
 
-def _run(arguments: List[str]) -> str:
+def run_program(arguments: List[str]) -> str:
     """Runs the program `kaustik`, and raises what it says."""
     program = _kaustik.program()
     try:
@@ -129,7 +129,7 @@ def _run(arguments: List[str]) -> str:
         )
     except OSError as error:
         raise _kaustik.IoError(
-            f"{program} cannot be started ({error.strerror}); it does a study's runs."
+            f"{program} cannot be started ({error.strerror}); it does studies and censuses."
         ) from None
     try:
         printed, said = process.communicate()

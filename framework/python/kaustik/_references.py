@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: MIT
 """Ray-traced references, and how wrong an image is."""
 
+import json
 import os
-from typing import Any, Callable, Dict, Optional, Tuple, Union
+from typing import Any, Callable, Dict, Mapping, Optional, Sequence, Tuple, Union
 
 from . import _kaustik
+from ._experiments import run_program
 from ._kaustik import Array, Reference
 from ._renderer import Scene, Size
 
@@ -26,6 +28,8 @@ def reference(
     transmission_only: bool = False,
     interactions: int = 64,
     caustic_view: bool = False,
+    classes: Union[int, Sequence[str]] = 0,
+    by_object: bool = False,
     progress: Optional[Callable[[float, str], Any]] = None,
     base: Union[str, "os.PathLike[str]"] = "",
 ) -> Reference:
@@ -35,7 +39,9 @@ def reference(
     reached first; without any at 2**26 photons. Ctrl-C loses nothing: the next call goes on.
     estimator is "light" or "sppm"; time that of the scene, s; threads 0 for all. transmission_only
     and interactions leave paths of light out; caustic_view (sppm) also gives what is seen through
-    specular surfaces. progress(share, text) is told now and then; what it raises ends the work.
+    specular surfaces. classes keeps classes of paths apart, as Reference.classes has them: how
+    many, the brightest first (by_object: by the first specular object, too), or patterns, as
+    ["TT", "inside=L T R+ T D", "S+ @ring"]. progress(share, text) is told now and then; what it raises ends the work.
     """
     return _kaustik.reference(
         scene,
@@ -51,6 +57,9 @@ def reference(
         transmission_only,
         interactions,
         caustic_view,
+        [] if isinstance(classes, int) else list(classes),
+        classes if isinstance(classes, int) else 0,
+        by_object,
         progress,
     )
 
@@ -59,6 +68,37 @@ def read_reference(file: Union[str, "os.PathLike[str]"]) -> Reference:
     """The reference that `kaustik reference` or Reference.save() has written. IoError for a damaged
     one."""
     return _kaustik.read_reference(file)
+
+
+def census(
+    scene: Union[str, "os.PathLike[str]"] = "pool",
+    *,
+    photons: int = 1 << 22,
+    techniques: Sequence[str] = (),
+    size: Tuple[int, int] = (200, 150),
+    technique_photons: Tuple[int, int] = (128, 128),
+    time: Optional[float] = None,
+    settings: Optional[Mapping[str, Any]] = None,
+) -> Dict[str, Any]:
+    """The watts of each class of a scene's caustic paths, and what of them each technique forms,
+    cannot form, and loses; what `kaustik census --json` prints, which does it.
+
+    scene is a name or a file. techniques: all where none is named. settings are parameters of
+    theirs. What it finds of the paths is kept, so that reports and explain() say what their
+    technique cannot form. Ctrl-C ends it.
+    """
+    command = ["census", os.fspath(scene), "--json", "--photons", str(photons)]
+    command += ["--size", f"{size[0]}x{size[1]}"]
+    command += ["--technique-photons", f"{technique_photons[0]}x{technique_photons[1]}"]
+    for name in techniques:
+        command += ["--technique", name]
+    if time is not None:
+        command += ["--time", repr(float(time))]
+    for key, value in (settings or {}).items():
+        text = str(value).lower() if isinstance(value, bool) else str(value)
+        command += ["--set", f"{key}={text}"]
+    found: Dict[str, Any] = json.loads(run_program(command))
+    return found
 
 
 def compare(

@@ -9,10 +9,12 @@
 #include <limits>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "framework/core/files.h"
 #include "framework/image/eight_bits.h"
 #include "framework/image/image.h"
+#include "framework/image/layered_image.h"
 #include "framework/image/module_images.h"
 #include "framework/image/module_loader.h"
 #include "tests/unit/temporary_folder.h"
@@ -33,6 +35,7 @@ std::string fromHex(std::string_view digits) {
 // What a module hands over.
 struct Received {
     Image image;
+    std::vector<std::string> channels;
     std::string bytes;
     std::string problem;
 };
@@ -52,6 +55,11 @@ KaustikImageSink sinkFor(Received& received) {
     sink.fail = [](void* context, const char* message) {
         static_cast<Received*>(context)->problem = message;
     };
+    sink.channel = [](void* context, const char* name) {
+        static_cast<Received*>(context)->channels.emplace_back(name);
+        return true;
+    };
+    sink.attribute = [](void*, const char*, const char*) { return true; };
     return sink;
 }
 
@@ -126,6 +134,40 @@ TEST_F(ExrPng, ReadsWhatOpenImageIoWritesAndTheOtherWayRound) {
         EXPECT_EQ(decodedOurs.values, decodedTheirs.values) << channels;
         EXPECT_FLOAT_EQ(decodedOurs.values.back(), 1.0f);
     }
+}
+
+TEST_F(ExrPng, ReadsAndWritesLayersAsOpenImageIoDoes) {
+    if (!hasOther()) GTEST_SKIP() << "built without OpenImageIO";
+    LayeredImage image;
+    image.addLayer("", someImage(3));
+    image.addLayer("TT.error", someImage(3));
+    image.attributes = {{"kaustik.key", "0123"}};
+    const auto expectSame = [&](const LayeredImage& read) {
+        for (const char* layer : {"", "TT.error"})
+            EXPECT_EQ(read.layer(layer, "file").values, image.layer(layer, "file").values);
+    };
+    writeLayers(folder_ / "theirs.exr", image);
+    Received theirs;
+    KaustikImageSink sink = sinkFor(theirs);
+    ASSERT_TRUE(module().functions->readLayers((folder_ / "theirs.exr").c_str(), &sink))
+        << theirs.problem;
+    expectSame({theirs.image.width, theirs.image.height, theirs.channels, theirs.image.values, {}});
+
+    std::vector<const char*> channels;
+    for (const std::string& channel : image.channels)
+        channels.push_back(channel.c_str());
+    const char* name = "kaustik.key";
+    const char* value = "0123";
+    const KaustikImageLayers layers{channels.data(), 1, &name, &value};
+    Received ours;
+    sink = sinkFor(ours);
+    ASSERT_TRUE(module().functions->encodeLayers(image.values.data(), image.width, image.height, 6,
+                                                 &layers, &sink))
+        << ours.problem;
+    writeFileWhole(folder_ / "ours.exr", ours.bytes);
+    const LayeredImage read = readLayers(folder_ / "ours.exr");
+    expectSame(read);
+    EXPECT_EQ(read.attribute(name), value);
 }
 
 TEST_F(ExrPng, ReadsAFileAndSaysThatOneIsNotThere) {
