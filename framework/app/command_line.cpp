@@ -373,6 +373,21 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry,
                      "What a picture that is not there is: error or grey")
         ->capture_default_str();
 
+    ExportOptions exported;
+    CLI::App* exportApp =
+        app.add_subcommand("export", "Writes a scene and its meshes for another renderer");
+    exportApp->add_option("scene", exported.scene, kSceneHelp)->required();
+    addOwnMeshOptions(*exportApp, exported.own);
+    exportApp->add_option("--to", exported.to, "povray, mitsuba, gltf or pbrt")->required();
+    exportApp->add_option("--out", exported.out, "The folder that is written to")->required();
+    exportApp->add_option("--size", exported.size, "Picture size, WIDTHxHEIGHT")
+        ->capture_default_str();
+    exportApp->add_option("--time", exported.time, "Time of the animation in seconds");
+    exportApp
+        ->add_option("--photons", exported.photons, "That its renderer is asked to shoot, about")
+        ->check(integerRangeError)
+        ->capture_default_str();
+
     ExperimentOptions experiment;
     CLI::App* experimentApp =
         app.add_subcommand("experiment", "Does all runs of a study, or draws what they found");
@@ -438,6 +453,10 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry,
         }
         if (compareApp->parsed()) compareCommand(compare);
         if (importApp->parsed()) importCommand(imported);
+        if (exportApp->parsed()) {
+            putOwnMesh(exported.scene, exported.own);
+            exportCommand(exported);
+        }
         if (experimentApp->parsed()) experimentCommand(experiment, registry, parts.addHardCases);
         if (checkApp->parsed()) checkCommand();
         if (schemaApp->parsed()) schemaCommand(schemaOf, registry);

@@ -24,6 +24,7 @@ void explainCommand(const ExplainOptions& options, const Registry& registry);
 void referenceCommand(const ReferenceOptions& options);
 void compareCommand(const CompareOptions& options);
 void importCommand(const ImportOptions& options);
+void exportCommand(const ExportOptions& options);
 
 // Adds to the common hard cases those of a program's techniques; null where there are none.
 using AddHardCases = void (*)(numerics::Suite& suite);

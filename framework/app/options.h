@@ -129,6 +129,16 @@ struct ImportOptions {
     std::string missingTextures = "error";  // or grey
 };
 
+struct ExportOptions {
+    std::string scene;
+    OwnMeshOptions own;
+    std::string to;  // povray, mitsuba, gltf or pbrt
+    std::string out;
+    std::string size = "800x600";
+    std::string time;
+    long long photons = 1'000'000;  // that the other renderer is asked for
+};
+
 struct ExperimentOptions {
     std::string action;                // run, merge or report
     std::vector<std::string> targets;  // the TOML file, or folders of results
