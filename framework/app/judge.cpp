@@ -19,33 +19,15 @@ namespace {
 namespace fs = std::filesystem;
 
 judge::JudgeOptions optionsOf(const JudgeOptions& options) {
-    judge::JudgeOptions result;
     if (options.causticOnly && options.withDirect)
         throw ConfigError("judge: --caustic-only and --with-direct exclude each other.");
-    if (options.causticOnly) result.direct = judge::DirectLight::without;
-    if (options.withDirect) result.direct = judge::DirectLight::with;
-    if (options.glass == "seen") {
-        result.glass = judge::Glass::seen;
-    } else if (options.glass == "hidden") {
-        result.glass = judge::Glass::hidden;
-    } else if (options.glass != "auto") {
-        throw ConfigError(
-            fmt::format("--glass: '{}' is neither auto, seen nor hidden.", options.glass));
-    }
-    if (options.encoding == "linear") {
-        result.encoding = judge::Encoding::linear;
-    } else if (options.encoding == "srgb") {
-        result.encoding = judge::Encoding::srgb;
-    } else if (options.encoding == "gamma2.2") {
-        result.encoding = judge::Encoding::gamma22;
-    } else if (options.encoding != "auto") {
-        throw ConfigError(fmt::format(
-            "--encoding: '{}' is neither auto, linear, srgb nor gamma2.2.", options.encoding));
-    }
-    if (options.exposure && !(*options.exposure > 0.0))
-        throw ConfigError(fmt::format("--exposure: {} is not above 0.", *options.exposure));
-    result.exposure = options.exposure;
-    return result;
+    judge::NamedOptions names;
+    if (options.causticOnly) names.direct = "without";
+    if (options.withDirect) names.direct = "with";
+    names.glass = options.glass;
+    names.encoding = options.encoding;
+    names.exposure = options.exposure;
+    return judge::optionsOf(names, [](const std::string& name) { return "--" + name; });
 }
 
 }  // namespace

@@ -178,6 +178,11 @@ class PovrayScene {
             interior += fmt::format(" fade_power 1001 fade_distance {} fade_color {}",
                                     text(1.0 / most), colorOf(1.0 - absorption / most));
         }
+        if (most > 0.0) {
+            exporter_.change(fmt::format("material '{}'", material.name),
+                             "light that ends on something inside it is not absorbed: POV-Ray "
+                             "fades it only where it comes out");
+        }
         if (material.dispersion != glm::vec4(0.0f)) {
             const double ratio = scene::indexAt(material, scene::dispersionPlace(400.0)) /
                                  scene::indexAt(material, scene::dispersionPlace(700.0));

@@ -16,16 +16,21 @@ namespace {
 
 // Below this the two pictures have nothing in common.
 constexpr double kLeastCorrelation = 0.4;
+// Without direct light they must be as like as this, or it is thought to be there.
+constexpr double kSureCorrelation = 0.7;
 // What no picture is better than: interpolation, 16-bit floats, the edges of triangles.
 constexpr double kFloorOfLight = 0.003;  // of the light in a pixel
 constexpr double kFloorOfMean = 0.001;   // of the mean of all
 // Coefficients of classes that are nearer to 1 are right.
 constexpr double kRightWithin = 0.05;
+constexpr double kLeastShare = 5e-4;  // of the caustic, for a class of its own
 constexpr double kSignificant = 4.0;  // standard errors
 // A cause must explain this share of what is unexplained, to be believed.
 constexpr double kLeastGain = 0.03;
 // One that explains this share of what the best one does explains it as well.
 constexpr double kAsWell = 0.9;
+// A place is another one where this much of the loss is left there.
+constexpr double kBetterPlace = 0.85;
 constexpr double kLeastShift = 0.05;    // pixels
 constexpr double kLeastScale = 0.0015;  // relative
 constexpr double kLeastBlur = 0.35;     // pixels
@@ -77,15 +82,16 @@ double total(const Image& image, const Image& mask) {
 
 class Judgement {
   public:
-    Judgement(const Subject& subject, const JudgeOptions& options)
-        : subject_(subject), options_(options), theirs_(threeChannels(subject.theirs)) {
-        verdict_.scene = subject.scene;
-        verdict_.theirs = subject.theirsName;
+    Judgement(Subject subject, const JudgeOptions& options)
+        : subject_(std::move(subject)), options_(options), theirs_(threeChannels(subject_.theirs)) {
+        verdict_.scene = subject_.scene;
+        verdict_.theirs = subject_.theirsName;
     }
 
     Verdict run() {
         requireNumbers();
         requireCaustic(subject_.mask);
+        joinFaintClasses();
         clear_ = subject_.mask;
         for (std::size_t i = 0; i < clear_.values.size(); ++i) {
             if (subject_.hasGlass.values[i] > 0.5f) clear_.values[i] = 0.0f;
@@ -111,17 +117,20 @@ class Judgement {
 
     void requireNumbers() const {
         double most = 0.0;
-        std::size_t negative = 0;
+        double mean = 0.0;
         for (const float value : theirs_.values) {
             if (!std::isfinite(value)) {
                 throw ConfigError(
-                    fmt::format("{} holds values that are no numbers; it cannot be "
-                                "judged.",
+                    fmt::format("{} holds values that are no numbers; it cannot be judged.",
                                 subject_.theirsName));
             }
             most = std::max(most, static_cast<double>(value));
-            negative += value < 0.0f ? 1u : 0u;
+            mean += static_cast<double>(value) / static_cast<double>(theirs_.values.size());
         }
+        // Filters with negative lobes and noise go a little below 0.
+        const auto negative = static_cast<std::size_t>(std::count_if(
+            theirs_.values.begin(), theirs_.values.end(),
+            [&](float value) { return static_cast<double>(value) < -0.05 * std::abs(mean); }));
         if (!(most > 0.0))
             throw ConfigError(
                 fmt::format("{} is black; there is nothing to judge.", subject_.theirsName));
@@ -152,6 +161,32 @@ class Judgement {
                 "render them without (--glass hidden says that it was).",
                 subject_.scene, subject_.theirsName));
         }
+    }
+
+    // What is next to nothing in the picture cannot be told apart in it.
+    void joinFaintClasses() {
+        double light = 0.0;
+        for (const Light& of : subject_.classes)
+            light += total(of.radiance, subject_.mask);
+        std::vector<Light> kept;
+        std::optional<Light> rest;
+        for (Light& of : subject_.classes) {
+            const bool isFaint = total(of.radiance, subject_.mask) < kLeastShare * light;
+            if (!isFaint && of.name != "other") {
+                kept.push_back(std::move(of));
+            } else if (!rest) {
+                rest = std::move(of);
+                rest->name = "other";
+            } else {
+                for (std::size_t i = 0; i < rest->radiance.values.size(); ++i)
+                    rest->radiance.values[i] += of.radiance.values[i];
+                for (std::size_t i = 0;
+                     i < std::min(rest->error.values.size(), of.error.values.size()); ++i)
+                    rest->error.values[i] = std::hypot(rest->error.values[i], of.error.values[i]);
+            }
+        }
+        if (rest) kept.push_back(std::move(*rest));
+        subject_.classes = std::move(kept);
     }
 
     // Values that all are the same where the reference's are not: a display's white.
@@ -298,6 +333,38 @@ class Judgement {
         }
     }
 
+    // Huber's: what is far off counts by its size and not by its square, since where the two
+    // pictures differ most there is some other mistake. Gives the mean loss.
+    double calm(const LinearFit& fitted) {
+        constexpr double kFarOff = 1.5;  // standard deviations
+        const Image prediction = predictionOf(fitted);
+        double loss = 0.0;
+        for (std::size_t i = 0; i < weight_.values.size(); ++i) {
+            const auto weight = static_cast<double>(plainWeight_.values[i]);
+            if (!(weight > 0.0)) continue;
+            const double off =
+                std::abs(static_cast<double>(picture_.values[i] - prediction.values[i])) *
+                std::sqrt(weight);
+            weight_.values[i] =
+                static_cast<float>(weight * std::min(1.0, kFarOff / std::max(off, 1e-12)));
+            loss += off < kFarOff ? 0.5 * off * off : kFarOff * (off - 0.5 * kFarOff);
+        }
+        return loss / std::max(static_cast<double>(equations_.rows), 1.0);
+    }
+
+    // How little their picture is like any mixture of what is known, as it is registered.
+    [[nodiscard]] double lossOfRegistration() {
+        align();
+        weighByLight();
+        plainWeight_ = weight_;
+        double loss = 0.0;
+        for (int round = 0; round < 3; ++round) {
+            makeEquations();
+            loss = calm(fit(columnsOf({Role::direct, Role::lightClass, Role::cause, Role::fill})));
+        }
+        return loss;
+    }
+
     [[nodiscard]] static Image onePerPixel(const Image& mask) {
         Image result(mask.width, mask.height, 1);
         std::fill(result.values.begin(), result.values.end(), 1.0f);
@@ -323,15 +390,17 @@ class Judgement {
             }
             addNoise(i, weight, noise);
         }
-        // The noise of a column makes its square too large, and its coefficient too small.
-        double share = 1.0;
+        // The noise of a column makes its square too large, and its coefficient too small; of a
+        // column that is little but noise no more than half is taken off.
+        std::vector<double> share(n, 0.0);
         for (std::size_t j = 0; j < n; ++j) {
             if (noise.at(j, j) > 0.0)
-                share = std::min(share, 0.5 * equations_.matrix.at(j, j) / noise.at(j, j));
+                share[j] =
+                    std::sqrt(std::min(1.0, 0.5 * equations_.matrix.at(j, j) / noise.at(j, j)));
         }
         for (std::size_t j = 0; j < n; ++j) {
             for (std::size_t k = 0; k <= j; ++k) {
-                equations_.matrix.at(j, k) -= share * noise.at(j, k);
+                equations_.matrix.at(j, k) -= share[j] * share[k] * noise.at(j, k);
                 equations_.matrix.at(k, j) = equations_.matrix.at(j, k);
             }
         }
@@ -470,7 +539,8 @@ class Judgement {
         if (hasDirect_ && options_.direct == DirectLight::automatic) {
             const Image caustics = modelOf(false);
             const Registration other = findRegistration(theirs_, caustics, counted_);
-            if (other.correlation > verdict_.registration.correlation + 0.02) {
+            if (other.correlation > kSureCorrelation &&
+                other.correlation > verdict_.registration.correlation + 0.15) {
                 verdict_.registration = other;
                 hasDirect_ = false;
                 model = caustics;
@@ -565,15 +635,20 @@ class Judgement {
         for (int round = 0; round < 8; ++round) {
             align();
             weighByLight();
+            plainWeight_ = weight_;
             makeEquations();
-            std::vector<std::size_t> columns = columnsOf(
-                {Role::direct, Role::lightClass, Role::shiftX, Role::shiftY, Role::scale});
+            static_cast<void>(
+                calm(fit(columnsOf({Role::direct, Role::lightClass, Role::cause, Role::fill}))));
+            makeEquations();
+            const std::vector<std::size_t> columns =
+                columnsOf({Role::direct, Role::lightClass, Role::shiftX, Role::shiftY, Role::scale,
+                           Role::fill});
             std::vector<std::size_t> more = columns;
             for (const std::size_t cause : columnsOf({Role::cause}))
                 more.push_back(cause);
             LinearFit fitted = fit(more);
-            if (!fitted.isSolved) fitted = fit(columns);
-            if (!fitted.isSolved) break;
+            if (!fitted.isSolved()) fitted = fit(columns);
+            if (!fitted.isSolved()) break;
             const Symmetric covariance = covarianceOf(fitted);
             // Coefficients of derivatives are steps where those of the light are 1.
             const double light = std::max(lightOf(fitted), 1e-6);
@@ -609,6 +684,19 @@ class Judgement {
             if (std::abs(shift - half) < std::max(0.06, 2.0 * error[axis]) && half != 0.0)
                 shift = half;
         }
+        // Where it lies as it should, only what is better by much is another place.
+        Registration plain;
+        plain.isFlippedX = registration.isFlippedX;
+        plain.isFlippedY = registration.isFlippedY;
+        plain.scale = usual;
+        plain.correlation = registration.correlation;
+        if (isPlain && before.scale == usual &&
+            (registration.shift != glm::dvec2(0.0) || registration.scale != usual)) {
+            const Registration refined = registration;
+            const double loss = lossOfRegistration();
+            registration = plain;
+            if (loss < kBetterPlace * lossOfRegistration()) registration = refined;
+        }
         shiftError_ = error;
         scaleError_ = scaleError;
         align();
@@ -637,10 +725,11 @@ class Judgement {
         weighByLight();
         for (int round = 0; round < 2; ++round) {
             makeEquations();
-            std::vector<std::size_t> columns = columnsOf(
-                {Role::direct, Role::lightClass, Role::cause, Role::shiftX, Role::shiftY});
+            const std::vector<std::size_t> columns =
+                columnsOf({Role::direct, Role::lightClass, Role::cause, Role::shiftX, Role::shiftY,
+                           Role::fill});
             LinearFit fitted = fit(columns);
-            if (!fitted.isSolved) fitted = fit(columnsOf({Role::direct, Role::lightClass}));
+            if (!fitted.isSolved()) fitted = fit(columnsOf({Role::direct, Role::lightClass}));
             Image prediction = predictionOf(fitted);
             Image residual(picture_.width, picture_.height, 3);
             for (std::size_t i = 0; i < residual.values.size(); ++i)
@@ -674,7 +763,8 @@ class Judgement {
             blur_ = sigma;
             makeColumns(true);
             makeEquations();
-            return fit(columnsOf({Role::direct, Role::lightClass})).chiSquared;
+            return fit(columnsOf({Role::direct, Role::lightClass, Role::cause, Role::fill}))
+                .chiSquared;
         };
         const double sharp = unexplained(0.0);
         double best = sharp;
@@ -692,6 +782,12 @@ class Judgement {
     }
 
     // ---- Causes ----
+
+    [[nodiscard]] bool isRegistered() const {
+        const double usual = static_cast<double>(theirs_.height) / picture_.height;
+        return verdict_.registration.shift != glm::dvec2(0.0) ||
+               verdict_.registration.scale != usual;
+    }
 
     [[nodiscard]] std::vector<Candidate> candidates() const {
         std::vector<Candidate> all;
@@ -729,7 +825,7 @@ class Judgement {
         columns.insert(columns.end(), candidate.columns.begin(), candidate.columns.end());
         const LinearFit fitted = fit(columns);
         Trial trial;
-        if (!fitted.isSolved) return trial;
+        if (!fitted.isSolved()) return trial;
         trial.gain = before - fitted.chiSquared;
         const double light = std::max(coefficient(fitted, 0), 1e-9);
         for (const std::size_t column : candidate.columns)
@@ -775,7 +871,7 @@ class Judgement {
                 columnsOf({Role::lightClass, Role::cause, Role::shiftX, Role::shiftY, Role::fill});
         }
         const LinearFit best = fit(everything);
-        const double unit = std::max(1.0, (best.isSolved ? best.chiSquared : first) /
+        const double unit = std::max(1.0, (best.isSolved() ? best.chiSquared : first) /
                                               std::max(static_cast<double>(equations_.rows), 1.0));
         double now = first;
         for (int round = 0; round < 6 && !open.empty(); ++round) {
@@ -914,8 +1010,8 @@ class Judgement {
     [[nodiscard]] std::string aspectHint(double zoom) const {
         const Image& ours = columns_.front().image;
         const double aspect = static_cast<double>(ours.width) / ours.height;
-        if (std::abs(zoom / aspect - 1.0) < 0.02) return ": that is the horizontal one";
-        if (std::abs(zoom * aspect - 1.0) < 0.02)
+        if (std::abs(zoom * aspect - 1.0) < 0.02) return ": that is the horizontal one";
+        if (std::abs(zoom / aspect - 1.0) < 0.02)
             return ": what is vertical here was taken for the horizontal one";
         return "";
     }
@@ -1002,6 +1098,12 @@ class Judgement {
         verdict_.exposureBy =
             hasDirect_ ? "direct light" : subject_.classes[columns_[by].index].name;
         exposure_ = fitted.values[exposurePlace_];
+        if (!(exposure_ > 0.0)) {
+            throw ConfigError(
+                fmt::format("{} has nothing of the light of {} where the reference "
+                            "has it; it shows another scene.",
+                            subject_.theirsName, subject_.scene));
+        }
         if (options_.exposure) {
             exposure_ = *options_.exposure / firstExposure_;
             verdict_.exposure = *options_.exposure;
@@ -1031,7 +1133,9 @@ class Judgement {
                          : c * c * covariance.at(exposurePlace_, exposurePlace_) -
                                2.0 * c * covariance.at(place, exposurePlace_));
             verdict.error = exposure_ > 0.0 ? std::sqrt(std::max(variance, 0.0)) / exposure_ : 0.0;
-            if (fitted.isHeld[place]) {
+            if (fitted.isDropped[place]) {
+                verdict.error = HUGE_VAL;
+            } else if (fitted.isHeld[place]) {
                 // It would be negative; what it would be is known as well as if it were not.
                 const double square = equations_.matrix.at(column, column);
                 verdict.error = square > 0.0 ? 1.0 / (std::sqrt(square) * exposure_) : 0.0;
@@ -1169,14 +1273,15 @@ class Judgement {
         std::vector<std::string> also;
     };
 
-    const Subject& subject_;
-    const JudgeOptions& options_;
+    Subject subject_;
+    JudgeOptions options_;
     Image theirs_;
     Image clear_;    // counted where their eye sees no glass
     Image counted_;  // 1 where pixels count
     Image picture_;  // theirs in the reference's pixels, linear, over the first exposure
     Image theirsError_;
     Image weight_;
+    Image plainWeight_;  // before what is far off is made less of
     Image deviation_;
     bool hasDirect_ = true;
     bool isGlassDecided_ = false;

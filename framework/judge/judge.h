@@ -9,6 +9,7 @@
 // sums over blocks of pixels, so that noise that neighbours share is in them.
 #pragma once
 
+#include <functional>
 #include <glm/glm.hpp>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -59,6 +60,17 @@ struct JudgeOptions {
     Encoding encoding = Encoding::automatic;
     std::optional<double> exposure;  // of theirs, where it is known
 };
+
+// The same in the words of a command line or of Python.
+struct NamedOptions {
+    std::string direct = "auto";    // or with, without
+    std::string glass = "auto";     // or seen, hidden
+    std::string encoding = "auto";  // or linear, srgb, gamma2.2
+    std::optional<double> exposure;
+};
+using Spelling = std::function<std::string(const std::string& name)>;
+// Throws ConfigError for a word that there is not; `spelled` is how whoever asks writes a name.
+[[nodiscard]] JudgeOptions optionsOf(const NamedOptions& names, const Spelling& spelled);
 
 struct Subject {
     std::string scene;       // for sentences

@@ -4,17 +4,18 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <variant>
 
 namespace kaustik::judge {
 namespace {
 
-// Of a matrix that is positive definite, by its Cholesky factor; nothing where it is not, to
-// rounding. Columns are scaled to the same size first, as their units differ.
-std::optional<Symmetric> inverseOf(const Symmetric& matrix) {
+// Of a matrix that is positive definite, by its Cholesky factor; where it is not, to rounding, the
+// first column that is not. Columns are scaled to the same size first, as their units differ.
+std::variant<Symmetric, std::size_t> inverseOf(const Symmetric& matrix) {
     const std::size_t n = matrix.size();
     std::vector<double> scale(n);
     for (std::size_t i = 0; i < n; ++i) {
-        if (!(matrix.at(i, i) > 0.0)) return std::nullopt;
+        if (!(matrix.at(i, i) > 0.0)) return i;
         scale[i] = 1.0 / std::sqrt(matrix.at(i, i));
     }
     constexpr double kSmallest = 1e-11;
@@ -24,7 +25,7 @@ std::optional<Symmetric> inverseOf(const Symmetric& matrix) {
             double sum = matrix.at(i, j) * scale[i] * scale[j];
             for (std::size_t k = 0; k < j; ++k)
                 sum -= lower.at(i, k) * lower.at(j, k);
-            if (i == j && !(sum > kSmallest)) return std::nullopt;
+            if (i == j && !(sum > kSmallest)) return i;
             lower.at(i, j) = i == j ? std::sqrt(sum) : sum / lower.at(j, j);
         }
     }
@@ -69,9 +70,13 @@ std::optional<std::size_t> solveFree(const NormalEquations& equations,
         free.push_back(fit.columns[i]);
         places.push_back(i);
     }
-    const std::optional<Symmetric> inverse = inverseOf(part(equations.matrix, free));
-    fit.isSolved = inverse.has_value();
-    if (!inverse) return std::nullopt;
+    const auto found = inverseOf(part(equations.matrix, free));
+    if (const auto* const dropped = std::get_if<std::size_t>(&found)) {
+        fit.isDropped[places[*dropped]] = true;
+        fit.isHeld[places[*dropped]] = true;
+        return solveFree(equations, isPositive, fit);
+    }
+    const Symmetric* const inverse = std::get_if<Symmetric>(&found);
     fit.inverse = *inverse;
     std::optional<std::size_t> worst;
     for (std::size_t i = 0; i < free.size(); ++i) {
@@ -95,23 +100,28 @@ double descentOf(const NormalEquations& equations, const LinearFit& fit, std::si
 
 }  // namespace
 
+bool LinearFit::isSolved() const {
+    return std::find(isDropped.begin(), isDropped.end(), true) == isDropped.end();
+}
+
 LinearFit fitColumns(const NormalEquations& equations, const std::vector<std::size_t>& columns,
                      const std::vector<bool>& isPositive) {
     LinearFit fit;
     fit.columns = columns;
     fit.values.assign(columns.size(), 0.0);
     fit.isHeld.assign(columns.size(), false);
+    fit.isDropped.assign(columns.size(), false);
     for (std::size_t round = 0; round < 8 * columns.size() + 8; ++round) {
         if (const auto worst = solveFree(equations, isPositive, fit)) {
             fit.isHeld[*worst] = true;
             continue;
         }
-        if (!fit.isSolved) break;
         std::optional<std::size_t> freed;
         for (std::size_t i = 0; i < columns.size() && round < 4 * columns.size(); ++i) {
             const double unit = std::sqrt(equations.matrix.at(columns[i], columns[i]) *
                                           std::max(equations.squares, 1e-300));
-            if (fit.isHeld[i] && descentOf(equations, fit, i) > 1e-12 * unit) freed = i;
+            if (fit.isHeld[i] && !fit.isDropped[i] && descentOf(equations, fit, i) > 1e-12 * unit)
+                freed = i;
         }
         if (!freed) break;
         fit.isHeld[*freed] = false;

@@ -40,10 +40,12 @@ struct LinearFit {
     std::vector<std::size_t> columns;  // that were fitted
     std::vector<double> values;        // one each
     Symmetric inverse;                 // of the matrix of those that are not held at 0
-    std::vector<bool> isHeld;          // at 0, since it would be negative
+    std::vector<bool> isHeld;          // at 0, since it would be negative, or as the next
+    // Those that 64 bits do not tell from the ones before them, and those that are 0.
+    std::vector<bool> isDropped;
     double chiSquared = 0.0;
-    // False where columns are so nearly the same that 64 bits do not tell them apart.
-    bool isSolved = false;
+
+    [[nodiscard]] bool isSolved() const;  // nothing was dropped
 };
 
 // Minimises the weighted squares over the columns; those of which `isPositive` (by column of the

@@ -2,6 +2,7 @@
 #include "framework/judge/registration.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -9,8 +10,9 @@ namespace kaustik::judge {
 namespace {
 
 constexpr int kCoarseWidth = 48;
-constexpr double kScaleStep = 1.03;
-constexpr int kScaleSteps = 23;  // to each side: to a half and to twice
+constexpr double kScaleStep = 1.05;
+constexpr int kScaleSteps = 14;  // to each side: to a half and to twice
+constexpr std::size_t kFinalists = 12;
 // By how much another way up, scale or place must be better to be believed.
 constexpr double kMuchBetter = 0.02;
 
@@ -62,8 +64,17 @@ std::vector<float> coarse(const Image& image, int width, int height, double cell
 struct Grid {
     int width = 0;
     int height = 0;
+    double cell = 1.0;  // of the reference's pixels
     std::vector<float> model;
     std::vector<float> mask;
+};
+
+struct Placement {
+    std::size_t way = 0;  // 1: left to right, 2: upside down
+    double scale = 1.0;
+    int dx = 0;  // cells
+    int dy = 0;
+    double correlation = -1.0;
 };
 
 double correlationOf(const Grid& grid, const std::vector<float>& theirs, int dx, int dy) {
@@ -94,6 +105,22 @@ double correlationOf(const Grid& grid, const std::vector<float>& theirs, int dx,
     if (n < 0.3 * static_cast<double>(grid.model.size())) return -1.0;
     const double variance = (aa - a * a / n) * (bb - b * b / n);
     return variance > 0.0 ? (ab - a * b / n) / std::sqrt(variance) : 0.0;
+}
+
+// The best place so many cells around one.
+Placement bestPlacement(const Grid& grid, const Image& turned, const Placement& around, int reachX,
+                        int reachY) {
+    const std::vector<float> values =
+        coarse(turned, grid.width, grid.height, grid.cell * around.scale);
+    Placement best = around;
+    for (int dy = around.dy - reachY; dy <= around.dy + reachY; ++dy) {
+        for (int dx = around.dx - reachX; dx <= around.dx + reachX; ++dx) {
+            const double correlation = correlationOf(grid, values, dx, dy);
+            if (correlation > best.correlation)
+                best = {around.way, around.scale, dx, dy, correlation};
+        }
+    }
+    return best;
 }
 
 double cubic(double distance) {
@@ -144,39 +171,53 @@ Image flipped(const Image& image, bool isFlippedX, bool isFlippedY) {
 }
 
 Registration findRegistration(const Image& theirs, const Image& model, const Image& mask) {
-    const int width = std::min(kCoarseWidth, model.width);
-    const double cell = static_cast<double>(model.width) / width;
-    Grid grid{width, std::max(1, static_cast<int>(model.height / cell)), {}, {}};
-    grid.model = coarse(rootOf(model), grid.width, grid.height, cell);
-    grid.mask = coarse(mask, grid.width, grid.height, cell);
+    const Image modelRoot = rootOf(model);
+    const auto gridOf = [&](int width) {
+        const double cell = static_cast<double>(model.width) / width;
+        Grid grid{width, std::max(1, static_cast<int>(model.height / cell)), cell, {}, {}};
+        grid.model = coarse(modelRoot, grid.width, grid.height, cell);
+        grid.mask = coarse(mask, grid.width, grid.height, cell);
+        return grid;
+    };
+    const Grid grid = gridOf(std::min(kCoarseWidth, model.width));
+    const Grid coarsest = gridOf(std::min(kCoarseWidth / 2, model.width));
     const double usual = static_cast<double>(theirs.height) / model.height;
     const Image root = rootOf(theirs);
-    Registration best;
-    best.scale = usual;
-    best.correlation =
-        correlationOf(grid, coarse(root, grid.width, grid.height, cell * usual), 0, 0);
-    const double plain = best.correlation;
+    const std::array<Image, 4> turned = {root, flipped(root, true, false),
+                                         flipped(root, false, true), flipped(root, true, true)};
+    Registration plain;
+    plain.scale = usual;
+    plain.correlation =
+        correlationOf(grid, coarse(root, grid.width, grid.height, grid.cell * usual), 0, 0);
     // Pictures of other sizes may be crops, with pixels as large as ours.
     std::vector<double> scales = {1.0};
     for (int step = -kScaleSteps; step <= kScaleSteps; ++step)
         scales.push_back(usual * std::pow(kScaleStep, step));
-    Registration found = best;
-    for (int way = 0; way < 4; ++way) {
-        const Image turned = flipped(root, (way & 1) != 0, (way & 2) != 0);
+    std::vector<Placement> placements;
+    for (std::size_t way = 0; way < turned.size(); ++way) {
         for (const double scale : scales) {
-            const std::vector<float> values = coarse(turned, grid.width, grid.height, cell * scale);
-            for (int dy = -grid.height / 4; dy <= grid.height / 4; ++dy) {
-                for (int dx = -grid.width / 4; dx <= grid.width / 4; ++dx) {
-                    const double correlation = correlationOf(grid, values, dx, dy);
-                    if (correlation <= found.correlation) continue;
-                    found = {(way & 1) != 0, (way & 2) != 0, scale,
-                             glm::dvec2(dx, dy) * cell * scale, correlation};
-                }
-            }
+            placements.push_back(bestPlacement(coarsest, turned[way], {way, scale, 0, 0, -1.0},
+                                               coarsest.width / 4, coarsest.height / 4));
         }
     }
-    return found.correlation > plain + kMuchBetter * (1.0 - std::max(plain, 0.0)) + 0.005 ? found
-                                                                                          : best;
+    std::sort(placements.begin(), placements.end(),
+              [](const Placement& a, const Placement& b) { return a.correlation > b.correlation; });
+    placements.resize(std::min<std::size_t>(placements.size(), kFinalists));
+    Registration found = plain;
+    for (const Placement& finalist : placements) {
+        const double finer = coarsest.cell / grid.cell;
+        const Placement place = bestPlacement(
+            grid, turned[finalist.way],
+            {finalist.way, finalist.scale, static_cast<int>(std::lround(finalist.dx * finer)),
+             static_cast<int>(std::lround(finalist.dy * finer)), -1.0},
+            2, 2);
+        if (place.correlation <= found.correlation) continue;
+        found = {(place.way & 1u) != 0, (place.way & 2u) != 0, place.scale,
+                 glm::dvec2(place.dx, place.dy) * grid.cell * place.scale, place.correlation};
+    }
+    const double needed =
+        plain.correlation + kMuchBetter * (1.0 - std::max(plain.correlation, 0.0)) + 0.005;
+    return found.correlation > needed ? found : plain;
 }
 
 Image resampled(const Image& theirs, const Registration& registration, const Image& reference,

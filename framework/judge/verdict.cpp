@@ -59,7 +59,7 @@ json toJson(const Verdict& verdict) {
                            {"title", of.title},
                            {"flux_share", of.fluxShare},
                            {"c", of.coefficient},
-                           {"c_stderr", of.error},
+                           {"c_stderr", std::isfinite(of.error) ? json(of.error) : json(nullptr)},
                            {"verdict", of.verdict}});
     }
     json findings = json::array();

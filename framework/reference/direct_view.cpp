@@ -53,7 +53,9 @@ class Tracer {
         // Without light all that it has is by the fill light, of which the scene has a known part.
         result.fill = scene_.appearance().albedo(hit.material, hit.uv) / glm::pi<double>();
         result.direct -= glm::dvec3(scene_.scene().ambientIrradiance) * result.fill;
-        Ray eyeRay{origin, direction};
+        Ray eyeRay;
+        eyeRay.origin = origin;
+        eyeRay.direction = direction;
         eyeRay.sides = SideRule::any;
         SurfaceHit first;
         result.hasGlass =

@@ -7,10 +7,24 @@
 #include "framework/image/image.h"
 #include "framework/measure/image_file.h"
 
+#include <cmath>
+
+namespace kaustik::run {
+
+void requireNumbers(const Image& image, const std::string& name) {
+    for (const float value : image.values) {
+        if (!std::isfinite(value)) {
+            throw ConfigError(
+                fmt::format("{} holds values that are no numbers; it cannot be judged.", name));
+        }
+    }
+}
+
+}  // namespace kaustik::run
+
 #ifdef KAUSTIK_HAS_EMBREE
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <set>
@@ -339,12 +353,7 @@ judge::Verdict judgeFile(const scene::Scene& scene, const std::string& file,
             throw ConfigError(fmt::format("{} and {} are not of the same size.", errorFile, file));
         }
     }
-    for (const float value : theirs.values) {
-        if (!std::isfinite(value)) {
-            throw ConfigError(
-                fmt::format("{} holds values that are no numbers; it cannot be judged.", file));
-        }
-    }
+    requireNumbers(theirs, file);
     judge::Subject subject = subjectOf(scene, request);
     subject.theirsName = file;
     subject.theirs = std::move(theirs);

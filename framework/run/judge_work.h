@@ -23,6 +23,9 @@ struct JudgedScene {
 [[nodiscard]] judge::Subject subjectOf(const scene::Scene& scene, const JudgedScene& request,
                                        const Watch* watch = nullptr);
 
+// Throws ConfigError for values that are no numbers.
+void requireNumbers(const Image& image, const std::string& name);
+
 // The same for a picture of theirs, which says the size unless one is given. Throws ConfigError
 // for a picture that was made for a display.
 [[nodiscard]] judge::Verdict judgeFile(const scene::Scene& scene, const std::string& file,

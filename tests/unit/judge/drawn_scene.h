@@ -86,13 +86,13 @@ inline Image drawn(const Drawing& drawing,
     return image;
 }
 
-// Of a standard deviation of `relative` of the light and a little more.
-inline void addNoise(Image& image, double relative, unsigned seed) {
+// Of a standard deviation of `relative` of the light and of 2 units of it.
+inline void addNoise(Image& image, double relative, double exposure, unsigned seed) {
     std::mt19937 random(seed);
     std::normal_distribution<double> normal;
     for (float& value : image.values) {
         const auto light = static_cast<double>(value);
-        value = static_cast<float>(light + normal(random) * (relative * light + 0.02));
+        value = static_cast<float>(light + normal(random) * relative * (light + 2.0 * exposure));
     }
 }
 
@@ -104,7 +104,7 @@ inline Image theirPicture(const Drawing& drawing, double exposure, double noise 
                (drawing.direct * light.direct + drawing.ring * light.ring +
                 drawing.spot * light.spot + drawing.streak * light.streak + drawing.fill);
     });
-    addNoise(image, noise, seed);
+    addNoise(image, noise, exposure, seed);
     return image;
 }
 

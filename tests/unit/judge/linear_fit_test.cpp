@@ -28,7 +28,7 @@ TEST(LinearFit, GivesBackWhatRowsAreMadeOf) {
     const auto equations =
         equationsOf({{1, 2, 0}, {0, 1, 1}, {3, 0, 1}, {1, 1, 1}}, {1 + 4, 2 - 1, 3 - 1, 1 + 2 - 1});
     const LinearFit fit = fitColumns(equations, {0, 1, 2}, {false, false, false});
-    ASSERT_TRUE(fit.isSolved);
+    ASSERT_TRUE(fit.isSolved());
     EXPECT_NEAR(fit.values[0], 1.0, 1e-12);
     EXPECT_NEAR(fit.values[1], 2.0, 1e-12);
     EXPECT_NEAR(fit.values[2], -1.0, 1e-12);
@@ -73,10 +73,14 @@ TEST(LinearFit, IsTheBestOfAllSubsetsWhereNothingMayBeNegative) {
     }
 }
 
-TEST(LinearFit, SaysThatEqualColumnsAreOne) {
+TEST(LinearFit, DropsWhatIsTheSameAsAColumnBefore) {
     const auto equations = equationsOf({{1, 1}, {2, 2}, {3, 3}}, {1, 2, 3});
-    EXPECT_FALSE(fitColumns(equations, {0, 1}, {false, false}).isSolved);
-    EXPECT_TRUE(fitColumns(equations, {1}, {false, false}).isSolved);
+    EXPECT_FALSE(fitColumns(equations, {0, 1}, {false, false}).isSolved());
+    const LinearFit fit = fitColumns(equations, {0, 1}, {false, false});
+    EXPECT_FALSE(fit.isDropped[0]);
+    EXPECT_TRUE(fit.isDropped[1]);
+    EXPECT_NEAR(fit.values[0], 1.0, 1e-12);
+    EXPECT_TRUE(fitColumns(equations, {1}, {false, false}).isSolved());
 }
 
 }  // namespace
