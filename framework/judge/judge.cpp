@@ -62,7 +62,8 @@ struct Column {
 struct Candidate {
     std::vector<std::size_t> columns;
     Role role = Role::cause;
-    std::size_t index = 0;
+    std::size_t index = 0;      // of a class, or of the first of its causes
+    std::vector<double> steps;  // of causes: the amounts that their columns are of
 };
 
 bool isEmpty(const Image& image) {
@@ -290,7 +291,7 @@ class Judgement {
         isPositive_.clear();
         for (const Column& column : columns_) {
             isPositive_.push_back(column.role == Role::direct || column.role == Role::lightClass ||
-                                  column.role == Role::total);
+                                  column.role == Role::total || column.role == Role::cause);
         }
     }
 
@@ -793,25 +794,47 @@ class Judgement {
         std::vector<Candidate> all;
         for (std::size_t i = 0; i < columns_.size(); ++i) {
             const Column& column = columns_[i];
+            const Candidate alone{{i}, column.role, column.index, {1.0}};
+            // What was registered is not asked for again.
+            const bool isPlace = column.role == Role::shiftX || column.role == Role::scale;
+            if (isPlace && isRegistered()) continue;
             switch (column.role) {
                 case Role::allClasses:
-                case Role::cause:
                 case Role::scale:
                 case Role::fill:
-                    all.push_back({{i}, column.role, column.index});
+                    all.push_back(alone);
+                    break;
+                case Role::cause:
+                    addCause(i, all);
                     break;
                 case Role::lightClass:
-                    if (hasDirect_ || subject_.classes.size() > 1)
-                        all.push_back({{i}, column.role, column.index});
+                    if (hasDirect_ || subject_.classes.size() > 1) all.push_back(alone);
                     break;
                 case Role::shiftX:
-                    all.push_back({{i, i + 1}, column.role, 0});
+                    all.push_back({{i, i + 1}, column.role, 0, {1.0, 1.0}});
                     break;
                 default:
                     break;
             }
         }
         return all;
+    }
+
+    // Pictures of the same cause in the same direction are one candidate: what lies between two is
+    // a mixture of them.
+    void addCause(std::size_t column, std::vector<Candidate>& all) const {
+        const std::size_t index = columns_[column].index;
+        const Cause& cause = subject_.causes[index];
+        const double step = cause.kind == CauseKind::amount ? cause.amount : 1.0;
+        for (Candidate& other : all) {
+            if (other.role != Role::cause || subject_.causes[other.index].name != cause.name ||
+                other.steps.front() * step < 0.0)
+                continue;
+            other.columns.push_back(column);
+            other.steps.push_back(step);
+            return;
+        }
+        all.push_back({{column}, Role::cause, index, {step}});
     }
 
     struct Trial {
@@ -830,6 +853,11 @@ class Judgement {
         const double light = std::max(coefficient(fitted, 0), 1e-9);
         for (const std::size_t column : candidate.columns)
             trial.amounts.push_back(coefficient(fitted, column) / light);
+        if (candidate.role == Role::cause) {
+            trial.amounts.front() *= candidate.steps.front();
+            for (std::size_t i = 1; i < candidate.steps.size(); ++i)
+                trial.amounts.front() += candidate.steps[i] * trial.amounts[i];
+        }
         const double amount = std::abs(trial.amounts.front());
         switch (candidate.role) {
             case Role::lightClass:
@@ -1160,10 +1188,22 @@ class Judgement {
             if (role == Role::lightClass || role == Role::allClasses) continue;
             std::vector<double> amounts;
             std::vector<double> errors;
-            for (const std::size_t column : choice.candidate.columns) {
-                const std::size_t place = placeOf(fitted, column);
+            const Candidate& candidate = choice.candidate;
+            double amount = 0.0;
+            double variance = 0.0;
+            for (std::size_t i = 0; i < candidate.columns.size(); ++i) {
+                const std::size_t place = placeOf(fitted, candidate.columns[i]);
                 amounts.push_back(fitted.values[place] / exposure_);
                 errors.push_back(std::sqrt(std::max(covariance.at(place, place), 0.0)) / exposure_);
+                amount += candidate.steps[i] * amounts.back();
+                for (std::size_t j = 0; j < candidate.columns.size(); ++j) {
+                    variance += candidate.steps[i] * candidate.steps[j] *
+                                covariance.at(place, placeOf(fitted, candidate.columns[j]));
+                }
+            }
+            if (role == Role::cause) {
+                amounts = {amount};
+                errors = {std::sqrt(std::max(variance, 0.0)) / exposure_};
             }
             const std::string name = role == Role::cause
                                          ? subject_.causes[choice.candidate.index].name

@@ -29,17 +29,18 @@ struct Light {
 };
 
 enum class CauseKind {
-    amount,    // its coefficient is how much of something: an index's error, a light's turn
-    whole,     // its coefficient is 1 where the mistake was made, and 0 where not
-    exchange,  // found by the judge itself: a class, the shift, …
+    amount,  // of something: an index's error, a light's turn; other amounts lie between pictures
+    whole,   // it was made, or not
 };
 
-// What a mistake adds to the picture, to first order: by unit of an amount, or all of it.
+// What a mistake adds to the picture. One that has an amount is there several times by the same
+// name, with pictures for several amounts of either sign.
 struct Cause {
     CauseKind kind = CauseKind::amount;
     std::string name;      // "index of 'glass'"
     std::string sentence;  // of a whole: "the faces of 'ball' are turned inside out"
     std::string unit;      // of an amount: "", "degrees"
+    double amount = 0.0;   // that the picture is of
     double least = 0.0;    // amounts below it are not worth a word
     Image radiance;
     Image error;

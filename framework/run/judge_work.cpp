@@ -49,7 +49,7 @@ constexpr int kLightPoints = 64;
 constexpr double kIndexStep = 0.01;
 constexpr double kTurnDegrees = 0.25;
 constexpr double kMoveShare = 0.005;  // of the distance to what is specular
-constexpr int kMostCauses = 12;
+constexpr std::size_t kMostPictures = 24;
 
 // The light of a scene as radiance.
 struct Lit {
@@ -65,15 +65,12 @@ Image timesFill(const Image& irradiance, const Image& fill) {
     return result;
 }
 
-// Half a difference over a step, of direct and of caustic light together.
-Image changeOf(const Lit& more, const Lit& less, double step) {
-    Image result = more.caustics;
+// Of direct and of caustic light together.
+Image changeOf(const Lit& other, const Lit& usual) {
+    Image result = other.caustics;
     for (std::size_t i = 0; i < result.values.size(); ++i) {
-        const double change = static_cast<double>(more.caustics.values[i]) -
-                              static_cast<double>(less.caustics.values[i]) +
-                              static_cast<double>(more.view.direct.values[i]) -
-                              static_cast<double>(less.view.direct.values[i]);
-        result.values[i] = static_cast<float>(change / step);
+        result.values[i] +=
+            other.view.direct.values[i] - usual.caustics.values[i] - usual.view.direct.values[i];
     }
     return result;
 }
@@ -148,32 +145,35 @@ class Causes {
         change(other);
         return lighting_.lightOf(other, false, photons_);
     }
-    [[nodiscard]] bool isFull() const { return causes_.size() >= kMostCauses; }
+    [[nodiscard]] bool isFull() const { return causes_.size() >= kMostPictures; }
 
-    void add(CauseKind kind, std::string name, std::string sentence, std::string unit, double least,
-             Image radiance) {
+    void add(CauseKind kind, std::string name, std::string sentence, std::string unit,
+             double amount, double least, Image radiance) {
         Cause cause;
         cause.kind = kind;
         cause.name = std::move(name);
         cause.sentence = std::move(sentence);
         cause.unit = std::move(unit);
+        cause.amount = amount;
         cause.least = least;
         cause.radiance = std::move(radiance);
         causes_.push_back(std::move(cause));
     }
 
     // The same photons in both, so that their noise goes with the difference.
-    void addAmount(const std::string& name, const std::string& unit, double step, double least,
-                   const std::function<void(scene::Scene&, double)>& change) {
+    void addAmounts(const std::string& name, const std::string& unit,
+                    const std::vector<double>& amounts, double least,
+                    const std::function<void(scene::Scene&, double)>& change) {
         if (isFull()) return;
-        const Lit more = changed([&](scene::Scene& scene) { change(scene, step); });
-        const Lit less = changed([&](scene::Scene& scene) { change(scene, -step); });
-        add(CauseKind::amount, name, "", unit, least, changeOf(more, less, 2.0 * step));
+        for (const double amount : amounts) {
+            const Lit other = changed([&](scene::Scene& scene) { change(scene, amount); });
+            add(CauseKind::amount, name, "", unit, amount, least, changeOf(other, usual_));
+        }
     }
 
     void addWhole(const std::string& name, const std::string& sentence, const Change& change) {
         if (isFull()) return;
-        add(CauseKind::whole, name, sentence, "", 0.0, changeOf(changed(change), usual_, 1.0));
+        add(CauseKind::whole, name, sentence, "", 0.0, 0.0, changeOf(changed(change), usual_));
     }
 
     void addIndex(std::size_t index) {
@@ -182,12 +182,13 @@ class Causes {
             std::any_of(scene_.objects.begin(), scene_.objects.end(),
                         [&](const scene::Object& object) { return object.material == index; });
         if (!isUsed || material.kind != scene::MaterialKind::dielectric ||
-            static_cast<double>(material.ior) < 1.0 + 2.0 * kIndexStep)
+            static_cast<double>(material.ior) < 1.0 + 4.0 * kIndexStep)
             return;
-        addAmount(fmt::format("the index of refraction of '{}'", material.name), "", kIndexStep,
-                  0.002, [index](scene::Scene& scene, double step) {
-                      scene.materials[index].ior += static_cast<float>(step);
-                  });
+        addAmounts(fmt::format("the index of refraction of '{}'", material.name), "",
+                   {-kIndexStep, kIndexStep, -3.0 * kIndexStep, 3.0 * kIndexStep}, 0.002,
+                   [index](scene::Scene& scene, double step) {
+                       scene.materials[index].ior += static_cast<float>(step);
+                   });
     }
 
     [[nodiscard]] glm::dvec3 middleOfSpecular() const {
@@ -208,19 +209,20 @@ class Causes {
             const std::string towards =
                 fmt::format("({:.2f}, {:.2f}, {:.2f})", axis.x, axis.y, axis.z);
             if (isDirectional) {
-                addAmount(
+                addAmounts(
                     fmt::format("the direction of light '{}', towards {},", light.name, towards),
-                    "degrees", kTurnDegrees, 0.05, [index, axis](scene::Scene& scene, double step) {
+                    "degrees", {-kTurnDegrees, kTurnDegrees}, 0.05,
+                    [index, axis](scene::Scene& scene, double step) {
                         glm::dvec3& direction = scene.lights[index].direction;
                         direction = glm::normalize(direction + std::tan(glm::radians(step)) * axis);
                     });
             } else {
                 const double distance = glm::length(middleOfSpecular() - light.position);
-                addAmount(fmt::format("the place of light '{}', towards {},", light.name, towards),
-                          "m", kMoveShare * distance, 0.001 * distance,
-                          [index, axis](scene::Scene& scene, double step) {
-                              scene.lights[index].position += step * axis;
-                          });
+                addAmounts(fmt::format("the place of light '{}', towards {},", light.name, towards),
+                           "m", {-kMoveShare * distance, kMoveShare * distance}, 0.001 * distance,
+                           [index, axis](scene::Scene& scene, double step) {
+                               scene.lights[index].position += step * axis;
+                           });
             }
         }
     }

@@ -143,18 +143,19 @@ inline judge::Subject drawnSubject(Image theirs) {
     subject.hasGlass = Image(kDrawnWidth, kDrawnHeight, 1);
     subject.verticalFovDegrees = 40.0;
     subject.indices = {{"glass", 1.5}};
-    Drawing more;
-    more.index = 1.51;
-    Drawing less;
-    less.index = 1.49;
-    judge::Cause index;
-    index.name = "the index of refraction of 'glass'";
-    index.least = 0.002;
-    index.radiance = radiance(more, &DrawnLight::ring);
-    const Image other = radiance(less, &DrawnLight::ring);
-    for (std::size_t i = 0; i < other.values.size(); ++i)
-        index.radiance.values[i] = (index.radiance.values[i] - other.values[i]) / 0.02f;
-    subject.causes.push_back(std::move(index));
+    const Image ring = radiance(usual, &DrawnLight::ring);
+    for (const double amount : {-0.01, 0.01, -0.03, 0.03}) {
+        Drawing other;
+        other.index += amount;
+        judge::Cause index;
+        index.name = "the index of refraction of 'glass'";
+        index.amount = amount;
+        index.least = 0.002;
+        index.radiance = radiance(other, &DrawnLight::ring);
+        for (std::size_t i = 0; i < ring.values.size(); ++i)
+            index.radiance.values[i] -= ring.values[i];
+        subject.causes.push_back(std::move(index));
+    }
     return subject;
 }
 
