@@ -6,7 +6,7 @@
                [--photons 6000000] [--reference-photons 4000000] [--causes] [SCENE...]
 
 Exports each scene, has POV-Ray shoot its photons and render, and judges the picture. Writes OUT/classes.csv, a row for each class of light,
-and OUT/scenes.csv, a row for each scene, with all findings in words. With --causes also by references of other indices, lights and normals.
+and OUT/scenes.csv, a row for each scene, with all findings in words. A picture that is in WORK already is not rendered again. With --causes also by references of other indices, lights and normals.
 """
 
 import argparse
@@ -31,14 +31,17 @@ def output_of(command: list[str], folder: Path | None = None) -> str:
 def judged(scene: str, options: argparse.Namespace) -> tuple[dict, int]:
     name = Path(scene).stem
     folder = options.work / name
-    output_of(["kaustik", "export", scene, "--to", "povray", "--out", str(folder), "--size", options.size, "--photons", str(options.photons)])
-    shot = output_of(["povray", "shoot.ini"], folder)
-    output_of(["povray", "scene.ini"], folder)
+    log = folder / "shoot.log"
+    if not (log.is_file() and (folder / "theirs.exr").is_file()):
+        output_of(["kaustik", "export", scene, "--to", "povray", "--out", str(folder), "--size", options.size, "--photons", str(options.photons)])
+        shot = output_of(["povray", "shoot.ini"], folder)
+        output_of(["povray", "scene.ini"], folder)
+        log.write_text(shot)
     found = subprocess.run(["kaustik", "judge", scene, str(folder / "theirs.exr"), "--photons", str(options.reference_photons), "--json",
                             "--out", str(folder / "judged"), *([] if options.causes else ["--no-causes"])], capture_output=True, text=True)
     if found.returncode:
         sys.exit(f"judge_povray: {found.stderr.strip()}")
-    return json.loads(found.stdout), int(re.search(r"Surface photons stored:\s+(\d+)", shot)[1])
+    return json.loads(found.stdout), int(re.search(r"Surface photons stored:\s+(\d+)", log.read_text())[1])
 
 
 def main() -> None:

@@ -33,6 +33,7 @@ constexpr double kAsWell = 0.9;
 constexpr double kBetterPlace = 0.85;
 constexpr double kLeastShift = 0.05;    // pixels
 constexpr double kLeastScale = 0.0015;  // relative
+constexpr double kLeastColor = 0.02;    // between channels
 constexpr double kLeastBlur = 0.35;     // pixels
 constexpr double kFalseAlarms = 0.01;   // chance that any pixel of a right picture is significant
 constexpr double kPi = 3.14159265358979323846;
@@ -1060,6 +1061,29 @@ class Judgement {
              also);
     }
 
+    // A factor of each channel for what is fitted to all of them together.
+    void findChannels(const LinearFit& fitted) {
+        const Image prediction = predictionOf(fitted);
+        glm::dvec3 products(0.0);
+        glm::dvec3 squares(0.0);
+        for (std::size_t i = 0; i < weight_.values.size(); ++i) {
+            const auto weight = static_cast<double>(weight_.values[i]);
+            const auto light = static_cast<double>(prediction.values[i]);
+            const auto channel = static_cast<glm::length_t>(i % 3);
+            products[channel] += weight * light * static_cast<double>(picture_.values[i]);
+            squares[channel] += weight * light * light;
+        }
+        const glm::dvec3 factors = products / glm::max(squares, glm::dvec3(1e-300));
+        const double mean = (factors.r + factors.g + factors.b) / 3.0;
+        const double spread = std::max({factors.r, factors.g, factors.b}) -
+                              std::min({factors.r, factors.g, factors.b});
+        if (!(spread > kLeastColor * mean)) return;
+        find("channels", spread / mean, 0.0,
+             fmt::format("its channels have other exposures, red {:.3f}, green {:.3f} and blue "
+                         "{:.3f} of the mean: a white balance, a light's colour or other primaries",
+                         factors.r / mean, factors.g / mean, factors.b / mean));
+    }
+
     // What factors of a class mean.
     [[nodiscard]] std::string meaningOf(double value, double error) const {
         std::vector<std::pair<double, std::string>> known = {
@@ -1098,6 +1122,7 @@ class Judgement {
         setClasses(fitted, covariance);
         findRegistrations();
         findEncoding();
+        findChannels(fitted);
         if (verdict_.blurPixels > 0.0) {
             find(
                 "blur", verdict_.blurPixels, 0.0,

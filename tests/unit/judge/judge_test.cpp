@@ -237,6 +237,15 @@ TEST(Judge, NamesAnEvenLightThatIsNotTheScenes) {
     EXPECT_NEAR(find(verdict, "fill")->value, 12.0, 0.5);
 }
 
+TEST(Judge, NamesChannelsOfOtherExposures) {
+    Image theirs = theirPicture({}, 2.0);
+    for (std::size_t i = 2; i < theirs.values.size(); i += 3)
+        theirs.values[i] *= 0.9f;
+    const Verdict verdict = judge(drawnSubject(theirs), {});
+    expectOnly(verdict, "channels");
+    EXPECT_NEAR(find(verdict, "channels")->value, 0.1, 0.02) << allOf(verdict);
+}
+
 TEST(Judge, TakesCausticsAloneForWhatTheyAre) {
     Drawing drawing;
     drawing.direct = 0.0;
