@@ -537,6 +537,14 @@ class Judgement {
         makeColumns(false);
         Image model = modelOf(hasDirect_);
         verdict_.registration = findRegistration(theirs_, model, counted_);
+        // A mistake that changes all of a caustic is no other way up.
+        for (const Cause& cause : subject_.causes) {
+            if (cause.kind != CauseKind::whole) continue;
+            const Registration other =
+                findRegistration(theirs_, sum({&model, &cause.radiance}), counted_);
+            if (other.correlation > verdict_.registration.correlation + 0.01)
+                verdict_.registration = other;
+        }
         // Without the direct light that was thought to be there they may be the same.
         if (hasDirect_ && options_.direct == DirectLight::automatic) {
             const Image caustics = modelOf(false);
@@ -1189,14 +1197,26 @@ class Judgement {
             if (fitted.isDropped[place]) {
                 verdict.error = HUGE_VAL;
             } else if (fitted.isHeld[place]) {
-                // It would be negative; what it would be is known as well as if it were not.
+                // It would be negative; what it would be is known as well as if it were not, as
+                // far as the exposure's error is what independent pixels would give.
                 const double square = equations_.matrix.at(column, column);
-                verdict.error = square > 0.0 ? 1.0 / (std::sqrt(square) * exposure_) : 0.0;
+                verdict.error =
+                    square > 0.0 ? noiseFactor(fitted, covariance) / (std::sqrt(square) * exposure_)
+                                 : HUGE_VAL;
             }
             verdict.verdict = verdictOf(verdict);
             if (place == exposurePlace_ && !isGiven) verdict.verdict = "there";
             verdict_.classes.push_back(verdict);
         }
+    }
+
+    // By how much neighbours that share their noise make errors larger.
+    [[nodiscard]] double noiseFactor(const LinearFit& fitted, const Symmetric& covariance) const {
+        std::size_t row = 0;
+        for (std::size_t i = 0; i < exposurePlace_; ++i)
+            row += fitted.isHeld[i] ? 0u : 1u;
+        return std::sqrt(covariance.at(exposurePlace_, exposurePlace_) /
+                         fitted.inverse.at(row, row));
     }
 
     [[nodiscard]] static std::string verdictOf(const ClassVerdict& of) {

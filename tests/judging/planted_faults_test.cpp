@@ -64,8 +64,8 @@ position = [0, 0.7, 0]
 segments = 128
 )";
 
-constexpr int kWidth = 96;
-constexpr int kHeight = 72;
+constexpr int kWidth = 80;
+constexpr int kHeight = 60;
 constexpr double kExposure = 2.7;
 
 class PlantedFault : public testing::Test {
@@ -77,7 +77,7 @@ class PlantedFault : public testing::Test {
         JudgedScene request;
         request.width = kWidth;
         request.height = kHeight;
-        request.photons = 1 << 22;
+        request.photons = 1 << 21;
         request.classes = 3;
         subject_ = new Subject(subjectOf(*scene_, request, &watch()));
     }
@@ -99,7 +99,7 @@ class PlantedFault : public testing::Test {
         JudgedScene request;
         request.width = kWidth * pixelsAPixel;
         request.height = kHeight * pixelsAPixel;
-        request.photons = 1 << 22;
+        request.photons = 1 << 21;
         request.seed = 77;
         request.classes = 3;
         request.causes = false;
