@@ -625,10 +625,11 @@ class Judgement {
         makeEquations();
         const LinearFit fitted = fit(columnsOf({Role::direct, Role::lightClass}));
         const double direct = coefficient(fitted, columnsOf({Role::direct}).front());
-        double most = 0.0;
-        for (const std::size_t column : columnsOf({Role::lightClass}))
-            most = std::max(most, coefficient(fitted, column));
-        if (direct > 0.02 * most) return;
+        // Classes of little light may have any coefficient: what counts is the light.
+        const double there = direct * total(subject_.direct, counted_) / total(picture_, counted_);
+        const double expected =
+            total(subject_.direct, counted_) / total(columns_.front().image, counted_);
+        if (there > 0.1 * expected) return;
         hasDirect_ = false;
         makeColumns(false);
         align();
@@ -660,6 +661,8 @@ class Judgement {
             if (!fitted.isSolved()) fitted = fit(columns);
             if (!fitted.isSolved()) break;
             const Symmetric covariance = covarianceOf(fitted);
+            // Where other columns take the light's place, nothing is known of where it lies.
+            if (lightOf(fitted) < 0.2) break;
             // Coefficients of derivatives are steps where those of the light are 1.
             const double light = std::max(lightOf(fitted), 1e-6);
             const auto step = [&](Role role, double& deviation) {
