@@ -28,6 +28,8 @@ packages=(
     # Tests; the page of a study is opened in a browser, the workbench on a display without a screen
     libgtest-dev libgmock-dev chromium chromium-driver xvfb x11-xkb-utils libxtst-dev python3-numpy
     python3-jsonschema
+    # Another renderer's photons, which kaustik judge is tested on
+    povray
     # A strict compiler for shaders, which tests/gpu/strict asks about every program
     glslang-tools spirv-tools spirv-cross
 )

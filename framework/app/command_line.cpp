@@ -407,6 +407,61 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry,
                      "What a picture that is not there is: error or grey")
         ->capture_default_str();
 
+    ExportOptions exported;
+    CLI::App* exportApp =
+        app.add_subcommand("export", "Writes a scene and its meshes for another renderer");
+    exportApp->add_option("scene", exported.scene, kSceneHelp)->required();
+    addOwnMeshOptions(*exportApp, exported.own);
+    exportApp->add_option("--to", exported.to, "povray, mitsuba, gltf or pbrt")->required();
+    exportApp->add_option("--out", exported.out, "The folder that is written to")->required();
+    exportApp->add_option("--size", exported.size, "Picture size, WIDTHxHEIGHT")
+        ->capture_default_str();
+    exportApp->add_option("--time", exported.time, "Time of the animation in seconds");
+    exportApp
+        ->add_option("--photons", exported.photons, "That its renderer is asked to shoot, about")
+        ->check(integerRangeError)
+        ->capture_default_str();
+
+    JudgeOptions judged;
+    CLI::App* judgeApp = app.add_subcommand(
+        "judge", "Says what is wrong with another renderer's picture of a scene");
+    judgeApp->add_option("scene", judged.scene, kSceneHelp)->required();
+    judgeApp->add_option("theirs", judged.theirs, "The picture, .exr or .pfm in linear light")
+        ->required();
+    addOwnMeshOptions(*judgeApp, judged.own);
+    judgeApp->add_flag("--caustic-only", judged.causticOnly,
+                       "It has no direct light; without either it is found out");
+    judgeApp->add_flag("--with-direct", judged.withDirect, "It has direct light, too");
+    judgeApp
+        ->add_option("--glass", judged.glass,
+                     "Whether its eye sees glass and water, or straight through: auto, seen or "
+                     "hidden")
+        ->capture_default_str();
+    judgeApp
+        ->add_option("--encoding", judged.encoding,
+                     "What its values are: auto, linear, srgb or gamma2.2")
+        ->capture_default_str();
+    judgeApp->add_option("--exposure", judged.exposure,
+                         "Its value for 1 W/m²/sr, where that is known; else it is found");
+    judgeApp->add_option("--stderr", judged.theirsErrorFile,
+                         "Its standard error, an image of the same size; else it is estimated");
+    judgeApp->add_option("--size", judged.size,
+                         "Picture size of the reference, WIDTHxHEIGHT, where it is another");
+    judgeApp->add_option("--time", judged.time, "Time of the animation in seconds");
+    judgeApp->add_option("--photons", judged.photons, "Photons of the reference")
+        ->check(integerRangeError)
+        ->capture_default_str();
+    judgeApp->add_option("--seed", judged.seed, "Seed of the reference")
+        ->check(integerRangeError)
+        ->capture_default_str();
+    judgeApp->add_option("--classes", judged.classes, "Classes of paths at most, the brightest")
+        ->capture_default_str();
+    judgeApp->add_flag("--no-causes", judged.noCauses,
+                       "Only classes: no references of what else may be wrong");
+    judgeApp->add_flag("--json", judged.json, "As JSON");
+    judgeApp->add_option("--out", judged.out,
+                         "Folder for judge.json, judge.txt, where.png and residual.exr");
+
     ExperimentOptions experiment;
     CLI::App* experimentApp =
         app.add_subcommand("experiment", "Does all runs of a study, or draws what they found");
@@ -483,6 +538,14 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry,
         }
         if (compareApp->parsed()) compareCommand(compare);
         if (importApp->parsed()) importCommand(imported);
+        if (judgeApp->parsed()) {
+            putOwnMesh(judged.scene, judged.own);
+            judgeCommand(judged);
+        }
+        if (exportApp->parsed()) {
+            putOwnMesh(exported.scene, exported.own);
+            exportCommand(exported);
+        }
         if (experimentApp->parsed()) experimentCommand(experiment, registry, parts.addHardCases);
         if (checkApp->parsed()) checkCommand();
         if (schemaApp->parsed()) schemaCommand(schemaOf, registry);

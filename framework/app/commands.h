@@ -25,6 +25,8 @@ void referenceCommand(const ReferenceOptions& options);
 void censusCommand(const CensusOptions& options, const Registry& registry);
 void compareCommand(const CompareOptions& options);
 void importCommand(const ImportOptions& options);
+void exportCommand(const ExportOptions& options);
+void judgeCommand(const JudgeOptions& options);
 
 // Adds to the common hard cases those of a program's techniques; null where there are none.
 using AddHardCases = void (*)(numerics::Suite& suite);

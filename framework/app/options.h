@@ -142,6 +142,36 @@ struct ImportOptions {
     std::string missingTextures = "error";  // or grey
 };
 
+struct JudgeOptions {
+    std::string scene;
+    OwnMeshOptions own;
+    std::string theirs;           // .exr or .pfm
+    std::string theirsErrorFile;  // "": estimated
+    bool causticOnly = false;     // neither: it is found out
+    bool withDirect = false;
+    std::string glass = "auto";     // or seen, hidden
+    std::string encoding = "auto";  // or linear, srgb, gamma2.2
+    std::optional<double> exposure;
+    std::string size;  // of the reference; "": that of the picture
+    std::string time;
+    long long photons = 1LL << 24;
+    long long seed = 1;
+    int classes = 6;
+    bool noCauses = false;
+    bool json = false;
+    std::string out;  // folder; "": nothing is written
+};
+
+struct ExportOptions {
+    std::string scene;
+    OwnMeshOptions own;
+    std::string to;  // povray, mitsuba, gltf or pbrt
+    std::string out;
+    std::string size = "800x600";
+    std::string time;
+    long long photons = 1'000'000;  // that the other renderer is asked for
+};
+
 struct ExperimentOptions {
     std::string action;                // run, merge or report
     std::vector<std::string> targets;  // the TOML file, or folders of results

@@ -34,4 +34,5 @@ PYBIND11_MODULE(_kaustik, module) {
     bindSession(module);
     bindReference(module);
     bindCompare(module);
+    bindJudge(module);
 }

@@ -37,7 +37,7 @@ TEST_F(Help, NamesEverySubcommand) {
     EXPECT_EQ(outcome.exitCode, 0);
     EXPECT_EQ(outcome.err, "");
     expectAllIn(outcome.out, {"run", "list", "doc", "explain", "reference", "census", "compare",
-                              "import", "experiment", "check", "--version"});
+                              "import", "export", "judge", "experiment", "check", "--version"});
 }
 
 TEST_F(Help, OfRunNamesEveryOption) {

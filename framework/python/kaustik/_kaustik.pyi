@@ -135,6 +135,24 @@ def reference(
     progress: Optional[Callable[[float, str], Any]],
 ) -> Reference: ...
 def read_reference(file: Union[str, "os.PathLike[str]"]) -> Reference: ...
+def judge(
+    scene: Any,
+    base: str,
+    theirs: Any,
+    size: Any,
+    direct: str,
+    glass: str,
+    encoding: str,
+    exposure: Optional[float],
+    standard_error: Any,
+    photons: int,
+    seed: int,
+    classes: int,
+    causes: bool,
+) -> Tuple[Dict[str, Any], str, Array, Array]: ...
+def export(
+    scene: Any, base: str, to: str, out: Union[str, "os.PathLike[str]"], size: Any, photons: int
+) -> Dict[str, Any]: ...
 def compare(
     image: Any,
     reference: Any,

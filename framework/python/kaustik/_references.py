@@ -122,6 +122,65 @@ def compare(
     return errors
 
 
+def judge(
+    scene: Scene,
+    theirs: ImageLike,
+    *,
+    direct: str = "auto",
+    glass: str = "auto",
+    encoding: str = "auto",
+    exposure: Optional[float] = None,
+    standard_error: Optional[ImageLike] = None,
+    size: Optional[Size] = None,
+    photons: int = 2**24,
+    seed: int = 1,
+    classes: int = 6,
+    causes: bool = True,
+    base: Union[str, "os.PathLike[str]"] = "",
+) -> Dict[str, Any]:
+    """What is wrong with another renderer's picture of a scene, as `kaustik judge --json` has it,
+    and also text (the report in sentences), residual (H x W x 3, W/m2/sr) and where (H x W x 3 for
+    a display: red where theirs is brighter than what was found, blue where it is darker).
+
+    theirs is an array of linear light, H x W or H x W x C, or a file (.exr, .pfm). direct is
+    "with", "without" or "auto" (found out), glass "seen", "hidden" or "auto", encoding "linear",
+    "srgb", "gamma2.2" or "auto". size is the reference's, that of theirs if not given; causes asks
+    for references of what may be wrong too (indices, lights, normals). References are cached.
+    ConfigError for what cannot be judged: another scene's picture, one for a display, no caustic.
+    """
+    found, text, residual, where = _kaustik.judge(
+        scene,
+        os.fspath(base),
+        theirs,
+        size,
+        direct,
+        glass,
+        encoding,
+        exposure,
+        standard_error,
+        photons,
+        seed,
+        classes,
+        causes,
+    )
+    return {**found, "text": text, "residual": residual, "where": where}
+
+
+def export(
+    scene: Scene,
+    out: Union[str, "os.PathLike[str]"],
+    *,
+    to: str,
+    size: Size = (800, 600),
+    photons: int = 1_000_000,
+    base: Union[str, "os.PathLike[str]"] = "",
+) -> Dict[str, Any]:
+    """Writes a scene and its meshes for another renderer, to "povray", "mitsuba", "gltf" or "pbrt",
+    into the folder out: scene_file, render_command, and notes, a sentence for whatever the format
+    cannot hold."""
+    return _kaustik.export(scene, os.fspath(base), to, os.fspath(out), size, photons)
+
+
 def heat_map(image: ImageLike, reference: Union[Reference, ImageLike]) -> Array:
     """Where the image is wrong: the mean over RGB of |image - reference| as colours, H x W x 3 for
     a display, from black to brightest at the reference's typical luminance."""

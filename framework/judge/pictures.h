@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// What the judge does to whole pictures before it fits them.
+#pragma once
+
+#include <vector>
+
+#include "framework/image/image.h"
+#include "framework/judge/judge.h"
+
+namespace kaustik::judge {
+
+// Three channels of one or more; what is stored as it is.
+[[nodiscard]] Image threeChannels(const Image& image);
+// Linear light of stored values.
+[[nodiscard]] Image decoded(const Image& image, Encoding encoding);
+// Convolved with a Gaussian of that standard deviation, in pixels; edges repeat.
+[[nodiscard]] Image blurred(const Image& image, double sigma);
+[[nodiscard]] Image sum(const std::vector<const Image*>& images);
+// Half of the difference of the neighbours: the derivative by pixels.
+[[nodiscard]] Image derivativeX(const Image& image);
+[[nodiscard]] Image derivativeY(const Image& image);
+// The derivative by the logarithm of a scale about the picture's middle.
+[[nodiscard]] Image derivativeScale(const Image& image);
+
+// The standard deviation of what differs from pixel to pixel in a residual, as a function of the
+// light that is expected there: what a picture's own noise looks like. `expected` and `residual`
+// have three channels. What the reference's error explains of it is taken off.
+[[nodiscard]] Image noiseOf(const Image& residual, const Image& expected, const Image& known,
+                            const Image& mask);
+
+}  // namespace kaustik::judge

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+// kaustik export and judge as their users meet them, with POV-Ray's photons where it is installed.
+#include <cstdlib>
+
+#include "framework/image/image.h"
+#include "tests/cli/fixture.h"
+
+namespace kaustik::test {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kRing = R"(
+name = "cup"
+ambient_irradiance = 5
+[camera]
+position = [-0.25, 1.75, 1.35]
+target = [0.05, 0, 0.03]
+vertical_fov_degrees = 40
+[[light]]
+name = "sun"
+type = "directional"
+direction = [0.8, -0.6, 0]
+irradiance = 1000
+[[material]]
+name = "paper"
+type = "lambertian"
+albedo = [0.78, 0.77, 0.74]
+[[material]]
+name = "gold"
+type = "mirror"
+reflectance = [0.95, 0.79, 0.45]
+[[object]]
+name = "paper"
+shape = "plane"
+material = "paper"
+size = [6, 6]
+[[object]]
+name = "ring"
+shape = "ring"
+material = "gold"
+inner_radius = 0.5
+outer_radius = 0.55
+height = 0.31
+position = [0, 0.145, 0]
+segments = 256
+)";
+
+class Judge : public CommandLine {
+  protected:
+    Judge() { static_cast<void>(folder.file("cup.toml", kRing)); }
+
+    [[nodiscard]] Outcome judge(const std::vector<std::string>& more) const {
+        std::vector<std::string> arguments = {"judge", "cup.toml"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        Conditions conditions;
+        conditions.environment = {{"KAUSTIK_CACHE", (folder / "cache").string()}};
+        return run(arguments, conditions);
+    }
+};
+
+TEST_F(Judge, FindsThePhotonsOfPovrayRight) {
+    if (std::system("command -v povray > /dev/null") != 0) GTEST_SKIP() << "POV-Ray is missing";
+    const Outcome exported = run({"export", "cup.toml", "--to", "povray", "--out", "pov", "--size",
+                                  "96x72", "--photons", "300000"});
+    ASSERT_EQ(exported.exitCode, 0) << exported.err;
+    EXPECT_NE(exported.out.find("left out: ambient_irradiance"), std::string::npos);
+    const std::string pov = "cd " + (folder / "pov").string() +
+                            " && povray shoot.ini > log 2>&1 && povray scene.ini >> log 2>&1";
+    ASSERT_EQ(std::system(pov.c_str()), 0) << contents("pov/log");
+    const Outcome outcome =
+        judge({"pov/theirs.exr", "--photons", "2000000", "--json", "--out", "judged"});
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const json verdict = json::parse(outcome.out);
+    EXPECT_EQ(verdict, json::parse(contents("judged/judge.json")));
+    EXPECT_TRUE(files().contains("judged/where.png"));
+    // Its picture is W/m²/sr, the right way up, to the pixel.
+    EXPECT_NEAR(verdict.at("exposure").get<double>(), 1.0, 0.01);
+    EXPECT_EQ(verdict.at("registration").at("shift_px"), json({0.0, 0.0}));
+    EXPECT_EQ(verdict.at("encoding"), "linear");
+    // Light that is reflected once, all but all of the caustic, to 5 %.
+    const json& first = verdict.at("classes").at(0);
+    EXPECT_EQ(first.at("name"), "R");
+    EXPECT_NEAR(first.at("c").get<double>(), 1.0, 0.05) << outcome.out;
+}
+
+TEST_F(Judge, RefusesWhatItCannotJudgeInOneSentence) {
+    writeImage(folder / "display.png", Image(8, 8, 3));
+    expectFailure(judge({"display.png"}), 2, {"display.png", "made for a display", ".exr"});
+    Image holes(16, 12, 3);
+    holes.at(1, 1, 1) = std::nanf("");
+    writeImage(folder / "holes.exr", holes);
+    expectFailure(judge({"holes.exr"}), 2, {"holes.exr", "no numbers"});
+    expectFailure(judge({"none.exr"}), 1, {"none.exr"});
+    expectFailure(judge({"holes.exr", "--caustic-only", "--with-direct"}), 2,
+                  {"--caustic-only", "--with-direct"});
+    expectFailure(judge({"holes.exr", "--glass", "maybe"}), 2, {"--glass", "maybe", "hidden"});
+    expectFailure(judge({"holes.exr", "--encoding", "log"}), 2, {"--encoding", "log", "srgb"});
+    expectFailure(judge({"holes.exr", "--exposure", "0"}), 2, {"--exposure"});
+}
+
+TEST_F(Judge, HasExportRefuseWhatThereIsNot) {
+    expectFailure(run({"export", "cup.toml", "--to", "blender", "--out", "x"}), 2,
+                  {"--to", "blender", "povray", "pbrt"});
+    expectFailure(run({"export", "cup.toml", "--to", "pbrt"}), 2, {"--out"});
+    expectFailure(run({"export", "cup.toml", "--to", "pbrt", "--out", "x", "--photons", "0"}), 2,
+                  {"--photons"});
+    EXPECT_FALSE(files().contains("x/scene.pbrt"));
+}
+
+}  // namespace
+}  // namespace kaustik::test
