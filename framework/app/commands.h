@@ -22,6 +22,7 @@ void listCommand(const ListOptions& options, const Registry& registry);
 void docCommand(const DocOptions& options, const Registry& registry);
 void explainCommand(const ExplainOptions& options, const Registry& registry);
 void referenceCommand(const ReferenceOptions& options);
+void certifyCommand(const CertifyCommandOptions& options);
 void compareCommand(const CompareOptions& options);
 void importCommand(const ImportOptions& options);
 
