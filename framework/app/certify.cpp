@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // kaustik certify: an interval for each pixel's caustic irradiance, with a proof; a shard of it, or
 // the merged shards.
-#include "framework/certify/certificate.h"
+#include "framework/app/certify.h"
 
 #include <fmt/format.h>
 
@@ -71,6 +71,28 @@ fs::path outputFile(const std::string& out, const std::string& fallback, bool is
 
 }  // namespace
 
+CertificatePart certifyWithProgress(const scene::Scene& scene, const CertificateRequest& request,
+                                    const Shard& shard, int threads, const fs::path& keep) {
+    run::catchInterrupts();
+    CertifyOptions how;
+    how.threads = threads;
+    how.shard = shard;
+    how.keep = keep;
+    run::Progress progress("certificate:");
+    how.progress = [&](double share, std::uint64_t cells) {
+        progress.updateShare(share, fmt::format("{} cells", cells));
+        return !run::isInterrupted();
+    };
+    CertificatePart part = certifyPart(scene, request, how);
+    if (!part.isWhole()) {
+        throw Error(
+            fmt::format("Interrupted after {} of {} blocks; the same command goes on from there.",
+                        part.blocksDone, part.blocks),
+            kExitFailed);
+    }
+    return part;
+}
+
 void certifyCommand(const CertifyCommandOptions& options) {
     if (options.scene.empty())
         throw ConfigError("certify: name a scene, and with --merge the parts of its certificate.");
@@ -92,27 +114,10 @@ void certifyCommand(const CertifyCommandOptions& options) {
     } else {
         if (options.threads < 0 || options.threads > 1024)
             throw ConfigError(fmt::format("--threads: {} is not from 0 to 1024.", options.threads));
-        run::catchInterrupts();
-        CertifyOptions how;
-        how.threads = options.threads;
-        if (shard) how.shard = *shard;
         const fs::path unfinished = shard ? file : fs::path(file.string() + ".unfinished");
-        how.keep = unfinished;
-        {
-            run::Progress progress("certificate:");
-            how.progress = [&](double share, std::uint64_t cells) {
-                progress.updateShare(share, fmt::format("{} cells", cells));
-                return !run::isInterrupted();
-            };
-            parts.push_back(certifyPart(scene, request, how));
-        }
+        parts.push_back(certifyWithProgress(scene, request, shard.value_or(Shard{}),
+                                            options.threads, unfinished));
         const CertificatePart& part = parts.front();
-        if (!part.isWhole()) {
-            throw Error(fmt::format("Interrupted after {} of {} blocks; the same command goes on "
-                                    "from there.",
-                                    part.blocksDone, part.blocks),
-                        kExitFailed);
-        }
         if (shard) {
             fmt::print("{}, {}x{}, shard {}/{}: {} cells, {:.1f} s\nwrote {}\n", scene.name,
                        request.width, request.height, shard->number, shard->count,

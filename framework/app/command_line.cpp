@@ -209,8 +209,8 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry,
                      "Times each pass with the device finished around it (software rasterisers)");
     runApp
         ->add_option("--reference", run.reference,
-                     "Compare with the reference: none, auto (computed once and kept) or a file of "
-                     "'kaustik reference'")
+                     "Compare with the reference: none, auto (computed once and kept), a file of "
+                     "'kaustik reference', or certified: with proved bounds ('kaustik certify')")
         ->capture_default_str();
     runApp
         ->add_option("--reference-photons", run.referencePhotons,

@@ -99,7 +99,7 @@ struct CertifyCommandOptions {
     std::string size = "800x600";
     int interactions = 1;
     bool transmissionOnly = false;
-    double band = 0.002;  // pixels
+    double band = 0.01;  // pixels
     int depth = 12;
     int threads = 0;                  // 0: all
     std::string out;                  // "" for results/references/<scene>-certified-<size>.exr

@@ -15,7 +15,8 @@ namespace {
 // A cell of so much of the light, of all of it, is not split for what it leaves open.
 constexpr double kSmallShare = 1e-9;
 // The same, of irradiance in a pixel.
-constexpr double kSmallIrradiance = 1e-7;
+constexpr double kSmallIrradiance = 1e-5;
+constexpr double kSmallOpen = 1e-5;
 // Slopes, distances and areas that are larger than that are no enclosure to go on with.
 constexpr double kHuge = 1e12;
 // A cell that may reach more pixels than that is split.
@@ -88,6 +89,32 @@ Vec negated(const Vec& v) {
     return {-v.x, -v.y, -v.z};
 }
 
+bool isFinite(const Vec& v) {
+    return v.x.isFinite() && v.y.isFinite() && v.z.isFinite();
+}
+
+// The box around polygons of the cell, by a hair wider.
+struct Extent {
+    Point low{1e300, 1e300};
+    Point high{-1e300, -1e300};
+};
+Extent extentOf(const Polygons& polygons) {
+    constexpr double kHair = 1e-9;
+    Extent extent;
+    for (const Polygon& polygon : polygons) {
+        for (std::size_t i = 0; i < polygon.size(); ++i) {
+            extent.low.x = std::min(extent.low.x, polygon[i].x - kHair);
+            extent.low.y = std::min(extent.low.y, polygon[i].y - kHair);
+            extent.high.x = std::max(extent.high.x, polygon[i].x + kHair);
+            extent.high.y = std::max(extent.high.y, polygon[i].y + kHair);
+        }
+    }
+    return extent;
+}
+bool overlap(const Extent& a, const Extent& b) {
+    return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
+}
+
 HalfPlane lineOf(const TaylorModel& model, double sign) {
     const Interval rest = sign > 0.0 ? model.rest : -model.rest;
     return {sign * model.value, sign * model.slope[0], sign * model.slope[1], rest.lo, rest.hi};
@@ -120,16 +147,39 @@ struct BeamTracer::Work {
         std::size_t facet = 0;
         std::array<double, 3> watts{};
     };
+    // In pixels [left, right] and [top, bottom] that see the facet.
+    struct Open {
+        std::uint32_t facet = 0;
+        EyeView::Extent extent;
+        std::array<double, 3> watts{};
+        // The largest in its corners: about what it is in the pixels.
+        [[nodiscard]] double coverage(const EyeView& eye) const {
+            double most = 0.0;
+            for (const int y : {extent.top, extent.bottom}) {
+                for (const int x : {extent.left, extent.right}) {
+                    most =
+                        std::max(most, eye.maxCoverage(static_cast<std::size_t>(y) *
+                                                           static_cast<std::size_t>(eye.width()) +
+                                                       static_cast<std::size_t>(x)));
+                }
+            }
+            return most;
+        }
+    };
     // Sent to the sums when all of a cell is done; forgotten when it is split.
     struct Found {
         std::vector<Deposit> deposits;
         std::vector<Lost> undecided;
+        std::vector<Open> open;
+        double lost = 0.0;
         Interval emitted;
         Interval deposited;
         Interval limited;
         void clear() {
             deposits.clear();
             undecided.clear();
+            open.clear();
+            lost = 0.0;
             emitted = deposited = limited = Interval(0.0);
         }
     };
@@ -139,6 +189,7 @@ struct BeamTracer::Work {
         double along = 1.0;  // the sign of direction · normal
         Region region;
         Polygons may;
+        Extent extent;  // of `may`
     };
     struct Cell {
         std::array<double, 2> corner{};
@@ -161,22 +212,10 @@ struct BeamTracer::Work {
 
     [[nodiscard]] const Facet& facet(std::uint32_t i) const { return geometry.facets()[i]; }
 
-    // False: split. True: the rest of the light, however it goes on, lies nobody knows where.
-    bool giveUp(const Ray& ray, const Polygons& may, std::size_t where) {
-        if (!isFinal) return false;
-        const double area = rounding::up(areaOf(may)) + kAreaSlack;
-        Lost lost{where, {}};
-        for (std::size_t c = 0; c < 3; ++c) {
-            const Jet<true>& flux = ray.wide.flux[channels == 1 ? 0 : c];
-            double bound = flux.value.hi;
-            if (!std::isfinite(bound)) return false;
-            bound = std::max(bound, 0.0);
-            lost.watts[c] = rounding::up(rounding::up(bound * area) * ray.weight[c].hi);
-        }
-        found.deposited = found.deposited + Interval(0.0, meanOf(lost.watts));
-        found.undecided.push_back(lost);
-        return true;
-    }
+    // What is given up: light from the range of the ray's places, in any direction of the boxes;
+    // none of these: nobody knows where. False: split instead. True: wherever it may go, it is in
+    // the upper bounds.
+    bool giveUp(const Ray& ray, const Polygons& may, const std::vector<Vec>& directions);
     [[nodiscard]] static double meanOf(const std::array<double, 3>& watts) {
         return rounding::up(rounding::up(rounding::up(watts[0] + watts[1]) + watts[2]) / 3.0);
     }
@@ -218,6 +257,10 @@ struct BeamTracer::Work {
     bool traceCell(const Cell& cell);
     bool interact(const Ray& ray, std::uint32_t at, bool enters, const Both& b, const Both& c);
     bool advance(const Ray& ray);
+    [[nodiscard]] static Vec alongOf(const Ray& ray, const Polygons& may);
+    [[nodiscard]] EyeView::Extent reach(const Vec& start, const Vec& along,
+                                        std::uint32_t facet) const;
+    void addOpen(const Open& open);
     bool deposit(const Ray& ray, const Candidate& target, const Polygons& sure,
                  const Polygons& may);
     void split(const Cell& cell);
@@ -225,6 +268,111 @@ struct BeamTracer::Work {
     [[nodiscard]] Region hitRegion(const Ray& ray, const std::vector<glm::dvec3>& corners,
                                    const Facet& plane, double along, double slack) const;
 };
+
+// Directions of the ray over polygons.
+Vec BeamTracer::Work::alongOf(const Ray& ray, const Polygons& may) {
+    return {rangeOver(modelOf(ray.middle.along.x, ray.wide.along.x), may),
+            rangeOver(modelOf(ray.middle.along.y, ray.wide.along.y), may),
+            rangeOver(modelOf(ray.middle.along.z, ray.wide.along.z), may)};
+}
+
+bool BeamTracer::Work::giveUp(const Ray& ray, const Polygons& may,
+                              const std::vector<Vec>& directions) {
+    const double area = rounding::up(areaOf(may)) + kAreaSlack;
+    std::array<double, 3> watts;
+    double most = 0.0;
+    for (std::size_t c = 0; c < 3; ++c) {
+        const Jet<true>& flux = ray.wide.flux[channels == 1 ? 0 : c];
+        const double bound = flux.value.hi;
+        if (!std::isfinite(bound)) return false;
+        watts[c] = rounding::up(rounding::up(std::max(bound, 0.0) * area) * ray.weight[c].hi);
+        most = std::max(most, watts[c]);
+    }
+    const Vec start{rangeOver(modelOf(ray.middle.at.x, ray.wide.at.x), may),
+                    rangeOver(modelOf(ray.middle.at.y, ray.wide.at.y), may),
+                    rangeOver(modelOf(ray.middle.at.z, ray.wide.at.z), may)};
+    bool isAnywhere = directions.empty() || !isFinite(start);
+    std::vector<Open> reached;
+    for (const Vec& along : directions) {
+        if (!isFinite(along)) isAnywhere = true;
+        if (isAnywhere) break;
+        geometry.sweep(start, along, 1e30, [&](std::uint32_t g) {
+            if (g == ray.start || isAnywhere) return;
+            const Facet& other = facet(g);
+            if (!other.isReceiver()) {
+                // Light that may meet another interaction may go anywhere from there.
+                if (ray.interactions < tracer.settings_.interactions) isAnywhere = true;
+                return;
+            }
+            const EyeView::Extent extent = reach(start, along, g);
+            if (extent.right >= extent.left && extent.bottom >= extent.top)
+                reached.push_back({g, extent, watts});
+        });
+    }
+    if (!isFinal) {
+        // Light that is too little to see wherever it goes is not worth more cells.
+        const double limit = kSmallOpen * tracer.irradianceScale_;
+        if (isAnywhere) return false;
+        for (const Open& open : reached) {
+            if (most * open.coverage(eye) > limit) return false;
+        }
+    }
+    const double mean = meanOf(watts);
+    found.deposited = found.deposited + Interval(0.0, mean);
+    found.lost = rounding::up(found.lost + mean);
+    if (isAnywhere) {
+        found.undecided.push_back({geometry.facets().size(), watts});
+    } else {
+        found.open.insert(found.open.end(), reached.begin(), reached.end());
+    }
+    return true;
+}
+
+// The pixels in which a facet is seen where rays from a box may meet it.
+EyeView::Extent BeamTracer::Work::reach(const Vec& start, const Vec& along, std::uint32_t g) const {
+    const Facet& other = facet(g);
+    EyeView::Extent extent = eye.extent(g);
+    const Interval closing = dot(along, other.area);
+    if (!staysAwayFromZero(closing)) return extent;
+    const Interval ahead = dot(exact(other.position[0]) - start, other.area);
+    Interval distance = ahead / closing;
+    if (!distance.isFinite()) return extent;
+    if (distance.hi < 0.0) return {};
+    distance.lo = std::max(distance.lo, 0.0);
+    const Vec offset = start + scaled(distance, along) - exact(eye.position());
+    const Interval depth = -dot(offset, exact(eye.backward()));
+    if (depth.hi < 0.5 * eye.nearMeters()) return {};
+    if (!(depth.lo > 0.5 * eye.nearMeters())) return extent;
+    const Interval ppt(eye.pixelsPerTangent());
+    const Interval x = ppt * (dot(offset, exact(eye.right())) / depth + Interval(eye.tangents().x));
+    const Interval y = ppt * (Interval(eye.tangents().y) - dot(offset, exact(eye.up())) / depth);
+    if (!x.isFinite() || !y.isFinite()) return extent;
+    const auto cell = [](double at, int low, int high) {
+        return static_cast<int>(std::clamp(std::floor(at), low - 1.0, high + 1.0));
+    };
+    return {std::max(cell(x.lo, extent.left, extent.right), extent.left),
+            std::min(cell(x.hi, extent.left, extent.right), extent.right),
+            std::max(cell(y.lo, extent.top, extent.bottom), extent.top),
+            std::min(cell(y.hi, extent.top, extent.bottom), extent.bottom)};
+}
+
+void BeamTracer::Work::addOpen(const Open& open) {
+    for (int y = open.extent.top; y <= open.extent.bottom; ++y) {
+        for (int x = open.extent.left; x <= open.extent.right; ++x) {
+            const std::size_t pixel =
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(eye.width()) +
+                static_cast<std::size_t>(x);
+            for (const SeenPart& seen : eye.parts(pixel)) {
+                if (seen.facet != open.facet) continue;
+                std::array<double, 3> irradiance;
+                for (std::size_t c = 0; c < 3; ++c)
+                    irradiance[c] = rounding::up(open.watts[c] * eye.maxCoverage(pixel));
+                sums.addOpen(pixel, irradiance);
+                break;
+            }
+        }
+    }
+}
 
 // What of the triangle lies behind something else, seen from the light: straight lines in the
 // triangle's own coordinates.
@@ -379,20 +527,20 @@ bool BeamTracer::Work::traceCell(const Cell& cell) {
     const bool isWithin = !enters && own.kind == scene::MaterialKind::dielectric;
     if (isWithin) ray.medium = own.material + 1;
     const bool isDimmed = isWithin && !source.isDistant && geometry.absorbs();
-    const bool done = isDimmed ? giveUp(ray, ray.may, geometry.facets().size())
-                               : interact(ray, first, enters, b, c);
+    const bool done = isDimmed ? giveUp(ray, ray.may, {}) : interact(ray, first, enters, b, c);
     if (done || !isFinal) return done;
     // Not even bounds of what goes which way: it is all given up.
     found.deposits.clear();
     found.undecided.clear();
+    found.open.clear();
+    found.lost = 0.0;
     found.deposited = found.limited = Interval(0.0);
-    return giveUp(ray, ray.may, geometry.facets().size());
+    return giveUp(ray, ray.may, {});
 }
 
 // Follows the light on from a specular facet at the barycentrics b and c.
 bool BeamTracer::Work::interact(const Ray& ray, std::uint32_t at, bool enters, const Both& b,
                                 const Both& c) {
-    const std::size_t anywhere = geometry.facets().size();
     const Facet& own = facet(at);
     const scene::Material& material = geometry.scene().materials[own.material];
     const bool isMirror = own.kind == scene::MaterialKind::mirror;
@@ -412,7 +560,7 @@ bool BeamTracer::Work::interact(const Ray& ray, std::uint32_t at, bool enters, c
     // surface is given up.
     if (!(squaredLength(wideNormal).value.lo > 1e-24) ||
         !(dot(wideNormal, geometric).value.lo > 0.0)) {
-        return giveUp(ray, ray.may, anywhere);
+        return giveUp(ray, ray.may, {});
     }
     const Interval geometricLength =
         sqrt(square(geometric.x) + square(geometric.y) + square(geometric.z));
@@ -421,6 +569,28 @@ bool BeamTracer::Work::interact(const Ray& ray, std::uint32_t at, bool enters, c
     Ray next = ray;
     next.start = at;
     next.interactions = ray.interactions + 1;
+    // Where light may go that is given up here: by either normal.
+    const auto giveUpHere = [&] {
+        const Vec along = alongOf(ray, ray.may);
+        const Interval perLength = inverse(sqrt(squaredLength(wideNormal).value));
+        const Vec shading{perLength * wideNormal.x.value, perLength * wideNormal.y.value,
+                          perLength * wideNormal.z.value};
+        std::vector<Vec> directions;
+        for (const Vec& normal : {shading, geometricUnit}) {
+            Interval cosine = -dot(along, normal);
+            if (cosine.hi < 0.0) continue;
+            cosine.lo = std::max(cosine.lo, 0.0);
+            directions.push_back(along + scaled(Interval(2.0) * cosine, normal));
+            if (isMirror) continue;
+            const Interval inside(static_cast<double>(material.ior));
+            const Interval eta = enters ? Interval(1.0) / inside : inside;
+            Interval root = Interval(1.0) - square(eta) * (Interval(1.0) - square(cosine));
+            if (root.hi < 0.0) continue;
+            root.lo = std::max(root.lo, 0.0);
+            directions.push_back(scaled(eta, along) + scaled(eta * cosine - sqrt(root), normal));
+        }
+        return giveUp(next, ray.may, directions);
+    };
 
     // Which normal bends the light: the interpolated one, unless it would send it to the wrong
     // side.
@@ -433,7 +603,7 @@ bool BeamTracer::Work::interact(const Ray& ray, std::uint32_t at, bool enters, c
         const Vector<Jet<true>> normal = unitNormal(b.wide, c.wide);
         const Jet<true> incidence = -dot(ray.wide.along, normal);
         if (attempt == 0 && incidence.value.hi <= 0.0) continue;
-        if (!(incidence.value.lo > 0.0)) return giveUp(ray, ray.may, anywhere);
+        if (!(incidence.value.lo > 0.0)) return giveUpHere();
         const Vector<Jet<false>> middleNormal = unitNormal(b.middle, c.middle);
         const Jet<false> middleIncidence = -dot(ray.middle.along, middleNormal);
 
@@ -450,7 +620,7 @@ bool BeamTracer::Work::interact(const Ray& ray, std::uint32_t at, bool enters, c
         };
         if (isMirror) {
             if (attempt == 0 && isReflectedWrong) continue;
-            if (attempt == 0 && !isReflectedRight) return giveUp(ray, ray.may, anywhere);
+            if (attempt == 0 && !isReflectedRight) return giveUpHere();
             for (std::size_t k = 0; k < 3; ++k) {
                 next.weight[k] =
                     ray.weight[k] *
@@ -460,7 +630,7 @@ bool BeamTracer::Work::interact(const Ray& ray, std::uint32_t at, bool enters, c
         }
         const std::uint32_t own1 = own.material + 1;
         // Bodies within bodies are given up.
-        if (enters ? ray.medium != 0 : ray.medium != own1) return giveUp(ray, ray.may, anywhere);
+        if (enters ? ray.medium != 0 : ray.medium != own1) return giveUp(ray, ray.may, {});
         const Interval inside(static_cast<double>(material.ior));
         const Interval eta = enters ? Interval(1.0) / inside : inside;
         const auto rootOf = [&](const auto& cosine) {
@@ -469,15 +639,14 @@ bool BeamTracer::Work::interact(const Ray& ray, std::uint32_t at, bool enters, c
         const Jet<true> root = rootOf(incidence);
         if (root.value.hi <= 0.0) {
             if (attempt == 0 && isReflectedWrong) continue;
-            if (attempt == 0 && !isReflectedRight) return giveUp(ray, ray.may, anywhere);
+            if (attempt == 0 && !isReflectedRight) return giveUpHere();
             return followReflected(next);
         }
-        if (!(root.value.lo > 1e-9)) return giveUp(ray, ray.may, anywhere);
+        if (!(root.value.lo > 1e-9)) return giveUpHere();
         const Branch<true> wide = refract(ray.wide.along, normal, incidence, root, eta);
         const Interval inwards = dot(wide.refracted, geometric).value;
         if (attempt == 0 && (isReflectedWrong || inwards.lo >= 0.0)) continue;
-        if (attempt == 0 && !(isReflectedRight && inwards.hi < 0.0))
-            return giveUp(ray, ray.may, anywhere);
+        if (attempt == 0 && !(isReflectedRight && inwards.hi < 0.0)) return giveUpHere();
         const Branch<false> middle =
             refract(ray.middle.along, middleNormal, middleIncidence, rootOf(middleIncidence), eta);
         const std::size_t used = static_cast<std::size_t>(channels);
@@ -503,7 +672,7 @@ bool BeamTracer::Work::interact(const Ray& ray, std::uint32_t at, bool enters, c
         }
         return followReflected(next);
     }
-    return giveUp(ray, ray.may, anywhere);
+    return giveUpHere();
 }
 
 // Where the ray meets the plane within the corners: polynomials of origin and direction, so that
@@ -544,7 +713,6 @@ Region BeamTracer::Work::hitRegion(const Ray& ray, const std::vector<glm::dvec3>
 
 // What a ray may hit next, and what of it.
 bool BeamTracer::Work::advance(const Ray& ray) {
-    const std::size_t anywhere = geometry.facets().size();
     const std::array<TaylorModel, 6> models{modelOf(ray.middle.at.x, ray.wide.at.x),
                                             modelOf(ray.middle.at.y, ray.wide.at.y),
                                             modelOf(ray.middle.at.z, ray.wide.at.z),
@@ -553,9 +721,9 @@ bool BeamTracer::Work::advance(const Ray& ray) {
                                             modelOf(ray.middle.along.z, ray.wide.along.z)};
     std::array<Interval, 6> ranges;
     for (std::size_t i = 0; i < 6; ++i) {
-        if (!models[i].isFinite()) return giveUp(ray, ray.may, anywhere);
+        if (!models[i].isFinite()) return giveUp(ray, ray.may, {});
         ranges[i] = rangeOver(models[i], ray.may);
-        if (!(ranges[i].magnitude() < kHuge)) return giveUp(ray, ray.may, anywhere);
+        if (!(ranges[i].magnitude() < kHuge)) return giveUp(ray, ray.may, {});
     }
     const Vec start{ranges[0], ranges[1], ranges[2]};
     const Vec velocity{ranges[3], ranges[4], ranges[5]};
@@ -595,6 +763,7 @@ bool BeamTracer::Work::advance(const Ray& ray) {
                     polygon.cut(line, Side::outer);
                 if (!polygon.isEmpty()) candidate.may.push_back(polygon);
             }
+            candidate.extent = extentOf(candidate.may);
             if (!candidate.may.empty()) candidates.push_back(std::move(candidate));
         }
     });
@@ -608,7 +777,7 @@ bool BeamTracer::Work::advance(const Ray& ray) {
             if (!polygon.isEmpty()) sure.push_back(polygon);
         }
         for (const Candidate& other : candidates) {
-            if (other.facet == target.facet) continue;
+            if (other.facet == target.facet || !overlap(other.extent, target.extent)) continue;
             const Facet& blocker = facet(other.facet);
             const glm::dvec3 from = goal.position[0] - target.along * goal.unit;
             for (const Side side : {Side::outer, Side::inner}) {
@@ -639,7 +808,7 @@ bool BeamTracer::Work::advance(const Ray& ray) {
         const Interval closing = dot(ray.wide.along, constant<true>(goal.area)).value;
         if (!(target.along > 0.0 ? closing.lo > kSmallestDivisor
                                  : closing.hi < -kSmallestDivisor)) {
-            if (!giveUp(ray, may, anywhere)) return false;
+            if (!giveUp(ray, may, {alongOf(ray, may)})) return false;
             continue;
         }
         Ray next = ray;
@@ -683,10 +852,9 @@ bool BeamTracer::Work::advance(const Ray& ray) {
 bool BeamTracer::Work::deposit(const Ray& ray, const Candidate& target, const Polygons& sure,
                                const Polygons& may) {
     const Facet& goal = facet(target.facet);
-    const std::size_t where = target.facet;
     const Interval closing = dot(ray.wide.along, constant<true>(goal.area)).value;
     if (!(target.along > 0.0 ? closing.lo > kSmallestDivisor : closing.hi < -kSmallestDivisor))
-        return giveUp(ray, may, where);
+        return giveUp(ray, may, {alongOf(ray, may)});
     const scene::Material* filling =
         ray.medium == 0 ? nullptr : &geometry.scene().materials[ray.medium - 1];
     const Vec a = exact(goal.position[0]);
@@ -699,10 +867,10 @@ bool BeamTracer::Work::deposit(const Ray& ray, const Candidate& target, const Po
     };
     const Both distance{distanceOf(ray.wide), distanceOf(ray.middle)};
     if (!distance.model().isFinite() || !(distance.wide.value.magnitude() < kHuge))
-        return giveUp(ray, may, where);
+        return giveUp(ray, may, {alongOf(ray, may)});
     Ray arriving = ray;
     if (filling != nullptr && geometry.absorbs()) {
-        if (!(distance.wide.value.lo > -1.0)) return giveUp(ray, may, where);
+        if (!(distance.wide.value.lo > -1.0)) return giveUp(ray, may, {alongOf(ray, may)});
         for (std::size_t k = 0; k < static_cast<std::size_t>(channels); ++k) {
             const Interval perMeter(
                 static_cast<double>(filling->absorptionPerMeter[static_cast<int>(k)]));
@@ -711,7 +879,7 @@ bool BeamTracer::Work::deposit(const Ray& ray, const Candidate& target, const Po
         }
     }
     const Interval watts = wattsOf(arriving, sure, may);
-    if (!watts.isFinite()) return giveUp(ray, may, where);
+    if (!watts.isFinite()) return giveUp(ray, may, {alongOf(ray, may)});
     if (!isFinal && watts.width() > 1e-6 * tracer.wattScale_) return false;
     const EyeView::Extent& extent = eye.extent(target.facet);
     // The eye sees the side that the light arrives on.
@@ -748,10 +916,11 @@ bool BeamTracer::Work::deposit(const Ray& ray, const Candidate& target, const Po
         found.deposited = found.deposited + watts;
         return true;
     }
-    if (!(depth.wide.value.lo > 0.5 * eye.nearMeters())) return giveUp(arriving, may, where);
+    if (!(depth.wide.value.lo > 0.5 * eye.nearMeters()))
+        return giveUp(ray, may, {alongOf(ray, may)});
     const TaylorModel x = column.model();
     const TaylorModel y = row.model();
-    if (!x.isFinite() || !y.isFinite()) return giveUp(arriving, may, where);
+    if (!x.isFinite() || !y.isFinite()) return giveUp(ray, may, {alongOf(ray, may)});
     const Interval rangeX = rangeOver(x, may);
     const Interval rangeY = rangeOver(y, may);
     if (rangeX.hi < extent.left || rangeX.lo > extent.right + 1 || rangeY.hi < extent.top ||
@@ -782,7 +951,7 @@ bool BeamTracer::Work::deposit(const Ray& ray, const Candidate& target, const Po
         };
         density[k] = modelOf(valueOf(arriving.middle.flux[k], depth.middle),
                              valueOf(arriving.wide.flux[k], depth.wide));
-        if (!density[k].isFinite()) return giveUp(arriving, may, where);
+        if (!density[k].isFinite()) return giveUp(ray, may, {alongOf(ray, may)});
         const double largest = std::max(density[k].range().hi, 0.0);
         most = std::max(most, largest * ray.weight[k].hi);
         worst = std::max(worst, density[k].rest.width() / std::max(largest, 1e-300));
@@ -863,6 +1032,9 @@ void BeamTracer::Work::split(const Cell& cell) {
             sums.addPixel(add.pixel, add.irradiance);
         for (const Lost& lost : found.undecided)
             sums.addUndecided(lost.facet, lost.watts);
+        for (const Open& open : found.open)
+            addOpen(open);
+        sums.addLost(found.lost);
         return;
     }
     if (cell.depth > tracer.settings_.maxDepth + 8)

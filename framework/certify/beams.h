@@ -24,7 +24,7 @@ namespace kaustik::certify {
 struct BeamSettings {
     int interactions = 1;
     bool transmissionOnly = false;  // as reference::PathFilter has it
-    double bandPixels = 0.002;      // cells whose places on the screen are less sure are split
+    double bandPixels = 0.01;       // cells whose places on the screen are less sure are split
     int maxDepth = 12;              // of splits into four
 };
 

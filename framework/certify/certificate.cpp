@@ -249,7 +249,8 @@ Certificate makeCertificate(const scene::Scene& scene, const std::vector<Certifi
             double watts = seen.empty() ? 0.0 : anywhere[c];
             for (const std::uint32_t facet : seen)
                 watts = rounding::up(watts + sums.undecided(facet)[c]);
-            const double open = rounding::up(watts * eye.maxCoverage(pixel));
+            const double open =
+                rounding::up(rounding::up(watts * eye.maxCoverage(pixel)) + sums.open(pixel)[c]);
             const std::size_t at = pixel * 3 + c;
             result.lower.values[at] = std::max(roundedDown(found[c].lo), 0.0f);
             result.upper.values[at] = roundedUp(rounding::up(found[c].hi + open));

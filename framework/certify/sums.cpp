@@ -47,6 +47,7 @@ BoundSums::BoundSums(std::size_t pixels, std::size_t facets, double irradianceSc
       wattQuantum_(quantumOf(wattScale)),
       lower_(pixels * 3),
       upper_(pixels * 3),
+      open_(pixels * 3),
       undecided_(facets * 3) {}
 
 void BoundSums::addPixel(std::size_t pixel, const Colors& irradiance) {
@@ -54,6 +55,13 @@ void BoundSums::addPixel(std::size_t pixel, const Colors& irradiance) {
         requireBounded(irradiance[c], quantum_);
         lower_[pixel * 3 + c] += floorOf(irradiance[c].lo, quantum_);
         upper_[pixel * 3 + c] += ceilOf(irradiance[c].hi, quantum_);
+    }
+}
+
+void BoundSums::addOpen(std::size_t pixel, const std::array<double, 3>& irradiance) {
+    for (std::size_t c = 0; c < 3; ++c) {
+        requireBounded(Interval(irradiance[c]), quantum_);
+        open_[pixel * 3 + c] += ceilOf(irradiance[c], quantum_);
     }
 }
 
@@ -74,6 +82,7 @@ void BoundSums::merge(const BoundSums& other) {
     for (std::size_t i = 0; i < lower_.size(); ++i) {
         lower_[i] += other.lower_[i];
         upper_[i] += other.upper_[i];
+        open_[i] += other.open_[i];
     }
     for (std::size_t i = 0; i < undecided_.size(); ++i)
         undecided_[i] += other.undecided_[i];
@@ -83,7 +92,7 @@ void BoundSums::merge(const BoundSums& other) {
 }
 
 void BoundSums::clear() {
-    for (auto* values : {&lower_, &upper_, &undecided_})
+    for (auto* values : {&lower_, &upper_, &open_, &undecided_})
         std::fill(values->begin(), values->end(), Int128{0});
     totals_.fill(0);
     cells_ = 0;
@@ -95,6 +104,13 @@ Colors BoundSums::pixel(std::size_t pixel) const {
         result[c] = {lowOf(lower_[pixel * 3 + c], quantum_),
                      highOf(upper_[pixel * 3 + c], quantum_)};
     }
+    return result;
+}
+
+std::array<double, 3> BoundSums::open(std::size_t pixel) const {
+    std::array<double, 3> result;
+    for (std::size_t c = 0; c < 3; ++c)
+        result[c] = highOf(open_[pixel * 3 + c], quantum_);
     return result;
 }
 
@@ -110,11 +126,7 @@ Totals BoundSums::totals() const {
         return Interval(lowOf(totals_[2 * which], wattQuantum_),
                         highOf(totals_[2 * which + 1], wattQuantum_));
     };
-    Totals result{total(0), total(1), total(2), 0.0};
-    Int128 sum = 0;
-    for (const Int128 watts : undecided_)
-        sum += watts;
-    result.undecided = highOf(sum, wattQuantum_) / 3.0;
+    Totals result{total(0), total(1), total(2), total(3).hi};
     return result;
 }
 
@@ -125,14 +137,15 @@ std::string BoundSums::toBytes() const {
     };
     put(&cells_, sizeof cells_);
     put(totals_.data(), sizeof totals_);
-    for (const auto* values : {&lower_, &upper_, &undecided_})
+    for (const auto* values : {&lower_, &upper_, &open_, &undecided_})
         put(values->data(), values->size() * sizeof(Int128));
     return bytes;
 }
 
 void BoundSums::readBytes(std::string_view bytes, const std::string& name) {
-    const std::size_t size = sizeof cells_ + sizeof totals_ +
-                             (lower_.size() + upper_.size() + undecided_.size()) * sizeof(Int128);
+    const std::size_t size =
+        sizeof cells_ + sizeof totals_ +
+        (lower_.size() + upper_.size() + open_.size() + undecided_.size()) * sizeof(Int128);
     if (bytes.size() != size) {
         throw IoError(fmt::format("{} is damaged: it has {} bytes of sums, and not {}.", name,
                                   bytes.size(), size));
@@ -143,7 +156,7 @@ void BoundSums::readBytes(std::string_view bytes, const std::string& name) {
     };
     take(&cells_, sizeof cells_);
     take(totals_.data(), sizeof totals_);
-    for (auto* values : {&lower_, &upper_, &undecided_})
+    for (auto* values : {&lower_, &upper_, &open_, &undecided_})
         take(values->data(), values->size() * sizeof(Int128));
 }
 

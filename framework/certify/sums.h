@@ -31,17 +31,22 @@ class BoundSums {
     BoundSums(std::size_t pixels, std::size_t facets, double irradianceScale, double wattScale);
 
     void addPixel(std::size_t pixel, const Colors& irradiance);
+    // At most so much irradiance, of light that may lie in any of many pixels.
+    void addOpen(std::size_t pixel, const std::array<double, 3>& irradiance);
     // At most so many watts that lie on the facet, at an unknown place; on any, where it is the
     // number of all facets.
     void addUndecided(std::size_t facet, const std::array<double, 3>& watts);
     void addEmitted(const Interval& watts) { addTotal(0, watts); }
     void addDeposited(const Interval& watts) { addTotal(1, watts); }
+    // W, the mean of channels; what of the deposited light addOpen and addUndecided have told of.
+    void addLost(double watts) { addTotal(3, Interval(0.0, watts)); }
     void addLimited(const Interval& watts) { addTotal(2, watts); }
     void countCells(std::uint64_t cells) { cells_ += cells; }
     void merge(const BoundSums& other);
     void clear();
 
     [[nodiscard]] Colors pixel(std::size_t pixel) const;
+    [[nodiscard]] std::array<double, 3> open(std::size_t pixel) const;
     [[nodiscard]] std::array<double, 3> undecided(std::size_t facet) const;
     [[nodiscard]] Totals totals() const;
     [[nodiscard]] std::size_t pixels() const { return lower_.size() / 3; }
@@ -58,8 +63,9 @@ class BoundSums {
     double wattQuantum_ = 1.0;
     std::vector<Int128> lower_;
     std::vector<Int128> upper_;
+    std::vector<Int128> open_;
     std::vector<Int128> undecided_;
-    std::array<Int128, 6> totals_{};  // lower and upper ones
+    std::array<Int128, 8> totals_{};  // lower and upper ones
     std::uint64_t cells_ = 0;
 };
 
