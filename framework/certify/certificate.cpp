@@ -58,18 +58,22 @@ double sumAt(const Image& image, std::size_t pixel) {
 
 }  // namespace
 
-Tightness tightnessOf(const Certificate& certificate) {
-    Tightness result;
-    result.pixels = certificate.lower.values.size() / 3;
+double litAbove(const Certificate& certificate) {
     double sum = 0.0;
     std::size_t positive = 0;
-    for (std::size_t i = 0; i < result.pixels; ++i) {
+    for (std::size_t i = 0; 3 * i < certificate.lower.values.size(); ++i) {
         const double low = sumAt(certificate.lower, i);
         if (!(low > 0.0)) continue;
         sum += low;
         ++positive;
     }
-    const double dark = positive > 0 ? 1e-3 * sum / static_cast<double>(positive) : 0.0;
+    return positive > 0 ? 1e-3 * sum / static_cast<double>(positive) : 0.0;
+}
+
+Tightness tightnessOf(const Certificate& certificate) {
+    Tightness result;
+    result.pixels = certificate.lower.values.size() / 3;
+    const double dark = litAbove(certificate);
     std::vector<double> widths;
     for (std::size_t i = 0; i < result.pixels; ++i) {
         const double low = sumAt(certificate.lower, i);

@@ -51,6 +51,8 @@ struct Tightness {
     double p95Width = 0.0;
     double totalWidth = 0.0;  // of the deposited watts: width over the middle
 };
+// W/m², a sum of channels: above it a pixel's upper bound is light, and not what rounding leaves.
+[[nodiscard]] double litAbove(const Certificate& certificate);
 [[nodiscard]] Tightness tightnessOf(const Certificate& certificate);
 
 // Names all that the result depends on.

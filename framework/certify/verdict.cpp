@@ -23,7 +23,8 @@ void requireSameSize(const Image& irradiance, const Certificate& certificate) {
                                   irradiance.width, irradiance.height, lower.width, lower.height));
 }
 
-Finding findingOf(const Image& irradiance, const Certificate& certificate, std::size_t pixel) {
+Finding findingOf(const Image& irradiance, const Certificate& certificate, double dark,
+                  std::size_t pixel) {
     bool undecided = false;
     bool above = false;
     for (std::size_t c = 0; c < 3; ++c) {
@@ -37,7 +38,9 @@ Finding findingOf(const Image& irradiance, const Certificate& certificate, std::
         undecided = undecided || high - low > 0.2f * high;
     }
     if (above) return Finding::above;
-    return undecided ? Finding::undecided : Finding::inside;
+    const float* const upper = certificate.upper.values.data() + pixel * 3;
+    const bool isLit = static_cast<double>(upper[0] + upper[1] + upper[2]) > dark;
+    return undecided && isLit ? Finding::undecided : Finding::inside;
 }
 
 }  // namespace
@@ -48,8 +51,9 @@ Verdict judge(const Image& irradiance, const Certificate& certificate) {
     verdict.pixels = certificate.lower.values.size() / 3;
     // Where nothing goes on beyond the last interaction the certified paths are all.
     const bool isComplete = certificate.totals.limited.hi <= 0.0;
+    const double dark = litAbove(certificate);
     for (std::size_t pixel = 0; pixel < verdict.pixels; ++pixel) {
-        switch (findingOf(irradiance, certificate, pixel)) {
+        switch (findingOf(irradiance, certificate, dark, pixel)) {
             case Finding::inside:
                 break;
             case Finding::undecided:
@@ -89,6 +93,7 @@ nlohmann::json toJson(const Verdict& verdict) {
 Image verdictPicture(const Image& irradiance, const Certificate& certificate) {
     requireSameSize(irradiance, certificate);
     const bool isComplete = certificate.totals.limited.hi <= 0.0;
+    const double dark = litAbove(certificate);
     Image picture(irradiance.width, irradiance.height, 3);
     // White is what one pixel of a hundred is above.
     std::vector<float> sorted;
@@ -103,7 +108,7 @@ Image verdictPicture(const Image& irradiance, const Certificate& certificate) {
         const float grey = std::pow(std::clamp(value / white, 0.0f, 1.0f), 1.0f / 2.2f);
         std::array<float, 3> color{grey, grey, grey};
         const float level = 0.45f + 0.55f * grey;
-        switch (findingOf(irradiance, certificate, pixel)) {
+        switch (findingOf(irradiance, certificate, dark, pixel)) {
             case Finding::inside:
                 break;
             case Finding::undecided:
