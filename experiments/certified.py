@@ -43,11 +43,13 @@ def picture(file: pathlib.Path) -> np.ndarray:
 
 
 def departures(lower: np.ndarray, upper: np.ndarray, reference: np.ndarray, error: np.ndarray) -> np.ndarray:
-    """By how many standard errors each value is outside; 0 inside. Where no photon has been there is no error to tell, and the reference is
-    not against an interval that is far below one photon's light."""
+    """By how many standard errors each value is outside; 0 inside. A pixel that few photons have hit has a standard error as much too small as
+    its value: below an interval the error is the one that as many photons as its lower bound asks for would have (a photon's share of light
+    is the variance over the mean). Where no photon has been there is no error to tell."""
     away = np.where(reference < lower, lower - reference, np.where(reference > upper, reference - upper, 0.0))
     known = np.isfinite(error) & (error > 0.0)
-    return np.divide(away, error, out=np.zeros_like(away), where=known)
+    scale = np.sqrt(np.divide(np.maximum(lower, reference), reference, out=np.ones_like(away), where=known & (reference > 0.0)))
+    return np.divide(away, error * scale, out=np.zeros_like(away), where=known)
 
 
 def row_of(name: str, certificate: pathlib.Path, reference: pathlib.Path) -> dict:
