@@ -209,8 +209,8 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry,
                      "Times each pass with the device finished around it (software rasterisers)");
     runApp
         ->add_option("--reference", run.reference,
-                     "Compare with the reference: none, auto (computed once and kept) or a file of "
-                     "'kaustik reference'")
+                     "Compare with the reference: none, auto (computed once and kept), a file of "
+                     "'kaustik reference', or certified: with proved bounds ('kaustik certify')")
         ->capture_default_str();
     runApp
         ->add_option("--reference-photons", run.referencePhotons,
@@ -380,6 +380,34 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry,
                           "Folder for classes.csv, techniques.csv and census.json");
     addDeviceOption(*censusApp);
 
+    CertifyCommandOptions certify;
+    CLI::App* certifyApp = app.add_subcommand(
+        "certify", "Encloses each pixel's caustic irradiance in an interval, with a proof");
+    certifyApp->add_option("scene", certify.scene, kSceneHelp);
+    addOwnMeshOptions(*certifyApp, certify.own);
+    certifyApp->add_option("--size", certify.size, "Picture size, WIDTHxHEIGHT")
+        ->capture_default_str();
+    certifyApp->add_option("--time", certify.time, "Time of the animation in seconds");
+    certifyApp
+        ->add_option("--interactions", certify.interactions,
+                     "Most specular interactions of the paths that are certified, 1 to 8")
+        ->capture_default_str();
+    certifyApp->add_flag("--transmission-only", certify.transmissionOnly,
+                         "At dielectrics only the refracted branch, unless all is reflected");
+    certifyApp
+        ->add_option("--band", certify.band,
+                     "Pixels by which a cell's place on the screen may be unsure before it is split")
+        ->capture_default_str();
+    certifyApp->add_option("--depth", certify.depth, "Splits of a triangle at most, each into four")
+        ->capture_default_str();
+    certifyApp->add_option("--threads", certify.threads, "Threads; 0: all; changes no value")
+        ->capture_default_str();
+    certifyApp->add_option("--shard", certify.shard, "K/N: only the K-th of N parts, as a .shard");
+    certifyApp->add_option("--merge", certify.merged,
+                           "All parts of a certificate of this scene, as one");
+    certifyApp->add_option("--out", certify.out,
+                           "The .exr or .pfm (with --shard: .shard) that names what is written");
+
     CompareOptions compare;
     CLI::App* compareApp =
         app.add_subcommand("compare", "Prints how wrong an image is against a reference");
@@ -535,6 +563,10 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry,
         if (censusApp->parsed()) {
             putOwnMesh(census.scene, census.own);
             censusCommand(census, registry);
+        }
+        if (certifyApp->parsed()) {
+            putOwnMesh(certify.scene, certify.own);
+            certifyCommand(certify);
         }
         if (compareApp->parsed()) compareCommand(compare);
         if (importApp->parsed()) importCommand(imported);

@@ -23,6 +23,7 @@ void docCommand(const DocOptions& options, const Registry& registry);
 void explainCommand(const ExplainOptions& options, const Registry& registry);
 void referenceCommand(const ReferenceOptions& options);
 void censusCommand(const CensusOptions& options, const Registry& registry);
+void certifyCommand(const CertifyCommandOptions& options);
 void compareCommand(const CompareOptions& options);
 void importCommand(const ImportOptions& options);
 void exportCommand(const ExportOptions& options);

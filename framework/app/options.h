@@ -108,6 +108,21 @@ struct CensusOptions {
     std::string out;  // folder; "": nothing is written
 };
 
+struct CertifyCommandOptions {
+    std::string scene;
+    OwnMeshOptions own;
+    std::string time;  // seconds; "" for the scene's own
+    std::string size = "800x600";
+    int interactions = 1;
+    bool transmissionOnly = false;
+    double band = 0.01;  // pixels
+    int depth = 12;
+    int threads = 0;                  // 0: all
+    std::string out;                  // "" for results/references/<scene>-certified-<size>.exr
+    std::string shard;                // K/N; "" for the whole
+    std::vector<std::string> merged;  // parts
+};
+
 struct ListOptions {
     std::string what = "scenes";
     std::string technique;

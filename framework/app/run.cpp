@@ -6,6 +6,7 @@
 #include <chrono>
 #include <optional>
 
+#include "framework/app/certified_run.h"
 #include "framework/app/commands.h"
 #include "framework/core/error.h"
 #include "framework/core/number_text.h"
@@ -78,8 +79,15 @@ void runCommand(const RunOptions& options, const Registry& registry) {
     session.noteStartup(begin);
 
     // Before the frames, since it may be refused.
-    run::RunReference reference = session.referenceFor(
-        series, options.reference, static_cast<std::uint64_t>(options.referencePhotons));
+    const bool isCertified = options.reference == kCertifiedReference;
+    std::optional<certify::Certificate> certificate;
+    if (isCertified) {
+        const RenderSettings& asked = session.renderer().settings();
+        certificate = certificateFor(session.renderer().scene(), asked.width, asked.height);
+    }
+    run::RunReference reference =
+        session.referenceFor(series, isCertified ? "none" : options.reference,
+                             static_cast<std::uint64_t>(options.referencePhotons));
     {
         run::Progress progress("frame", series.warmup + series.frames);
         const auto onFrame = [&](int done) {
@@ -116,6 +124,7 @@ void runCommand(const RunOptions& options, const Registry& registry) {
         for (const fs::path& file : files)
             fmt::print("wrote {}\n", file.string());
     }
+    if (certificate) judgeByCertificate(*certificate, folder);
     // Last, so that everything is there for whoever looks for the cause.
     if (!record.violations.empty())
         throw ConservationError(fmt::format("{}", fmt::join(record.violations, " ")));

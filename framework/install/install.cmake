@@ -45,7 +45,8 @@ install(DIRECTORY meshes/ DESTINATION share/kaustik/meshes OPTIONAL)
 
 install(DIRECTORY framework techniques DESTINATION include/kaustik FILES_MATCHING PATTERN "*.h")
 set(kaustik_installed options core params graph reading scene image measure gl view render
-    transport pipeline numerics report techniques technique_cases experiment exporters judge run app)
+    transport pipeline numerics report techniques technique_cases experiment exporters judge run app
+    certify)
 foreach(optional reference audit gui)
     if(TARGET kaustik_${optional})
         list(APPEND kaustik_installed ${optional})

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// kaustik certify, and run --reference certified.
+#include <filesystem>
+
+#include "framework/image/image.h"
+#include "tests/cli/fixture.h"
+#include "tests/wavy_water.h"
+
+namespace kaustik::test {
+namespace {
+
+class Certify : public CommandLine {
+  protected:
+    Certify() { static_cast<void>(folder.file("wavy.toml", kWavyWater)); }
+    [[nodiscard]] Outcome certify(const std::vector<std::string>& more) const {
+        std::vector<std::string> arguments = {"certify", "wavy.toml", "--size",
+                                              "24x18",   "--band",    "0.05"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run(arguments);
+    }
+    [[nodiscard]] Image image(const std::string& name) const { return readImage(folder / name); }
+};
+
+TEST_F(Certify, WritesBoundsThatHoldAReference) {
+    const Outcome outcome = certify({"--interactions", "2", "--out", "bounds.exr"});
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("undecided"), std::string::npos) << outcome.out;
+    const nlohmann::json found = nlohmann::json::parse(contents("bounds.json"));
+    EXPECT_LT(found.at("deposited_width").get<double>(), 5e-4);
+    ASSERT_EQ(run({"reference", "wavy.toml", "--size", "24x18", "--interactions", "2", "--photons",
+                   "2000000", "--out", "truth.exr"})
+                  .exitCode,
+              0);
+    const Image lower = image("bounds.lower.exr");
+    const Image upper = image("bounds.upper.exr");
+    const Image truth = image("truth.exr");
+    const Image error = image("truth.stderr.exr");
+    std::size_t lit = 0;
+    for (std::size_t i = 0; i < truth.values.size(); ++i) {
+        ASSERT_LE(lower.values[i], upper.values[i]);
+        if (!(error.values[i] > 0.0f) || !std::isfinite(error.values[i])) continue;
+        ++lit;
+        // 1,296 values: beyond 6 standard errors none is by chance.
+        ASSERT_GE(truth.values[i], lower.values[i] - 6.0f * error.values[i]);
+        ASSERT_LE(truth.values[i], upper.values[i] + 6.0f * error.values[i]);
+    }
+    EXPECT_GT(lit, 150u);
+    const nlohmann::json energy = nlohmann::json::parse(contents("truth.json")).at("energy");
+    const double deposited = energy.at("deposited_w").get<double>();
+    const nlohmann::json& certified = found.at("energy").at("deposited_w");
+    EXPECT_NEAR(certified.at(0).get<double>(), deposited, 2e-3 * deposited);
+}
+
+TEST_F(Certify, MergesShardsToTheSameBounds) {
+    for (const char* shard : {"1/2", "2/2"}) {
+        const std::string out = std::string(1, shard[0]) + ".shard";
+        ASSERT_EQ(certify({"--shard", shard, "--out", out}).exitCode, 0);
+    }
+    ASSERT_EQ(certify({"--out", "whole.exr"}).exitCode, 0);
+    ASSERT_EQ(run({"certify", "wavy.toml", "--merge", "1.shard", "2.shard", "--out", "merged.exr"})
+                  .exitCode,
+              0);
+    EXPECT_EQ(image("merged.lower.exr").values, image("whole.lower.exr").values);
+    EXPECT_EQ(image("merged.upper.exr").values, image("whole.upper.exr").values);
+    expectFailure(run({"certify", "wavy.toml", "--merge", "2.shard", "--out", "merged.exr"}), 2,
+                  {"these are missing: 1"});
+}
+
+TEST_F(Certify, ProvesWhereATechniqueIsWrong) {
+    const Outcome outcome =
+        run({"run", "wavy.toml", "--size", "24x18", "--frames", "1", "--warmup", "0", "--set",
+             "emit.photons=64x64", "--reference", "certified", "--out", "out"});
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const nlohmann::json verdict = nlohmann::json::parse(contents("out/certified.json"));
+    EXPECT_EQ(verdict.at("pixels").get<int>(), 24 * 18);
+    EXPECT_GT(verdict.at("proved_too_dark").get<int>(), 0);
+    EXPECT_TRUE(std::filesystem::exists(folder / "out/certified.png"));
+    EXPECT_NE(outcome.out.find("are proved too dark"), std::string::npos) << outcome.out;
+}
+
+TEST_F(Certify, SaysWhatItCannotDo) {
+    expectFailure(certify({"--interactions", "0"}), 2, {"--interactions: 0 is not from 1 to 8"});
+    expectFailure(certify({"--band", "0"}), 2, {"--band"});
+    expectFailure(certify({"--out", "bounds.png"}), 2, {"must end in .exr or .pfm"});
+    expectFailure(run({"certify"}), 2, {"name a scene"});
+    static_cast<void>(folder.file(
+        "foggy.toml", std::string(kWavyWater) + "[medium]\nscattering_per_meter = 0.1\n"));
+    expectFailure(run({"certify", "foggy.toml"}), 2, {"medium", "cannot be certified"});
+    static_cast<void>(folder.file("broken.shard", "not a part\n"));
+    expectFailure(run({"certify", "wavy.toml", "--merge", "broken.shard"}), 1,
+                  {"broken.shard is no part of a certificate"});
+}
+
+}  // namespace
+}  // namespace kaustik::test

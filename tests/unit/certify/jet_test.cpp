@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// Models of second order hold the function in all of the cell, and their rests fall with the square
+// of its size.
+#include "framework/certify/jet.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace kaustik::certify {
+namespace {
+
+// Jets have no operator of division.
+template <bool s>
+Jet<s> operator/(const Jet<s>& a, const Jet<s>& b) {
+    return a * inverse(b);
+}
+
+// Some function with all operations, of (x, y) scaled to a cell of that size.
+template <class T>
+T function(const T& x, const T& y) {
+    using std::exp;
+    using std::sqrt;
+    const T root = sqrt(x * x + y * y * y + T(2.0));
+    return exp(x * y - y) * root + x / (root + y);
+}
+
+TaylorModel modelAt(double size) {
+    const auto seed = [&](auto& x, auto& y, const Interval& at) {
+        x.value = Interval(0.3) + Interval(size) * at;
+        y.value = Interval(0.5) + Interval(size) * at;
+        x.gradient = {Interval(size), Interval(0.0)};
+        y.gradient = {Interval(0.0), Interval(size)};
+    };
+    Jet<false> x;
+    Jet<false> y;
+    seed(x, y, Interval(1.0) / Interval(3.0));
+    Jet<true> wideX;
+    Jet<true> wideY;
+    seed(wideX, wideY, Interval(0.0, 1.0));
+    return modelOf(function(x, y), function(wideX, wideY));
+}
+
+TEST(TaylorModel, HoldsTheFunctionAllOverTheCell) {
+    std::mt19937_64 generator(1);
+    std::uniform_real_distribution<double> share(0.0, 1.0);
+    for (const double size : {1.0, 0.1, 1e-3}) {
+        const TaylorModel model = modelAt(size);
+        ASSERT_TRUE(model.isFinite());
+        for (int i = 0; i < 20000; ++i) {
+            double x = share(generator);
+            double y = share(generator);
+            if (x + y > 1.0) {
+                x = 1.0 - x;
+                y = 1.0 - y;
+            }
+            const double truth = function(0.3 + size * x, 0.5 + size * y);
+            // The truth itself is rounded.
+            const double off = truth - model.at(x, y);
+            ASSERT_GE(off, model.rest.lo - 1e-14);
+            ASSERT_LE(off, model.rest.hi + 1e-14);
+            ASSERT_TRUE(model.range().holds(truth));
+        }
+    }
+}
+
+TEST(TaylorModel, HasTheMeanOfTheCell) {
+    const TaylorModel model = modelAt(0.2);
+    double sum = 0.0;
+    constexpr int kSteps = 400;
+    // The middles of equal triangles: off by far less than the rest.
+    for (int i = 0; i < kSteps; ++i) {
+        for (int j = 0; i + j < kSteps; ++j) {
+            sum += function(0.3 + 0.2 * (i + 1.0 / 3.0) / kSteps,
+                            0.5 + 0.2 * (j + 1.0 / 3.0) / kSteps);
+            if (i + j < kSteps - 1) {
+                sum += function(0.3 + 0.2 * (i + 2.0 / 3.0) / kSteps,
+                                0.5 + 0.2 * (j + 2.0 / 3.0) / kSteps);
+            }
+        }
+    }
+    const double mean = sum / (kSteps * kSteps);
+    const double linear = model.at(1.0 / 3.0, 1.0 / 3.0);
+    EXPECT_GE(mean - linear, model.restMean.lo - 1e-9);
+    EXPECT_LE(mean - linear, model.restMean.hi + 1e-9);
+    EXPECT_LT(model.restMean.width(), model.rest.width());
+}
+
+TEST(TaylorModel, HasARestThatFallsWithTheSquare) {
+    const double coarse = modelAt(0.02).rest.width();
+    const double fine = modelAt(0.01).rest.width();
+    EXPECT_NEAR(coarse / fine, 4.0, 0.3);
+}
+
+}  // namespace
+}  // namespace kaustik::certify
