@@ -39,7 +39,7 @@ from rebuild import STUDIES
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 # What is made of other files than a study's runs here, by which file in experiments/.
-DERIVED = {"device/h100_errors.csv": "device_errors.toml", "device/h100_times.csv": "device_times.toml",
+DERIVED = {"costs/passes.csv": "costs.sh", "device/h100_errors.csv": "device_errors.toml", "device/h100_times.csv": "device_times.toml",
            "wyman2008/lens_widths.csv": "plotting/lens_widths.py", "flicker/flicker.csv": "flicker.py",
            **{f"all_techniques/{name}.csv": "plotting/speed_error.py" for name in ("answers", "costs", "equal_error", "in_time", "published", "summary", "to_error")}}
 TABLE = re.compile(r"^<!-- table\n(.*?)^-->\n(.*?)^<!-- end -->$", re.M | re.S)

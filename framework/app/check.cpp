@@ -66,8 +66,8 @@ void checkCommand() {
     }
     fmt::print("robust context    {}\n",
                device.robust ? "yes" : "no: a lost device may go unnoticed");
-    printDevices(device);
     const bool isEnough = printNeeds();
+    printDevices(device);  // makes other contexts current
     if (isEnough) {
         fmt::print("Everything that Kaustik needs is there.\n");
     } else {

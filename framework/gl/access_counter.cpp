@@ -186,7 +186,7 @@ void AccessCounter::endPass() {
         if (same == all.resources.end()) {
             all.resources.push_back(resource);
         } else {
-            same->bytes = std::max(same->bytes, resource.bytes);
+            same->bytes += resource.bytes;
             same->readBytes += resource.readBytes;
             same->writtenBytes += resource.writtenBytes;
         }

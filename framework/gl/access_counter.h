@@ -39,7 +39,7 @@ struct PassAccesses {
     // By texture or buffer, under the name that the pass' shaders have for it.
     struct Resource {
         std::string name;
-        std::uint64_t bytes = 0;  // all of it
+        std::uint64_t bytes = 0;  // all of it, as often as the pass has run
         std::uint64_t readBytes = 0;
         std::uint64_t writtenBytes = 0;
     };

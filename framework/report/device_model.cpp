@@ -108,7 +108,7 @@ std::string costTable(const FrameCost& cost, const std::map<std::string, double>
     std::string text = fmt::format(
         "memory of {:g} GB/s: what each pass must move, every byte once, and how long that takes\n"
         "{:<24}{:>10}{:>10}{:>10}{:>10}{:>9}{:>9}{:>6}{:>10}{}\n",
-        cost.model.bytesPerSecond * 1e-9, "pass", "read MB", "write MB", "asked MB", "atomics",
+        cost.model.bytesPerSecond / 1e9, "pass", "read MB", "write MB", "asked MB", "atomics",
         "threads", "groups", "bar.", "bound ms", measured.empty() ? "" : "  measured");
     gl::PassAccesses sum;
     for (const gl::PassAccesses& pass : cost.passes) {
@@ -142,7 +142,7 @@ std::string costTable(const FrameCost& cost, const std::map<std::string, double>
 namespace {
 
 CostTable tableOf(const FrameCost& cost, const std::map<std::string, double>& measured) {
-    CostTable table{cost.model.bytesPerSecond * 1e-9, boundMilliseconds(cost), {}};
+    CostTable table{cost.model.bytesPerSecond / 1e9, boundMilliseconds(cost), {}};
     for (const gl::PassAccesses& pass : cost.passes) {
         CostPassTable& row = table.passes.emplace_back();
         row = {pass, boundMilliseconds(pass, cost.model), {}};

@@ -9,7 +9,7 @@ using nlohmann::json;
 using DeviceModel = CommandLine;
 
 TEST_F(DeviceModel, GivesEachPassItsBytesAndTheirTime) {
-    const Outcome outcome = renderWater({"--device-model", "500GB/s"});
+    const Outcome outcome = renderWater({"--device-model", "500GB/s", "--technique", "planar"});
     EXPECT_NE(outcome.out.find("memory of 500 GB/s"), std::string::npos) << outcome.out;
     const json all = report();
     const json& cost = all.at("cost");

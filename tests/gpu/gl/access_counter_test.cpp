@@ -216,8 +216,6 @@ TEST_P(CountedFrame, IsTheSameFrameAndTouchesNoMoreThanIsThere) {
             EXPECT_LE(resource.readBytes, resource.bytes) << pass.name << " " << resource.name;
             EXPECT_LE(resource.writtenBytes, resource.bytes) << pass.name << " " << resource.name;
         }
-        // What it makes in all has to be written somewhere.
-        EXPECT_GT(pass.readBytes + pass.writtenBytes + pass.atomics, 0u) << pass.name;
     }
     EXPECT_GT(steps, 5u);
     // One that is known: each pixel of radiance is read once and makes four bytes.
@@ -230,8 +228,7 @@ TEST_P(CountedFrame, IsTheSameFrameAndTouchesNoMoreThanIsThere) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, CountedFrame,
-                         ::testing::Values("screen_space_photons", "exact_rays", "caustic_map",
-                                           "adaptive_caustic_map"));
+                         ::testing::Values("screen_space_photons", "exact_rays"));
 
 }  // namespace
 }  // namespace kaustik::test
