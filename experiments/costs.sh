@@ -32,4 +32,4 @@ for scene in $scenes; do
     done
 done
 /usr/bin/python3 -B "$root/experiments/plotting/costs.py" slim "$out"/*/report.json --csv "$root/results/costs/passes.csv"
-/usr/bin/python3 -B "$root/experiments/plotting/pages.py" costs.md
+/usr/bin/python3 -B "$root/experiments/plotting/pages.py" "$root/results/costs.md"

@@ -18,6 +18,7 @@ import pathlib
 
 COLUMNS = ["scene", "technique", "size", "photons", "layers", "pass", "read_bytes", "written_bytes", "requested_read_bytes", "requested_written_bytes", "atomics",
            "threads", "work_groups", "commands", "barriers", "read_backs"]
+RUN = ["version", "device", "date"]
 BANDWIDTHS = (500, 1000, 4800)  # GB/s
 LARGEST = 3
 
@@ -25,14 +26,15 @@ LARGEST = 3
 def slim(file: pathlib.Path) -> list[dict]:
     report = json.loads((file / "report.json" if file.is_dir() else file).read_text())
     run = {"scene": report["scene"]["name"], "technique": report["technique"], "size": "x".join(map(str, report["size"])),
-           "photons": report["parameters"]["emit.photons"], "layers": report["parameters"]["layers.count"]}
+           "photons": report["parameters"]["emit.photons"], "layers": report["parameters"]["layers.count"], "version": report["version"], "date": report["timing"]["date"],
+           "device": "{renderer}, {cpu}, {threads} threads".format(**report["device"])}
     return [run | {"pass": one["name"]} | {key: one[key] for key in COLUMNS[6:]} for one in report["cost"]["passes"]]
 
 
 def write(files: list[pathlib.Path], target: pathlib.Path) -> None:
     target.parent.mkdir(parents=True, exist_ok=True)
     with target.open("w", newline="", encoding="utf-8") as stream:
-        writer = csv.DictWriter(stream, COLUMNS, lineterminator="\n")
+        writer = csv.DictWriter(stream, COLUMNS + RUN, lineterminator="\n")
         writer.writeheader()
         for file in sorted(files):
             writer.writerows(slim(file))

@@ -14,7 +14,7 @@ COSTS = pathlib.Path(__file__).resolve().parents[2] / "experiments/plotting/cost
 
 def report(technique: str, passes: list[tuple[str, int, int]]) -> dict:
     counts = {key: 0 for key in ("requested_written_bytes", "threads", "work_groups", "commands", "barriers", "read_backs")}
-    return {"scene": {"name": "pool"}, "technique": technique, "size": [8, 4], "parameters": {"emit.photons": "2x2", "layers.count": 8},
+    return {"version": "1.0", "timing": {"date": "2026-01-01T00:00:00Z"}, "device": {"renderer": "one", "cpu": "two", "threads": 2}, "scene": {"name": "pool"}, "technique": technique, "size": [8, 4], "parameters": {"emit.photons": "2x2", "layers.count": 8},
             "cost": {"passes": [{"name": name, "read_bytes": read, "written_bytes": written, "requested_read_bytes": 2 * read, "atomics": 3_000_000} | counts
                                 for name, read, written in passes]}}
 
