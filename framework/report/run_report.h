@@ -49,12 +49,12 @@ struct RunRecord {
     std::size_t textureBytes = 0;
     std::size_t bufferBytes = 0;
     std::size_t peakBytes = 0;
-    bool photonsEnd = false;  // ModelledPaths::end
+    bool photonsEnd = false;        // ModelledPaths::end
     std::optional<FrameCost> cost;  // none where it was not asked for
     nlohmann::json map;             // mapAccount
-    nlohmann::json cells;     // cellAccount
-    nlohmann::json hits;      // null where no reference was asked for, as is the next
-    nlohmann::json error;     //
+    nlohmann::json cells;           // cellAccount
+    nlohmann::json hits;            // null where no reference was asked for, as is the next
+    nlohmann::json error;           //
     std::vector<std::string> warnings;
     std::vector<std::string> violations;  // report/violations.h
 };
