@@ -62,7 +62,12 @@ licence_of() {
     [[ -n $package ]] || fail "no package is known to have '$1', and so no licence of it"
     cp --dereference "/usr/share/doc/$package/copyright" "$licences/$package.txt"
 }
-ldd "${programs[@]}" | awk '$2 == "=>" && $3 ~ /^\// {print $3}' | sort --unique > "$work/libraries"
+# The workbench loads GLFW when a window is asked for.
+glfw=$(ldconfig -p | awk '$1 == "libglfw.so.3" {print $NF; exit}')
+{
+    ldd "${programs[@]}"
+    [[ -z $glfw ]] || { ldd "$glfw" && echo "libglfw.so.3 => $glfw"; }
+} | awk '$2 == "=>" && $3 ~ /^\// {print $3}' | sort --unique > "$work/libraries"
 while read -r library; do
     name=$(basename "$library")
     is_of_the_host "$name" && continue

@@ -18,7 +18,7 @@ DERIVED = {"device/h100_errors.csv": "device_errors.toml", "device/h100_times.cs
            "exact_rays/h200_times.csv": "exact_rays_times.toml", "wyman2008/lens_widths.csv": "plotting/lens_widths.py", "flicker/flicker.csv": "flicker.py",
            "krueger2006/tiles.csv": "krueger2006_tiles.sh", "all_techniques/light_tracer.csv": "light_tracer.py",
            "judge/classes.csv": "judge_povray.py", "judge/scenes.csv": "judge_povray.py",
-           "certified.csv": "certified.py", "census/classes.csv": "census.py", "census/techniques.csv": "census.py",
+           "certified.csv": "certified.py", "costs/passes.csv": "costs.sh", "census/classes.csv": "census.py", "census/techniques.csv": "census.py",
            **{f"all_techniques/{name}.csv": "plotting/speed_error.py" for name in ("answers", "costs", "equal_error", "in_time", "published", "summary", "to_error")}}
 PAGE = "studies.md"
 

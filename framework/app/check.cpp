@@ -4,6 +4,7 @@
 
 #include "framework/app/commands.h"
 #include "framework/core/files.h"
+#include "framework/gl/device_needs.h"
 #include "framework/image/image.h"
 
 namespace kaustik::app {
@@ -30,6 +31,19 @@ void printDevices(const gl::DeviceInfo& inUse) {
     }
 }
 
+// What programs of all nodes keep to, next to what the device gives. False where that is less.
+bool printNeeds() {
+    bool isEnough = true;
+    fmt::print("programs need at most\n");
+    for (const gl::DeviceNeed& need : gl::deviceNeeds()) {
+        const int given = gl::givenOf(need);
+        isEnough = isEnough && given >= need.needed;
+        fmt::print("  {} {:<37}{}, of {} here\n", given >= need.needed ? ' ' : '!', need.what,
+                   need.needed, given);
+    }
+    return isEnough;
+}
+
 }  // namespace
 
 void checkCommand() {
@@ -52,8 +66,14 @@ void checkCommand() {
     }
     fmt::print("robust context    {}\n",
                device.robust ? "yes" : "no: a lost device may go unnoticed");
-    printDevices(device);
-    fmt::print("Everything that Kaustik needs is there.\n");
+    const bool isEnough = printNeeds();
+    printDevices(device);  // makes other contexts current
+    if (isEnough) {
+        fmt::print("Everything that Kaustik needs is there.\n");
+    } else {
+        fmt::print(
+            "What a node needs of the lines marked with '!' may not run; it says so, by name.\n");
+    }
 }
 
 }  // namespace kaustik::app

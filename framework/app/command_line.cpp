@@ -28,6 +28,9 @@ void addDeviceOption(CLI::App& command) {
         "--device",
         [](const std::string& device) { ::setenv("KAUSTIK_DEVICE", device.c_str(), 1); },
         "The device: a number or a UUID from 'check', or a part of its name");
+    command.add_flag_function(
+        "--no-program-cache", [](std::int64_t) { ::setenv("KAUSTIK_PROGRAM_CACHE", "0", 1); },
+        "Compiles all shaders anew, and keeps none");
 }
 
 // How any scene is rendered.
@@ -50,6 +53,9 @@ void addPictureOptions(CLI::App& command, SceneOptions& options) {
     addDeviceOption(command);
 }
 
+constexpr const char* kDeviceModelHelp =
+    "A bandwidth of memory, such as 1000GB/s: one more frame counts what each pass reads and "
+    "writes, and says how long that takes there at least";
 constexpr const char* kSceneHelp =
     "A name from 'list scenes', a .toml, .gltf or .glb, or a mesh: .obj, .ply, .stl, .3ds";
 
@@ -221,6 +227,7 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry,
         ->take_all()
         ->expected(1)
         ->allow_extra_args(false);
+    runApp->add_option("--device-model", run.deviceModel, kDeviceModelHelp);
     runApp->add_flag("--capture", run.captures,
                      "One more frame, captured by RenderDoc, which must have started this");
     runApp->add_option("--tev", run.viewer,
@@ -300,6 +307,7 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry,
         app.add_subcommand("explain", "Prints every pass and why it runs or was skipped");
     addSceneOptions(*explainApp, explain.scene);
     explainApp->add_option("--dot", explain.dotFile, "Writes the graph as Graphviz");
+    explainApp->add_option("--device-model", explain.deviceModel, kDeviceModelHelp);
 
     ReferenceOptions reference;
     CLI::App* referenceApp =

@@ -11,6 +11,9 @@
 namespace kaustik::app {
 
 void explainCommand(const ExplainOptions& options, const Registry& registry) {
+    std::optional<report::DeviceModel> model;
+    if (!options.deviceModel.empty())
+        model = report::parseDeviceModel(options.deviceModel, "--device-model");
     scene::Scene scene =
         loadRequestedScene(options.scene.scene, options.scene.time, options.scene.scenePlace);
     RenderSettings settings = makeSettings(options.scene, registry);
@@ -21,6 +24,10 @@ void explainCommand(const ExplainOptions& options, const Registry& registry) {
     if (!options.dotFile.empty())
         writeFileWhole(options.dotFile, session.renderer().graph().toDot());
     fmt::print("{}", run::explain(session.renderer()));
+    if (model) {
+        session.modelCost(*model);
+        fmt::print("{}", report::costTable(*session.record().cost));
+    }
     if (!options.dotFile.empty()) fmt::print("wrote {}\n", options.dotFile);
 }
 

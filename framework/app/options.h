@@ -45,6 +45,7 @@ struct RunOptions {
     std::string reference = "none";
     long long referencePhotons = 1LL << 26;  // of auto, at least
     std::vector<std::string> saved;          // resources
+    std::string deviceModel;                 // bandwidth of memory; "" for none
     bool captures = false;                   // a frame for RenderDoc
     std::optional<std::string> viewer;       // address of a tev that pictures are sent to
     std::string out;                         // "" for results/runs/<scene>-<technique>
@@ -138,6 +139,7 @@ struct DocOptions {
 struct ExplainOptions {
     SceneOptions scene;
     std::string dotFile;
+    std::string deviceModel;  // bandwidth of memory; "" for none
 };
 
 struct CompareOptions {

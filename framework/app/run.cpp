@@ -49,6 +49,9 @@ void runCommand(const RunOptions& options, const Registry& registry) {
     using Clock = std::chrono::steady_clock;
     const Clock::time_point begin = Clock::now();
     run::FrameSeries series = seriesOf(options);
+    std::optional<report::DeviceModel> model;
+    if (!options.deviceModel.empty())
+        model = report::parseDeviceModel(options.deviceModel, "--device-model");
     scene::Scene scene =
         loadRequestedScene(options.scene.scene, options.scene.time, options.scene.scenePlace);
     series.firstSeconds = scene.timeSeconds;
@@ -94,9 +97,9 @@ void runCommand(const RunOptions& options, const Registry& registry) {
             progress.update(done);
             run::throwIfInterrupted();
         };
-        // A capture renders the picture once more.
+        // A capture and a model render the picture once more.
         session.render(series, {{}, onFrame}, &reference,
-                       options.captures ? nullptr : &options.saved);
+                       options.captures || model ? nullptr : &options.saved);
     }
 
     std::vector<fs::path> captures;
@@ -105,6 +108,7 @@ void runCommand(const RunOptions& options, const Registry& registry) {
         captures.push_back(gl::captureFrame(folder, [&] { session.renderAgain(); }));
         warnings.emplace_back("RenderDoc was there, which takes time in every frame.");
     }
+    if (model) session.modelCost(*model);
     const run::FinishedRun finished = session.finish(reference, folder, options.saved, warnings);
     const report::RunRecord& record = finished.record;
     const Renderer& renderer = session.renderer();

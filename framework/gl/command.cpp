@@ -4,9 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <glm/gtc/type_ptr.hpp>
 
 #include "framework/core/error.h"
+#include "framework/gl/access_counter.h"
 #include "framework/gl/executor.h"
 
 namespace kaustik::gl {
@@ -229,7 +232,8 @@ Command& Command::bounds(glm::ivec2 first, glm::ivec2 end) {
 }
 
 Program& Command::bind() {
-    Program& program = context_.programs().get(key_);
+    AccessCounter* const counter = context_.counter();
+    Program& program = counter != nullptr ? counter->program(key_) : context_.programs().get(key_);
     std::vector<Access> accesses = accesses_;
     glUseProgram(program.id());
     const auto isLeftOut = [&](const auto& bound) {
@@ -248,6 +252,7 @@ Program& Command::bind() {
         if (location < 0) continue;
         if (bound.access) accesses.push_back(*bound.access);
         glBindTextureUnit(unit, bound.id);
+        if (counter != nullptr) counter->bindTexture(bound.name, bound.id);
         glProgramUniform1i(program.id(), location, static_cast<GLint>(unit++));
     }
     unit = 0;
@@ -264,6 +269,7 @@ Program& Command::bind() {
         glBindImageTexture(unit, bound.texture->id(), 0, GL_TRUE, 0,
                            bound.access.stores ? GL_READ_WRITE : GL_READ_ONLY,
                            formatInfo(bound.texture->desc().format).internalFormat);
+        if (counter != nullptr) counter->bindTexture(bound.name, bound.texture->id());
         glProgramUniform1i(program.id(), location, static_cast<GLint>(unit++));
     }
     unit = 0;
@@ -274,7 +280,9 @@ Program& Command::bind() {
         if (bound.access) accesses.push_back(*bound.access);
         glShaderStorageBlockBinding(program.id(), index, unit);
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, unit++, bound.id);
+        if (counter != nullptr) counter->bindBuffer(bound.name, bound.id);
     }
+    freeStorageUnit_ = unit;
     unit = 0;
     for (const Bound& bound : uniformBlocks_) {
         if (isLeftOut(bound)) continue;
@@ -285,6 +293,67 @@ Program& Command::bind() {
     }
     context_.order(accesses);
     return program;
+}
+
+void Command::countCommand() {
+    AccessCounter* const counter = context_.counter();
+    if (counter == nullptr) return;
+    counter->apply(freeStorageUnit_);
+    counter->addCommand();
+}
+
+void Command::countTargets(const std::vector<Attachment>& attachments) {
+    AccessCounter* const counter = context_.counter();
+    if (counter == nullptr) return;
+    std::vector<GLuint> colors;
+    GLuint depth = 0;
+    for (const Attachment& attachment : attachments) {
+        if (attachment.isDepth) {
+            depth = depthTest_ == DepthTest::none ? 0 : attachment.texture->id();
+        } else {
+            colors.push_back(attachment.texture->id());
+        }
+    }
+    const bool isPlain = attachments.front().texture->desc().layers == 0;
+    counter->bindTargets(colors, depth, isPlain ? 0 : attachments.front().layer,
+                         blend_ != Blend::none);
+}
+
+void Command::countClear(const Target& target) {
+    AccessCounter* const counter = context_.counter();
+    // What is cleared within bounds is drawn to, as a rule.
+    if (counter == nullptr || clearsInScissor_) return;
+    const bool isWhole = target.texture->desc().layers == 0 || target.layer == kAllLayers;
+    if (isWhole) {
+        counter->addWholeTexture("cleared", target.texture->id());
+    } else {
+        counter->addLayer("cleared", target.texture->id(), target.layer);
+    }
+}
+
+// Of the indexed draws that stand in a buffer.
+void Command::countVertices(const Buffer& commands, std::size_t first, std::size_t count) {
+    AccessCounter* const counter = context_.counter();
+    if (counter == nullptr) return;
+    std::vector<GLuint> words(5 * count);
+    const std::size_t bytes = words.size() * sizeof(GLuint);
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    glGetNamedBufferSubData(commands.id(), static_cast<GLintptr>(first * 5 * sizeof(GLuint)),
+                            static_cast<GLsizeiptr>(bytes), words.data());
+    std::uint64_t indices = 0;
+    for (std::size_t i = 0; i < words.size(); i += 5)
+        indices += words[i + 1] > 0 ? words[i] : 0;
+    counter->bindVertices(indices * sizeof(GLuint));
+}
+
+void Command::countIndirectGroups(GLuint commands, std::size_t offset) {
+    AccessCounter* const counter = context_.counter();
+    if (counter == nullptr) return;
+    std::array<GLuint, 3> groupCounts{};
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    glGetNamedBufferSubData(commands, static_cast<GLintptr>(offset), sizeof(groupCounts),
+                            groupCounts.data());
+    counter->addWorkGroups(std::uint64_t{groupCounts[0]} * groupCounts[1] * groupCounts[2]);
 }
 
 void Command::bindTargets() {
@@ -313,6 +382,7 @@ void Command::bindTargets() {
     for (std::size_t i = 0; i < targets_.size(); ++i) {
         if (!targets_[i].clear) continue;
         boundClear();
+        countClear(targets_[i]);
         glClearNamedFramebufferfv(framebuffer, GL_COLOR, static_cast<GLint>(i),
                                   targets_[i].value.data());
         targets_[i].clear = false;  // a command may draw more than once
@@ -320,9 +390,11 @@ void Command::bindTargets() {
     if (depth_.clear) {
         boundClear();
         glDepthMask(GL_TRUE);
+        countClear(depth_);
         glClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, depth_.value.data());
         depth_.clear = false;
     }
+    countTargets(attachments);
     if (viewport_.z < 0) {
         const graph::TextureDesc& desc = attachments.front().texture->desc();
         viewport_ = {0, 0, desc.width, desc.height};
@@ -366,6 +438,7 @@ void Command::drawArrays(GLenum mode, int count, int instances) {
     bindTargets();
     bindState();
     glBindVertexArray(context_.emptyVertexArray());
+    countCommand();
     glDrawArraysInstanced(mode, 0, count, instances);
 }
 
@@ -378,6 +451,8 @@ void Command::drawIndexedIndirect(GLuint vertexArray, const Buffer& commands, st
         constexpr std::size_t kCommandBytes = 5 * sizeof(GLuint);
         glBindVertexArray(vertexArray);
         glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands.id());
+        countVertices(commands, first, count);
+        countCommand();
         glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT,
                                     reinterpret_cast<const void*>(first * kCommandBytes),
                                     static_cast<GLsizei>(count), 0);
@@ -395,6 +470,12 @@ void Command::dispatch(int groupsX, int groupsY, int groupsZ) {
     }
     bind();
     if (groupsX > 0 && groupsY > 0 && groupsZ > 0) {
+        countCommand();
+        if (AccessCounter* const counter = context_.counter()) {
+            counter->addWorkGroups(static_cast<std::uint64_t>(groupsX) *
+                                   static_cast<std::uint64_t>(groupsY) *
+                                   static_cast<std::uint64_t>(groupsZ));
+        }
         glDispatchCompute(static_cast<GLuint>(groupsX), static_cast<GLuint>(groupsY),
                           static_cast<GLuint>(groupsZ));
     }
@@ -409,6 +490,8 @@ void Command::dispatchIndirect(const graph::ResourceRef& commands, std::size_t o
     const GLuint buffer = indirect(commands);
     bind();
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, buffer);
+    countCommand();
+    countIndirectGroups(buffer, offset);
     glDispatchComputeIndirect(static_cast<GLintptr>(offset));
 }
 
@@ -419,6 +502,7 @@ void Command::drawIndirect(GLenum mode, const graph::ResourceRef& commands, std:
     bindState();
     glBindVertexArray(context_.emptyVertexArray());
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, buffer);
+    countCommand();
     glDrawArraysIndirect(mode, reinterpret_cast<const void*>(offset));
 }
 
@@ -444,6 +528,7 @@ void Command::captureIndirect(GLenum mode, const graph::ResourceRef& commands, s
         queries.push_back(makeCaptureQuery());
         glBeginQueryIndexed(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN, stream, queries.back().id());
     }
+    countCommand();
     glBeginTransformFeedback(GL_POINTS);
     glDrawArraysIndirect(mode, reinterpret_cast<const void*>(offset));
     glEndTransformFeedback();

@@ -26,6 +26,7 @@
 namespace kaustik::gl {
 
 class PassContext;
+struct Attachment;
 
 // What shaders of every pass may declare, by name; all of it outlives the executor's frames.
 struct Globals {
@@ -134,6 +135,12 @@ class Command {
     const Texture& textureToDrawTo(const graph::ResourceRef& handle);
     Program& bind();
     GLuint indirect(const graph::ResourceRef& commands);
+    // These do nothing unless accesses are counted.
+    void countCommand();  // just before it is issued
+    void countTargets(const std::vector<Attachment>& attachments);
+    void countClear(const Target& target);
+    void countVertices(const Buffer& commands, std::size_t first, std::size_t count);
+    void countIndirectGroups(GLuint commands, std::size_t offset);
     void bindTargets();
     void bindState();
 
@@ -154,6 +161,7 @@ class Command {
     bool clearsInScissor_ = false;
     bool lastIsDepth_ = false;
     bool offers_ = false;
+    GLuint freeStorageUnit_ = 0;
 };
 
 }  // namespace kaustik::gl

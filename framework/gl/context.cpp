@@ -5,15 +5,18 @@
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <mutex>
+#include <system_error>
 #include <utility>
 
 #include "framework/core/error.h"
@@ -44,12 +47,18 @@ bool isSoftwareRasteriser(const std::string& renderer) {
     return false;
 }
 
+// What can be had at most. What is free just now is no limit: a driver moves out what others have
+// left, and some that offer the extension without being its vendor's say that nothing is free.
+// Those that contradict themselves are not believed.
 long long availableDeviceBytes(bool isSoftware) {
     if (isSoftware) return availableSystemBytes();
     if (!epoxy_has_gl_extension("GL_NVX_gpu_memory_info")) return 0;
-    GLint kibibytes = 0;
-    glGetIntegerv(GL_GPU_MEMORY_INFO_CURRENT_AVAILABLE_VIDMEM_NVX, &kibibytes);
-    return static_cast<long long>(kibibytes) * 1024;
+    GLint total = 0;
+    GLint free = 0;
+    glGetIntegerv(GL_GPU_MEMORY_INFO_TOTAL_AVAILABLE_MEMORY_NVX, &total);
+    glGetIntegerv(GL_GPU_MEMORY_INFO_CURRENT_AVAILABLE_VIDMEM_NVX, &free);
+    if (glGetError() != GL_NO_ERROR || free < 0 || total < free) return 0;
+    return static_cast<long long>(total) * 1024;
 }
 
 // Of the device of the current context.
@@ -86,6 +95,43 @@ std::string environmentText(const char* name) {
 bool environmentDebugs() {
     const std::string text = environmentText("KAUSTIK_GL_DEBUG");
     return !text.empty() && text != "0";
+}
+
+// What a driver that has no OpenGL 4.5 has instead, "" where that is nothing.
+std::string olderOpenGl(EGLDisplay display) {
+    const EGLContext older = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, nullptr);
+    if (older == EGL_NO_CONTEXT) return "";
+    std::string text;
+    if (eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, older) == EGL_TRUE) {
+        const auto name = [](GLenum of) {
+            const GLubyte* found = glGetString(of);
+            return std::string(found != nullptr ? reinterpret_cast<const char*>(found) : "?");
+        };
+        text = fmt::format(
+            "the driver of {} has OpenGL {}; 4.5 is needed, which a newer driver may "
+            "have",
+            name(GL_RENDERER), name(GL_VERSION));
+        eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    }
+    eglDestroyContext(display, older);
+    return text;
+}
+
+// Graphics devices of this machine that this user may not open, in words; "" where there is none.
+std::string forbiddenNodes() {
+    std::vector<std::string> nodes;
+    std::error_code ignored;
+    for (const auto& entry : std::filesystem::directory_iterator("/dev/dri", ignored)) {
+        const std::string path = entry.path().string();
+        if (entry.path().filename().string().starts_with("renderD") &&
+            ::access(path.c_str(), R_OK | W_OK) != 0)
+            nodes.push_back(path);
+    }
+    if (nodes.empty()) return "";
+    return fmt::format(
+        " This account may not open {}; who administers the machine can add it to the group that "
+        "may, 'render' on Debian.",
+        fmt::join(nodes, ", "));
 }
 
 EGLContext createContext(EGLDisplay display, bool robust, bool debugs) {
@@ -220,8 +266,11 @@ std::unique_ptr<Context> Context::createOn(const EglDevice& device, bool debugs,
         egl->robust = robust;
         if (egl->context != EGL_NO_CONTEXT) break;
     }
-    if (egl->context == EGL_NO_CONTEXT)
-        return fails(fmt::format("no OpenGL 4.5 core context ({})", eglErrorText()));
+    if (egl->context == EGL_NO_CONTEXT) {
+        const std::string reason = fmt::format("no OpenGL 4.5 core context ({})", eglErrorText());
+        const std::string older = olderOpenGl(display);
+        return fails(older.empty() ? reason : older);
+    }
     if (eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, egl->context) != EGL_TRUE)
         return fails(fmt::format("the context cannot be made current ({})", eglErrorText()));
     std::unique_ptr<Context> context(new Context(std::move(egl)));
@@ -284,10 +333,10 @@ std::unique_ptr<Context> Context::createHeadless(bool debugs, const std::string&
         tried.push_back(std::move(problem));
     }
     throw DeviceError(
-        fmt::format("No OpenGL 4.5 context could be had through EGL ({}). Install a driver; "
+        fmt::format("No OpenGL 4.5 context could be had through EGL ({}).{} Install a driver; "
                     "without a GPU, Debian's libegl-mesa0 and libgl1-mesa-dri render on the "
                     "processor.",
-                    joined(tried, "; ")),
+                    joined(tried, "; "), forbiddenNodes()),
         kExitFailed);
 }
 

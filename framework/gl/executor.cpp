@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <utility>
 
 #include "framework/core/error.h"
+#include "framework/gl/access_counter.h"
 
 namespace kaustik::gl {
 namespace {
@@ -22,6 +24,25 @@ class DebugGroup {
     DebugGroup(const DebugGroup&) = delete;
     DebugGroup& operator=(const DebugGroup&) = delete;
 };
+
+// Whose the memory is: "layers 1200 MiB, photons 800 MiB, …", the largest first. A slot counts for
+// what lives in it first.
+std::string largestShares(const graph::Compiled& compiled) {
+    std::map<std::string, std::size_t> bytesOf;
+    for (const graph::Slot& slot : compiled.slots)
+        bytesOf[slot.firstName.substr(0, slot.firstName.find('.'))] += graph::bytesOf(slot.desc);
+    std::vector<std::pair<std::size_t, std::string>> shares;
+    for (const auto& [name, bytes] : bytesOf)
+        shares.emplace_back(bytes, name);
+    std::sort(shares.rbegin(), shares.rend());
+    constexpr std::size_t kNamed = 4;
+    std::string text;
+    for (std::size_t i = 0; i < std::min(shares.size(), kNamed); ++i) {
+        text += (i > 0 ? ", " : "") + shares[i].second + " " +
+                std::to_string(shares[i].first >> 20) + " MiB";
+    }
+    return text + (shares.size() > kNamed ? ", …" : "");
+}
 
 // Of a frame's loops: far beyond what any needs.
 constexpr std::size_t kMaxRounds = 1U << 20U;
@@ -43,12 +64,16 @@ Command PassContext::shaders(std::vector<std::string> files) {
 const Texture& PassContext::texture(const graph::ResourceRef& handle) const {
     const Access update = access(handle, Use::updateTexture);
     order({update});
+    if (AccessCounter* const counts = counter())
+        counts->addWholeTexture("cleared or copied", textureOf(update).id());
     return textureOf(update);
 }
 
 const Buffer& PassContext::buffer(const graph::ResourceRef& handle, Use use) const {
     const Access used = access(handle, use);
     order({used});
+    if (AccessCounter* const counts = counter(); counts != nullptr && use == Use::updateBuffer)
+        counts->addWholeBuffer("cleared or copied", bufferOf(used).id());
     return bufferOf(used);
 }
 
@@ -92,6 +117,10 @@ GLuint PassContext::emptyVertexArray() const {
     return executor_.emptyVertexArray_.id();
 }
 
+AccessCounter* PassContext::counter() const {
+    return executor_.counter_;
+}
+
 Executor::Executor(Context& context, ProgramCache& programs)
     : context_(context), programs_(programs), emptyVertexArray_(makeVertexArray()) {
     // Depth runs from 0 to 1 everywhere, so that reversed z keeps the precision of its floats.
@@ -103,8 +132,9 @@ void Executor::prepare(graph::Compiled compiled) {
     const auto available = static_cast<std::size_t>(context_.info().availableBytes);
     if (available > 0 && compiled.allocatedBytes > available) {
         throw DeviceError("The graph needs " + std::to_string(compiled.allocatedBytes >> 20) +
-                          " MiB and the device has " + std::to_string(available >> 20) +
-                          " MiB free. Use fewer photons, layers or pixels.");
+                          " MiB (" + largestShares(compiled) + ") and the device has " +
+                          std::to_string(available >> 20) +
+                          " MiB. Use fewer photons, layers or pixels.");
     }
     compiled_ = std::move(compiled);
     framebuffers_.clear();
@@ -159,16 +189,20 @@ const Buffer& Executor::buffer(const graph::ResourceRef& handle) const {
 
 void Executor::order(const std::vector<Access>& accesses) {
     const GLbitfield bits = barriers_.before(accesses);
-    if (bits != 0) glMemoryBarrier(bits);
+    if (bits == 0) return;
+    glMemoryBarrier(bits);
+    if (counter_ != nullptr) counter_->addBarrier();
 }
 
 void Executor::clearSlot(std::size_t slot, const graph::ClearValue& value) {
     if (std::holds_alternative<graph::TextureDesc>(slots_[slot].desc)) {
         order({{slot, Use::updateTexture}});
         slots_[slot].texture.clear(value);
+        if (counter_ != nullptr) counter_->addWholeTexture("cleared", slots_[slot].texture.id());
     } else {
         order({{slot, Use::updateBuffer}});
         slots_[slot].buffer.clear();
+        if (counter_ != nullptr) counter_->addWholeBuffer("cleared", slots_[slot].buffer.id());
     }
 }
 
@@ -191,6 +225,7 @@ void Executor::poison(const graph::Step& step, bool isRepeated) {
 
 bool Executor::isLoopRepeated(const graph::Loop& loop) {
     order({{loop.slot, Use::updateBuffer}});
+    if (counter_ != nullptr) counter_->addReadBack();
     std::uint32_t word = 0;
     glGetNamedBufferSubData(slots_[loop.slot].buffer.id(),
                             static_cast<GLintptr>(loop.word * sizeof(word)), sizeof(word), &word);
@@ -218,11 +253,13 @@ bool Executor::runFrame(PassTimer& timer, const std::function<bool(std::size_t)>
                     clearSlot(slot, {});
             }
             if (poison_) poison(step, hasRun[i]);
+            if (counter_ != nullptr) counter_->beginPass(step.name);
             timer.beginPass(i);
             for (const graph::Step::Clear& clear : step.clears)
                 clearSlot(clear.slot, clear.value);
             if (step.execute) step.execute(context);
             timer.endPass(i);
+            if (counter_ != nullptr) counter_->endPass();
             if (debugs) context_.check();
             hasRun[i] = true;
             isDone[i] = true;

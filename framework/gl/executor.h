@@ -25,6 +25,7 @@ struct Attachment {
     bool isDepth;
 };
 
+class AccessCounter;
 class Executor;
 
 // What an execute function is handed. Whatever it asks for must be what its pass has declared; else
@@ -61,6 +62,8 @@ class PassContext : public graph::ExecuteContext {
     [[nodiscard]] ProgramCache& programs();
     [[nodiscard]] GLuint framebuffer(const std::vector<Attachment>& attachments);
     [[nodiscard]] GLuint emptyVertexArray() const;
+    // Null unless accesses are counted.
+    [[nodiscard]] AccessCounter* counter() const;
 
   private:
     Executor& executor_;
@@ -83,6 +86,9 @@ class Executor {
     // Fills every texture with NaN and every buffer with all-ones bits before its first writer
     // runs, so that a test sees reads of what has not been written.
     void poisonTransients(bool poison) { poison_ = poison; }
+
+    // From now on every pass is counted, or none where null; it must outlive the frames.
+    void countAccesses(AccessCounter* counter) { counter_ = counter; }
 
     // Runs all passes once. Throws what a pass throws, and DeviceError for OpenGL errors: after the
     // pass that made one where the context debugs, else at the frame's end. `shouldContinue`
@@ -116,6 +122,7 @@ class Executor {
     Barriers barriers_;
     std::map<std::vector<std::tuple<GLuint, int, bool>>, FramebufferObject> framebuffers_;
     VertexArrayObject emptyVertexArray_;
+    AccessCounter* counter_ = nullptr;
     bool poison_ = false;
     bool isFresh_ = true;  // no frame has been run since prepare()
 };

@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <cctype>
+#include <chrono>
 #include <cstdlib>
 #include <regex>
 #include <sstream>
 
 #include "framework/core/error.h"
 #include "framework/core/files.h"
+#include "framework/gl/program_store.h"
 
 namespace kaustik::gl {
 namespace {
@@ -119,19 +121,49 @@ std::string infoLog(GLuint id, GLint length, Get get) {
     return log;
 }
 
-ShaderObject compile(const std::string& file, const ShaderText& source) {
+// How that went is asked only once all stages are under way, so that a driver may compile them side
+// by side.
+ShaderObject startCompiling(const std::string& file, const ShaderText& source) {
     ShaderObject shader(glCreateShader(stageOf(file)));
     const char* text = source.text.c_str();
     glShaderSource(shader.id(), 1, &text, nullptr);
     glCompileShader(shader.id());
+    return shader;
+}
+
+void requireCompiled(const ShaderObject& shader, const std::string& file,
+                     const ShaderText& source) {
     GLint compiled = GL_FALSE;
     glGetShaderiv(shader.id(), GL_COMPILE_STATUS, &compiled);
-    if (compiled == GL_TRUE) return shader;
+    if (compiled == GL_TRUE) return;
     GLint length = 0;
     glGetShaderiv(shader.id(), GL_INFO_LOG_LENGTH, &length);
     throw ShaderError(fmt::format(
         "{} does not compile:\n{}", file,
         readableShaderLog(infoLog(shader.id(), length, glGetShaderInfoLog), source.lines)));
+}
+
+void link(GLuint program, const std::string& name, const std::vector<std::string>& files,
+          const std::vector<ShaderText>& sources) {
+    std::vector<ShaderObject> shaders;
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        shaders.push_back(startCompiling(files[i], sources[i]));
+        glAttachShader(program, shaders.back().id());
+    }
+    glProgramParameteri(program, GL_PROGRAM_BINARY_RETRIEVABLE_HINT, GL_TRUE);
+    for (std::size_t i = 0; i < files.size(); ++i)
+        requireCompiled(shaders[i], files[i], sources[i]);
+    glLinkProgram(program);
+    for (const ShaderObject& shader : shaders)
+        glDetachShader(program, shader.id());
+    GLint linked = GL_FALSE;
+    glGetProgramiv(program, GL_LINK_STATUS, &linked);
+    if (linked != GL_TRUE) {
+        GLint length = 0;
+        glGetProgramiv(program, GL_INFO_LOG_LENGTH, &length);
+        throw ShaderError(fmt::format("{} does not link:\n  {}", name,
+                                      infoLog(program, length, glGetProgramInfoLog)));
+    }
 }
 
 // Every identifier of `text`, to tell a misspelt uniform from one that was optimised away.
@@ -176,28 +208,30 @@ std::string readableShaderLog(const std::string& log, const std::vector<SourceLi
     return readable;
 }
 
-Program::Program(const ProgramKey& key, const ShaderFolders& moreFolders)
+Program::Program(const ProgramKey& key, const ShaderFolders& moreFolders,
+                 const SourceChange& change)
     : object_(glCreateProgram()) {
-    std::vector<ShaderObject> shaders;
+    const auto begin = std::chrono::steady_clock::now();
+    std::vector<ShaderText> sources;
+    std::string texts;
     for (const std::string& file : key.files) {
         name_ += (name_.empty() ? "" : " + ") + file;
-        const ShaderText source = loadShaderText(file, key.declarations, moreFolders);
+        ShaderText& source =
+            sources.emplace_back(loadShaderText(file, key.declarations, moreFolders));
+        if (change) source.text = change(file, source.text);
         insertWords(source.text, words_);
-        shaders.push_back(compile(file, source));
-        glAttachShader(id(), shaders.back().id());
+        texts += file + '\n' + source.text;
     }
-    glLinkProgram(id());
-    for (const ShaderObject& shader : shaders)
-        glDetachShader(id(), shader.id());
-    GLint linked = GL_FALSE;
-    glGetProgramiv(id(), GL_LINK_STATUS, &linked);
-    if (linked != GL_TRUE) {
-        GLint length = 0;
-        glGetProgramiv(id(), GL_INFO_LOG_LENGTH, &length);
-        throw ShaderError(fmt::format("{} does not link:\n  {}", name_,
-                                      infoLog(id(), length, glGetProgramInfoLog)));
+    const ProgramStore store(ProgramStore::usersFolder());
+    const std::string stored = ProgramStore::keyOf(texts);
+    const bool isLoaded = store.load(id(), stored);
+    if (!isLoaded) {
+        link(id(), name_, key.files, sources);
+        store.save(id(), stored);
     }
     glObjectLabel(GL_PROGRAM, id(), static_cast<GLsizei>(name_.size()), name_.c_str());
+    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
+    notePrograms(isLoaded ? 0 : 1, isLoaded ? 1 : 0, took.count());
 }
 
 bool Program::declares(const std::string& name) const {

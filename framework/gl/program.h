@@ -7,6 +7,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -45,9 +46,13 @@ using ShaderFolders = std::vector<std::filesystem::path>;
 [[nodiscard]] std::string readableShaderLog(const std::string& log,
                                             const std::vector<SourceLine>& lines);
 
+// Gives what is compiled instead of the expanded text of a file.
+using SourceChange = std::function<std::string(const std::string& file, const std::string& text)>;
+
 class Program {
   public:
-    explicit Program(const ProgramKey& key, const ShaderFolders& moreFolders = {});
+    explicit Program(const ProgramKey& key, const ShaderFolders& moreFolders = {},
+                     const SourceChange& change = {});
     [[nodiscard]] GLuint id() const { return object_.id(); }
     // The location of a uniform, -1 where the compiler has removed it. A name that the source does
     // not declare throws ShaderError: it is a mistake.
@@ -76,6 +81,8 @@ class ProgramCache {
 
     // Compiles at first use. Throws ShaderError.
     [[nodiscard]] Program& get(const ProgramKey& key);
+
+    [[nodiscard]] const ShaderFolders& folders() const { return moreFolders_; }
 
     // Compiles all programs anew from the files as they are now. Those that fail stay as they were;
     // gives their errors, one a program, and nothing where all is well.

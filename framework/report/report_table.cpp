@@ -210,6 +210,7 @@ std::string makeTable(const RunRecord& record) {
                 100.0 * primitives.beamsWatts / deposited);
         }
     }
+    if (record.cost) table += costTable(*record.cost, medianByPass(record));
     if (record.eyeRays) table += eyeRaysLine(*record.eyeRays);
     table += referenceTable(record);
     return table;

@@ -9,6 +9,7 @@
 #include "framework/core/files.h"
 #include "framework/core/json_schema.h"
 #include "framework/core/machine.h"
+#include "framework/gl/program_store.h"
 #include "framework/report/limits.h"
 #include "framework/report/map_account.h"
 #include "framework/report/statistics.h"
@@ -206,6 +207,16 @@ void reflect(F& f, const MemoryTable& table) {
     f.field("peak_bytes", table.peak, "Most of the graph's that are in use at once");
 }
 
+struct ProgramsTable {
+    gl::ProgramStatistics all;
+};
+template <class F>
+void reflect(F& f, const ProgramsTable& table) {
+    f.field("compiled", table.all.compiled, "By the driver");
+    f.field("loaded", table.all.loaded, "From the store of programs that were compiled before");
+    f.field("ms", table.all.milliseconds, "That making them took, by this process in all");
+}
+
 struct ReportTable {
     DeviceTable device;
     SceneTable scene;
@@ -272,6 +283,7 @@ void reflect(F& f, const ReportTable& report) {
             "Of a frame's work beside its passes");
     f.field("graph_build_ms", report.graphBuildMilliseconds, "Of making the graph");
     f.field("startup_ms", report.startupMilliseconds, "Until the first frame");
+    f.field("programs", ProgramsTable{gl::programStatistics()}, "Of shaders");
     f.field("passes", report.passes, "Every pass, in order");
     f.field("photons", PhotonsTable{report.ledger}, "What became of them");
     f.field("eye_rays", report.eyeRays, "What became of those that meet a specular surface first");
@@ -354,6 +366,7 @@ json makeReport(const RunRecord& record, const Renderer& renderer, const gl::Dev
                                      {"cannot_form", &record.unformed}}) {
         if (!value->is_null()) report[key] = *value;
     }
+    if (record.cost) report["cost"] = costJson(*record.cost, medianByPass(record));
     return report;
 }
 
@@ -363,6 +376,7 @@ json reportSchema(const std::map<std::string, json>& judgements) {
     properties["$schema"] = jsonSchemaOf<std::string>();
     properties["map"] = mapSchema();
     properties["cells"] = cellSchema();
+    properties["cost"] = costSchema();
     for (const auto& [key, part] : judgements)
         properties[key] = part;
     return schemaDocument("report", "A report of 'kaustik run'", std::move(schema));

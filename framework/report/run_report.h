@@ -12,6 +12,7 @@
 #include "framework/gl/context.h"
 #include "framework/gl/timers.h"
 #include "framework/pipeline/renderer.h"
+#include "framework/report/device_model.h"
 #include "framework/report/map_account.h"
 
 namespace kaustik::report {
@@ -48,12 +49,13 @@ struct RunRecord {
     std::size_t textureBytes = 0;
     std::size_t bufferBytes = 0;
     std::size_t peakBytes = 0;
-    bool photonsEnd = false;  // ModelledPaths::end
-    nlohmann::json map;       // mapAccount
-    nlohmann::json cells;     // cellAccount
-    nlohmann::json hits;      // null where no reference was asked for, as is the next
-    nlohmann::json error;     //
-    nlohmann::json unformed;  // null where no census of the scene's paths is at hand
+    bool photonsEnd = false;        // ModelledPaths::end
+    std::optional<FrameCost> cost;  // none where it was not asked for
+    nlohmann::json map;             // mapAccount
+    nlohmann::json cells;           // cellAccount
+    nlohmann::json hits;            // null where no reference was asked for, as is the next
+    nlohmann::json error;           //
+    nlohmann::json unformed;        // null where no census of the scene's paths is at hand
     std::vector<std::string> warnings;
     std::vector<std::string> violations;  // report/violations.h
 };
@@ -65,6 +67,9 @@ struct PassTimes {
     std::vector<double> cpuMilliseconds;
 };
 [[nodiscard]] std::vector<PassTimes> timesByPass(const RunRecord& record);
+
+// Median of each pass on the device, ms, by name.
+[[nodiscard]] std::map<std::string, double> medianByPass(const RunRecord& record);
 
 // Milliseconds, by frame.
 [[nodiscard]] std::vector<double> frameSamples(const RunRecord& record);

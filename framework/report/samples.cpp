@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/report/run_report.h"
+#include "framework/report/statistics.h"
 
 namespace kaustik::report {
 
@@ -43,6 +44,13 @@ std::vector<PassTimes> timesByPass(const RunRecord& record) {
         }
     }
     return times;
+}
+
+std::map<std::string, double> medianByPass(const RunRecord& record) {
+    std::map<std::string, double> medians;
+    for (const PassTimes& pass : timesByPass(record))
+        medians.emplace(pass.name, summarize(pass.gpuMilliseconds).median);
+    return medians;
 }
 
 json makeSamples(const RunRecord& record) {

@@ -305,6 +305,20 @@ bool Session::renderAgain(const ShouldContinue& shouldContinue) {
     return renderUntimed(shouldContinue);
 }
 
+void Session::modelCost(const report::DeviceModel& model) {
+    prepare();
+    gl::AccessCounter counter(renderer_.programs());
+    renderer_.executor().countAccesses(&counter);
+    try {
+        renderUntimed({});
+    } catch (...) {
+        renderer_.executor().countAccesses(nullptr);
+        throw;
+    }
+    renderer_.executor().countAccesses(nullptr);
+    record_.cost = report::FrameCost{model, counter.take()};
+}
+
 bool Session::renderFor(Purpose purpose, const ShouldContinue& shouldContinue,
                         const std::optional<params::Extent>& size) {
     if (size) {

@@ -140,6 +140,10 @@ class Session {
                                      const std::vector<std::string>& saved,
                                      const std::vector<std::string>& warnings = {});
 
+    // Renders the frame once more with what each pass does to memory counted (gl::AccessCounter),
+    // which the record then has. Not timed.
+    void modelCost(const report::DeviceModel& model);
+
     [[nodiscard]] Renderer& renderer() { return renderer_; }
     [[nodiscard]] const Renderer& renderer() const { return renderer_; }
     // That the settings disable and that no frame of them has.

@@ -20,6 +20,12 @@ TEST_F(Devices, AreListedByCheckWithTheOneInUseMarked) {
     std::smatch device;
     ASSERT_TRUE(std::regex_search(outcome.out, device, std::regex(R"(\n  \* (\d+)  ([^,\n]+))")))
         << outcome.out;
+    // What programs need, and what is there of it.
+    std::smatch need;
+    ASSERT_TRUE(std::regex_search(outcome.out, need,
+                                  std::regex(R"(storage blocks in a compute shader +8, of (\d+))")))
+        << outcome.out;
+    EXPECT_GE(std::stoi(need[1].str()), 8);
     // By its number, and by a part of its name in any case, it is the same.
     for (const std::string& wanted : {device[1].str(), device[2].str().substr(1, 5)}) {
         const Outcome same = run({"check", "--device", wanted});

@@ -44,6 +44,15 @@ TEST_F(Device, WithoutADriverForItIsAMessageThatSaysWhatToInstall) {
     EXPECT_TRUE(files().empty());
 }
 
+TEST_F(Device, OfAnOlderOpenGlIsNamedWithWhatItHas) {
+    Conditions older;
+    older.environment = {{"MESA_GL_VERSION_OVERRIDE", "3.3"}};
+    const Outcome outcome = run(smallRun("ring"), older);
+    if (outcome.exitCode == 0) GTEST_SKIP() << "no driver of Mesa's";
+    expectFailure(outcome, 1, {"has OpenGL 3.3", "4.5 is needed", "newer driver"});
+    EXPECT_TRUE(files().empty());
+}
+
 TEST_F(Device, WithoutTheEglLibraryIsAMessageThatSaysWhatToInstall) {
     static_cast<void>(folder.file("libEGL.so.1", ""));  // found first, and no library
     Conditions noLibrary;

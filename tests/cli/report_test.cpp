@@ -43,13 +43,14 @@ TEST_F(Report, HasTheKeysOfTheSchema) {
     static_cast<void>(renderWater());
     const json report = this->report();
     EXPECT_EQ(report.at("schema"), "kaustik.report/1");
-    EXPECT_EQ(keysOf(report),
-              (Keys{"schema", "version", "device", "scene", "technique", "parameters", "seed",
-                    "size", "frames", "warmup", "timer", "frame_ms", "startup_ms", "passes",
-                    "photons", "energy", "memory", "warnings",
-                    // Ours, besides.
-                    "disabled", "time_s", "time_step_s", "bookkeeping_ms", "graph_build_ms",
-                    "eye_rays", "layers", "limits", "as_published", "violations", "timing"}));
+    EXPECT_EQ(
+        keysOf(report),
+        (Keys{"schema", "version", "device", "scene", "technique", "parameters", "seed", "size",
+              "frames", "warmup", "timer", "frame_ms", "startup_ms", "passes", "photons", "energy",
+              "memory", "warnings",
+              // Ours, besides.
+              "disabled", "time_s", "time_step_s", "bookkeeping_ms", "graph_build_ms", "eye_rays",
+              "layers", "limits", "as_published", "violations", "timing", "programs"}));
     Keys timing = keysOf(report.at("timing"));
     timing.erase("other_processors");  // of moments it is not known
     EXPECT_EQ(timing, (Keys{"date", "dropped_frames", "measuring_ms", "of_measured_frame"}));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstdlib>
 #include <cstring>
 
 namespace kaustik::test {
@@ -84,6 +85,8 @@ void doNothing(In...) {}
 Recording::Recording() {
     assert(current == nullptr);
     current = this;
+    // What is in the store would not be compiled.
+    ::setenv("KAUSTIK_PROGRAM_CACHE", "0", 1);
     // libepoxy looks a function up when it is first called, by the pointer that is replaced below.
     const GLuint shader = glCreateShader(GL_VERTEX_SHADER);
     GLint type = 0;

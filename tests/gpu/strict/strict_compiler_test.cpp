@@ -11,6 +11,7 @@
 #include <iostream>
 #include <map>
 
+#include "framework/gl/device_needs.h"
 #include "framework/run/settings.h"
 #include "framework/scene/files/scene_file.h"
 #include "tests/gpu/fixture.h"
@@ -160,6 +161,12 @@ TEST_F(StrictCompiler, CountsWhatAProgramTakes) {
                         "    sum = sums[0];\n"
                         "}\n"),
               "MAX_COMPUTE_SHARED_MEMORY_SIZE is 32768 where 32784 are used");
+}
+
+// So that 'kaustik check' says of a device what these tests hold the programs to.
+TEST(DriverLimits, AreWhatCheckAsksDevicesFor) {
+    for (const gl::DeviceNeed& need : gl::deviceNeeds())
+        EXPECT_EQ(need.needed, driverLimit(need.name).least()) << need.name;
 }
 
 // Where a device gives less, the table is wrong, or the device one of which it does not know.

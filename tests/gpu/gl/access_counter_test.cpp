@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+// What a pass does to memory is counted as it is, by shaders whose accesses are known by hand, and
+// counting changes nothing of what they make.
+#include "framework/gl/access_counter.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+
+#include "framework/core/files.h"
+#include "framework/gl/executor.h"
+#include "framework/scene/files/scene_file.h"
+#include "tests/gpu/fixture.h"
+
+namespace kaustik::test {
+namespace {
+namespace fs = std::filesystem;
+
+struct Thing {  // as the shaders below have it
+    float place[4];
+    float weight;
+    float rest[3];
+};
+struct Number {
+    unsigned value;
+};
+struct Resources {
+    graph::Texture<RadianceTexel> image;
+    graph::Buffer<Thing> things;
+    graph::Buffer<Number> numbers;
+};
+
+class CountedAccesses : public ::testing::Test {
+  protected:
+    static constexpr int kWidth = 64;
+    static constexpr int kHeight = 32;
+    static constexpr int kThings = 1024;
+
+    void SetUp() override {
+        folder_ = fs::temp_directory_path() / ("kaustik-counted-" + std::to_string(::getpid()));
+        fs::create_directories(folder_);
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+    std::string write(const std::string& name, const std::string& text) const {
+        std::ofstream(folder_ / name) << text;
+        return (folder_ / name).string();
+    }
+
+    // stage.maker clears an image, things and numbers; stage.counted runs `execute`, which may use
+    // all of them and has an image of its own. Gives what is counted of that.
+    using Execute =
+        std::function<void(const Resources& made, const Resources& own, gl::PassContext&)>;
+    static gl::PassAccesses count(const Execute& execute) {
+        graph::Graph graph;
+        const Resources made = graph.addPass<Resources, gl::PassContext>(
+            {"stage.maker", ""},
+            [&](graph::PassSetup& setup, Resources& data) {
+                data.image = setup.create<RadianceTexel>("maker.image", kWidth, kHeight);
+                data.things = setup.createBuffer<Thing>("maker.things", kThings);
+                data.numbers = setup.createBuffer<Number>("maker.numbers", kThings);
+            },
+            [](const Resources& data, gl::PassContext& pass) {
+                pass.texture(data.image).clear({1, 2, 3, 4});
+                pass.buffer(data.things).clear();
+                pass.buffer(data.numbers).clear();
+            });
+        graph.addPass<Resources, gl::PassContext>(
+            {"stage.counted", ""},
+            [&](graph::PassSetup& setup, Resources& data) {
+                setup.read(made.image);
+                setup.read(made.things);
+                data.numbers = setup.write(made.numbers);
+                data.image = setup.create<RadianceTexel>("counted.image", kWidth, kHeight);
+                setup.sideEffect();
+            },
+            [&](const Resources& own, gl::PassContext& pass) { execute(made, own, pass); });
+        gl::ProgramCache programs;
+        gl::Executor executor(context(), programs);
+        executor.prepare(graph.compile());
+        gl::AccessCounter counter(programs);
+        executor.countAccesses(&counter);
+        gl::PassTimer timer(gl::TimerMode::finish);
+        executor.runFrame(timer);
+        for (const gl::PassAccesses& pass : counter.take()) {
+            if (pass.name == "stage.counted") return pass;
+        }
+        ADD_FAILURE() << "stage.counted was not counted";
+        return {};
+    }
+
+    fs::path folder_;
+};
+
+TEST_F(CountedAccesses, ReadsOfABufferAreThoseOfItsFieldsAndEachByteOnce) {
+    // Every second thing, each by two threads: 4 of its 32 bytes are asked for twice, and lie in a
+    // piece of 16.
+    const std::string shader = write("read.comp",
+                                     "layout(local_size_x = 64) in;\n"
+                                     "struct Thing { vec4 place; float weight; float rest[3]; };\n"
+                                     "layout(std430) readonly buffer Things { Thing things[]; };\n"
+                                     "layout(std430) buffer Numbers { uint numbers[]; };\n"
+                                     "void main() {\n"
+                                     "    uint i = gl_GlobalInvocationID.x;\n"
+                                     "    numbers[i] = uint(things[(i / 2u) * 2u].weight) + 7u;\n"
+                                     "}\n");
+    const gl::PassAccesses counted =
+        count([&](const Resources& made, const Resources& own, gl::PassContext& pass) {
+            pass.compute(shader)
+                .storage("Things", made.things)
+                .storage("Numbers", own.numbers)
+                .dispatch(kThings / 64);
+        });
+    EXPECT_EQ(counted.requestedReadBytes, kThings * 4u);
+    EXPECT_EQ(counted.readBytes, kThings / 2 * 16u);
+    EXPECT_EQ(counted.requestedWrittenBytes, kThings * 4u);
+    EXPECT_EQ(counted.writtenBytes, kThings * 4u);
+    EXPECT_EQ(counted.threads, static_cast<unsigned>(kThings));
+    EXPECT_EQ(counted.workGroups, kThings / 64u);
+    EXPECT_EQ(counted.commands, 1u);
+    EXPECT_EQ(counted.atomics, 0u);
+}
+
+TEST_F(CountedAccesses, AtomicsAreToldApartAndLocalsOfTheSameNameAreNone) {
+    const std::string shader = write("atomic.comp",
+                                     "layout(local_size_x = 64) in;\n"
+                                     "layout(std430) buffer Numbers { uint numbers[]; };\n"
+                                     "uint first(uint numbers[2]) { return numbers[0]; }\n"
+                                     "void main() {\n"
+                                     "    uint i = gl_GlobalInvocationID.x;\n"
+                                     "    // numbers[i] in a comment\n"
+                                     "    if (i % 4u == 0u) atomicAdd(numbers[i % 8u], 1u);\n"
+                                     "    numbers[512u] += first(uint[2](0u, 1u));\n"
+                                     "}\n");
+    const gl::PassAccesses counted =
+        count([&](const Resources&, const Resources& own, gl::PassContext& pass) {
+            pass.compute(shader).storage("Numbers", own.numbers).dispatch(kThings / 64);
+        });
+    EXPECT_EQ(counted.atomics, kThings / 4u);
+    EXPECT_EQ(counted.requestedReadBytes, kThings * 4u);
+    EXPECT_EQ(counted.requestedWrittenBytes, kThings * 4u);
+    // Two words of the atomics lie in two pieces, and the sum in a third.
+    EXPECT_EQ(counted.readBytes, 3u * 16u);
+    EXPECT_EQ(counted.writtenBytes, 3u * 16u);
+}
+
+TEST_F(CountedAccesses, ADrawWritesThePixelsThatItDoesNotDiscard) {
+    const std::string shader = write("draw.frag",
+                                     "uniform sampler2D image;\n"
+                                     "layout(location = 0) out vec4 color;\n"
+                                     "void main() {\n"
+                                     "    ivec2 pixel = ivec2(gl_FragCoord.xy);\n"
+                                     "    if (pixel.y >= 8) discard;\n"
+                                     "    color = texelFetch(image, pixel / 2, 0);\n"
+                                     "}\n");
+    const gl::PassAccesses counted =
+        count([&](const Resources& made, const Resources& own, gl::PassContext& pass) {
+            pass.fullscreen(shader).texture("image", made.image).target(own.image).draw();
+        });
+    constexpr unsigned kDrawn = kWidth * 8;
+    EXPECT_EQ(counted.writtenBytes, kDrawn * 16u);
+    EXPECT_EQ(counted.requestedWrittenBytes, kDrawn * 16u);
+    EXPECT_EQ(counted.readBytes, kDrawn / 4 * 16u);
+    EXPECT_EQ(counted.requestedReadBytes, kDrawn * 16u);
+    // Three vertices, and every pixel whether it is discarded or not.
+    EXPECT_EQ(counted.threads, 3u + kWidth * kHeight);
+}
+
+TEST_F(CountedAccesses, WhatIsClearedIsWrittenWholeAndBlendingReads) {
+    const std::string shader = write("add.frag",
+                                     "layout(location = 0) out vec4 color;\n"
+                                     "void main() { color = vec4(1.0); }\n");
+    const gl::PassAccesses counted =
+        count([&](const Resources&, const Resources& own, gl::PassContext& pass) {
+            pass.fullscreen(shader)
+                .target(own.image)
+                .clear()
+                .blend(gl::Blend::add)
+                .viewport(0, 0, 16, 16)
+                .draw();
+        });
+    EXPECT_EQ(counted.writtenBytes, kWidth * kHeight * 16u);
+    EXPECT_EQ(counted.requestedWrittenBytes, 16u * 16u * 16u);
+    EXPECT_EQ(counted.readBytes, 16u * 16u * 16u);
+}
+
+// Of a frame, with and without counting: all that the picture is made of, to the bit.
+class CountedFrame : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(CountedFrame, IsTheSameFrameAndTouchesNoMoreThanIsThere) {
+    const scene::Scene scene =
+        scene::loadSceneFile(projectRoot() / "experiments/scenes/glass-sphere.toml");
+    Frame frame(scene, 64, 48, {{"emit.photons", "48x48"}}, {}, false, GetParam());
+    const auto read = [&] {
+        const Renderer& renderer = frame.renderer();
+        std::vector<float> all = renderer.texture(renderer.outputs().picture.radiance).read();
+        const std::vector<float> caustic =
+            renderer.texture(renderer.outputs().caustic.irradiance).read();
+        all.insert(all.end(), caustic.begin(), caustic.end());
+        return all;
+    };
+    const std::vector<float> before = read();
+    ASSERT_TRUE(std::any_of(before.begin(), before.end(), [](float v) { return v > 0.0f; }));
+    gl::AccessCounter counter(frame.renderer().programs());
+    frame.renderer().executor().countAccesses(&counter);
+    gl::PassTimer timer(gl::TimerMode::finish);
+    frame.renderer().renderFrame(timer);
+    EXPECT_EQ(before, read());
+    const std::vector<gl::PassAccesses> passes = counter.take();
+    std::size_t steps = 0;
+    for (const gl::PassAccesses& pass : passes) {
+        ++steps;
+        for (const gl::PassAccesses::Resource& resource : pass.resources) {
+            EXPECT_LE(resource.readBytes, resource.bytes) << pass.name << " " << resource.name;
+            EXPECT_LE(resource.writtenBytes, resource.bytes) << pass.name << " " << resource.name;
+        }
+    }
+    EXPECT_GT(steps, 5u);
+    // One that is known: each pixel of radiance is read once and makes four bytes.
+    const auto display =
+        std::find_if(passes.begin(), passes.end(),
+                     [](const gl::PassAccesses& pass) { return pass.name == "compose.display"; });
+    ASSERT_NE(display, passes.end());
+    EXPECT_EQ(display->readBytes, 64u * 48u * 16u);
+    EXPECT_EQ(display->writtenBytes, 64u * 48u * 4u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, CountedFrame,
+                         ::testing::Values("screen_space_photons", "exact_rays"));
+
+}  // namespace
+}  // namespace kaustik::test
