@@ -54,6 +54,8 @@ struct Bench {
     // A value is being dragged; the camera, a light or the time by hand.
     bool isDragging = false;
     bool isTurning = false;
+    // How long keys for flying were held in this frame, s: to the right, up, forward.
+    glm::dvec3 flight{0.0};
     int sceneReloads = 0;
     bool wantsScreenshot = false;
     bool wantsExperiment = false;  // once the document is known to run
@@ -76,6 +78,11 @@ struct Bench {
     }
     [[nodiscard]] ShownRequest requested() const {
         return {document, pictureOrder, view, editedIndex()};
+    }
+    // Of the image left of the split; null before there is one.
+    [[nodiscard]] Look* shownLook() {
+        const auto& viewed = result->variants[requested().seen()].viewed;
+        return viewed ? &view.looks[viewed->name] : nullptr;
     }
     // The camera as the document has it, which may be newer than what was rendered; so is the time.
     [[nodiscard]] scene::Camera camera() const {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "framework/gui/document.h"
 #include "framework/gui/frame_result.h"
@@ -17,6 +18,7 @@ namespace kaustik::gui {
 struct Shown {
     enum class Kind {
         requested,   // what was asked for
+        limited,     // the same, of which the technique itself says what it leaves out or joins
         rendering,   // something older, until what was asked for is rendered
         preview,     // the same view, quickly made
         impossible,  // what was asked for, and what no light can do
@@ -36,6 +38,8 @@ struct Shown {
         restart        // the renderer
     };
     Remedy remedy = Remedy::none;
+    // What the technique says of it: what it cannot form, joins, ignores; whole sentences.
+    std::vector<std::string> reservations = {};
 };
 
 // What is to be seen.

@@ -67,6 +67,42 @@ class Part {
     std::vector<std::string>& problems_;
 };
 
+json toJson(const std::map<std::string, Look>& looks) {
+    json all = json::object();
+    for (const auto& [name, look] : looks) {
+        all[name] = {{"channel", static_cast<int>(look.channel)},
+                     {"exposure_automatic", look.isExposureAutomatic},
+                     {"exposure", look.exposureStops},
+                     {"false_color", look.isFalseColor},
+                     {"scale", static_cast<int>(look.scale)},
+                     {"range_automatic", look.isRangeAutomatic},
+                     {"low", look.low},
+                     {"high", look.high}};
+    }
+    return all;
+}
+
+std::map<std::string, Look> looksFromJson(const json& all, std::vector<std::string>& problems) {
+    std::map<std::string, Look> looks;
+    if (!all.is_object()) {
+        problems.emplace_back("'view.looks' is no object");
+        return looks;
+    }
+    for (const auto& [name, values] : all.items()) {
+        Part part(all, name.c_str(), problems);
+        Look& look = looks[name];
+        look.channel = static_cast<Channel>(part.between("channel", 0, 0, 5));
+        part.take("exposure_automatic", look.isExposureAutomatic);
+        look.exposureStops = part.between("exposure", 0.0f, -kMaxStops, kMaxStops);
+        part.take("false_color", look.isFalseColor);
+        look.scale = static_cast<Scale>(part.between("scale", 0, 0, 2));
+        part.take("range_automatic", look.isRangeAutomatic);
+        look.low = part.between("low", 0.0f, -1e30f, 1e30f);
+        look.high = part.between("high", 1.0f, -1e30f, 1e30f);
+    }
+    return looks;
+}
+
 }  // namespace
 
 json toJson(const SavedState& kept) {
@@ -75,12 +111,7 @@ json toJson(const SavedState& kept) {
     return {{"view",
              {{"resource", view.resource},
               {"layer", view.layer},
-              {"channel", static_cast<int>(view.channel)},
-              {"exposure", view.exposureStops},
-              {"false_color", view.isFalseColor},
-              {"range_automatic", view.isRangeAutomatic},
-              {"low", view.low},
-              {"high", view.high},
+              {"looks", toJson(view.looks)},
               {"beside", static_cast<int>(view.sidePicture)},
               {"split", view.split},
               {"shows_lights", view.showsLights}}},
@@ -113,12 +144,9 @@ SavedState savedStateFromJson(const json& j, std::vector<std::string>& problems)
     Part view(j, "view", problems);
     view.take("resource", kept.view.resource);
     kept.view.layer = view.between("layer", 0, 0, 63);
-    kept.view.channel = static_cast<Channel>(view.between("channel", 0, 0, 5));
-    kept.view.exposureStops = view.between("exposure", 0.0f, -20.0f, 20.0f);
-    view.take("false_color", kept.view.isFalseColor);
-    view.take("range_automatic", kept.view.isRangeAutomatic);
-    kept.view.low = view.between("low", 0.0f, -1e9f, 1e9f);
-    kept.view.high = view.between("high", 1.0f, -1e9f, 1e9f);
+    json looks = json::object();
+    view.take("looks", looks);
+    kept.view.looks = looksFromJson(looks, problems);
     kept.view.sidePicture = static_cast<SidePicture>(view.between("beside", 0, 0, 3));
     kept.view.split = view.between("split", 0.5f, 0.0f, 1.0f);
     view.take("shows_lights", kept.view.showsLights);

@@ -3,6 +3,7 @@
 // is the user's choice.
 #pragma once
 
+#include <filesystem>
 #include <glm/glm.hpp>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
@@ -10,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/gui/canvas.h"
+#include "framework/gui/look.h"
 #include "framework/gui/window.h"
 
 namespace kaustik::gui {
@@ -21,12 +22,7 @@ enum class SidePicture : int { none, other, reference, error };
 struct ViewState {
     std::string resource;  // "": the picture
     int layer = 0;
-    Channel channel = Channel::color;
-    float exposureStops = 0.0f;
-    bool isFalseColor = false;
-    bool isRangeAutomatic = true;
-    float low = 0.0f;
-    float high = 1.0f;
+    std::map<std::string, Look> looks;  // of each texture that has been given one; "": the picture
     SidePicture sidePicture = SidePicture::none;
     float split = 0.5f;      // of the picture's width
     float zoom = 0.0f;       // window pixels a pixel; 0: fits
@@ -35,6 +31,12 @@ struct ViewState {
     glm::ivec2 probePixel{-1};  // x < 0: none
     float probeRadius = 1.0f;   // pixels
     bool showsLights = true;
+
+    // Of an image by its name (ShownImage::resource).
+    [[nodiscard]] Look lookOf(const std::string& name) const {
+        const auto found = looks.find(name);
+        return found != looks.end() ? found->second : Look();
+    }
 };
 
 struct PanelState {

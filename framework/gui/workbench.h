@@ -48,7 +48,9 @@ class Workbench {
     void drawToolbar();
     void drawStatusBar();
     void useKeys();
+    void useKey(const Window::KeyPress& press);
     void useSign(unsigned character);
+    void changeExposure(float stops);
     void pushUndo();
     void undo(int direction);
     void describe();

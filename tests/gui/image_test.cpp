@@ -30,8 +30,15 @@ class ImagePanel : public WorkbenchTest {
         std::istringstream line(bench->value("picture.value"));
         line.ignore(100, ')');
         std::vector<double> values;
-        for (double value = 0.0; line >> value;)
-            values.push_back(value);
+        // Between the names of channels and units, of which some begin with a figure.
+        for (std::string word; line >> word;) {
+            std::size_t end = 0;
+            try {
+                const double value = std::stod(word, &end);
+                if (end == word.size()) values.push_back(value);
+            } catch (const std::exception&) {
+            }
+        }
         return values;
     }
     // A texture as `kaustik run` saves it.
@@ -61,8 +68,9 @@ TEST_F(ImagePanel, AnyTextureIsShownWithItsLayersAndValues) {
         bench->hover("picture.image", pixel(x, y));
         EXPECT_TRUE(bench->value("picture.value").starts_with(fmt::format("({}, {})", x, y)));
         const std::vector<double> values = valuesUnderMouse();
-        ASSERT_EQ(values.size(), 4u);
-        for (int c = 0; c < layer.channels; ++c) {
+        // One more is the figure of "material + 1".
+        ASSERT_EQ(values.size(), 5u) << bench->value("picture.value");
+        for (int c = 0; c < 3; ++c) {
             const auto expected = static_cast<double>(layer.at(x, y, c));
             EXPECT_NEAR(values[static_cast<std::size_t>(c)], expected,
                         kShownDigits * std::abs(expected));
@@ -76,7 +84,7 @@ TEST_F(ImagePanel, ALayerThatIsNotThereIsNotShownUnderItsNumber) {
     start(kept);
     open("Image");
     EXPECT_EQ(bench->value("shown"), "asked");
-    EXPECT_EQ(bench->value("picture.caption"), "layers.depth, layer 6");
+    EXPECT_TRUE(says("picture.caption", "layers.depth · surface 7 from the front · depth, m"));
     open("Parameters");
     bench->typeInto("parameter.layers.count", "4", Entry::controlClick);
     untilSettled();
@@ -88,7 +96,7 @@ TEST_F(ImagePanel, ALayerThatIsNotThereIsNotShownUnderItsNumber) {
     bench->click("shown.remedy");
     untilSettled();
     EXPECT_EQ(bench->value("shown"), "asked");
-    EXPECT_EQ(bench->value("picture.caption"), "layers.depth, layer 3");
+    EXPECT_TRUE(says("picture.caption", "layers.depth · surface 4 from the front · depth, m"));
     open("Image");
     EXPECT_EQ(bench->value("image.layer"), "3");
 }
@@ -104,7 +112,7 @@ TEST_F(ImagePanel, ATextureThatIsNoLongerThereIsSaidToBeGone) {
     bench->click("shown.remedy");
     untilSettled();
     EXPECT_EQ(bench->value("shown"), "asked");
-    EXPECT_EQ(bench->value("picture.caption"), "");
+    EXPECT_EQ(bench->value("picture.caption"), "picture · the eye's view");
 }
 
 TEST_F(ImagePanel, ATextureThatNothingNeedsIsMadeToBeSeen) {
@@ -120,7 +128,9 @@ TEST_F(ImagePanel, ATextureThatNothingNeedsIsMadeToBeSeen) {
 }
 
 TEST_F(ImagePanel, ChannelsExposureAndFalseColoursChangeHowItIsSeen) {
-    start(showing("caustic.irradiance"));
+    json kept = showing("caustic.irradiance");
+    kept["view"]["looks"]["caustic.irradiance"] = {{"exposure_automatic", false}};
+    start(kept);
     open("Image");
     const Image plain = seenPicture();
     bench->click("image.fit");
@@ -153,6 +163,14 @@ TEST_F(ImagePanel, ChannelsExposureAndFalseColoursChangeHowItIsSeen) {
     EXPECT_GT(hue(coloured), 0.3);
     bench->click("image.range_automatic");
     EXPECT_TRUE(bench->has("image.range"));
+    // Another texture has a look of its own.
+    choose("image.texture", "direct.irradiance");
+    untilSettled();
+    EXPECT_EQ(bench->value("image.false_color"), "off");
+    EXPECT_EQ(bench->value("image.fit"), "on");
+    choose("image.texture", "caustic.irradiance");
+    untilSettled();
+    EXPECT_EQ(bench->value("image.false_color"), "on");
     bench->key("f");
     EXPECT_EQ(largestDifference(seenPicture(), darker), 0.0);
     choose("image.channel", "alpha");
@@ -202,7 +220,8 @@ class EditedShaders : public ImagePanel {
     }
     void start(const std::string& resource = "compose.receiver_radiance") {
         json kept = showing(resource);
-        kept["view"]["exposure"] = -8.0;  // up to 256 W/m²/sr are told apart
+        kept["view"]["looks"][resource] = {{"exposure_automatic", false},
+                                           {"exposure", -8.0}};  // up to 256 W/m²/sr are told apart
         WorkbenchTest::start(kept, shaders.environment());
         open("Image");
     }

@@ -14,7 +14,7 @@ void drawHelp(Bench& bench) {
         {".", "a step of time"},
         {"drag", "orbit about the camera's target"},
         {"right drag", "look around"},
-        {"W A S D, Q E", "fly; with Shift four times as fast"},
+        {"W A S D, Q E", "fly, by place (Z Q S D, A E in French); with Shift four times as fast"},
         {"Ctrl + wheel", "nearer and farther"},
         {"wheel", "zoom into the picture; middle drag moves it"},
         {"0", "the whole picture"},
@@ -42,7 +42,8 @@ void drawHelp(Bench& bench) {
             }
             ImGui::EndTable();
         }
-        ImGui::TextDisabled("By the characters on the keys. While you type only F1, F5, F12.");
+        ImGui::TextDisabled(
+            "Others by the characters on the keys. While you type only F1, F5, F12.");
         bench.map.area("help", ImGui::GetWindowPos().x, ImGui::GetWindowPos().y,
                        ImGui::GetWindowWidth(), ImGui::GetWindowHeight());
     }
