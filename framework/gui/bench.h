@@ -12,6 +12,7 @@
 #include "framework/gui/canvas.h"
 #include "framework/gui/document.h"
 #include "framework/gui/frame_result.h"
+#include "framework/gui/kept_variant.h"
 #include "framework/gui/reference_worker.h"
 #include "framework/gui/render_worker.h"
 #include "framework/gui/screen_map.h"
@@ -46,6 +47,15 @@ struct Bench {
     std::uint64_t pictureOrder = 0;
     std::optional<Document> whole{};
 
+    // The newest difference that was asked for (Workbench::pollDifference), null before.
+    std::vector<KeptVariant> kept{};
+    std::shared_ptr<const ImageDifference> difference{};
+    std::uint64_t keptCount = 0;
+    // RMSE and FLIP of all pairs of caustic irradiances, once they are asked for.
+    std::shared_ptr<const Table> pairs{};
+    bool wantsPairs = false;
+    bool wantsShownSaved = false;
+
     // One line for the status bar.
     std::string message{};
     bool isMessageBad = false;
@@ -77,7 +87,7 @@ struct Bench {
         return result->variants[editedIndex()];
     }
     [[nodiscard]] ShownRequest requested() const {
-        return {document, pictureOrder, view, editedIndex()};
+        return {document, pictureOrder, view, editedIndex(), &kept, difference};
     }
     // Of the image left of the split; null before there is one.
     [[nodiscard]] Look* shownLook() {

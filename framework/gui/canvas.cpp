@@ -4,7 +4,6 @@
 #include <cmath>
 #include <vector>
 
-
 namespace kaustik::gui {
 namespace {
 
@@ -101,7 +100,9 @@ void Canvas::map(Slot& slot) {
     glUniform1i(program_.uniform("channels"), slot.channels);
     glUniform1i(program_.uniform("channel"), static_cast<int>(mapping.channel));
     // Sums are put together by the time that they are shown.
-    const int kind = mapping.kind == ValueKind::vector ? 1 : mapping.kind == ValueKind::single ? 2 : 0;
+    const int kind = mapping.kind == ValueKind::vector   ? 1
+                     : mapping.kind == ValueKind::single ? 2
+                                                         : 0;
     glUniform1i(program_.uniform("kind"), kind);
     glUniform1i(program_.uniform("scale"), static_cast<int>(mapping.scale));
     glUniform1i(program_.uniform("leavesOut"), mapping.leavesOut ? 1 : 0);

@@ -61,7 +61,7 @@ struct ViewedTexture {
     // the picture is made of.
     std::string checked;
     std::optional<measure::NotFinite> notFinite;
-    Histogram histogram;  // of all channels of colour, or of a vector
+    Histogram histogram;                       // of all channels of colour, or of a vector
     std::vector<Histogram> channelHistograms;  // of channels that are looked at by themselves
 };
 
@@ -80,6 +80,8 @@ struct VariantResult {
     std::vector<double> frameMs;
     std::vector<ListedTexture> textures;
     std::optional<ViewedTexture> viewed;
+    // Picture and caustic irradiance of a settled frame, whatever is viewed.
+    std::vector<std::shared_ptr<const ViewedTexture>> outputTextures;
     std::vector<std::string> warnings;
     std::size_t peakBytes = 0;
     // What a further frame has measured, which is rendered once the order is settled.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "framework/gui/kept_variant.h"
 #include "framework/gui/shown_image.h"
 
 namespace kaustik::gui {
@@ -127,6 +128,16 @@ bool isRendered(const ShownRequest& requested, const FrameResult& result) {
 
 Shown shownOf(const ShownRequest& requested, const FrameResult& result,
               const ReferenceState& reference, const std::optional<Document>& whole) {
+    if (const KeptVariant* kept = requested.flipped()) {
+        Shown shown;
+        shown.sentence = fmt::format(
+            "Kept variant {} is shown as it was rendered: {}. Key {} leads back to the newest "
+            "frame.",
+            requested.view.flipped + 1, kept->name, requested.view.flipped + 1);
+        shown.reservations = kept->reservations;
+        if (!shown.reservations.empty()) shown.kind = Shown::Kind::limited;
+        return shown;
+    }
     const Shown rendering = staleStatus(result);
     // A lost device answers no order.
     if (result.order < requested.order && !result.isLost) return rendering;
@@ -165,11 +176,12 @@ Shown shownOf(const ShownRequest& requested, const FrameResult& result,
                          : fmt::format("The picture is what was asked for; {}.", missing);
     if (!shown.reservations.empty()) {
         shown.kind = Shown::Kind::limited;
-        shown.sentence = fmt::format("What is shown is what was asked for, with {}: {}",
-                                     shown.reservations.size() == 1
-                                         ? "a reservation"
-                                         : fmt::format("{} reservations", shown.reservations.size()),
-                                     oneLine(shown.reservations.front()));
+        shown.sentence =
+            fmt::format("What is shown is what was asked for, with {}: {}",
+                        shown.reservations.size() == 1
+                            ? "a reservation"
+                            : fmt::format("{} reservations", shown.reservations.size()),
+                        oneLine(shown.reservations.front()));
         if (!missing.empty()) shown.sentence += fmt::format(" And {}.", missing);
     }
     return shown;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -42,6 +43,9 @@ struct Shown {
     std::vector<std::string> reservations = {};
 };
 
+struct KeptVariant;
+struct ImageDifference;
+
 // What is to be seen.
 struct ShownRequest {
     const Document& document;
@@ -49,10 +53,17 @@ struct ShownRequest {
     std::uint64_t order = 0;
     const ViewState& view;
     std::size_t edited = 0;  // variant: 0 A, 1 B
+    const std::vector<KeptVariant>* kept = nullptr;
+    std::shared_ptr<const ImageDifference> difference = {};  // where one is asked for
     // The one that is seen, to the left of the split where there is one.
     [[nodiscard]] std::size_t seen() const {
-        return view.sidePicture == SidePicture::other ? 0 : edited;
+        return view.sidePicture == SidePicture::other ||
+                       (view.sidePicture == SidePicture::difference && view.sideKept < 0)
+                   ? 0
+                   : edited;
     }
+    // The kept one that is seen in place of what was rendered last; null where none is.
+    [[nodiscard]] const KeptVariant* flipped() const;
 };
 
 // Why the document cannot be rendered; "" where it can be, or where that is not known yet.

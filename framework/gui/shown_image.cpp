@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "framework/gui/kept_variant.h"
+
 namespace kaustik::gui {
 namespace {
 
@@ -107,6 +109,48 @@ ShownImage ofError(const ShownRequest& requested, const ReferenceState& referenc
     return image;
 }
 
+ShownImage ofKept(const ShownRequest& requested, const KeptVariant& kept, std::size_t index,
+                  const std::shared_ptr<const ViewedTexture>& texture) {
+    ShownImage image = imageOf(*texture, requested.view);
+    image.owner = texture;
+    image.source = fmt::format("kept {}", index + 1);
+    image.note = kept.name;
+    return image;
+}
+
+std::string notKeptWith(std::size_t index, const std::string& resource) {
+    return fmt::format("variant {} was kept without {}", index + 1,
+                       resource.empty() ? "its picture" : resource);
+}
+
+ShownImage ofDifference(const ShownRequest& requested, const ShownImage& main,
+                        const ShownImage& other) {
+    const ImageDifference& difference = *requested.difference;
+    ShownImage image;
+    image.resource = kDifferenceResource;
+    image.source =
+        fmt::format("{} minus {}", main.source.empty() ? "A" : main.source, other.source);
+    image.content.quantity = "difference of " + main.content.quantity;
+    image.content.kind = ValueKind::single;
+    image.content.space = main.content.space;
+    image.content.channels = {{"difference", main.content.unit()}};
+    image.place = main.place;
+    image.note = fmt::format("RMSE {:.4g}", difference.rmse);
+    if (difference.flip) image.note += fmt::format(", FLIP {:.4g}", *difference.flip);
+    image.values = difference.signedMean.get();
+    image.owner = difference.signedMean;
+    // No two of them have one place in memory while either is shown.
+    image.version = main.version ^ (other.version << 1u) ^ 0x5bd1e995u;
+    image.histogram = difference.histogram;
+    image.look = requested.view.lookOf(kDifferenceResource);
+    if (!requested.view.looks.contains(kDifferenceResource)) {
+        image.look.isFalseColor = true;
+        image.look.scale = Scale::symmetric;
+    }
+    image.mapping = mappingOf(image.look, image.content, image.histogram, false);
+    return image;
+}
+
 // Ticks at round numbers.
 std::vector<ColorBar::Tick> ticksOf(const ColorBar& bar) {
     std::vector<ColorBar::Tick> ticks;
@@ -140,15 +184,29 @@ std::vector<ColorBar::Tick> ticksOf(const ColorBar& bar) {
 }
 
 // What is asked for to the right of the split; nothing with a reason where it is not there.
-std::optional<ShownImage> sideOf(const ShownRequest& requested, const FrameResult& result,
-                                 const ReferenceState& reference, const ShownImage& main,
-                                 std::string& problem) {
+std::optional<ShownImage> sideOf(SidePicture side, const ShownRequest& requested,
+                                 const FrameResult& result, const ReferenceState& reference,
+                                 const ShownImage& main, std::string& problem) {
     const bool hasReference =
         reference.photons > 0 && reference.irradiance && hasSameView(reference, result.document);
     const ReferenceState::Judgement& judgement = reference.judgements[requested.seen()];
-    switch (requested.view.sidePicture) {
+    switch (side) {
         case SidePicture::none:
+        case SidePicture::difference:
             return {};
+        case SidePicture::kept: {
+            const auto index = static_cast<std::size_t>(requested.view.sideKept);
+            if (requested.kept == nullptr || index >= requested.kept->size()) return {};
+            const KeptVariant& kept = (*requested.kept)[index];
+            const auto texture = kept.texture(main.resource);
+            if (!texture) {
+                problem = notKeptWith(index, main.resource);
+                return {};
+            }
+            ShownImage image = ofKept(requested, kept, index, texture);
+            image.mapping = main.mapping;
+            return image;
+        }
         case SidePicture::other: {
             const VariantResult& b = result.variants[1];
             if (!b.viewed || b.viewed->values.values.empty()) return {};
@@ -186,7 +244,42 @@ std::optional<ShownImage> sideOf(const ShownRequest& requested, const FrameResul
     return {};
 }
 
+// What stands to the right of the split, where it can be compared.
+void addSide(Showing& showing, const ShownRequest& requested, const FrameResult& result,
+             const ReferenceState& reference) {
+    const ShownImage& main = *showing.main;
+    const bool isDifference = requested.view.sidePicture == SidePicture::difference;
+    const SidePicture wanted = !isDifference                  ? requested.view.sidePicture
+                               : requested.view.sideKept >= 0 ? SidePicture::kept
+                                                              : SidePicture::other;
+    std::optional<ShownImage> side =
+        sideOf(wanted, requested, result, reference, main, showing.sideProblem);
+    if (!side) return;
+    if (const std::string why = whyNotComparable(main, *side); !why.empty()) {
+        showing.sideProblem = "nothing stands next to it: " + why;
+        return;
+    }
+    if (!isDifference) {
+        showing.side = std::move(side);
+        return;
+    }
+    showing.subtrahend = std::move(side);
+    if (!requested.difference ||
+        !requested.difference->isOf(main.version, showing.subtrahend->version)) {
+        showing.sideProblem = "the difference next to it is being computed";
+    } else if (!requested.difference->signedMean) {
+        showing.sideProblem = "there is no difference: " + requested.difference->problem;
+    } else {
+        showing.side = ofDifference(requested, main, *showing.subtrahend);
+    }
+}
+
 }  // namespace
+
+const KeptVariant* ShownRequest::flipped() const {
+    const auto index = static_cast<std::size_t>(view.flipped);
+    return kept != nullptr && view.flipped >= 0 && index < kept->size() ? &(*kept)[index] : nullptr;
+}
 
 std::string noteOf(const ReferenceState& reference) {
     std::string note =
@@ -400,6 +493,22 @@ Showing showingOf(const ShownRequest& requested, const FrameResult& result,
                   const ReferenceState& reference) {
     Showing showing;
     const VariantResult& shown = result.variants[requested.seen()];
+    if (const KeptVariant* kept = requested.flipped()) {
+        const auto index = static_cast<std::size_t>(requested.view.flipped);
+        const auto texture = kept->texture(requested.view.resource);
+        if (!texture) {
+            showing.words = notKeptWith(index, requested.view.resource) + ".";
+            showing.words[0] = 'V';
+            return showing;
+        }
+        showing.main = ofKept(requested, *kept, index, texture);
+        // What is drawn over it is of the document at hand.
+        showing.main->takesOverlay = texture->content.space == TextureSpace::eye &&
+                                     kept->document.scene == requested.document.scene &&
+                                     kept->document.edits == requested.document.edits;
+        addSide(showing, requested, result, reference);
+        return showing;
+    }
     if (!shown.viewed) {
         const bool isToCome = result.problem.empty() && shown.error.empty();
         showing.words =
@@ -416,12 +525,7 @@ Showing showingOf(const ShownRequest& requested, const FrameResult& result,
     if (requested.document.other) main.source = requested.seen() == 0 ? "A" : "B";
     noteAge(main, requested, shown);
     main.takesOverlay = main.content.space == TextureSpace::eye && main.regions.empty();
-    showing.side = sideOf(requested, result, reference, main, showing.sideProblem);
-    if (!showing.side) return showing;
-    if (const std::string why = whyNotComparable(main, *showing.side); !why.empty()) {
-        showing.sideProblem = "nothing stands next to it: " + why;
-        showing.side.reset();
-    }
+    addSide(showing, requested, result, reference);
     return showing;
 }
 

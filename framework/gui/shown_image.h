@@ -20,6 +20,7 @@ namespace kaustik::gui {
 
 // The look of images of error, which are no texture of the graph.
 inline constexpr const char* kErrorResource = "error";
+inline constexpr const char* kDifferenceResource = "difference";
 
 // A scale with the colours of an image next to it.
 struct ColorBar {
@@ -48,14 +49,14 @@ struct ShownImage {
     std::string place;  // "the eye's view"
     // What is not as was asked for: "quick picture", "from before the last change"; else "".
     std::string age;
-    std::string note;  // of the reference: its photons and its own error
+    std::string note;                   // of the reference: its photons and its own error
     std::shared_ptr<const void> owner;  // of the values, where the image has to keep them
     const Image* values = nullptr;      // never null
     std::uint64_t version = 0;          // of the values: no others have it
     std::vector<ViewedTexture::Region> regions;
     Histogram histogram;  // of what is looked at
     Look look;
-    ToneMapping mapping;      // that follows of the look and the values
+    ToneMapping mapping;        // that follows of the look and the values
     bool takesOverlay = false;  // it is a picture by the eye: what is drawn over that fits
 
     [[nodiscard]] std::string name() const { return resource.empty() ? "picture" : resource; }
@@ -75,12 +76,13 @@ struct ShownImage {
     [[nodiscard]] bool contains(glm::ivec2 pixel) const;
 };
 
-// Both sides of the split.
+// Both sides of the split, and what a difference is to be taken of.
 struct Showing {
     std::optional<ShownImage> main;
-    std::optional<ShownImage> side;  // to the right of the split, where there is one
-    std::string words;               // in the place of an image
-    std::string sideProblem;         // why nothing is to the right of the split although asked for
+    std::optional<ShownImage> side;        // to the right of the split, where there is one
+    std::string words;                     // in the place of an image
+    std::optional<ShownImage> subtrahend;  // where a difference is asked for
+    std::string sideProblem;  // why nothing is to the right of the split although asked for
 };
 
 // `reference`: of the same document as the result, or nothing is shown of it.

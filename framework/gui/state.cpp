@@ -67,6 +67,11 @@ class Part {
     std::vector<std::string>& problems_;
 };
 
+// Kept variants are in memory, and gone with it.
+bool isKept(SidePicture side) {
+    return side == SidePicture::kept || side == SidePicture::difference;
+}
+
 json toJson(const std::map<std::string, Look>& looks) {
     json all = json::object();
     for (const auto& [name, look] : looks) {
@@ -112,13 +117,20 @@ json toJson(const SavedState& kept) {
              {{"resource", view.resource},
               {"layer", view.layer},
               {"looks", toJson(view.looks)},
-              {"beside", static_cast<int>(view.sidePicture)},
+              {"beside",
+               static_cast<int>(isKept(view.sidePicture) ? SidePicture::none : view.sidePicture)},
               {"split", view.split},
               {"shows_lights", view.showsLights}}},
             {"panels",
              {{"left", panels.leftWidth},
               {"right", panels.rightWidth},
               {"chart", panels.chartHeight},
+              {"left_open", panels.isLeftOpen},
+              {"right_open", panels.isRightOpen},
+              {"chart_open", panels.isChartOpen},
+              {"left_tabs", panels.leftTabs},
+              {"left_tab", panels.leftTab},
+              {"right_tab", panels.rightTab},
               {"all_parameters", panels.showsAllParameters},
               {"precise", panels.isPrecise},
               {"endless", panels.isEndless},
@@ -154,6 +166,12 @@ SavedState savedStateFromJson(const json& j, std::vector<std::string>& problems)
     kept.panels.leftWidth = panels.between("left", kept.panels.leftWidth, 150.0f, 1200.0f);
     kept.panels.rightWidth = panels.between("right", kept.panels.rightWidth, 150.0f, 1200.0f);
     kept.panels.chartHeight = panels.between("chart", kept.panels.chartHeight, 40.0f, 800.0f);
+    panels.take("left_open", kept.panels.isLeftOpen);
+    panels.take("right_open", kept.panels.isRightOpen);
+    panels.take("chart_open", kept.panels.isChartOpen);
+    panels.take("left_tabs", kept.panels.leftTabs);
+    panels.take("left_tab", kept.panels.leftTab);
+    panels.take("right_tab", kept.panels.rightTab);
     panels.take("all_parameters", kept.panels.showsAllParameters);
     panels.take("precise", kept.panels.isPrecise);
     panels.take("endless", kept.panels.isEndless);

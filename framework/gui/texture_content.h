@@ -32,7 +32,7 @@ struct TextureContent {
     ValueKind kind = ValueKind::single;
     TextureSpace space = TextureSpace::other;
     std::vector<ChannelContent> channels;  // of the values as they are shown
-    bool isKnown = true;  // else all of it is guessed by the format
+    bool isKnown = true;                   // else all of it is guessed by the format
     // Of its first channel, which all of a colour or a vector have.
     [[nodiscard]] const std::string& unit() const;
 };

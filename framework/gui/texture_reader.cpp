@@ -60,8 +60,9 @@ int lightOfName(const std::string& name) {
 std::string nameOfSet(const FluxSets& sets, int set) {
     const int flux = sets.flux();
     const std::string which =
-        sets.layout == SetLayout::sizes    ? fmt::format("splats of size {}", set % flux + 1)
-        : sets.layout == SetLayout::levels ? (set % flux == 0 ? "the finest level" : "coarser levels")
+        sets.layout == SetLayout::sizes ? fmt::format("splats of size {}", set % flux + 1)
+        : sets.layout == SetLayout::levels
+            ? (set % flux == 0 ? "the finest level" : "coarser levels")
         : sets.layout == SetLayout::sharedLevels
             ? (set % flux == 0 ? "light of the finest level" : "light of coarser levels")
             : "all light";
@@ -72,8 +73,8 @@ std::string nameOfSet(const FluxSets& sets, int set) {
 // How the layers of an array are shared out.
 struct Layering {
     int faces = 1;
-    int words = 1;   // of a sum
-    int shown = 1;   // layers that can be chosen
+    int words = 1;  // of a sum
+    int shown = 1;  // layers that can be chosen
     [[nodiscard]] int stored(int face, int layer, int word) const {
         return (face * shown + layer) * words + word;
     }
@@ -97,14 +98,14 @@ std::vector<std::string> namesOfLayers(const Renderer& renderer, const std::stri
     const std::vector<std::string> lights = lightNames(renderer.scene());
     std::vector<std::string> names;
     if (layering.shown < 2) return names;
-    const bool isByLight = name == "shadow.visibility" ||
-                           (name == "shadow.maps" &&
-                            layering.shown == static_cast<int>(lights.size()));
+    const bool isByLight =
+        name == "shadow.visibility" ||
+        (name == "shadow.maps" && layering.shown == static_cast<int>(lights.size()));
     for (int layer = 0; layer < layering.shown; ++layer) {
         if (map != nullptr && name.find("filtered") == std::string::npos) {
             names.push_back(nameOfSet(map->sets, layer));
         } else if (map != nullptr) {
-            names.push_back(layer == 0                  ? "flux"
+            names.push_back(layer == 0                 ? "flux"
                             : map->sets.hasIntensity() ? "intensity to the eye, W/sr"
                                                        : "directions");
         } else if (isByLight) {
@@ -123,8 +124,9 @@ std::string placeOf(const Renderer& renderer, const std::string& name, const Flu
     const std::vector<std::string> lights = lightNames(renderer.scene());
     if (content.space == TextureSpace::light && name != "shadow.maps") {
         const int light = map != nullptr && map->light >= 0 ? map->light : lightOfName(name);
-        const std::string part =
-            map != nullptr && map->cascade > 0 ? fmt::format(", nearer map {}", map->cascade + 1) : "";
+        const std::string part = map != nullptr && map->cascade > 0
+                                     ? fmt::format(", nearer map {}", map->cascade + 1)
+                                     : "";
         return fmt::format("the view of {}{}", nameOfLight(lights, light), part);
     }
     if (content.space == TextureSpace::cube && map != nullptr && map->generator >= 0)

@@ -118,6 +118,7 @@ void VariantRenderer::readBack(const Viewing& viewing) {
     result_.violations.clear();
 
     result_.viewed = view(viewing);
+    result_.outputTextures.clear();
     result_.outputs.reset();
 #ifdef KAUSTIK_HAS_EMBREE
     if (viewing.readsOutputs && outputs.eye.receiver.valid())
@@ -147,6 +148,13 @@ bool VariantRenderer::measure(const ShouldContinue& shouldContinue) {
         result_.ledger = record.ledger;
         result_.limits = report::reachedLimits(record, session_->renderer());
         result_.violations = record.violations;
+        const FrameOutputs& outputs = session_->renderer().outputs();
+        result_.outputTextures.clear();
+        for (const std::string& name :
+             {std::string(), session_->renderer().graph().nameOf(outputs.caustic.irradiance)}) {
+            result_.outputTextures.push_back(
+                std::make_shared<const ViewedTexture>(view({name, 0, false})));
+        }
         // What the build has said is there; what has been measured comes after it.
         result_.warnings = session_->renderer().warnings();
         result_.warnings.insert(result_.warnings.end(), record.warnings.begin(),

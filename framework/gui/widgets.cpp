@@ -11,6 +11,8 @@
 #include <limits>
 #include <utility>
 
+#include "framework/core/files.h"
+#include "framework/gui/recording_name.h"
 #include "framework/gui/typed_value.h"
 #include "framework/report/statistics.h"
 
@@ -177,6 +179,32 @@ void splitter(const char* name, bool isVertical, float length, float& size, floa
         size += sign * (isVertical ? way.x : way.y) / bench.scale;
     }
     bench.map.control(fmt::format("splitter.{}", name + 2));
+}
+
+void drawTableButtons(Bench& bench, const std::string& name, const Table& table) {
+    ImGui::PushID(name.c_str());
+    if (ImGui::SmallButton("copy")) {
+        ImGui::SetClipboardText(toText(table).c_str());
+        bench.notify(fmt::format("Copied {} rows.", table.rows.size()));
+    }
+    bench.map.control("table.copy." + name);
+    tooltip("The table as text, into the clipboard.");
+    ImGui::SameLine();
+    if (ImGui::SmallButton("CSV")) {
+        const std::filesystem::path file =
+            std::filesystem::path(bench.panels.recordFolder) /
+            fmt::format("{}-{}.csv", recordingName(bench.document.scene), name);
+        try {
+            std::filesystem::create_directories(file.parent_path());
+            writeFileWhole(file, toCsv(table));
+            bench.notify(fmt::format("Wrote {}.", file.string()));
+        } catch (const std::exception& error) {
+            bench.notify(error.what(), true);
+        }
+    }
+    bench.map.control("table.csv." + name);
+    tooltip("The table as a file in the folder of the panel Record.");
+    ImGui::PopID();
 }
 
 void tooltip(const std::string& text) {

@@ -3,6 +3,7 @@
 // for flying, which goes by place; while something is typed only function keys are any.
 #define GLFW_INCLUDE_NONE  // OpenGL comes from epoxy
 #include <GLFW/glfw3.h>
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -12,6 +13,17 @@
 #include "framework/gui/workbench.h"
 
 namespace kaustik::gui {
+namespace {
+
+// All of them, or, where none is there, the one to the right.
+void hidePanels(PanelState& panels) {
+    const bool isAny = panels.isLeftOpen || panels.isRightOpen || panels.isChartOpen;
+    panels.isLeftOpen = false;
+    panels.isChartOpen = false;
+    panels.isRightOpen = !isAny;
+}
+
+}  // namespace
 
 void Workbench::useKeys() {
     const ImGuiIO& io = ImGui::GetIO();
@@ -43,6 +55,10 @@ void Workbench::useKey(const Window::KeyPress& press) {
     if (press.key == GLFW_KEY_F1) bench_.showsHelp = !bench_.showsHelp;
     if (press.key == GLFW_KEY_F5) ++bench_.sceneReloads;
     if (press.key == GLFW_KEY_F12) bench_.wantsScreenshot = true;
+    PanelState& panels = bench_.panels;
+    if (press.key == GLFW_KEY_F2) panels.isLeftOpen = !panels.isLeftOpen;
+    if (press.key == GLFW_KEY_F3) panels.isRightOpen = !panels.isRightOpen;
+    if (press.key == GLFW_KEY_F4) panels.isChartOpen = !panels.isChartOpen;
     if (ImGui::GetIO().WantTextInput || (press.modifiers & (GLFW_MOD_ALT | GLFW_MOD_SUPER)) != 0)
         return;
     if ((press.modifiers & GLFW_MOD_CONTROL) != 0) {
@@ -59,6 +75,8 @@ void Workbench::useKey(const Window::KeyPress& press) {
     if (press.key == GLFW_KEY_F) {
         if (Look* look = bench_.shownLook()) look->isFalseColor = !look->isFalseColor;
     }
+    if (press.key == GLFW_KEY_K) keepVariant(bench_);
+    if (press.key == GLFW_KEY_H) hidePanels(panels);
     if (press.key == GLFW_KEY_P) bench_.view.probes = !bench_.view.probes;
 }
 
@@ -70,6 +88,24 @@ void Workbench::useSign(unsigned character) {
             bench_.document.edits.timeSeconds =
                 bench_.timeSeconds() + double(bench_.panels.sequenceStep);
             break;
+        case '1':
+        case '2':
+        case '3':
+        case '4':
+        case '5':
+        case '6':
+        case '7':
+        case '8':
+        case '9': {
+            const int index = static_cast<int>(character - '1');
+            if (index >= static_cast<int>(bench_.kept.size())) {
+                bench_.notify(
+                    fmt::format("There is no kept variant {}; K keeps what is shown.", index + 1));
+            } else {
+                bench_.view.flipped = bench_.view.flipped == index ? -1 : index;
+            }
+            break;
+        }
         case '0':
             bench_.view.zoom = 0.0f;
             break;

@@ -188,6 +188,7 @@ void drawLedger(Bench& bench) {
     using namespace transport;
     const EnergyLedger& ledger = *result.ledger;
     const double emitted = ledger.watts[kAccountEmitted];
+    drawTableButtons(bench, "energy", ledgerTable(ledger));
     if (ImGui::BeginTable("ledger", 3, ImGuiTableFlags_RowBg)) {
         ImGui::TableSetupColumn("energy", ImGuiTableColumnFlags_WidthStretch, 2.0f);
         ImGui::TableSetupColumn("W", ImGuiTableColumnFlags_WidthStretch, 1.0f);
@@ -235,6 +236,7 @@ void drawError(Bench& bench) {
             ImGui::TextDisabled("Measuring the frame …");
         } else {
             drawJudgedFrame(bench);
+            drawTableButtons(bench, "errors", errorTable(reference, bench.document.other ? 2 : 1));
             drawTable(bench, "by all paths", &ReferenceState::Judgement::whole);
             drawTable(bench, "by modelled paths", &ReferenceState::Judgement::modelled);
             bool isShown = bench.view.sidePicture == SidePicture::error;

@@ -13,10 +13,50 @@
 namespace kaustik::gui {
 namespace {
 
-const std::vector<std::string>& sidePictureNames() {
-    static const std::vector<std::string> names = {"nothing", "variant B", "the reference",
-                                                   "its error by the reference"};
-    return names;
+// What may stand to the right of the split.
+struct SideChoice {
+    SidePicture side = SidePicture::none;
+    int kept = -1;
+    std::string name;
+};
+
+std::vector<SideChoice> sideChoices(const Bench& bench) {
+    std::vector<SideChoice> choices = {{SidePicture::none, -1, "nothing"},
+                                       {SidePicture::other, -1, "variant B"},
+                                       {SidePicture::reference, -1, "the reference"},
+                                       {SidePicture::error, -1, "its error by the reference"}};
+    if (bench.document.other) choices.push_back({SidePicture::difference, -1, "A minus B"});
+    for (int i = 0; i < static_cast<int>(bench.kept.size()); ++i) {
+        choices.push_back({SidePicture::kept, i, fmt::format("kept {}", i + 1)});
+        choices.push_back({SidePicture::difference, i, fmt::format("it minus kept {}", i + 1)});
+    }
+    return choices;
+}
+
+void drawChoiceOfSide(Bench& bench) {
+    const std::vector<SideChoice> choices = sideChoices(bench);
+    std::vector<std::string> names;
+    int index = 0;
+    for (const SideChoice& choice : choices) {
+        const bool isKept =
+            choice.side == SidePicture::kept || choice.side == SidePicture::difference;
+        if (choice.side == bench.view.sidePicture &&
+            (!isKept || choice.kept == bench.view.sideKept)) {
+            index = static_cast<int>(names.size());
+        }
+        names.push_back(choice.name);
+    }
+    if (choose(bench, "beside it", names, index, "image.beside")) {
+        bench.view.sidePicture = choices[static_cast<std::size_t>(index)].side;
+        bench.view.sideKept = choices[static_cast<std::size_t>(index)].kept;
+    }
+    tooltip(
+        "What is seen to the right of the split, which can be dragged. The reference is of the "
+        "caustic irradiance, and stands next to that. Unlike images do not share a split.");
+    if (button(bench, "Save it as EXR and PNG", "image.save")) bench.wantsShownSaved = true;
+    tooltip(
+        "Its values, and its colours as they are seen, with what it is in the files' metadata, "
+        "into the folder of the panel Record.");
 }
 
 void drawChoiceOfTexture(Bench& bench) {
@@ -198,12 +238,7 @@ void drawImage(Bench& bench) {
     drawChoiceOfTexture(bench);
     const Showing showing = showingOf(bench.requested(), *bench.result, *bench.reference);
     if (showing.main) drawLook(bench, *showing.main);
-    int sidePicture = static_cast<int>(bench.view.sidePicture);
-    if (choose(bench, "beside it", sidePictureNames(), sidePicture, "image.beside"))
-        bench.view.sidePicture = static_cast<SidePicture>(sidePicture);
-    tooltip(
-        "What is seen to the right of the split, which can be dragged. The reference is of the "
-        "caustic irradiance, and stands next to that. Unlike images do not share a split.");
+    drawChoiceOfSide(bench);
     ImGui::Separator();
     if (viewed != nullptr && viewed->missing != ViewedTexture::Missing::layer)
         drawValues(bench, *viewed);

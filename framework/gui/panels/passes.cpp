@@ -180,6 +180,7 @@ void drawPasses(Bench& bench) {
         bench.map.control("passes.error", result.error);
     }
     drawSwitchedOff(bench, result);
+    drawTableButtons(bench, "passes", passTable(result));
     constexpr ImGuiTableFlags kFlags =
         ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit;
     if (!ImGui::BeginTable("passes", 7, kFlags)) return;
