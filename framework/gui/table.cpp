@@ -59,7 +59,9 @@ std::string toText(const Table& table) {
         std::string line;
         for (std::size_t i = 0; i < row.size(); ++i)
             line += row[i] + std::string(widths[i] - lengthOf(row[i]) + 2, ' ');
-        text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+        while (!line.empty() && line.back() == ' ')
+            line.pop_back();
+        text += line + "\n";
     };
     write(table.columns);
     for (const auto& row : table.rows)
@@ -70,8 +72,10 @@ std::string toText(const Table& table) {
 std::string toCsv(const Table& table) {
     std::string text;
     const auto write = [&](const std::vector<std::string>& row) {
-        for (std::size_t i = 0; i < row.size(); ++i)
-            text += (i == 0 ? "" : ",") + quoted(row[i]);
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            if (i > 0) text += ',';
+            text += quoted(row[i]);
+        }
         text += "\r\n";
     };
     write(table.columns);

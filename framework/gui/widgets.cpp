@@ -38,10 +38,18 @@ ParameterChange changeBy(const TypedValue& typed) {
     return {!typed.text.empty(), typed.text, typed.problem};
 }
 
+thread_local Typing typing;
+
+// After its slider: Return on one that the keyboard is on begins to type, as Ctrl and a click do.
+void typeOnReturn(const params::NamedField& named, const std::string& id) {
+    if (!ImGui::IsItemFocused() || ImGui::IsItemActive()) return;
+    if (!ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false)) return;
+    typing = {ImGui::GetID(id.c_str()), ImGui::GetFrameCount(), true, named.field.text()};
+}
+
 // In a slider's place while its number is typed: the slider's own field leaves out what it does not
 // know, and reads 0,05 as 5. Whether it is there; Ctrl and a click on the slider begin it.
 bool typeNumber(const params::NamedField& named, const std::string& id, ParameterChange& change) {
-    static thread_local Typing typing;
     const ImGuiID field = ImGui::GetID(id.c_str());
     // One that was not drawn for a frame has lost what was typed.
     if (typing.field == field && ImGui::GetFrameCount() > typing.frame + 1) typing.field = 0;
@@ -93,6 +101,7 @@ ParameterChange drawParameter(Bench& bench, const params::NamedField& named,
                                             static_cast<int>(field.maximum), "%d", flags)) {
                            change = {true, fmt::format("{}", value), ""};
                        }
+                       typeOnReturn(named, id);
                    },
                    [&](const float* v) {
                        if (typeNumber(named, id, change)) return;
@@ -101,6 +110,7 @@ ParameterChange drawParameter(Bench& bench, const params::NamedField& named,
                                               static_cast<float>(field.maximum), "%.5g", flags)) {
                            change = {true, fmt::format("{}", value), ""};
                        }
+                       typeOnReturn(named, id);
                    },
                    [&](const params::Extent* v) {
                        params::Extent value = *v;
@@ -121,7 +131,7 @@ ParameterChange drawParameter(Bench& bench, const params::NamedField& named,
     if (!field.rangeText().empty()) explanation += fmt::format("\nRange: {}", field.rangeText());
     explanation += fmt::format("\nDefault: {}", named.defaultText);
     if (std::holds_alternative<float*>(field.target) || std::holds_alternative<int*>(field.target))
-        explanation += "\nCtrl and click to type a value.";
+        explanation += "\nCtrl and click, or Return, to type a value.";
     tooltip(explanation);
     return change;
 }

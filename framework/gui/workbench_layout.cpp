@@ -116,7 +116,7 @@ void Workbench::drawToolbar() {
     }
     toggle(bench_, "◧", bench_.panels.isLeftOpen, "toolbar.left", "F2");
     toggle(bench_, "◨", bench_.panels.isRightOpen, "toolbar.right", "F3");
-    toggle(bench_, "▁", bench_.panels.isChartOpen, "toolbar.chart", "F4");
+    toggle(bench_, "▭", bench_.panels.isChartOpen, "toolbar.chart", "F4");
     ImGui::SameLine(0.0f, 3.0f * bench_.scale);
     if (button(bench_, "F1", "toolbar.keys")) bench_.showsHelp = !bench_.showsHelp;
     tooltip("All keys");

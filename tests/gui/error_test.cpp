@@ -242,22 +242,36 @@ TEST_F(ErrorPanel, OnEachSideOfASplitWordsAndNumbersAreThoseOfThePixels) {
     bench->keepScreenshot("error-right-of-the-split");
 }
 
-TEST_F(ErrorPanel, TheHeatMapAndTheReferenceAreSeenBesideThePicture) {
+TEST_F(ErrorPanel, TheErrorAndTheReferenceAreSeenNextToThePicture) {
     start();
     computeReference();
-    const Image before = seenPicture();
+    renderSmall({"--save", "caustic.irradiance", "--reference", "auto", "--reference-photons",
+                 "1000000", "--out", "saved"});
+    const Image ours = readImage(folder / "saved" / ("caustic.irradiance" + floatImageExtension()));
+    const Image truth = readImage(folder / "saved" / ("reference" + floatImageExtension()));
+    bench->hover("picture.image", pixel(24, 30));
+    const std::string before = bench->value("picture.value");
     bench->click("error.heat_map");
     untilSettled();
     ASSERT_TRUE(bench->has("picture.split"));
-    const Image sidePicture = seenPicture();
     bench->keepScreenshot("error-heat-map");
-    const int middle = before.width / 2;
-    EXPECT_EQ(
-        largestDifference(columns(sidePicture, 0, middle - 4), columns(before, 0, middle - 4)),
-        0.0);
-    EXPECT_GT(largestDifference(columns(sidePicture, middle + 4, before.width),
-                                columns(before, middle + 4, before.width)),
-              0.2);
+    bench->hover("picture.image", pixel(24, 30));
+    EXPECT_EQ(bench->value("picture.value"), before);
+    EXPECT_TRUE(bench->value("picture.caption.side").starts_with("error: "));
+    EXPECT_TRUE(bench->has("picture.bar.side"));
+    // A value with its sign, and no colour.
+    bench->hover("picture.image", pixel(38, 27));
+    const std::string text = bench->value("picture.value");
+    double error = 0.0;
+    for (int c = 0; c < 3; ++c) {
+        error +=
+            (static_cast<double>(ours.at(38, 27, c)) - static_cast<double>(truth.at(38, 27, c))) /
+            3.0;
+    }
+    ASSERT_NE(text.find("error "), std::string::npos) << text;
+    EXPECT_NEAR(std::stod(text.substr(text.find("error ") + 6)), error,
+                1e-4 * std::abs(error) + 1e-3);
+    EXPECT_TRUE(text.ends_with("W/m²"));
     bench->click("error.heat_map");
     EXPECT_FALSE(bench->has("picture.split"));
 

@@ -111,8 +111,61 @@ TEST_F(ImagePanel, ATextureThatIsNoLongerThereIsSaidToBeGone) {
     EXPECT_TRUE(says("shown.sentence", "no texture 'shadow.maps'"));
     bench->click("shown.remedy");
     untilSettled();
-    EXPECT_EQ(bench->value("shown"), "asked");
+    EXPECT_TRUE(says("shown.sentence", "What is shown is what was asked for"));
     EXPECT_EQ(bench->value("picture.caption"), "picture · the eye's view");
+}
+
+// What is not seen by the eye has nothing drawn over it, and no hand on it moves the eye.
+TEST_F(ImagePanel, AMapIsNoViewOfTheEye) {
+    json kept = showing("shadow.maps");
+    kept["view"]["shows_lights"] = true;
+    start(kept);
+    EXPECT_TRUE(says("picture.caption", "depth, m · a light's view"));
+    EXPECT_FALSE(bench->has("light.sun"));
+    const json before = document();
+    bench->drag("picture", 40, 10);
+    bench->hover("picture");
+    bench->key("w");
+    EXPECT_EQ(document(), before);
+    bench->key("0");
+    bench->key("p");
+    bench->click("picture.image");
+    EXPECT_TRUE(says("status.message", "eye's view")) << bench->value("status.message");
+    EXPECT_TRUE(says("status.message", "a light's view"));
+}
+
+// Stored light is light, and no words of fixed point: all of it is what the ledger has deposited.
+TEST_F(ImagePanel, StoredLightIsShownInWatts) {
+    start(showing("caustic.flux"));
+    open("Image");
+    EXPECT_FALSE(bench->has("image.layer")) << "words are no layers";
+    EXPECT_TRUE(says("picture.caption", "flux that has arrived, W · the eye's view"));
+    bench->click("image.save");
+    bench->waitFor("the file", [](const json& screen) {
+        return screen.at("status").at("message").get<std::string>().starts_with("Wrote ");
+    });
+    double sum = 0.0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "out")) {
+        if (entry.path().extension() != floatImageExtension()) continue;
+        const Image flux = readImage(entry.path());
+        for (const float value : flux.values)
+            sum += static_cast<double>(value) / 3.0;
+        // The file says what it is.
+        const std::string bytes = readFile(entry.path());
+        EXPECT_NE(bytes.find("flux that has arrived, W"), std::string::npos);
+        EXPECT_NE(bytes.find("emit.photons=32x32"), std::string::npos);
+    }
+    open("Error");
+    bench->click("table.csv.energy");
+    std::string csv;
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "out")) {
+        if (entry.path().extension() == ".csv") csv = readFile(entry.path());
+    }
+    const std::size_t at = csv.find("deposited,");
+    ASSERT_NE(at, std::string::npos) << csv;
+    const double deposited = std::stod(csv.substr(at + 10));
+    EXPECT_GT(deposited, 0.0);
+    EXPECT_NEAR(sum, deposited, 1e-5 * deposited);
 }
 
 TEST_F(ImagePanel, ATextureThatNothingNeedsIsMadeToBeSeen) {
