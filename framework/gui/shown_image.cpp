@@ -349,9 +349,14 @@ ToneMapping mappingOf(const Look& look, const TextureContent& content, const His
 
 std::string ShownImage::caption() const {
     std::string text = source.empty() ? "" : source + ": ";
-    text += name();
-    if (!layerName.empty()) text += " · " + layerName;
-    if (!mapping.isEncoded) text += " · " + channelLabel(content, look.channel);
+    if (resource == kErrorResource || resource == kDifferenceResource) {
+        // No texture of the graph: what it is says all.
+        text += fmt::format("{}, {}", content.quantity, content.unit());
+    } else {
+        text += name();
+        if (!layerName.empty()) text += " · " + layerName;
+        if (!mapping.isEncoded) text += " · " + channelLabel(content, look.channel);
+    }
     text += " · " + place;
     if (!note.empty()) text += " · " + note;
     if (!age.empty()) text += " · " + age;

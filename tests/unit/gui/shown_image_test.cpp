@@ -118,6 +118,9 @@ TEST_F(ShownImageTest, AnErrorHasASignAndIsNoColourTwice) {
     ASSERT_TRUE(both.side);
     EXPECT_EQ(both.side->valuesAt({1, 0}), "(1, 0)  error -45.27 W/m²");
     EXPECT_EQ(both.side->valuesAt({0, 0}), "(0, 0)  left out");
+    EXPECT_TRUE(both.side->caption().starts_with(
+        "error: caustic irradiance minus that of the reference, mean of the channels, W/m²"))
+        << both.side->caption();
     EXPECT_TRUE(both.side->mapping.isFalseColor);
     EXPECT_EQ(both.side->colorBar()->scale, Scale::symmetric);
     EXPECT_EQ(both.side->age, "");
