@@ -12,6 +12,7 @@
 #include "framework/gui/canvas.h"
 #include "framework/gui/document.h"
 #include "framework/gui/frame_result.h"
+#include "framework/gui/kept_variant.h"
 #include "framework/gui/reference_worker.h"
 #include "framework/gui/render_worker.h"
 #include "framework/gui/screen_map.h"
@@ -46,6 +47,15 @@ struct Bench {
     std::uint64_t pictureOrder = 0;
     std::optional<Document> whole{};
 
+    // The newest difference that was asked for (Workbench::pollDifference), null before.
+    std::vector<KeptVariant> kept{};
+    std::shared_ptr<const ImageDifference> difference{};
+    std::uint64_t keptCount = 0;
+    // RMSE and FLIP of all pairs of caustic irradiances, once they are asked for.
+    std::shared_ptr<const Table> pairs{};
+    bool wantsPairs = false;
+    bool wantsShownSaved = false;
+
     // One line for the status bar.
     std::string message{};
     bool isMessageBad = false;
@@ -54,6 +64,8 @@ struct Bench {
     // A value is being dragged; the camera, a light or the time by hand.
     bool isDragging = false;
     bool isTurning = false;
+    // How long keys for flying were held in this frame, s: to the right, up, forward.
+    glm::dvec3 flight{0.0};
     int sceneReloads = 0;
     bool wantsScreenshot = false;
     bool wantsExperiment = false;  // once the document is known to run
@@ -75,7 +87,12 @@ struct Bench {
         return result->variants[editedIndex()];
     }
     [[nodiscard]] ShownRequest requested() const {
-        return {document, pictureOrder, view, editedIndex()};
+        return {document, pictureOrder, view, editedIndex(), &kept, difference};
+    }
+    // Of the image left of the split; null before there is one.
+    [[nodiscard]] Look* shownLook() {
+        const auto& viewed = result->variants[requested().seen()].viewed;
+        return viewed ? &view.looks[viewed->name] : nullptr;
     }
     // The camera as the document has it, which may be newer than what was rendered; so is the time.
     [[nodiscard]] scene::Camera camera() const {

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <vector>
 
-#include "framework/measure/heat_map.h"
-
 namespace kaustik::gui {
 namespace {
 
@@ -27,15 +25,17 @@ gl::Object<gl::detail::deleteTexture> makeTexture(GLenum format, int width, int 
 }  // namespace
 
 Canvas::Canvas()
-    : palette_(makeTexture(GL_RGBA8, kPaletteSize, 1)),
+    : palette_(makeTexture(GL_RGBA8, kPaletteSize, 2)),
       vertexArray_(gl::makeVertexArray()),
       program_({{"framework/fullscreen.vert", "gui/tone.frag"}, ""}) {
     std::vector<float> colors;
-    for (int i = 0; i < kPaletteSize; ++i) {
-        for (const float c : measure::heatColor(double(i) / (kPaletteSize - 1)))
-            colors.push_back(c);
+    for (const Scale scale : {Scale::linear, Scale::symmetric}) {
+        for (int i = 0; i < kPaletteSize; ++i) {
+            for (const float c : falseColor(scale, double(i) / (kPaletteSize - 1)))
+                colors.push_back(c);
+        }
     }
-    glTextureSubImage2D(palette_.id(), 0, 0, 0, kPaletteSize, 1, GL_RGB, GL_FLOAT, colors.data());
+    glTextureSubImage2D(palette_.id(), 0, 0, 0, kPaletteSize, 2, GL_RGB, GL_FLOAT, colors.data());
 }
 
 void Canvas::show(std::size_t slotIndex, const Image& image, std::uint64_t version,
@@ -55,6 +55,16 @@ void Canvas::show(std::size_t slotIndex, const Image& image, std::uint64_t versi
 
 void* Canvas::texture(std::size_t slot) const {
     return reinterpret_cast<void*>(static_cast<std::uintptr_t>(slots_[slot].mapped.id()));
+}
+
+Image Canvas::read(std::size_t slotIndex) const {
+    const Slot& slot = slots_[slotIndex];
+    Image image(slot.width, slot.height, 3);
+    glPixelStorei(GL_PACK_ALIGNMENT, 4);
+    glGetTextureImage(slot.mapped.id(), 0, GL_RGB, GL_FLOAT,
+                      static_cast<GLsizei>(image.values.size() * sizeof(float)),
+                      image.values.data());
+    return image;
 }
 
 void Canvas::upload(Slot& slot, const Image& image) {
@@ -89,6 +99,13 @@ void Canvas::map(Slot& slot) {
     glUniform1i(program_.uniform("palette"), 1);
     glUniform1i(program_.uniform("channels"), slot.channels);
     glUniform1i(program_.uniform("channel"), static_cast<int>(mapping.channel));
+    // Sums are put together by the time that they are shown.
+    const int kind = mapping.kind == ValueKind::vector   ? 1
+                     : mapping.kind == ValueKind::single ? 2
+                                                         : 0;
+    glUniform1i(program_.uniform("kind"), kind);
+    glUniform1i(program_.uniform("scale"), static_cast<int>(mapping.scale));
+    glUniform1i(program_.uniform("leavesOut"), mapping.leavesOut ? 1 : 0);
     glUniform1i(program_.uniform("isEncoded"), mapping.isEncoded ? 1 : 0);
     glUniform1i(program_.uniform("isFalseColor"), mapping.isFalseColor ? 1 : 0);
     glUniform1f(program_.uniform("gain"), std::exp2(mapping.exposureStops));

@@ -8,18 +8,21 @@
 
 #include "framework/gl/objects.h"
 #include "framework/gl/program.h"
+#include "framework/gui/look.h"
+#include "framework/gui/texture_content.h"
 #include "framework/image/image.h"
 
 namespace kaustik::gui {
 
-enum class Channel : int { color, red, green, blue, alpha, luminance };
-
 // How values become colours.
 struct ToneMapping {
     bool isEncoded = false;  // display-encoded already: shown as it is, but for the channel
+    bool leavesOut = false;  // values that are NaN are none, and not flagged
+    ValueKind kind = ValueKind::color;
     Channel channel = Channel::color;
     float exposureStops = 0.0f;  // linear values are multiplied by 2^exposure, then encoded
-    bool isFalseColor = false;   // of the channel, or the luminance, from low to high
+    bool isFalseColor = false;   // of the channel, the luminance or the length, from low to high
+    Scale scale = Scale::linear;
     float low = 0.0f;
     float high = 1.0f;
     friend bool operator==(const ToneMapping&, const ToneMapping&) = default;
@@ -34,6 +37,8 @@ class Canvas {
               const ToneMapping& mapping);
     // The mapped texture, top row first, as ImGui takes it.
     [[nodiscard]] void* texture(std::size_t slot) const;
+    // The same read back: RGB, display-encoded; waits for the device.
+    [[nodiscard]] Image read(std::size_t slot) const;
     static constexpr std::size_t kSlots = 2;
 
   private:

@@ -15,6 +15,7 @@
 #include "framework/gui/document.h"
 #include "framework/gui/histogram.h"
 #include "framework/gui/photon_probe.h"
+#include "framework/gui/texture_content.h"
 #include "framework/image/image.h"
 #include "framework/measure/finite.h"
 #include "framework/report/limits.h"
@@ -32,13 +33,25 @@ struct ListedTexture {
     graph::TextureDesc desc;
 };
 
-// One layer of a texture, read back.
+// One layer of a texture, read back: sums put together, the faces of a cube unfolded.
 struct ViewedTexture {
     std::string name;           // of the resource; "" where it is the picture
     std::uint64_t version = 0;  // no other texture has it
     bool isEncoded = false;     // display-encoded, not linear
+    TextureContent content;
+    std::string place;  // that it is of: "the view of light 'sun'"
     int layer = 0;
-    Image values;  // all channels, top row first
+    std::vector<std::string> layerNames;  // of all layers; empty where there is one
+    Image values;                         // as many channels as the content, top row first
+    // A part of the image that is a view of its own, pixels; what is in none is no value.
+    struct Region {
+        std::string name;
+        int x = 0;
+        int y = 0;
+        int width = 0;
+        int height = 0;
+    };
+    std::vector<Region> regions;  // empty: all of it is one
     // What was asked for and is not there; the picture is shown in the place of another texture,
     // and nothing in the place of a layer.
     enum class Missing { none, texture, layer };
@@ -48,7 +61,8 @@ struct ViewedTexture {
     // the picture is made of.
     std::string checked;
     std::optional<measure::NotFinite> notFinite;
-    Histogram histogram;
+    Histogram histogram;                       // of all channels of colour, or of a vector
+    std::vector<Histogram> channelHistograms;  // of channels that are looked at by themselves
 };
 
 // What was rendered of one of the two variants.
@@ -66,6 +80,8 @@ struct VariantResult {
     std::vector<double> frameMs;
     std::vector<ListedTexture> textures;
     std::optional<ViewedTexture> viewed;
+    // Picture and caustic irradiance of a settled frame, whatever is viewed.
+    std::vector<std::shared_ptr<const ViewedTexture>> outputTextures;
     std::vector<std::string> warnings;
     std::size_t peakBytes = 0;
     // What a further frame has measured, which is rendered once the order is settled.

@@ -7,17 +7,23 @@
 
 namespace kaustik::gui {
 
-Histogram histogramOf(const Image& image) {
-    Histogram histogram;
+namespace {
+
+// Of `count` channels from the first on.
+std::vector<float> finiteValues(const Image& image, std::size_t first, std::size_t count) {
     const auto channels = static_cast<std::size_t>(std::max(image.channels, 1));
-    const std::size_t colours = std::min<std::size_t>(channels, 3);
     std::vector<float> values;
-    values.reserve(image.values.size() / channels * colours);
+    values.reserve(image.values.size() / channels * count);
     for (std::size_t i = 0; i + channels <= image.values.size(); i += channels) {
-        for (std::size_t c = 0; c < colours; ++c) {
+        for (std::size_t c = first; c < first + count; ++c) {
             if (std::isfinite(image.values[i + c])) values.push_back(image.values[i + c]);
         }
     }
+    return values;
+}
+
+Histogram histogramOf(std::vector<float> values) {
+    Histogram histogram;
     if (values.empty()) return histogram;
     const auto [low, high] = std::minmax_element(values.begin(), values.end());
     histogram.low = *low;
@@ -38,6 +44,17 @@ Histogram histogramOf(const Image& image) {
         ++histogram.counts[static_cast<std::size_t>(place)];
     }
     return histogram;
+}
+
+}  // namespace
+
+Histogram histogramOf(const Image& image) {
+    const auto channels = static_cast<std::size_t>(std::max(image.channels, 1));
+    return histogramOf(finiteValues(image, 0, std::min<std::size_t>(channels, 3)));
+}
+
+Histogram histogramOf(const Image& image, int channel) {
+    return histogramOf(finiteValues(image, static_cast<std::size_t>(channel), 1));
 }
 
 }  // namespace kaustik::gui

@@ -23,5 +23,7 @@ struct Histogram {
 
 // Counts the values of the first three channels; a fourth is alpha or a flag.
 [[nodiscard]] Histogram histogramOf(const Image& image);
+// Of one channel, from 0.
+[[nodiscard]] Histogram histogramOf(const Image& image, int channel);
 
 }  // namespace kaustik::gui

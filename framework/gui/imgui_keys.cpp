@@ -9,13 +9,7 @@
 namespace kaustik::gui {
 namespace {
 
-#if IMGUI_VERSION_NUM < 18700
-
-int imguiKey(int key) {
-    return key;
-}
-
-#else
+#if IMGUI_VERSION_NUM >= 18700
 
 // Of keys that type something and of function keys; ImGuiKey_None for others.
 ImGuiKey imguiKey(int key) {
@@ -46,14 +40,6 @@ ImGuiKey imguiKey(int key) {
 #endif
 
 }  // namespace
-
-bool isKeyDown(int key) {
-    return ImGui::IsKeyDown(imguiKey(key));
-}
-
-bool isKeyPressed(int key) {
-    return ImGui::IsKeyPressed(imguiKey(key), false);
-}
 
 void sendKey(GLFWwindow* window, int key, int scancode, int action, int modifiers) {
 #if IMGUI_VERSION_NUM >= 18700

@@ -7,10 +7,6 @@ struct GLFWwindow;
 
 namespace kaustik::gui {
 
-[[nodiscard]] bool isKeyDown(int key);
-// Whether the key went down in this frame; that it is held and repeats does not count.
-[[nodiscard]] bool isKeyPressed(int key);
-
 // Tells Dear ImGui what a GLFW key callback was told, of a key by what is printed on it (keys.h).
 void sendKey(GLFWwindow* window, int key, int scancode, int action, int modifiers);
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "framework/core/error.h"
@@ -143,6 +144,23 @@ class AtWork {
     std::mutex& mutex_;
     bool& isAtWork_;
 };
+
+// The mean of the channels' differences by pixel, NaN where the pair leaves one out.
+Image signedError(const measure::ImagePair& pair) {
+    Image error(pair.width(), pair.height(), 1);
+    const auto channels = static_cast<std::size_t>(pair.image().channels);
+    for (std::size_t pixel = 0; pixel < pair.pixelCount(); ++pixel) {
+        double sum = 0.0;
+        for (std::size_t c = 0; c < channels; ++c) {
+            sum += static_cast<double>(pair.image().values[channels * pixel + c]) -
+                   static_cast<double>(pair.reference().values[channels * pixel + c]);
+        }
+        error.values[pixel] = pair.counts(pixel)
+                                  ? static_cast<float>(sum / static_cast<double>(channels))
+                                  : std::numeric_limits<float>::quiet_NaN();
+    }
+    return error;
+}
 
 std::filesystem::path cache() {
     return run::cacheFolder() / "references";
@@ -296,8 +314,9 @@ void ReferenceWorker::judgeFrames(Loaded& loaded, const std::array<JudgedFrame, 
             judgement.whole = errorsAgainst(outputs, *loaded.whole);
             if (loaded.modelled) judgement.modelled = errorsAgainst(outputs, *loaded.modelled);
             if (outputs.seesReceivers && !judgement.whole.at("caustic_irradiance").is_null()) {
-                judgement.heatMap = std::make_shared<const Image>(
-                    run::errorPicture(pairOf(outputs, outputs.images.front(), *loaded.whole)));
+                judgement.error = std::make_shared<const Image>(
+                    signedError(pairOf(outputs, outputs.images.front(), *loaded.whole)));
+                judgement.errorHistogram = histogramOf(*judgement.error);
             }
         }
         working_.judgements[i] = std::move(judgement);

@@ -17,6 +17,7 @@
 #include <thread>
 
 #include "framework/gui/document.h"
+#include "framework/gui/histogram.h"
 #include "framework/image/image.h"
 
 namespace kaustik::run {
@@ -53,7 +54,10 @@ struct ReferenceState {
         std::uint64_t order = 0;  // that the frame answered; 0: none yet
         nlohmann::json whole;     // as `error` of report.json
         nlohmann::json modelled;  // as `error.modelled_paths`; null where unknown
-        std::shared_ptr<const Image> heatMap;
+        // Of the caustic irradiance, the reference's taken off, W/m²: the mean of the channels by
+        // pixel, NaN where none is judged. Null where there is none.
+        std::shared_ptr<const Image> error;
+        Histogram errorHistogram;
     };
     std::array<Judgement, 2> judgements;  // of A and B
 };

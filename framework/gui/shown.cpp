@@ -5,6 +5,9 @@
 
 #include <algorithm>
 
+#include "framework/gui/kept_variant.h"
+#include "framework/gui/shown_image.h"
+
 namespace kaustik::gui {
 namespace {
 
@@ -83,24 +86,15 @@ Shown staleStatus(const FrameResult& result) {
             {}};
 }
 
-// What is asked for to the right of the split and is not there.
-std::string missingSidePicture(const ShownRequest& requested, const FrameResult& result,
-                               const ReferenceState& reference) {
-    const bool hasReference = reference.photons > 0 && hasSameView(reference, result.document);
-    const ReferenceState::Judgement& judgement = reference.judgements[requested.seen()];
-    switch (requested.view.sidePicture) {
-        case SidePicture::reference:
-            return hasReference ? "" : "there is no reference of this view to show beside it yet";
-        case SidePicture::error:
-            if (!hasReference)
-                return "there is no reference of this view to measure its error by yet";
-            return judgement.order == result.order ? ""
-                                                   : "the error beside it is still being measured";
-        case SidePicture::other:
-        case SidePicture::none:
-            break;
+// What the technique says of the picture by itself: what it cannot form, joins or leaves out.
+std::vector<std::string> reservationsOf(const VariantResult& variant) {
+    std::vector<std::string> all = variant.violations;
+    all.insert(all.end(), variant.warnings.begin(), variant.warnings.end());
+    for (const ReachedLimit& limit : variant.limits) {
+        all.push_back(fmt::format("Limit reached: {} = {:g}; {}.", limit.parameter, limit.value,
+                                  limit.sentence));
     }
-    return "";
+    return all;
 }
 
 }  // namespace
@@ -134,6 +128,16 @@ bool isRendered(const ShownRequest& requested, const FrameResult& result) {
 
 Shown shownOf(const ShownRequest& requested, const FrameResult& result,
               const ReferenceState& reference, const std::optional<Document>& whole) {
+    if (const KeptVariant* kept = requested.flipped()) {
+        Shown shown;
+        shown.sentence = fmt::format(
+            "Kept variant {} is shown as it was rendered: {}. Key {} leads back to the newest "
+            "frame.",
+            requested.view.flipped + 1, kept->name, requested.view.flipped + 1);
+        shown.reservations = kept->reservations;
+        if (!shown.reservations.empty()) shown.kind = Shown::Kind::limited;
+        return shown;
+    }
     const Shown rendering = staleStatus(result);
     // A lost device answers no order.
     if (result.order < requested.order && !result.isLost) return rendering;
@@ -156,17 +160,31 @@ Shown shownOf(const ShownRequest& requested, const FrameResult& result,
             "the last good shaders are in use, until this is mended: " + result.shaderProblem,
             Shown::Remedy::none);
     }
+    Shown shown;
     for (std::size_t i = 0; i < variantsOf(requested.document); ++i) {
         const VariantResult& variant = result.variants[i];
-        if (variant.violations.empty()) continue;
-        return {Shown::Kind::impossible,
-                prefixOf(requested.document, i) + variant.violations.front(), Shown::Remedy::none};
+        for (const std::string& reservation : reservationsOf(variant))
+            shown.reservations.push_back(prefixOf(requested.document, i) + reservation);
+        if (variant.violations.empty() || shown.kind == Shown::Kind::impossible) continue;
+        shown.kind = Shown::Kind::impossible;
+        shown.sentence = prefixOf(requested.document, i) + variant.violations.front();
     }
-    const std::string missing = missingSidePicture(requested, result, reference);
-    return {Shown::Kind::requested,
-            missing.empty() ? "What is shown is what was asked for."
-                            : fmt::format("The picture is what was asked for; {}.", missing),
-            Shown::Remedy::none};
+    if (shown.kind == Shown::Kind::impossible) return shown;
+    const std::string missing = showingOf(requested, result, reference).sideProblem;
+    shown.sentence = missing.empty()
+                         ? "What is shown is what was asked for."
+                         : fmt::format("The picture is what was asked for; {}.", missing);
+    if (!shown.reservations.empty()) {
+        shown.kind = Shown::Kind::limited;
+        shown.sentence =
+            fmt::format("What is shown is what was asked for, with {}: {}",
+                        shown.reservations.size() == 1
+                            ? "a reservation"
+                            : fmt::format("{} reservations", shown.reservations.size()),
+                        oneLine(shown.reservations.front()));
+        if (!missing.empty()) shown.sentence += fmt::format(" And {}.", missing);
+    }
+    return shown;
 }
 
 const char* nameOf(Shown::Kind kind) {
@@ -177,6 +195,8 @@ const char* nameOf(Shown::Kind kind) {
             return "rendering";
         case Shown::Kind::preview:
             return "preview";
+        case Shown::Kind::limited:
+            return "limited";
         case Shown::Kind::impossible:
             return "impossible";
         case Shown::Kind::stale:

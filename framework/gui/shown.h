@@ -4,8 +4,10 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "framework/gui/document.h"
 #include "framework/gui/frame_result.h"
@@ -17,6 +19,7 @@ namespace kaustik::gui {
 struct Shown {
     enum class Kind {
         requested,   // what was asked for
+        limited,     // the same, of which the technique itself says what it leaves out or joins
         rendering,   // something older, until what was asked for is rendered
         preview,     // the same view, quickly made
         impossible,  // what was asked for, and what no light can do
@@ -36,7 +39,12 @@ struct Shown {
         restart        // the renderer
     };
     Remedy remedy = Remedy::none;
+    // What the technique says of it: what it cannot form, joins, ignores; whole sentences.
+    std::vector<std::string> reservations = {};
 };
+
+struct KeptVariant;
+struct ImageDifference;
 
 // What is to be seen.
 struct ShownRequest {
@@ -45,10 +53,17 @@ struct ShownRequest {
     std::uint64_t order = 0;
     const ViewState& view;
     std::size_t edited = 0;  // variant: 0 A, 1 B
+    const std::vector<KeptVariant>* kept = nullptr;
+    std::shared_ptr<const ImageDifference> difference = {};  // where one is asked for
     // The one that is seen, to the left of the split where there is one.
     [[nodiscard]] std::size_t seen() const {
-        return view.sidePicture == SidePicture::other ? 0 : edited;
+        return view.sidePicture == SidePicture::other ||
+                       (view.sidePicture == SidePicture::difference && view.sideKept < 0)
+                   ? 0
+                   : edited;
     }
+    // The kept one that is seen in place of what was rendered last; null where none is.
+    [[nodiscard]] const KeptVariant* flipped() const;
 };
 
 // Why the document cannot be rendered; "" where it can be, or where that is not known yet.

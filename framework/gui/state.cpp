@@ -67,6 +67,47 @@ class Part {
     std::vector<std::string>& problems_;
 };
 
+// Kept variants are in memory, and gone with it.
+bool isKept(SidePicture side) {
+    return side == SidePicture::kept || side == SidePicture::difference;
+}
+
+json toJson(const std::map<std::string, Look>& looks) {
+    json all = json::object();
+    for (const auto& [name, look] : looks) {
+        all[name] = {{"channel", static_cast<int>(look.channel)},
+                     {"exposure_automatic", look.isExposureAutomatic},
+                     {"exposure", look.exposureStops},
+                     {"false_color", look.isFalseColor},
+                     {"scale", static_cast<int>(look.scale)},
+                     {"range_automatic", look.isRangeAutomatic},
+                     {"low", look.low},
+                     {"high", look.high}};
+    }
+    return all;
+}
+
+std::map<std::string, Look> looksFromJson(const json& all, std::vector<std::string>& problems) {
+    std::map<std::string, Look> looks;
+    if (!all.is_object()) {
+        problems.emplace_back("'view.looks' is no object");
+        return looks;
+    }
+    for (const auto& [name, values] : all.items()) {
+        Part part(all, name.c_str(), problems);
+        Look& look = looks[name];
+        look.channel = static_cast<Channel>(part.between("channel", 0, 0, 5));
+        part.take("exposure_automatic", look.isExposureAutomatic);
+        look.exposureStops = part.between("exposure", 0.0f, -kMaxStops, kMaxStops);
+        part.take("false_color", look.isFalseColor);
+        look.scale = static_cast<Scale>(part.between("scale", 0, 0, 2));
+        part.take("range_automatic", look.isRangeAutomatic);
+        look.low = part.between("low", 0.0f, -1e30f, 1e30f);
+        look.high = part.between("high", 1.0f, -1e30f, 1e30f);
+    }
+    return looks;
+}
+
 }  // namespace
 
 json toJson(const SavedState& kept) {
@@ -75,19 +116,21 @@ json toJson(const SavedState& kept) {
     return {{"view",
              {{"resource", view.resource},
               {"layer", view.layer},
-              {"channel", static_cast<int>(view.channel)},
-              {"exposure", view.exposureStops},
-              {"false_color", view.isFalseColor},
-              {"range_automatic", view.isRangeAutomatic},
-              {"low", view.low},
-              {"high", view.high},
-              {"beside", static_cast<int>(view.sidePicture)},
+              {"looks", toJson(view.looks)},
+              {"beside",
+               static_cast<int>(isKept(view.sidePicture) ? SidePicture::none : view.sidePicture)},
               {"split", view.split},
               {"shows_lights", view.showsLights}}},
             {"panels",
              {{"left", panels.leftWidth},
               {"right", panels.rightWidth},
               {"chart", panels.chartHeight},
+              {"left_open", panels.isLeftOpen},
+              {"right_open", panels.isRightOpen},
+              {"chart_open", panels.isChartOpen},
+              {"left_tabs", panels.leftTabs},
+              {"left_tab", panels.leftTab},
+              {"right_tab", panels.rightTab},
               {"all_parameters", panels.showsAllParameters},
               {"precise", panels.isPrecise},
               {"endless", panels.isEndless},
@@ -113,12 +156,9 @@ SavedState savedStateFromJson(const json& j, std::vector<std::string>& problems)
     Part view(j, "view", problems);
     view.take("resource", kept.view.resource);
     kept.view.layer = view.between("layer", 0, 0, 63);
-    kept.view.channel = static_cast<Channel>(view.between("channel", 0, 0, 5));
-    kept.view.exposureStops = view.between("exposure", 0.0f, -20.0f, 20.0f);
-    view.take("false_color", kept.view.isFalseColor);
-    view.take("range_automatic", kept.view.isRangeAutomatic);
-    kept.view.low = view.between("low", 0.0f, -1e9f, 1e9f);
-    kept.view.high = view.between("high", 1.0f, -1e9f, 1e9f);
+    json looks = json::object();
+    view.take("looks", looks);
+    kept.view.looks = looksFromJson(looks, problems);
     kept.view.sidePicture = static_cast<SidePicture>(view.between("beside", 0, 0, 3));
     kept.view.split = view.between("split", 0.5f, 0.0f, 1.0f);
     view.take("shows_lights", kept.view.showsLights);
@@ -126,6 +166,12 @@ SavedState savedStateFromJson(const json& j, std::vector<std::string>& problems)
     kept.panels.leftWidth = panels.between("left", kept.panels.leftWidth, 150.0f, 1200.0f);
     kept.panels.rightWidth = panels.between("right", kept.panels.rightWidth, 150.0f, 1200.0f);
     kept.panels.chartHeight = panels.between("chart", kept.panels.chartHeight, 40.0f, 800.0f);
+    panels.take("left_open", kept.panels.isLeftOpen);
+    panels.take("right_open", kept.panels.isRightOpen);
+    panels.take("chart_open", kept.panels.isChartOpen);
+    panels.take("left_tabs", kept.panels.leftTabs);
+    panels.take("left_tab", kept.panels.leftTab);
+    panels.take("right_tab", kept.panels.rightTab);
     panels.take("all_parameters", kept.panels.showsAllParameters);
     panels.take("precise", kept.panels.isPrecise);
     panels.take("endless", kept.panels.isEndless);

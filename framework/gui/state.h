@@ -3,31 +3,31 @@
 // is the user's choice.
 #pragma once
 
+#include <filesystem>
 #include <glm/glm.hpp>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
-#include "framework/gui/canvas.h"
+#include "framework/gui/look.h"
 #include "framework/gui/window.h"
 
 namespace kaustik::gui {
 
 // What is seen to the right of the split.
-enum class SidePicture : int { none, other, reference, error };
+// difference: what is to the left minus another one (ViewState::sideKept).
+enum class SidePicture : int { none, other, reference, error, kept, difference };
 
 struct ViewState {
     std::string resource;  // "": the picture
     int layer = 0;
-    Channel channel = Channel::color;
-    float exposureStops = 0.0f;
-    bool isFalseColor = false;
-    bool isRangeAutomatic = true;
-    float low = 0.0f;
-    float high = 1.0f;
+    std::map<std::string, Look> looks;  // of each texture that has been given one; "": the picture
     SidePicture sidePicture = SidePicture::none;
+    int sideKept = -1;       // which of the kept variants that is; below 0: variant B
+    int flipped = -1;        // which of them is seen in place of the newest frame; below 0: none
     float split = 0.5f;      // of the picture's width
     float zoom = 0.0f;       // window pixels a pixel; 0: fits
     glm::vec2 middle{0.5f};  // of the view, in pictures
@@ -35,12 +35,25 @@ struct ViewState {
     glm::ivec2 probePixel{-1};  // x < 0: none
     float probeRadius = 1.0f;   // pixels
     bool showsLights = true;
+
+    // Of an image by its name (ShownImage::resource).
+    [[nodiscard]] Look lookOf(const std::string& name) const {
+        const auto found = looks.find(name);
+        return found != looks.end() ? found->second : Look();
+    }
 };
 
 struct PanelState {
     float leftWidth = 440.0f;  // at scale 1
-    float rightWidth = 360.0f;
+    float rightWidth = 300.0f;
     float chartHeight = 120.0f;
+    // Which of the areas around the picture are there: it has all the room that they leave.
+    bool isLeftOpen = false;
+    bool isRightOpen = true;
+    bool isChartOpen = false;
+    std::set<std::string> leftTabs;  // panels that are to the left; others are to the right
+    std::string leftTab;             // that are in front
+    std::string rightTab = "Passes";
     std::string parameterSearch;
     // What there is to say of what was typed last, by the parameter's full name, as long as the
     // same variant is edited and has the same value.

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "framework/core/error.h"
-#include "framework/run/output.h"
+#include "framework/gui/texture_reader.h"
 #ifdef KAUSTIK_HAS_EMBREE
 #include "framework/run/caustic_errors.h"
 #endif
@@ -28,8 +28,6 @@ std::vector<ListedTexture> texturesOf(const Renderer& renderer) {
     }
     return textures;
 }
-
-using run::isTexture;
 
 }  // namespace
 
@@ -94,44 +92,9 @@ bool VariantRenderer::render(const Variant& variant, const params::Extent& size,
     });
 }
 
-ViewedTexture VariantRenderer::viewPicture() {
-    const Renderer& renderer = session_->renderer();
-    const Picture& picture = renderer.outputs().picture;
-    ViewedTexture viewed;
-    viewed.version = ++versions_;
-    viewed.isEncoded = true;
-    viewed.values = run::readTexture(renderer.texture(picture.display), 0, 3);
-    // What is no number is black in a picture, and no other black.
-    viewed.checked = renderer.graph().nameOf(picture.radiance);
-    viewed.notFinite =
-        measure::findNotFinite(run::readTexture(renderer.texture(picture.radiance), 0, 3));
-    viewed.histogram = histogramOf(viewed.values);
-    return viewed;
-}
-
 ViewedTexture VariantRenderer::view(const Viewing& viewing) {
-    if (viewing.resource.empty()) return viewPicture();
-    const Renderer& renderer = session_->renderer();
-    if (!isTexture(renderer, viewing.resource)) {
-        ViewedTexture picture = viewPicture();
-        picture.missing = ViewedTexture::Missing::texture;
-        return picture;
-    }
-    const gl::Texture& texture = renderer.texture(renderer.graph().find(viewing.resource));
-    ViewedTexture viewed;
-    viewed.name = viewing.resource;
+    ViewedTexture viewed = readViewed(session_->renderer(), viewing.resource, viewing.layer);
     viewed.version = ++versions_;
-    viewed.layer = viewing.layer;
-    viewed.layers = std::max(texture.desc().layers, 1);
-    viewed.checked = viewing.resource;
-    if (viewing.layer >= viewed.layers) {
-        viewed.missing = ViewedTexture::Missing::layer;
-        return viewed;
-    }
-    viewed.values =
-        run::readTexture(texture, viewing.layer, gl::formatInfo(texture.desc().format).channels);
-    viewed.notFinite = measure::findNotFinite(viewed.values);
-    viewed.histogram = histogramOf(viewed.values);
     return viewed;
 }
 
@@ -155,6 +118,7 @@ void VariantRenderer::readBack(const Viewing& viewing) {
     result_.violations.clear();
 
     result_.viewed = view(viewing);
+    result_.outputTextures.clear();
     result_.outputs.reset();
 #ifdef KAUSTIK_HAS_EMBREE
     if (viewing.readsOutputs && outputs.eye.receiver.valid())
@@ -171,7 +135,7 @@ bool VariantRenderer::renderPreview(const Variant& variant, const params::Extent
         if (!session_->renderFor(Purpose::view, stepwise(shouldContinue), smaller)) return false;
         ++result_.previews;
         result_.isPreview = true;
-        result_.viewed = viewPicture();
+        result_.viewed = view({});
         result_.outputs.reset();
         return true;
     });
@@ -184,6 +148,13 @@ bool VariantRenderer::measure(const ShouldContinue& shouldContinue) {
         result_.ledger = record.ledger;
         result_.limits = report::reachedLimits(record, session_->renderer());
         result_.violations = record.violations;
+        const FrameOutputs& outputs = session_->renderer().outputs();
+        result_.outputTextures.clear();
+        for (const std::string& name :
+             {std::string(), session_->renderer().graph().nameOf(outputs.caustic.irradiance)}) {
+            result_.outputTextures.push_back(
+                std::make_shared<const ViewedTexture>(view({name, 0, false})));
+        }
         // What the build has said is there; what has been measured comes after it.
         result_.warnings = session_->renderer().warnings();
         result_.warnings.insert(result_.warnings.end(), record.warnings.begin(),

@@ -58,7 +58,6 @@ class VariantRenderer {
     void select(const Variant& variant, const params::Extent& size);
     void keep(const Viewing& viewing);
     void readBack(const Viewing& viewing);
-    [[nodiscard]] ViewedTexture viewPicture();
     [[nodiscard]] ViewedTexture view(const Viewing& viewing);
     bool guarded(const std::function<bool()>& work);
     [[nodiscard]] run::ShouldContinue stepwise(const ShouldContinue& shouldContinue) const;

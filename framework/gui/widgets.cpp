@@ -11,6 +11,8 @@
 #include <limits>
 #include <utility>
 
+#include "framework/core/files.h"
+#include "framework/gui/recording_name.h"
 #include "framework/gui/typed_value.h"
 #include "framework/report/statistics.h"
 
@@ -36,10 +38,18 @@ ParameterChange changeBy(const TypedValue& typed) {
     return {!typed.text.empty(), typed.text, typed.problem};
 }
 
+thread_local Typing typing;
+
+// After its slider: Return on one that the keyboard is on begins to type, as Ctrl and a click do.
+void typeOnReturn(const params::NamedField& named, const std::string& id) {
+    if (!ImGui::IsItemFocused() || ImGui::IsItemActive()) return;
+    if (!ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false)) return;
+    typing = {ImGui::GetID(id.c_str()), ImGui::GetFrameCount(), true, named.field.text()};
+}
+
 // In a slider's place while its number is typed: the slider's own field leaves out what it does not
 // know, and reads 0,05 as 5. Whether it is there; Ctrl and a click on the slider begin it.
 bool typeNumber(const params::NamedField& named, const std::string& id, ParameterChange& change) {
-    static thread_local Typing typing;
     const ImGuiID field = ImGui::GetID(id.c_str());
     // One that was not drawn for a frame has lost what was typed.
     if (typing.field == field && ImGui::GetFrameCount() > typing.frame + 1) typing.field = 0;
@@ -91,6 +101,7 @@ ParameterChange drawParameter(Bench& bench, const params::NamedField& named,
                                             static_cast<int>(field.maximum), "%d", flags)) {
                            change = {true, fmt::format("{}", value), ""};
                        }
+                       typeOnReturn(named, id);
                    },
                    [&](const float* v) {
                        if (typeNumber(named, id, change)) return;
@@ -99,6 +110,7 @@ ParameterChange drawParameter(Bench& bench, const params::NamedField& named,
                                               static_cast<float>(field.maximum), "%.5g", flags)) {
                            change = {true, fmt::format("{}", value), ""};
                        }
+                       typeOnReturn(named, id);
                    },
                    [&](const params::Extent* v) {
                        params::Extent value = *v;
@@ -119,7 +131,7 @@ ParameterChange drawParameter(Bench& bench, const params::NamedField& named,
     if (!field.rangeText().empty()) explanation += fmt::format("\nRange: {}", field.rangeText());
     explanation += fmt::format("\nDefault: {}", named.defaultText);
     if (std::holds_alternative<float*>(field.target) || std::holds_alternative<int*>(field.target))
-        explanation += "\nCtrl and click to type a value.";
+        explanation += "\nCtrl and click, or Return, to type a value.";
     tooltip(explanation);
     return change;
 }
@@ -177,6 +189,32 @@ void splitter(const char* name, bool isVertical, float length, float& size, floa
         size += sign * (isVertical ? way.x : way.y) / bench.scale;
     }
     bench.map.control(fmt::format("splitter.{}", name + 2));
+}
+
+void drawTableButtons(Bench& bench, const std::string& name, const Table& table) {
+    ImGui::PushID(name.c_str());
+    if (ImGui::SmallButton("copy")) {
+        ImGui::SetClipboardText(toText(table).c_str());
+        bench.notify(fmt::format("Copied {} rows.", table.rows.size()));
+    }
+    bench.map.control("table.copy." + name);
+    tooltip("The table as text, into the clipboard.");
+    ImGui::SameLine();
+    if (ImGui::SmallButton("CSV")) {
+        const std::filesystem::path file =
+            std::filesystem::path(bench.panels.recordFolder) /
+            fmt::format("{}-{}.csv", recordingName(bench.document.scene), name);
+        try {
+            std::filesystem::create_directories(file.parent_path());
+            writeFileWhole(file, toCsv(table));
+            bench.notify(fmt::format("Wrote {}.", file.string()));
+        } catch (const std::exception& error) {
+            bench.notify(error.what(), true);
+        }
+    }
+    bench.map.control("table.csv." + name);
+    tooltip("The table as a file in the folder of the panel Record.");
+    ImGui::PopID();
 }
 
 void tooltip(const std::string& text) {

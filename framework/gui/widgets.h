@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "framework/gui/bench.h"
+#include "framework/gui/table.h"
 #include "framework/params/param_set.h"
 
 namespace kaustik::gui {
@@ -36,6 +37,9 @@ void sparkline(const std::vector<double>& values, ImVec2 size);
 // A bar to drag between two areas; changes `size` by the way along x (or y), times `sign`.
 void splitter(const char* name, bool isVertical, float length, float& size, float sign,
               Bench& bench);
+
+// Copies a table as text, or writes it as CSV into the folder of recordings. `name` says which.
+void drawTableButtons(Bench& bench, const std::string& name, const Table& table);
 
 // Text that explains the item before it.
 void tooltip(const std::string& text);

@@ -129,6 +129,7 @@ Window::Window(const std::string& title, const Placement& placement, const fs::p
                        [](GLFWwindow* window, int place, int scancode, int action, int modifiers) {
                            auto& self = *static_cast<Window*>(glfwGetWindowUserPointer(window));
                            const int key = self.keyNames_(place, scancode, action);
+                           self.noteKey(place, key, action, modifiers);
                            if (key != GLFW_KEY_UNKNOWN)
                                sendKey(window, key, scancode, action, modifiers);
                        });
@@ -177,6 +178,12 @@ void Window::hide() {
 
 void Window::beginFrame(double waitSeconds) {
     hadInput_ = !dropped_.empty();
+    keyPresses_.clear();
+    const double begin = glfwGetTime();
+    for (auto& [place, held] : held_) {
+        held.seconds = 0.0;
+        if (held.since >= 0.0) held.since = begin;
+    }
     if (waitSeconds > 0.0) {
         glfwWaitEventsTimeout(waitSeconds);
     } else {
@@ -185,6 +192,27 @@ void Window::beginFrame(double waitSeconds) {
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
     ImGui::NewFrame();
+}
+
+void Window::noteKey(int place, int key, int action, int modifiers) {
+    constexpr double kShortestTap = 1.0 / 60.0;
+    hadInput_ = true;
+    Held& held = held_[place];
+    if (action == GLFW_PRESS) {
+        keyPresses_.push_back({key, modifiers});
+        held.since = glfwGetTime();
+        held.seconds = kShortestTap;
+    } else if (action == GLFW_RELEASE && held.since >= 0.0) {
+        held.seconds = std::max(held.seconds, glfwGetTime() - held.since);
+        held.since = -1.0;
+    }
+}
+
+double Window::heldSeconds(int place) const {
+    const auto found = held_.find(place);
+    if (found == held_.end()) return 0.0;
+    const Held& held = found->second;
+    return held.since < 0.0 ? held.seconds : std::max(held.seconds, glfwGetTime() - held.since);
 }
 
 void Window::drawFrame() {

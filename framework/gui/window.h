@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,16 @@ class Window {
     // Ends a wait from any thread.
     static void wake();
 
+    // A key that went down since the last frame, however shortly; by what is printed on it.
+    struct KeyPress {
+        int key = 0;        // GLFW_KEY_…
+        int modifiers = 0;  // GLFW_MOD_…
+    };
+    [[nodiscard]] const std::vector<KeyPress>& keyPresses() const { return keyPresses_; }
+    // How long the key at that place of a US keyboard was down since the last frame, s, whatever is
+    // printed on it; of a tap as long as a frame of 60 a second at least.
+    [[nodiscard]] double heldSeconds(int place) const;
+
     // Files that were dropped on the window since the last call.
     [[nodiscard]] std::vector<std::string> takeDropped();
     [[nodiscard]] Placement placement() const;
@@ -62,6 +73,13 @@ class Window {
     std::string renderer_;
     std::vector<std::string> dropped_;
     KeyNames keyNames_;
+    std::vector<KeyPress> keyPresses_;
+    void noteKey(int place, int key, int action, int modifiers);
+    struct Held {
+        double since = -1.0;  // of GLFW's clock; below 0: it is up
+        double seconds = 0.0;
+    };
+    std::map<int, Held> held_;  // by place
     float scale_ = 1.0f;
     bool hadInput_ = true;
     bool isRobust_ = false;

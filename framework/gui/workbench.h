@@ -48,10 +48,15 @@ class Workbench {
     void drawToolbar();
     void drawStatusBar();
     void useKeys();
+    void useKey(const Window::KeyPress& press);
     void useSign(unsigned character);
+    void changeExposure(float stops);
     void pushUndo();
     void undo(int direction);
     void describe();
+    void pollDifference();
+    void pollPairs();
+    void saveShown();
     void saveScreenshot();
     void finishScreenshot();
     [[nodiscard]] double patience() const;
@@ -80,6 +85,8 @@ class Workbench {
     std::string savedText_;
     Clock::time_point savedAt_;
     int framesToDraw_ = 3;
+    std::future<std::shared_ptr<const ImageDifference>> difference_;  // being computed
+    std::future<std::shared_ptr<const Table>> pairs_;
     std::future<std::string> screenshot_;  // being written; why it failed, or nothing
     Clock::time_point frameBegin_;
     Clock::time_point turnedAt_;

@@ -2,6 +2,7 @@
 // The panel Error: the reference in the background, and how wrong the frame is next to it.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <set>
 
 #include "framework/image/image.h"
@@ -190,22 +191,87 @@ TEST_F(ErrorPanel, AWorseFrameHasALargerError) {
     EXPECT_GT(std::stod(bench->value("error.rmse")), 1.5 * before) << "the floor is not found";
 }
 
-TEST_F(ErrorPanel, TheHeatMapAndTheReferenceAreSeenBesideThePicture) {
+// Picture, caption and numbers belong together on each side of a split, also where one side fills
+// the whole window.
+TEST_F(ErrorPanel, OnEachSideOfASplitWordsAndNumbersAreThoseOfThePixels) {
+    json kept = withPhotons(1e6);
+    kept["view"]["beside"] = 2;
+    kept["view"]["looks"]["caustic.irradiance"] = {{"exposure_automatic", false},
+                                                   {"exposure", -11.0}};
+    start(kept);
+    computeReference();
+    untilSettled();
+    renderSmall({"--save", "caustic.irradiance", "--reference", "auto", "--reference-photons",
+                 "1000000", "--out", "saved"});
+    const Image ours = readImage(folder / "saved" / ("caustic.irradiance" + floatImageExtension()));
+    const Image truth = readImage(folder / "saved" / ("reference" + floatImageExtension()));
+    const auto valueAt = [&](int x, int y) {
+        bench->hover("picture.image", pixel(x, y));
+        const std::string text = bench->value("picture.value");
+        return std::stod(text.substr(text.find("red ") + 4));
+    };
+    // The grey that is seen of a value, sRGB.
+    const auto seenOf = [](float value) {
+        const double linear = std::min(static_cast<double>(value) / 2048.0, 1.0);
+        return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
+    };
+    for (const auto& [x, y] : {std::pair{24, 30}, std::pair{38, 27}}) {
+        const Image& expected = x < 32 ? ours : truth;
+        EXPECT_NEAR(valueAt(x, y), static_cast<double>(expected.at(x, y, 0)),
+                    1e-4 * static_cast<double>(expected.at(x, y, 0)) + 1e-6)
+            << x;
+        ASSERT_NE(ours.at(x, y, 0), truth.at(x, y, 0)) << "else nothing is told apart";
+        const Image seen = seenPicture();
+        const int scale = seen.width / 64;
+        EXPECT_NEAR(static_cast<double>(seen.at(x * seen.width / 64 + scale / 2,
+                                                y * seen.height / 48 + scale / 2, 0)),
+                    seenOf(expected.at(x, y, 0)), 1.5 / 255.0)
+            << x;
+    }
+    EXPECT_TRUE(bench->value("picture.caption").starts_with("caustic.irradiance"));
+    EXPECT_TRUE(bench->value("picture.caption.side").starts_with("reference: "));
+    EXPECT_TRUE(says("picture.caption.side", "its own noise"));
+    // Right of the split all is the reference's.
+    bench->hover("picture.image", pixel(50, 30));
+    const double x = bench->control("picture.image").x;
+    bench->wheel("picture.image", 12, pixel(50, 30));
+    ASSERT_LT(bench->control("picture.image").x, x);
+    EXPECT_FALSE(bench->has("picture.caption"));
+    EXPECT_TRUE(bench->value("picture.caption.side").starts_with("reference: "));
+    EXPECT_TRUE(bench->has("picture.values"));
+    bench->keepScreenshot("error-right-of-the-split");
+}
+
+TEST_F(ErrorPanel, TheErrorAndTheReferenceAreSeenNextToThePicture) {
     start();
     computeReference();
-    const Image before = seenPicture();
+    renderSmall({"--save", "caustic.irradiance", "--reference", "auto", "--reference-photons",
+                 "1000000", "--out", "saved"});
+    const Image ours = readImage(folder / "saved" / ("caustic.irradiance" + floatImageExtension()));
+    const Image truth = readImage(folder / "saved" / ("reference" + floatImageExtension()));
+    bench->hover("picture.image", pixel(24, 30));
+    const std::string before = bench->value("picture.value");
     bench->click("error.heat_map");
     untilSettled();
     ASSERT_TRUE(bench->has("picture.split"));
-    const Image sidePicture = seenPicture();
     bench->keepScreenshot("error-heat-map");
-    const int middle = before.width / 2;
-    EXPECT_EQ(
-        largestDifference(columns(sidePicture, 0, middle - 4), columns(before, 0, middle - 4)),
-        0.0);
-    EXPECT_GT(largestDifference(columns(sidePicture, middle + 4, before.width),
-                                columns(before, middle + 4, before.width)),
-              0.2);
+    bench->hover("picture.image", pixel(24, 30));
+    EXPECT_EQ(bench->value("picture.value"), before);
+    EXPECT_TRUE(bench->value("picture.caption.side").starts_with("error: "));
+    EXPECT_TRUE(bench->has("picture.bar.side"));
+    // A value with its sign, and no colour.
+    bench->hover("picture.image", pixel(38, 27));
+    const std::string text = bench->value("picture.value");
+    double error = 0.0;
+    for (int c = 0; c < 3; ++c) {
+        error +=
+            (static_cast<double>(ours.at(38, 27, c)) - static_cast<double>(truth.at(38, 27, c))) /
+            3.0;
+    }
+    ASSERT_NE(text.find("error "), std::string::npos) << text;
+    EXPECT_NEAR(std::stod(text.substr(text.find("error ") + 6)), error,
+                1e-4 * std::abs(error) + 1e-3);
+    EXPECT_TRUE(text.ends_with("W/m²"));
     bench->click("error.heat_map");
     EXPECT_FALSE(bench->has("picture.split"));
 
@@ -217,7 +283,7 @@ TEST_F(ErrorPanel, TheHeatMapAndTheReferenceAreSeenBesideThePicture) {
     // Irradiance on both sides: where the sun shines straight on the floor there is none of it.
     bench->hover("picture.image", pixel(50, 44));
     const std::string lit = bench->value("picture.value");
-    EXPECT_TRUE(lit.starts_with("(50, 44)  0  0  0")) << lit;
+    EXPECT_TRUE(lit.starts_with("(50, 44)  red 0  green 0  blue 0 W/m²")) << lit;
 }
 
 TEST_F(ErrorPanel, TheLedgerCloses) {

@@ -30,8 +30,15 @@ class ImagePanel : public WorkbenchTest {
         std::istringstream line(bench->value("picture.value"));
         line.ignore(100, ')');
         std::vector<double> values;
-        for (double value = 0.0; line >> value;)
-            values.push_back(value);
+        // Between the names of channels and units, of which some begin with a figure.
+        for (std::string word; line >> word;) {
+            std::size_t end = 0;
+            try {
+                const double value = std::stod(word, &end);
+                if (end == word.size()) values.push_back(value);
+            } catch (const std::exception&) {
+            }
+        }
         return values;
     }
     // A texture as `kaustik run` saves it.
@@ -61,8 +68,9 @@ TEST_F(ImagePanel, AnyTextureIsShownWithItsLayersAndValues) {
         bench->hover("picture.image", pixel(x, y));
         EXPECT_TRUE(bench->value("picture.value").starts_with(fmt::format("({}, {})", x, y)));
         const std::vector<double> values = valuesUnderMouse();
-        ASSERT_EQ(values.size(), 4u);
-        for (int c = 0; c < layer.channels; ++c) {
+        // One more is the figure of "material + 1".
+        ASSERT_EQ(values.size(), 5u) << bench->value("picture.value");
+        for (int c = 0; c < 3; ++c) {
             const auto expected = static_cast<double>(layer.at(x, y, c));
             EXPECT_NEAR(values[static_cast<std::size_t>(c)], expected,
                         kShownDigits * std::abs(expected));
@@ -76,7 +84,7 @@ TEST_F(ImagePanel, ALayerThatIsNotThereIsNotShownUnderItsNumber) {
     start(kept);
     open("Image");
     EXPECT_EQ(bench->value("shown"), "asked");
-    EXPECT_EQ(bench->value("picture.caption"), "layers.depth, layer 6");
+    EXPECT_TRUE(says("picture.caption", "layers.depth · surface 7 from the front · depth, m"));
     open("Parameters");
     bench->typeInto("parameter.layers.count", "4", Entry::controlClick);
     untilSettled();
@@ -88,7 +96,7 @@ TEST_F(ImagePanel, ALayerThatIsNotThereIsNotShownUnderItsNumber) {
     bench->click("shown.remedy");
     untilSettled();
     EXPECT_EQ(bench->value("shown"), "asked");
-    EXPECT_EQ(bench->value("picture.caption"), "layers.depth, layer 3");
+    EXPECT_TRUE(says("picture.caption", "layers.depth · surface 4 from the front · depth, m"));
     open("Image");
     EXPECT_EQ(bench->value("image.layer"), "3");
 }
@@ -103,8 +111,61 @@ TEST_F(ImagePanel, ATextureThatIsNoLongerThereIsSaidToBeGone) {
     EXPECT_TRUE(says("shown.sentence", "no texture 'shadow.maps'"));
     bench->click("shown.remedy");
     untilSettled();
-    EXPECT_EQ(bench->value("shown"), "asked");
-    EXPECT_EQ(bench->value("picture.caption"), "");
+    EXPECT_TRUE(says("shown.sentence", "What is shown is what was asked for"));
+    EXPECT_EQ(bench->value("picture.caption"), "picture · the eye's view");
+}
+
+// What is not seen by the eye has nothing drawn over it, and no hand on it moves the eye.
+TEST_F(ImagePanel, AMapIsNoViewOfTheEye) {
+    json kept = showing("shadow.maps");
+    kept["view"]["shows_lights"] = true;
+    start(kept);
+    EXPECT_TRUE(says("picture.caption", "depth, m · a light's view"));
+    EXPECT_FALSE(bench->has("light.sun"));
+    const json before = document();
+    bench->drag("picture", 40, 10);
+    bench->hover("picture");
+    bench->key("w");
+    EXPECT_EQ(document(), before);
+    bench->key("0");
+    bench->key("p");
+    bench->click("picture.image");
+    EXPECT_TRUE(says("status.message", "eye's view")) << bench->value("status.message");
+    EXPECT_TRUE(says("status.message", "a light's view"));
+}
+
+// Stored light is light, and no words of fixed point: all of it is what the ledger has deposited.
+TEST_F(ImagePanel, StoredLightIsShownInWatts) {
+    start(showing("caustic.flux"));
+    open("Image");
+    EXPECT_FALSE(bench->has("image.layer")) << "words are no layers";
+    EXPECT_TRUE(says("picture.caption", "flux that has arrived, W · the eye's view"));
+    bench->click("image.save");
+    bench->waitFor("the file", [](const json& screen) {
+        return screen.at("status").at("message").get<std::string>().starts_with("Wrote ");
+    });
+    double sum = 0.0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "out")) {
+        if (entry.path().extension() != floatImageExtension()) continue;
+        const Image flux = readImage(entry.path());
+        for (const float value : flux.values)
+            sum += static_cast<double>(value) / 3.0;
+        // The file says what it is.
+        const std::string bytes = readFile(entry.path());
+        EXPECT_NE(bytes.find("flux that has arrived, W"), std::string::npos);
+        EXPECT_NE(bytes.find("emit.photons=32x32"), std::string::npos);
+    }
+    open("Error");
+    bench->click("table.csv.energy");
+    std::string csv;
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "out")) {
+        if (entry.path().extension() == ".csv") csv = readFile(entry.path());
+    }
+    const std::size_t at = csv.find("deposited,");
+    ASSERT_NE(at, std::string::npos) << csv;
+    const double deposited = std::stod(csv.substr(at + 10));
+    EXPECT_GT(deposited, 0.0);
+    EXPECT_NEAR(sum, deposited, 1e-5 * deposited);
 }
 
 TEST_F(ImagePanel, ATextureThatNothingNeedsIsMadeToBeSeen) {
@@ -120,7 +181,9 @@ TEST_F(ImagePanel, ATextureThatNothingNeedsIsMadeToBeSeen) {
 }
 
 TEST_F(ImagePanel, ChannelsExposureAndFalseColoursChangeHowItIsSeen) {
-    start(showing("caustic.irradiance"));
+    json kept = showing("caustic.irradiance");
+    kept["view"]["looks"]["caustic.irradiance"] = {{"exposure_automatic", false}};
+    start(kept);
     open("Image");
     const Image plain = seenPicture();
     bench->click("image.fit");
@@ -153,6 +216,14 @@ TEST_F(ImagePanel, ChannelsExposureAndFalseColoursChangeHowItIsSeen) {
     EXPECT_GT(hue(coloured), 0.3);
     bench->click("image.range_automatic");
     EXPECT_TRUE(bench->has("image.range"));
+    // Another texture has a look of its own.
+    choose("image.texture", "direct.irradiance");
+    untilSettled();
+    EXPECT_EQ(bench->value("image.false_color"), "off");
+    EXPECT_EQ(bench->value("image.fit"), "on");
+    choose("image.texture", "caustic.irradiance");
+    untilSettled();
+    EXPECT_EQ(bench->value("image.false_color"), "on");
     bench->key("f");
     EXPECT_EQ(largestDifference(seenPicture(), darker), 0.0);
     choose("image.channel", "alpha");
@@ -202,7 +273,8 @@ class EditedShaders : public ImagePanel {
     }
     void start(const std::string& resource = "compose.receiver_radiance") {
         json kept = showing(resource);
-        kept["view"]["exposure"] = -8.0;  // up to 256 W/m²/sr are told apart
+        kept["view"]["looks"][resource] = {{"exposure_automatic", false},
+                                           {"exposure", -8.0}};  // up to 256 W/m²/sr are told apart
         WorkbenchTest::start(kept, shaders.environment());
         open("Image");
     }

@@ -93,12 +93,12 @@ TEST_F(TechniquePanel, TheVariantThatIsEditedIsNamedWhereverItIs) {
     both["other"] = both["variant"];
     both["other"]["set"]["trace.epsilon"] = "0.25";
     start(savedStateWith(both));
-    EXPECT_EQ(bench->value("picture.caption"), "A ");
+    EXPECT_TRUE(bench->value("picture.caption").starts_with("A: picture"));
     EXPECT_EQ(bench->value("parameters.edit_a"), "on");
     EXPECT_EQ(bench->value("parameter.trace.epsilon"), "0.01");
     bench->click("parameters.edit_b");
     EXPECT_EQ(bench->value("parameter.trace.epsilon"), "0.25");
-    EXPECT_EQ(bench->value("picture.caption"), "B ");
+    EXPECT_TRUE(bench->value("picture.caption").starts_with("B: picture"));
     bench->keepScreenshot("technique-edit-b");
     EXPECT_EQ(bench->value("passes.edit_b"), "on");
     open("Technique");
@@ -110,7 +110,7 @@ TEST_F(TechniquePanel, TheVariantThatIsEditedIsNamedWhereverItIs) {
     // What is not there needs no name.
     bench->click("variant.drop");
     EXPECT_FALSE(bench->has("passes.edit_a"));
-    EXPECT_EQ(bench->value("picture.caption"), "");
+    EXPECT_TRUE(bench->value("picture.caption").starts_with("picture"));
 }
 
 TEST_F(TechniquePanel, TwoVariantsAreSeenSideBySide) {

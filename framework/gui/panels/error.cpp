@@ -77,43 +77,102 @@ void drawReference(Bench& bench) {
     }
 }
 
+// An output that is judged, as the report names it.
+struct JudgedOutput {
+    const char* key;
+    const char* name;
+    const char* unit;
+};
+constexpr std::array<JudgedOutput, 3> kOutputs = {
+    JudgedOutput{"caustic_irradiance", "caustic irradiance", "W/m²"},
+    JudgedOutput{"caustic_radiance", "caustic radiance to the eye", "W/m²/sr"},
+    JudgedOutput{"in_scattered", "in-scattered radiance", "W/m²/sr"}};
+
+struct Measure {
+    const char* label;
+    const char* key;
+    bool hasUnit;
+    const char* sentence;
+};
+constexpr std::array<Measure, 9> kMeasures = {
+    Measure{"RMSE", "rmse", true,
+            "Root of the mean square of all differences; far outliers count most."},
+    Measure{"relMSE", "rel_mse", false,
+            "Mean square of differences, by the reference's square; what is dim counts as much as "
+            "what is bright."},
+    Measure{"SMAPE", "smape", false, "Mean of differences by half of both values; 2 at most."},
+    Measure{"MAE", "mae", true, "Mean of the absolute differences."},
+    Measure{"SSIM", "ssim", false, "Likeness of structure; 1 where both are the same."},
+    Measure{"FLIP", "flip_ldr", false,
+            "How different both look side by side, tone-mapped; 0 where they look the same."},
+    Measure{"HDR-FLIP", "flip_hdr", false, "The same over all exposures."},
+    Measure{"energy ratio", "energy_ratio", false,
+            "Flux of the frame by that of the reference; 1 where none is lost."},
+    Measure{"encircled energy", "encircled_energy_radius_ratio", false,
+            "Radius that holds most of the light, by that of the reference; above 1 where it is "
+            "blurred."}};
+
 void drawTable(Bench& bench, const char* title, json ReferenceState::Judgement::*part) {
-    struct Row {
-        const char* label;
-        const char* key;
-    };
-    static constexpr std::array<Row, 9> kRows = {
-        Row{"RMSE, W/m²", "rmse"},
-        Row{"relMSE", "rel_mse"},
-        Row{"SMAPE", "smape"},
-        Row{"MAE, W/m²", "mae"},
-        Row{"SSIM", "ssim"},
-        Row{"FLIP", "flip_ldr"},
-        Row{"HDR-FLIP", "flip_hdr"},
-        Row{"energy ratio", "energy_ratio"},
-        Row{"encircled energy", "encircled_energy_radius_ratio"}};
     const auto& judgements = bench.reference->judgements;
-    const bool hasOther = bench.document.other.has_value();
+    const std::size_t variants = bench.document.other ? 2 : 1;
     if (judgements[0].order == 0 || !(judgements[0].*part).is_object()) return;
-    if (!ImGui::BeginTable(title, hasOther ? 3 : 2, ImGuiTableFlags_RowBg)) return;
-    ImGui::TableSetupColumn(title);
-    ImGui::TableSetupColumn(hasOther ? "A" : "");
-    if (hasOther) ImGui::TableSetupColumn("B");
+    if (!ImGui::BeginTable(title, static_cast<int>(1 + variants), ImGuiTableFlags_RowBg)) return;
+    ImGui::TableSetupColumn(title, ImGuiTableColumnFlags_WidthStretch, 2.0f);
+    ImGui::TableSetupColumn(variants > 1 ? "A" : "", ImGuiTableColumnFlags_WidthStretch, 1.0f);
+    if (variants > 1) ImGui::TableSetupColumn("B", ImGuiTableColumnFlags_WidthStretch, 1.0f);
     ImGui::TableHeadersRow();
     const std::string prefix =
         part == &ReferenceState::Judgement::whole ? "error." : "error.modelled.";
-    for (const Row& row : kRows) {
+    for (const JudgedOutput& output : kOutputs) {
+        const auto isJudged = [&](std::size_t i) {
+            const json& errors = judgements[i].*part;
+            return errors.is_object() && errors.contains(output.key);
+        };
+        if (!isJudged(0) && !(variants > 1 && isJudged(1))) continue;
         ImGui::TableNextRow();
         ImGui::TableNextColumn();
-        ImGui::TextUnformatted(row.label);
-        for (std::size_t i = 0; i < (hasOther ? 2 : 1); ++i) {
+        ImGui::TextColored({0.6f, 0.75f, 1.0f, 1.0f}, "%s", output.name);
+        const bool isFirst = &output == &kOutputs.front();
+        for (const Measure& measure : kMeasures) {
+            ImGui::TableNextRow();
             ImGui::TableNextColumn();
-            const std::string value = numberAt(judgements[i].*part, "caustic_irradiance", row.key);
-            ImGui::TextUnformatted(value.c_str());
-            bench.map.control(fmt::format("{}{}{}", prefix, row.key, i == 0 ? "" : ".b"), value);
+            ImGui::TextUnformatted(measure.hasUnit
+                                       ? fmt::format("{}, {}", measure.label, output.unit).c_str()
+                                       : measure.label);
+            tooltip(measure.sentence);
+            for (std::size_t i = 0; i < variants; ++i) {
+                ImGui::TableNextColumn();
+                const std::string value = numberAt(judgements[i].*part, output.key, measure.key);
+                ImGui::TextUnformatted(value.c_str());
+                bench.map.control(
+                    fmt::format("{}{}{}{}", prefix, isFirst ? "" : std::string(output.key) + ".",
+                                measure.key, i == 0 ? "" : ".b"),
+                    value);
+            }
         }
     }
     ImGui::EndTable();
+}
+
+// Which frame the errors are of, in a colour that cannot be overlooked where it is not this one.
+void drawJudgedFrame(Bench& bench) {
+    const ReferenceState& reference = *bench.reference;
+    const bool isOld = reference.judgements[0].order != bench.result->order;
+    ImGui::PushTextWrapPos(0.0f);
+    ImGui::TextColored(isOld ? kProblemColor : ImVec4(0.45f, 0.75f, 0.45f, 1.0f), "%s",
+                       isOld ? "Errors of a frame before this one; this one is being measured."
+                             : "Errors of this frame.");
+    bench.map.control("error.frame", isOld ? "old" : "new");
+    const bool isKnown = std::isfinite(reference.relativeError);
+    ImGui::TextUnformatted(
+        isKnown ? fmt::format("The reference's own noise: {:.2g} % of a lit pixel. What is smaller "
+                              "than that is not told.",
+                              100.0 * reference.relativeError)
+                      .c_str()
+                : "The reference's own noise is unknown.");
+    bench.map.control("error.reference_noise",
+                      isKnown ? fmt::format("{:.4g}", 100.0 * reference.relativeError) : "");
+    ImGui::PopTextWrapPos();
 }
 
 void drawLedger(Bench& bench) {
@@ -129,6 +188,7 @@ void drawLedger(Bench& bench) {
     using namespace transport;
     const EnergyLedger& ledger = *result.ledger;
     const double emitted = ledger.watts[kAccountEmitted];
+    drawTableButtons(bench, "energy", ledgerTable(ledger));
     if (ImGui::BeginTable("ledger", 3, ImGuiTableFlags_RowBg)) {
         ImGui::TableSetupColumn("energy", ImGuiTableColumnFlags_WidthStretch, 2.0f);
         ImGui::TableSetupColumn("W", ImGuiTableColumnFlags_WidthStretch, 1.0f);
@@ -175,13 +235,12 @@ void drawError(Bench& bench) {
         if (reference.judgements[0].order == 0) {
             ImGui::TextDisabled("Measuring the frame …");
         } else {
-            const bool isOld = reference.judgements[0].order != bench.result->order;
-            ImGui::TextDisabled(isOld ? "Of a frame before this one." : "Of this frame.");
-            bench.map.control("error.frame", isOld ? "old" : "new");
-            drawTable(bench, "caustic, all paths", &ReferenceState::Judgement::whole);
-            drawTable(bench, "modelled paths", &ReferenceState::Judgement::modelled);
+            drawJudgedFrame(bench);
+            drawTableButtons(bench, "errors", errorTable(reference, bench.document.other ? 2 : 1));
+            drawTable(bench, "by all paths", &ReferenceState::Judgement::whole);
+            drawTable(bench, "by modelled paths", &ReferenceState::Judgement::modelled);
             bool isShown = bench.view.sidePicture == SidePicture::error;
-            if (checkbox(bench, "heat map beside the picture", isShown, "error.heat_map"))
+            if (checkbox(bench, "error next to the picture", isShown, "error.heat_map"))
                 bench.view.sidePicture = isShown ? SidePicture::error : SidePicture::none;
         }
     }

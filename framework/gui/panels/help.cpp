@@ -8,13 +8,13 @@
 namespace kaustik::gui {
 
 void drawHelp(Bench& bench) {
-    static constexpr std::array<std::pair<const char*, const char*>, 19> kKeys = {{
+    static constexpr std::array<std::pair<const char*, const char*>, 22> kKeys = {{
         {"F1", "this list"},
         {"Space", "play and pause"},
         {".", "a step of time"},
         {"drag", "orbit about the camera's target"},
         {"right drag", "look around"},
-        {"W A S D, Q E", "fly; with Shift four times as fast"},
+        {"W A S D, Q E", "fly, by place (Z Q S D, A E in French); with Shift four times as fast"},
         {"Ctrl + wheel", "nearer and farther"},
         {"wheel", "zoom into the picture; middle drag moves it"},
         {"0", "the whole picture"},
@@ -23,6 +23,9 @@ void drawHelp(Bench& bench) {
         {"F", "false colours"},
         {"+ or =, -", "exposure"},
         {"P", "probe photons; then click on the picture"},
+        {"K, then 1 to 9", "keep what is shown; flip to it and back"},
+        {"F2 F3 F4", "left panel, right panel, time chart"},
+        {"H", "the picture alone"},
         {"Ctrl + Z, Ctrl + Y", "undo and redo"},
         {"Ctrl + S", "save as experiment"},
         {"F5", "read the scene's file again"},
@@ -42,7 +45,7 @@ void drawHelp(Bench& bench) {
             }
             ImGui::EndTable();
         }
-        ImGui::TextDisabled("By the characters on the keys. While you type only F1, F5, F12.");
+        ImGui::TextDisabled("Others by the characters on the keys. While you type only F1 to F12.");
         bench.map.area("help", ImGui::GetWindowPos().x, ImGui::GetWindowPos().y,
                        ImGui::GetWindowWidth(), ImGui::GetWindowHeight());
     }

@@ -6,22 +6,57 @@
 #include <cmath>
 
 #include "framework/gui/panels/panels.h"
+#include "framework/gui/shown_image.h"
 #include "framework/gui/widgets.h"
 #include "framework/transport/watts.h"
 
 namespace kaustik::gui {
 namespace {
 
-const std::vector<std::string>& channelNames() {
-    static const std::vector<std::string> names = {"colour", "red",   "green",
-                                                   "blue",   "alpha", "luminance"};
-    return names;
+// What may stand to the right of the split.
+struct SideChoice {
+    SidePicture side = SidePicture::none;
+    int kept = -1;
+    std::string name;
+};
+
+std::vector<SideChoice> sideChoices(const Bench& bench) {
+    std::vector<SideChoice> choices = {{SidePicture::none, -1, "nothing"},
+                                       {SidePicture::other, -1, "variant B"},
+                                       {SidePicture::reference, -1, "the reference"},
+                                       {SidePicture::error, -1, "its error by the reference"}};
+    if (bench.document.other) choices.push_back({SidePicture::difference, -1, "A minus B"});
+    for (int i = 0; i < static_cast<int>(bench.kept.size()); ++i) {
+        choices.push_back({SidePicture::kept, i, fmt::format("kept {}", i + 1)});
+        choices.push_back({SidePicture::difference, i, fmt::format("it minus kept {}", i + 1)});
+    }
+    return choices;
 }
 
-const std::vector<std::string>& sidePictureNames() {
-    static const std::vector<std::string> names = {"nothing", "variant B", "the reference",
-                                                   "heat map of the error"};
-    return names;
+void drawChoiceOfSide(Bench& bench) {
+    const std::vector<SideChoice> choices = sideChoices(bench);
+    std::vector<std::string> names;
+    int index = 0;
+    for (const SideChoice& choice : choices) {
+        const bool isKept =
+            choice.side == SidePicture::kept || choice.side == SidePicture::difference;
+        if (choice.side == bench.view.sidePicture &&
+            (!isKept || choice.kept == bench.view.sideKept)) {
+            index = static_cast<int>(names.size());
+        }
+        names.push_back(choice.name);
+    }
+    if (choose(bench, "beside it", names, index, "image.beside")) {
+        bench.view.sidePicture = choices[static_cast<std::size_t>(index)].side;
+        bench.view.sideKept = choices[static_cast<std::size_t>(index)].kept;
+    }
+    tooltip(
+        "What is seen to the right of the split, which can be dragged. The reference is of the "
+        "caustic irradiance, and stands next to that. Unlike images do not share a split.");
+    if (button(bench, "Save it as EXR and PNG", "image.save")) bench.wantsShownSaved = true;
+    tooltip(
+        "Its values, and its colours as they are seen, with what it is in the files' metadata, "
+        "into the folder of the panel Record.");
 }
 
 void drawChoiceOfTexture(Bench& bench) {
@@ -47,44 +82,72 @@ void drawChoiceOfTexture(Bench& bench) {
     ImGui::TextDisabled("%dx%d%s %s", desc.width, desc.height,
                         desc.layers > 0 ? fmt::format("x{}", desc.layers).c_str() : "",
                         graph::formatName(desc.format));
-    if (desc.layers > 1) {
-        const std::string last = fmt::format("%d of 0 to {}", desc.layers - 1);
-        ImGui::SliderInt("layer", &bench.view.layer, 0, desc.layers - 1, last.c_str(),
+    const TextureContent content = contentOf(bench.view.resource, desc);
+    ImGui::TextWrapped("%s", content.quantity.c_str());
+    if (!result.viewed || result.viewed->name != bench.view.resource) return;
+    const ViewedTexture& viewed = *result.viewed;
+    if (viewed.layers > 1) {
+        std::string name = fmt::format("%d of 0 to {}", viewed.layers - 1);
+        const auto layer = static_cast<std::size_t>(bench.view.layer);
+        if (layer < viewed.layerNames.size())
+            name = fmt::format("%d: {}", viewed.layerNames[layer]);
+        ImGui::SliderInt("layer", &bench.view.layer, 0, viewed.layers - 1, name.c_str(),
                          ImGuiSliderFlags_AlwaysClamp);
         bench.map.control("image.layer", fmt::format("{}", bench.view.layer));
     }
 }
 
-void drawMapping(Bench& bench, const ViewedTexture* viewed) {
-    ViewState& view = bench.view;
-    int channel = static_cast<int>(view.channel);
-    if (choose(bench, "channel", channelNames(), channel, "image.channel"))
-        view.channel = static_cast<Channel>(channel);
-    static_cast<void>(checkbox(bench, "false colours (F)", view.isFalseColor, "image.false_color"));
-    if (view.isFalseColor) {
-        static_cast<void>(checkbox(bench, "range from the image", view.isRangeAutomatic,
-                                   "image.range_automatic"));
-        if (!view.isRangeAutomatic) {
-            const float span = std::max(view.high - view.low, 1e-6f);
-            ImGui::DragFloatRange2("range", &view.low, &view.high, span * 0.005f, -1e9f, 1e9f,
-                                   "%.4g", "%.4g");
-            bench.map.control("image.range");
-        } else if (viewed != nullptr) {
-            view.low = std::min(viewed->histogram.low, 0.0f);
-            view.high = std::max(viewed->histogram.bright, view.low + 1e-6f);
-            ImGui::TextDisabled("%.4g to %.4g", double(view.low), double(view.high));
+void drawRange(Bench& bench, const ShownImage& image, Look& look) {
+    static const std::vector<std::string> kScales = {"linear", "logarithmic", "symmetric about 0"};
+    int scale = static_cast<int>(look.scale);
+    if (choose(bench, "scale", kScales, scale, "image.scale"))
+        look.scale = static_cast<Scale>(scale);
+    if (checkbox(bench, "range from the image", look.isRangeAutomatic, "image.range_automatic") &&
+        !look.isRangeAutomatic) {
+        look.low = image.mapping.low;
+        look.high = image.mapping.high;
+    }
+    if (look.isRangeAutomatic) {
+        ImGui::TextDisabled("%.4g to %.4g", double(image.mapping.low), double(image.mapping.high));
+        return;
+    }
+    const float span = std::max(std::abs(look.high - look.low), 1e-30f);
+    ImGui::DragFloatRange2("range", &look.low, &look.high, span * 0.005f, -1e30f, 1e30f, "%.4g",
+                           "%.4g");
+    bench.map.control("image.range");
+}
+
+// How the image on the screen becomes colours: each has a look of its own.
+void drawLook(Bench& bench, const ShownImage& image) {
+    Look look = image.look;
+    const std::vector<std::pair<Channel, std::string>> channels = image.channels();
+    std::vector<std::string> names;
+    int chosen = 0;
+    for (const auto& [channel, name] : channels) {
+        if (channel == look.channel) chosen = static_cast<int>(names.size());
+        names.push_back(name);
+    }
+    if (choose(bench, "channel", names, chosen, "image.channel"))
+        look.channel = channels[static_cast<std::size_t>(chosen)].first;
+    static_cast<void>(checkbox(bench, "false colours (F)", look.isFalseColor, "image.false_color"));
+    if (look.isFalseColor) {
+        drawRange(bench, image, look);
+    } else if (!image.mapping.isEncoded) {
+        float stops = image.mapping.exposureStops;
+        if (ImGui::SliderFloat("exposure (+ -)", &stops, -kMaxStops, kMaxStops, "%.1f stops")) {
+            look.exposureStops = stops;
+            look.isExposureAutomatic = false;
         }
-    } else if (viewed == nullptr || !viewed->isEncoded) {
-        ImGui::SliderFloat("exposure (+ -)", &view.exposureStops, -20.0f, 20.0f, "%.1f stops");
-        bench.map.control("image.exposure", fmt::format("{}", view.exposureStops));
+        bench.map.control("image.exposure", fmt::format("{}", stops));
         // Irradiance is hundreds of W/m²: as it is, all of it is white.
-        if (viewed != nullptr && button(bench, "Expose for the image", "image.fit")) {
-            const float white = std::max(viewed->histogram.bright, 1e-6f);
-            view.exposureStops = std::clamp(-std::log2(white), -20.0f, 20.0f);
-        }
+        static_cast<void>(
+            checkbox(bench, "expose for the image", look.isExposureAutomatic, "image.fit"));
+        tooltip("So that 99 % of what is not 0 is told apart.");
+        if (!look.isExposureAutomatic && image.look.isExposureAutomatic) look.exposureStops = stops;
     } else {
         ImGui::TextDisabled("The picture is as it is written to beauty.png.");
     }
+    if (!(look == image.look)) bench.view.looks[image.resource] = look;
 }
 
 void drawValues(Bench& bench, const ViewedTexture& viewed) {
@@ -102,7 +165,8 @@ void drawValues(Bench& bench, const ViewedTexture& viewed) {
         bench.map.control("image.not_finite", "0");
     }
     ImGui::PopTextWrapPos();
-    const Histogram& histogram = viewed.histogram;
+    const Showing showing = showingOf(bench.requested(), *bench.result, *bench.reference);
+    const Histogram& histogram = showing.main ? showing.main->histogram : viewed.histogram;
     std::vector<float> counts;
     for (const std::uint32_t count : histogram.counts)
         counts.push_back(std::log2(1.0f + static_cast<float>(count)));
@@ -172,13 +236,9 @@ void drawImage(Bench& bench) {
     const ViewedTexture* viewed = result.viewed ? &*result.viewed : nullptr;
     chooseVariant(bench, "image");
     drawChoiceOfTexture(bench);
-    drawMapping(bench, viewed);
-    int sidePicture = static_cast<int>(bench.view.sidePicture);
-    if (choose(bench, "beside it", sidePictureNames(), sidePicture, "image.beside"))
-        bench.view.sidePicture = static_cast<SidePicture>(sidePicture);
-    tooltip(
-        "What is seen to the right of the split, which can be dragged. The reference is of the "
-        "caustic irradiance, and shown beside that.");
+    const Showing showing = showingOf(bench.requested(), *bench.result, *bench.reference);
+    if (showing.main) drawLook(bench, *showing.main);
+    drawChoiceOfSide(bench);
     ImGui::Separator();
     if (viewed != nullptr && viewed->missing != ViewedTexture::Missing::layer)
         drawValues(bench, *viewed);

@@ -15,6 +15,8 @@ void drawParameters(Bench& bench);  // of the nodes in use, from their declarati
 void drawImage(Bench& bench);       // which texture, and how its values become colours
 void drawPicture(Bench& bench);     // the picture itself, with what the hand does on it
 void drawError(Bench& bench);       // how wrong the frame is, and where the reference comes from
+void drawCompare(Bench& bench);     // variants that were kept, and how they differ
+void keepVariant(Bench& bench);     // what is shown, with its settings, pictures, times and errors
 void drawScene(Bench& bench);       // scene, camera, lights, water, time
 void drawRecord(Bench& bench);      // screenshots, sequences, reports, experiments
 void saveExperiment(Bench& bench);  // into the folder of recordings, under a new name

@@ -125,8 +125,8 @@ void drawSwitchedOff(Bench& bench, const VariantResult& result) {
 void drawSummary(Bench& bench, const VariantResult& result) {
     const double median = settledMedianOf(result.frameMs);
     if (!result.frameMs.empty()) {
-        ImGui::Text("Frame %.1f ms  (median of %zu: %.1f ms)", result.frameMs.back(),
-                    std::max<std::size_t>(result.frameMs.size() - 1, 1), median);
+        ImGui::TextWrapped("Frame %.1f ms  (median of %zu: %.1f ms)", result.frameMs.back(),
+                           std::max<std::size_t>(result.frameMs.size() - 1, 1), median);
     } else {
         ImGui::TextUnformatted("No frame yet.");
     }
@@ -180,6 +180,7 @@ void drawPasses(Bench& bench) {
         bench.map.control("passes.error", result.error);
     }
     drawSwitchedOff(bench, result);
+    drawTableButtons(bench, "passes", passTable(result));
     constexpr ImGuiTableFlags kFlags =
         ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit;
     if (!ImGui::BeginTable("passes", 7, kFlags)) return;

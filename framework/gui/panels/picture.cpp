@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "framework/gui/camera_control.h"
-#include "framework/gui/imgui_keys.h"
 #include "framework/gui/panels/panels.h"
 #include "framework/gui/panels/picture_overlay.h"
+#include "framework/gui/shown_image.h"
 #include "framework/gui/widgets.h"
 
 namespace kaustik::gui {
@@ -32,65 +32,79 @@ PictureFrame place(const ViewState& view, ImVec2 corner, ImVec2 size, const Imag
     return frame;
 }
 
-ToneMapping mappingOf(const ViewState& view, bool isEncoded) {
-    ToneMapping mapping;
-    mapping.isEncoded = isEncoded;
-    mapping.channel = view.channel;
-    mapping.exposureStops = view.exposureStops;
-    mapping.isFalseColor = view.isFalseColor;
-    mapping.low = view.low;
-    mapping.high = view.high;
-    return mapping;
-}
-
-// What is seen to the right of the split; null where there is nothing (yet).
-struct Other {
-    const Image* image = nullptr;
-    std::uint64_t version = 0;
-    bool isEncoded = false;
-    std::string name;
+// What is seen of one image: all of the area, or one side of the split.
+struct Part {
+    std::size_t slot = 0;  // of the canvas
+    const ShownImage* image = nullptr;
+    PictureFrame frame;  // of the image, which may be a quick one
+    float left = 0.0f;   // in the window
+    float right = 0.0f;
+    [[nodiscard]] bool isSeen() const { return right - left >= 1.0f; }
 };
 
-Other otherImage(const Bench& bench) {
-    const FrameResult& result = *bench.result;
-    const ReferenceState& reference = *bench.reference;
-    switch (bench.view.sidePicture) {
-        case SidePicture::none:
-            break;
-        case SidePicture::other: {
-            const VariantResult& b = result.variants[1];
-            if (b.viewed && !b.viewed->values.values.empty())
-                return {&b.viewed->values, b.viewed->version, b.viewed->isEncoded, "B"};
-            break;
-        }
-        case SidePicture::reference:
-            if (reference.irradiance && hasSameView(reference, result.document))
-                return {reference.irradiance.get(), 2 * reference.version, false, "reference"};
-            break;
-        case SidePicture::error:
-            if (const ReferenceState::Judgement& judgement =
-                    reference.judgements[bench.requested().seen()];
-                judgement.heatMap && hasSameView(reference, result.document)) {
-                return {judgement.heatMap.get(), 2 * reference.version + 1, true,
-                        judgement.order == result.order ? "error" : "error of before"};
-            }
-            break;
+// What lies under a place in the window; null where there is nothing.
+const Part* partAt(const std::vector<Part>& parts, ImVec2 mouse) {
+    for (const Part& part : parts) {
+        if (part.isSeen() && mouse.x >= part.left && mouse.x < part.right) return &part;
     }
-    return {};
+    return nullptr;
 }
 
-void drawPixelValues(const Bench& bench, const PictureFrame& frame, const Image& image) {
+// Text with an end that is cut where there is no room, and the whole of it under the mouse.
+void drawLine(const std::string& text, ImVec2 at, ImU32 color, float room) {
+    const float height = ImGui::GetTextLineHeight();
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    draw.PushClipRect(at, {at.x + room, at.y + height}, true);
+    draw.AddText(at, color, text.c_str());
+    draw.PopClipRect();
+    if (ImGui::CalcTextSize(text.c_str()).x > room &&
+        ImGui::IsMouseHoveringRect(at, {at.x + room, at.y + height}) && ImGui::IsWindowHovered()) {
+        ImGui::BeginTooltip();
+        ImGui::PushTextWrapPos(ImGui::GetFontSize() * 40.0f);
+        ImGui::TextUnformatted(text.c_str());
+        ImGui::PopTextWrapPos();
+        ImGui::EndTooltip();
+    }
+}
+
+// What there is of the area for pixels alone, and for words next to them, which cover none.
+struct Areas {
+    ImVec2 corner;  // of the pixels
+    ImVec2 size;
+    float top = 0.0f;     // of the caption
+    float bottom = 0.0f;  // of the values under the mouse
+};
+
+// Room for a bar, as wide as its numbers.
+float barWidth(const Bench& bench, const ShownImage& image) {
+    const std::optional<ColorBar> bar = image.colorBar();
+    if (!bar) return 0.0f;
+    float ticks = ImGui::CalcTextSize(image.content.unit().c_str()).x;
+    for (const ColorBar::Tick& tick : bar->ticks)
+        ticks = std::max(ticks, ImGui::CalcTextSize(tick.label.c_str()).x);
+    return ticks + static_cast<float>(bench.px(32.0));
+}
+
+Areas areasIn(const Bench& bench, ImVec2 corner, ImVec2 size, float left, float right) {
+    const float line = ImGui::GetTextLineHeight() + static_cast<float>(bench.px(3.0));
+    Areas areas{{corner.x + left, corner.y + 2.0f * line},
+                {std::max(size.x - left - right, 1.0f), std::max(size.y - 3.0f * line, 1.0f)},
+                corner.y,
+                corner.y + size.y - line};
+    return areas;
+}
+
+void drawNumbers(const Bench& bench, const Part& part) {
+    const PictureFrame& frame = part.frame;
     if (frame.zoom < kPixelsForValues * bench.scale) return;
     bench.map.area("picture.values", frame.corner.x, frame.corner.y, frame.size.x, frame.size.y);
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    const glm::ivec2 first = glm::floor(frame.pixelAt(frame.corner));
-    const glm::ivec2 last =
-        glm::floor(frame.pixelAt({frame.corner.x + frame.size.x, frame.corner.y + frame.size.y}));
-    for (int y = std::max(first.y, 0); y <= std::min(last.y, image.height - 1); ++y) {
-        for (int x = std::max(first.x, 0); x <= std::min(last.x, image.width - 1); ++x) {
-            std::string text;
-            for (int c = 0; c < image.channels; ++c)
-                text += fmt::format("{}{:.4g}", c == 0 ? "" : "\n", image.at(x, y, c));
+    const glm::ivec2 first = glm::floor(frame.pixelAt({part.left, frame.corner.y}));
+    const glm::ivec2 last = glm::floor(frame.pixelAt({part.right, frame.corner.y + frame.size.y}));
+    for (int y = std::max(first.y, 0); y <= std::min(last.y, frame.height - 1); ++y) {
+        for (int x = std::max(first.x, 0); x <= std::min(last.x, frame.width - 1); ++x) {
+            const std::string text = part.image->numbersAt({x, y});
+            if (text.empty()) continue;
             const ImVec2 at = frame.windowAt({x, y});
             const ImVec2 size = ImGui::CalcTextSize(text.c_str());
             draw.AddRectFilled({at.x + 1.0f, at.y + 1.0f},
@@ -99,6 +113,64 @@ void drawPixelValues(const Bench& bench, const PictureFrame& frame, const Image&
             draw.AddText({at.x + 3.0f, at.y + 1.0f}, IM_COL32(255, 255, 255, 255), text.c_str());
         }
     }
+}
+
+// Names of the views that an image holds several of, and a ground for what is none of them.
+void drawRegions(const Part& part) {
+    const PictureFrame& frame = part.frame;
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    for (const ViewedTexture::Region& region : part.image->regions) {
+        const ImVec2 low = frame.windowAt({region.x, region.y});
+        const ImVec2 high = frame.windowAt({region.x + region.width, region.y + region.height});
+        draw.AddRect(low, high, IM_COL32(255, 255, 255, 90));
+        draw.AddText({low.x + 6.0f, low.y + 4.0f}, IM_COL32(255, 255, 255, 255),
+                     region.name.c_str());
+    }
+}
+
+void drawColorBar(const Bench& bench, const ShownImage& image, const Areas& areas, float left,
+                  const std::string& name) {
+    const std::optional<ColorBar> bar = image.colorBar();
+    if (!bar) return;
+    const float line = ImGui::GetTextLineHeight();
+    const auto width = static_cast<float>(bench.px(12.0));
+    const float height = std::min(areas.size.y - 3.0f * line, static_cast<float>(bench.px(320.0)));
+    if (height < 3.0f * line) return;
+    const float x = left + static_cast<float>(bench.px(8.0));
+    const float top = areas.corner.y + areas.size.y - height - line;
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    constexpr int kSteps = 64;
+    for (int i = 0; i < kSteps; ++i) {
+        const std::array<float, 3> color = bar->colorAt((i + 0.5) / kSteps);
+        const float y1 = top + height * (1.0f - static_cast<float>(i + 1) / kSteps);
+        const float y2 = top + height * (1.0f - static_cast<float>(i) / kSteps);
+        draw.AddRectFilled({x, y1}, {x + width, y2},
+                           ImGui::GetColorU32({color[0], color[1], color[2], 1.0f}));
+    }
+    draw.AddRect({x, top}, {x + width, top + height}, IM_COL32(255, 255, 255, 160));
+    // Ends beyond which there are values: they have the colours of these.
+    const ImU32 mark = IM_COL32(255, 120, 100, 255);
+    const float middle = x + 0.5f * width;
+    if (bar->clipsHigh)
+        draw.AddTriangleFilled({x, top - 2.0f}, {x + width, top - 2.0f}, {middle, top - 9.0f},
+                               mark);
+    if (bar->clipsLow) {
+        const float end = top + height + 2.0f;
+        draw.AddTriangleFilled({x, end}, {x + width, end}, {middle, end + 7.0f}, mark);
+    }
+    for (const ColorBar::Tick& tick : bar->ticks) {
+        const float y = top + height * (1.0f - static_cast<float>(tick.place));
+        draw.AddLine({x + width, y}, {x + width + 4.0f, y}, IM_COL32(255, 255, 255, 200));
+        draw.AddText({x + width + 7.0f, y - 0.5f * line}, IM_COL32(255, 255, 255, 255),
+                     tick.label.c_str());
+    }
+    const std::string& unit = image.content.unit();
+    draw.AddText({x, top - 1.4f * line - 8.0f}, IM_COL32(255, 255, 255, 255),
+                 unit.empty() ? "1" : unit.c_str());
+    bench.map.area(
+        name, x, top, width, height,
+        fmt::format("{:.6g} {:.6g} {}{}{}", bar->low, bar->high, bar->label,
+                    bar->clipsLow ? " clips low" : "", bar->clipsHigh ? " clips high" : ""));
 }
 
 void zoomAt(ViewState& view, const PictureFrame& frame, ImVec2 mouse, float factor) {
@@ -114,14 +186,12 @@ void zoomAt(ViewState& view, const PictureFrame& frame, ImVec2 mouse, float fact
 void fly(Bench& bench) {
     const ImGuiIO& io = ImGui::GetIO();
     if (io.WantTextInput || io.KeyCtrl || !bench.isSceneCurrent()) return;
-    const auto key = [&](char c) { return isKeyDown(c) ? 1.0 : 0.0; };
-    const glm::dvec3 way(key('D') - key('A'), key('E') - key('Q'), key('W') - key('S'));
+    const glm::dvec3 way = bench.flight;
     if (way == glm::dvec3(0.0)) return;
     const scene::Bounds& bounds = bench.result->scene->bounds;
     const double speed =
         0.25 * glm::length(bounds.maximum - bounds.minimum) * (io.KeyShift ? 4.0 : 1.0);
-    const double seconds = std::min(double(io.DeltaTime), 0.1);
-    bench.document.edits.camera = gui::fly(bench.camera(), speed * seconds * way);
+    bench.document.edits.camera = gui::fly(bench.camera(), speed * glm::clamp(way, -0.1, 0.1));
     bench.isTurning = true;
 }
 
@@ -203,86 +273,87 @@ void applyDrag(Bench& bench, const PictureFrame& frame, DragState& hand) {
     }
 }
 
-void drawCursorValue(Bench& bench, const PictureFrame& frame, const ViewedTexture& viewed,
-                     const Other& other, float splitX) {
-    const ImVec2 mouse = ImGui::GetIO().MousePos;
-    const glm::ivec2 pixel = glm::floor(frame.pixelAt(mouse));
-    if (!frame.contains(pixel)) return;
-    const bool isOther = other.image != nullptr && mouse.x >= splitX;
-    const Image& image = isOther ? *other.image : viewed.values;
-    // The other image may have another size while a frame is on its way.
-    if (pixel.x >= image.width || pixel.y >= image.height) return;
-    std::string text = fmt::format("({}, {})", pixel.x, pixel.y);
-    for (int c = 0; c < image.channels; ++c)
-        text += fmt::format("  {:.5g}", image.at(pixel.x, pixel.y, c));
-    bench.map.area("picture.value", 0, 0, 0, 0, text);
-    const ImVec2 at(frame.corner.x + 6.0f,
-                    frame.corner.y + frame.size.y - 1.6f * ImGui::GetFontSize());
-    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-    ImDrawList& draw = *ImGui::GetWindowDrawList();
-    draw.AddRectFilled({at.x - 4.0f, at.y - 2.0f}, {at.x + size.x + 4.0f, at.y + size.y + 2.0f},
-                       IM_COL32(0, 0, 0, 170));
-    draw.AddText(at, IM_COL32(255, 255, 255, 255), text.c_str());
-}
-
-// What the image left of the split is of, as it was rendered: it may be older than what is asked
-// for.
-void drawCaption(const Bench& bench, const PictureFrame& frame, const ViewedTexture& viewed) {
-    const char* variant = !bench.document.other ? "" : bench.requested().seen() == 0 ? "A " : "B ";
-    const std::string layer = viewed.layers > 1 ? fmt::format(", layer {}", viewed.layer) : "";
-    const std::string text = fmt::format("{}{}{}", variant, viewed.name, layer);
-    bench.map.area("picture.caption", 0, 0, 0, 0, text);
+void drawCursorValue(Bench& bench, const Part& part, const Areas& areas, float left, float room) {
+    const glm::ivec2 pixel = glm::floor(part.frame.pixelAt(ImGui::GetIO().MousePos));
+    const std::string text = part.image->valuesAt(pixel);
     if (text.empty()) return;
-    const ImVec2 at(frame.corner.x + 6.0f, frame.corner.y + 4.0f);
-    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-    ImDrawList& draw = *ImGui::GetWindowDrawList();
-    draw.AddRectFilled({at.x - 4.0f, at.y - 2.0f}, {at.x + size.x + 4.0f, at.y + size.y + 2.0f},
-                       IM_COL32(0, 0, 0, 170));
-    draw.AddText(at, IM_COL32(255, 255, 255, 255), text.c_str());
+    bench.map.area("picture.value", left, areas.bottom, room, ImGui::GetTextLineHeight(), text);
+    drawLine(text, {left, areas.bottom}, IM_COL32(255, 255, 255, 255), room);
 }
 
-void drawOther(Bench& bench, const PictureFrame& frame, const Other& other, float splitX) {
-    const ImVec2 corner = frame.corner;
-    const ImVec2 size = frame.size;
+// What an image is of.
+void drawCaption(const Bench& bench, const Part& part, const Areas& areas, float left,
+                 float right) {
+    const std::string text = part.image->caption();
+    const std::string name = part.slot == 0 ? "picture.caption" : "picture.caption.side";
+    const float room = right - left - static_cast<float>(bench.px(8.0));
+    bench.map.area(name, left, areas.top, room, ImGui::GetTextLineHeight(), text);
+    drawLine(text, {left, areas.top},
+             part.image->age.empty() ? IM_COL32(255, 255, 255, 255) : IM_COL32(255, 205, 90, 255),
+             room);
+}
+
+// What the technique says of the picture, next to it.
+void drawReservations(const Bench& bench, const Areas& areas, float left, float room) {
+    const std::vector<std::string> all =
+        shownOf(bench.requested(), *bench.result, *bench.reference, bench.whole).reservations;
+    if (all.empty()) return;
+    std::string text =
+        all.size() == 1 ? all.front() : fmt::format("1 of {}: {}", all.size(), all.front());
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    const float y = areas.top + ImGui::GetTextLineHeight() + static_cast<float>(bench.px(3.0));
+    bench.map.area("picture.reservations", left, y, room, ImGui::GetTextLineHeight(), text);
+    drawLine(text, {left, y}, IM_COL32(255, 205, 90, 255), room);
+}
+
+void drawPart(Bench& bench, const Part& part) {
+    const PictureFrame& frame = part.frame;
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    bench.canvas.show(1, *other.image, other.version, mappingOf(bench.view, other.isEncoded));
-    draw.PushClipRect({splitX, corner.y}, {corner.x + size.x, corner.y + size.y}, true);
-    draw.AddImage(bench.canvas.texture(1), frame.low, frame.high);
+    bench.canvas.show(part.slot, *part.image->values, part.image->version, part.image->mapping);
+    draw.PushClipRect({part.left, frame.corner.y}, {part.right, frame.corner.y + frame.size.y},
+                      true);
+    draw.AddImage(bench.canvas.texture(part.slot), frame.low, frame.high);
+    drawRegions(part);
+    drawNumbers(bench, part);
     draw.PopClipRect();
-    draw.AddLine({splitX, corner.y}, {splitX, corner.y + size.y}, IM_COL32(255, 255, 255, 200),
-                 1.5f * bench.scale);
-    draw.AddText({splitX + 6.0f, corner.y + 4.0f}, IM_COL32(255, 255, 255, 255),
-                 other.name.c_str());
-    bench.map.area("picture.split", splitX - 3.0f, corner.y, 6.0f, size.y,
-                   fmt::format("{}", bench.view.split));
 }
 
-// What a press takes hold of.
-DragState beginDrag(bool isNearSplit, int pointedLight) {
+// What a press takes hold of. What is not seen by the eye is moved itself, and not the eye.
+DragState beginDrag(bool isNearSplit, int pointedLight, bool isEyes) {
     DragState hand;
     hand.pressed = ImGui::GetIO().MousePos;
     if (ImGui::IsMouseDown(ImGuiMouseButton_Right)) {
-        hand.hold = DragTarget::look;
+        hand.hold = isEyes ? DragTarget::look : DragTarget::middle;
     } else if (ImGui::IsMouseDown(ImGuiMouseButton_Middle)) {
         hand.hold = DragTarget::middle;
     } else if (pointedLight >= 0) {
         hand.hold = DragTarget::light;
         hand.light = pointedLight;
     } else {
-        hand.hold = isNearSplit ? DragTarget::split : DragTarget::camera;
+        hand.hold = isNearSplit ? DragTarget::split
+                    : isEyes    ? DragTarget::camera
+                                : DragTarget::middle;
     }
     return hand;
 }
 
-void useWheel(Bench& bench, const PictureFrame& frame) {
+void useWheel(Bench& bench, const PictureFrame& frame, bool isEyes) {
     const ImGuiIO& io = ImGui::GetIO();
     if (io.MouseWheel == 0.0f) return;
-    if (io.KeyCtrl && bench.isSceneCurrent()) {
+    if (io.KeyCtrl && isEyes && bench.isSceneCurrent()) {
         bench.document.edits.camera = dolly(bench.camera(), double(io.MouseWheel));
         bench.isTurning = true;
     } else {
         zoomAt(bench.view, frame, io.MousePos, std::pow(1.25f, io.MouseWheel));
     }
+}
+
+void drawSplit(Bench& bench, const PictureFrame& frame, float splitX) {
+    ImGui::GetWindowDrawList()->AddLine({splitX, frame.corner.y},
+                                        {splitX, frame.corner.y + frame.size.y},
+                                        IM_COL32(255, 255, 255, 200), 1.5f * bench.scale);
+    bench.map.area("picture.split", splitX - 3.0f, frame.corner.y, 6.0f, frame.size.y,
+                   fmt::format("{}", bench.view.split));
 }
 
 // In the place of an image.
@@ -296,75 +367,104 @@ void drawWords(Bench& bench, ImVec2 corner, ImVec2 size, const char* text) {
 
 void drawPicture(Bench& bench) {
     static thread_local DragState hand;  // of the one mouse that there is
-    const ImVec2 corner = ImGui::GetCursorScreenPos();
-    const ImVec2 size = ImGui::GetContentRegionAvail();
-    if (size.x < 16.0f || size.y < 16.0f) return;
+    const ImVec2 whole = ImGui::GetCursorScreenPos();
+    const ImVec2 wholeSize = ImGui::GetContentRegionAvail();
+    if (wholeSize.x < 16.0f || wholeSize.y < 16.0f) return;
+    bench.map.area("picture.pane", whole.x, whole.y, wholeSize.x, wholeSize.y);
+    const Showing showing = showingOf(bench.requested(), *bench.result, *bench.reference);
+    if (!showing.main) return drawWords(bench, whole, wholeSize, showing.words.c_str());
+    const ShownImage& main = *showing.main;
+    // One bar for both sides where they have one scale.
+    const bool hasTwoBars = showing.side && !(showing.side->mapping == main.mapping);
+    const ShownImage& right = hasTwoBars ? *showing.side : main;
+    const float leftBar = hasTwoBars ? barWidth(bench, main) : 0.0f;
+    const Areas areas = areasIn(bench, whole, wholeSize, leftBar, barWidth(bench, right));
+    const ImVec2 corner = areas.corner;
+    const ImVec2 size = areas.size;
+    if (size.x < 8.0f || size.y < 8.0f) return;
+    ImGui::SetCursorScreenPos(corner);
     ImGui::InvisibleButton("picture", size,
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
                                ImGuiButtonFlags_MouseButtonMiddle);
     const bool isHovered = ImGui::IsItemHovered();
     const bool isActivated = ImGui::IsItemActivated();
     const bool isActive = ImGui::IsItemActive();
-    const VariantResult& shown = bench.result->variants[bench.requested().seen()];
-    if (!shown.viewed) {
-        const bool isToCome = bench.result->problem.empty() && shown.error.empty();
-        return drawWords(
-            bench, corner, size,
-            isToCome ? "The first picture is being rendered …" : "There is nothing to show.");
-    }
-    const ViewedTexture& viewed = *shown.viewed;
-    if (viewed.missing == ViewedTexture::Missing::layer)
-        return drawWords(bench, corner, size, "There is no such layer.");
     ViewState& view = bench.view;
-    // A preview has fewer pixels, and lies where the whole picture does.
-    const params::Extent whole = bench.result->document.size;
-    const float reduction =
-        shown.isPreview ? static_cast<float>(whole.width) / static_cast<float>(viewed.values.width)
-                        : 1.0f;
-    const PictureFrame frame = place(view, corner, size, viewed.values, reduction);
-    const bool hasPixelsOfDocument =
-        viewed.values.width == whole.width && viewed.values.height == whole.height;
-    const Other other = otherImage(bench);
-    const float splitX = other.image != nullptr
-                             ? frame.low.x + view.split * (frame.high.x - frame.low.x)
-                             : corner.x + size.x;
+    // A quick picture has fewer pixels, and lies where the whole one does.
+    const params::Extent extent = bench.result->document.size;
+    const auto frameOf = [&](const ShownImage& image) {
+        const bool isQuick = image.takesOverlay && image.values->width < extent.width;
+        return place(
+            view, corner, size, *image.values,
+            isQuick ? static_cast<float>(extent.width) / static_cast<float>(image.values->width)
+                    : 1.0f);
+    };
+    const PictureFrame frame = frameOf(main);
+    const float end = corner.x + size.x;
+    const float splitX =
+        showing.side ? frame.low.x + view.split * (frame.high.x - frame.low.x) : end;
+    const float middle = std::clamp(splitX, corner.x, end);
+    std::vector<Part> parts = {Part{0, &main, frame, corner.x, middle}};
+    if (showing.side) parts.push_back(Part{1, &*showing.side, frameOf(*showing.side), middle, end});
 
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    bench.canvas.show(0, viewed.values, viewed.version, mappingOf(view, viewed.isEncoded));
-    draw.PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
-    draw.AddImage(bench.canvas.texture(0), frame.low, frame.high);
-    if (other.image != nullptr) drawOther(bench, frame, other, splitX);
-    drawPixelValues(bench, frame, viewed.values);
-    drawPhotons(bench, frame);
-    const int pointedLight =
-        drawLights(bench, frame, isHovered, hand.hold == DragTarget::light ? hand.light : -1);
-    drawCaption(bench, frame, viewed);
+    draw.PushClipRect(corner, {end, corner.y + size.y}, true);
+    for (const Part& part : parts) {
+        if (part.isSeen()) drawPart(bench, part);
+    }
+    int pointedLight = -1;
+    if (main.takesOverlay) {
+        drawPhotons(bench, frame);
+        pointedLight =
+            drawLights(bench, frame, isHovered, hand.hold == DragTarget::light ? hand.light : -1);
+    }
+    if (showing.side) drawSplit(bench, frame, splitX);
     draw.PopClipRect();
+    const float paneEnd = whole.x + wholeSize.x;
+    for (const Part& part : parts) {
+        if (!part.isSeen()) continue;
+        const bool isFirst = &part == &parts.front() || !parts.front().isSeen();
+        const bool isLast = &part == &parts.back() || !parts.back().isSeen();
+        drawCaption(bench, part, areas, isFirst ? whole.x + 4.0f : part.left,
+                    isLast ? paneEnd : part.right);
+    }
+    drawReservations(bench, areas, whole.x + 4.0f, wholeSize.x - 8.0f);
+    drawColorBar(bench, right, areas, corner.x + size.x,
+                 hasTwoBars ? "picture.bar.side" : "picture.bar");
+    if (hasTwoBars) drawColorBar(bench, main, areas, whole.x, "picture.bar");
     bench.map.area("picture", corner.x, corner.y, size.x, size.y,
-                   shown.isPreview ? "preview" : "whole");
+                   frame.reduction > 1.0f ? "preview" : "whole");
     bench.map.area("picture.image", frame.low.x, frame.low.y, frame.high.x - frame.low.x,
                    frame.high.y - frame.low.y);
-    if (isHovered) drawCursorValue(bench, frame, viewed, other, splitX);
-
     const ImVec2 mouse = ImGui::GetIO().MousePos;
+    if (const Part* part = partAt(parts, mouse); isHovered && part != nullptr)
+        drawCursorValue(bench, *part, areas, whole.x + 4.0f, wholeSize.x - 8.0f);
+
     if (isActivated) {
-        const bool isNearSplit = other.image != nullptr &&
-                                 std::abs(mouse.x - splitX) < static_cast<float>(bench.px(6.0));
-        hand = beginDrag(isNearSplit, pointedLight);
+        const bool isNearSplit =
+            showing.side && std::abs(mouse.x - splitX) < static_cast<float>(bench.px(6.0));
+        hand = beginDrag(isNearSplit, pointedLight, main.takesOverlay);
     }
     if (isActive) {
         applyDrag(bench, frame, hand);
         if (hand.hold != DragTarget::none && hand.hasMoved) bench.isDragging = true;
     } else if (hand.hold != DragTarget::none) {
         const glm::ivec2 pixel = glm::floor(frame.pixelAt(mouse));
-        if (!hand.hasMoved && hand.hold == DragTarget::camera && view.probes &&
-            hasPixelsOfDocument && frame.contains(pixel))
-            view.probePixel = pixel;
+        const bool isClick = !hand.hasMoved && frame.contains(pixel) && view.probes;
+        if (isClick && hand.hold == DragTarget::camera) {
+            if (frame.width == extent.width && frame.height == extent.height)
+                view.probePixel = pixel;
+        } else if (isClick && hand.hold == DragTarget::middle) {
+            bench.notify(
+                fmt::format("Photons are probed at pixels of the eye's view, and {} is {}.",
+                            main.name(), main.place),
+                true);
+        }
         hand = {};
     }
     if (isHovered) {
-        useWheel(bench, frame);
-        fly(bench);
+        useWheel(bench, frame, main.takesOverlay);
+        if (main.takesOverlay) fly(bench);
     }
 }
 

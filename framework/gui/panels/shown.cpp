@@ -13,6 +13,7 @@ ImVec4 colorOf(Shown::Kind kind) {
             return {0.45f, 0.75f, 0.45f, 1.0f};
         case Shown::Kind::rendering:
             return {0.5f, 0.7f, 1.0f, 1.0f};
+        case Shown::Kind::limited:
         case Shown::Kind::preview:
             return {1.0f, 0.8f, 0.35f, 1.0f};
         case Shown::Kind::impossible:
@@ -98,7 +99,10 @@ void drawShown(Bench& bench) {
         return;
     }
     // It may be longer than the window is wide.
-    tooltip(shown.sentence);
+    std::string whole = shown.sentence;
+    for (const std::string& reservation : shown.reservations)
+        whole += "\n" + reservation;
+    tooltip(whole);
 }
 
 }  // namespace kaustik::gui

@@ -57,8 +57,8 @@ TEST(State, IsTheSameAfterARestart) {
     SavedState kept;
     kept.view.resource = "layers.depth";
     kept.view.layer = 3;
-    kept.view.isFalseColor = true;
-    kept.view.exposureStops = -2.5f;
+    kept.view.looks["hits.flux"] = {Channel::green,   false, -2.5f, true,
+                                    Scale::symmetric, false, -1.0f, 3.0f};
     kept.view.sidePicture = SidePicture::reference;
     kept.panels.leftWidth = 333.0f;
     kept.panels.recordFolder = "elsewhere";
@@ -82,12 +82,13 @@ TEST(State, ThatMakesNoSenseIsAsAtTheFirstStart) {
     std::vector<std::string> problems;
     const SavedState kept =
         savedStateFromJson(json::parse(R"({"window": {"width": -5, "height": 1e9},
-                                                   "view": {"split": 7, "channel": 99}})"),
+                                                   "view": {"split": 7, "looks": {"a": {"channel": 99}}}})"),
                            problems);
     EXPECT_GE(kept.window.width, 400);
     EXPECT_LE(kept.window.height, 16384);
     EXPECT_EQ(kept.view.split, 1.0f);
-    EXPECT_EQ(kept.view.channel, Channel::luminance);
+    EXPECT_EQ(kept.view.lookOf("a").channel, Channel::luminance);
+    EXPECT_EQ(kept.view.lookOf("b"), Look());
     // A smaller screen than the last time is no damage.
     EXPECT_TRUE(problems.empty());
 }

@@ -54,6 +54,20 @@ TEST_F(ShownTest, IsRedOverWhatNoLightCanDo) {
     EXPECT_TRUE(isRendered(requested(), result));
 }
 
+TEST_F(ShownTest, IsNotGreenOverWhatTheTechniqueItselfDoesNotForm) {
+    result.variants[0].warnings = {"It joins nothing."};
+    EXPECT_EQ(shown().kind, Shown::Kind::limited);
+    EXPECT_TRUE(says("a reservation: It joins nothing."));
+    ReachedLimit limit;
+    limit.parameter = "specular.bounces";
+    limit.value = 8.0;
+    result.variants[0].limits.push_back(limit);
+    EXPECT_TRUE(says("2 reservations"));
+    ASSERT_EQ(shown().reservations.size(), 2u);
+    EXPECT_NE(shown().reservations[1].find("specular.bounces = 8"), std::string::npos);
+    EXPECT_TRUE(isRendered(requested(), result));
+}
+
 TEST_F(ShownTest, IsOfBeforeUntilTheNewestOrderIsRendered) {
     result.order = kOrder - 1;
     result.variants[0].order = kOrder - 1;
@@ -166,9 +180,13 @@ TEST_F(ShownTest, IsStaleWhereShadersAreBroken) {
 
 TEST_F(ShownTest, SaysWhatIsMissingBesideThePicture) {
     view.sidePicture = SidePicture::reference;
+    ViewedTexture& viewed = *result.variants[0].viewed;
+    viewed.name = "caustic.irradiance";
+    viewed.content = contentOf(viewed.name, {});
     EXPECT_EQ(shown().kind, Shown::Kind::requested);
     EXPECT_TRUE(says("no reference of this view"));
     reference.photons = 1000;
+    reference.irradiance = std::make_shared<const Image>();
     reference.aim = ReferenceAim{document.scene, document.edits, document.size, {}, 0};
     EXPECT_FALSE(says("no reference of this view"));
     reference.aim->size = {1, 1};
@@ -178,6 +196,11 @@ TEST_F(ShownTest, SaysWhatIsMissingBesideThePicture) {
     EXPECT_TRUE(says("still being measured"));
     reference.judgements[0].order = kOrder;
     EXPECT_FALSE(says("still being measured"));
+    EXPECT_TRUE(says("no pixel has an error")) << "where nothing is seen that is lit";
+    reference.judgements[0].error = std::make_shared<const Image>();
+    EXPECT_FALSE(says("error"));
+    reference.judgements[0].order = kOrder - 1;
+    EXPECT_TRUE(says("of a frame before"));
 }
 
 TEST_F(ShownTest, PassesThatAreNoLongerThereAreNotWhatWasAskedFor) {

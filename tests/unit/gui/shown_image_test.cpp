@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: MIT
+// One description of what is on the screen, of which picture, caption, numbers and colour bar are.
+#include "framework/gui/shown_image.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "framework/gui/texture_reader.h"
+#include "framework/render/view.h"
+
+namespace kaustik::gui::test {
+namespace {
+
+constexpr std::uint64_t kOrder = 7;
+
+// A technique's irradiance of 788.4 and a reference of 833.67 W/m², 4x2 pixels.
+class ShownImageTest : public testing::Test {
+  protected:
+    ShownImageTest() {
+        result.order = kOrder;
+        result.document = document;
+        render(result.variants[0], "caustic.irradiance", 788.4f);
+        reference.photons = 8'000'000;
+        reference.relativeError = 0.146;
+        reference.version = 3;
+        reference.aim = {document.scene, {}, document.size, {}, 0};
+        reference.irradiance = std::make_shared<const Image>(filled(833.67f, 3));
+    }
+    static Image filled(float value, int channels) {
+        Image image(4, 2, channels);
+        std::fill(image.values.begin(), image.values.end(), value);
+        return image;
+    }
+    static void render(VariantResult& variant, const std::string& name, float value,
+                       const graph::TextureDesc& desc = {4, 2}) {
+        variant.order = kOrder;
+        ViewedTexture& viewed = variant.viewed.emplace();
+        viewed.name = name;
+        viewed.version = 11;
+        viewed.content = contentOf(name, desc);
+        viewed.place = describe(viewed.content.space);
+        viewed.values = filled(value, static_cast<int>(viewed.content.channels.size()));
+        viewed.histogram = histogramOf(viewed.values);
+    }
+    [[nodiscard]] Showing showing() const {
+        return showingOf({document, kOrder, view}, result, reference);
+    }
+
+    Document document;
+    ViewState view;
+    FrameResult result;
+    ReferenceState reference;
+};
+
+TEST_F(ShownImageTest, EachSideOfASplitHasItsOwnWordsAndNumbers) {
+    view.sidePicture = SidePicture::reference;
+    const Showing both = showing();
+    ASSERT_TRUE(both.main && both.side);
+    EXPECT_EQ(both.sideProblem, "");
+    EXPECT_NE(both.main->valuesAt({1, 1}).find("788.4"), std::string::npos);
+    EXPECT_NE(both.side->valuesAt({1, 1}).find("833.67"), std::string::npos);
+    EXPECT_EQ(both.main->numbersAt({1, 1}).find("833"), std::string::npos);
+    EXPECT_NE(both.side->numbersAt({1, 1}).find("833.7"), std::string::npos);
+    EXPECT_EQ(both.main->caption().find("reference"), std::string::npos);
+    EXPECT_TRUE(both.side->caption().starts_with("reference: caustic.irradiance"));
+    // With what it is worth itself.
+    EXPECT_NE(both.side->caption().find("8 million photons, its own noise 15 %"), std::string::npos)
+        << both.side->caption();
+    // One scale for both.
+    EXPECT_EQ(both.main->mapping, both.side->mapping);
+}
+
+TEST_F(ShownImageTest, ValuesHaveTheirNamesAndUnits) {
+    const ShownImage image = *showing().main;
+    EXPECT_EQ(image.valuesAt({1, 0}),
+              "(1, 0)  red 788.4  green 788.4  blue 788.4 W/m²  alpha 788.4");
+    EXPECT_EQ(image.valuesAt({4, 0}), "");
+    EXPECT_EQ(image.caption(), "caustic.irradiance · caustic irradiance, W/m² · the eye's view");
+}
+
+TEST_F(ShownImageTest, UnlikeImagesShareNoSplit) {
+    view.sidePicture = SidePicture::reference;
+    render(result.variants[0], "shadow.maps", 2.0f);
+    Showing both = showing();
+    EXPECT_FALSE(both.side);
+    EXPECT_NE(both.sideProblem.find("shadow.maps is a light's view"), std::string::npos)
+        << both.sideProblem;
+    render(result.variants[0], "layers.depth", 2.0f);
+    both = showing();
+    EXPECT_FALSE(both.side);
+    EXPECT_NE(both.sideProblem.find("W/m²"), std::string::npos) << both.sideProblem;
+    reference.irradiance = std::make_shared<const Image>(Image(8, 2, 3));
+    render(result.variants[0], "caustic.irradiance", 2.0f);
+    both = showing();
+    EXPECT_FALSE(both.side);
+    EXPECT_NE(both.sideProblem.find("8×2"), std::string::npos) << both.sideProblem;
+}
+
+TEST_F(ShownImageTest, OnlyTheEyesViewTakesWhatIsDrawnOverIt) {
+    EXPECT_TRUE(showing().main->takesOverlay);
+    for (const char* name : {"shadow.maps", "hits.flux_1", "around.depth", "layers.pyramid"}) {
+        render(result.variants[0], name, 1.0f);
+        EXPECT_FALSE(showing().main->takesOverlay) << name;
+    }
+}
+
+TEST_F(ShownImageTest, AnErrorHasASignAndIsNoColourTwice) {
+    view.sidePicture = SidePicture::error;
+    EXPECT_NE(showing().sideProblem.find("still being measured"), std::string::npos);
+    ReferenceState::Judgement& judgement = reference.judgements[0];
+    judgement.order = kOrder;
+    Image error = filled(-45.27f, 1);
+    error.at(0, 0, 0) = std::nanf("");
+    judgement.error = std::make_shared<const Image>(error);
+    judgement.errorHistogram = histogramOf(error);
+    const Showing both = showing();
+    ASSERT_TRUE(both.side);
+    EXPECT_EQ(both.side->valuesAt({1, 0}), "(1, 0)  error -45.27 W/m²");
+    EXPECT_EQ(both.side->valuesAt({0, 0}), "(0, 0)  left out");
+    EXPECT_TRUE(both.side->caption().starts_with(
+        "error: caustic irradiance minus that of the reference, mean of the channels, W/m²"))
+        << both.side->caption();
+    EXPECT_TRUE(both.side->mapping.isFalseColor);
+    EXPECT_EQ(both.side->colorBar()->scale, Scale::symmetric);
+    EXPECT_EQ(both.side->age, "");
+    judgement.order = kOrder - 1;
+    EXPECT_NE(showing().side->caption().find("of a frame before"), std::string::npos);
+}
+
+TEST_F(ShownImageTest, LooksBelongToATexture) {
+    view.looks["caustic.irradiance"].isExposureAutomatic = false;
+    view.looks["caustic.irradiance"].exposureStops = -3.0f;
+    EXPECT_EQ(showing().main->mapping.exposureStops, -3.0f);
+    // By itself what is dim is seen, too.
+    render(result.variants[0], "photons.flux", 1e-6f);
+    EXPECT_NEAR(showing().main->mapping.exposureStops, std::log2(1e6f), 1e-3f);
+    EXPECT_NEAR(showing().main->colorBar()->high, 1e-6, 1e-12);
+}
+
+TEST_F(ShownImageTest, BarsSayWhatIsBeyondTheirEnds) {
+    Look& look = view.looks["caustic.irradiance"];
+    look.isFalseColor = true;
+    look.isRangeAutomatic = false;
+    look.low = 100.0f;
+    look.high = 700.0f;
+    ColorBar bar = *showing().main->colorBar();
+    EXPECT_FALSE(bar.clipsLow);
+    EXPECT_TRUE(bar.clipsHigh);
+    EXPECT_EQ(bar.label, "luminance of caustic irradiance, W/m²");
+    look.scale = Scale::logarithmic;
+    look.high = 1e4f;
+    bar = *showing().main->colorBar();
+    EXPECT_FALSE(bar.clipsHigh);
+    ASSERT_EQ(bar.ticks.size(), 3u);
+    EXPECT_EQ(bar.ticks[1].label, "1000");
+    EXPECT_NEAR(bar.ticks[1].place, 0.5, 1e-6);
+    look.scale = Scale::symmetric;
+    look.high = 500.0f;
+    bar = *showing().main->colorBar();
+    EXPECT_EQ(bar.low, -500.0);
+    EXPECT_TRUE(bar.clipsHigh);
+}
+
+TEST(Look, PlacesAndValuesOnAScaleAreInverse) {
+    for (const Scale scale : {Scale::linear, Scale::logarithmic, Scale::symmetric}) {
+        for (const double place : {0.0, 0.3, 1.0})
+            EXPECT_NEAR(placeOn(scale, 0.1, 40.0, valueOn(scale, 0.1, 40.0, place)), place, 1e-12);
+    }
+    EXPECT_LT(placeOn(Scale::logarithmic, 0.1, 40.0, -1.0), 0.0);
+}
+
+// Grey as people see it without one kind of cones is still ordered, which lightness guarantees.
+TEST(Look, ColoursRiseInLightness) {
+    const auto lightness = [](Scale scale, double t) {
+        const std::array<float, 3> c = falseColor(scale, t);
+        return 0.2126 * std::pow(c[0], 2.2) + 0.7152 * std::pow(c[1], 2.2) +
+               0.0722 * std::pow(c[2], 2.2);
+    };
+    for (int i = 0; i < 50; ++i) {
+        EXPECT_LT(lightness(Scale::linear, i / 50.0), lightness(Scale::linear, (i + 1) / 50.0));
+        EXPECT_LT(lightness(Scale::symmetric, i / 100.0),
+                  lightness(Scale::symmetric, (i + 1) / 100.0));
+        EXPECT_LT(lightness(Scale::symmetric, 1.0 - i / 100.0),
+                  lightness(Scale::symmetric, 1.0 - (i + 1) / 100.0));
+    }
+}
+
+TEST(TextureContent, IsKnownByNameWhateverListOrLightItIsOf) {
+    const graph::TextureDesc four{8, 8, graph::Format::rgba32f, 0};
+    EXPECT_EQ(contentOf("photons.flux_3.medium.probes", four).unit(), "W");
+    EXPECT_EQ(contentOf("hits.position_shadow_0", four).channels[3].unit, "m");
+    EXPECT_EQ(contentOf("around.cube_2.depth", four).space, TextureSpace::cube);
+    EXPECT_EQ(contentOf("caustic.filtered.cube_4", four).unit(), "W");
+    EXPECT_EQ(contentOf("deferred.depth.light_2", {8, 8, graph::Format::rg32f, 0}).channels.size(),
+              2u);
+    EXPECT_EQ(contentOf("caustic.irradiance", four).space, TextureSpace::eye);
+    EXPECT_EQ(contentOf("hits.flux", four).space, TextureSpace::list);
+    EXPECT_FALSE(contentOf("mine.values", four).isKnown);
+    EXPECT_EQ(contentOf("mine.values", four).channels.size(), 4u);
+}
+
+TEST(TextureReader, SumsOfTwoWordsAreLight) {
+    std::vector<Image> words(6, Image(1, 1, 1));
+    words[0].values[0] = 5.0f;  // red: 2 * 2^32 + 5
+    words[1].values[0] = 2.0f;
+    words[4].values[0] = 7.0f;  // blue
+    const Image light = lightOfSums(words, 0.5);
+    EXPECT_FLOAT_EQ(light.at(0, 0, 0), static_cast<float>((2.0 * 4294967296.0 + 5.0) * 0.5));
+    EXPECT_EQ(light.at(0, 0, 1), 0.0f);
+    EXPECT_EQ(light.at(0, 0, 2), 3.5f);
+}
+
+// Across an edge that two faces of the cross share, the directions go on.
+TEST(TextureReader, FacesOfACrossFitTogether) {
+    constexpr int kSide = 16;
+    std::vector<Image> faces;
+    for (int face = 0; face < 6; ++face) {
+        const render::RasterView view = render::makeCubeFaceView(glm::dvec3(0.0), face);
+        Image& image = faces.emplace_back(kSide, kSide, 3);
+        for (int y = 0; y < kSide; ++y) {
+            for (int x = 0; x < kSide; ++x) {
+                const glm::dvec3 inView(2.0 * (x + 0.5) / kSide - 1.0,
+                                        1.0 - 2.0 * (y + 0.5) / kSide, -1.0);
+                const glm::dvec3 direction =
+                    glm::normalize(glm::inverse(glm::dmat3(view.worldToView)) * inView);
+                for (int c = 0; c < 3; ++c)
+                    image.at(x, y, c) = static_cast<float>(direction[c]);
+            }
+        }
+    }
+    const Image cross = unfoldCube(faces);
+    ASSERT_EQ(cross.width, 4 * kSide);
+    ASSERT_EQ(cross.height, 3 * kSide);
+    const auto direction = [&](int x, int y) {
+        if (x >= cross.width || y >= cross.height) return glm::vec3(0.0f);
+        return glm::vec3(cross.at(x, y, 0), cross.at(x, y, 1), cross.at(x, y, 2));
+    };
+    int joined = 0;
+    for (int y = 0; y < cross.height; ++y) {
+        for (int x = 0; x < cross.width; ++x) {
+            const glm::vec3 here = direction(x, y);
+            for (const glm::vec3 next : {direction(x + 1, y), direction(x, y + 1)}) {
+                if (glm::length(here) == 0.0f || glm::length(next) == 0.0f) continue;
+                // A texel is 2/16 wide at most.
+                EXPECT_LT(glm::length(next - here), 2.0f / kSide + 1e-4f) << x << ", " << y;
+                ++joined;
+            }
+        }
+    }
+    // Within the faces, and across the five edges of a cube's net.
+    EXPECT_EQ(joined, 6 * 2 * kSide * (kSide - 1) + 5 * kSide);
+    EXPECT_EQ(regionsOfCube(kSide).size(), 6u);
+}
+
+}  // namespace
+}  // namespace kaustik::gui::test
