@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "framework/run/path_account.h"
-
 #ifdef KAUSTIK_HAS_EMBREE
+
+#include "framework/run/path_account.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "framework/run/technique_account.h"
-
 #ifdef KAUSTIK_HAS_EMBREE
+
+#include "framework/run/technique_account.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
