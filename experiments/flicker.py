@@ -98,7 +98,10 @@ def draw(rows: list[dict], file: Path) -> None:
         axes.axhline(1.0, color="#999999", linewidth=0.8)  # a picture that stands still
         axes.set(xscale="log", yscale="log", title=scene, xlabel="relMSE, net of the reference's noise")
     panels[0][0].set_ylabel("wrong change, by the truth's change")
-    panels[0][-1].legend(fontsize=7, loc="center left", bbox_to_anchor=(1.0, 0.5), title="filled: default\nhollow: as published",
+    # A technique may be in some of the panels alone.
+    handles = {label: handle for axes in panels[0] for handle, label in zip(*axes.get_legend_handles_labels())}
+    named = [name for name in dict.fromkeys(row["technique"] for row in rows) if name in handles]
+    panels[0][-1].legend([handles[name] for name in named], named, fontsize=7, loc="center left", bbox_to_anchor=(1.0, 0.5), title="filled: default\nhollow: as published",
                          title_fontsize=7)
     figure.savefig(file, bbox_inches="tight", metadata=drawings.metadata([file.with_name("flicker.csv")]))
     plt.close(figure)
