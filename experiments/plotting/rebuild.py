@@ -45,6 +45,7 @@ TABLE = {
     "defaults": "defaults.csv",
     "dispersion": "dispersion/runs.csv",
     "lamps": "lamps/runs.csv",
+    "lamps_widened": "lamps/widened.csv",
     "krueger2006_refracted_scene": "krueger2006/refracted_scene.csv",
     "normal_maps": "normal_maps/runs.csv",
     "vertices_and_gather": "vertices_and_gather.csv",

@@ -178,8 +178,11 @@ TEST_F(ExrPng, ReadsAFileAndSaysThatOneIsNotThere) {
         const KaustikImageSink sink = sinkFor(received);
         const bool isRead = module().functions->readFile((folder_ / name).c_str(), &sink);
         EXPECT_EQ(isRead, std::strcmp(name, "a.exr") == 0);
-        if (isRead) EXPECT_EQ(received.image.values, image.values);
-        if (!isRead) EXPECT_THAT(received.problem, HasSubstr("cannot be opened"));
+        if (isRead) {
+            EXPECT_EQ(received.image.values, image.values);
+        } else {
+            EXPECT_THAT(received.problem, HasSubstr("cannot be opened"));
+        }
     }
 }
 
@@ -193,7 +196,9 @@ TEST_F(ExrPng, AFileCutOffAnywhereIsAnErrorOrWhole) {
         ASSERT_EQ(values.size(), image.values.size());
         for (std::size_t size = 0; size < whole.size(); ++size) {
             const Received cut = decode(whole.substr(0, size));
-            if (cut.problem.empty()) EXPECT_EQ(cut.image.values, values) << size;
+            if (cut.problem.empty()) {
+                EXPECT_EQ(cut.image.values, values) << size;
+            }
         }
     }
 }
