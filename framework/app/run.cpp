@@ -85,6 +85,10 @@ void runCommand(const RunOptions& options, const Registry& registry) {
     const bool isCertified = options.reference == kCertifiedReference;
     std::optional<certify::Certificate> certificate;
     if (isCertified) {
+        if (series.frames > 1 && series.timeStepSeconds != 0.0) {
+            throw ConfigError(
+                "A certificate is of one time: --reference certified takes no --time-step.");
+        }
         const RenderSettings& asked = session.renderer().settings();
         certificate = certificateFor(session.renderer().scene(), asked.width, asked.height);
     }

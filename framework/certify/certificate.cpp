@@ -10,6 +10,7 @@
 #include <limits>
 #include <mutex>
 #include <set>
+#include <system_error>
 #include <thread>
 
 #include "framework/core/content_hash.h"
@@ -93,9 +94,13 @@ Tightness tightnessOf(const Certificate& certificate) {
     return result;
 }
 
+// To be raised whenever an interval may come out otherwise: what is kept of older ones is made
+// again.
+constexpr int kCertifierVersion = 2;
+
 std::string certificateKey(const scene::Scene& scene, const CertificateRequest& request) {
     ContentHash hash;
-    hash.addBytes("kaustik.certificate/1");
+    hash.addBytes("kaustik.certificate").add(kCertifierVersion);
     scene::addTo(hash, scene);
     hash.add(request.width).add(request.height).add(request.beams.interactions);
     hash.add(static_cast<int>(request.beams.transmissionOnly));
@@ -176,8 +181,12 @@ CertificatePart certifyPart(const scene::Scene& scene, const CertificateRequest&
             }
         };
         std::vector<std::thread> others;
-        for (unsigned i = 1; i < threads; ++i)
-            others.emplace_back(work, i);
+        try {
+            for (unsigned i = 1; i < threads; ++i)
+                others.emplace_back(work, i);
+        } catch (const std::system_error&) {
+            // Those that there are do it.
+        }
         work(0);
         for (std::thread& other : others)
             other.join();

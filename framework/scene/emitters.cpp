@@ -21,6 +21,8 @@ namespace {
 constexpr int kUsualRows = 600;
 constexpr int kSkyPoints = 64;
 constexpr int kPoints = 16;  // at most, and of a bulb
+// Of a part of the sky; to first order more means nothing, rad.
+constexpr double kMaxSpread = 0.3;
 // What two points that are neighbours do to light at most, in pixels: about a quarter of it where
 // it arrives. Closer ones cost more photons of each than they bring (results/lamps.md).
 constexpr double kPixelsApart = 16.0;
@@ -277,7 +279,7 @@ void placeLightPoints(Scene& scene, int wanted, int rows) {
                 Light point;
                 point.direction = -part.direction;
                 point.power = glm::vec3(part.fluxPerSquareMeter);
-                point.radius = static_cast<float>(part.radius);
+                point.radius = static_cast<float>(std::min(part.radius, kMaxSpread));
                 add(std::move(point), index++);
             }
             continue;

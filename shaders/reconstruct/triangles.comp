@@ -69,23 +69,25 @@ void coverPatch(Patch whole) {
     }
 }
 
-void cover(uint item) {
+// `thread`: of those that share a patch's copies.
+void cover(uint item, int thread) {
     Patch whole = patchOf(item);
     ivec2 photon = ivec2(photonTexel(photons, item / kPatchParts));
 #ifndef JOINED_PATCHES
     // What neighbours share out is covered in each of their batches, and counts in the photon's own.
-    if (whole.narrowing > 1.0 && !isFromOtherBatch(originAt(photon)))
+    if (thread == 0 && whole.narrowing > 1.0 && !isFromOtherBatch(originAt(photon)))
         countClamped(0u, whole.narrowing, whole.flux);
 #endif
     uint material = uint(texelFetch(hitSurface, photon, 0).w);
     if (isOpen(material - 1u) &&
         !seesLitSide(whole.corners[0], whole.side.normal, whole.side.direction)) {
-        ledgerAdd(kAccountHidden, whole.flux);
+        if (thread == 0) ledgerAdd(kAccountHidden, whole.flux);
         return;
     }
 #ifdef LIGHT_SPREAD
     Copies copies = copiesOf(whole, cellGrid.x > 0 ? cellOf(originAt(photon)) : photon);
-    for (int i = copies.first; i < copies.places; i += copies.stride)
+    int step = copies.stride * kThreadsOfCopies;
+    for (int i = copies.first + copies.stride * thread; i < copies.places; i += step)
         coverPatch(copyOf(whole, copies, i));
 #else
     coverPatch(whole);
@@ -93,6 +95,13 @@ void cover(uint item) {
 }
 
 void main() {
+#ifdef LIGHT_SPREAD
+    uint index = photonOfThread() / uint(kThreadsOfCopies);
+    int thread = int(photonOfThread() % uint(kThreadsOfCopies));
+#else
     uint index = photonOfThread();
-    if (index < patches[kKind].count) cover(patchList[patchPlace(kKind, index, uint(listCapacity))]);
+    const int thread = 0;
+#endif
+    if (index < patches[kKind].count)
+        cover(patchList[patchPlace(kKind, index, uint(listCapacity))], thread);
 }

@@ -6,6 +6,7 @@ layout(local_size_x = 1) in;
 
 uniform int isWide;  // below 0: there are none yet
 uniform int wideCapacity;
+uniform int threadsOfPatch;  // of each that is not wide
 
 void main() {
     if (isWide < 0) {
@@ -13,7 +14,7 @@ void main() {
         widePatches.count = 0u;
     } else if (isWide == 0) {
         for (uint kind = 0u; kind < kPatchKinds; ++kind)
-            setGroups(patches[kind], patches[kind].count);
+            setGroups(patches[kind], uint(threadsOfPatch) * patches[kind].count);
     } else {
         // The others found no room and are covered already.
         widePatches.count = min(widePatches.count, uint(wideCapacity));

@@ -11,6 +11,10 @@ const float kMinSpread = 0.5;
 // fades in steps of a fiftieth.
 const float kStepsOfRadius = 4.0;
 
+// That share a patch's copies: Mesa's software rasteriser has a thread turn no more than 65,535 times
+// in all of its loops.
+const int kThreadsOfCopies = 4;
+
 struct Copies {
     int places;  // on the disc, as many as neighbours have; 1: none but its middle
     // Of a patch smaller than a pixel, those that are its own: every so many, from the first one on.
@@ -49,6 +53,7 @@ Copies copiesOf(Patch whole, ivec2 cell) {
     // Of few different numbers, so that neighbours mostly have the same and join as the patches do.
     int places = 1 << int(ceil(log2(clamp(wanted, 1.0, 64.0))));
     if (places == 1) return kNoCopies;
+    places = max(places, 4);  // two would lie along one line
     // Patches that share pixels share the places out among 2, 4, … of them.
     float area = max(whole.cellArea / (pixel * pixel), 1.0 / 64.0);
     int stride = min(1 << int(max(-log2(area), 0.0)), places);

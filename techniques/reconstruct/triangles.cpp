@@ -26,6 +26,13 @@ enum class TriangleShading : int { smooth, flat, vertices };
 enum class Unjoined : int { beams, discard };
 enum class LightSize : int { points, widened };
 
+// Photons that are stored by cell keep nothing of how their lights spread them.
+std::string whyNotWidened(const FrameFacts& facts) {
+    return facts.settings.choice(DriverStage::name) == "hierarchical"
+               ? facts.withChosen<DriverStage>()
+               : "";
+}
+
 struct TrianglesParams {
     float tolerance = 0.5f;
     int maximum = 512;
@@ -71,13 +78,15 @@ struct TrianglesParams {
                 return facts.needs == nullptr || facts.needs->emitters > 0
                            ? ""
                            : "no light of the scene has a size";
-            });
+            })
+            .when(&whyNotWidened);
     }
 };
 
 bool widensByLights(const FrameFacts& facts) {
-    return facts.settings.get<TrianglesParams>("reconstruct.triangles").lightSize ==
-           LightSize::widened;
+    return whyNotWidened(facts).empty() &&
+           facts.settings.get<TrianglesParams>("reconstruct.triangles").lightSize ==
+               LightSize::widened;
 }
 
 // The lists of shaders/reconstruct/triangles_patch_list.glsl.
@@ -97,6 +106,7 @@ struct PatchBlock {
     glm::vec4 flux, low, high;
 };
 constexpr int kMaxMerges = 4;
+constexpr int kThreadsOfCopies = 4;  // triangles_spread.glsl
 
 // On the faces of a cube nothing wider than this, rad, is one triangle: whichever face sees its
 // middle has nearly always all of it before it; what little another sees then is shared among the
@@ -179,6 +189,7 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Hits& h
                 context.compute("reconstruct/triangles_groups.comp")
                     .set("isWide", isWide)
                     .set("wideCapacity", static_cast<int>(wideCapacity))
+                    .set("threadsOfPatch", list.hasLightSpread() ? kThreadsOfCopies : 1)
                     .dispatch(1);
             };
             countGroups(-1);
@@ -242,7 +253,8 @@ void registerReconstructTriangles(Registry& registry) {
          "U08, section 4.2, on the screen",
          "It joins photons of neighbouring cells: an emitter without neighbours leaves each photon "
          "its own beam. Cells wider than reconstruct.triangles.maximum are not joined, and what "
-         "lies between four photons is taken to change evenly."},
+         "lies between four photons is taken to change evenly. What a light's size spreads over "
+         "a crease is brought to the surface beyond it on the screen alone, not in maps."},
         {.beams = true, .widensByLights = &widensByLights, .joinsCells = true}, &coverTriangles);
 }
 

@@ -266,7 +266,8 @@ class Reports(Asks):
         reports = []
         for words in (("--frames", "1"),
                       ("--technique", "caustic_map", "--frames", "2", "--time-step", "0.5",
-                       "--reference", "auto", "--reference-photons", "20000")):
+                       "--reference", "auto", "--reference-photons", "20000",
+                       "--device-model", "1000GB/s")):
             subprocess.run([KAUSTIK, "run", "scene.toml", "--size", "24x18", "--warmup", "0",
                             "--set", "emit.photons=16x16", "--out", "out", *words],
                            check=True, capture_output=True, cwd=self.folder)

@@ -9,6 +9,7 @@
 
 #include "framework/core/error.h"
 #include "framework/scene/files/scene_file.h"
+#include "tests/unit/temporary_folder.h"
 
 namespace kaustik::certify {
 namespace {
@@ -133,8 +134,8 @@ TEST(Certificate, GoesOnWhereItWasStopped) {
     CertificateRequest request = smallRequest();
     request.width = 16;
     request.height = 12;
-    const fs::path file = fs::path(::testing::TempDir()) / "kaustik-certificate.shard";
-    fs::remove(file);
+    const test::TemporaryFolder folder;
+    const fs::path file = folder / "half.shard";
     CertifyOptions options;
     options.keep = file;
     options.threads = 1;
@@ -147,7 +148,6 @@ TEST(Certificate, GoesOnWhereItWasStopped) {
     EXPECT_TRUE(rest.isWhole());
     const Certificate whole = certify(stillWater(), request);
     EXPECT_EQ(makeCertificate(stillWater(), {rest}).lower.values, whole.lower.values);
-    fs::remove(file);
 }
 
 TEST(Certificate, SaysWhatCannotBeCertified) {
