@@ -26,10 +26,14 @@ class ShadowRays {
         ray.start = receiver.triangle;
         ray.sides = SideRule::any;
         SurfaceHit blocker;
-        return scene_.intersect(ray, blocker) && blocker.distance < meters;
+        return scene_.intersect(ray, blocker) && blocker.distance < (1.0 - kOwnSurface) * meters;
     }
 
   private:
+    // A light's own surface, on which the light lies, is not in its way by rounding: as a share of the
+    // way.
+    static constexpr double kOwnSurface = 1e-4;
+
     const EmbreeScene& scene_;
     // Off the receiver, m, whose own triangle would else be in the way: positions are 32-bit
     // floats.

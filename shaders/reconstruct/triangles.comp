@@ -24,8 +24,12 @@ const uint kKind = kPatchesAtCreases;
 const uint kKind = kPatchesOfBeams;
 #endif
 
-// Pixels of the rectangles around a patch for one thread.
+// Pixels of the rectangles around a patch, or each of its copies, for one thread.
+#ifdef LIGHT_SPREAD
+const int kMaxPixelsPerThread = 200;
+#else
 const int kMaxPixelsPerThread = 400;
+#endif
 
 void coverPatch(Patch whole) {
 #ifndef MANY_VIEWS

@@ -13,7 +13,7 @@ const float kStepsOfRadius = 4.0;
 
 // That share a patch's copies: Mesa's software rasteriser has a thread turn no more than 65,535 times
 // in all of its loops.
-const int kThreadsOfCopies = 4;
+const int kThreadsOfCopies = 16;
 
 struct Copies {
     int places;  // on the disc, as many as neighbours have; 1: none but its middle

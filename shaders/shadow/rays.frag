@@ -8,6 +8,9 @@ layout(location = 0) out vec4 visibility;
 
 uniform int lightIndex;
 
+// A light's own surface, on which the light lies, is not in its way by rounding: as a share of the way.
+const float kOwnSurface = 1e-4;
+
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     bool isQueried = texelFetch(photonFlux, pixel, 0).r > 0.0;
@@ -16,7 +19,7 @@ void main() {
     LightData light = lights[lightIndex];
     if (isHit && uint(light.positionVs.w) != kLightDirectional) {
         float toLight = distance(light.positionVs.xyz, texelFetch(photonPosition, pixel, 0).xyz);
-        isHit = texelFetch(hitPosition, pixel, 0).w < toLight;
+        isHit = texelFetch(hitPosition, pixel, 0).w < (1.0 - kOwnSurface) * toLight;
     }
     visibility = vec4(isQueried && !isHit ? 1.0 : 0.0);
 }

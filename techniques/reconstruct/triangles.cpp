@@ -39,7 +39,7 @@ struct TrianglesParams {
     TriangleShading shading = TriangleShading::smooth;
     Unjoined unjoined = Unjoined::beams;
     float merge = 0.0f;
-    LightSize lightSize = LightSize::widened;
+    LightSize lightSize = LightSize::points;
     template <class R>
     void reflect(R& r) {
         const auto whyNotJoined = [](const FrameFacts& facts) { return facts.whyNoNeighbours(); };
@@ -106,7 +106,7 @@ struct PatchBlock {
     glm::vec4 flux, low, high;
 };
 constexpr int kMaxMerges = 4;
-constexpr int kThreadsOfCopies = 4;  // triangles_spread.glsl
+constexpr int kThreadsOfCopies = 16;  // triangles_spread.glsl
 
 // On the faces of a cube nothing wider than this, rad, is one triangle: whichever face sees its
 // middle has nearly always all of it before it; what little another sees then is shared among the
