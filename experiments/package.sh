@@ -62,8 +62,8 @@ licence_of() {
     [[ -n $package ]] || fail "no package is known to have '$1', and so no licence of it"
     cp --dereference "/usr/share/doc/$package/copyright" "$licences/$package.txt"
 }
-# The workbench loads GLFW when a window is asked for.
-glfw=$(ldconfig -p | awk '$1 == "libglfw.so.3" {print $NF; exit}')
+# The workbench loads GLFW when a window is asked for. All of the list is read: who writes to a closed pipe fails.
+glfw=$(ldconfig -p | awk '$1 == "libglfw.so.3" && !found {print $NF; found = 1}')
 {
     ldd "${programs[@]}"
     [[ -z $glfw ]] || { ldd "$glfw" && echo "libglfw.so.3 => $glfw"; }

@@ -403,8 +403,9 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry,
     certifyApp->add_flag("--transmission-only", certify.transmissionOnly,
                          "At dielectrics only the refracted branch, unless all is reflected");
     certifyApp
-        ->add_option("--band", certify.band,
-                     "Pixels by which a cell's place on the screen may be unsure before it is split")
+        ->add_option(
+            "--band", certify.band,
+            "Pixels by which a cell's place on the screen may be unsure before it is split")
         ->capture_default_str();
     certifyApp->add_option("--depth", certify.depth, "Splits of a triangle at most, each into four")
         ->capture_default_str();

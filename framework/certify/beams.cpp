@@ -1040,7 +1040,8 @@ void BeamTracer::Work::split(const Cell& cell) {
     if (cell.depth > tracer.settings_.maxDepth + 8)
         throw Error("certify: a cell has no bounds at all; this is an error of the program.",
                     kExitFailed);
-    const auto& [x, y] = cell.sides;
+    const auto& x = cell.sides[0];
+    const auto& y = cell.sides[1];
     const auto at = [&](double u, double v) {
         return std::array<double, 2>{cell.corner[0] + u * x[0] + v * y[0],
                                      cell.corner[1] + u * x[1] + v * y[1]};

@@ -152,7 +152,8 @@ void AccessCounter::endPass() {
         here_.atomics += words[shard + 2];
         here_.threads += words[shard + 3];
     }
-    for (const auto& [key, used] : used_) {
+    for (const auto& entry : used_) {
+        const auto& used = entry.second;  // what a lambda takes may be no structured binding
         const std::size_t length = (used.elements + 31) / 32;
         const auto bytesMarked = [&](GLuint first) {
             return first == ~0u

@@ -30,8 +30,8 @@ class ShadowRays {
     }
 
   private:
-    // A light's own surface, on which the light lies, is not in its way by rounding: as a share of the
-    // way.
+    // A light's own surface, on which the light lies, is not in its way by rounding: as a share of
+    // the way.
     static constexpr double kOwnSurface = 1e-4;
 
     const EmbreeScene& scene_;

@@ -227,8 +227,7 @@ TEST_P(CountedFrame, IsTheSameFrameAndTouchesNoMoreThanIsThere) {
     EXPECT_EQ(display->writtenBytes, 64u * 48u * 4u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, CountedFrame,
-                         ::testing::Values("screen_space_photons", "exact_rays"));
+INSTANTIATE_TEST_SUITE_P(Of, CountedFrame, ::testing::Values("screen_space_photons", "exact_rays"));
 
 }  // namespace
 }  // namespace kaustik::test
