@@ -10,7 +10,7 @@
 #include "framework/core/error.h"
 #include "framework/core/files.h"
 #include "framework/image/image.h"
-#include "framework/run/reference_work.h"
+#include "framework/run/cache_folder.h"
 
 namespace kaustik::app {
 

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <utility>
 
 #include "framework/core/error.h"
@@ -57,18 +56,6 @@ void reportDamage(const std::string& damage) {
 }
 
 }  // namespace
-
-fs::path cacheFolder() {
-    const auto variable = [](const char* name) {
-        const char* value = std::getenv(name);
-        return value != nullptr ? fs::path(value) : fs::path();
-    };
-    if (const fs::path own = variable("KAUSTIK_CACHE"); !own.empty()) return own;
-    if (const fs::path xdg = variable("XDG_CACHE_HOME"); !xdg.empty()) return xdg / "kaustik";
-    if (const fs::path home = variable("HOME"); !home.empty()) return home / ".cache/kaustik";
-    throw IoError(
-        "There is no folder to keep references in; set KAUSTIK_CACHE to one that can be written.");
-}
 
 reference::PathFilter modelledFilter(reference::PathFilter all, const ModelledPaths& paths) {
     all.transmissionOnly = paths.transmissionOnly;

@@ -8,13 +8,10 @@
 #include "framework/pipeline/photons.h"
 #include "framework/reference/reference.h"
 #include "framework/reference/shards.h"
+#include "framework/run/cache_folder.h"
 #include "framework/run/progress.h"
 
 namespace kaustik::run {
-
-// $KAUSTIK_CACHE, else $XDG_CACHE_HOME/kaustik, else ~/.cache/kaustik. Throws IoError where there
-// is none of them.
-[[nodiscard]] std::filesystem::path cacheFolder();
 
 // The filter of `all` narrowed to the paths that a technique models.
 [[nodiscard]] reference::PathFilter modelledFilter(reference::PathFilter all,
