@@ -73,39 +73,59 @@ void coverPatch(Patch whole) {
     }
 }
 
+#ifdef LIGHT_SPREAD
+// By the photon's number where it is of no grid, which no batch changes either.
+Copies copiesOfPatch(Patch whole, ivec2 photon) {
+    PhotonOrigin origin = originAt(photon);
+    ivec2 cell = cellGrid.x > 0 ? cellOf(origin) : ivec2(origin.cell % 8u, origin.cell / 8u);
+    return copiesOf(whole, cell);
+}
+#endif
+
+#ifdef COPIES
 // `thread`: of those that share a patch's copies.
-void cover(uint item, int thread) {
+void coverCopies(uint item, uint thread) {
+    Patch whole = patchOf(item);
+    Copies copies = copiesOfPatch(whole, ivec2(photonTexel(photons, item / kPatchParts)));
+    int step = copies.stride * int(kThreadsOfCopies);
+    for (int i = copies.first + copies.stride * int(thread); i < copies.places; i += step)
+        coverPatch(copyOf(whole, copies, i));
+}
+
+void main() {
+    uint index = threadNumber() / kThreadsOfCopies;
+    if (index < copiedPatches[kKind].count) {
+        coverCopies(patchList[copiedPatchPlace(kKind, index, uint(listCapacity))],
+                    threadNumber() % kThreadsOfCopies);
+    }
+}
+#else
+void cover(uint item) {
     Patch whole = patchOf(item);
     ivec2 photon = ivec2(photonTexel(photons, item / kPatchParts));
 #ifndef JOINED_PATCHES
     // What neighbours share out is covered in each of their batches, and counts in the photon's own.
-    if (thread == 0 && whole.narrowing > 1.0 && !isFromOtherBatch(originAt(photon)))
+    if (whole.narrowing > 1.0 && !isFromOtherBatch(originAt(photon)))
         countClamped(0u, whole.narrowing, whole.flux);
 #endif
     uint material = uint(texelFetch(hitSurface, photon, 0).w);
     if (isOpen(material - 1u) &&
         !seesLitSide(whole.corners[0], whole.side.normal, whole.side.direction)) {
-        if (thread == 0) ledgerAdd(kAccountHidden, whole.flux);
+        ledgerAdd(kAccountHidden, whole.flux);
         return;
     }
 #ifdef LIGHT_SPREAD
-    Copies copies = copiesOf(whole, cellGrid.x > 0 ? cellOf(originAt(photon)) : photon);
-    int step = copies.stride * kThreadsOfCopies;
-    for (int i = copies.first + copies.stride * thread; i < copies.places; i += step)
-        coverPatch(copyOf(whole, copies, i));
-#else
-    coverPatch(whole);
+    if (copiesOfPatch(whole, photon).places > 1) {
+        uint number = atomicAdd(copiedPatches[kKind].count, 1u);
+        patchList[copiedPatchPlace(kKind, number, uint(listCapacity))] = item;
+        return;
+    }
 #endif
+    coverPatch(whole);
 }
 
 void main() {
-#ifdef LIGHT_SPREAD
-    uint index = photonOfThread() / uint(kThreadsOfCopies);
-    int thread = int(photonOfThread() % uint(kThreadsOfCopies));
-#else
-    uint index = photonOfThread();
-    const int thread = 0;
-#endif
-    if (index < patches[kKind].count)
-        cover(patchList[patchPlace(kKind, index, uint(listCapacity))], thread);
+    uint index = threadNumber();
+    if (index < patches[kKind].count) cover(patchList[patchPlace(kKind, index, uint(listCapacity))]);
 }
+#endif

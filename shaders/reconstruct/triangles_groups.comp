@@ -4,17 +4,27 @@
 
 layout(local_size_x = 1) in;
 
-uniform int isWide;  // below 0: there are none yet
+const int kNone = 0;  // there are no patches yet
+const int kListed = 1;
+const int kCopied = 2;
+const int kWide = 3;
+uniform int listed;  // what has been, up to now
+
 uniform int wideCapacity;
-uniform int threadsOfPatch;  // of each that is not wide
 
 void main() {
-    if (isWide < 0) {
-        for (uint kind = 0u; kind < kPatchKinds; ++kind) patches[kind].count = 0u;
+    if (listed == kNone) {
+        for (uint kind = 0u; kind < kPatchKinds; ++kind) {
+            patches[kind].count = 0u;
+            copiedPatches[kind].count = 0u;
+        }
         widePatches.count = 0u;
-    } else if (isWide == 0) {
+    } else if (listed == kListed) {
         for (uint kind = 0u; kind < kPatchKinds; ++kind)
-            setGroups(patches[kind], uint(threadsOfPatch) * patches[kind].count);
+            setGroups(patches[kind], patches[kind].count);
+    } else if (listed == kCopied) {
+        for (uint kind = 0u; kind < kPatchKinds; ++kind)
+            setGroups(copiedPatches[kind], kThreadsOfCopies * copiedPatches[kind].count);
     } else {
         // The others found no room and are covered already.
         widePatches.count = min(widePatches.count, uint(wideCapacity));

@@ -11,7 +11,9 @@ const uint kPatchKinds = 3u;
 
 layout(std430) buffer Patches {
     ThreadList patches[kPatchKinds];
-    ThreadList widePatches;  // of those (triangles_wide.glsl)
+    ThreadList copiedPatches[kPatchKinds];  // of those, what is laid more than once
+                                            // (triangles_spread.glsl)
+    ThreadList widePatches;                 // and what is wide (triangles_wide.glsl)
     uint patchList[];
 };
 
@@ -21,6 +23,15 @@ uint patchPlace(uint kind, uint number, uint capacity) {
     if (kind == kPatchesJoined) return number;
     return kind == kPatchesOfBeams ? capacity + number : 5u * capacity - 1u - number;
 }
+
+// In the second part of the list, where there is one.
+uint copiedPatchPlace(uint kind, uint number, uint capacity) {
+    return 5u * capacity + patchPlace(kind, number, capacity);
+}
+
+// That share a patch's copies: Mesa's software rasteriser has a thread turn no more than 65,535 times
+// in all of its loops.
+const uint kThreadsOfCopies = 16u;
 
 // Of a wide one.
 const uint kThreadsOfPatch = 8u;

@@ -11,10 +11,6 @@ const float kMinSpread = 0.5;
 // fades in steps of a fiftieth.
 const float kStepsOfRadius = 4.0;
 
-// That share a patch's copies: Mesa's software rasteriser has a thread turn no more than 65,535 times
-// in all of its loops.
-const int kThreadsOfCopies = 16;
-
 struct Copies {
     int places;  // on the disc, as many as neighbours have; 1: none but its middle
     // Of a patch smaller than a pixel, those that are its own: every so many, from the first one on.

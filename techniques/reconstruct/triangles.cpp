@@ -90,7 +90,13 @@ bool widensByLights(const FrameFacts& facts) {
 }
 
 // The lists of shaders/reconstruct/triangles_patch_list.glsl.
-enum PatchKind { joined, ofBeams, atCreases, wide, kPatchCounts };
+enum PatchKind { joined, ofBeams, atCreases };
+// Then come those of each kind that are laid more than once, and wide ones.
+constexpr std::size_t kPatchKinds = 3;
+constexpr std::size_t kWidePatches = 2 * kPatchKinds;
+constexpr std::size_t kPatchCounts = kWidePatches + 1;
+// What has been listed, for triangles_groups.comp.
+enum Listed : int { none, patches, copies, widePatches };
 constexpr std::size_t kPatchCountWords =
     kPatchCounts * sizeof(ThreadListHeader) / sizeof(std::uint32_t);
 // As triangles_wide.glsl has it.
@@ -106,7 +112,6 @@ struct PatchBlock {
     glm::vec4 flux, low, high;
 };
 constexpr int kMaxMerges = 4;
-constexpr int kThreadsOfCopies = 16;  // triangles_spread.glsl
 
 // On the faces of a cube nothing wider than this, rad, is one triangle: whichever face sees its
 // middle has nearly always all of it before it; what little another sees then is shared among the
@@ -162,7 +167,8 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Hits& h
                    std::max<std::size_t>(hits.incoming.cells.places(), 1));
             create(data.joins, "CellJoins", "joins", capacity);
             create(data.shares, "PhotonShares", "shares", capacity);
-            create(data.patches, "Patches", "patches", kPatchCountWords + 5 * capacity);
+            create(data.patches, "Patches", "patches",
+                   kPatchCountWords + (hits.incoming.hasLightSpread() ? 10 : 5) * capacity);
             create(data.wide, "WidePatches", "wide", wideCapacity);
             if (params.merge > 0.0f) {
                 setup.define("MERGES");
@@ -185,14 +191,13 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Hits& h
                 setCells(command, list.cells);
                 return command;
             };
-            const auto countGroups = [&](int isWide) {
+            const auto countGroups = [&](Listed listed) {
                 context.compute("reconstruct/triangles_groups.comp")
-                    .set("isWide", isWide)
+                    .set("listed", static_cast<int>(listed))
                     .set("wideCapacity", static_cast<int>(wideCapacity))
-                    .set("threadsOfPatch", list.hasLightSpread() ? kThreadsOfCopies : 1)
                     .dispatch(1);
             };
-            countGroups(-1);
+            countGroups(Listed::none);
             for (const char* name :
                  {"reconstruct/triangles_cells.comp", "reconstruct/triangles_join.comp"}) {
                 gl::Command command = shaderOfPhotons(name);
@@ -207,23 +212,31 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Hits& h
                 command.set("mergeStep", step);
                 dispatchOver(command, list);
             }
-            const auto dispatchOverPatches = [&](gl::Command command, PatchKind kind) {
+            const auto dispatchOverPatches = [&](gl::Command command, std::size_t number) {
                 setDeposit(command, sets);
-                command.dispatchIndirect(data.patches,
-                                         static_cast<std::size_t>(kind) * sizeof(ThreadListHeader) +
-                                             offsetof(ThreadListHeader, groupsX));
+                command.dispatchIndirect(data.patches, number * sizeof(ThreadListHeader) +
+                                                           offsetof(ThreadListHeader, groupsX));
             };
-            countGroups(0);
-            for (const PatchKind kind : {joined, ofBeams, atCreases}) {
-                gl::Command command = shaderOfPhotons("reconstruct/triangles.comp");
-                if (kind == joined) command.define("JOINED_PATCHES");
-                if (kind == atCreases) command.define("CREASE_PATCHES");
-                command.set("wideCapacity", static_cast<int>(wideCapacity))
-                    .set("listCapacity", listCapacity);
-                dispatchOverPatches(std::move(command), kind);
+            const auto coverPatches = [&](bool areCopies) {
+                for (const PatchKind kind : {joined, ofBeams, atCreases}) {
+                    gl::Command command = shaderOfPhotons("reconstruct/triangles.comp");
+                    if (kind == joined) command.define("JOINED_PATCHES");
+                    if (kind == atCreases) command.define("CREASE_PATCHES");
+                    if (areCopies) command.define("COPIES");
+                    command.set("wideCapacity", static_cast<int>(wideCapacity))
+                        .set("listCapacity", listCapacity);
+                    dispatchOverPatches(std::move(command), static_cast<std::size_t>(kind) +
+                                                                (areCopies ? kPatchKinds : 0));
+                }
+            };
+            countGroups(Listed::patches);
+            coverPatches(false);
+            if (list.hasLightSpread()) {
+                countGroups(Listed::copies);
+                coverPatches(true);
             }
-            countGroups(1);
-            dispatchOverPatches(shader("reconstruct/triangles_wide.comp"), wide);
+            countGroups(Listed::widePatches);
+            dispatchOverPatches(shader("reconstruct/triangles_wide.comp"), kWidePatches);
         });
     reportWidthLimit(frame,
                      {"reconstruct.triangles", "maximum", WidthBound::largest,

@@ -11,6 +11,7 @@
 #include <iostream>
 #include <map>
 
+#include "framework/core/files.h"
 #include "framework/gl/device_needs.h"
 #include "framework/run/settings.h"
 #include "framework/scene/files/scene_file.h"
@@ -88,6 +89,32 @@ TEST_F(StrictCompiler, TakesTheProgramsOfTiles) {
     }
     const std::vector<std::string> names = expectTaken(recording);
     EXPECT_NE(std::find(names.begin(), names.end(), "framework/tile_hits.comp"), names.end());
+}
+
+// By all that sends photons on, and onto the screen, a light's map and a cube's.
+TEST_F(StrictCompiler, TakesTheProgramsOfLampsWhoseLightIsWidened) {
+    const Registry registry = registerAll();
+    const scene::Scene scene =
+        scene::loadScene((projectRoot() / "experiments/lamps/panel_ball.toml").string());
+    static_cast<void>(context());
+    const Recording recording;
+    for (const char* technique : {"exact_rays", "caustic_triangles"}) {
+        for (const char* specular : {"interface", "split", "two_interfaces", "deferred"}) {
+            RenderSettings settings = run::makeSettings(
+                {.technique = technique,
+                 .assignments = {{"specular", specular, "test"},
+                                 {"reconstruct.triangles.light_size", "widened", "test"},
+                                 {"emit.photons", "32x32", "test"}}},
+                registry);
+            run::setSize(settings, {64, 48});
+            Renderer renderer(context(), registry, scene, settings);
+            renderer.build(Purpose::picture);
+            gl::PassTimer timer(gl::TimerMode::finish);
+            renderer.renderFrame(timer);
+        }
+    }
+    const std::vector<std::string> names = expectTaken(recording);
+    EXPECT_NE(std::find(names.begin(), names.end(), "emit/light_spread.comp"), names.end());
 }
 
 TEST_F(StrictCompiler, TakesAPlainProgram) {
