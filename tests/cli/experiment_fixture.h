@@ -55,12 +55,17 @@ class ExperimentCommand : public CommandLine {
         return {names.begin(), names.end()};
     }
 
-    // The lines of runs.csv, cells apart; none of these studies needs quotes.
+    // The lines of runs.csv, cells apart; of messages, which may have commas, within quotes.
     [[nodiscard]] std::vector<std::vector<std::string>> table(
         const std::string& out = "out") const {
         std::vector<std::vector<std::string>> lines(1, {""});
+        bool isQuoted = false;
         for (const char c : contents(out + "/runs.csv")) {
-            if (c == '\n') {
+            if (c == '"') {
+                isQuoted = !isQuoted;
+            } else if (isQuoted) {
+                lines.back().back() += c;
+            } else if (c == '\n') {
                 lines.push_back({""});
             } else if (c == ',') {
                 lines.back().emplace_back();
