@@ -184,18 +184,19 @@ std::vector<ColorBar::Tick> ticksOf(const ColorBar& bar) {
 }
 
 // What is asked for to the right of the split; nothing with a reason where it is not there.
-std::optional<ShownImage> sideOf(SidePicture side, const ShownRequest& requested,
-                                 const FrameResult& result, const ReferenceState& reference,
-                                 const ShownImage& main, std::string& problem) {
+std::optional<ShownImage> comparedImageOf(ComparedImage wanted, const ShownRequest& requested,
+                                          const FrameResult& result,
+                                          const ReferenceState& reference, const ShownImage& main,
+                                          std::string& problem) {
     const bool hasReference =
         reference.photons > 0 && reference.irradiance && hasSameView(reference, result.document);
     const ReferenceState::Judgement& judgement = reference.judgements[requested.seen()];
-    switch (side) {
-        case SidePicture::none:
-        case SidePicture::difference:
+    switch (wanted) {
+        case ComparedImage::none:
+        case ComparedImage::difference:
             return {};
-        case SidePicture::kept: {
-            const auto index = static_cast<std::size_t>(requested.view.sideKept);
+        case ComparedImage::kept: {
+            const auto index = static_cast<std::size_t>(requested.view.comparedKept);
             if (requested.kept == nullptr || index >= requested.kept->size()) return {};
             const KeptVariant& kept = (*requested.kept)[index];
             const auto texture = kept.texture(main.resource);
@@ -207,7 +208,7 @@ std::optional<ShownImage> sideOf(SidePicture side, const ShownRequest& requested
             image.mapping = main.mapping;
             return image;
         }
-        case SidePicture::other: {
+        case ComparedImage::other: {
             const VariantResult& b = result.variants[1];
             if (!b.viewed || b.viewed->values.values.empty()) return {};
             ShownImage image = imageOf(*b.viewed, requested.view);
@@ -221,13 +222,13 @@ std::optional<ShownImage> sideOf(SidePicture side, const ShownRequest& requested
             image.mapping = main.mapping;
             return image;
         }
-        case SidePicture::reference:
+        case ComparedImage::reference:
             if (!hasReference) {
                 problem = "there is no reference of this view to show next to it yet";
                 return {};
             }
             return ofReference(requested, reference, &main);
-        case SidePicture::error:
+        case ComparedImage::error:
             if (!hasReference) {
                 problem = "there is no reference of this view to measure its error by yet";
                 return {};
@@ -245,32 +246,32 @@ std::optional<ShownImage> sideOf(SidePicture side, const ShownRequest& requested
 }
 
 // What stands to the right of the split, where it can be compared.
-void addSide(Showing& showing, const ShownRequest& requested, const FrameResult& result,
-             const ReferenceState& reference) {
+void addCompared(Showing& showing, const ShownRequest& requested, const FrameResult& result,
+                 const ReferenceState& reference) {
     const ShownImage& main = *showing.main;
-    const bool isDifference = requested.view.sidePicture == SidePicture::difference;
-    const SidePicture wanted = !isDifference                  ? requested.view.sidePicture
-                               : requested.view.sideKept >= 0 ? SidePicture::kept
-                                                              : SidePicture::other;
-    std::optional<ShownImage> side =
-        sideOf(wanted, requested, result, reference, main, showing.sideProblem);
-    if (!side) return;
-    if (const std::string why = whyNotComparable(main, *side); !why.empty()) {
-        showing.sideProblem = "nothing stands next to it: " + why;
+    const bool isDifference = requested.view.comparedWith == ComparedImage::difference;
+    const ComparedImage wanted = !isDifference                      ? requested.view.comparedWith
+                                 : requested.view.comparedKept >= 0 ? ComparedImage::kept
+                                                                    : ComparedImage::other;
+    std::optional<ShownImage> compared =
+        comparedImageOf(wanted, requested, result, reference, main, showing.comparedProblem);
+    if (!compared) return;
+    if (const std::string why = whyNotComparable(main, *compared); !why.empty()) {
+        showing.comparedProblem = "nothing stands next to it: " + why;
         return;
     }
     if (!isDifference) {
-        showing.side = std::move(side);
+        showing.compared = std::move(compared);
         return;
     }
-    showing.subtrahend = std::move(side);
+    showing.subtrahend = std::move(compared);
     if (!requested.difference ||
         !requested.difference->isOf(main.version, showing.subtrahend->version)) {
-        showing.sideProblem = "the difference next to it is being computed";
+        showing.comparedProblem = "the difference next to it is being computed";
     } else if (!requested.difference->signedMean) {
-        showing.sideProblem = "there is no difference: " + requested.difference->problem;
+        showing.comparedProblem = "there is no difference: " + requested.difference->problem;
     } else {
-        showing.side = ofDifference(requested, main, *showing.subtrahend);
+        showing.compared = ofDifference(requested, main, *showing.subtrahend);
     }
 }
 
@@ -511,7 +512,7 @@ Showing showingOf(const ShownRequest& requested, const FrameResult& result,
         showing.main->takesOverlay = texture->content.space == TextureSpace::eye &&
                                      kept->document.scene == requested.document.scene &&
                                      kept->document.edits == requested.document.edits;
-        addSide(showing, requested, result, reference);
+        addCompared(showing, requested, result, reference);
         return showing;
     }
     if (!shown.viewed) {
@@ -530,7 +531,7 @@ Showing showingOf(const ShownRequest& requested, const FrameResult& result,
     if (requested.document.other) main.source = requested.seen() == 0 ? "A" : "B";
     noteAge(main, requested, shown);
     main.takesOverlay = main.content.space == TextureSpace::eye && main.regions.empty();
-    addSide(showing, requested, result, reference);
+    addCompared(showing, requested, result, reference);
     return showing;
 }
 

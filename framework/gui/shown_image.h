@@ -79,10 +79,10 @@ struct ShownImage {
 // Both sides of the split, and what a difference is to be taken of.
 struct Showing {
     std::optional<ShownImage> main;
-    std::optional<ShownImage> side;        // to the right of the split, where there is one
+    std::optional<ShownImage> compared;    // to the right of the split, where there is one
     std::string words;                     // in the place of an image
     std::optional<ShownImage> subtrahend;  // where a difference is asked for
-    std::string sideProblem;  // why nothing is to the right of the split although asked for
+    std::string comparedProblem;  // why nothing is to the right of the split although asked for
 };
 
 // `reference`: of the same document as the result, or nothing is shown of it.

@@ -62,8 +62,8 @@ Workbench::Workbench(const Registry& registry, const WorkbenchOptions& options)
         bench_.document.scene = options.scene;
         bench_.document.edits = {};
     }
-    if (bench_.view.sidePicture == SidePicture::other && !bench_.document.other)
-        bench_.view.sidePicture = SidePicture::none;
+    if (bench_.view.comparedWith == ComparedImage::other && !bench_.document.other)
+        bench_.view.comparedWith = ComparedImage::none;
     history_ = {bench_.document};
 }
 
@@ -273,7 +273,7 @@ void Workbench::submitChanges() {
     FrameOrder order;
     order.document = bench_.document;
     order.viewing.resource =
-        bench_.view.sidePicture == SidePicture::reference && bench_.view.resource.empty()
+        bench_.view.comparedWith == ComparedImage::reference && bench_.view.resource.empty()
             ? "caustic.irradiance"
             : bench_.view.resource;
     order.viewing.layer = bench_.view.layer;
@@ -397,7 +397,7 @@ void Workbench::pollDifference() {
         bench_.difference = difference_.get();
         framesToDraw_ = std::max(framesToDraw_, 2);
     }
-    if (bench_.view.sidePicture != SidePicture::difference || difference_.valid()) return;
+    if (bench_.view.comparedWith != ComparedImage::difference || difference_.valid()) return;
     const Showing showing = showingOf(bench_.requested(), *bench_.result, *bench_.reference);
     if (!showing.main || !showing.subtrahend) return;
     const std::uint64_t first = showing.main->version;
@@ -485,7 +485,7 @@ void Workbench::saveShown() {
             {std::move(name), *image.values, std::move(seen), image.metadata(bench_.document)});
     };
     add(*showing.main, 0, "");
-    if (showing.side) add(*showing.side, 1, "-" + showing.side->source);
+    if (showing.compared) add(*showing.compared, 1, "-" + showing.compared->source);
     for (Saved& image : images) {
         for (char& c : image.name) {
             if (c == ' ' || c == '/') c = '_';
