@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "framework/gui/kept_variant.h"
-#include "framework/gui/shown_image.h"
+#include "framework/gui/showing.h"
 
 namespace kaustik::gui {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "framework/gui/panels/panels.h"
-#include "framework/gui/shown_image.h"
+#include "framework/gui/showing.h"
 #include "framework/gui/widgets.h"
 #include "framework/transport/watts.h"
 

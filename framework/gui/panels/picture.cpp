@@ -8,7 +8,7 @@
 #include "framework/gui/camera_control.h"
 #include "framework/gui/panels/panels.h"
 #include "framework/gui/panels/picture_overlay.h"
-#include "framework/gui/shown_image.h"
+#include "framework/gui/showing.h"
 #include "framework/gui/widgets.h"
 
 namespace kaustik::gui {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One description of what is on the screen, of which picture, caption, numbers and colour bar are.
 #include "framework/gui/shown_image.h"
+#include "framework/gui/showing.h"
 
 #include <gtest/gtest.h>
 
