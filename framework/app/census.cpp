@@ -30,11 +30,11 @@ void censusCommand(const CensusOptions&, const Registry&) {
 void censusCommand(const CensusOptions& options, const Registry& registry) {
     namespace fs = std::filesystem;
     // As many as a machine traces in some hours; below it is no statistics.
-    constexpr long long kLeastPhotons = 10'000;
-    constexpr long long kMostPhotons = 1'000'000'000'000;
-    if (options.photons < kLeastPhotons || options.photons > kMostPhotons) {
+    constexpr long long kMinPhotons = 10'000;
+    constexpr long long kMaxPhotons = 1'000'000'000'000;
+    if (options.photons < kMinPhotons || options.photons > kMaxPhotons) {
         throw ConfigError(fmt::format("--photons: {} is not from {} to {}.", options.photons,
-                                      kLeastPhotons, kMostPhotons));
+                                      kMinPhotons, kMaxPhotons));
     }
     const params::Extent size = params::parsePictureSize(options.size, "--size");
     run::CensusRequest request;

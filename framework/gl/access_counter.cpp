@@ -12,7 +12,7 @@ namespace kaustik::gl {
 namespace {
 
 constexpr std::size_t kTotalWords = 4 * kCountedShards;
-constexpr glm::uvec2 kNothing{~0u};
+constexpr glm::uvec2 kNoWords{~0u};
 
 CountingStage stageOf(const std::string& file) {
     const std::string extension = std::filesystem::path(file).extension().string();
@@ -169,7 +169,8 @@ void AccessCounter::endPass() {
         here_.writtenBytes += resource.writtenBytes;
         here_.resources.push_back(resource);
     }
-    PassAccesses& all = passNamed(here_.name);
+    lastEnded_ = indexOf(here_.name);
+    PassAccesses& all = passes_[*lastEnded_];
     all.readBytes += here_.readBytes;
     all.writtenBytes += here_.writtenBytes;
     all.requestedReadBytes += here_.requestedReadBytes;
@@ -195,21 +196,26 @@ void AccessCounter::endPass() {
     here_ = {};
 }
 
-PassAccesses& AccessCounter::passNamed(const std::string& name) {
+std::size_t AccessCounter::indexOf(const std::string& name) {
     const auto known = std::find_if(passes_.begin(), passes_.end(),
                                     [&](const PassAccesses& pass) { return pass.name == name; });
-    if (known != passes_.end()) return *known;
-    passes_.emplace_back().name = name;
-    return passes_.back();
+    const auto index = static_cast<std::size_t>(known - passes_.begin());
+    if (known == passes_.end()) passes_.emplace_back().name = name;
+    return index;
+}
+
+std::vector<PassAccesses> AccessCounter::take() {
+    lastEnded_.reset();
+    return std::exchange(passes_, {});
 }
 
 void AccessCounter::addBarrier() {
     ++here_.barriers;
 }
 
-// After the pass that ends a loop.
+// After the pass that ends a loop. In a later round that is not the last one that passes_ has.
 void AccessCounter::addReadBack() {
-    if (!passes_.empty()) ++passes_.back().readBacks;
+    if (lastEnded_) ++passes_[*lastEnded_].readBacks;
 }
 
 Program& AccessCounter::program(const ProgramKey& key) {
@@ -225,7 +231,7 @@ Program& AccessCounter::program(const ProgramKey& key) {
     }
     current_ = &known->second;
     shapes_.assign(kCountedNumbers, glm::uvec4(0));
-    firsts_.assign(kCountedNumbers, kNothing);
+    firsts_.assign(kCountedNumbers, kNoWords);
     targetLayer_ = 0;
     blends_ = false;
     return current_->program;

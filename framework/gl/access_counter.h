@@ -52,7 +52,7 @@ class AccessCounter {
     explicit AccessCounter(ProgramCache& programs);
 
     // What was counted since the last call, in the order of the passes' first runs.
-    [[nodiscard]] std::vector<PassAccesses> take() { return std::exchange(passes_, {}); }
+    [[nodiscard]] std::vector<PassAccesses> take();
 
     // For the executor.
     void beginPass(const std::string& name);
@@ -96,11 +96,13 @@ class AccessCounter {
     Used& use(const std::string& name, Key key);
     void number(std::size_t number, const Used& used);
     void reserve(std::size_t words);
-    PassAccesses& passNamed(const std::string& name);
+    // Of the pass in passes_, where it is added if it is not there.
+    std::size_t indexOf(const std::string& name);
 
     ProgramCache& programs_;
     std::map<ProgramKey, Counting> counting_;
     std::vector<PassAccesses> passes_;
+    std::optional<std::size_t> lastEnded_;  // in passes_
     PassAccesses here_;
     std::map<Key, Used> used_;
     Buffer buffer_;  // kCountedShards * 4 words of sums, then bits

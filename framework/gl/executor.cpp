@@ -248,12 +248,13 @@ bool Executor::runFrame(PassTimer& timer, const std::function<bool(std::size_t)>
             if (debugs) context_.setScope("in pass '" + step.name + "'");
             PassContext context(*this, step, hasRun[i]);
             const DebugGroup group(i, step.name);
+            // What is cleared for the pass counts as its own.
+            if (counter_ != nullptr) counter_->beginPass(step.name);
             if (isFresh_ && !hasRun[i]) {
                 for (const std::size_t slot : step.keptSlots)
                     clearSlot(slot, {});
             }
             if (poison_) poison(step, hasRun[i]);
-            if (counter_ != nullptr) counter_->beginPass(step.name);
             timer.beginPass(i);
             for (const graph::Step::Clear& clear : step.clears)
                 clearSlot(clear.slot, clear.value);

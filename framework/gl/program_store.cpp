@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <map>
 #include <mutex>
 #include <system_error>
 #include <vector>
@@ -29,6 +30,18 @@ std::string environmentText(const char* name) {
 std::string driverText(GLenum name) {
     const GLubyte* text = glGetString(name);
     return text != nullptr ? reinterpret_cast<const char*>(text) : "";
+}
+
+// Bytes of the programs in each folder: counted once, and what this process has written since. What
+// others write meanwhile is not in it, so that theirs may lie beyond the capacity until the next
+// process counts.
+struct FolderSizes {
+    std::mutex mutex;
+    std::map<fs::path, std::uint64_t> bytes;
+};
+FolderSizes& folderSizes() {
+    static FolderSizes all;
+    return all;
 }
 
 std::mutex& statisticsMutex() {
@@ -139,6 +152,13 @@ void ProgramStore::save(GLuint program, const std::string& key) const {
 }
 
 void ProgramStore::makeRoom(std::uint64_t bytes) const {
+    FolderSizes& sizes = folderSizes();
+    const std::lock_guard lock(sizes.mutex);
+    const auto known = sizes.bytes.find(folder_);
+    if (known != sizes.bytes.end() && known->second + bytes <= capacityBytes_) {
+        known->second += bytes;
+        return;
+    }
     struct Entry {
         fs::file_time_type time;
         std::uint64_t bytes;
@@ -161,6 +181,7 @@ void ProgramStore::makeRoom(std::uint64_t bytes) const {
         fs::remove(oldest.path, ignored);
         sum -= oldest.bytes;
     }
+    sizes.bytes[folder_] = sum;
 }
 
 ProgramStatistics programStatistics() {

@@ -36,6 +36,7 @@ class ProgramStore {
 
   private:
     [[nodiscard]] std::filesystem::path fileOf(const std::string& key) const;
+    // Removes the oldest files where the capacity leaves no room for so many bytes more.
     void makeRoom(std::uint64_t bytes) const;
 
     std::filesystem::path folder_;

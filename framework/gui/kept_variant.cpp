@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "framework/core/error.h"
-#include "framework/gui/shown_image.h"
+#include "framework/gui/showing.h"
 #include "framework/measure/image_errors.h"
 #include "framework/report/statistics.h"
 

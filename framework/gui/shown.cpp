@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "framework/gui/kept_variant.h"
-#include "framework/gui/shown_image.h"
+#include "framework/gui/showing.h"
 
 namespace kaustik::gui {
 namespace {
@@ -170,7 +170,7 @@ Shown shownOf(const ShownRequest& requested, const FrameResult& result,
         shown.sentence = prefixOf(requested.document, i) + variant.violations.front();
     }
     if (shown.kind == Shown::Kind::impossible) return shown;
-    const std::string missing = showingOf(requested, result, reference).sideProblem;
+    const std::string missing = showingOf(requested, result, reference).comparedProblem;
     shown.sentence = missing.empty()
                          ? "What is shown is what was asked for."
                          : fmt::format("The picture is what was asked for; {}.", missing);

@@ -57,8 +57,8 @@ struct ShownRequest {
     std::shared_ptr<const ImageDifference> difference = {};  // where one is asked for
     // The one that is seen, to the left of the split where there is one.
     [[nodiscard]] std::size_t seen() const {
-        return view.sidePicture == SidePicture::other ||
-                       (view.sidePicture == SidePicture::difference && view.sideKept < 0)
+        return view.comparedWith == ComparedImage::other ||
+                       (view.comparedWith == ComparedImage::difference && view.comparedKept < 0)
                    ? 0
                    : edited;
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is on the screen, as one description: which values, of what, in which unit and space, of
+// An image on the screen, as one description: which values, of what, in which unit and space, of
 // which frame, and how they become colours. Picture, caption, numbers, colour bar and saved files
 // are all made of it, so that they cannot differ. Knows no window.
 #pragma once
@@ -76,28 +76,12 @@ struct ShownImage {
     [[nodiscard]] bool contains(glm::ivec2 pixel) const;
 };
 
-// Both sides of the split, and what a difference is to be taken of.
-struct Showing {
-    std::optional<ShownImage> main;
-    std::optional<ShownImage> side;        // to the right of the split, where there is one
-    std::string words;                     // in the place of an image
-    std::optional<ShownImage> subtrahend;  // where a difference is asked for
-    std::string sideProblem;  // why nothing is to the right of the split although asked for
-};
-
-// `reference`: of the same document as the result, or nothing is shown of it.
-[[nodiscard]] Showing showingOf(const ShownRequest& requested, const FrameResult& result,
-                                const ReferenceState& reference);
-
-// How good a reference is: "8 million photons, its own noise 2.1 %".
-[[nodiscard]] std::string noteOf(const ReferenceState& reference);
-
-// Why two images cannot stand next to each other at one scale; "" where they can.
-[[nodiscard]] std::string whyNotComparable(const ShownImage& a, const ShownImage& b);
-
 // The range and the exposure that a look has over these values.
 [[nodiscard]] ToneMapping mappingOf(const Look& look, const TextureContent& content,
                                     const Histogram& histogram, bool isEncoded);
+
+// The channel that is looked at by itself; -1: all of a colour or a vector.
+[[nodiscard]] int singleChannel(const TextureContent& content, Channel channel);
 
 // The name of what a look's channel shows: "depth, m".
 [[nodiscard]] std::string channelLabel(const TextureContent& content, Channel channel);

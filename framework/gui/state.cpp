@@ -68,8 +68,8 @@ class Part {
 };
 
 // Kept variants are in memory, and gone with it.
-bool isKept(SidePicture side) {
-    return side == SidePicture::kept || side == SidePicture::difference;
+bool isKept(ComparedImage image) {
+    return image == ComparedImage::kept || image == ComparedImage::difference;
 }
 
 json toJson(const std::map<std::string, Look>& looks) {
@@ -117,8 +117,8 @@ json toJson(const SavedState& kept) {
              {{"resource", view.resource},
               {"layer", view.layer},
               {"looks", toJson(view.looks)},
-              {"beside",
-               static_cast<int>(isKept(view.sidePicture) ? SidePicture::none : view.sidePicture)},
+              {"compared_with", static_cast<int>(isKept(view.comparedWith) ? ComparedImage::none
+                                                                           : view.comparedWith)},
               {"split", view.split},
               {"shows_lights", view.showsLights}}},
             {"panels",
@@ -159,7 +159,7 @@ SavedState savedStateFromJson(const json& j, std::vector<std::string>& problems)
     json looks = json::object();
     view.take("looks", looks);
     kept.view.looks = looksFromJson(looks, problems);
-    kept.view.sidePicture = static_cast<SidePicture>(view.between("beside", 0, 0, 3));
+    kept.view.comparedWith = static_cast<ComparedImage>(view.between("compared_with", 0, 0, 3));
     kept.view.split = view.between("split", 0.5f, 0.0f, 1.0f);
     view.take("shows_lights", kept.view.showsLights);
     Part panels(j, "panels", problems);

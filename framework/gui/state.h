@@ -17,16 +17,16 @@
 
 namespace kaustik::gui {
 
-// What is seen to the right of the split.
-// difference: what is to the left minus another one (ViewState::sideKept).
-enum class SidePicture : int { none, other, reference, error, kept, difference };
+// What the image is compared with: it is seen to the right of the split.
+// difference: what is to the left minus another one (ViewState::comparedKept).
+enum class ComparedImage : int { none, other, reference, error, kept, difference };
 
 struct ViewState {
     std::string resource;  // "": the picture
     int layer = 0;
     std::map<std::string, Look> looks;  // of each texture that has been given one; "": the picture
-    SidePicture sidePicture = SidePicture::none;
-    int sideKept = -1;       // which of the kept variants that is; below 0: variant B
+    ComparedImage comparedWith = ComparedImage::none;
+    int comparedKept = -1;   // which of the kept variants that is; below 0: variant B
     int flipped = -1;        // which of them is seen in place of the newest frame; below 0: none
     float split = 0.5f;      // of the picture's width
     float zoom = 0.0f;       // window pixels a pixel; 0: fits

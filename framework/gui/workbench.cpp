@@ -9,9 +9,6 @@
 #include "framework/core/error.h"
 #include "framework/core/names.h"
 #include "framework/gui/panels/panels.h"
-#include "framework/gui/recording_name.h"
-#include "framework/gui/shown_files.h"
-#include "framework/gui/shown_image.h"
 #include "framework/gui/widgets.h"
 #include "framework/run/progress.h"
 #include "framework/scene/files/scene_file.h"
@@ -62,8 +59,8 @@ Workbench::Workbench(const Registry& registry, const WorkbenchOptions& options)
         bench_.document.scene = options.scene;
         bench_.document.edits = {};
     }
-    if (bench_.view.sidePicture == SidePicture::other && !bench_.document.other)
-        bench_.view.sidePicture = SidePicture::none;
+    if (bench_.view.comparedWith == ComparedImage::other && !bench_.document.other)
+        bench_.view.comparedWith = ComparedImage::none;
     history_ = {bench_.document};
 }
 
@@ -273,7 +270,7 @@ void Workbench::submitChanges() {
     FrameOrder order;
     order.document = bench_.document;
     order.viewing.resource =
-        bench_.view.sidePicture == SidePicture::reference && bench_.view.resource.empty()
+        bench_.view.comparedWith == ComparedImage::reference && bench_.view.resource.empty()
             ? "caustic.irradiance"
             : bench_.view.resource;
     order.viewing.layer = bench_.view.layer;
@@ -380,168 +377,6 @@ void Workbench::describe() {
     map_.status("window_device", window_.renderer());
     map_.status("interface_ms", interfaceMs_);
     map_.status("document", toJson(bench_.document));
-}
-
-namespace {
-
-template <class T>
-bool isReady(const std::future<T>& future) {
-    return future.valid() && future.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
-}
-
-}  // namespace
-
-// Takes what is asked for off what is shown, on a thread of its own: FLIP takes long.
-void Workbench::pollDifference() {
-    if (isReady(difference_)) {
-        bench_.difference = difference_.get();
-        framesToDraw_ = std::max(framesToDraw_, 2);
-    }
-    if (bench_.view.sidePicture != SidePicture::difference || difference_.valid()) return;
-    const Showing showing = showingOf(bench_.requested(), *bench_.result, *bench_.reference);
-    if (!showing.main || !showing.subtrahend) return;
-    const std::uint64_t first = showing.main->version;
-    const std::uint64_t second = showing.subtrahend->version;
-    if (bench_.difference && bench_.difference->isOf(first, second)) return;
-    // Values of frames live as long as the result, those of kept ones as long as their owner.
-    difference_ = std::async(
-        std::launch::async,
-        [=, result = bench_.result, one = *showing.main,
-         other = *showing.subtrahend]() -> std::shared_ptr<const ImageDifference> {
-            auto difference =
-                std::make_shared<ImageDifference>(differenceBetween(*one.values, *other.values));
-            difference->firstVersion = first;
-            difference->secondVersion = second;
-            Window::wake();
-            return difference;
-        });
-}
-
-void Workbench::pollPairs() {
-    if (isReady(pairs_)) {
-        bench_.pairs = pairs_.get();
-        framesToDraw_ = std::max(framesToDraw_, 2);
-    }
-    if (!bench_.wantsPairs || pairs_.valid()) return;
-    bench_.wantsPairs = false;
-    struct Named {
-        std::string name;
-        Image irradiance;
-    };
-    std::vector<Named> images;
-    const auto add = [&](const std::string& name, const std::shared_ptr<const ViewedTexture>& of) {
-        if (of) images.push_back({name, colorsOf(of->values)});
-    };
-    for (const auto& texture : bench_.result->variants[0].outputTextures) {
-        if (texture->name == "caustic.irradiance") add("A", texture);
-    }
-    for (std::size_t i = 0; i < bench_.kept.size(); ++i)
-        add(fmt::format("{}", i + 1), bench_.kept[i].texture("caustic.irradiance"));
-    if (bench_.reference->irradiance && hasSameView(*bench_.reference, bench_.document))
-        images.push_back({"reference", *bench_.reference->irradiance});
-    pairs_ = std::async(
-        std::launch::async, [images = std::move(images)]() -> std::shared_ptr<const Table> {
-            auto table = std::make_shared<Table>();
-            table->columns = {"image", "compared with", "RMSE, W/m²", "FLIP"};
-            for (std::size_t i = 0; i < images.size(); ++i) {
-                for (std::size_t k = i + 1; k < images.size(); ++k) {
-                    const ImageDifference difference =
-                        differenceBetween(images[i].irradiance, images[k].irradiance);
-                    const bool isKnown = difference.signedMean != nullptr;
-                    table->rows.push_back(
-                        {images[i].name, images[k].name,
-                         isKnown ? fmt::format("{:.4g}", difference.rmse) : difference.problem,
-                         difference.flip ? fmt::format("{:.4g}", *difference.flip) : "–"});
-                }
-            }
-            Window::wake();
-            return table;
-        });
-}
-
-// Both sides of the split, as they are on the screen.
-void Workbench::saveShown() {
-    if (!bench_.wantsShownSaved || screenshot_.valid()) return;
-    bench_.wantsShownSaved = false;
-    const Showing showing = showingOf(bench_.requested(), *bench_.result, *bench_.reference);
-    if (!showing.main) {
-        bench_.notify("There is no image to save.", true);
-        return;
-    }
-    struct Saved {
-        std::string name;
-        Image values;
-        Image seen;
-        Metadata metadata;
-    };
-    std::vector<Saved> images;
-    const auto add = [&](const ShownImage& image, std::size_t slot, const std::string& end) {
-        std::string name =
-            fmt::format("{}-{}{}", recordingName(bench_.document.scene), image.name(), end);
-        Image seen;
-        bench_.canvas.show(slot, *image.values, image.version, image.mapping);
-        seen = bench_.canvas.read(slot);
-        images.push_back(
-            {std::move(name), *image.values, std::move(seen), image.metadata(bench_.document)});
-    };
-    add(*showing.main, 0, "");
-    if (showing.side) add(*showing.side, 1, "-" + showing.side->source);
-    for (Saved& image : images) {
-        for (char& c : image.name) {
-            if (c == ' ' || c == '/') c = '_';
-        }
-    }
-    const fs::path folder = bench_.panels.recordFolder;
-    bench_.notify(fmt::format("Writing {}.",
-                              (folder / images.front().name).string() + floatImageExtension()));
-    screenshot_ =
-        std::async(std::launch::async, [folder, images = std::move(images)]() -> std::string {
-            try {
-                for (const Saved& image : images) {
-                    static_cast<void>(
-                        writeShown(folder, image.name, image.values, image.seen, image.metadata));
-                }
-                return {};
-            } catch (const std::exception& error) {
-                return error.what();
-            }
-        });
-}
-
-void Workbench::saveScreenshot() {
-    if (!bench_.wantsScreenshot || screenshot_.valid()) return;
-    bench_.wantsScreenshot = false;
-    Image image;
-    image.values = window_.readPixels(image.width, image.height);
-    image.channels = 3;
-    const fs::path file =
-        fs::path(bench_.panels.recordFolder) /
-        (recordingName(bench_.document.scene) + "-window" + displayImageExtension());
-    // A large picture takes longer to compress than the window may be asleep.
-    screenshot_ =
-        std::async(std::launch::async, [file, picture = std::move(image)]() -> std::string {
-            try {
-                writeImage(file, picture);
-                return {};
-            } catch (const std::exception& error) {
-                return error.what();
-            }
-        });
-    bench_.notify(fmt::format("Writing {}.", file.string()));
-}
-
-void Workbench::finishScreenshot() {
-    if (!screenshot_.valid() ||
-        screenshot_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
-        return;
-    }
-    const std::string problem = screenshot_.get();
-    if (!problem.empty()) {
-        bench_.notify(problem, true);
-    } else if (bench_.message.starts_with("Writing ")) {
-        bench_.notify("Wrote " + bench_.message.substr(8));
-    }
-    framesToDraw_ = std::max(framesToDraw_, 2);
 }
 
 }  // namespace kaustik::gui

@@ -9,7 +9,7 @@
 #include <algorithm>
 
 #include "framework/gui/panels/panels.h"
-#include "framework/gui/shown_image.h"
+#include "framework/gui/showing.h"
 #include "framework/gui/workbench.h"
 
 namespace kaustik::gui {

@@ -12,7 +12,7 @@ using Libraries = CommandLine;
 
 TEST_F(Libraries, OfTheProgramAreNoneOfWindows) {
     std::string list;
-    FILE* const pipe = ::popen("ldd " KAUSTIK_BINARY, "r");
+    FILE* const pipe = ::popen("ldd '" KAUSTIK_BINARY "'", "r");
     ASSERT_NE(pipe, nullptr);
     std::array<char, 4096> line{};
     while (std::fgets(line.data(), static_cast<int>(line.size()), pipe) != nullptr)

@@ -13,6 +13,7 @@
 
 #include "framework/gl/timers.h"
 #include "tests/gpu/fixture.h"
+#include "tests/gpu_gui/floor_and_glass.h"
 
 namespace kaustik::test {
 namespace {
@@ -38,19 +39,6 @@ name = "south"
 type = "directional"
 direction = [0, -1, -0.6]
 irradiance = 1000
-[[material]]
-name = "chalk"
-type = "lambertian"
-albedo = 0.5
-[[material]]
-name = "glass"
-type = "dielectric"
-ior = 1.5
-[[object]]
-name = "floor"
-shape = "plane"
-material = "chalk"
-size = [6, 6]
 [[object]]
 name = "slab"
 shape = "box"
@@ -97,7 +85,7 @@ class PhotonsUnderASlab : public testing::Test {
     }
 
     Registry registry = registerAll();
-    scene::Scene scene = sceneFromText(kSlab);
+    scene::Scene scene = sceneFromText(std::string(kSlab) + kFloorAndGlass);
     std::unique_ptr<Renderer> renderer;
 };
 

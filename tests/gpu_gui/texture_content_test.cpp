@@ -8,6 +8,7 @@
 #include "framework/core/error.h"
 #include "framework/gl/objects.h"
 #include "tests/gpu/fixture.h"
+#include "tests/gpu_gui/floor_and_glass.h"
 
 namespace kaustik::test {
 namespace {
@@ -26,19 +27,6 @@ irradiance = 1000
 [medium]
 scattering_per_meter = [0.05, 0.05, 0.05]
 absorption_per_meter = [0.01, 0.01, 0.01]
-[[material]]
-name = "chalk"
-type = "lambertian"
-albedo = 0.5
-[[material]]
-name = "glass"
-type = "dielectric"
-ior = 1.5
-[[object]]
-name = "floor"
-shape = "plane"
-material = "chalk"
-size = [6, 6]
 [[object]]
 name = "ball"
 shape = "sphere"
@@ -49,7 +37,7 @@ position = [0, 0.6, 0]
 
 TEST(TexturesOfAllTechniques, HaveNamesUnitsAndASpace) {
     const Registry registry = registerAll();
-    const scene::Scene scene = sceneFromText(kAll);
+    const scene::Scene scene = sceneFromText(std::string(kAll) + kFloorAndGlass);
     std::set<std::string> unknown;
     std::size_t count = 0;
     for (const Technique& technique : registry.techniques()) {

@@ -47,10 +47,10 @@ TEST_F(ComparePanel, WhatIsKeptIsFlippedToAndTakenOffWithoutRenderingAgain) {
     open("Compare");
     bench->click("compare.1.difference");
     bench->waitFor("the difference", [](const json& screen) {
-        return screen.at("controls").contains("picture.caption.side");
+        return screen.at("controls").contains("picture.caption.compared");
     });
-    EXPECT_TRUE(says("picture.caption.side", "minus kept 1"));
-    EXPECT_TRUE(says("picture.caption.side", "RMSE"));
+    EXPECT_TRUE(says("picture.caption.compared", "minus kept 1"));
+    EXPECT_TRUE(says("picture.caption.compared", "RMSE"));
     bench->hover("picture.image", pixel(38, 27));
     const std::string text = bench->value("picture.value");
     // White light: all channels differ by the same.

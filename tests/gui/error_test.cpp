@@ -195,7 +195,7 @@ TEST_F(ErrorPanel, AWorseFrameHasALargerError) {
 // the whole window.
 TEST_F(ErrorPanel, OnEachSideOfASplitWordsAndNumbersAreThoseOfThePixels) {
     json kept = withPhotons(1e6);
-    kept["view"]["beside"] = 2;
+    kept["view"]["compared_with"] = 2;
     kept["view"]["looks"]["caustic.irradiance"] = {{"exposure_automatic", false},
                                                    {"exposure", -11.0}};
     start(kept);
@@ -229,15 +229,15 @@ TEST_F(ErrorPanel, OnEachSideOfASplitWordsAndNumbersAreThoseOfThePixels) {
             << x;
     }
     EXPECT_TRUE(bench->value("picture.caption").starts_with("caustic.irradiance"));
-    EXPECT_TRUE(bench->value("picture.caption.side").starts_with("reference: "));
-    EXPECT_TRUE(says("picture.caption.side", "its own noise"));
+    EXPECT_TRUE(bench->value("picture.caption.compared").starts_with("reference: "));
+    EXPECT_TRUE(says("picture.caption.compared", "its own noise"));
     // Right of the split all is the reference's.
     bench->hover("picture.image", pixel(50, 30));
     const double x = bench->control("picture.image").x;
     bench->wheel("picture.image", 12, pixel(50, 30));
     ASSERT_LT(bench->control("picture.image").x, x);
     EXPECT_FALSE(bench->has("picture.caption"));
-    EXPECT_TRUE(bench->value("picture.caption.side").starts_with("reference: "));
+    EXPECT_TRUE(bench->value("picture.caption.compared").starts_with("reference: "));
     EXPECT_TRUE(bench->has("picture.values"));
     bench->keepScreenshot("error-right-of-the-split");
 }
@@ -257,8 +257,8 @@ TEST_F(ErrorPanel, TheErrorAndTheReferenceAreSeenNextToThePicture) {
     bench->keepScreenshot("error-heat-map");
     bench->hover("picture.image", pixel(24, 30));
     EXPECT_EQ(bench->value("picture.value"), before);
-    EXPECT_TRUE(bench->value("picture.caption.side").starts_with("error: "));
-    EXPECT_TRUE(bench->has("picture.bar.side"));
+    EXPECT_TRUE(bench->value("picture.caption.compared").starts_with("error: "));
+    EXPECT_TRUE(bench->has("picture.bar.compared"));
     // A value with its sign, and no colour.
     bench->hover("picture.image", pixel(38, 27));
     const std::string text = bench->value("picture.value");
@@ -276,7 +276,7 @@ TEST_F(ErrorPanel, TheErrorAndTheReferenceAreSeenNextToThePicture) {
     EXPECT_FALSE(bench->has("picture.split"));
 
     open("Image");
-    choose("image.beside", "the reference");
+    choose("image.compared_with", "the reference");
     untilSettled();
     ASSERT_TRUE(bench->has("picture.split"));
     bench->keepScreenshot("error-reference");

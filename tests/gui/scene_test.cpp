@@ -158,9 +158,9 @@ TEST_F(ScenePanel, ALightThatIsOffTheScreenIsMarkedWhereItLies) {
         EXPECT_GT(edge, 0.0);
         EXPECT_LT(edge, 40.0) << "at the edge";
         places.push_back(place);
-        if (places.size() == 2) bench->keepScreenshot("scene-light-beside");
+        if (places.size() == 2) bench->keepScreenshot("scene-light-outside");
     }
-    EXPECT_TRUE(kinds.contains("beside"));
+    EXPECT_TRUE(kinds.contains("outside"));
     EXPECT_TRUE(kinds.contains("behind"));
     ASSERT_GT(places.size(), 4u);
     std::size_t moves = 0;

@@ -134,7 +134,7 @@ TEST_F(Workbench, SettingsThatMakeNoSenseAreNoReasonNotToStart) {
     const fs::path file = folder / "config/kaustik/workbench.json";
     fs::create_directories(file.parent_path());
     const std::string damaged =
-        R"({"view": {"zoom": "x", "beside": 99}, "document": 7, "panels": [)";
+        R"({"view": {"zoom": "x", "compared_with": 99}, "document": 7, "panels": [)";
     writeFileWhole(file, damaged);
     bench.emplace(desktop, folder / "", std::vector<std::string>{"wavy.toml"});
     bench->waitFor("a picture", [](const json& screen) {

@@ -24,13 +24,13 @@ void forget(Bench& bench, std::size_t index) {
     bench.kept.erase(bench.kept.begin() + static_cast<std::ptrdiff_t>(index));
     bench.pairs.reset();
     const int place = static_cast<int>(index);
-    for (int* chosen : {&bench.view.flipped, &bench.view.sideKept}) {
+    for (int* chosen : {&bench.view.flipped, &bench.view.comparedKept}) {
         if (*chosen == place) *chosen = -1;
         if (*chosen > place) --*chosen;
     }
-    if (bench.view.sideKept < 0 && (bench.view.sidePicture == SidePicture::kept ||
-                                    bench.view.sidePicture == SidePicture::difference)) {
-        bench.view.sidePicture = SidePicture::none;
+    if (bench.view.comparedKept < 0 && (bench.view.comparedWith == ComparedImage::kept ||
+                                        bench.view.comparedWith == ComparedImage::difference)) {
+        bench.view.comparedWith = ComparedImage::none;
     }
 }
 
@@ -63,14 +63,14 @@ void drawKept(Bench& bench) {
         bench.map.control(name + ".numbers", numbers);
         tooltip(kept.reference.empty() ? "There was no reference of its view when it was kept."
                                        : "By a reference of " + kept.reference + ".");
-        if (button(bench, "next to it", name + ".side")) {
-            bench.view.sidePicture = SidePicture::kept;
-            bench.view.sideKept = static_cast<int>(i);
+        if (button(bench, "next to it", name + ".compare")) {
+            bench.view.comparedWith = ComparedImage::kept;
+            bench.view.comparedKept = static_cast<int>(i);
         }
         ImGui::SameLine();
         if (button(bench, "minus it", name + ".difference")) {
-            bench.view.sidePicture = SidePicture::difference;
-            bench.view.sideKept = static_cast<int>(i);
+            bench.view.comparedWith = ComparedImage::difference;
+            bench.view.comparedKept = static_cast<int>(i);
         }
         ImGui::SameLine();
         if (button(bench, "settings", name + ".settings")) {

@@ -239,9 +239,9 @@ void drawError(Bench& bench) {
             drawTableButtons(bench, "errors", errorTable(reference, bench.document.other ? 2 : 1));
             drawTable(bench, "by all paths", &ReferenceState::Judgement::whole);
             drawTable(bench, "by modelled paths", &ReferenceState::Judgement::modelled);
-            bool isShown = bench.view.sidePicture == SidePicture::error;
+            bool isShown = bench.view.comparedWith == ComparedImage::error;
             if (checkbox(bench, "error next to the picture", isShown, "error.heat_map"))
-                bench.view.sidePicture = isShown ? SidePicture::error : SidePicture::none;
+                bench.view.comparedWith = isShown ? ComparedImage::error : ComparedImage::none;
         }
     }
     drawLedger(bench);

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "framework/gui/panels/panels.h"
-#include "framework/gui/shown_image.h"
+#include "framework/gui/showing.h"
 #include "framework/gui/widgets.h"
 #include "framework/transport/watts.h"
 
@@ -14,41 +14,42 @@ namespace kaustik::gui {
 namespace {
 
 // What may stand to the right of the split.
-struct SideChoice {
-    SidePicture side = SidePicture::none;
+struct ComparedChoice {
+    ComparedImage image = ComparedImage::none;
     int kept = -1;
     std::string name;
 };
 
-std::vector<SideChoice> sideChoices(const Bench& bench) {
-    std::vector<SideChoice> choices = {{SidePicture::none, -1, "nothing"},
-                                       {SidePicture::other, -1, "variant B"},
-                                       {SidePicture::reference, -1, "the reference"},
-                                       {SidePicture::error, -1, "its error by the reference"}};
-    if (bench.document.other) choices.push_back({SidePicture::difference, -1, "A minus B"});
+std::vector<ComparedChoice> comparedChoices(const Bench& bench) {
+    std::vector<ComparedChoice> choices = {
+        {ComparedImage::none, -1, "nothing"},
+        {ComparedImage::other, -1, "variant B"},
+        {ComparedImage::reference, -1, "the reference"},
+        {ComparedImage::error, -1, "its error by the reference"}};
+    if (bench.document.other) choices.push_back({ComparedImage::difference, -1, "A minus B"});
     for (int i = 0; i < static_cast<int>(bench.kept.size()); ++i) {
-        choices.push_back({SidePicture::kept, i, fmt::format("kept {}", i + 1)});
-        choices.push_back({SidePicture::difference, i, fmt::format("it minus kept {}", i + 1)});
+        choices.push_back({ComparedImage::kept, i, fmt::format("kept {}", i + 1)});
+        choices.push_back({ComparedImage::difference, i, fmt::format("it minus kept {}", i + 1)});
     }
     return choices;
 }
 
-void drawChoiceOfSide(Bench& bench) {
-    const std::vector<SideChoice> choices = sideChoices(bench);
+void drawChoiceOfCompared(Bench& bench) {
+    const std::vector<ComparedChoice> choices = comparedChoices(bench);
     std::vector<std::string> names;
     int index = 0;
-    for (const SideChoice& choice : choices) {
+    for (const ComparedChoice& choice : choices) {
         const bool isKept =
-            choice.side == SidePicture::kept || choice.side == SidePicture::difference;
-        if (choice.side == bench.view.sidePicture &&
-            (!isKept || choice.kept == bench.view.sideKept)) {
+            choice.image == ComparedImage::kept || choice.image == ComparedImage::difference;
+        if (choice.image == bench.view.comparedWith &&
+            (!isKept || choice.kept == bench.view.comparedKept)) {
             index = static_cast<int>(names.size());
         }
         names.push_back(choice.name);
     }
-    if (choose(bench, "beside it", names, index, "image.beside")) {
-        bench.view.sidePicture = choices[static_cast<std::size_t>(index)].side;
-        bench.view.sideKept = choices[static_cast<std::size_t>(index)].kept;
+    if (choose(bench, "compared with", names, index, "image.compared_with")) {
+        bench.view.comparedWith = choices[static_cast<std::size_t>(index)].image;
+        bench.view.comparedKept = choices[static_cast<std::size_t>(index)].kept;
     }
     tooltip(
         "What is seen to the right of the split, which can be dragged. The reference is of the "
@@ -74,7 +75,7 @@ void drawChoiceOfTexture(Bench& bench) {
     }
     tooltip("Any texture of the graph. One whose pass nothing else needs makes that pass run.");
     if (index == 0) {
-        if (bench.view.sidePicture == SidePicture::reference)
+        if (bench.view.comparedWith == ComparedImage::reference)
             ImGui::TextDisabled("caustic.irradiance, of which the reference is.");
         return;
     }
@@ -238,7 +239,7 @@ void drawImage(Bench& bench) {
     drawChoiceOfTexture(bench);
     const Showing showing = showingOf(bench.requested(), *bench.result, *bench.reference);
     if (showing.main) drawLook(bench, *showing.main);
-    drawChoiceOfSide(bench);
+    drawChoiceOfCompared(bench);
     ImGui::Separator();
     if (viewed != nullptr && viewed->missing != ViewedTexture::Missing::layer)
         drawValues(bench, *viewed);

@@ -8,7 +8,7 @@
 #include "framework/gui/camera_control.h"
 #include "framework/gui/panels/panels.h"
 #include "framework/gui/panels/picture_overlay.h"
-#include "framework/gui/shown_image.h"
+#include "framework/gui/showing.h"
 #include "framework/gui/widgets.h"
 
 namespace kaustik::gui {
@@ -285,7 +285,7 @@ void drawCursorValue(Bench& bench, const Part& part, const Areas& areas, float l
 void drawCaption(const Bench& bench, const Part& part, const Areas& areas, float left,
                  float right) {
     const std::string text = part.image->caption();
-    const std::string name = part.slot == 0 ? "picture.caption" : "picture.caption.side";
+    const std::string name = part.slot == 0 ? "picture.caption" : "picture.caption.compared";
     const float room = right - left - static_cast<float>(bench.px(8.0));
     bench.map.area(name, left, areas.top, room, ImGui::GetTextLineHeight(), text);
     drawLine(text, {left, areas.top},
@@ -375,8 +375,8 @@ void drawPicture(Bench& bench) {
     if (!showing.main) return drawWords(bench, whole, wholeSize, showing.words.c_str());
     const ShownImage& main = *showing.main;
     // One bar for both sides where they have one scale.
-    const bool hasTwoBars = showing.side && !(showing.side->mapping == main.mapping);
-    const ShownImage& right = hasTwoBars ? *showing.side : main;
+    const bool hasTwoBars = showing.compared && !(showing.compared->mapping == main.mapping);
+    const ShownImage& right = hasTwoBars ? *showing.compared : main;
     const float leftBar = hasTwoBars ? barWidth(bench, main) : 0.0f;
     const Areas areas = areasIn(bench, whole, wholeSize, leftBar, barWidth(bench, right));
     const ImVec2 corner = areas.corner;
@@ -402,10 +402,11 @@ void drawPicture(Bench& bench) {
     const PictureFrame frame = frameOf(main);
     const float end = corner.x + size.x;
     const float splitX =
-        showing.side ? frame.low.x + view.split * (frame.high.x - frame.low.x) : end;
+        showing.compared ? frame.low.x + view.split * (frame.high.x - frame.low.x) : end;
     const float middle = std::clamp(splitX, corner.x, end);
     std::vector<Part> parts = {Part{0, &main, frame, corner.x, middle}};
-    if (showing.side) parts.push_back(Part{1, &*showing.side, frameOf(*showing.side), middle, end});
+    if (showing.compared)
+        parts.push_back(Part{1, &*showing.compared, frameOf(*showing.compared), middle, end});
 
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     draw.PushClipRect(corner, {end, corner.y + size.y}, true);
@@ -418,7 +419,7 @@ void drawPicture(Bench& bench) {
         pointedLight =
             drawLights(bench, frame, isHovered, hand.hold == DragTarget::light ? hand.light : -1);
     }
-    if (showing.side) drawSplit(bench, frame, splitX);
+    if (showing.compared) drawSplit(bench, frame, splitX);
     draw.PopClipRect();
     const float paneEnd = whole.x + wholeSize.x;
     for (const Part& part : parts) {
@@ -430,7 +431,7 @@ void drawPicture(Bench& bench) {
     }
     drawReservations(bench, areas, whole.x + 4.0f, wholeSize.x - 8.0f);
     drawColorBar(bench, right, areas, corner.x + size.x,
-                 hasTwoBars ? "picture.bar.side" : "picture.bar");
+                 hasTwoBars ? "picture.bar.compared" : "picture.bar");
     if (hasTwoBars) drawColorBar(bench, main, areas, whole.x, "picture.bar");
     bench.map.area("picture", corner.x, corner.y, size.x, size.y,
                    frame.reduction > 1.0f ? "preview" : "whole");
@@ -442,7 +443,7 @@ void drawPicture(Bench& bench) {
 
     if (isActivated) {
         const bool isNearSplit =
-            showing.side && std::abs(mouse.x - splitX) < static_cast<float>(bench.px(6.0));
+            showing.compared && std::abs(mouse.x - splitX) < static_cast<float>(bench.px(6.0));
         hand = beginDrag(isNearSplit, pointedLight, main.takesOverlay);
     }
     if (isActive) {

@@ -96,7 +96,7 @@ int drawLights(Bench& bench, const PictureFrame& frame, bool isHovered, int held
                        2.0f * radius,
                        isSeen             ? "seen"
                        : marker->isBehind ? "behind"
-                                          : "beside");
+                                          : "outside");
     }
     return found;
 }

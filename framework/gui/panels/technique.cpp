@@ -82,7 +82,7 @@ void drawVariants(Bench& bench) {
     if (!document.other) {
         if (button(bench, "Keep this as B and go on with A", "variant.keep")) {
             document.other = document.variant;
-            bench.view.sidePicture = SidePicture::other;
+            bench.view.comparedWith = ComparedImage::other;
         }
         tooltip("Renders both from then on, A left and B right of the split.");
         return;
@@ -92,8 +92,8 @@ void drawVariants(Bench& bench) {
     if (button(bench, "Drop B", "variant.drop")) {
         document.other.reset();
         bench.panels.edited = 0;
-        if (bench.view.sidePicture == SidePicture::other)
-            bench.view.sidePicture = SidePicture::none;
+        if (bench.view.comparedWith == ComparedImage::other)
+            bench.view.comparedWith = ComparedImage::none;
         return;
     }
     if (ImGui::BeginTable("variants", 3, ImGuiTableFlags_RowBg)) {

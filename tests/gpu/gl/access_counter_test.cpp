@@ -49,6 +49,26 @@ class CountedAccesses : public ::testing::Test {
         return (folder_ / name).string();
     }
 
+    // What the passes of the graph's first frame do.
+    static std::vector<gl::PassAccesses> countFrame(graph::Graph& graph) {
+        gl::ProgramCache programs;
+        gl::Executor executor(context(), programs);
+        executor.prepare(graph.compile());
+        gl::AccessCounter counter(programs);
+        executor.countAccesses(&counter);
+        gl::PassTimer timer(gl::TimerMode::finish);
+        executor.runFrame(timer);
+        return counter.take();
+    }
+    static gl::PassAccesses passNamed(const std::vector<gl::PassAccesses>& passes,
+                                      const std::string& name) {
+        for (const gl::PassAccesses& pass : passes) {
+            if (pass.name == name) return pass;
+        }
+        ADD_FAILURE() << name << " was not counted";
+        return {};
+    }
+
     // stage.maker clears an image, things and numbers; stage.counted runs `execute`, which may use
     // all of them and has an image of its own. Gives what is counted of that.
     using Execute =
@@ -77,18 +97,7 @@ class CountedAccesses : public ::testing::Test {
                 setup.sideEffect();
             },
             [&](const Resources& own, gl::PassContext& pass) { execute(made, own, pass); });
-        gl::ProgramCache programs;
-        gl::Executor executor(context(), programs);
-        executor.prepare(graph.compile());
-        gl::AccessCounter counter(programs);
-        executor.countAccesses(&counter);
-        gl::PassTimer timer(gl::TimerMode::finish);
-        executor.runFrame(timer);
-        for (const gl::PassAccesses& pass : counter.take()) {
-            if (pass.name == "stage.counted") return pass;
-        }
-        ADD_FAILURE() << "stage.counted was not counted";
-        return {};
+        return passNamed(countFrame(graph), "stage.counted");
     }
 
     fs::path folder_;
@@ -184,6 +193,73 @@ TEST_F(CountedAccesses, WhatIsClearedIsWrittenWholeAndBlendingReads) {
     EXPECT_EQ(counted.writtenBytes, kWidth * kHeight * 16u);
     EXPECT_EQ(counted.requestedWrittenBytes, 16u * 16u * 16u);
     EXPECT_EQ(counted.readBytes, 16u * 16u * 16u);
+}
+
+// stage.inner loops by itself, which never goes on, within a loop that runs twice.
+TEST_F(CountedAccesses, AReadBackIsOfThePassThatEndedLast) {
+    const std::string inner = write("inner.comp",
+                                    "layout(local_size_x = 1) in;\n"
+                                    "layout(std430) buffer Numbers { uint numbers[]; };\n"
+                                    "void main() { numbers[0] += 1u; numbers[1] = 0u; }\n");
+    const std::string outer = write("outer.comp",
+                                    "layout(local_size_x = 1) in;\n"
+                                    "layout(std430) buffer Numbers { uint numbers[]; };\n"
+                                    "void main() { numbers[2] = numbers[0] < 2u ? 1u : 0u; }\n");
+    graph::Graph graph;
+    struct Data {
+        graph::Buffer<Number> numbers;
+    };
+    const auto start = graph.addPass<Data, gl::PassContext>(
+        {"stage.start", ""},
+        [](graph::PassSetup& setup, Data& data) {
+            data.numbers = setup.createBuffer<Number>("numbers", 4);
+        },
+        [](const Data& data, gl::PassContext& pass) { pass.buffer(data.numbers).clear(); });
+    const auto add = [&](const std::string& name, const std::string& shader, const Data& before) {
+        return graph.addPass<Data, gl::PassContext>(
+            {name, ""},
+            [&](graph::PassSetup& setup, Data& data) {
+                data.numbers = setup.write(before.numbers);
+            },
+            [shader](const Data& data, gl::PassContext& pass) {
+                pass.compute(shader).storage("Numbers", data.numbers).dispatch(1);
+            });
+    };
+    graph.beginLoop();
+    graph.beginLoop();
+    const Data afterInner = add("stage.inner", inner, start);
+    graph.endLoop(afterInner.numbers, 1);
+    const Data afterOuter = add("stage.outer", outer, afterInner);
+    graph.endLoop(afterOuter.numbers, 2);
+    graph.request(afterOuter.numbers);
+    const std::vector<gl::PassAccesses> passes = countFrame(graph);
+    EXPECT_EQ(passNamed(passes, "stage.start").readBacks, 0u);
+    EXPECT_EQ(passNamed(passes, "stage.inner").readBacks, 2u);
+    EXPECT_EQ(passNamed(passes, "stage.outer").readBacks, 2u);
+}
+
+// Of a list that lives to the frame's end the pass writes 64 numbers; zeros are written before.
+TEST_F(CountedAccesses, WhatIsClearedBeforeThePassThatFirstWritesItIsWrittenWhole) {
+    const std::string shader = write("first.comp",
+                                     "layout(local_size_x = 64) in;\n"
+                                     "layout(std430) buffer Numbers { uint numbers[]; };\n"
+                                     "void main() { numbers[gl_GlobalInvocationID.x] = 1u; }\n");
+    graph::Graph graph;
+    struct Data {
+        graph::Buffer<Number> numbers;
+    };
+    const Data list = graph.addPass<Data, gl::PassContext>(
+        {"stage.list", ""},
+        [](graph::PassSetup& setup, Data& data) {
+            data.numbers = setup.createBuffer<Number>("numbers", kThings);
+        },
+        [&](const Data& data, gl::PassContext& pass) {
+            pass.compute(shader).storage("Numbers", data.numbers).dispatch(1);
+        });
+    graph.request(list.numbers);
+    const gl::PassAccesses counted = passNamed(countFrame(graph), "stage.list");
+    EXPECT_EQ(counted.requestedWrittenBytes, 64u * 4u);
+    EXPECT_EQ(counted.writtenBytes, kThings * 4u);
 }
 
 // Of a frame, with and without counting: all that the picture is made of, to the bit.

@@ -59,7 +59,7 @@ TEST(State, IsTheSameAfterARestart) {
     kept.view.layer = 3;
     kept.view.looks["hits.flux"] = {Channel::green,   false, -2.5f, true,
                                     Scale::symmetric, false, -1.0f, 3.0f};
-    kept.view.sidePicture = SidePicture::reference;
+    kept.view.comparedWith = ComparedImage::reference;
     kept.panels.leftWidth = 333.0f;
     kept.panels.recordFolder = "elsewhere";
     kept.window = {1000, 700, 10, 20};

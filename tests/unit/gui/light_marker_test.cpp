@@ -44,14 +44,14 @@ TEST(LightMarker, IsOnALightThatIsSeen) {
     EXPECT_NEAR(glm::distance(middle->place, kMiddle), 0.0, 1e-9);
     EXPECT_EQ(middle->direction, glm::dvec2(0.0));
     EXPECT_FALSE(middle->isBehind);
-    // Beside the picture, but in sight of the area: as far up as the picture is high.
+    // Outside the picture, but in sight of the area: as far up as the picture is high.
     const double height = 4.0 * std::tan(0.5 * glm::radians(45.0));
     const std::optional<LightMarker> above = mark({0.0, 1.5 * height, 0.0});
     EXPECT_NEAR(above->place.y, 250.0 - 150.0, 1e-9);
     EXPECT_EQ(above->direction, glm::dvec2(0.0));
 }
 
-TEST(LightMarker, PointsFromTheEdgeToOneThatIsBeside) {
+TEST(LightMarker, PointsFromTheEdgeToOneOutsideThePicture) {
     const std::optional<LightMarker> right = mark({50.0, 0.0, 0.0});
     EXPECT_NEAR(right->place.x, 680.0, 1e-9);
     EXPECT_NEAR(right->place.y, 250.0, 1e-9);
@@ -76,7 +76,7 @@ TEST(LightMarker, MovesWithTheViewAndNeverJumps) {
     scene::Camera by = camera();
     std::optional<glm::dvec2> before;
     int seen = 0;
-    int sidePicture = 0;
+    int outside = 0;
     int behind = 0;
     double way = 0.0;
     constexpr int kSteps = 4000;
@@ -89,7 +89,7 @@ TEST(LightMarker, MovesWithTheViewAndNeverJumps) {
             EXPECT_TRUE(isOnEdge(marker->place)) << step;
         }
         seen += isSeen ? 1 : 0;
-        sidePicture += !isSeen && !marker->isBehind ? 1 : 0;
+        outside += !isSeen && !marker->isBehind ? 1 : 0;
         behind += marker->isBehind ? 1 : 0;
         if (before) {
             const double moved = glm::distance(marker->place, *before);
@@ -102,7 +102,7 @@ TEST(LightMarker, MovesWithTheViewAndNeverJumps) {
         before = marker->place;
     }
     EXPECT_GT(seen, 0);
-    EXPECT_GT(sidePicture, 0);
+    EXPECT_GT(outside, 0);
     EXPECT_GT(behind, 0);
     EXPECT_GT(way, 1000.0);
 }

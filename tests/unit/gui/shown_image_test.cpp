@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One description of what is on the screen, of which picture, caption, numbers and colour bar are.
 #include "framework/gui/shown_image.h"
+#include "framework/gui/showing.h"
 
 #include <gtest/gtest.h>
 
@@ -54,21 +55,22 @@ class ShownImageTest : public testing::Test {
 };
 
 TEST_F(ShownImageTest, EachSideOfASplitHasItsOwnWordsAndNumbers) {
-    view.sidePicture = SidePicture::reference;
+    view.comparedWith = ComparedImage::reference;
     const Showing both = showing();
-    ASSERT_TRUE(both.main && both.side);
-    EXPECT_EQ(both.sideProblem, "");
+    ASSERT_TRUE(both.main && both.compared);
+    EXPECT_EQ(both.comparedProblem, "");
     EXPECT_NE(both.main->valuesAt({1, 1}).find("788.4"), std::string::npos);
-    EXPECT_NE(both.side->valuesAt({1, 1}).find("833.67"), std::string::npos);
+    EXPECT_NE(both.compared->valuesAt({1, 1}).find("833.67"), std::string::npos);
     EXPECT_EQ(both.main->numbersAt({1, 1}).find("833"), std::string::npos);
-    EXPECT_NE(both.side->numbersAt({1, 1}).find("833.7"), std::string::npos);
+    EXPECT_NE(both.compared->numbersAt({1, 1}).find("833.7"), std::string::npos);
     EXPECT_EQ(both.main->caption().find("reference"), std::string::npos);
-    EXPECT_TRUE(both.side->caption().starts_with("reference: caustic.irradiance"));
+    EXPECT_TRUE(both.compared->caption().starts_with("reference: caustic.irradiance"));
     // With what it is worth itself.
-    EXPECT_NE(both.side->caption().find("8 million photons, its own noise 15 %"), std::string::npos)
-        << both.side->caption();
+    EXPECT_NE(both.compared->caption().find("8 million photons, its own noise 15 %"),
+              std::string::npos)
+        << both.compared->caption();
     // One scale for both.
-    EXPECT_EQ(both.main->mapping, both.side->mapping);
+    EXPECT_EQ(both.main->mapping, both.compared->mapping);
 }
 
 TEST_F(ShownImageTest, ValuesHaveTheirNamesAndUnits) {
@@ -80,21 +82,21 @@ TEST_F(ShownImageTest, ValuesHaveTheirNamesAndUnits) {
 }
 
 TEST_F(ShownImageTest, UnlikeImagesShareNoSplit) {
-    view.sidePicture = SidePicture::reference;
+    view.comparedWith = ComparedImage::reference;
     render(result.variants[0], "shadow.maps", 2.0f);
     Showing both = showing();
-    EXPECT_FALSE(both.side);
-    EXPECT_NE(both.sideProblem.find("shadow.maps is a light's view"), std::string::npos)
-        << both.sideProblem;
+    EXPECT_FALSE(both.compared);
+    EXPECT_NE(both.comparedProblem.find("shadow.maps is a light's view"), std::string::npos)
+        << both.comparedProblem;
     render(result.variants[0], "layers.depth", 2.0f);
     both = showing();
-    EXPECT_FALSE(both.side);
-    EXPECT_NE(both.sideProblem.find("W/m²"), std::string::npos) << both.sideProblem;
+    EXPECT_FALSE(both.compared);
+    EXPECT_NE(both.comparedProblem.find("W/m²"), std::string::npos) << both.comparedProblem;
     reference.irradiance = std::make_shared<const Image>(Image(8, 2, 3));
     render(result.variants[0], "caustic.irradiance", 2.0f);
     both = showing();
-    EXPECT_FALSE(both.side);
-    EXPECT_NE(both.sideProblem.find("8×2"), std::string::npos) << both.sideProblem;
+    EXPECT_FALSE(both.compared);
+    EXPECT_NE(both.comparedProblem.find("8×2"), std::string::npos) << both.comparedProblem;
 }
 
 TEST_F(ShownImageTest, OnlyTheEyesViewTakesWhatIsDrawnOverIt) {
@@ -106,8 +108,8 @@ TEST_F(ShownImageTest, OnlyTheEyesViewTakesWhatIsDrawnOverIt) {
 }
 
 TEST_F(ShownImageTest, AnErrorHasASignAndIsNoColourTwice) {
-    view.sidePicture = SidePicture::error;
-    EXPECT_NE(showing().sideProblem.find("still being measured"), std::string::npos);
+    view.comparedWith = ComparedImage::error;
+    EXPECT_NE(showing().comparedProblem.find("still being measured"), std::string::npos);
     ReferenceState::Judgement& judgement = reference.judgements[0];
     judgement.order = kOrder;
     Image error = filled(-45.27f, 1);
@@ -115,17 +117,17 @@ TEST_F(ShownImageTest, AnErrorHasASignAndIsNoColourTwice) {
     judgement.error = std::make_shared<const Image>(error);
     judgement.errorHistogram = histogramOf(error);
     const Showing both = showing();
-    ASSERT_TRUE(both.side);
-    EXPECT_EQ(both.side->valuesAt({1, 0}), "(1, 0)  error -45.27 W/m²");
-    EXPECT_EQ(both.side->valuesAt({0, 0}), "(0, 0)  left out");
-    EXPECT_TRUE(both.side->caption().starts_with(
+    ASSERT_TRUE(both.compared);
+    EXPECT_EQ(both.compared->valuesAt({1, 0}), "(1, 0)  error -45.27 W/m²");
+    EXPECT_EQ(both.compared->valuesAt({0, 0}), "(0, 0)  left out");
+    EXPECT_TRUE(both.compared->caption().starts_with(
         "error: caustic irradiance minus that of the reference, mean of the channels, W/m²"))
-        << both.side->caption();
-    EXPECT_TRUE(both.side->mapping.isFalseColor);
-    EXPECT_EQ(both.side->colorBar()->scale, Scale::symmetric);
-    EXPECT_EQ(both.side->age, "");
+        << both.compared->caption();
+    EXPECT_TRUE(both.compared->mapping.isFalseColor);
+    EXPECT_EQ(both.compared->colorBar()->scale, Scale::symmetric);
+    EXPECT_EQ(both.compared->age, "");
     judgement.order = kOrder - 1;
-    EXPECT_NE(showing().side->caption().find("of a frame before"), std::string::npos);
+    EXPECT_NE(showing().compared->caption().find("of a frame before"), std::string::npos);
 }
 
 TEST_F(ShownImageTest, LooksBelongToATexture) {

@@ -179,7 +179,7 @@ TEST_F(ShownTest, IsStaleWhereShadersAreBroken) {
 }
 
 TEST_F(ShownTest, SaysWhatIsMissingBesideThePicture) {
-    view.sidePicture = SidePicture::reference;
+    view.comparedWith = ComparedImage::reference;
     ViewedTexture& viewed = *result.variants[0].viewed;
     viewed.name = "caustic.irradiance";
     viewed.content = contentOf(viewed.name, {});
@@ -192,7 +192,7 @@ TEST_F(ShownTest, SaysWhatIsMissingBesideThePicture) {
     reference.aim->size = {1, 1};
     EXPECT_TRUE(says("no reference of this view")) << "of another size";
     reference.aim->size = document.size;
-    view.sidePicture = SidePicture::error;
+    view.comparedWith = ComparedImage::error;
     EXPECT_TRUE(says("still being measured"));
     reference.judgements[0].order = kOrder;
     EXPECT_FALSE(says("still being measured"));
