@@ -2,6 +2,7 @@
 // Light that nothing is decided about: it counts above in all pixels where it may lie.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "framework/certify/cell_tracer.h"
 
@@ -48,19 +49,55 @@ EyeView::Extent project(const EyeView& eye, const Vec& offset, const EyeView::Ex
             std::min(cell(y.hi, extent.top, extent.bottom), extent.bottom)};
 }
 
+// The box around the facet, wider by a hair that is far above the rounding of its corners.
+Vec boundsOf(const Facet& facet, double hair) {
+    Box box;
+    for (std::size_t i = 0; i < facet.corners; ++i)
+        box.include(facet.position[i]);
+    return {Interval(box.low.x - hair, box.high.x + hair),
+            Interval(box.low.y - hair, box.high.y + hair),
+            Interval(box.low.z - hair, box.high.z + hair)};
+}
+
+// The distances at which a coordinate start + distance along may be within bounds, of those given.
+// Where `along` may be 0 nothing is told: the quotient has no bounds.
+Interval distancesWithin(const Interval& start, const Interval& along, const Interval& bounds,
+                         const Interval& distances) {
+    if (!staysAwayFromZero(along)) return distances;
+    const Interval found = (bounds - start) / along;
+    return found.isFinite() ? intersection(distances, found) : distances;
+}
+
 // The pixels in which a facet is seen where rays from a box may meet it.
+//
+// A point that is met is p = s + t v with s and v in their boxes and t >= 0, it is on the facet's
+// plane, and each coordinate is within the facet's bounds. So t is in N·(a - s) / N·v where N·v is
+// not 0, and for each axis in (bounds - s) / v where v is not 0 on it; each of these intervals
+// holds t whatever s and v are, and so does what they have in common. p is then in s + t v over
+// these t as well as in the bounds, hence in both. Light that grazes the plane, whose N·v may be 0,
+// is bounded by its axes alone. An empty intersection: no such p exists.
 EyeView::Extent reach(const Geometry& geometry, const EyeView& eye, const Vec& start,
                       const Vec& along, std::uint32_t g) {
     const Facet& other = geometry.facets()[g];
     const EyeView::Extent& extent = eye.extent(g);
+    const Vec bounds = boundsOf(other, kNear * geometry.size());
+    Interval distance(0.0, std::numeric_limits<double>::infinity());
     const Interval closing = dot(along, other.area);
-    if (!staysAwayFromZero(closing)) return extent;
-    const Interval ahead = dot(exact(other.position[0]) - start, other.area);
-    Interval distance = ahead / closing;
+    if (staysAwayFromZero(closing)) {
+        const Interval met = dot(exact(other.position[0]) - start, other.area) / closing;
+        if (met.isFinite()) distance = intersection(distance, met);
+    }
+    distance = distancesWithin(start.x, along.x, bounds.x, distance);
+    distance = distancesWithin(start.y, along.y, bounds.y, distance);
+    distance = distancesWithin(start.z, along.z, bounds.z, distance);
+    if (distance.lo > distance.hi) return {};
     if (!distance.isFinite()) return extent;
-    if (distance.hi < 0.0) return {};
-    distance.lo = std::max(distance.lo, 0.0);
-    return project(eye, start + scaled(distance, along) - exact(eye.position()), extent);
+    const Vec swept = start + scaled(distance, along);
+    if (!isFinite(swept)) return extent;
+    const Vec hit{intersection(swept.x, bounds.x), intersection(swept.y, bounds.y),
+                  intersection(swept.z, bounds.z)};
+    if (hit.x.lo > hit.x.hi || hit.y.lo > hit.y.hi || hit.z.lo > hit.z.hi) return {};
+    return project(eye, hit - exact(eye.position()), extent);
 }
 
 // Where light from the box may lie.
