@@ -49,8 +49,12 @@ class BeamTracer {
     [[nodiscard]] double wattScale() const { return wattScale_; }
     [[nodiscard]] double irradianceScale() const { return irradianceScale_; }
 
+    [[nodiscard]] const Geometry& geometry() const { return geometry_; }
+    [[nodiscard]] const EyeView& eye() const { return eye_; }
+    [[nodiscard]] const BeamSettings& settings() const { return settings_; }
+    [[nodiscard]] const PlantedError& planted() const { return planted_; }
+
   private:
-    struct Work;
     const Geometry& geometry_;
     const EyeView& eye_;
     BeamSettings settings_;
