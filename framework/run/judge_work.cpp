@@ -49,7 +49,8 @@ constexpr int kLightPoints = 64;
 constexpr double kIndexStep = 0.01;
 constexpr double kTurnDegrees = 0.25;
 constexpr double kMoveShare = 0.005;  // of the distance to what is specular
-constexpr std::size_t kMostPictures = 24;
+// Each picture is a reference of its own: set by hand, so that a subject takes minutes.
+constexpr std::size_t kMaxPictures = 24;
 
 // The light of a scene as radiance.
 struct Lit {
@@ -145,7 +146,7 @@ class Causes {
         change(other);
         return lighting_.lightOf(other, false, photons_);
     }
-    [[nodiscard]] bool isFull() const { return causes_.size() >= kMostPictures; }
+    [[nodiscard]] bool isFull() const { return causes_.size() >= kMaxPictures; }
 
     void add(CauseKind kind, std::string name, std::string sentence, std::string unit,
              double amount, double least, Image radiance) {
