@@ -76,6 +76,22 @@ Image changeOf(const Lit& other, const Lit& usual) {
     return result;
 }
 
+// A file that is gone with its object, also where what reads it throws.
+class TemporaryFile {
+  public:
+    explicit TemporaryFile(fs::path path) : path_(std::move(path)) {}
+    TemporaryFile(const TemporaryFile&) = delete;
+    TemporaryFile& operator=(const TemporaryFile&) = delete;
+    ~TemporaryFile() {
+        std::error_code ignored;
+        fs::remove(path_, ignored);
+    }
+    [[nodiscard]] const fs::path& path() const { return path_; }
+
+  private:
+    fs::path path_;
+};
+
 class Lighting {
   public:
     Lighting(const JudgedScene& request, const Watch* watch) : request_(request), watch_(watch) {}
@@ -275,20 +291,18 @@ class Causes {
         Image map = scene::decodeTexture(scene_.images[place]);
         for (std::size_t i = 0; i < map.values.size(); ++i)
             map.values[i] = 0.5f + (i % 3 == 1 ? -0.5f : 0.5f) * map.values[i];
-        const fs::path file =
-            unfinishedPath(cacheFolder() / fmt::format("green{}", floatImageExtension()));
-        fs::create_directories(file.parent_path());
-        writeImage(file, map);
+        const TemporaryFile file(
+            unfinishedPath(cacheFolder() / fmt::format("green{}", floatImageExtension())));
+        fs::create_directories(file.path().parent_path());
+        writeImage(file.path(), map);
         addWhole("green of the normal map of '" + object.name + "'",
                  fmt::format("the normal map of '{}' is flipped: its green points down the picture "
                              "instead of up",
                              object.name),
                  [&](scene::Scene& scene) {
-                     scene.images[place].file = file;
+                     scene.images[place].file = file.path();
                      scene.images[place].bytes.clear();
                  });
-        std::error_code ignored;
-        fs::remove(file, ignored);
     }
 
     const scene::Scene& scene_;
