@@ -54,6 +54,26 @@ double medianOf(std::vector<double>& values) {
 
 }  // namespace
 
+bool isEmpty(const Image& image) {
+    return image.values.empty();
+}
+
+double total(const Image& image, const Image& mask) {
+    double result = 0.0;
+    for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < image.width; ++x) {
+            for (int c = 0; c < image.channels && mask.at(x, y, 0) > 0.5f; ++c)
+                result += static_cast<double>(image.at(x, y, c));
+        }
+    }
+    return result;
+}
+
+double pixelCount(const Image& mask) {
+    return static_cast<double>(std::count_if(mask.values.begin(), mask.values.end(),
+                                             [](float value) { return value > 0.5f; }));
+}
+
 Image threeChannels(const Image& image) {
     Image result(image.width, image.height, 3);
     for (int y = 0; y < image.height; ++y) {
