@@ -49,7 +49,7 @@ constexpr int kLightPoints = 64;
 constexpr double kIndexStep = 0.01;
 constexpr double kTurnDegrees = 0.25;
 constexpr double kMoveShare = 0.005;  // of the distance to what is specular
-// Each picture is a reference of its own: set by hand, so that a subject takes minutes.
+// Each picture takes a reference of its own; set by hand, to bound the time of a subject.
 constexpr std::size_t kMaxPictures = 24;
 
 // The light of a scene as radiance.
