@@ -214,20 +214,16 @@ class MitsubaScene {
 
     void writeShape(const WorldMesh& mesh) {
         const scene::Material& material = scene_.materials[mesh.material];
-        const std::string file = fmt::format("meshes/{}.ply", mesh.identifier);
-        exporter_.write(file, plyOf(mesh, true));
-        const std::string id = exporter_.materialIdentifier(mesh.material);
+        const MeshFile written = exporter_.writeMesh(mesh, true);
         line(1, fmt::format("<shape type=\"ply\" id=\"{}\">", mesh.identifier));
-        line(2, fmt::format("<string name=\"filename\" value=\"{}\"/>", file));
-        line(2, fmt::format("<ref id=\"{}\"/>", id));
-        if (exporter_.emits(mesh.material)) {
-            ++exporter_.result.lightCount;
+        line(2, fmt::format("<string name=\"filename\" value=\"{}\"/>", written.file));
+        line(2, fmt::format("<ref id=\"{}\"/>", written.material));
+        if (written.isEmitter) {
             line(2, fmt::format("<emitter type=\"area\">{}</emitter>",
                                 rgb("radiance", glm::dvec3(material.emission))));
         }
-        if (material.kind == scene::MaterialKind::dielectric &&
-            material.absorptionPerMeter != glm::vec3(0.0f))
-            line(2, fmt::format("<ref name=\"interior\" id=\"inside_{}\"/>", id));
+        if (written.hasAbsorbingInterior)
+            line(2, fmt::format("<ref name=\"interior\" id=\"inside_{}\"/>", written.material));
         if (scene_.medium) line(2, "<ref name=\"exterior\" id=\"medium_of_scene\"/>");
         line(1, "</shape>");
     }

@@ -142,6 +142,19 @@ std::string Exporter::materialIdentifier(std::uint32_t material) const {
     return materialIdentifiers_[material];
 }
 
+MeshFile Exporter::writeMesh(const WorldMesh& mesh, bool flipsV) {
+    const scene::Material& material = scene.materials[mesh.material];
+    MeshFile written;
+    written.file = fmt::format("meshes/{}.ply", mesh.identifier);
+    written.material = materialIdentifier(mesh.material);
+    written.isEmitter = emits(mesh.material);
+    written.hasAbsorbingInterior = material.kind == scene::MaterialKind::dielectric &&
+                                   material.absorptionPerMeter != glm::vec3(0.0f);
+    write(written.file, plyOf(mesh, flipsV));
+    if (written.isEmitter) ++result.lightCount;
+    return written;
+}
+
 bool Exporter::emits(std::uint32_t material) const {
     return scene.materials[material].emission != glm::vec3(0.0f);
 }

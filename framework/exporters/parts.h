@@ -35,6 +35,14 @@ struct Picture {
     double repeatUnits = 1;  // of a WorldMesh's uv that it spans before it repeats
 };
 
+// A mesh that has been written as PLY, and what formats with named materials say of it.
+struct MeshFile {
+    std::string file;                   // relative to the folder
+    std::string material;               // its identifier
+    bool isEmitter = false;             // counted as a light
+    bool hasAbsorbingInterior = false;  // a dielectric that absorbs: medium "inside_<material>"
+};
+
 struct Axes {
     glm::dvec3 position{0.0};
     glm::dvec3 right{1.0, 0.0, 0.0};  // unit, as are the others; right-handed with backward
@@ -72,6 +80,9 @@ class Exporter {
                                         bool hasChecker);
     // Writes a normal map, its scale included: components as (1 + x) / 2.
     [[nodiscard]] std::string normalMapFile(std::uint32_t material, PictureFormat format);
+
+    // Writes meshes/<identifier>.ply; `flipsV` as of plyOf().
+    [[nodiscard]] MeshFile writeMesh(const WorldMesh& mesh, bool flipsV);
 
     void write(const std::string& file, const std::string& text);
     // The scene's file, after all others.

@@ -184,23 +184,20 @@ class PbrtScene {
 
     void writeShape(const WorldMesh& mesh) {
         const scene::Material& material = scene_.materials[mesh.material];
-        const std::string file = fmt::format("meshes/{}.ply", mesh.identifier);
-        exporter_.write(file, plyOf(mesh, false));
-        const std::string id = exporter_.materialIdentifier(mesh.material);
+        const MeshFile written = exporter_.writeMesh(mesh, false);
         line("AttributeBegin");
-        line(fmt::format("  NamedMaterial \"{}\"", id));
-        if (exporter_.emits(mesh.material)) {
-            ++exporter_.result.lightCount;
+        line(fmt::format("  NamedMaterial \"{}\"", written.material));
+        if (written.isEmitter) {
             line(fmt::format("  AreaLightSource \"diffuse\" {}",
                              rgb("L", glm::dvec3(material.emission))));
         }
         if (material.kind == scene::MaterialKind::dielectric &&
-            (scene_.medium || material.absorptionPerMeter != glm::vec3(0.0f))) {
+            (scene_.medium || written.hasAbsorbingInterior)) {
             line(fmt::format("  MediumInterface \"{}\" \"{}\"",
-                             material.absorptionPerMeter != glm::vec3(0.0f) ? "inside_" + id : "",
+                             written.hasAbsorbingInterior ? "inside_" + written.material : "",
                              scene_.medium ? "medium_of_scene" : ""));
         }
-        line(fmt::format("  Shape \"plymesh\" \"string filename\" [ \"{}\" ]", file));
+        line(fmt::format("  Shape \"plymesh\" \"string filename\" [ \"{}\" ]", written.file));
         line("AttributeEnd");
     }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace kaustik::judge {
 namespace {
@@ -52,7 +53,105 @@ double medianOf(std::vector<double>& values) {
     return *middle;
 }
 
+// A value of a residual, as noise.
+struct Sample {
+    double light = 0.0;
+    double deviation = 0.0;  // from the mean of its neighbours, as if of one pixel
+    double variance = 0.0;   // that is known
+};
+
+// Of the pixels whose four neighbours are in the mask, as they are.
+std::vector<Sample> noiseSamples(const Image& residual, const Image& expected, const Image& known,
+                                 const Image& mask) {
+    std::vector<Sample> samples;
+    for (int y = 1; y + 1 < residual.height; ++y) {
+        for (int x = 1; x + 1 < residual.width; ++x) {
+            if (mask.at(x, y, 0) < 0.5f || mask.at(x - 1, y, 0) < 0.5f ||
+                mask.at(x + 1, y, 0) < 0.5f || mask.at(x, y - 1, 0) < 0.5f ||
+                mask.at(x, y + 1, 0) < 0.5f)
+                continue;
+            for (int c = 0; c < 3; ++c) {
+                const float around = residual.at(x - 1, y, c) + residual.at(x + 1, y, c) +
+                                     residual.at(x, y - 1, c) + residual.at(x, y + 1, c);
+                const double deviation =
+                    static_cast<double>(residual.at(x, y, c) - 0.25f * around) / std::sqrt(1.25);
+                const auto error = static_cast<double>(known.at(x, y, c));
+                samples.push_back(
+                    {static_cast<double>(expected.at(x, y, c)), deviation, error * error});
+            }
+        }
+    }
+    return samples;
+}
+
+// Light and its standard deviation, by rising light.
+using NoiseCurve = std::vector<std::pair<double, double>>;
+
+NoiseCurve noiseCurve(std::vector<Sample> samples) {
+    std::sort(samples.begin(), samples.end(),
+              [](const Sample& a, const Sample& b) { return a.light < b.light; });
+    // Bins of as many samples; between their middles it is linear.
+    const std::size_t bins = std::clamp<std::size_t>(samples.size() / 400, 1, 12);
+    NoiseCurve curve;
+    for (std::size_t bin = 0; bin < bins; ++bin) {
+        const std::size_t first = bin * samples.size() / bins;
+        const std::size_t end = (bin + 1) * samples.size() / bins;
+        std::vector<double> sizes;
+        double light = 0.0;
+        double variance = 0.0;
+        for (std::size_t i = first; i < end; ++i) {
+            sizes.push_back(std::abs(samples[i].deviation));
+            light += samples[i].light;
+            variance += samples[i].variance;
+        }
+        const auto count = static_cast<double>(end - first);
+        const double deviation = 1.4826 * medianOf(sizes);
+        curve.emplace_back(light / count,
+                           std::sqrt(std::max(deviation * deviation - variance / count, 0.0)));
+    }
+    return curve;
+}
+
+double deviationAt(const NoiseCurve& curve, double light) {
+    const auto next = std::lower_bound(
+        curve.begin(), curve.end(), light,
+        [](const std::pair<double, double>& at, double value) { return at.first < value; });
+    double deviation = curve.back().second;
+    if (next == curve.end()) {
+        // Brighter than all of them: shot noise grows with the root.
+        deviation *= std::sqrt(std::max(light / std::max(curve.back().first, 1e-300), 1.0));
+    } else if (next == curve.begin()) {
+        deviation = curve.front().second;
+    } else {
+        const auto before = std::prev(next);
+        const double share =
+            (light - before->first) / std::max(next->first - before->first, 1e-300);
+        deviation = before->second + share * (next->second - before->second);
+    }
+    return deviation;
+}
+
 }  // namespace
+
+bool isEmpty(const Image& image) {
+    return image.values.empty();
+}
+
+double total(const Image& image, const Image& mask) {
+    double result = 0.0;
+    for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < image.width; ++x) {
+            for (int c = 0; c < image.channels && mask.at(x, y, 0) > 0.5f; ++c)
+                result += static_cast<double>(image.at(x, y, c));
+        }
+    }
+    return result;
+}
+
+double pixelCount(const Image& mask) {
+    return static_cast<double>(std::count_if(mask.values.begin(), mask.values.end(),
+                                             [](float value) { return value > 0.5f; }));
+}
 
 Image threeChannels(const Image& image) {
     Image result(image.width, image.height, 3);
@@ -125,70 +224,13 @@ Image derivativeScale(const Image& image) {
 }
 
 Image noiseOf(const Image& residual, const Image& expected, const Image& known, const Image& mask) {
-    struct Sample {
-        double light = 0.0;
-        double deviation = 0.0;  // from the mean of its neighbours, as if of one pixel
-        double variance = 0.0;   // that is known
-    };
-    std::vector<Sample> samples;
-    for (int y = 1; y + 1 < residual.height; ++y) {
-        for (int x = 1; x + 1 < residual.width; ++x) {
-            if (mask.at(x, y, 0) < 0.5f || mask.at(x - 1, y, 0) < 0.5f ||
-                mask.at(x + 1, y, 0) < 0.5f || mask.at(x, y - 1, 0) < 0.5f ||
-                mask.at(x, y + 1, 0) < 0.5f)
-                continue;
-            for (int c = 0; c < 3; ++c) {
-                const float around = residual.at(x - 1, y, c) + residual.at(x + 1, y, c) +
-                                     residual.at(x, y - 1, c) + residual.at(x, y + 1, c);
-                const double deviation =
-                    static_cast<double>(residual.at(x, y, c) - 0.25f * around) / std::sqrt(1.25);
-                const auto error = static_cast<double>(known.at(x, y, c));
-                samples.push_back(
-                    {static_cast<double>(expected.at(x, y, c)), deviation, error * error});
-            }
-        }
-    }
     Image result(residual.width, residual.height, 3);
+    std::vector<Sample> samples = noiseSamples(residual, expected, known, mask);
     if (samples.empty()) return result;
-    std::sort(samples.begin(), samples.end(),
-              [](const Sample& a, const Sample& b) { return a.light < b.light; });
-    // Bins of as many samples; between their middles it is linear.
-    const std::size_t bins = std::clamp<std::size_t>(samples.size() / 400, 1, 12);
-    std::vector<std::pair<double, double>> curve;
-    for (std::size_t bin = 0; bin < bins; ++bin) {
-        const std::size_t first = bin * samples.size() / bins;
-        const std::size_t end = (bin + 1) * samples.size() / bins;
-        std::vector<double> sizes;
-        double light = 0.0;
-        double variance = 0.0;
-        for (std::size_t i = first; i < end; ++i) {
-            sizes.push_back(std::abs(samples[i].deviation));
-            light += samples[i].light;
-            variance += samples[i].variance;
-        }
-        const auto count = static_cast<double>(end - first);
-        const double deviation = 1.4826 * medianOf(sizes);
-        curve.emplace_back(light / count,
-                           std::sqrt(std::max(deviation * deviation - variance / count, 0.0)));
-    }
+    const NoiseCurve curve = noiseCurve(std::move(samples));
     for (std::size_t i = 0; i < result.values.size(); ++i) {
-        const auto light = static_cast<double>(expected.values[i]);
-        const auto next = std::lower_bound(
-            curve.begin(), curve.end(), light,
-            [](const std::pair<double, double>& at, double value) { return at.first < value; });
-        double deviation = curve.back().second;
-        if (next == curve.end()) {
-            // Brighter than all of them: shot noise grows with the root.
-            deviation *= std::sqrt(std::max(light / std::max(curve.back().first, 1e-300), 1.0));
-        } else if (next == curve.begin()) {
-            deviation = curve.front().second;
-        } else {
-            const auto before = std::prev(next);
-            const double share =
-                (light - before->first) / std::max(next->first - before->first, 1e-300);
-            deviation = before->second + share * (next->second - before->second);
-        }
-        result.values[i] = static_cast<float>(deviation);
+        result.values[i] =
+            static_cast<float>(deviationAt(curve, static_cast<double>(expected.values[i])));
     }
     return result;
 }

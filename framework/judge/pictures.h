@@ -9,6 +9,11 @@
 
 namespace kaustik::judge {
 
+[[nodiscard]] bool isEmpty(const Image& image);
+// The sum over all channels of the pixels where the mask is 1.
+[[nodiscard]] double total(const Image& image, const Image& mask);
+// How many pixels have a 1.
+[[nodiscard]] double pixelCount(const Image& mask);
 // Three channels of one or more; what is stored as it is.
 [[nodiscard]] Image threeChannels(const Image& image);
 // Linear light of stored values.

@@ -49,7 +49,8 @@ constexpr int kLightPoints = 64;
 constexpr double kIndexStep = 0.01;
 constexpr double kTurnDegrees = 0.25;
 constexpr double kMoveShare = 0.005;  // of the distance to what is specular
-constexpr std::size_t kMostPictures = 24;
+// Each picture takes a reference of its own; set by hand, to bound the time of a subject.
+constexpr std::size_t kMaxPictures = 24;
 
 // The light of a scene as radiance.
 struct Lit {
@@ -74,6 +75,22 @@ Image changeOf(const Lit& other, const Lit& usual) {
     }
     return result;
 }
+
+// A file that is gone with its object, also where what reads it throws.
+class TemporaryFile {
+  public:
+    explicit TemporaryFile(fs::path path) : path_(std::move(path)) {}
+    TemporaryFile(const TemporaryFile&) = delete;
+    TemporaryFile& operator=(const TemporaryFile&) = delete;
+    ~TemporaryFile() {
+        std::error_code ignored;
+        fs::remove(path_, ignored);
+    }
+    [[nodiscard]] const fs::path& path() const { return path_; }
+
+  private:
+    fs::path path_;
+};
 
 class Lighting {
   public:
@@ -145,7 +162,7 @@ class Causes {
         change(other);
         return lighting_.lightOf(other, false, photons_);
     }
-    [[nodiscard]] bool isFull() const { return causes_.size() >= kMostPictures; }
+    [[nodiscard]] bool isFull() const { return causes_.size() >= kMaxPictures; }
 
     void add(CauseKind kind, std::string name, std::string sentence, std::string unit,
              double amount, double least, Image radiance) {
@@ -274,20 +291,18 @@ class Causes {
         Image map = scene::decodeTexture(scene_.images[place]);
         for (std::size_t i = 0; i < map.values.size(); ++i)
             map.values[i] = 0.5f + (i % 3 == 1 ? -0.5f : 0.5f) * map.values[i];
-        const fs::path file =
-            unfinishedPath(cacheFolder() / fmt::format("green{}", floatImageExtension()));
-        fs::create_directories(file.parent_path());
-        writeImage(file, map);
+        const TemporaryFile file(
+            unfinishedPath(cacheFolder() / fmt::format("green{}", floatImageExtension())));
+        fs::create_directories(file.path().parent_path());
+        writeImage(file.path(), map);
         addWhole("green of the normal map of '" + object.name + "'",
                  fmt::format("the normal map of '{}' is flipped: its green points down the picture "
                              "instead of up",
                              object.name),
                  [&](scene::Scene& scene) {
-                     scene.images[place].file = file;
+                     scene.images[place].file = file.path();
                      scene.images[place].bytes.clear();
                  });
-        std::error_code ignored;
-        fs::remove(file, ignored);
     }
 
     const scene::Scene& scene_;

@@ -46,6 +46,14 @@ position = [0, 0.145, 0]
 segments = 256
 )";
 
+// One word of the shell: within single quotes only they themselves are special.
+std::string shellQuoted(const std::string& text) {
+    std::string result = "'";
+    for (const char letter : text)
+        result += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
+    return result + "'";
+}
+
 class Judge : public CommandLine {
   protected:
     Judge() { static_cast<void>(folder.file("cup.toml", kRing)); }
@@ -65,7 +73,7 @@ TEST_F(Judge, FindsThePhotonsOfPovrayRight) {
                                   "96x72", "--photons", "300000"});
     ASSERT_EQ(exported.exitCode, 0) << exported.err;
     EXPECT_NE(exported.out.find("left out: ambient_irradiance"), std::string::npos);
-    const std::string pov = "cd " + (folder / "pov").string() +
+    const std::string pov = "cd " + shellQuoted((folder / "pov").string()) +
                             " && povray shoot.ini > log 2>&1 && povray scene.ini >> log 2>&1";
     ASSERT_EQ(std::system(pov.c_str()), 0) << contents("pov/log");
     const Outcome outcome =

@@ -129,7 +129,7 @@ class PlantedFault : public testing::Test {
     }
 
     static void ofNoKindIsFoundInARightPicture();
-    static void ofAClassThatIsLeftOutIsNamed();
+    static void ofAMissingPathClassIsReported();
     static void ofTheIndexIsNamed();
     static void ofFlippedNormalsIsNamed();
     static void ofHalfAPixelIsNamed();
@@ -148,7 +148,7 @@ void PlantedFault::ofNoKindIsFoundInARightPicture() {
     EXPECT_TRUE(verdict.glassIsHidden);
 }
 
-void PlantedFault::ofAClassThatIsLeftOutIsNamed() {
+void PlantedFault::ofAMissingPathClassIsReported() {
     for (const char* const name : {"TT", "R"}) {
         const Verdict verdict = judged(pictureOf(nothing, name));
         EXPECT_NE(find(verdict, std::string("missing:") + name), nullptr) << toText(verdict);
@@ -223,7 +223,7 @@ void PlantedFault::ofAGammaIsNamed() {
 // All in one, since what they are judged by takes most of the time.
 TEST_F(PlantedFault, IsNamedWhateverItIs) {
     ofNoKindIsFoundInARightPicture();
-    ofAClassThatIsLeftOutIsNamed();
+    ofAMissingPathClassIsReported();
     ofTheIndexIsNamed();
     ofFlippedNormalsIsNamed();
     ofHalfAPixelIsNamed();

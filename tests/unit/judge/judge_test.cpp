@@ -56,7 +56,7 @@ TEST(Judge, FindsNoFaultInThePictureInAnyExposure) {
     }
 }
 
-TEST(Judge, NamesEachClassThatIsLeftOut) {
+TEST(Judge, ReportsEachMissingPathClass) {
     const auto expectMissing = [](const Drawing& drawing, const std::string& name,
                                   const std::string& words) {
         const Verdict verdict = judged(drawing, 2.5);
@@ -229,7 +229,7 @@ TEST(Judge, SaysBothOfTwoCausesThatLookTheSame) {
     EXPECT_EQ(named, 1u) << allOf(verdict);
 }
 
-TEST(Judge, NamesAnEvenLightThatIsNotTheScenes) {
+TEST(Judge, ReportsAmbientLightMissingFromTheScene) {
     Drawing drawing;
     drawing.fill = 12.0;
     const Verdict verdict = judged(drawing);

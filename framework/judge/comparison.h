@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// What the steps of a judgement share: their picture in the reference's pixels, the pictures that
+// it is taken for a mixture of, and how much each pixel counts. Each step says in its own header
+// what of it it sets.
+#pragma once
+
+#include <initializer_list>
+#include <vector>
+
+#include "framework/judge/judge.h"
+#include "framework/judge/linear_fit.h"
+
+namespace kaustik::judge {
+
+// What a column of the fit is. Of `shiftX`, `shiftY` and `scale`: the whole's derivatives.
+enum class Role { total, direct, lightClass, allClasses, cause, shiftX, shiftY, scale, fill };
+
+struct Column {
+    Role role = Role::total;
+    std::size_t index = 0;  // of a class or a cause
+    Image image;
+    Image error;  // empty: none
+};
+
+struct Comparison {
+    Subject subject;
+    JudgeOptions options;
+    Image theirs;   // three channels, as stored
+    Image clear;    // 1 where pixels count and their eye sees no glass
+    Image counted;  // 1 where pixels count
+    bool hasDirect = true;
+    bool isGlassDecided = false;
+    bool glassIsHidden = false;
+    Registration registration;
+    Encoding encoding = Encoding::linear;
+    double blurPixels = 0.0;  // standard deviation, of the reference's caustics
+
+    Image picture;  // theirs in the reference's pixels, linear, over the first exposure
+    Image theirsError;
+    double firstExposure = 1.0;
+    std::vector<Column> columns;  // the first is the whole
+    Image weight;
+    Image plainWeight;  // before what is far off is made less of
+    Image deviation;    // standard deviation of each value of `picture`
+    NormalEquations equations;
+};
+
+// Throws ConfigError where the picture or the view cannot be judged.
+[[nodiscard]] Comparison comparisonOf(Subject subject, const JudgeOptions& options);
+
+// Makes the columns, blurred by `blurPixels`.
+void makeColumns(Comparison& comparison, bool withCauses);
+[[nodiscard]] std::vector<std::size_t> columnsOf(const Comparison& comparison,
+                                                 std::initializer_list<Role> roles);
+// The column of the class that has most light.
+[[nodiscard]] std::size_t brightestColumn(const Comparison& comparison);
+// All light of the reference, sharp.
+[[nodiscard]] Image modelOf(const Comparison& comparison, bool withDirect);
+// Theirs over the reference's, where both show the same field of view.
+[[nodiscard]] double usualScale(const Comparison& comparison);
+
+}  // namespace kaustik::judge
