@@ -46,6 +46,7 @@ TABLE = {
     "dispersion": "dispersion/runs.csv",
     "lamps": "lamps/runs.csv",
     "lamps_widened": "lamps/widened.csv",
+    "soft_and_colored": "lamps/soft_and_colored.csv",
     "krueger2006_refracted_scene": "krueger2006/refracted_scene.csv",
     "normal_maps": "normal_maps/runs.csv",
     "vertices_and_gather": "vertices_and_gather.csv",
