@@ -18,7 +18,7 @@ from quantities import SUPERSCRIPT
 from views import cells_of
 
 SIGNS = {"×": r"$\times$", "→": r"$\rightarrow$", "±": r"$\pm$", "≥": r"$\geq$", "≤": r"$\leq$", "−": "$-$", "–": "--", "·": r"$\cdot$", "†": r"\dag{}", "≈": r"$\approx$", "°": r"$^\circ$",
-         "…": r"\dots{}", "’": "'", "µ": r"$\mu$", "—": "---", "\\": r"\textbackslash{}", "~": r"\textasciitilde{}", "^": r"\textasciicircum{}",
+         "…": r"\dots{}", "’": "'", "<": "$<$", ">": "$>$", "|": "$|$", "µ": r"$\mu$", "—": "---", "\\": r"\textbackslash{}", "~": r"\textasciitilde{}", "^": r"\textasciicircum{}",
          **{letter: "\\" + letter for letter in "&%$#_{}"}}
 
 
@@ -32,6 +32,7 @@ def sign(letter: str) -> str:
 
 def plain(text: str) -> str:
     """Text as LaTeX has it."""
+    text = re.sub(r'"([^"]*)"', r"``\1''", text)
     parts = re.split(r"([⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+)", text)
     return "".join(f"$^{{{part.translate(SUPERSCRIPT)}}}$" if i % 2 else "".join(map(sign, part)) for i, part in enumerate(parts))
 

@@ -24,7 +24,8 @@ one, prints of the file. A table of `file` alone shows the CSV as it stands, but
 cannot make its table, NAME_recorded.csv has it as it was (views.py).
 
 A table of numbers that stands outside of such comments is an error: nothing would say when it is no longer true. What is only quoted may be typed: before the table stands
-`<!-- typed: claim; section -->`, which names those columns. Links to other pages and their headings have to lead somewhere.
+`<!-- typed: claim; section -->`, which names those columns. A number in a sentence that looks measured and is neither by name nor marked as typed, with why, is an error too
+(sentences.py), on the README of the project as well. Links to other pages and their headings have to lead somewhere.
 
 Rows are sorted by their settings. A run that is not done has its status instead, a value that is not there "–". Runs of several devices have a row each, never one for all, and a column with the
 device's number. Under a table stand the version and the device of its runs, each where there are several, their dates, and how busy the machine was with other work while they were timed. --check writes nothing and ends with 1 where a page is not what the CSVs say. Ends with 2 where a page asks
@@ -40,6 +41,7 @@ import tomllib
 import drawings
 import studies
 from quantities import NUMBER, formatted, source_of, text_of
+from sentences import unnamed
 from studies import anchor_of, command_of, seeds_of
 from views import PROVENANCE, PageError, cells_of, chosen, column, printed, recorded_of, runs
 
@@ -194,11 +196,15 @@ def made(spec: dict, files: list[str], results: pathlib.Path) -> str:
     return "\n" + "\n".join(lines) + f"\n\n*{of_which_runs(rows, files)}.*\n\n"
 
 
+def without_tables(text: str) -> str:
+    """A page without the tables that are made, on the same lines."""
+    return TABLE.sub(lambda match: "\n" * match[0].count("\n"), text)
+
+
 def typed_numbers(text: str) -> list[tuple[int, str]]:
     """The tables outside of comments that have a number which nothing says the origin of: their lines, and what stands there."""
-    blank = TABLE.sub(lambda match: "\n" * match[0].count("\n"), text)
     found, columns, allowed, is_in_code, is_found = [], None, set(), False, False
-    lines = blank.splitlines()
+    lines = without_tables(text).splitlines()
     for at, line in enumerate(lines):
         is_in_code ^= line.startswith("```")
         if match := re.fullmatch(r"<!-- typed: (.*) -->", line):
@@ -217,7 +223,7 @@ def typed_numbers(text: str) -> list[tuple[int, str]]:
                 # What a setting is called (1024², 400×300) and names such as H100 are no results.
                 bare = re.sub(r"\d+²|\d+×\d+²?", "", bare)
                 if name not in allowed and (number := re.search(r"(?<![\w.])[+−-]?\d[\d.,]*", bare)):
-                    found.append((at + 1, f"'{number[0]}' in column '{name}'"))
+                    found.append((at + 1, f"a table outside of comments says '{number[0]}' in column '{name}'"))
                     is_found = True
                     break
     return found
@@ -286,7 +292,7 @@ def main() -> int:
         try:
             text = page.read_text()
             new = studies.page_of(arguments.results) if page == state else remade(page, arguments.results)
-            wrong = [] if page.name in WRITTEN else [(line, f"a table outside of comments says {what}") for line, what in typed_numbers(text)]
+            wrong = [] if page.name in WRITTEN else typed_numbers(text) + unnamed(without_tables(text))
             for line, what in wrong + broken_links(page, text):
                 print(f"pages: {page}:{line}: {what}", file=sys.stderr)
                 problems += 1
@@ -306,6 +312,10 @@ def main() -> int:
                 break
     if state.is_file() and not arguments.check:  # once more, of what the pages show now
         state.write_text(studies.page_of(arguments.results))
+    if not arguments.pages and arguments.results == ROOT / "results":
+        for line, what in unnamed((ROOT / "README.md").read_text()):
+            print(f"pages: {ROOT / 'README.md'}:{line}: {what}", file=sys.stderr)
+            problems += 1
     for what in drawings.outdated(arguments.results) if not arguments.pages else ():
         print(f"pages: {what}", file=sys.stderr)
         problems += 1

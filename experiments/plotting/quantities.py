@@ -127,6 +127,12 @@ def value_of(what: str, row: dict, other: dict | None) -> float:
     return calculated(CELL.sub(cell, what) if "{" in what else repr(number_of(row, what, 1)))
 
 
+def cells_of_pair(what: str, pair: tuple[dict, dict | None]) -> list[str]:
+    """The cells that a quantity takes of each of the two rows."""
+    asked = [(name, bool(prime)) for name, _, prime in CELL.findall(what)] if "{" in what else [(name, False) for name in columns_of(what)]
+    return [column(row, name) for name, is_second in asked if (row := pair[is_second])]
+
+
 def divided_at(word: str, text: str) -> tuple[str, str, str]:
     """As partition does, but not within quotes."""
     match = re.match(rf'((?:"[^"]*"|[^"])*?)({re.escape(word)})(.*)', text, re.S)
@@ -184,7 +190,7 @@ def text_of(match: re.Match, results: pathlib.Path) -> str:
     if not pairs:
         raise PageError(f"no row of the first condition has one of the second: {where}")
     # What has no figure in a row is in no range.
-    values = [value_of(rest, *pair) for pair in pairs if all(plain(column(row, name)) not in ("", "–") for row in pair if row for name in columns_of(what))]
+    values = [value_of(rest, *pair) for pair in pairs if all(plain(cell) not in ("", "–") for cell in cells_of_pair(rest, pair))]
     if not values:
         raise PageError(f"no row with {where} has a number of '{rest}'")
     if first != "range":

@@ -16,10 +16,10 @@ has a folder of its own; pages.py puts tables of several next to each other), an
   both, the second and by how much it is later.
 - in_time.csv: the same the other way round: the least error within a time.
 - costs.csv: what a photon costs each technique, and what all of them together do: the median over scenes of the slope between its runs with the
-  fewest and the most photons, of time and memory, and of what is left at none; and the light that it does not form, on the scene where
+  fewest and the most photons, of time (also the least and the most) and memory, and of what is left at none; and the light that it does not form, on the scene where
   that is most.
 - published.csv: what defaults change of each technique as published, with as many photons: the default's time and error as parts of the
-  published ones and the gain in `factor`, medians over scenes, and the scenes of the least and the largest gain.
+  published ones and the gain in `factor`, medians over scenes with the least and the largest, and the scenes of these gains.
 - SCENE.svg: error against time, the Pareto front drawn through; bars are the standard deviation of a run's frames, and below the shaded height errors
   are less than the reference's own noise.
 - headline.svg: all scenes: the factors of equal_error.csv, of each technique's runs by default the one with the middle number of photons.
@@ -263,8 +263,9 @@ def costs(runs: list[dict]) -> list[list]:
         lost = max(((number(row, "not formed, %"), number(row, "not formed, W"), row["scene"]) for rows in scenes.values() for row in rows
                     if number(row, "not formed, %") is not None and number(row, "not formed, W") is not None), default=(None, None, ""))
         middle = {key: statistics.median(values) for key, values in slopes.items()}
-        table.append([technique, published, "done", len(slopes["ms"]), *(middle.get(key) for key in (
-            "ms", ("ms", "at none"), "peak MiB", ("peak MiB", "at none"))), *lost])
+        ends = [choose(slopes["ms"], default=None) for choose in (min, max)]
+        table.append([technique, published, "done", len(slopes["ms"]), middle.get("ms"), *ends, *(middle.get(key) for key in (
+            ("ms", "at none"), "peak MiB", ("peak MiB", "at none"))), *lost])
     return table
 
 
@@ -282,7 +283,8 @@ def published(equal: list[dict]) -> list[list]:
     for technique, rows in sorted(by.items()):
         by_gain = sorted(rows, key=lambda row: row["factor"])
         table.append([technique, "done", len({row["scene"] for row in rows}),
-                      *(statistics.median(row[key] for row in rows) for key in ("ms", "relMSE, net", "factor")),
+                      *(of_all(row[key] for row in rows) for key in ("ms", "relMSE, net") for of_all in (statistics.median, min, max)),
+                      statistics.median(row["factor"] for row in rows),
                       by_gain[0]["scene"], by_gain[0]["factor"], by_gain[-1]["scene"], by_gain[-1]["factor"]])
     return table
 
@@ -368,9 +370,9 @@ def main() -> int:
     write_table("answers.csv", ["scene", "status", "default's ms", "default's relMSE, net", "light tracer's ms", "factor", "at_least", "best",
                                 "best's ms", "best's relMSE, net", "best's factor", "best's at_least"], answers(middle))
     write_table("summary.csv", ["who", "status", "scenes", "faster", "slower", "least", "median", "largest"], summary(answers(middle)))
-    write_table("costs.csv", ["technique", "as_published", "status", "scenes", "ns a photon", "ms at none", "bytes a photon", "MiB at none",
+    write_table("costs.csv", ["technique", "as_published", "status", "scenes", "ns a photon", "least ns a photon", "most ns a photon", "ms at none", "bytes a photon", "MiB at none",
                               "most not formed, %", "most not formed, W", "on"], costs(runs))
-    write_table("published.csv", ["technique", "status", "scenes", "ms", "relMSE", "gain", "least on", "least gain", "largest on", "largest gain"],
+    write_table("published.csv", ["technique", "status", "scenes", "ms", "least ms", "largest ms", "relMSE", "least relMSE", "largest relMSE", "gain", "least on", "least gain", "largest on", "largest gain"],
                 published(equal))
     names = ["first", "value", "second", "times"]
     write_table("to_error.csv", ["scene", "relMSE", "status", *names], ranked(of_scenes, ERRORS, by_error=True))

@@ -3,6 +3,7 @@
 
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -68,7 +69,20 @@ class Latex(unittest.TestCase):
 
     def test_writes_marks_of_a_line(self):
         self.assertEqual(latex("λ ≤ 3 σ²"), r"$\lambda$ $\leq$ 3 $\sigma$$^{2}$")
+        self.assertEqual(latex('it says "yes", 2 < 3'), "it says ``yes'', 2 $<$ 3")
         self.assertEqual(latex("`a_b` *and* **c**, [50 %](x.md)"), r"\texttt{a\_b} \emph{and} \textbf{c}, 50 \%")
+
+    @unittest.skipUnless(shutil.which("pdflatex"), "needs pdflatex")
+    def test_is_compiled_without_an_error_or_a_letter_that_is_missing(self):
+        head = r"\documentclass{article}\usepackage{booktabs}\usepackage[paperwidth=200cm,paperheight=300cm]{geometry}\begin{document}"
+        tables = [table for page in sorted((ROOT / "results").glob("*.md")) for table in tables_of(page.read_text())]
+        self.assertTrue(tables)
+        with tempfile.TemporaryDirectory() as folder:
+            (pathlib.Path(folder) / "all.tex").write_text("\\clearpage\n".join([head, *tables, r"\end{document}"]))
+            done = subprocess.run(["pdflatex", "-interaction=nonstopmode", "all.tex"], cwd=folder, capture_output=True, text=True, errors="replace")
+            log = (pathlib.Path(folder) / "all.log").read_text(errors="replace")
+        self.assertEqual(done.returncode, 0, done.stdout[-2000:])
+        self.assertEqual(re.findall(r"^!.*|Missing character.*", log, re.M), [])
 
 
 if __name__ == "__main__":

@@ -118,6 +118,28 @@ class Pages(unittest.TestCase):
         self.pages()
         self.assertIn("-->0.0003<!-- / -->", (self.results / "page.md").read_text())
 
+    def test_with_measured_numbers_typed_in_sentences_are_refused(self):
+        for sentence, number in [("It takes 38 ms.", "38"), ("It takes 43 and 60 ms.", "43 and 60"), ("Lost are\n3 % of it.", "3"), ("It is 1.5 times as fast.", "1.5"), ("It has relMSE\n0.0055.", "0.0055"),
+                                 ("Hits are right 0.72 of the time.", "0.72"), ("An energy of 1 is right.", "1"), ("Equal to 6·10⁻⁸ of it.", "6·10⁻⁸"), ("A [share of 0.38](page.md).", "0.38"),
+                                 ("- **12 s** in all", "12"), ("![A picture in 5 ms](page.md)", "5"), ("Right are 3 of 16 scenes.", "3 of 16"), ("It stores 66 thousand.", "66 thousand"), ("It stores 1,024.", "1,024"),
+                                 ("`pool` takes 3 to\n<!-- = runs.csv: photons .0f; scene=pool, relMSE=0.00012 -->256<!-- / --> ms.", "3 to …")]:
+            done = self.pages("--check", page=f"# Runs\n\n{sentence}\n")
+            self.assertEqual(done.returncode, 2, sentence)
+            self.assertIn(f"a sentence says '{number}'", done.stderr)
+        done = self.pages("--check", page="# Runs\n\nOne line.\nTwo of\nit take 3 ms.\n")
+        self.assertIn("page.md:5: a sentence says '3'", done.stderr)
+
+    def test_with_numbers_in_sentences_that_are_not_measured_or_say_their_origin_pass(self):
+        number = "<!-- = runs.csv: relMSE .1g; scene=pool, photons=256 -->0.0001<!-- / -->"
+        for sentence in [f"It has relMSE {number}.", "`--error 0.003` in 400×300, 256² photons.", "A ball of 0.5 m, at 1.5°, by OpenGL 4.5 and Mesa 22.3.6 (section 3.2, Eq. 8).", "16.8 million photons.",
+                         "```\nkaustik run pool  # 38 ms\n```", "<!-- typed: once; kaustik run pool -->38 ms, in all\n12 s<!-- / --> here.", "At <!-- typed: paper -->0.01<!-- / --> it is best.",
+                         "Eight layers and 12 scenes of 2009, the error of 256² photons.", "| what |\n| --- |\n| `38 ms` |"]:
+            done = self.pages("--check", page=f"# Runs in 3 ms\n\n{sentence}\n")
+            self.assertEqual(done.returncode, 0, f"{sentence}: {done.stderr}")
+        done = self.pages("--check", page="It takes <!-- typed: measured -->38 ms<!-- / -->.\n")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("page.md:1: a number is typed as 'measured'; kinds are setting", done.stderr)
+
     def test_whose_links_lead_nowhere_are_refused(self):
         for link, says in [("other.md", "there is no 'other.md'"), ("page.md#two", "'page.md' has no heading '#two'"), ("#two", "no heading '#two'"),
                            ("page.md#one-more-it-is", ""), ("#one-more-it-is", ""), ("https://example.org/a.md", "")]:

@@ -67,6 +67,10 @@ class Quantities(unittest.TestCase):
         self.assertEqual(self.text("runs.csv: {ms, all} / {ms, all}' .1f; scene=pool, by=lines / scene=pool, by=march"), "4.0")
         self.assertEqual(self.text("runs.csv: range 1 - {ms, all}' / {ms, all} .1%; by=lines / by=march by scene"), "66.7 to 75.0 %")
 
+    def test_ask_each_of_two_rows_for_its_own_cells(self):
+        (self.results / "gaps.csv").write_text("scene,by,first,second\npool,a,8,–\npool,b,–,2\nball,a,9,–\nball,b,–,–\n")
+        self.assertEqual(self.text("gaps.csv: range {first} / {second}' .0f; by=a / by=b by scene"), "4")
+
     def test_are_of_a_pages_tables_too(self):
         self.assertEqual(self.text("page.md: n (2) .0f; scene=pool"), "5")
         self.assertEqual(self.text("page.md: other .0f; under=ball"), "7")

@@ -81,6 +81,7 @@ class SpeedError(unittest.TestCase):
         row = rows["a", "false"]
         self.assertEqual([float(row[key]) for key in ("ns a photon", "ms at none", "bytes a photon", "MiB at none")],
                          [90e6 / 3000, -20.0, 1049.0, 1.0])
+        self.assertEqual((row["least ns a photon"], row["most ns a photon"]), (row["ns a photon"],) * 2)  # one scene
         self.assertEqual((row["most not formed, %"], row["most not formed, W"], row["on"]), ("7", "0.7", "ring"))
         self.assertEqual((rows["b", "false"]["scenes"], rows["b", "false"]["ns a photon"]), ("0", ""))
 
@@ -93,7 +94,8 @@ class SpeedError(unittest.TestCase):
     def test_published_are_pairs_of_one_scene_and_size(self):
         row, = self.rows("published.csv")  # of `a` with 2x2; `b` has no row as published
         self.assertEqual((row["technique"], row["scenes"], row["least on"]), ("a", "1", "ring"))
-        self.assertEqual([round(float(row[key]), 3) for key in ("ms", "relMSE", "gain", "least gain", "largest gain")], [2.0, 1.0, 0.5, 0.5, 0.5])
+        self.assertEqual([round(float(row[key]), 3) for key in ("ms", "least ms", "largest ms", "relMSE", "largest relMSE", "gain", "least gain", "largest gain")],
+                         [2.0, 2.0, 2.0, 1.0, 1.0, 0.5, 0.5, 0.5])
 
     def test_draws_each_scene_that_has_a_caustic(self):
         self.assertTrue((self.folder / "ring.svg").is_file())
