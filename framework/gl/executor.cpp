@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "framework/gl/executor.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <limits>
@@ -46,6 +48,15 @@ std::string largestShares(const graph::Compiled& compiled) {
 
 // Of a frame's loops: far beyond what any needs.
 constexpr std::size_t kMaxRounds = 1U << 20U;
+
+// A buffer is one storage block of the shaders that it is bound to.
+void requireBlock(const graph::Slot& slot, long long allowedBytes) {
+    const std::size_t bytes = graph::bytesOf(slot.desc);
+    if (bytes <= static_cast<std::size_t>(allowedBytes)) return;
+    throw ConfigError(fmt::format(
+        "The buffer '{}' would be {} MiB in one storage block, and this device allows {} MiB.",
+        slot.firstName, bytes >> 20, allowedBytes >> 20));
+}
 
 }  // namespace
 
@@ -166,6 +177,7 @@ void Executor::prepare(graph::Compiled compiled) {
             }
             physical.texture = Texture(*texture, slot.firstName);
         } else {
+            requireBlock(slot, context_.info().maxStorageBlockBytes);
             physical.buffer = Buffer(graph::bytesOf(slot.desc), nullptr, slot.firstName);
         }
         if (slot.isPersistent && physical.texture.id() != 0) physical.texture.clear({0, 0, 0, 0});

@@ -164,12 +164,21 @@ std::string Graph::bypassText(const Pass& pass) const {
 
 void Graph::fillRecords(const Plan& plan, Compiled& compiled) const {
     std::map<std::string, std::size_t> recordOf;
+    const auto addNames = [this](std::vector<std::string>& names,
+                                 const std::vector<ResourceRef>& handles) {
+        for (const ResourceRef& handle : handles) {
+            const std::string& name = nameOf(handle);
+            if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+        }
+    };
     for (std::size_t p = 0; p < passes_.size(); ++p) {
         const Pass& pass = passes_[p];
         const auto known = recordOf.find(pass.info.name);
         if (known != recordOf.end()) {
             PassRecord& record = compiled.records[known->second];
             ++record.repeats;
+            addNames(record.reads, pass.reads);
+            addNames(record.writes, pass.outputs);
             if (record.state == PassState::culled && plan.needed[p]) {
                 record.state = PassState::ran;
                 record.reason = pass.info.reason;
@@ -189,6 +198,8 @@ void Graph::fillRecords(const Plan& plan, Compiled& compiled) const {
                 outputs.push_back(nameOf(output));
             record.reason = fmt::format("nothing asks for {}", joinNames(outputs));
         }
+        addNames(record.reads, pass.reads);
+        addNames(record.writes, pass.outputs);
         recordOf[pass.info.name] = compiled.records.size();
         compiled.records.push_back(std::move(record));
     }

@@ -38,6 +38,10 @@ struct PassRecord {
     std::size_t repeats = 1;  // passes of this name
     // What stands in for the pass where it is disabled; "" where nothing does: it is required.
     std::string bypass;
+    // Names of resources that it declares, each once: what it reads, and what it creates or writes.
+    // A skipped pass declares none.
+    std::vector<std::string> reads = {};
+    std::vector<std::string> writes = {};
 };
 
 // A resource under the name that shaders have for it: every command of the pass binds it.

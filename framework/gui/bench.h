@@ -4,6 +4,8 @@
 // drawX(Bench&)` in panels/; it changes the document, and the workbench submits it.
 #pragma once
 
+#include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,8 +18,10 @@
 #include "framework/gui/reference_worker.h"
 #include "framework/gui/render_worker.h"
 #include "framework/gui/screen_map.h"
+#include "framework/gui/settled_points.h"
 #include "framework/gui/shown.h"
 #include "framework/gui/state.h"
+#include "framework/gui/time_history.h"
 #include "framework/scene/files/scene_file.h"
 
 namespace kaustik::gui {
@@ -51,14 +55,18 @@ struct Bench {
     std::vector<KeptVariant> kept{};
     std::shared_ptr<const ImageDifference> difference{};
     std::uint64_t keptCount = 0;
+    // What was rendered in this session: times of A and B, and settings with their errors.
+    std::array<TimeHistory, 2> histories{};
+    std::vector<SettledPoint> points{};
     // RMSE and FLIP of all pairs of caustic irradiances, once they are asked for.
     std::shared_ptr<const Table> pairs{};
     bool wantsPairs = false;
     bool wantsShownSaved = false;
 
-    // One line for the status bar.
+    // One line for the status bar, until what it speaks of is gone.
     std::string message{};
     bool isMessageBad = false;
+    std::function<bool(const Bench&)> isMessageOver{};
 
     bool isPlaying = false;
     // A value is being dragged; the camera, a light or the time by hand.
@@ -72,9 +80,25 @@ struct Bench {
     bool wantsRestart = false;     // of the renderer
     bool showsHelp = false;
 
-    void notify(std::string text, bool isBad = false) {
+    // `isOver` says when it no longer holds; by default once the user has gone on and changed the
+    // document.
+    void notify(std::string text, bool isBad = false,
+                std::function<bool(const Bench&)> isOver = {}) {
         message = std::move(text);
         isMessageBad = isBad;
+        isMessageOver = std::move(isOver);
+        if (isMessageOver) return;
+        isMessageOver = [said = withoutTime(document)](const Bench& bench) {
+            return !(withoutTime(bench.document) == said);
+        };
+    }
+    void dropOldMessage() {
+        if (!message.empty() && isMessageOver && isMessageOver(*this)) message.clear();
+    }
+    // Time passes by itself.
+    [[nodiscard]] static Document withoutTime(Document document) {
+        document.edits.timeSeconds.reset();
+        return document;
     }
     // The variant that the panels edit, and what was rendered of it.
     [[nodiscard]] std::size_t editedIndex() const {
@@ -82,6 +106,9 @@ struct Bench {
     }
     [[nodiscard]] Variant& edited() {
         return editedIndex() == 1 ? *document.other : document.variant;
+    }
+    [[nodiscard]] const Variant& variantOf(std::size_t index) const {
+        return index == 1 && document.other ? *document.other : document.variant;
     }
     [[nodiscard]] const VariantResult& editedResult() const {
         return result->variants[editedIndex()];

@@ -39,7 +39,10 @@ class Canvas {
     [[nodiscard]] void* texture(std::size_t slot) const;
     // The same read back: RGB, display-encoded; waits for the device.
     [[nodiscard]] Image read(std::size_t slot) const;
-    static constexpr std::size_t kSlots = 2;
+    // The first slots are the two sides of the split, the others small pictures.
+    static constexpr std::size_t kSides = 2;
+    static constexpr std::size_t kThumbnails = 24;
+    static constexpr std::size_t kSlots = kSides + kThumbnails;
 
   private:
     struct Slot {

@@ -33,6 +33,11 @@ struct ListedTexture {
     graph::TextureDesc desc;
 };
 
+struct ListedBuffer {
+    std::string name;
+    std::size_t bytes = 0;
+};
+
 // One layer of a texture, read back: sums put together, the faces of a cube unfolded.
 struct ViewedTexture {
     std::string name;           // of the resource; "" where it is the picture
@@ -79,9 +84,15 @@ struct VariantResult {
     std::vector<report::PassTimes> times;  // of the newest frames, oldest first
     std::vector<double> frameMs;
     std::vector<ListedTexture> textures;
+    std::vector<ListedBuffer> buffers;
     std::optional<ViewedTexture> viewed;
     // Picture and caustic irradiance of a settled frame, whatever is viewed.
     std::vector<std::shared_ptr<const ViewedTexture>> outputTextures;
+    // Of the textures of a settled frame that the pass that was asked for reads or writes, the
+    // first layer, as they are at the frame's end; with so few pixels that they are for looking
+    // alone.
+    std::string thumbnailsOf;  // "": of none
+    std::vector<std::shared_ptr<const ViewedTexture>> thumbnails;
     std::vector<std::string> warnings;
     std::size_t peakBytes = 0;
     // What a further frame has measured, which is rendered once the order is settled.

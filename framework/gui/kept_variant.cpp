@@ -7,14 +7,13 @@
 #include <cmath>
 
 #include "framework/core/error.h"
+#include "framework/gui/medians.h"
 #include "framework/gui/showing.h"
 #include "framework/measure/image_errors.h"
-#include "framework/report/statistics.h"
 
 namespace kaustik::gui {
-namespace {
 
-std::string nameOf(const Variant& variant) {
+std::string settingsText(const Variant& variant) {
     std::string name = variant.technique + (variant.isAsPublished ? " as published" : "");
     for (const auto& [parameter, value] : variant.assignments)
         name += fmt::format(", {}={}", parameter, value);
@@ -22,13 +21,6 @@ std::string nameOf(const Variant& variant) {
         name += fmt::format(", without {}", pass);
     return name;
 }
-
-double medianWithoutFirst(std::vector<double> milliseconds) {
-    if (milliseconds.size() > 1) milliseconds.erase(milliseconds.begin());
-    return milliseconds.empty() ? 0.0 : report::summarize(std::move(milliseconds)).median;
-}
-
-}  // namespace
 
 std::shared_ptr<const ViewedTexture> KeptVariant::texture(const std::string& resource) const {
     const auto found = std::find_if(textures.begin(), textures.end(),
@@ -46,7 +38,7 @@ std::optional<KeptVariant> keep(const FrameResult& result, std::size_t variant,
     KeptVariant kept;
     const Variant& settings =
         variant == 1 && result.document.other ? *result.document.other : result.document.variant;
-    kept.name = nameOf(settings);
+    kept.name = settingsText(settings);
     kept.document = result.document;
     kept.document.variant = settings;
     kept.document.other.reset();
@@ -56,7 +48,7 @@ std::optional<KeptVariant> keep(const FrameResult& result, std::size_t variant,
         kept.texture(shown.viewed->name) == nullptr) {
         kept.textures.push_back(std::make_shared<const ViewedTexture>(*shown.viewed));
     }
-    kept.frameMs = medianWithoutFirst(shown.frameMs);
+    kept.frameMs = settledMedianOf(shown.frameMs);
     kept.passes = passTable(shown);
     kept.reservations = shown.violations;
     kept.reservations.insert(kept.reservations.end(), shown.warnings.begin(), shown.warnings.end());

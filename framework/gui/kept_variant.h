@@ -31,6 +31,9 @@ struct KeptVariant {
     [[nodiscard]] std::shared_ptr<const ViewedTexture> texture(const std::string& resource) const;
 };
 
+// "exact_rays, emit.photons=64x64, without shadow.bvh".
+[[nodiscard]] std::string settingsText(const Variant& variant);
+
 // In memory; a key each.
 inline constexpr std::size_t kMaxKept = 9;
 inline constexpr std::size_t kMaxKeptBytes = std::size_t{1} << 30;

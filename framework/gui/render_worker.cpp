@@ -186,6 +186,7 @@ void RenderWorker::serve(Device& device) {
     while (!stop_) {
         std::optional<RecordRequest> request;
         bool isSwapped = false;
+        bool isLook = false;
         {
             std::unique_lock lock(mutex_);
             progress_.isBusy = false;
@@ -200,10 +201,12 @@ void RenderWorker::serve(Device& device) {
             request = std::exchange(request_, {});
             if (order_ && number_ != device.number) {
                 isSwapped = areSwapped(device.order.document, order_->document);
-                const bool isSame = (isSwapped || device.order.document == order_->document) &&
-                                    device.order.viewing == order_->viewing &&
-                                    device.order.isPreview == order_->isPreview &&
-                                    device.order.sceneReloads == order_->sceneReloads;
+                const bool isSameFrame = (isSwapped || device.order.document == order_->document) &&
+                                         device.order.isPreview == order_->isPreview &&
+                                         device.order.sceneReloads == order_->sceneReloads;
+                const bool isSame =
+                    isSameFrame && device.order.viewing.wantsSameFrame(order_->viewing);
+                isLook = isSameFrame && !isSwapped && device.canLook(*order_, working_);
                 if (isSwapped) {
                     std::swap(device.renderers[0], device.renderers[1]);
                     std::swap(working_.variants[0], working_.variants[1]);
@@ -213,13 +216,14 @@ void RenderWorker::serve(Device& device) {
                 device.number = number_;
                 working_.order = number_;
                 working_.document = device.order.document;
-                if (!isSame) device.framesDone = 0;
+                if (!isSame && !isLook) device.framesDone = 0;
                 for (VariantResult& variant : working_.variants) {
-                    if (isSame) variant.order = number_;
-                    variant.isSettled = variant.isSettled && isSame;
+                    if (isSame || isLook) variant.order = number_;
+                    variant.isSettled = variant.isSettled && (isSame || isLook);
                 }
                 // Energy and limits go with what they are of; photons are A's.
-                device.hasExtras = device.hasExtras && isSwapped && isSame && !device.order.probe;
+                device.hasExtras =
+                    isLook || (device.hasExtras && isSwapped && isSame && !device.order.probe);
                 device.toRender = 0;
             } else if (!request && !hasWork) {
                 lock.unlock();
@@ -228,6 +232,7 @@ void RenderWorker::serve(Device& device) {
             }
         }
         if (isSwapped) post();
+        if (isLook) look(device);
         reloadShaders(device);
         if (device.number == 0 || !loadScene(device)) {
             if (request)
@@ -343,20 +348,33 @@ bool RenderWorker::renderFirstPictures(Device& device) {
     return true;
 }
 
-void RenderWorker::renderExtras(Device& device) {
+// Another texture of the frame that is there, or thumbnails of another pass.
+void RenderWorker::look(Device& device) {
     for (std::size_t i = 0; i < device.variants(); ++i) {
-        VariantRenderer* renderer = device.renderers[i].get();
-        if (renderer != nullptr && renderer->result().error.empty() &&
-            !renderer->measure(watch(device, "energy"))) {
-            return;
-        }
-        ++device.rendered;
+        device.renderers[i]->look(device.order.viewing);
+        const VariantResult& seen = device.renderers[i]->result();
+        working_.variants[i].viewed = seen.viewed;
+        working_.variants[i].thumbnailsOf = seen.thumbnailsOf;
+        working_.variants[i].thumbnails = seen.thumbnails;
     }
+    post();
+}
+
+void RenderWorker::renderExtras(Device& device) {
     working_.probe.reset();
     if (const auto& probe = device.order.probe; probe && device.renderers[0]) {
         working_.probe =
             device.renderers[0]->probe(probe->pixel, probe->radiusPixels, watch(device, "photons"));
         if (!working_.probe && device.renderers[0]->result().error.empty()) return;
+    }
+    // The last: its frame is what is looked at from then on.
+    for (std::size_t i = 0; i < device.variants(); ++i) {
+        VariantRenderer* renderer = device.renderers[i].get();
+        if (renderer != nullptr && renderer->result().error.empty() &&
+            !renderer->measure(device.order.viewing, watch(device, "energy"))) {
+            return;
+        }
+        ++device.rendered;
     }
     device.hasExtras = true;
     for (std::size_t i = 0; i < device.variants(); ++i) {

@@ -92,6 +92,7 @@ class RenderWorker {
     void renderOnce(Device& device);
     bool renderFirstPictures(Device& device);
     void renderExtras(Device& device);
+    void look(Device& device);
     bool loadScene(Device& device);
     void reloadShaders(Device& device);
     void writeRecording(Device& device, const RecordRequest& request);

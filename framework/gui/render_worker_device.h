@@ -51,6 +51,16 @@ struct RenderWorker::Device {
     [[nodiscard]] bool hasPicture(std::size_t variant) const {
         return renderers[variant] && renderers[variant]->result().viewed;
     }
+    // Whether what a newer order of the same frame wants to see is there without rendering.
+    [[nodiscard]] bool canLook(const FrameOrder& newer, const FrameResult& result) const {
+        if (!hasExtras || order.isPreview || order.frames == 0 || newer.frames == 0) return false;
+        if (newer.isPrecise != order.isPrecise || newer.probe != order.probe) return false;
+        for (std::size_t i = 0; i < variants(); ++i) {
+            if (!renderers[i] || !result.variants[i].isSettled) return false;
+            if (!renderers[i]->canLook(newer.viewing)) return false;
+        }
+        return true;
+    }
     [[nodiscard]] std::size_t variants() const { return order.document.other ? 2 : 1; }
     [[nodiscard]] const Variant& variant(std::size_t i) const {
         return i == 0 ? order.document.variant : *order.document.other;

@@ -20,39 +20,38 @@ std::string number(double value) {
     return fmt::format("{:.3g}", value);
 }
 
-// Ticks at round numbers.
-std::vector<ColorBar::Tick> ticksOf(const ColorBar& bar) {
+}  // namespace
+
+std::vector<ColorBar::Tick> ticksOn(Scale scale, double lowest, double high) {
     std::vector<ColorBar::Tick> ticks;
     const auto add = [&](double value) {
-        const double place = placeOn(bar.scale, bar.low, bar.high, value);
+        const double place = placeOn(scale, lowest, high, value);
         if (place > -1e-6 && place < 1.0 + 1e-6)
             ticks.push_back({std::clamp(place, 0.0, 1.0), fmt::format("{:.4g}", value)});
     };
-    const double low = bar.scale == Scale::symmetric ? -bar.high : bar.low;
-    if (bar.scale == Scale::logarithmic) {
+    const double low = scale == Scale::symmetric ? -high : lowest;
+    if (scale == Scale::logarithmic) {
         const double first = std::ceil(std::log10(low) - 1e-9);
-        const double last = std::floor(std::log10(bar.high) + 1e-9);
+        const double last = std::floor(std::log10(high) + 1e-9);
         const double step = std::max(1.0, std::ceil((last - first) / 6.0));
         for (double power = first; power <= last; power += step)
             add(std::pow(10.0, power));
         if (ticks.size() >= 2) return ticks;
         ticks.clear();
         add(low);
-        add(bar.high);
+        add(high);
         return ticks;
     }
     constexpr double kWantedTicks = 5.0;
-    const double rough = (bar.high - low) / kWantedTicks;
+    const double rough = (high - low) / kWantedTicks;
     if (!(rough > 0.0) || !std::isfinite(rough)) return ticks;
     const double decade = std::pow(10.0, std::floor(std::log10(rough)));
     const double part = rough / decade;
     const double step = decade * (part < 1.5 ? 1.0 : part < 3.5 ? 2.0 : part < 7.5 ? 5.0 : 10.0);
-    for (double i = std::ceil(low / step - 1e-9); i * step <= bar.high + 1e-9 * step; i += 1.0)
+    for (double i = std::ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; i += 1.0)
         add(i == 0.0 ? 0.0 : i * step);
     return ticks;
 }
-
-}  // namespace
 
 std::array<float, 3> ColorBar::colorAt(double place) const {
     if (isFalseColor) return falseColor(scale, place);
@@ -203,7 +202,7 @@ std::optional<ColorBar> ShownImage::colorBar() const {
     }
     bar.clipsLow = double(histogram.low) < bar.low * (bar.low > 0.0 ? 1.0 - 1e-6 : 1.0 + 1e-6);
     bar.clipsHigh = double(histogram.high) > bar.high * (1.0 + 1e-6);
-    bar.ticks = ticksOf(bar);
+    bar.ticks = ticksOn(bar.scale, bar.low, bar.high);
     return bar;
 }
 

@@ -76,6 +76,9 @@ struct ShownImage {
     [[nodiscard]] bool contains(glm::ivec2 pixel) const;
 };
 
+// Round numbers on a scale from `low` to `high`, at their places.
+[[nodiscard]] std::vector<ColorBar::Tick> ticksOn(Scale scale, double low, double high);
+
 // The range and the exposure that a look has over these values.
 [[nodiscard]] ToneMapping mappingOf(const Look& look, const TextureContent& content,
                                     const Histogram& histogram, bool isEncoded);

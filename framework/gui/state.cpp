@@ -132,6 +132,9 @@ json toJson(const SavedState& kept) {
               {"left_tab", panels.leftTab},
               {"right_tab", panels.rightTab},
               {"all_parameters", panels.showsAllParameters},
+              {"changed_parameters", panels.showsChangedParameters},
+              {"graph", panels.showsGraph},
+              {"trade_off_measure", panels.tradeOffMeasure},
               {"precise", panels.isPrecise},
               {"endless", panels.isEndless},
               {"judged_reports", panels.judgesReports},
@@ -173,6 +176,9 @@ SavedState savedStateFromJson(const json& j, std::vector<std::string>& problems)
     panels.take("left_tab", kept.panels.leftTab);
     panels.take("right_tab", kept.panels.rightTab);
     panels.take("all_parameters", kept.panels.showsAllParameters);
+    panels.take("changed_parameters", kept.panels.showsChangedParameters);
+    panels.take("graph", kept.panels.showsGraph);
+    kept.panels.tradeOffMeasure = panels.between("trade_off_measure", 0, 0, 5);
     panels.take("precise", kept.panels.isPrecise);
     panels.take("endless", kept.panels.isEndless);
     panels.take("judged_reports", kept.panels.judgesReports);

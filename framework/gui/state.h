@@ -26,15 +26,17 @@ struct ViewState {
     int layer = 0;
     std::map<std::string, Look> looks;  // of each texture that has been given one; "": the picture
     ComparedImage comparedWith = ComparedImage::none;
-    int comparedKept = -1;   // which of the kept variants that is; below 0: variant B
-    int flipped = -1;        // which of them is seen in place of the newest frame; below 0: none
-    float split = 0.5f;      // of the picture's width
-    float zoom = 0.0f;       // window pixels a pixel; 0: fits
-    glm::vec2 middle{0.5f};  // of the view, in pictures
+    int comparedKept = -1;     // which of the kept variants that is; below 0: variant B
+    int flipped = -1;          // which of them is seen in place of the newest frame; below 0: none
+    float split = 0.5f;        // of the picture's width
+    float zoom = 0.0f;         // window pixels a pixel; 0: fits
+    glm::vec2 middle{0.5f};    // of the view, in pictures
+    std::string soughtRegion;  // of the texture, that the view goes to once it is there
     bool probes = false;
     glm::ivec2 probePixel{-1};  // x < 0: none
     float probeRadius = 1.0f;   // pixels
     bool showsLights = true;
+    std::string pass;  // that is looked at closely; "": none
 
     // Of an image by its name (ShownImage::resource).
     [[nodiscard]] Look lookOf(const std::string& name) const {
@@ -51,6 +53,7 @@ struct PanelState {
     bool isLeftOpen = false;
     bool isRightOpen = true;
     bool isChartOpen = false;
+    bool showsGraph = false;         // in the place of the picture
     std::set<std::string> leftTabs;  // panels that are to the left; others are to the right
     std::string leftTab;             // that are in front
     std::string rightTab = "Passes";
@@ -64,7 +67,9 @@ struct PanelState {
     };
     std::map<std::string, TypedProblem> parameterProblems;
     bool showsAllParameters = false;
-    int edited = 0;  // variant: 0 A, 1 B
+    bool showsChangedParameters = false;  // just what differs from the technique's default
+    int tradeOffMeasure = 0;              // of the panel Trade-off, relMSE first
+    int edited = 0;                       // variant: 0 A, 1 B
     bool isPrecise = false;
     bool isEndless = false;     // frames go on although nothing changes
     bool judgesReports = true;  // against the reference

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string_view>
 
 #include "framework/gl/objects.h"
 #include "framework/pipeline/ledger.h"
@@ -147,6 +148,22 @@ void measureValues(ViewedTexture& viewed) {
 
 }  // namespace
 
+ViewedTexture reducedTo(ViewedTexture viewed, int side) {
+    const Image& all = viewed.values;
+    const int step = (std::max(all.width, all.height) + side - 1) / side;
+    if (step <= 1) return viewed;
+    Image few((all.width + step - 1) / step, (all.height + step - 1) / step, all.channels);
+    for (int y = 0; y < few.height; ++y) {
+        for (int x = 0; x < few.width; ++x) {
+            for (int c = 0; c < few.channels; ++c)
+                few.at(x, y, c) = all.at(x * step, y * step, c);
+        }
+    }
+    viewed.values = std::move(few);
+    viewed.regions.clear();
+    return viewed;
+}
+
 Image unfoldCube(const std::vector<Image>& faces) {
     const int side = faces.front().width;
     const int channels = faces.front().channels;
@@ -169,6 +186,26 @@ std::vector<ViewedTexture::Region> regionsOfCube(int side) {
     for (const Face& face : kCross)
         regions.push_back({face.name, face.column * side, face.row * side, side, side});
     return regions;
+}
+
+std::vector<ViewedTexture::Region> regionsOfPyramid(int width, int height) {
+    const auto squares = [](int pixels, int side) { return (pixels + side - 1) / side; };
+    std::vector<ViewedTexture::Region> regions;
+    int y = 0;
+    for (const int side : {4, 16, 64}) {
+        const int columns = squares(width, side);
+        const int rows = squares(height, side);
+        regions.push_back({fmt::format("squares of {} pixels", side),
+                           side == 4 ? 0 : squares(width, 4), y, columns, rows});
+        if (side > 4) y += rows;
+    }
+    return regions;
+}
+
+std::string pixelsOfPyramid(const std::string& name) {
+    static constexpr std::string_view kEnd = ".pyramid";
+    if (!name.ends_with(kEnd)) return "";
+    return name.substr(0, name.size() - kEnd.size()) + ".depth";
 }
 
 Image lightOfSums(const std::vector<Image>& words, double unit) {
@@ -258,6 +295,11 @@ ViewedTexture readViewed(const Renderer& renderer, const std::string& name, int 
     } else {
         viewed.values = unfoldCube(faces);
         viewed.regions = regionsOfCube(faces.front().width);
+    }
+    if (const std::string pixels = pixelsOfPyramid(name); run::isTexture(renderer, pixels)) {
+        const graph::ResourceDesc& view = renderer.graph().descOf(renderer.graph().find(pixels));
+        const auto& size = std::get<graph::TextureDesc>(view);
+        viewed.regions = regionsOfPyramid(size.width, size.height);
     }
     viewed.content.channels.resize(static_cast<std::size_t>(viewed.values.channels));
     measureValues(viewed);

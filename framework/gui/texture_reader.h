@@ -17,10 +17,20 @@ namespace kaustik::gui {
 [[nodiscard]] ViewedTexture readViewed(const Renderer& renderer, const std::string& name,
                                        int layer);
 
+// The same with every n-th pixel alone, so that no side is longer than `side`; histograms stay
+// those of all.
+[[nodiscard]] ViewedTexture reducedTo(ViewedTexture viewed, int side);
+
 // The cross of six faces (+x, -x, +y, -y, +z, -z) of one size, 4 by 3 faces, seen from within; what
 // is no face is 0.
 [[nodiscard]] Image unfoldCube(const std::vector<Image>& faces);
 [[nodiscard]] std::vector<ViewedTexture::Region> regionsOfCube(int side);
+
+// Of a pyramid of planes over a view of so many pixels its mips by name, "squares of 4 pixels", as
+// shaders/layered_depth/pyramid_layout.glsl places them.
+[[nodiscard]] std::vector<ViewedTexture::Region> regionsOfPyramid(int width, int height);
+// The texture of the view that such a one is over; "" where the name is of no pyramid.
+[[nodiscard]] std::string pixelsOfPyramid(const std::string& name);
 
 // Light of the words of sums in fixed point (transport::kFluxWords, low before high, by channel),
 // times what one unit of them is.

@@ -4,7 +4,9 @@
 #include <algorithm>
 
 #include "framework/core/error.h"
+#include "framework/gui/pass_graph.h"
 #include "framework/gui/texture_reader.h"
+#include "framework/run/output.h"
 #ifdef KAUSTIK_HAS_EMBREE
 #include "framework/run/caustic_errors.h"
 #endif
@@ -15,18 +17,27 @@ namespace {
 // A preview's pixels are this much larger.
 constexpr int kPreviewReduction = 2;
 
+// Of a thumbnail, pixels at most.
+constexpr int kThumbnailSide = 128;
+
 // Of so many frames times are shown.
 constexpr std::size_t kFrameHistory = 128;
 
-std::vector<ListedTexture> texturesOf(const Renderer& renderer) {
-    std::vector<ListedTexture> textures;
+// All textures of a measured frame are kept for looking at where they take no more than this.
+constexpr std::size_t kMaxReadableBytes = std::size_t{1} << 30;
+
+void listResources(const Renderer& renderer, VariantResult& result) {
+    result.textures.clear();
+    result.buffers.clear();
     const graph::Graph& graph = renderer.graph();
     for (const std::string& name : graph.resourceNames()) {
         const graph::ResourceDesc& desc = graph.descOf(graph.find(name));
-        if (const auto* texture = std::get_if<graph::TextureDesc>(&desc))
-            textures.push_back({name, *texture});
+        if (const auto* texture = std::get_if<graph::TextureDesc>(&desc)) {
+            result.textures.push_back({name, *texture});
+        } else {
+            result.buffers.push_back({name, graph::bytesOf(desc)});
+        }
     }
-    return textures;
 }
 
 }  // namespace
@@ -83,6 +94,7 @@ bool VariantRenderer::render(const Variant& variant, const params::Extent& size,
                              const Viewing& viewing, bool isPrecise,
                              const ShouldContinue& shouldContinue) {
     return guarded([&] {
+        isMeasured_ = false;
         select(variant, size);
         session_->setPrecise(isPrecise);
         keep(viewing);
@@ -109,7 +121,9 @@ void VariantRenderer::readBack(const Viewing& viewing) {
     result_.frameMs.clear();
     for (const gl::FrameTime& frame : record.frames)
         result_.frameMs.push_back(frame.frameMs);
-    result_.textures = texturesOf(renderer);
+    listResources(renderer, result_);
+    result_.thumbnailsOf.clear();
+    result_.thumbnails.clear();
     result_.warnings = renderer.warnings();
     result_.peakBytes = renderer.compiled().peakBytes;
     result_.paths = outputs.hits.incoming.paths;
@@ -129,6 +143,7 @@ void VariantRenderer::readBack(const Viewing& viewing) {
 bool VariantRenderer::renderPreview(const Variant& variant, const params::Extent& size,
                                     const ShouldContinue& shouldContinue) {
     return guarded([&] {
+        isMeasured_ = false;
         const params::Extent smaller{std::max(1, size.width / kPreviewReduction),
                                      std::max(1, size.height / kPreviewReduction)};
         select(variant, size);
@@ -141,9 +156,62 @@ bool VariantRenderer::renderPreview(const Variant& variant, const params::Extent
     });
 }
 
-bool VariantRenderer::measure(const ShouldContinue& shouldContinue) {
+// Textures that the frame makes anyway, so that keeping them asks for no pass; those that are kept
+// already where all are too many.
+std::vector<std::string> VariantRenderer::texturesWithRoom() const {
+    const graph::Graph& graph = session_->renderer().graph();
+    const graph::Compiled& compiled = session_->renderer().compiled();
+    std::vector<std::string> names;
+    std::size_t bytes = 0;
+    for (const ListedTexture& texture : result_.textures) {
+        const graph::ResourceRef handle = graph.find(texture.name);
+        if (!handle.valid() || compiled.slotOf(handle) == graph::Compiled::kNowhere) continue;
+        names.push_back(texture.name);
+        bytes += texture.desc.bytes();
+    }
+    return bytes <= kMaxReadableBytes ? names : session_->keptTextures();
+}
+
+void VariantRenderer::readThumbnails(const std::string& pass) {
+    result_.thumbnailsOf = pass;
+    result_.thumbnails.clear();
+    const auto record =
+        std::find_if(result_.passes.begin(), result_.passes.end(),
+                     [&](const graph::PassRecord& one) { return one.name == pass; });
+    if (record == result_.passes.end()) return;
+    for (const std::string& name : resourcesOf(*record)) {
+        if (!readable_.contains(name)) continue;
+        ViewedTexture small = reducedTo(readViewed(session_->renderer(), name, 0), kThumbnailSide);
+        small.version = ++versions_;
+        result_.thumbnails.push_back(std::make_shared<const ViewedTexture>(std::move(small)));
+    }
+}
+
+bool VariantRenderer::canLook(const Viewing& viewing) const {
+    if (!isMeasured_ || !result_.error.empty()) return false;
+    if (viewing.readsOutputs && !result_.outputs) return false;
+    // What there is not is not rendered either.
+    return viewing.resource.empty() || readable_.contains(viewing.resource) ||
+           !run::isTexture(session_->renderer(), viewing.resource);
+}
+
+void VariantRenderer::look(const Viewing& viewing) {
+    const bool isSeen = result_.viewed && result_.viewed->missing == ViewedTexture::Missing::none &&
+                        result_.viewed->name == viewing.resource &&
+                        result_.viewed->layer == viewing.layer;
+    if (!isSeen) result_.viewed = view(viewing);
+    if (result_.thumbnailsOf != viewing.pass) readThumbnails(viewing.pass);
+}
+
+bool VariantRenderer::measure(const Viewing& viewing, const ShouldContinue& shouldContinue) {
     return guarded([&] {
-        if (!session_->renderFor(Purpose::measurement, stepwise(shouldContinue))) return false;
+        isMeasured_ = false;
+        const std::vector<std::string> kept = texturesWithRoom();
+        if (!session_->renderFor(Purpose::measurement, stepwise(shouldContinue), {}, kept))
+            return false;
+        readable_ = {kept.begin(), kept.end()};
+        isMeasured_ = true;
+        readThumbnails(viewing.pass);
         const report::RunRecord record = session_->measured();
         result_.ledger = record.ledger;
         result_.limits = report::reachedLimits(record, session_->renderer());
@@ -167,6 +235,7 @@ std::optional<PhotonProbe> VariantRenderer::probe(glm::ivec2 pixel, float radius
                                                   const ShouldContinue& shouldContinue) {
     std::optional<PhotonProbe> found;
     guarded([&] {
+        isMeasured_ = false;
         if (!session_->renderFor(Purpose::audit, stepwise(shouldContinue))) return false;
         found = probePhotons(session_->renderer(), pixel, radius);
         return true;

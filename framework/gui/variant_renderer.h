@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,13 @@ struct Viewing {
     std::string resource;  // "": the picture
     int layer = 0;
     bool readsOutputs = false;  // VariantResult::outputs
+    std::string pass = {};      // whose textures are wanted as thumbnails; "": of none
     friend bool operator==(const Viewing&, const Viewing&) = default;
+    // Whether it is the same but for thumbnails, for which alone no frame is rendered.
+    [[nodiscard]] bool wantsSameFrame(const Viewing& other) const {
+        return resource == other.resource && layer == other.layer &&
+               readsOutputs == other.readsOutputs;
+    }
 };
 
 class VariantRenderer {
@@ -39,8 +46,14 @@ class VariantRenderer {
     // Renders a smaller picture without caustics, for a view that is being turned. It is not timed.
     bool renderPreview(const Variant& variant, const params::Extent& size,
                        const ShouldContinue& shouldContinue);
-    // Renders one more frame of what was rendered last, for the ledger and the limits.
-    bool measure(const ShouldContinue& shouldContinue);
+    // Renders one more frame of what was rendered last, for the ledger, the limits and thumbnails.
+    // Where there is room for all of its textures, look() finds them from then on.
+    bool measure(const Viewing& viewing, const ShouldContinue& shouldContinue);
+    // Whether the frame that was measured last has what is to be seen, and nothing was rendered
+    // since.
+    [[nodiscard]] bool canLook(const Viewing& viewing) const;
+    // Reads that back into result(), without rendering.
+    void look(const Viewing& viewing);
     // Renders one more frame for the photons that landed at a pixel.
     [[nodiscard]] std::optional<PhotonProbe> probe(glm::ivec2 pixel, float radius,
                                                    const ShouldContinue& shouldContinue);
@@ -59,6 +72,8 @@ class VariantRenderer {
     void keep(const Viewing& viewing);
     void readBack(const Viewing& viewing);
     [[nodiscard]] ViewedTexture view(const Viewing& viewing);
+    void readThumbnails(const std::string& pass);
+    [[nodiscard]] std::vector<std::string> texturesWithRoom() const;
     bool guarded(const std::function<bool()>& work);
     [[nodiscard]] run::ShouldContinue stepwise(const ShouldContinue& shouldContinue) const;
 
@@ -70,6 +85,8 @@ class VariantRenderer {
     params::Extent size_;
     std::optional<run::Session> session_;  // of these two, once something was to be rendered
     VariantResult result_;
+    bool isMeasured_ = false;         // by the frame that was rendered last
+    std::set<std::string> readable_;  // textures that hold their contents then
 };
 
 }  // namespace kaustik::gui

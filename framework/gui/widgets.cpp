@@ -14,7 +14,6 @@
 #include "framework/core/files.h"
 #include "framework/gui/recording_name.h"
 #include "framework/gui/typed_value.h"
-#include "framework/report/statistics.h"
 
 namespace kaustik::gui {
 namespace {
@@ -80,7 +79,7 @@ bool typeNumber(const params::NamedField& named, const std::string& id, Paramete
 }  // namespace
 
 ParameterChange drawParameter(Bench& bench, const params::NamedField& named,
-                              const std::string& label) {
+                              const std::string& label, const std::string& noEffect) {
     const params::Field& field = named.field;
     const std::string id = label + "##" + named.fullName;
     const std::string control = "parameter." + named.fullName;
@@ -130,6 +129,7 @@ ParameterChange drawParameter(Bench& bench, const params::NamedField& named,
     if (!field.unit.empty()) explanation += fmt::format("\nUnit: {}", field.unit);
     if (!field.rangeText().empty()) explanation += fmt::format("\nRange: {}", field.rangeText());
     explanation += fmt::format("\nDefault: {}", named.defaultText);
+    if (!noEffect.empty()) explanation += "\n" + noEffect;
     if (std::holds_alternative<float*>(field.target) || std::holds_alternative<int*>(field.target))
         explanation += "\nCtrl and click, or Return, to type a value.";
     tooltip(explanation);
@@ -328,13 +328,18 @@ ImVec4 stageColor(const Registry& registry, const std::string& stage) {
     return color;
 }
 
-double medianOf(std::vector<double> values) {
-    return report::summarize(std::move(values)).median;
+const report::PassTimes* timesOf(const VariantResult& result, const std::string& pass) {
+    const auto found =
+        std::find_if(result.times.begin(), result.times.end(),
+                     [&](const report::PassTimes& times) { return times.name == pass; });
+    return found == result.times.end() || found->gpuMilliseconds.empty() ? nullptr : &*found;
 }
 
-double settledMedianOf(const std::vector<double>& values) {
-    if (values.size() < 2) return medianOf(values);
-    return medianOf({values.begin() + 1, values.end()});
+void showPanel(Bench& bench, const std::string& name) {
+    PanelState& panels = bench.panels;
+    const bool isLeft = panels.leftTabs.contains(name);
+    (isLeft ? panels.leftTab : panels.rightTab) = name;
+    (isLeft ? panels.isLeftOpen : panels.isRightOpen) = true;
 }
 
 }  // namespace kaustik::gui

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "framework/gui/bench.h"
+#include "framework/gui/medians.h"
 #include "framework/gui/table.h"
 #include "framework/params/param_set.h"
 
@@ -18,7 +19,7 @@ namespace kaustik::gui {
 inline const ImVec4 kProblemColor(1.0f, 0.45f, 0.4f, 1.0f);
 
 // A parameter with the control that its declaration asks for: true, with its new text, when the
-// user has changed it.
+// user has changed it. `noEffect`: the sentence that says why it has none now, where it has none.
 struct ParameterChange {
     bool changed = false;
     std::string text;
@@ -26,7 +27,8 @@ struct ParameterChange {
     std::optional<std::string> problem = {};
 };
 [[nodiscard]] ParameterChange drawParameter(Bench& bench, const params::NamedField& named,
-                                            const std::string& label);
+                                            const std::string& label,
+                                            const std::string& noEffect = "");
 
 // A width and a height to type, taken over when both are done with; true when they have changed.
 [[nodiscard]] bool inputExtent(const char* label, params::Extent& value, int minimum, int maximum);
@@ -69,10 +71,11 @@ void chooseVariant(Bench& bench, const std::string& panel);
 // that is usual.
 [[nodiscard]] bool isLogarithmic(const params::Field& field);
 
-// The median as the report has it.
-[[nodiscard]] double medianOf(std::vector<double> values);
-// Of the frames since a change, without the first, which compiles what the change asks for, where
-// there are more.
-[[nodiscard]] double settledMedianOf(const std::vector<double>& values);
+// What a pass took in the newest frames; null where that is not known.
+[[nodiscard]] const report::PassTimes* timesOf(const VariantResult& result,
+                                               const std::string& pass);
+
+// Brings a panel to the front by its name, on the side where it is.
+void showPanel(Bench& bench, const std::string& name);
 
 }  // namespace kaustik::gui

@@ -50,14 +50,14 @@ Workbench::Workbench(const Registry& registry, const WorkbenchOptions& options)
              std::make_shared<const FrameResult>(),
              referenceWorker_.state(),
              scene::listScenes()} {
+    if (!options.scene.empty() && options.scene != bench_.document.scene) {
+        bench_.document.scene = options.scene;
+        bench_.document.edits = {};
+    }
     if (!settings_.problems.empty()) {
         const SettingsBackup aside = setSettingsAside(folder_, settings_.problems);
         canSave_ = aside.isDone;
         bench_.notify(aside.notice, true);
-    }
-    if (!options.scene.empty() && options.scene != bench_.document.scene) {
-        bench_.document.scene = options.scene;
-        bench_.document.edits = {};
     }
     if (bench_.view.comparedWith == ComparedImage::other && !bench_.document.other)
         bench_.view.comparedWith = ComparedImage::none;
@@ -108,6 +108,7 @@ void Workbench::run() {
         if (run::isInterrupted()) window_.close();
         pollWorkers();
         takeDropped();
+        bench_.dropOldMessage();
         bench_.isDragging = false;
         bench_.isTurning = false;
         map_.beginFrame();
@@ -173,10 +174,14 @@ void Workbench::pollWorkers() {
         judgedOrder_ = 0;
         bench_.notify("The renderer was started again.");
     }
+    bool hasNews = false;
     if (const auto latest = labelled(renderer_->latest()); latest && latest != bench_.result) {
+        hasNews = true;
         bench_.result = latest;
         framesToDraw_ = std::max(framesToDraw_, 2);
         dropAbsentPasses();
+        for (std::size_t i = 0; i < bench_.histories.size(); ++i)
+            bench_.histories[i].note(*latest, i);
         if (isRendered({latest->document, latest->order, bench_.view}, *latest))
             bench_.whole = latest->document;
         if (!settings_.kept.isDeviceKnown && !latest->device.renderer.empty()) {
@@ -187,9 +192,11 @@ void Workbench::pollWorkers() {
     }
     bench_.referenceProgress = referenceWorker_.progress();
     if (const auto state = referenceWorker_.state(); state != bench_.reference) {
+        hasNews = true;
         bench_.reference = state;
         framesToDraw_ = std::max(framesToDraw_, 2);
     }
+    if (hasNews) notePoints();
     // The next step of an animation, once this one is seen.
     const VariantResult& first = bench_.result->variants[0];
     const std::uint64_t frame = first.frame + first.previews;
@@ -198,6 +205,15 @@ void Workbench::pollWorkers() {
         playedFrame_ = frame;
         bench_.document.edits.timeSeconds =
             bench_.timeSeconds() + double(bench_.panels.sequenceStep);
+    }
+}
+
+// Once a setting is settled and judged it is a point among those of the session.
+void Workbench::notePoints() {
+    for (std::size_t i = 0; i < bench_.result->variants.size(); ++i) {
+        std::optional<SettledPoint> point =
+            settledPoint(*bench_.result, i, *bench_.reference, bench_.panels.isPrecise);
+        if (point) addPoint(bench_.points, std::move(*point));
     }
 }
 
@@ -238,7 +254,8 @@ void Workbench::saveExperimentOnceRendered() {
         bench_.wantsExperiment = false;
         bench_.notify("Not saved, for it would not run: " + reason, true);
     } else {
-        bench_.notify("The experiment is saved once it has been rendered.");
+        bench_.notify("The experiment is saved once it has been rendered.", false,
+                      [](const Bench& bench) { return !bench.wantsExperiment; });
     }
 }
 
@@ -274,6 +291,7 @@ void Workbench::submitChanges() {
             ? "caustic.irradiance"
             : bench_.view.resource;
     order.viewing.layer = bench_.view.layer;
+    order.viewing.pass = bench_.view.pass;
     order.viewing.readsOutputs =
         bench_.reference->photons > 0 || !(bench_.panels.isEndless || bench_.isPlaying);
     const double frameMs = settledMedianOf(bench_.result->variants[0].frameMs);
@@ -294,13 +312,16 @@ void Workbench::submitChanges() {
     if (bench_.view.probes && bench_.view.probePixel.x >= 0 && !order.isPreview)
         order.probe = {bench_.view.probePixel, bench_.view.probeRadius};
     const bool isSamePicture = hasSubmitted_ && submitted_.document == order.document &&
-                               submitted_.viewing == order.viewing &&
+                               submitted_.viewing.wantsSameFrame(order.viewing) &&
                                submitted_.isPreview == order.isPreview &&
                                submitted_.sceneReloads == order.sceneReloads;
     if (isSamePicture && submitted_.frames == order.frames &&
-        submitted_.isPrecise == order.isPrecise && submitted_.probe == order.probe) {
+        submitted_.isPrecise == order.isPrecise && submitted_.probe == order.probe &&
+        submitted_.viewing == order.viewing) {
         return;
     }
+    // Thumbnails are not worth ending a frame for.
+    if (isSamePicture) order.isPassing = order.isPassing || submitted_.viewing != order.viewing;
     submitted_ = order;
     hasSubmitted_ = true;
     bench_.order = renderer_->submit(std::move(order));

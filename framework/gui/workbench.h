@@ -39,6 +39,7 @@ class Workbench {
         std::shared_ptr<const FrameResult> latest);
     void pollWorkers();
     void takeDropped();
+    void notePoints();
     void dropAbsentPasses();
     void saveExperimentOnceRendered();
     void submitChanges();
@@ -59,6 +60,7 @@ class Workbench {
     void saveShown();
     void saveScreenshot();
     void finishScreenshot();
+    void notifyWriting(const std::string& file);
     [[nodiscard]] double patience() const;
 
     const Registry& registry_;
@@ -88,6 +90,7 @@ class Workbench {
     std::future<std::shared_ptr<const ImageDifference>> difference_;  // being computed
     std::future<std::shared_ptr<const Table>> pairs_;
     std::future<std::string> screenshot_;  // being written; why it failed, or nothing
+    std::string written_;                  // the file of that
     Clock::time_point frameBegin_;
     Clock::time_point turnedAt_;
     std::deque<double> interfaceMs_;  // what the newest frames of the interface took

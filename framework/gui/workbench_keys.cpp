@@ -77,6 +77,7 @@ void Workbench::useKey(const Window::KeyPress& press) {
     }
     if (press.key == GLFW_KEY_K) keepVariant(bench_);
     if (press.key == GLFW_KEY_H) hidePanels(panels);
+    if (press.key == GLFW_KEY_G) panels.showsGraph = !panels.showsGraph;
     if (press.key == GLFW_KEY_P) bench_.view.probes = !bench_.view.probes;
 }
 
@@ -100,7 +101,10 @@ void Workbench::useSign(unsigned character) {
             const int index = static_cast<int>(character - '1');
             if (index >= static_cast<int>(bench_.kept.size())) {
                 bench_.notify(
-                    fmt::format("There is no kept variant {}; K keeps what is shown.", index + 1));
+                    fmt::format("There is no kept variant {}; K keeps what is shown.", index + 1),
+                    false, [index](const Bench& bench) {
+                        return static_cast<int>(bench.kept.size()) > index;
+                    });
             } else {
                 bench_.view.flipped = bench_.view.flipped == index ? -1 : index;
             }

@@ -21,12 +21,13 @@ struct Tab {
     void (*draw)(Bench&);
 };
 
-constexpr std::array<Tab, 8> kTabs = {{{"Passes", drawPasses},
+constexpr std::array<Tab, 9> kTabs = {{{"Passes", drawPasses},
                                        {"Technique", drawTechnique},
                                        {"Scene", drawScene},
                                        {"Parameters", drawParameters},
                                        {"Image", drawImage},
                                        {"Error", drawError},
+                                       {"Trade-off", drawTradeOff},
                                        {"Compare", drawCompare},
                                        {"Record", drawRecord}}};
 
@@ -188,7 +189,11 @@ void Workbench::draw() {
                             ? std::min(panels.chartHeight * bench_.scale, 0.6f * height) + bar
                             : 0.0f;
     ImGui::BeginChild("middle", {middle, std::max(height - chart - status, 30.0f)});
-    drawPicture(bench_);
+    if (panels.showsGraph) {
+        drawGraph(bench_);
+    } else {
+        drawPicture(bench_);
+    }
     ImGui::EndChild();
     if (panels.isChartOpen) {
         splitter("##chart_edge", false, middle, panels.chartHeight, -1.0f, bench_);

@@ -96,7 +96,9 @@ void Workbench::saveShown() {
     bench_.wantsShownSaved = false;
     const Showing showing = showingOf(bench_.requested(), *bench_.result, *bench_.reference);
     if (!showing.main) {
-        bench_.notify("There is no image to save.", true);
+        bench_.notify("There is no image to save.", true, [](const Bench& bench) {
+            return bench.result->variants[bench.requested().seen()].viewed.has_value();
+        });
         return;
     }
     struct Saved {
@@ -123,8 +125,7 @@ void Workbench::saveShown() {
         }
     }
     const fs::path folder = bench_.panels.recordFolder;
-    bench_.notify(fmt::format("Writing {}.",
-                              (folder / images.front().name).string() + floatImageExtension()));
+    notifyWriting((folder / images.front().name).string() + floatImageExtension());
     screenshot_ =
         std::async(std::launch::async, [folder, images = std::move(images)]() -> std::string {
             try {
@@ -158,7 +159,13 @@ void Workbench::saveScreenshot() {
                 return error.what();
             }
         });
-    bench_.notify(fmt::format("Writing {}.", file.string()));
+    notifyWriting(file.string());
+}
+
+// Until finishScreenshot() says how it went.
+void Workbench::notifyWriting(const std::string& file) {
+    written_ = file;
+    bench_.notify(fmt::format("Writing {}.", file), false, [](const Bench&) { return false; });
 }
 
 void Workbench::finishScreenshot() {
@@ -169,8 +176,8 @@ void Workbench::finishScreenshot() {
     const std::string problem = screenshot_.get();
     if (!problem.empty()) {
         bench_.notify(problem, true);
-    } else if (bench_.message.starts_with("Writing ")) {
-        bench_.notify("Wrote " + bench_.message.substr(8));
+    } else {
+        bench_.notify(fmt::format("Wrote {}.", written_));
     }
     framesToDraw_ = std::max(framesToDraw_, 2);
 }

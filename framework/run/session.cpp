@@ -320,7 +320,8 @@ void Session::modelCost(const report::DeviceModel& model) {
 }
 
 bool Session::renderFor(Purpose purpose, const ShouldContinue& shouldContinue,
-                        const std::optional<params::Extent>& size) {
+                        const std::optional<params::Extent>& size,
+                        const std::vector<std::string>& kept) {
     if (size) {
         RenderSettings other = settings_;
         other.width = size->width;
@@ -330,7 +331,7 @@ bool Session::renderFor(Purpose purpose, const ShouldContinue& shouldContinue,
         bringUpToDate();
     }
     forgetBuild();
-    renderer_.build(purpose);
+    renderer_.build(purpose, kept);
     const bool isWhole = renderUntimed(shouldContinue);
     hasFrame_ = false;  // of what was asked for
     return isWhole;

@@ -117,9 +117,10 @@ class Session {
     // Renders the same frame once more, not timed. False: it was ended early.
     bool renderAgain(const ShouldContinue& shouldContinue = {});
     // A frame for another purpose and perhaps of another size, which is not timed; the next one is
-    // as before.
+    // as before. `kept`: textures that hold their contents after it.
     bool renderFor(Purpose purpose, const ShouldContinue& shouldContinue = {},
-                   const std::optional<params::Extent>& size = {});
+                   const std::optional<params::Extent>& size = {},
+                   const std::vector<std::string>& kept = {});
 
     // What is known of the frames since something was changed, without what only a measurement
     // finds.

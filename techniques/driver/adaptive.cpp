@@ -33,6 +33,9 @@ namespace {
 using transport::CellCounts;
 using transport::LightCell;
 
+// Of the largest storage block that every device has (OpenGL 4.5, table 23.64).
+constexpr std::size_t kPromisedBlockBytes = std::size_t{1} << 27;
+
 int powerOfTwo(const char* name, int value) {
     if (std::has_single_bit(static_cast<unsigned>(value))) return value;
     throw ConfigError(fmt::format("refine.{} = {} is no power of two; {} and {} are.", name, value,
@@ -53,6 +56,17 @@ struct Purpose {
     TraversalSizes sizes;
     PhotonUse use;
 };
+
+// Cells that a round leaves for each that it takes: no more than four a level.
+std::size_t cellsLeftBehind(const TraversalSizes& sizes) {
+    return 4 * static_cast<std::size_t>(sizes.finestLevel - sizes.startLevel + 1);
+}
+
+// Cells that wait before the first round.
+std::size_t cellsAtStart(const FrameBuilder& frame, const TraversalSizes& sizes) {
+    return (std::size_t{1} << (2 * sizes.startLevel)) *
+           static_cast<std::size_t>(frame.needs().photonLights);
+}
 
 LightCells makeList(graph::PassSetup& setup, const std::string& name, const std::string& listName,
                     const ListCapacity& room) {
@@ -76,10 +90,9 @@ Start start(FrameBuilder& frame, const Purpose& purpose) {
     const TraversalSizes& sizes = purpose.sizes;
     const int lights = frame.needs().photonLights;
     const auto side = static_cast<unsigned>(1 << sizes.startLevel);
-    const auto cells = static_cast<std::size_t>(side) * side * static_cast<std::size_t>(lights);
-    // A round leaves no more than four cells a level for each that it takes.
-    const std::size_t rounds = static_cast<std::size_t>(sizes.round.capacity()) * 4 *
-                               static_cast<std::size_t>(sizes.finestLevel - sizes.startLevel + 1);
+    const std::size_t cells = cellsAtStart(frame, sizes);
+    const std::size_t rounds =
+        static_cast<std::size_t>(sizes.round.capacity()) * cellsLeftBehind(sizes);
     return frame.pass<Start>(
         "driver.start",
         fmt::format("{0} x {0} cells of {1} light{2}, no more than {3} at once", 2 * side, lights,
@@ -284,8 +297,12 @@ TraversalSizes sizesOf(const FrameBuilder& frame, const RefineParams& params) {
     const double end = std::clamp(std::ceil(cells / 4096.0) * 4096.0, 4096.0, 16777216.0);
     const int photons = static_cast<int>(std::clamp(maximum, 4096.0, end)) / 4096 * 4096;
     sizes.photons = {2048, std::max(photons / 2048, 2)};
-    sizes.probes = sizes.photons;
-    sizes.round = {1024, sizes.probes.capacity() / 4 / 1024};
+    // A round takes a quarter of the probes' number, and all that waits is in one storage block.
+    const std::size_t mostWaiting = kPromisedBlockBytes / sizeof(LightCell);
+    const std::size_t atStart = std::min(cellsAtStart(frame, sizes), mostWaiting);
+    const auto mostTaken = static_cast<int>((mostWaiting - atStart) / cellsLeftBehind(sizes));
+    sizes.round = {1024, std::clamp(mostTaken / 1024, 1, photons / 4 / 1024)};
+    sizes.probes = {2048, std::max(4 * sizes.round.capacity() / 2048, 2)};
     return sizes;
 }
 

@@ -90,6 +90,23 @@ class ThePicture : public WorkbenchTest {
     double windowHeight = 1.0;
 };
 
+// A line below the picture speaks of what is there, and goes with it.
+TEST_F(ComparePanel, AMessageGoesWithWhatItSpeaksOf) {
+    start();
+    open("Compare");
+    bench->key("3");
+    EXPECT_TRUE(says("status.message", "There is no kept variant 3"));
+    bench->key("k");
+    EXPECT_TRUE(says("status.message", "Kept as 1: "));
+    bench->click("compare.1.forget");
+    EXPECT_EQ(bench->status().at("message"), "");
+    // What was refused is of no interest once the user has gone on.
+    bench->dropFiles({folder.file("notes.txt", "x")}, "picture");
+    EXPECT_TRUE(says("status.message", "is neither a scene"));
+    bench->drag("picture", 30, 0);
+    EXPECT_EQ(bench->status().at("message"), "");
+}
+
 TEST_F(ThePicture, HasTheRoomThatPanelsLeaveAndPanelsAreRemembered) {
     startAt(1024, 768);
     EXPECT_GE(share(), 0.6);

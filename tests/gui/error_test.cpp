@@ -286,9 +286,18 @@ TEST_F(ErrorPanel, TheErrorAndTheReferenceAreSeenNextToThePicture) {
     EXPECT_TRUE(lit.starts_with("(50, 44)  red 0  green 0  blue 0 W/m²")) << lit;
 }
 
-TEST_F(ErrorPanel, TheLedgerCloses) {
+TEST_F(ErrorPanel, TheLedgerClosesAndSaysWhatItsRowsAre) {
     start();
     open("Error");
+    EXPECT_TRUE(says("error.account.emitted", "the lights send onto"));
+    const json controls = bench->screen().at("controls");
+    int rows = 0;
+    for (const auto& [name, control] : controls.items()) {
+        if (!name.starts_with("error.account.")) continue;
+        EXPECT_NE(control.at("value"), "") << name;
+        ++rows;
+    }
+    EXPECT_GE(rows, 4);
     EXPECT_LT(std::abs(std::stod(bench->value("error.balance"))), 1e-6);
 }
 

@@ -78,6 +78,56 @@ TEST_F(ImagePanel, AnyTextureIsShownWithItsLayersAndValues) {
     }
 }
 
+TEST_F(ImagePanel, TheListSaysWhatTexturesAreAndOneOfTheLastFrameRendersNothing) {
+    start();
+    open("Image");
+    const int frame = bench->status().at("frame");
+    bench->click("image.texture");
+    bench->type("caustic.irr");
+    ASSERT_TRUE(bench->has("image.texture=caustic.irradiance"));
+    EXPECT_EQ(bench->value("image.texture=caustic.irradiance"),
+              "64x48 RGBA32F | W/m² | gather.screen");
+    bench->keepScreenshot("image-list");
+    bench->click("image.texture=caustic.irradiance");
+    untilSettled();
+    EXPECT_TRUE(bench->value("picture.caption").starts_with("caustic.irradiance"));
+    EXPECT_TRUE(says("image.writers", "gather.screen"));
+    EXPECT_EQ(bench->status().at("frame"), frame);
+    // The same values that a frame has which is rendered for it.
+    bench->hover("picture.image", pixel(30, 30));
+    const std::string looked = bench->value("picture.value");
+    bench->click("image.texture");
+    bench->click("image.texture=picture");
+    untilSettled();
+    EXPECT_EQ(bench->status().at("frame"), frame) << "and back";
+    renderSmall({"--save", "caustic.irradiance", "--out", "saved"});
+    const Image saved =
+        readImage(folder / "saved" / ("caustic.irradiance" + floatImageExtension()));
+    EXPECT_NEAR(std::stod(looked.substr(looked.find("red ") + 4)),
+                static_cast<double>(saved.at(30, 30, 0)),
+                1e-4 * static_cast<double>(saved.at(30, 30, 0)) + 1e-6);
+}
+
+TEST_F(ImagePanel, MipsOfAPyramidAreInTheListByName) {
+    start();
+    open("Image");
+    const int frame = bench->status().at("frame");
+    bench->click("image.texture");
+    bench->type("pyramid");
+    EXPECT_TRUE(
+        bench->value("image.texture=layers.pyramid: squares of 16 pixels").starts_with("4x3 | "));
+    bench->click("image.texture=layers.pyramid: squares of 16 pixels");
+    untilSettled();
+    // Four columns of squares are as wide as the pane, or three rows as high.
+    const Rectangle area = bench->control("picture");
+    const Rectangle image = bench->control("picture.image");
+    const double zoom = image.w / 20.0;  // 16 columns of squares of 4 pixels, and these
+    EXPECT_NEAR(std::max(4.0 * zoom / area.w, 3.0 * zoom / area.h), 1.0, 0.02);
+    EXPECT_NEAR(image.x + 18.0 * zoom, area.x + 0.5 * area.w, 2.0) << "it is in the middle";
+    EXPECT_EQ(bench->status().at("frame"), frame) << "the tracer has made it";
+    bench->keepScreenshot("image-mip");
+}
+
 TEST_F(ImagePanel, ALayerThatIsNotThereIsNotShownUnderItsNumber) {
     json kept = showing("layers.depth", 6);
     kept["document"]["variant"]["set"]["layers.count"] = "8";

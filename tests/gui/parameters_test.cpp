@@ -130,6 +130,47 @@ TEST_F(ParametersPanel, TheSearchLeavesOnlyWhatMatches) {
     EXPECT_TRUE(shown().contains("trace.march.steps"));
 }
 
+// What the document was begun with, what is changed by hand, and a node that is chosen; a value
+// that is typed and is the default is none of it.
+TEST_F(ParametersPanel, ChangedLeavesJustWhatDiffersFromTheDefault) {
+    start();
+    bench->click("parameters.changed");
+    EXPECT_EQ(shown(), (std::set<std::string>{"emit.photons", "shadow.map.size"}));
+    bench->click("parameters.changed");
+    bench->typeInto("parameter.trace.epsilon", "0.01", Entry::controlClick);
+    bench->typeInto("parameter.layers.count", "3", Entry::controlClick);
+    open("Technique");
+    choose("stage.driver", "hierarchical");
+    bench->click("parameters.changed");
+    EXPECT_EQ(shown(),
+              (std::set<std::string>{"driver", "emit.photons", "layers.count", "shadow.map.size"}));
+    bench->keepScreenshot("parameters-changed");
+    bench->click("reset.layers.count");
+    EXPECT_FALSE(shown().contains("layers.count"));
+    EXPECT_FALSE(set().contains("layers.count"));
+}
+
+// The reason is that of `kaustik explain`, word by word.
+TEST_F(ParametersPanel, WhatHasNoEffectSaysWhyAsExplainDoes) {
+    start();
+    bench->typeInto("parameters.search", "reconstruct.map_size");
+    EXPECT_EQ(bench->value("parameters.left_out"), "1");
+    EXPECT_TRUE(shown().empty());
+    bench->click("parameters.all");
+    EXPECT_FALSE(bench->has("parameters.left_out"));
+    ASSERT_TRUE(bench->has("no_effect.reconstruct.map_size"));
+    const std::string sentence = bench->value("no_effect.reconstruct.map_size");
+    EXPECT_EQ(sentence, "reconstruct.map_size has no effect: light is stored on the screen.");
+    EXPECT_NE(run({"explain", "wavy.toml", "--technique", "screen_space_photons"})
+                  .out.find("light is stored on the screen: reconstruct.map_size"),
+              std::string::npos);
+    bench->hover("parameter.reconstruct.map_size");
+    bench->keepScreenshot("parameters-no-effect");
+    bench->typeInto("parameters.search", "emit.photons");
+    EXPECT_TRUE(bench->has("parameter.emit.photons"));
+    EXPECT_FALSE(bench->has("no_effect.emit.photons"));
+}
+
 TEST_F(ParametersPanel, TheParametersOfAChosenNodeAppear) {
     start();
     EXPECT_FALSE(bench->has("parameter.specular.split.levels"));

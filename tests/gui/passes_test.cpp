@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The panel Passes: what ran, in which order, what it cost, and switching it off.
 #include <algorithm>
+#include <map>
 
+#include "framework/core/files.h"
 #include "tests/gui/workbench_fixture.h"
 
 namespace kaustik::test {
@@ -105,6 +107,92 @@ TEST_F(PassesPanel, APassThatIsSwitchedOffChangesThePictureAndCostsNothing) {
     untilSettled();
     EXPECT_EQ(largestDifference(seenPicture(), before), 0.0);
     EXPECT_EQ(passesWith("passes.median."), timed);
+}
+
+// Thumbnails are made of the frame that is there, and so is the texture that one of them opens.
+TEST_F(PassesPanel, APassThatIsClickedShowsWhatItReadsAndWritesWithoutRendering) {
+    start();
+    const int frame = bench->status().at("frame");
+    bench->click("passes.name.trace.hierarchical");
+    bench->waitFor("thumbnails", [](const json& screen) {
+        const json& controls = screen.at("controls");
+        return controls.contains("pass.reads.layers.depth") &&
+               controls.at("pass.reads.layers.depth").at("value") == "thumbnail";
+    });
+    bench->keepScreenshot("pass-detail");
+    EXPECT_EQ(bench->value("pass.close"), "trace.hierarchical");
+    bench->click("pass.reads.layers.depth");
+    untilSettled();
+    EXPECT_TRUE(bench->value("picture.caption").starts_with("layers.depth"));
+    EXPECT_EQ(bench->status().at("frame"), frame) << "nothing was rendered";
+    EXPECT_EQ(bench->value("shown"), "asked");
+    // Its parameters, and those of its stage, are in reach: the detail is longer than its pane.
+    const auto found = [&](const std::string& control) {
+        for (int tries = 0; tries < 20 && !bench->has(control); ++tries)
+            bench->wheel("pass.body", -2);
+        return bench->has(control);
+    };
+    EXPECT_TRUE(found("pass.writes.hits.position_1"));
+    open("Image");  // so that only one panel has parameters
+    EXPECT_TRUE(found("parameter.trace.hierarchical.steps"));
+    EXPECT_FALSE(bench->has("parameter.layers.count"));
+    bench->keepScreenshot("pass-detail-parameters");
+}
+
+TEST_F(PassesPanel, TheGraphIsAPictureOfTheSamePasses) {
+    start();
+    bench->key("g");
+    ASSERT_TRUE(bench->has("graph"));
+    EXPECT_FALSE(bench->has("picture"));
+    // The list of `kaustik explain --dot`: all but what was skipped.
+    run({"explain", "wavy.toml", "--size", "64x48", "--technique", "screen_space_photons", "--set",
+         "emit.photons=32x32", "--set", "shadow.map.size=64", "--dot", "passes.dot"});
+    const std::string dot = readFile(folder / "passes.dot");
+    std::map<std::string, double> columns;
+    std::size_t boxes = 0;
+    const json controls = bench->screen().at("controls");
+    for (const auto& [control, area] : controls.items()) {
+        const std::string name = control.substr(std::min(control.find('.') + 1, control.size()));
+        if (!control.starts_with("graph.") || name == "back") continue;
+        ++boxes;
+        const std::size_t at = dot.find("label=\"" + name + "\"");
+        ASSERT_NE(at, std::string::npos) << name;
+        const std::string end = dot.substr(at, dot.find('\n', at) - at);
+        EXPECT_EQ(area.at("value") == "culled", end.find("gray") != std::string::npos) << end;
+        const std::string stage = name.substr(0, name.find('.'));
+        const double x = area.at("x");
+        EXPECT_EQ(columns.emplace(stage, x).first->second, x) << "stages are columns";
+    }
+    EXPECT_GE(boxes, 8u) << "others are beyond the edge of the pane";
+    EXPECT_GE(columns.size(), 4u);
+    bench->keepScreenshot("passes-graph");
+    bench->click("graph.eye.receivers");
+    EXPECT_EQ(bench->value("pass.close"), "eye.receivers");
+    bench->keepScreenshot("passes-graph-chosen");
+    bench->click("graph.back");
+    EXPECT_TRUE(bench->has("picture"));
+}
+
+// A mark where settings have changed, with what that has cost; an axis and a legend.
+TEST_F(PassesPanel, TheTimeChartMarksWhereSettingsHaveChanged) {
+    start();
+    EXPECT_FALSE(bench->has("chart.mark.1"));
+    EXPECT_TRUE(bench->value("chart.axis").ends_with("ms"));
+    EXPECT_GT(std::stod(bench->value("chart.legend.trace")), 0.0);
+    const int before = std::stoi(bench->value("chart"));
+    open("Parameters");
+    bench->typeInto("parameter.layers.count", "2", Entry::controlClick);
+    untilSettled();
+    ASSERT_TRUE(bench->has("chart.mark.1"));
+    EXPECT_TRUE(says("chart.mark.1", "layers.count default → 2"));
+    EXPECT_TRUE(says("chart.mark.1", "\nframe: "));
+    EXPECT_GT(std::stoi(bench->value("chart")), before);
+    bench->hover("chart.mark.1");
+    bench->keepScreenshot("time-chart");
+    // The camera is no setting.
+    bench->drag("picture", 30, 0);
+    untilSettled();
+    EXPECT_FALSE(bench->has("chart.mark.2"));
 }
 
 TEST_F(PassesPanel, ARequiredPassStaysOn) {

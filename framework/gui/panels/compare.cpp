@@ -120,15 +120,28 @@ void keepVariant(Bench& bench) {
     std::string problem;
     std::optional<KeptVariant> kept =
         keep(*bench.result, bench.requested().seen(), *bench.reference, problem);
-    if (kept) problem = whyNoRoom(bench.kept, *kept);
+    if (!kept) {
+        bench.notify(problem, true, [](const Bench& now) {
+            return now.result->variants[now.requested().seen()].isSettled;
+        });
+        return;
+    }
+    problem = whyNoRoom(bench.kept, *kept);
     if (!problem.empty()) {
-        bench.notify(problem, true);
+        bench.notify(problem, true, [count = bench.kept.size()](const Bench& now) {
+            return now.kept.size() < count;
+        });
         return;
     }
     kept->number = ++bench.keptCount;
     bench.kept.push_back(std::move(*kept));
     bench.pairs.reset();
-    bench.notify(fmt::format("Kept as {}: {}.", bench.kept.size(), bench.kept.back().name));
+    const std::uint64_t number = bench.kept.back().number;
+    const std::size_t place = bench.kept.size();
+    bench.notify(fmt::format("Kept as {}: {}.", bench.kept.size(), bench.kept.back().name), false,
+                 [number, place](const Bench& now) {
+                     return now.kept.size() < place || now.kept[place - 1].number != number;
+                 });
 }
 
 void drawCompare(Bench& bench) {

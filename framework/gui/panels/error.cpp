@@ -6,6 +6,7 @@
 
 #include "framework/gui/panels/panels.h"
 #include "framework/gui/widgets.h"
+#include "framework/pipeline/account_sentences.h"
 
 namespace kaustik::gui {
 namespace {
@@ -144,6 +145,7 @@ void drawTable(Bench& bench, const char* title, json ReferenceState::Judgement::
                 ImGui::TableNextColumn();
                 const std::string value = numberAt(judgements[i].*part, output.key, measure.key);
                 ImGui::TextUnformatted(value.c_str());
+                tooltip(measure.sentence);
                 bench.map.control(
                     fmt::format("{}{}{}{}", prefix, isFirst ? "" : std::string(output.key) + ".",
                                 measure.key, i == 0 ? "" : ".b"),
@@ -194,21 +196,25 @@ void drawLedger(Bench& bench) {
         ImGui::TableSetupColumn("W", ImGuiTableColumnFlags_WidthStretch, 1.0f);
         ImGui::TableSetupColumn("%", ImGuiTableColumnFlags_WidthStretch, 1.0f);
         ImGui::TableHeadersRow();
-        const auto row = [&](const std::string& name, double watts) {
+        const auto row = [&](const std::string& name, unsigned account) {
+            const double watts = ledger.watts[account];
             ImGui::TableNextRow();
-            ImGui::TableNextColumn();
-            ImGui::TextUnformatted(name.c_str());
-            ImGui::TableNextColumn();
-            ImGui::Text("%.5g", watts);
-            ImGui::TableNextColumn();
-            ImGui::Text("%.2f", emitted > 0.0 ? 100.0 * watts / emitted : 0.0);
+            const auto cell = [&](const std::string& text) {
+                ImGui::TableNextColumn();
+                ImGui::TextUnformatted(text.c_str());
+                tooltip(accountSentence(account));
+            };
+            cell(name);
+            bench.map.control("error.account." + name, accountSentence(account));
+            cell(fmt::format("{:.5g}", watts));
+            cell(fmt::format("{:.2f}", emitted > 0.0 ? 100.0 * watts / emitted : 0.0));
         };
-        row("emitted", emitted);
-        row("deposited", ledger.watts[kAccountDeposited]);
-        row("absorbed", ledger.watts[kAccountAbsorbed]);
-        row("left the scene", ledger.watts[kAccountLeftScene]);
+        row("emitted", kAccountEmitted);
+        row("deposited", kAccountDeposited);
+        row("absorbed", kAccountAbsorbed);
+        row("left the scene", kAccountLeftScene);
         for (const auto& [account, name] : lossCauses()) {
-            if (ledger.events[account] > 0) row("lost: " + name, ledger.watts[account]);
+            if (ledger.events[account] > 0) row("lost: " + name, account);
         }
         ImGui::EndTable();
     }

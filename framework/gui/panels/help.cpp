@@ -8,7 +8,7 @@
 namespace kaustik::gui {
 
 void drawHelp(Bench& bench) {
-    static constexpr std::array<std::pair<const char*, const char*>, 22> kKeys = {{
+    static constexpr std::array<std::pair<const char*, const char*>, 23> kKeys = {{
         {"F1", "this list"},
         {"Space", "play and pause"},
         {".", "a step of time"},
@@ -25,6 +25,7 @@ void drawHelp(Bench& bench) {
         {"P", "probe photons; then click on the picture"},
         {"K, then 1 to 9", "keep what is shown; flip to it and back"},
         {"F2 F3 F4", "left panel, right panel, time chart"},
+        {"G", "the graph of passes in the place of the picture"},
         {"H", "the picture alone"},
         {"Ctrl + Z, Ctrl + Y", "undo and redo"},
         {"Ctrl + S", "save as experiment"},

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "framework/gui/panels/panels.h"
+#include "framework/gui/panels/resource_words.h"
 #include "framework/gui/showing.h"
 #include "framework/gui/widgets.h"
 #include "framework/transport/watts.h"
@@ -62,28 +63,20 @@ void drawChoiceOfCompared(Bench& bench) {
 
 void drawChoiceOfTexture(Bench& bench) {
     const VariantResult& result = bench.editedResult();
-    std::vector<std::string> names = {"picture"};
-    int index = 0;
-    for (const ListedTexture& texture : result.textures) {
-        if (texture.name == bench.view.resource) index = static_cast<int>(names.size());
-        names.push_back(texture.name);
-    }
-    ImGui::SetNextItemWidth(-FLT_MIN);
-    if (choose(bench, "##texture", names, index, "image.texture")) {
-        bench.view.resource = index == 0 ? "" : names[static_cast<std::size_t>(index)];
-        bench.view.layer = 0;
-    }
-    tooltip("Any texture of the graph. One whose pass nothing else needs makes that pass run.");
-    if (index == 0) {
+    drawTextureList(bench);
+    const ListedTexture* texture = findTexture(result, bench.view.resource);
+    if (texture == nullptr) {
         if (bench.view.comparedWith == ComparedImage::reference)
             ImGui::TextDisabled("caustic.irradiance, of which the reference is.");
         return;
     }
-    const graph::TextureDesc& desc = result.textures[static_cast<std::size_t>(index - 1)].desc;
-    ImGui::TextDisabled("%dx%d%s %s", desc.width, desc.height,
-                        desc.layers > 0 ? fmt::format("x{}", desc.layers).c_str() : "",
-                        graph::formatName(desc.format));
-    const TextureContent content = contentOf(bench.view.resource, desc);
+    ImGui::TextDisabled("%s", sizeAndFormat(result, texture->name).c_str());
+    ImGui::PushTextWrapPos(0.0f);
+    const std::string writers = "written by " + writersText(result, texture->name);
+    ImGui::TextDisabled("%s", writers.c_str());
+    bench.map.control("image.writers", writers);
+    ImGui::PopTextWrapPos();
+    const TextureContent content = contentOf(bench.view.resource, texture->desc);
     ImGui::TextWrapped("%s", content.quantity.c_str());
     if (!result.viewed || result.viewed->name != bench.view.resource) return;
     const ViewedTexture& viewed = *result.viewed;

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "framework/gui/panels/panels.h"
+#include "framework/gui/pass_graph.h"
 #include "framework/gui/widgets.h"
 
 namespace kaustik::gui {
@@ -11,13 +12,8 @@ namespace {
 
 const ImVec4 kGrey(0.5f, 0.5f, 0.5f, 1.0f);
 const ImVec4 kBad(1.0f, 0.45f, 0.4f, 1.0f);
-
-const report::PassTimes* timesOf(const VariantResult& result, const std::string& pass) {
-    const auto found =
-        std::find_if(result.times.begin(), result.times.end(),
-                     [&](const report::PassTimes& times) { return times.name == pass; });
-    return found == result.times.end() || found->gpuMilliseconds.empty() ? nullptr : &*found;
-}
+// Of the panel's height, what the table has while one of its passes is looked at.
+constexpr float kTableShare = 0.4f;
 
 void drawSwitch(Bench& bench, const graph::PassRecord& pass) {
     const bool isNeeded =
@@ -48,17 +44,15 @@ void drawPassRow(Bench& bench, const VariantResult& result, const graph::PassRec
     const std::string label = pass.repeats > 1 ? fmt::format("{} ×{}", name, pass.repeats) : name;
     const report::PassTimes* times =
         pass.state == graph::PassState::ran ? timesOf(result, pass.name) : nullptr;
-    if (pass.state == graph::PassState::ran) {
-        ImGui::TextUnformatted(label.c_str());
-    } else {
-        ImGui::TextColored(kGrey, "%s", label.c_str());
-    }
-    bench.map.control("passes.name." + pass.name,
-                      pass.state == graph::PassState::ran        ? "ran"
-                      : pass.state == graph::PassState::bypassed ? "bypassed"
-                      : pass.state == graph::PassState::culled   ? "culled"
-                                                                 : "skipped");
-    tooltip(fmt::format("{}\n{}", pass.name, pass.reason));
+    const bool hasRun = pass.state == graph::PassState::ran;
+    const bool isChosen = bench.view.pass == pass.name;
+    if (!hasRun) ImGui::PushStyleColor(ImGuiCol_Text, kGrey);
+    if (ImGui::Selectable(fmt::format("{}##{}", label, pass.name).c_str(), isChosen))
+        bench.view.pass = isChosen ? "" : pass.name;
+    if (!hasRun) ImGui::PopStyleColor();
+    bench.map.control("passes.name." + pass.name, nameOf(pass.state));
+    tooltip(fmt::format("{}\n{}\nA click shows what it reads and writes, and its parameters.",
+                        pass.name, pass.reason));
     if (times == nullptr) {
         // The reason runs over all the columns that have no numbers here.
         ImGui::TableNextColumn();
@@ -167,23 +161,8 @@ void drawRest(Bench& bench, const VariantResult& result, double frameMs) {
     if (ImGui::TableNextColumn()) ImGui::Text("%.0f%%", 100.0 * rest / frameMs);
 }
 
-}  // namespace
-
-void drawPasses(Bench& bench) {
-    chooseVariant(bench, "passes");
-    const VariantResult& result = bench.editedResult();
-    drawSummary(bench, result);
-    if (!result.error.empty()) {
-        ImGui::PushTextWrapPos(0.0f);
-        ImGui::TextColored(kBad, "%s", result.error.c_str());
-        ImGui::PopTextWrapPos();
-        bench.map.control("passes.error", result.error);
-    }
-    drawSwitchedOff(bench, result);
-    drawTableButtons(bench, "passes", passTable(result));
-    constexpr ImGuiTableFlags kFlags =
-        ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit;
-    if (!ImGui::BeginTable("passes", 7, kFlags)) return;
+// Ends the table that has been begun.
+void drawRows(Bench& bench, const VariantResult& result) {
     ImGui::TableSetupScrollFreeze(0, 1);
     setUpColumns();
     ImGui::TableHeadersRow();
@@ -200,6 +179,41 @@ void drawPasses(Bench& bench) {
     }
     drawRest(bench, result, frameMs);
     ImGui::EndTable();
+}
+
+}  // namespace
+
+void drawPasses(Bench& bench) {
+    chooseVariant(bench, "passes");
+    const VariantResult& result = bench.editedResult();
+    drawSummary(bench, result);
+    if (!result.error.empty()) {
+        ImGui::PushTextWrapPos(0.0f);
+        ImGui::TextColored(kBad, "%s", result.error.c_str());
+        ImGui::PopTextWrapPos();
+        bench.map.control("passes.error", result.error);
+    }
+    drawSwitchedOff(bench, result);
+    drawTableButtons(bench, "passes", passTable(result));
+    ImGui::SameLine();
+    if (ImGui::SmallButton(bench.panels.showsGraph ? "picture" : "graph"))
+        bench.panels.showsGraph = !bench.panels.showsGraph;
+    bench.map.control("passes.graph", bench.panels.showsGraph ? "on" : "off");
+    tooltip("The passes and what flows between them, in the place of the picture (G).");
+    const auto chosen =
+        std::find_if(result.passes.begin(), result.passes.end(),
+                     [&](const graph::PassRecord& pass) { return pass.name == bench.view.pass; });
+    const bool hasChosen = chosen != result.passes.end();
+    const float height =
+        hasChosen ? std::max(kTableShare * ImGui::GetContentRegionAvail().y, 60.0f) : 0.0f;
+    constexpr ImGuiTableFlags kFlags =
+        ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit;
+    if (ImGui::BeginTable("passes", 7, kFlags, {0.0f, height})) drawRows(bench, result);
+    if (!hasChosen) return;
+    ImGui::Separator();
+    // A copy: a click may choose another one.
+    const graph::PassRecord pass = *chosen;
+    drawPassDetail(bench, pass);
 }
 
 }  // namespace kaustik::gui

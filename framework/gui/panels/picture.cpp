@@ -183,6 +183,19 @@ void zoomAt(ViewState& view, const PictureFrame& frame, ImVec2 mouse, float fact
     view.middle = (pixel - fromMiddle) / glm::vec2(frame.width, frame.height);
 }
 
+// Goes to the part of the texture that was chosen from the list.
+void goToSoughtRegion(ViewState& view, const ShownImage& image, ImVec2 size) {
+    if (view.soughtRegion.empty() || image.resource != view.resource) return;
+    for (const ViewedTexture::Region& region : image.regions) {
+        if (region.name != view.soughtRegion) continue;
+        const glm::vec2 extent(region.width, region.height);
+        view.zoom = std::min(size.x / extent.x, size.y / extent.y);
+        view.middle = (glm::vec2(region.x, region.y) + 0.5f * extent) /
+                      glm::vec2(image.values->width, image.values->height);
+    }
+    view.soughtRegion.clear();
+}
+
 void fly(Bench& bench) {
     const ImGuiIO& io = ImGui::GetIO();
     if (io.WantTextInput || io.KeyCtrl || !bench.isSceneCurrent()) return;
@@ -399,6 +412,7 @@ void drawPicture(Bench& bench) {
             isQuick ? static_cast<float>(extent.width) / static_cast<float>(image.values->width)
                     : 1.0f);
     };
+    goToSoughtRegion(view, main, size);
     const PictureFrame frame = frameOf(main);
     const float end = corner.x + size.x;
     const float splitX =
@@ -459,7 +473,9 @@ void drawPicture(Bench& bench) {
             bench.notify(
                 fmt::format("Photons are probed at pixels of the eye's view, and {} is {}.",
                             main.name(), main.place),
-                true);
+                true, [resource = view.resource](const Bench& now) {
+                    return !now.view.probes || now.view.resource != resource;
+                });
         }
         hand = {};
     }

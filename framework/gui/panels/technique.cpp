@@ -87,7 +87,10 @@ void drawVariants(Bench& bench) {
         tooltip("Renders both from then on, A left and B right of the split.");
         return;
     }
-    if (button(bench, "Swap A and B", "variant.swap")) std::swap(document.variant, *document.other);
+    if (button(bench, "Swap A and B", "variant.swap")) {
+        std::swap(document.variant, *document.other);
+        std::swap(bench.histories[0], bench.histories[1]);
+    }
     ImGui::SameLine();
     if (button(bench, "Drop B", "variant.drop")) {
         document.other.reset();

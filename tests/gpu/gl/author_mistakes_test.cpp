@@ -64,6 +64,27 @@ gl::Command flatCommand(gl::PassContext& pass) {
     return pass.fullscreen("compose/picture_display.frag");
 }
 
+TEST(AuthorMistakes, ABufferLargerThanAStorageBlockIsRefusedByName) {
+    graph::Graph graph;
+    const auto blocks = static_cast<std::size_t>(context().info().maxStorageBlockBytes);
+    graph.addPass<Resources, gl::PassContext>(
+        {"stage.maker", ""},
+        [&](graph::PassSetup& setup, Resources& data) {
+            data.list = setup.createBuffer<Element>("maker.list", blocks / sizeof(Element) + 1);
+            setup.sideEffect();
+        },
+        [](const Resources&, gl::PassContext&) {});
+    gl::ProgramCache programs;
+    gl::Executor executor(context(), programs);
+    try {
+        executor.prepare(graph.compile());
+        FAIL() << "it was taken";
+    } catch (const ConfigError& error) {
+        EXPECT_NE(std::string(error.what()).find("'maker.list'"), std::string::npos)
+            << error.what();
+    }
+}
+
 TEST(AuthorMistakes, WhatIsDeclaredIsNoError) {
     EXPECT_EQ(errorOf([](const Resources& made, const Resources& own, gl::PassContext& pass) {
                   pass.texture(made.image).copyTo(pass.texture(own.image));

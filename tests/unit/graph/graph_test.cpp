@@ -25,6 +25,9 @@ TEST(Graph, RunsPassesInOrderAndCullsWhatNothingAsksFor) {
     ASSERT_EQ(compiled.records.size(), 3u);
     EXPECT_EQ(compiled.records[2].state, PassState::culled);
     EXPECT_EQ(compiled.records[2].reason, "nothing asks for s.c.out");
+    // What is culled has declared all the same what it would read and write.
+    EXPECT_EQ(compiled.records[2].reads, std::vector<std::string>{"s.a.out"});
+    EXPECT_EQ(compiled.records[2].writes, std::vector<std::string>{"s.c.out"});
 }
 
 TEST(Graph, KeepsAPassWithASideEffectAndAllThatLeadsToIt) {
@@ -352,8 +355,10 @@ TEST(Graph, BatchesOfOneNodeAreOneRecord) {
     EXPECT_EQ(compiled.steps.size(), 5u);
     ASSERT_EQ(compiled.records.size(), 3u);
     EXPECT_EQ(compiled.records[1].repeats, 4u);
+    EXPECT_EQ(compiled.records[1].writes, std::vector<std::string>{"s.a.out"}) << "each name once";
     EXPECT_EQ(compiled.records[2].state, PassState::skipped);
     EXPECT_EQ(compiled.records[2].reason, "the scene has no medium");
+    EXPECT_TRUE(compiled.records[2].writes.empty()) << "a skipped pass declares nothing";
 }
 
 TEST(Graph, PrintsItselfAsGraphviz) {
