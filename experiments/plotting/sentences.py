@@ -51,7 +51,7 @@ def sentences_of(page: str) -> str:
     bare = re.sub(r"^```.*?^```", blank, page, flags=re.M | re.S)
     bare = NUMBER.sub(lambda match: NAMED + "\n" * match[0].count("\n"), TYPED.sub(blank, bare))
     bare = re.sub(r"<!--.*?-->", lambda match: "\n" * match[0].count("\n"), bare, flags=re.S)
-    bare = re.sub(r"`[^`]*`", blank, bare)
+    bare = re.sub(r"`(?:[^`\n]|\n(?!\n))*`", blank, bare)  # within a paragraph
     bare = VERSIONS.sub(blank, re.sub(r"\]\([^)]*\)", "]", bare))
     bare = bare.replace(f"[{NAMED}]", NAMED).replace("**", "")
     return "\n".join("" if line.startswith(("|", "#")) else line for line in bare.split("\n"))

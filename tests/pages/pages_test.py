@@ -121,7 +121,7 @@ class Pages(unittest.TestCase):
     def test_with_measured_numbers_typed_in_sentences_are_refused(self):
         for sentence, number in [("It takes 38 ms.", "38"), ("It takes 43 and 60 ms.", "43 and 60"), ("Lost are\n3 % of it.", "3"), ("It is 1.5 times as fast.", "1.5"), ("It has relMSE\n0.0055.", "0.0055"),
                                  ("Hits are right 0.72 of the time.", "0.72"), ("An energy of 1 is right.", "1"), ("Equal to 6·10⁻⁸ of it.", "6·10⁻⁸"), ("A [share of 0.38](page.md).", "0.38"),
-                                 ("- **12 s** in all", "12"), ("![A picture in 5 ms](page.md)", "5"), ("Right are 3 of 16 scenes.", "3 of 16"), ("It stores 66 thousand.", "66 thousand"), ("It stores 1,024.", "1,024"),
+                                 ("- **12 s** in all", "12"), ("![A picture in 5 ms](page.md)", "5"), ("Right are 3 of 16 scenes.", "3 of 16"), ("It stores 66 thousand.", "66 thousand"), ("It stores 1,024.", "1,024"), ("A ` alone.\n\nIt takes 7 ms.\n\nAnother ` alone.", "7"),
                                  ("`pool` takes 3 to\n<!-- = runs.csv: photons .0f; scene=pool, relMSE=0.00012 -->256<!-- / --> ms.", "3 to …")]:
             done = self.pages("--check", page=f"# Runs\n\n{sentence}\n")
             self.assertEqual(done.returncode, 2, sentence)
