@@ -95,7 +95,9 @@ number() { sed -n "s/^ *\"$1\": \([0-9][0-9.e+-]*\),*\$/\1/p" | head -n 1; }
 } > second_driver.log
 grep -q SYNCHRONIZATION_VALIDATION second_driver.log || { echo "the check of synchronisation is not on" >&2; exit 1; }
 
-echo "scene,technique,llvmpipe,zink,beauty,caustic,messages" > second_driver.csv
+of_the_run=$($kaustik check | sed -n 's/^device  *//p'),$($kaustik --version),$(date +%F)
+of_the_run=$(echo "$of_the_run" | sed 's/, 256 bits//')  # no comma within a cell
+echo "scene,technique,llvmpipe,zink,beauty,caustic,messages,device,version,date" > second_driver.csv
 for scene in $SCENES; do
     for technique in $($kaustik list techniques | awk '/^[a-z]/ {print $1}'); do
         rm -rf llvmpipe zink messages.txt
@@ -112,7 +114,7 @@ for scene in $SCENES; do
         fi
         touch messages.txt
         count=$(kinds | awk '{sum += $1} END {print sum + 0}')
-        echo "$scene,$technique,$first,$second,$beauty,$caustic,$count" >> second_driver.csv
+        echo "$scene,$technique,$first,$second,$beauty,$caustic,$count,$of_the_run" >> second_driver.csv
         echo "$scene $technique: $count" | tee -a second_driver.log
         kinds >> second_driver.log
     done
