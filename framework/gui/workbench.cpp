@@ -11,6 +11,7 @@
 #include "framework/gui/panels/panels.h"
 #include "framework/gui/widgets.h"
 #include "framework/run/progress.h"
+#include "framework/scene/files/own_mesh.h"
 #include "framework/scene/files/scene_file.h"
 
 namespace kaustik::gui {
@@ -273,7 +274,9 @@ void Workbench::takeDropped() {
     bench_.document.scene = file;
     bench_.document.edits = {};
     bench_.view.probePixel = glm::ivec2(-1);
-    bench_.notify(fmt::format("Opened {}.", file));
+    bench_.notify(scene::isMeshFile(file)
+                      ? fmt::format("Opened {}, which stands on a table, as with --on table.", file)
+                      : fmt::format("Opened {}.", file));
 }
 
 // Whether the hand is at work, or was a moment ago: wheels and keys have no end of their own.

@@ -300,6 +300,7 @@ TEST_F(ScenePanel, ADroppedMeshStandsOnATable) {
     bench->dropFiles({folder.file("thing.obj", mesh)}, "picture");
     untilSettled();
     EXPECT_EQ(bench->status().at("rendered_scene"), "thing-on-table");
+    EXPECT_TRUE(says("status.message", "thing.obj, which stands on a table"));
 
     json lampless = scene::test::tetrahedronScene();
     lampless["nodes"] = json::array({lampless["nodes"][0]});

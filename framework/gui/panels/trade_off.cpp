@@ -91,7 +91,8 @@ Axis axisOf(const std::vector<Plotted>& points, double TimeAndError::*value) {
         low = std::min(low, point.at.*value);
         high = std::max(high, point.at.*value);
     }
-    constexpr double kFarApart = 5.0;
+    // So far that there are at least two decades to write on the axis.
+    constexpr double kFarApart = 60.0;
     if (low > 0.0 && high > kFarApart * low) return {Scale::logarithmic, low / 1.4, high * 1.4};
     const double room = std::max(0.15 * (high - low), 0.05 * std::max(std::abs(high), 1e-12));
     return {Scale::linear, std::max(low - room, 0.0), high + room};
