@@ -72,6 +72,10 @@ Command PassContext::shaders(std::vector<std::string> files) {
     return {*this, std::move(files)};
 }
 
+bool PassContext::isKept(const graph::ResourceRef& handle) const {
+    return executor_.compiled_.isKept(handle);
+}
+
 const Texture& PassContext::texture(const graph::ResourceRef& handle) const {
     const Access update = access(handle, Use::updateTexture);
     order({update});
@@ -244,6 +248,26 @@ bool Executor::isLoopRepeated(const graph::Loop& loop) {
     return word != 0;
 }
 
+// The last of as many runs as in the frame before is not taken on trust: so there is none in vain
+// where nothing changes, and where a loop has become shorter it is found a run a frame.
+const graph::Loop* Executor::repeatedLoop(std::size_t step, std::vector<LoopRuns>& runs) {
+    for (std::size_t i = 0; i < compiled_.loops.size(); ++i) {
+        const graph::Loop& loop = compiled_.loops[i];
+        if (loop.last != step) continue;
+        ++runs[i].current;
+        std::size_t trusted = 0;
+        if (loop.mayRunIdle && loopRuns_.size() == runs.size()) {
+            const std::vector<std::size_t>& before = loopRuns_[i].finished;
+            if (runs[i].finished.size() < before.size())
+                trusted = before[runs[i].finished.size()] - 1;
+        }
+        if (runs[i].current < trusted || isLoopRepeated(loop)) return &loop;
+        runs[i].finished.push_back(runs[i].current);
+        runs[i].current = 0;
+    }
+    return nullptr;
+}
+
 bool Executor::runFrame(PassTimer& timer, const std::function<bool(std::size_t)>& shouldContinue) {
     const bool debugs = context_.info().debugs;
     const std::size_t count = compiled_.steps.size();
@@ -252,6 +276,7 @@ bool Executor::runFrame(PassTimer& timer, const std::function<bool(std::size_t)>
     std::vector<bool> hasRun(count, false);
     std::vector<bool> isDone(count, false);  // since a loop has come round that it depends on
     std::size_t rounds = 0;
+    std::vector<LoopRuns> loopRuns(compiled_.loops.size());
     for (std::size_t i = 0; i < count;) {
         const graph::Step& step = compiled_.steps[i];
         if (shouldContinue && !shouldContinue(i))
@@ -278,20 +303,19 @@ bool Executor::runFrame(PassTimer& timer, const std::function<bool(std::size_t)>
             isDone[i] = true;
         }
         std::size_t next = i + 1;
-        for (const graph::Loop& loop : compiled_.loops) {
-            if (loop.last != i || !isLoopRepeated(loop)) continue;
+        if (const graph::Loop* const loop = repeatedLoop(i, loopRuns)) {
             if (++rounds > kMaxRounds)
                 throw GraphError("A loop around pass '" + step.name +
                                  "' does not come to its end.");
-            for (std::size_t s = loop.first; s <= loop.last; ++s)
-                isDone[s] = loop.invariant.contains(s);
-            next = loop.first;
-            break;
+            for (std::size_t s = loop->first; s <= loop->last; ++s)
+                isDone[s] = loop->invariant.contains(s);
+            next = loop->first;
         }
         i = next;
     }
     timer.endFrame();
     isFresh_ = false;
+    loopRuns_ = std::move(loopRuns);
     context_.check();
     return true;
 }

@@ -42,6 +42,9 @@ class PassContext : public graph::ExecuteContext {
     [[nodiscard]] Command compute(const std::string& computeShader);
     [[nodiscard]] Command shaders(std::vector<std::string> files);
 
+    // Whether what the pass makes is read after the frame: saved, shown, scanned or audited.
+    [[nodiscard]] bool isKept(const graph::ResourceRef& handle) const;
+
     // The texture or buffer behind a handle, for what uses it without a Command. A texture is
     // cleared or copied at once; a buffer is used by what is issued next, in the way that `use`
     // says.
@@ -112,6 +115,12 @@ class Executor {
     void poison(const graph::Step& step, bool isRepeated);
     [[nodiscard]] bool isLoopRepeated(const graph::Loop& loop);
     void order(const std::vector<Access>& accesses);
+    // Which loop comes round after a step, if any. How often loops run is noted in `runs`.
+    struct LoopRuns {
+        std::vector<std::size_t> finished;  // how often it has run, each time that it was begun
+        std::size_t current = 0;
+    };
+    const graph::Loop* repeatedLoop(std::size_t step, std::vector<LoopRuns>& runs);
     GLuint framebuffer(const std::vector<Attachment>& attachments);
 
     Context& context_;
@@ -124,7 +133,8 @@ class Executor {
     VertexArrayObject emptyVertexArray_;
     AccessCounter* counter_ = nullptr;
     bool poison_ = false;
-    bool isFresh_ = true;  // no frame has been run since prepare()
+    bool isFresh_ = true;             // no frame has been run since prepare()
+    std::vector<LoopRuns> loopRuns_;  // of the last frame
 };
 
 }  // namespace kaustik::gl

@@ -236,7 +236,7 @@ std::set<std::size_t> Graph::invariantOf(const Plan& plan, const PassLoop& loop)
 void Graph::placeLoops(const Plan& plan, const std::vector<std::size_t>& passOfStep,
                        Compiled& compiled) const {
     for (const PassLoop& loop : loops_) {
-        Loop placed{passOfStep.size(), 0, loop.again, 0, loop.word, {}};
+        Loop placed{passOfStep.size(), 0, loop.again, 0, loop.word, {}, loop.mayRunIdle};
         const std::set<std::size_t> invariant = invariantOf(plan, loop);
         for (std::size_t step = 0; step < passOfStep.size(); ++step) {
             if (!loop.holds(passOfStep[step])) continue;

@@ -70,11 +70,15 @@ bool Compiled::writes(const Step& step, const ResourceRef& handle) const {
                        [&](const ResourceRef& output) { return output.index == handle.index; });
 }
 
+bool Compiled::isKept(const ResourceRef& handle) const {
+    return isKnown(handle) && isKept_[home_[handle.index][handle.version]];
+}
+
 std::size_t Compiled::slotAfterwards(const ResourceRef& handle, Kind kind) const {
     if (!isKnown(handle)) {
         throw GraphError("What is read after the frame is a handle that no pass has made.");
     }
-    if (!isKept_[home_[handle.index][handle.version]]) {
+    if (!isKept(handle)) {
         throw GraphError(fmt::format(
             "'{}' is read after the frame, but nothing has asked to keep it until then.",
             names_[handle.index]));

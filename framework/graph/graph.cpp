@@ -142,12 +142,12 @@ void Graph::beginLoop() {
     openLoops_.push_back(passes_.size());
 }
 
-void Graph::endLoop(const ResourceRef& again, std::size_t word) {
+void Graph::endLoop(const ResourceRef& again, std::size_t word, bool mayRunIdle) {
     if (openLoops_.empty()) {
         problems_.emplace_back("a loop ends that has not begun");
         return;
     }
-    const PassLoop loop{openLoops_.back(), passes_.size(), again, word};
+    const PassLoop loop{openLoops_.back(), passes_.size(), again, word, mayRunIdle};
     openLoops_.pop_back();
     if (!isMade(again)) {
         problems_.emplace_back("a loop asks a handle that no pass has made whether to go on");

@@ -193,6 +193,8 @@ struct Loop {
     std::size_t word = 0;
     // Steps of the loop that would make the same again each time, and so run once.
     std::set<std::size_t> invariant;
+    // A run with nothing left to do changes nothing.
+    bool mayRunIdle = false;
 };
 
 struct Compiled {
@@ -230,6 +232,8 @@ struct Compiled {
     // The slot after the last step of what was asked for by Graph::request(). Memory of other
     // resources may be used by others by then.
     [[nodiscard]] std::size_t slotAfterwards(const ResourceRef& handle, Kind kind) const;
+    // Whether somebody has asked to read what is behind a handle after the frame.
+    [[nodiscard]] bool isKept(const ResourceRef& handle) const;
 
   private:
     friend class Graph;
@@ -262,8 +266,10 @@ class Graph {
     // buffer that one of them writes, is not 0 after the last of them. What was made before them,
     // and what is read after them, they find as their last run has left it; what only they use is
     // new each time. Passes that depend on nothing that changes run once. Loops nest.
+    // `mayRunIdle`: with that word 0 already, a run changes nothing. Such a loop runs about as
+    // often as in the frame before until the processor waits to read the word.
     void beginLoop();
-    void endLoop(const ResourceRef& again, std::size_t word = 0);
+    void endLoop(const ResourceRef& again, std::size_t word = 0, bool mayRunIdle = false);
 
     // Records a node that the scene does not need, with the reason, for `explain`.
     void skip(std::string name, std::string reason);
@@ -324,6 +330,7 @@ class Graph {
         std::size_t end;    // behind its last
         ResourceRef again;
         std::size_t word;
+        bool mayRunIdle;
         [[nodiscard]] bool holds(std::size_t pass) const { return pass >= first && pass < end; }
     };
     struct LiveRange;

@@ -163,8 +163,8 @@ void FrameBuilder::beginLoop() {
     ++loops_;
 }
 
-void FrameBuilder::endLoop(const graph::ResourceRef& again, std::size_t word) {
-    graph_.endLoop(again, word);
+void FrameBuilder::endLoop(const graph::ResourceRef& again, std::size_t word, bool mayRunIdle) {
+    graph_.endLoop(again, word, mayRunIdle);
     --loops_;
 }
 

@@ -101,7 +101,7 @@ class FrameBuilder {
     }
     // See graph::Graph::beginLoop.
     void beginLoop();
-    void endLoop(const graph::ResourceRef& again, std::size_t word);
+    void endLoop(const graph::ResourceRef& again, std::size_t word, bool mayRunIdle = false);
 
     // While it lives, passes are named "STAGE.…": for a stage that uses nodes of another one, a
     // tracer say. Such tracings are not part of what the photon audit records.

@@ -34,7 +34,10 @@ struct EyeBuffer : ReceiverView {
 };
 
 // All surfaces along each pixel's ray, front to back (K06, section 2.2). Of a cube the arrays hold
-// `layers` for each face.
+// `layers` for each face. A pixel's layers end with the first whose depth is 0; what the arrays
+// hold behind that one, and the surface of a layer without a depth, is undefined and nobody may ask
+// for it. Depths are also defined in every layer that any pixel of the same aligned square of 4
+// pixels has, so that who knows the layers of a square need not walk to one of them.
 struct LayeredDepth {
     graph::Texture<LayerTexel> depth;      // array, one layer a surface
     graph::Texture<SurfaceTexel> surface;  // array

@@ -6,6 +6,7 @@ layout(local_size_x = 1) in;
 
 void main() {
     counting.photons = 0u;
-    counting.batches += 1u;
+    if (counting.batches == 0u || counting.moreBatches > 0u) counting.batches += 1u;
     counting.moreBatches = counting.waiting;
+    counting.moreCells = counting.waiting;
 }

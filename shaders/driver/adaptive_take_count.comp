@@ -18,11 +18,13 @@ uniform uint probeRow;
 
 void main() {
     uint room = (maxPhotons - min(counting.photons, maxPhotons)) / 4u;
-    uint taken = min(counting.waiting, min(maxTaken, room));
+    // A traversal that has come to its end stays as it is.
+    uint taken =
+        counting.moreCells > 0u ? min(counting.waiting, min(maxTaken, room)) : 0u;
     counting.taken = taken;
     counting.waiting -= taken;
     counting.probes += 4u * taken;
-    counting.rounds += 1u;
+    if (taken > 0u) counting.rounds += 1u;
     takenList = photonListOf(taken, takenRow);
     probeList = photonListOf(4u * taken, probeRow);
 }

@@ -3,9 +3,9 @@
 // cell's middle is specular: its flux is what the light sends through what it stands for
 // (include/photons/cell_extent.glsl), by its area (directional) or its solid angle (cos³; hard case 34a). An
 // opaque surface nearer to the light leaves the cell empty. One thread a cell.
+#include "include/photons/ledger_of_group.glsl"
 #include "include/photons/neighbour_batch.glsl"
 #include "include/photons/cell_extent.glsl"
-#include "include/photons/ledger.glsl"
 #include "include/photons/light_grid.glsl"
 #include "include/surfaces/specular.glsl"
 #include "include/photons/store_photons.glsl"
@@ -166,7 +166,7 @@ Emitted emittedFrom(ivec2 cell) {
     return Emitted(photon, normal, material + 1u, extent);
 }
 
-void main() {
+void threadMain() {
     ivec2 cell;
     ivec2 texel;
     if (cellOfThread(cell, texel)) store(cell, texel, emittedFrom(cell));

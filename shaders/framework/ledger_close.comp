@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Closes the ledger of a frame: sums what the maps of flux hold, one a view. A thread a texel.
+#include "include/photons/ledger_of_group.glsl"
 #include "include/maps/flux_sum_read.glsl"
-#include "include/photons/ledger.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -9,7 +9,7 @@ uniform int mapCount;
 uniform int wordsPerMap;
 uniform int parts;  // sets of flux that count
 
-void main() {
+void threadMain() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(texel, textureSize(fluxSums, 0).xy))) return;
     bool isLit = false;
@@ -21,5 +21,5 @@ void main() {
             ledgerAddUnits(kAccountDeposited, words.x, words.y);
         }
     }
-    if (isLit) atomicAdd(ledger[kAccountDeposited].events, 1u);
+    if (isLit) ledgerAddEvent(kAccountDeposited);
 }

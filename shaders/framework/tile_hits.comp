@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Accounts for first hits that were found on tiles of the screen (K06, section 6), as the tracer of
 // the whole screen does when it finds them. One thread a photon.
+#include "include/photons/ledger_of_group.glsl"
 #include "include/photons/photon_thread.glsl"
 #include "include/photons/deliver.glsl"
 #include "include/views/ray_segment.glsl"
@@ -9,7 +10,7 @@ layout(rgba32f) readonly uniform image2D hitPosition;
 layout(rgba32f) readonly uniform image2D hitSurface;
 layout(rgba32f) readonly uniform image2D hitFlux;
 
-void main() {
+void threadMain() {
     uint index = photonOfThread();
     if (index >= photons.count) return;
     ivec2 texel = ivec2(photonTexel(photons, index));

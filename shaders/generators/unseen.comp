@@ -3,8 +3,8 @@
 // (techniques/generators/culling.h): they are not traced on, and their flux is off_screen. Boxes of
 // objects that are left out and of others do not overlap, so that the place tells which it is. A
 // thread a photon of the list.
+#include "include/photons/ledger_of_group.glsl"
 #include "include/photons/hits.glsl"
-#include "include/photons/ledger.glsl"
 #include "include/photons/photon_thread.glsl"
 
 struct UnseenBox {
@@ -29,7 +29,7 @@ bool isAtUnseen(vec3 positionVs) {
     return false;
 }
 
-void main() {
+void threadMain() {
     uint index = photonOfThread();
     if (index >= photons.count) return;
     ivec2 texel = ivec2(photonTexel(photons, index));

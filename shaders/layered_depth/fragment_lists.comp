@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The nearest fragments of each pixel's list, sorted, become its layers, unless lists do not hold
 // all fragments of the view. At equal depth the triangle drawn first stays alone, as in peeling
-// (hard case 12). One thread a pixel.
+// (hard case 12). Memory has not been cleared: a depth of 0 is stored where each pixel's layers end
+// and wherever another pixel of the workgroup has a layer (LayeredDepth). One thread a pixel.
 #include "layered_depth/fragment_lists_fit.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -25,6 +26,8 @@ layout(std430) readonly buffer FragmentTriangles {
 const int kChunkSize = 8;
 const float kNoDepth = 3.0e38;
 
+shared int maxLayers;  // of the workgroup's pixels
+
 void store(ivec2 pixel, int layer, uint place) {
     uvec3 words = fragmentDepths[place].xyz;
     uvec4 surface = fragmentSurfaces[place];
@@ -34,9 +37,8 @@ void store(ivec2 pixel, int layer, uint place) {
     imageStore(layerSurfaces, texel, vec4(uintBitsToFloat(surface.xyz), material));
 }
 
-void main() {
-    ivec2 pixel = firstPixel + ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(pixel, imageSize(heads))) || !listsFit()) return;
+// Stores the layers of a pixel; how many there are.
+int storeLayers(ivec2 pixel) {
     float reached = -kNoDepth;  // the depth of the last layer that is stored
     int layer = 0;
     while (layer < layerCount && reached < kNoDepth) {
@@ -79,4 +81,18 @@ void main() {
             depths[kChunkSize - 1] = kNoDepth;
         }
     }
+    return layer;
+}
+
+void main() {
+    ivec2 pixel = firstPixel + ivec2(gl_GlobalInvocationID.xy);
+    if (gl_LocalInvocationIndex == 0u) maxLayers = 0;
+    barrier();
+    bool isPixel = all(lessThan(pixel, imageSize(heads))) && listsFit();
+    int layers = isPixel ? storeLayers(pixel) : layerCount;
+    if (isPixel) atomicMax(maxLayers, layers);
+    barrier();
+    int end = min(maxLayers + 1, layerCount);
+    for (int layer = layers; layer < end; ++layer)
+        imageStore(layerDepths, ivec3(pixel, face * layerCount + layer), vec4(0.0));
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The scene's indirect draws once a layer; those of layers beyond the measured depth complexity, of
 // the scene or of their own object, draw nothing, so that the processor need not wait for the
-// measurement. AFTER_LISTS: where lists hold all fragments none is drawn.
+// measurement. AFTER_LISTS: where lists hold all fragments none is drawn, nor is the blank triangle
+// behind them, which clears for each layer that is peeled.
 #include "include/thread.glsl"
 #include "framework/transport/types.h"
 #ifdef AFTER_LISTS
@@ -36,6 +37,10 @@ uniform int commandCount;
 
 void main() {
     int index = int(threadNumber());
+#ifdef AFTER_LISTS
+    if (index == commandCount * layerCount)
+        layerCommands[index] = DrawCommand(3u, listsFit() ? 0u : 1u, 0u, 0, 0u);
+#endif
     if (index >= commandCount * layerCount) return;
     DrawCommand command = sceneCommands[index % commandCount];
 #ifdef PER_OBJECT

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The maximum, the sum and the overflow of the fragment counts. Integer atomics: the same always.
+// The maximum, the sum and the overflow of the fragment counts, of each workgroup and then of all.
+// Integer atomics: the same always.
 #include "framework/transport/types.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -11,15 +12,28 @@ layout(std430) buffer Statistics {
     LayerStatistics statistics;
 };
 
+shared LayerStatistics ofGroup;
+
 void main() {
+    bool isFirst = gl_LocalInvocationIndex == 0u;
+    if (isFirst) ofGroup = LayerStatistics(0u, 0u, 0u, 0u);
+    barrier();
     ivec2 pixel = firstPixel + ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(pixel, textureSize(counts, 0)))) return;
-    uint count = uint(texelFetch(counts, pixel, 0).x);
-    if (count == 0u) return;
-    atomicMax(statistics.complexity, count);
-    atomicAdd(statistics.fragments, count);
-    if (count > uint(layerCount)) {
-        atomicAdd(statistics.skipped, count - uint(layerCount));
-        atomicAdd(statistics.pixelsSkipped, 1u);
+    bool isPixel = all(lessThan(pixel, textureSize(counts, 0)));
+    uint count = isPixel ? uint(texelFetch(counts, pixel, 0).x) : 0u;
+    if (count > 0u) {
+        atomicMax(ofGroup.complexity, count);
+        atomicAdd(ofGroup.fragments, count);
     }
+    if (count > uint(layerCount)) {
+        atomicAdd(ofGroup.skipped, count - uint(layerCount));
+        atomicAdd(ofGroup.pixelsSkipped, 1u);
+    }
+    barrier();
+    if (!isFirst || ofGroup.fragments == 0u) return;
+    atomicMax(statistics.complexity, ofGroup.complexity);
+    atomicAdd(statistics.fragments, ofGroup.fragments);
+    if (ofGroup.skipped == 0u) return;
+    atomicAdd(statistics.skipped, ofGroup.skipped);
+    atomicAdd(statistics.pixelsSkipped, ofGroup.pixelsSkipped);
 }

@@ -2,6 +2,7 @@
 // reconstruct.triangles: a patch's flux onto the pixels that it covers, on every face that sees a
 // part of it. One thread a patch of one kind (triangles_patch_made.glsl); those that cover many pixels
 // go to a list of their own, as long as there is room.
+#include "include/photons/ledger_of_group.glsl"
 #include "reconstruct/triangles_patch_made.glsl"
 #include "reconstruct/triangles_patch_deposit.glsl"
 #ifdef LIGHT_SPREAD
@@ -92,7 +93,7 @@ void coverCopies(uint item, uint thread) {
         coverPatch(copyOf(whole, copies, i));
 }
 
-void main() {
+void threadMain() {
     uint index = threadNumber() / kThreadsOfCopies;
     if (index < copiedPatches[kKind].count) {
         coverCopies(patchList[copiedPatchPlace(kKind, index, uint(listCapacity))],
@@ -124,7 +125,7 @@ void cover(uint item) {
     coverPatch(whole);
 }
 
-void main() {
+void threadMain() {
     uint index = threadNumber();
     if (index < patches[kKind].count) cover(patchList[patchPlace(kKind, index, uint(listCapacity))]);
 }

@@ -3,8 +3,8 @@
 // quadrilaterals around it; those that are not joined it covers by its own beam, as far as light
 // comes that way. What lies between photons of two batches is listed in the one that has the photon
 // at the lower left. One thread a photon.
+#include "include/photons/ledger_of_group.glsl"
 #include "include/photons/arriving.glsl"
-#include "include/photons/ledger.glsl"
 #include "reconstruct/triangles_crease.glsl"
 #include "reconstruct/triangles_patch_list.glsl"
 
@@ -93,7 +93,7 @@ void list(uint index, uint part, uint kind) {
     patchList[place] = index * kPatchParts + part;
 }
 
-void main() {
+void threadMain() {
     uint index = photonOfThread();
     if (index >= photons.count) return;
     ivec2 texel = ivec2(photonTexel(photons, index));

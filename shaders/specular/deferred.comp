@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // specular.deferred: a photon goes through one body after the other, of each by the fronts and
 // backs that its light sees of it (WN09, section 3.1.1). One thread a photon of one light.
+#include "include/photons/ledger_of_group.glsl"
 #include "include/photons/first_interaction.glsl"
 #include "include/photons/lights.glsl"
 #ifdef BODIES
@@ -103,7 +104,7 @@ Traveller goThrough(Traveller at, Entrance entrance) {
 }
 #endif
 
-void main() {
+void threadMain() {
     Arrival arrival;
     if (!arrivalOfThread(arrival)) return;
     ChosenBranch taken = chosenBranch(arrival.photon, arrival.hit, false);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What photons do where they have hit a specular surface: one thread a photon.
+#include "include/photons/ledger_of_group.glsl"
 #include "include/photons/next_photons.glsl"
 
-void main() {
+void threadMain() {
     uint index = photonOfThread();
     ivec2 texel = ivec2(photonTexel(photons, index));
     bool continues = index < photons.count &&

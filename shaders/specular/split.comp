@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Both Fresnel branches of photons that have hit a specular surface: one thread a photon. Where
 // there is room for one alone it is the stronger one; the other is in the ledger's untraced_branch.
+#include "include/photons/ledger_of_group.glsl"
 #include "include/photons/next_photons.glsl"
 #ifdef BRANCHES
 #include "include/photons/branches.glsl"
@@ -8,7 +9,7 @@
 
 float sumOf(vec3 v) { return v.r + v.g + v.b; }
 
-void main() {
+void threadMain() {
     uint index = photonOfThread();
     ivec2 texel = ivec2(photonTexel(photons, index));
     bool continues = index < photons.count &&

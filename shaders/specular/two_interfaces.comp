@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // specular.two_interfaces: a photon that has entered a body leaves it where the light's view of its
 // back faces says (include/views/two_interfaces.glsl). One thread a photon of one light.
+#include "include/photons/ledger_of_group.glsl"
 #include "include/photons/first_interaction.glsl"
 #include "include/photons/lights.glsl"
 #ifdef BODIES
@@ -120,7 +121,7 @@ void goThrough(Arrival arrival, Photon inside, PhotonOrigin origin) {
 }
 #endif
 
-void main() {
+void threadMain() {
     Arrival arrival;
     if (!arrivalOfThread(arrival)) return;
     ChosenBranch taken = chosenBranch(

@@ -2,9 +2,9 @@
 // What each splat's weights sum to over the pixels' areas. The part that is hidden from the view, or
 // next to it, goes to the ledger; the part that hangs off the surface's edge is redistributed on it.
 // One thread a photon.
+#include "include/photons/ledger_of_group.glsl"
 #include "include/photons/arriving.glsl"
 #include "include/photons/clamped.glsl"
-#include "include/photons/ledger.glsl"
 #include "include/surfaces/surface_data.glsl"
 #include "splats/splat.glsl"
 
@@ -95,7 +95,7 @@ float totalOf(ivec2 texel) {
     return parts.on > 0.0 ? total : 0.0;
 }
 
-void main() {
+void threadMain() {
     uint index = photonOfThread();
     if (index >= photons.count) return;
     splatTotals[index] = totalOf(ivec2(photonTexel(photons, index)));

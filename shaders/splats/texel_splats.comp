@@ -8,8 +8,8 @@
 //   BEAM_WIDTHS   as wide as the photon's beam is where it arrives
 //   ONE_LEVEL     only photons whose beams are as wide as the level's texels
 //   LEVELS        the map holds coarser ones of itself; `level` is this draw's
+#include "include/photons/ledger_of_group.glsl"
 #include "include/photons/arriving.glsl"
-#include "include/photons/ledger.glsl"
 #include "include/surfaces/surface_data.glsl"
 #include "maps/levels.glsl"
 #include "include/views/seen_receiver.glsl"
@@ -310,7 +310,7 @@ bool isInView(Splat splat) {
     return all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, view.sizePixels.xy));
 }
 
-void main() {
+void threadMain() {
     uint index = photonOfThread();
     if (index >= photons.count) return;
     ivec2 texel = ivec2(photonTexel(photons, index));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // trace.all_hits: the hits of one slot, a thread a photon; slot 0 holds the first hit, the others the
 // receivers that the ray would hit beyond it.
+#include "include/photons/ledger_of_group.glsl"
 #include "include/photons/photon_thread.glsl"
 #include "include/photons/store_hits.glsl"
 #include "include/photons/next_photon_list.glsl"
@@ -45,7 +46,7 @@ FirstHit hitNumber(Photon photon, int wanted) {
     return noHit();
 }
 
-void main() {
+void threadMain() {
     uint index = photonOfThread();
     if (index >= photons.count) return;
     ivec2 texel = ivec2(photonTexel(photons, index));

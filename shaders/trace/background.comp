@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // trace.background: where a photon's ray meets what its light sees, by iteration in the light's
 // depths (WD08, section 3; SP05). One thread a photon of one light.
+#include "include/photons/ledger_of_group.glsl"
 #include "include/photons/deliver.glsl"
 #include "include/photons/photon_thread.glsl"
 #include "include/views/plane_search.glsl"
@@ -85,7 +86,7 @@ Hit traced(Photon photon, ivec2 texel) {
     return deliverTo(photon, nearest.t, normal, normal, uint(surface.w));
 }
 
-void main() {
+void threadMain() {
     uint index = photonOfThread();
     if (index >= photons.count) return;
     ivec2 texel = ivec2(photonTexel(photons, index));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // trace.bvh: the first triangle on each photon's ray. One thread a photon.
+#include "include/photons/ledger_of_group.glsl"
 #include "include/photons/deliver.glsl"
 #include "include/photons/photon_thread.glsl"
 #include "include/photons/store_hits.glsl"
@@ -16,13 +17,8 @@ bool isSurfaceHit(BvhRay ray, uint triangle, vec3 normal, float height) {
 Hit hitOf(Photon photon) {
     BvhRay ray = bvhRay(photon.positionVs, photon.directionVs);
     photonRay = tracedRay(ray.origin, ray.direction, photon.media);
-    // Where an open mirror sent it on may be known to a pixel alone. A ray that looks for a light
-    // starts on what was drawn, which is known to the 1/256 of a pixel to which rasterisers move
-    // corners, and to a few roundings.
-    float footprint = pixelFootprint(abs(photon.positionVs.z));
-    photonReach = leftSide(photon.media) == kLeftBothSides
-                      ? localRounding + footprint / 128.0 + 4e-6 * length(photon.positionVs)
-                      : localRounding + 2.0 * footprint;
+    // Where an open mirror sent it on may be known to a pixel alone.
+    photonReach = localRounding + 2.0 * pixelFootprint(abs(photon.positionVs.z));
     BvhHit found = traceBvh(ray, 3.0e38);
     if (found.triangle == kBvhNone) {
         ledgerAdd(kAccountLeftScene, photon.fluxWatts);
@@ -40,7 +36,7 @@ Hit hitOf(Photon photon) {
     return hit;
 }
 
-void main() {
+void threadMain() {
     uint index = photonOfThread();
     if (index >= photons.count) return;
     ivec2 texel = ivec2(photonTexel(photons, index));

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // trace.hierarchical_compute: one thread a photon.
+#include "include/photons/ledger_of_group.glsl"
 #include "include/photons/photon_thread.glsl"
 #include "include/photons/store_hits.glsl"
 #include "trace/hierarchical.glsl"
 
-void main() {
+void threadMain() {
     uint index = photonOfThread();
     if (index >= photons.count) return;
     ivec2 texel = ivec2(photonTexel(photons, index));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The last part of the reduce: the column of first hits becomes hits in the transfer map, or, for a
 // photon that hit nothing, an entry in the ledger. One thread a row.
+#include "include/photons/ledger_of_group.glsl"
 #include "include/thread.glsl"
 #include "include/photons/photons.glsl"
 #include "include/photons/store_hits.glsl"
@@ -12,7 +13,7 @@ uniform sampler2D column;
 uniform int firstPhoton;
 uniform int maxSteps;
 
-void main() {
+void threadMain() {
     int row = int(threadNumber());
     uint index = uint(firstPhoton + row);
     if (index >= photons.count || row >= textureSize(column, 0).y) return;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // trace.plane: the nearest flat receiver on each photon's ray. One thread a photon.
+#include "include/photons/ledger_of_group.glsl"
 #include "include/photons/deliver.glsl"
 #include "include/photons/photon_thread.glsl"
 #include "include/photons/store_hits.glsl"
@@ -66,7 +67,7 @@ Hit traceToPlanes(Photon photon, ivec2 texel) {
     return deliverTo(photon, nearestT, normal.xyz, normal.xyz, uint(normal.w));
 }
 
-void main() {
+void threadMain() {
     uint index = photonOfThread();
     if (index >= photons.count) return;
     ivec2 texel = ivec2(photonTexel(photons, index));

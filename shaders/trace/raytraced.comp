@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // trace.raytraced: makes hits of what the processor has found. One thread a photon.
+#include "include/photons/ledger_of_group.glsl"
 #include "include/photons/deliver.glsl"
 #include "include/photons/photon_thread.glsl"
 #include "include/photons/store_hits.glsl"
@@ -10,7 +11,7 @@ uniform sampler2D foundGeometric;  // xyz: the same of the triangle; w: distance
 uniform sampler2D foundTurning;  // columns of a matrix, 1/m, in three rows
 #endif
 
-void main() {
+void threadMain() {
     uint index = photonOfThread();
     if (index >= photons.count) return;
     ivec2 texel = ivec2(photonTexel(photons, index));

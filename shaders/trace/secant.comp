@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // trace.secant: one thread a photon of one generator.
+#include "include/photons/ledger_of_group.glsl"
 #include "include/photons/photon_thread.glsl"
 #include "include/surfaces/generators.glsl"
 #include "include/photons/store_hits.glsl"
@@ -7,7 +8,7 @@
 
 uniform int generatorIndex;
 
-void main() {
+void threadMain() {
     uint index = photonOfThread();
     if (index >= photons.count) return;
     ivec2 texel = ivec2(photonTexel(photons, index));

@@ -30,6 +30,16 @@ bool hitsLayer(TracedRay ray, ivec2 texel, int layer, out float t) {
     return isFacingAt(ray, texel, surface);
 }
 
+// The depth of a layer, 0 where the pixel has fewer: behind its last one nothing is defined.
+float depthOfLayer(ivec2 texel, int layer) {
+    float depth = 0.0;
+    for (int i = 0; i <= layer; ++i) {
+        depth = texelFetch(layerDepths, ivec3(texel, i), 0).x;
+        if (depth <= 0.0) return 0.0;
+    }
+    return depth;
+}
+
 // `passed`: the layer that the ray has passed last, -1 for none. "Traced through the depth layers
 // until the depth along the ray is either greater than the depth in the next layer or less than the
 // depth in the current layer": two texels a step. Inside of a closed object a pixel that no longer
@@ -42,15 +52,14 @@ FirstHit searchBetweenLayers(RaySegment segment, TracedRay ray, int passed, int 
         float middle = float(i) + 0.5;
         ivec2 texel = texelOfStep(segment, i, steps);
         float z = depthAtIndex(segment, float(i) + 1.0, count);
-        float current = passed >= 0 ? texelFetch(layerDepths, ivec3(texel, passed), 0).x : 0.0;
-        float next = passed + 1 < layerCount
-                         ? texelFetch(layerDepths, ivec3(texel, passed + 1), 0).x
-                         : 0.0;
+        float current = passed >= 0 ? depthOfLayer(texel, passed) : 0.0;
+        bool hasNext = passed + 1 < layerCount && (passed < 0 || current > 0.0);
+        float next = hasNext ? texelFetch(layerDepths, ivec3(texel, passed + 1), 0).x : 0.0;
         if (isInside && passed >= 0 && current <= 0.0 && before.x >= 0) {
             for (int layer = passed + 1; layer >= passed; --layer) {
                 float t;
                 if (layer >= layerCount ||
-                    texelFetch(layerDepths, ivec3(before, layer), 0).x <= 0.0 ||
+                    depthOfLayer(before, layer) <= 0.0 ||
                     !hitsLayer(ray, before, layer, t)) {
                     continue;
                 }

@@ -230,14 +230,15 @@ void traverse(FrameBuilder& frame, const Surfaces& surfaces, const Purpose& purp
     traversal = take(frame, traversal, purpose.sizes);
     traversal = probe(frame, traversal, surfaces, begun.scratch, purpose);
     traversal = frame.run<RefineStage>(traversal);
-    frame.endLoop(traversal.counts, offsetof(CellCounts, moreCells) / sizeof(unsigned));
+    // Shaders leave a traversal as it is that has come to its end.
+    frame.endLoop(traversal.counts, offsetof(CellCounts, moreCells) / sizeof(unsigned), true);
     Samples samples;
     samples.suffix = purpose.suffix;
     samples.cells = traversal.photons;
     samples.ledger = begun.ledger;
     followPhotons(frame, surfaces, samples, caustic, purpose.use);
     traversal = nextBatch(frame, traversal);
-    frame.endLoop(traversal.counts, offsetof(CellCounts, moreBatches) / sizeof(unsigned));
+    frame.endLoop(traversal.counts, offsetof(CellCounts, moreBatches) / sizeof(unsigned), true);
     if (purpose.use.stores) caustic.cells = traversal.counts;
 }
 

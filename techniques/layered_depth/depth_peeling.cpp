@@ -132,15 +132,32 @@ Peeling Peeling::create(FrameBuilder& frame, graph::PassSetup& setup, Geometry g
     peeling.depth = setup.create<DepthBuffer>(request.name + ".depth_buffer", w, h);
     const std::size_t commandCount = std::max<std::size_t>(frame.gpuScene().commandCount(), 1);
     peeling.commands = setup.createBuffer<DrawCommandWords>(
-        request.name + ".commands", commandCount * static_cast<std::size_t>(request.layers));
+        request.name + ".commands", commandCount * static_cast<std::size_t>(request.layers) + 1);
     return peeling;
 }
+
+namespace {
+
+void clearByTriangle(const FrameInputs& inputs, const Peeling& peeling, gl::PassContext& context,
+                     const LayersRequest& request, int index) {
+    const std::size_t objectCommands =
+        inputs.gpuScene.commandCount() * static_cast<std::size_t>(request.layers);
+    // Nothing lies beyond the depth that it has, so that it replaces any other.
+    context.shaders({"framework/fullscreen.vert", "layered_depth/peel_blank.frag"})
+        .target(peeling.layers.depth, index)
+        .target(peeling.layers.surface, index)
+        .depth(peeling.depth, gl::DepthTest::nearerReversed)
+        .drawIndirect(GL_TRIANGLES, peeling.commands, objectCommands * sizeof(DrawCommandWords));
+}
+
+}  // namespace
 
 void peelView(const FrameInputs& inputs, const Peeling& peeling, gl::PassContext& context,
               const LayersRequest& request, int face) {
     const render::RasterViews& views = *peeling.layers.views;
     for (int layer = 0; layer < request.layers; ++layer) {
         const int index = face * request.layers + layer;
+        if (peeling.isConditional) clearByTriangle(inputs, peeling, context, request, index);
         // The layer before is read from the array that this one is written to.
         glTextureBarrier();
         gl::Command command = context.shaders({"raster_views/eye.vert", "layered_depth/peel.frag"});
@@ -149,9 +166,12 @@ void peelView(const FrameInputs& inputs, const Peeling& peeling, gl::PassContext
             .set("layer", layer)
             .set("before", index - 1)
             .texture("layerDepths", peeling.layers.depth);
-        command.target(peeling.layers.depth, index).clear();
-        command.target(peeling.layers.surface, index).clear();
-        command.depth(peeling.depth, gl::DepthTest::nearer).clear({1, 0, 0, 0});
+        command.target(peeling.layers.depth, index);
+        if (!peeling.isConditional) command.clear();
+        command.target(peeling.layers.surface, index);
+        if (!peeling.isConditional) command.clear();
+        command.depth(peeling.depth, gl::DepthTest::nearer);
+        if (!peeling.isConditional) command.clear({1, 0, 0, 0});
         drawTo(command, request);
         inputs.gpuScene.draw(command, context, peeling.geometry, views.instances(face), request.set,
                              &context.buffer(peeling.commands, gl::Use::drawCommands),

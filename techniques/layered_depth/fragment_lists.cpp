@@ -141,6 +141,16 @@ void setListCapacity(gl::Command& command, const Lists& lists, const FragmentCap
         .set("layerCount", lists.peeling.layers.layers);
 }
 
+// Where a pixel has no layer nothing is stored but what says so (LayeredDepth). What is kept, for
+// pictures and scans, is whole; around a tile's pixels there is nothing.
+void clearLayers(const Lists& data, gl::PassContext& context, const LayersRequest& request) {
+    const LayeredDepth& layers = data.peeling.layers;
+    const graph::ClearValue none{0, 0, 0, 0};
+    if (request.tile || context.isKept(layers.depth)) context.texture(layers.depth).clear(none);
+    if (context.isKept(layers.surface)) context.texture(layers.surface).clear(none);
+    context.texture(data.peeling.depth).clear({1, 0, 0, 0});
+}
+
 void listView(const FrameInputs& inputs, const Lists& data, gl::PassContext& context,
               const LayersRequest& request, const FragmentCapacity& capacity, int face) {
     const Peeling& peeling = data.peeling;
@@ -173,7 +183,7 @@ void listView(const FrameInputs& inputs, const Lists& data, gl::PassContext& con
         .storage("SceneCommands", inputs.gpuScene.commands())
         .storage("LayerCommands", peeling.commands)
         .set("commandCount", commandCount)
-        .dispatchOver(commandCount * request.layers, 64);
+        .dispatchOver(commandCount * request.layers + 1, 64);
     peelView(inputs, peeling, context, request, face);
 
     gl::Command sort = context.compute("layered_depth/fragment_lists.comp");
@@ -196,6 +206,7 @@ LayeredDepth listFragments(FrameBuilder& frame, Geometry geometry, const LayersR
                     request.layers, request.layers == 1 ? "" : "s", capacity.fragments),
         [&](graph::PassSetup& setup, Lists& data) {
             data.peeling = Peeling::create(frame, setup, geometry, request);
+            data.peeling.isConditional = true;
             const render::RasterViews& views = *data.peeling.layers.views;
             const std::string& name = request.name;
             data.peeling.layers.statistics =
@@ -218,6 +229,7 @@ LayeredDepth listFragments(FrameBuilder& frame, Geometry geometry, const LayersR
         [&inputs = frame.inputs(), request, capacity](const Lists& data, gl::PassContext& context) {
             context.buffer(data.fragmentCounts).clear();
             context.buffer(data.peeling.layers.statistics).clear();
+            clearLayers(data, context, request);
             for (int face = 0; face < data.peeling.layers.views->count(); ++face)
                 listView(inputs, data, context, request, capacity, face);
         });

@@ -20,8 +20,11 @@ struct DrawCommandWords {
 struct Peeling {
     LayeredDepth layers;  // without statistics
     graph::Texture<DepthBuffer> depth;
-    graph::Buffer<DrawCommandWords> commands;  // of all objects, once a layer
+    graph::Buffer<DrawCommandWords> commands;  // of all objects, once a layer, and a blank triangle
     Geometry geometry;
+    // Targets are cleared by the blank triangle, where that is drawn at all: whether there is
+    // anything to peel is known to the device alone.
+    bool isConditional = false;
 
     // Declares it, and what is drawn.
     static Peeling create(FrameBuilder& frame, graph::PassSetup& setup, Geometry geometry,

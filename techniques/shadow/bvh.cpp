@@ -1,18 +1,43 @@
 // SPDX-License-Identifier: MIT
 // shadow.bvh: from every receiver pixel a ray back to each light, traced exactly on the device,
 // however photons are traced. In: eye buffer; out: visibility, 0 or 1 a pixel and light.
-#include "techniques/shadow/rays_to_lights.h"
+#include <fmt/format.h>
+
+#include "framework/pipeline/frame_builder.h"
 #include "techniques/tracing/bvh_rays.h"
 
 namespace kaustik {
 namespace {
 
 Shadows traceExactShadowRays(FrameBuilder& frame, const params::NoParams&, Geometry geometry,
-                             EyeBuffer eye, LayeredDepth layers) {
-    return shadowsByRays(frame, "bvh", geometry, eye, layers,
-                         [&](const Photons& rays, const Surfaces& surfaces) {
-                             return hitsByBvh(frame, rays, surfaces.geometry);
-                         });
+                             EyeBuffer eye, LayeredDepth) {
+    const int lights = frame.needs().lights;
+    if (lights == 0) {
+        frame.skip("shadow.bvh", "the scene has no light");
+        return {};
+    }
+    const BvhOfFrame bvh = bvhOfFrame(frame, geometry);
+    return frame.pass<Shadows>(
+        "shadow.bvh",
+        fmt::format("a ray from every receiver back to the light, through {} triangles",
+                    frame.gpuScene().bvh().triangleCount()),
+        [&](graph::PassSetup& setup, Shadows& data) {
+            setup.sample("receiver", eye.receiver);
+            setup.sample("receiverSurface", eye.receiverSurface);
+            bvh.read(setup);
+            data.visibility = setup.image(
+                "visibility", setup.create<VisibilityTexel>("shadow.visibility", frame.width(),
+                                                            frame.height(), lights));
+            setup.bypass(data.visibility, {1, 1, 1, 1});
+        },
+        [&inputs = frame.inputs(), bvh, lights](const Shadows&, gl::PassContext& context) {
+            for (int light = 0; light < lights; ++light) {
+                gl::Command command = context.compute("shadow/bvh.comp");
+                bvh.bindTo(command, inputs);
+                command.set("lightIndex", light)
+                    .dispatchOver(inputs.view.width, 8, inputs.view.height, 8);
+            }
+        });
 }
 
 }  // namespace

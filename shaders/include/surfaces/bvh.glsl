@@ -103,8 +103,8 @@ void orderTwo(inout float a, inout uint childA, inout float b, inout uint childB
     childA = nearerChild;
 }
 
-// The nearest hit before `farthest`, m.
-BvhHit traceBvh(BvhRay ray, float farthest) {
+// The nearest hit before `farthest`, m; with `isAnyEnough` the first that is found.
+BvhHit searchBvh(BvhRay ray, float farthest, bool isAnyEnough) {
     BvhHit best = BvhHit(farthest, kBvhNone);
     // Where a ray is parallel to an axis 0 times this is still 0.
     vec3 safe = mix(ray.direction, vec3(1e-30), lessThan(abs(ray.direction), vec3(1e-30)));
@@ -118,6 +118,7 @@ BvhHit traceBvh(BvhRay ray, float farthest) {
             uint end = first + bvhLeafCount(child);
             for (uint triangle = first; triangle < end; ++triangle)
                 testTriangle(ray, triangle, best);
+            if (isAnyEnough && best.triangle != kBvhNone) return best;
         } else {
             BvhNode node = bvhNodes[child];
             vec4 at = entriesOf(node, ray.origin, inverse, best.distance);
@@ -138,6 +139,19 @@ BvhHit traceBvh(BvhRay ray, float farthest) {
         child = waiting[count].x;
     }
     return best;
+}
+
+BvhHit traceBvh(BvhRay ray, float farthest) { return searchBvh(ray, farthest, false); }
+
+// Whether the ray hits anything before `farthest`, m.
+bool isBlocked(BvhRay ray, float farthest) {
+    return searchBvh(ray, farthest, true).triangle != kBvhNone;
+}
+
+// How well a place is known that a picture shows, m: rasterisers move corners to the 1/256 of a
+// pixel, `footprint`, and there are a few roundings.
+float resolvedByPicture(vec3 positionVs, float footprint) {
+    return localRounding + footprint / 128.0 + 4e-6 * length(positionVs);
 }
 
 // Of the corners of a triangle that the ray hits; they add up to 1.

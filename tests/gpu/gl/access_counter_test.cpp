@@ -238,6 +238,71 @@ TEST_F(CountedAccesses, AReadBackIsOfThePassThatEndedLast) {
     EXPECT_EQ(passNamed(passes, "stage.outer").readBacks, 2u);
 }
 
+// A loop that runs as often as a word of a buffer that the processor fills says, and then idly; the
+// processor asks twice: once after the last run but one, which another one follows, and then.
+TEST_F(CountedAccesses, ALoopThatMayRunIdleIsAskedForItsEndAlone) {
+    const std::string shader = write("steps.comp",
+                                     "layout(local_size_x = 1) in;\n"
+                                     "layout(std430) buffer Numbers { uint numbers[]; };\n"
+                                     "layout(std430) readonly buffer Wanted { uint wanted[]; };\n"
+                                     "void main() {\n"
+                                     "    if (numbers[0] < wanted[0]) numbers[0] += 1u;\n"
+                                     "    numbers[1] = numbers[0] < wanted[0] ? 1u : 0u;\n"
+                                     "    numbers[2] += 1u;\n"
+                                     "}\n");
+    graph::Graph graph;
+    struct Data {
+        graph::Buffer<Number> numbers;
+    };
+    const gl::Buffer wanted(sizeof(Number), nullptr, "wanted");
+    const auto start = graph.addPass<Data, gl::PassContext>(
+        {"stage.start", ""},
+        [](graph::PassSetup& setup, Data& data) {
+            data.numbers = setup.createBuffer<Number>("numbers", 4);
+        },
+        [](const Data& data, gl::PassContext& pass) { pass.buffer(data.numbers).clear(); });
+    graph.beginLoop();
+    const auto stepped = graph.addPass<Data, gl::PassContext>(
+        {"stage.step", ""},
+        [&](graph::PassSetup& setup, Data& data) { data.numbers = setup.write(start.numbers); },
+        [&](const Data& data, gl::PassContext& pass) {
+            pass.compute(shader)
+                .storage("Numbers", data.numbers)
+                .storage("Wanted", wanted)
+                .dispatch(1);
+        });
+    graph.endLoop(stepped.numbers, 1, true);
+    graph.request(stepped.numbers);
+    gl::ProgramCache programs;
+    gl::Executor executor(context(), programs);
+    executor.prepare(graph.compile());
+    gl::AccessCounter counter(programs);
+    executor.countAccesses(&counter);
+    gl::PassTimer timer(gl::TimerMode::finish);
+    struct Expected {
+        unsigned wanted;
+        unsigned runs;
+        std::uint64_t readBacks;
+    };
+    // The first frame knows nothing; of fewer runs it finds one less a frame, and of more each.
+    for (const Expected& expected : std::vector<Expected>{{6, 6, 6},
+                                                          {6, 6, 2},
+                                                          {3, 5, 1},
+                                                          {3, 4, 1},
+                                                          {3, 3, 1},
+                                                          {3, 3, 2},
+                                                          {5, 5, 4},
+                                                          {1, 4, 1}}) {
+        SCOPED_TRACE(testing::Message() << expected.wanted << ", " << expected.runs);
+        wanted.upload(0, sizeof(unsigned), &expected.wanted);
+        executor.runFrame(timer);
+        const std::vector<Number> numbers = executor.buffer(stepped.numbers).read<Number>();
+        EXPECT_EQ(numbers[0].value, expected.wanted);
+        EXPECT_EQ(numbers[2].value, expected.runs);
+        EXPECT_EQ(passNamed(counter.take(), "stage.step").readBacks, expected.readBacks);
+    }
+}
+
 // Of a list that lives to the frame's end the pass writes 64 numbers; zeros are written before.
 TEST_F(CountedAccesses, WhatIsClearedBeforeThePassThatFirstWritesItIsWrittenWhole) {
     const std::string shader = write("first.comp",

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 
+#include "framework/gl/access_counter.h"
 #include "framework/scene/files/scene_file.h"
 #include "techniques/layered_depth/fragment_lists.h"
 #include "techniques/layered_depth/pyramid.h"
@@ -300,6 +301,73 @@ position = [0, 0, 3]
     EXPECT_GT(both.listed.renderer().layerStatistics().complexity, 65000u / 66u);
     EXPECT_TRUE(reaches(both.listed, "layers.lists.longest"));
     expectSameLayers(both.peeled, both.listed);
+}
+
+// What is made of the layers, where nobody keeps them and memory starts as NaN: who reads one that
+// a pixel does not have takes that for a surface.
+TEST(FragmentLists, AreReadNoFartherThanThePixelsLayersGo) {
+    struct Reader {
+        std::string technique;
+        Settings settings;
+    };
+    const std::string ownTechnique = "screen_space_photons";
+    std::vector<Reader> readers{
+        {"caustic_triangles", {}},
+        {ownTechnique, {{"shadow", "rays"}}},
+        {ownTechnique, {{"trace.test", "in_out"}}},
+        {ownTechnique, {{"view.refraction.search", "all"}}},
+        {ownTechnique, {{"view.refraction.surfaces", "layers"}}},
+        {ownTechnique, {{"view.refraction.interfaces", "6"}, {"view.refraction.stop", "depth"}}},
+    };
+    for (const char* tracer :
+         {"march", "march_compute", "lines", "hierarchical", "hierarchical_compute", "all_hits"})
+        readers.push_back({ownTechnique, {{"trace", tracer}}});
+    const Settings photons = {{"emit.photons", "48x48"}};
+    for (const char* name : {"pool", "concave-glass"}) {
+        const scene::Scene scene = scene::loadScene(name);
+        for (const Reader& reader : readers) {
+            SCOPED_TRACE(testing::Message()
+                         << name << ", " << reader.technique << ", "
+                         << (reader.settings.empty() ? ""
+                                                     : reader.settings.front().first + "=" +
+                                                           reader.settings.front().second));
+            const auto render = [&](const char* layers) {
+                return Frame(scene, 93, 61,
+                             with(photons, with(reader.settings, {{"layers", layers}})), {}, true,
+                             reader.technique);
+            };
+            const Frame peeled = render("peel");
+            const Frame listed = render("lists");
+            const FrameOutputs& left = peeled.renderer().outputs();
+            const FrameOutputs& right = listed.renderer().outputs();
+            EXPECT_GT(listed.causticIrradiance().sum(), 0.0);
+            EXPECT_EQ(
+                differences(peeled, listed, left.caustic.irradiance, right.caustic.irradiance, 1),
+                0u);
+            EXPECT_EQ(differences(peeled, listed, left.picture.radiance, right.picture.radiance, 1),
+                      0u);
+        }
+    }
+}
+
+// A fragment is 36 bytes in its list and 32 as a layer. A pixel has 12 for its list, its count and
+// its depth; a depth of 0 where its layers end, and where others nearby have more.
+TEST(FragmentLists, WriteNoLayersThatAreNotThere) {
+    const scene::Scene scene = scene::loadScene("glass-sphere");
+    Frame frame(scene, 160, 120, with(kFew, {{"layers", "lists"}, {"layers.count", "8"}}));
+    gl::AccessCounter counter(frame.renderer().programs());
+    frame.renderer().executor().countAccesses(&counter);
+    gl::PassTimer timer(gl::TimerMode::finish);
+    frame.renderer().renderFrame(timer);
+    const std::uint64_t fragments = frame.renderer().layerStatistics().fragments;
+    const std::uint64_t pixels = 160 * 120;
+    const std::vector<gl::PassAccesses> passes = counter.take();
+    const auto lists = std::find_if(passes.begin(), passes.end(), [](const gl::PassAccesses& pass) {
+        return pass.name == "layers.lists";
+    });
+    ASSERT_NE(lists, passes.end());
+    EXPECT_GE(lists->writtenBytes, 68 * fragments);
+    EXPECT_LE(lists->writtenBytes, 68 * fragments + (12 + 2 * 16) * pixels + 4096);
 }
 
 using MakeViews = std::function<Views(FrameBuilder&)>;
