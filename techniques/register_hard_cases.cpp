@@ -5,6 +5,7 @@ namespace kaustik {
 
 void registerHardCases(numerics::Suite& suite) {
     addGridCases(suite);
+    addDenseCases(suite);
     addSpritesCases(suite);
     addRefractionCases(suite);
     addNestedCases(suite);

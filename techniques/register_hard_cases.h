@@ -8,6 +8,7 @@
 namespace kaustik {
 
 void addGridCases(numerics::Suite& suite);
+void addDenseCases(numerics::Suite& suite);
 void addSpritesCases(numerics::Suite& suite);
 void addRefractionCases(numerics::Suite& suite);  // and of the other nodes that follow eye rays
 void addNestedCases(numerics::Suite& suite);      // dielectrics in one another

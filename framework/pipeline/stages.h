@@ -31,6 +31,12 @@ struct Samples {
     Ledger ledger;          // of the batches before; invalid before the first
     LightCells cells = {};  // valid: these instead, of any light; the ledger is valid too
     int borderRows = 0;     // next to these, brought along to be joined with (CellGrid::isOwn)
+    // Where finer photons stand for some of the squares between four photons: cells by cells as
+    // fine, `refinement` along a side. With `cells` it is they that are emitted, as LightCell has
+    // squares; without, the rest: what those stand for is left out.
+    int refinement = 1;
+    // By square, (columns + 1) x (rows + 1) of each light of the batch: not 0 where it is refined.
+    graph::Buffer<std::uint32_t> refined = {};
 };
 
 // What following photons leaves.

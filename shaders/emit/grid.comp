@@ -19,6 +19,28 @@ layout(rg32ui) writeonly uniform uimage2D nextExtents;
 
 uniform ivec2 ownRows;  // of the grid, from and before
 
+#ifdef LEAVES_OUT_REFINED
+layout(std430) readonly buffer RefinedFlags {
+    uint refinedFlags[];  // by square between four photons (Samples::refined)
+};
+uniform ivec2 batchRows;   // of the grid: the first, and how many
+uniform int lightOfBatch;  // counted from its first
+#endif
+
+// Whether the photon does not stand for what lies between it and the neighbours in a quarter.
+bool isLeftOut(ivec2 cell, uint quarter) {
+#if defined(REFINED_SQUARES)
+    // Each square has photons of its own at its border.
+    return isBeyondSquare(placeInSquare(threadOfSquares()), quarter);
+#elif defined(LEAVES_OUT_REFINED)
+    ivec2 square = cell - ivec2(0, batchRows.x) + ivec2(quarter & 1u, quarter >> 1u);
+    int row = lightOfBatch * (batchRows.y + 1) + square.y;
+    return refinedFlags[row * (gridSize.x + 1) + square.x] != 0u;
+#else
+    return false;
+#endif
+}
+
 // Sub-cells in a row from `start` on in which the light sees the object, no more than `maximum`.
 int countFrom(ivec2 cell, ivec2 start, ivec2 step, uint object, int maximum) {
     int count = 0;
@@ -93,7 +115,11 @@ uvec2 extentOf(ivec2 cell, uint object) {
     CellQuarter quarters[4];
     bool isWhole = true;
     for (uint i = 0u; i < 4u; ++i) {
-        quarters[i] = quarterAround(cell, ivec2(sideOfQuarter(i)), object);
+        if (isLeftOut(cell, i)) {
+            quarters[i] = kNoQuarter;
+        } else {
+            quarters[i] = quarterAround(cell, ivec2(sideOfQuarter(i)), object);
+        }
         isWhole = isWhole && quarters[i] == kWholeQuarter;
     }
     return isWhole ? uvec2(0u) : packedExtent(quarters);
@@ -108,14 +134,21 @@ struct Emitted {
 };
 
 void store(ivec2 cell, ivec2 texel, Emitted emitted) {
-    PhotonOrigin origin = PhotonOrigin(uint(cell.y) * uint(gridSize.x) + uint(cell.x),
-                                       uint(lightIndex), kEmittedPath, 0u, 0u);
+#ifdef REFINED_SQUARES
+    PlaceInSquare place = placeInSquare(threadOfSquares());
+    uint number = numberInList(place);
+    ivec2 extentTexel = extentTexelOf(place);
+#else
+    uint number = uint(cell.y) * uint(gridSize.x) + uint(cell.x);
+    ivec2 extentTexel = texel;
+#endif
+    PhotonOrigin origin = PhotonOrigin(number, uint(lightIndex), kEmittedPath, 0u, 0u);
     Photon photon = emitted.photon;
-    storeNext(uint(texel.y * cellsHere.x + texel.x), photon, origin);
+    storeNext(uint(texel.y) * nextPhotons.rowLength + uint(texel.x), photon, origin);
     storeHit(texel, Hit(photon.positionVs, 0.0, emitted.normal, emitted.material, photon.fluxWatts,
                         photon.fate, vec3(0.0)));
 #ifdef CELL_EXTENTS
-    imageStore(nextExtents, texel, uvec4(emitted.extent, 0u, 0u));
+    imageStore(nextExtents, extentTexel, uvec4(emitted.extent, 0u, 0u));
 #endif
 }
 
@@ -156,6 +189,9 @@ Emitted emittedFrom(ivec2 cell) {
     uvec2 extent = uvec2(0u);
 #ifdef CELL_EXTENTS
     extent = extentOf(cell, seen.x);
+    bool isNothing = true;
+    for (uint i = 0u; i < 4u; ++i) isNothing = isNothing && isLeftOut(cell, i);
+    if (isNothing) return kNotEmitted;
 #endif
     flux *= areaOfExtent(extent);
     if (cell.y < ownRows.x || cell.y >= ownRows.y) flux *= kNegligible;

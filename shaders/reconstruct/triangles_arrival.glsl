@@ -119,6 +119,11 @@ QuarterCorners cornersOf(Arrival at, uint quarter) {
     return cornersOf(at, unpackedQuarter(at.extent, quarter), sideOfQuarter(quarter));
 }
 
+// Whether a photon stands for nothing of a quarter of its cell.
+bool isLeftOut(Arrival at, uint quarter) {
+    return areaOf(unpackedQuarter(at.extent, quarter)) <= 0.0;
+}
+
 // Whether two neighbours, `step` cells from one to the other, arrive on one surface where their
 // beams, on the average, say of one another.
 bool areNeighbours(Arrival a, Arrival b, vec2 step) {

@@ -49,6 +49,8 @@ bool isJoined(uint index) {
     uint found[4];
     if (!photonsAround(origin, 0u, found) || found[0] != index + 1u) return false;
     ArrivalsAround around = arrivalsOf(found);
+    // Others stand for what lies between them.
+    if (isLeftOut(around.corners[0], 3u)) return false;
 #ifdef MANY_VIEWS
     if (!areNarrow(found)) return false;
 #else

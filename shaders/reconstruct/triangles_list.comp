@@ -119,7 +119,7 @@ void threadMain() {
             whole += 1.0;
             continue;
         }
-        bool isCrease = isAtCrease(around, i);
+        bool isCrease = !isLeftOut(own, i) && isAtCrease(around, i);
         isPlain = isPlain && !isCrease && own.extent == uvec2(0u);
         float area = areaOf(cornersOf(own, i));
         whole += area;

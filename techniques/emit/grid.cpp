@@ -13,6 +13,7 @@
 
 #include "framework/pipeline/frame_builder.h"
 #include "framework/pipeline/stage_params.h"
+#include "techniques/light_cells/squares.h"
 #include "techniques/photon_lists/emitted.h"
 #include "techniques/raster_views/light_sight.h"
 
@@ -72,6 +73,12 @@ struct GridRows {
     }
 };
 
+SquareRoom squareRoomOf(const Samples& samples) {
+    SquareRoom room{samples.refinement, 1, samples.cells.height};
+    room.perRow = samples.cells.width / room.photonsOfSquare();
+    return room;
+}
+
 struct GridEmission {
     Hits hits;
     graph::Texture<SightOfLight> sight;
@@ -94,8 +101,8 @@ void drawSight(const FrameInputs& inputs, gl::PassContext& context, const GridEm
 
 // Of the cells of a light in a band: shaders that include include/photons/light_grid.glsl.
 void dispatchOverCells(const FrameInputs& inputs, gl::Command command, const GridEmission& data,
-                       const LightSight& seen, const GridRows& rows, int band, int light,
-                       int firstOfLight) {
+                       const LightSight& seen, const GridRows& rows, const Samples& samples,
+                       int band, int light, int firstOfLight) {
     command.texture("sight", data.sight)
         .storage("Instances", inputs.instances.instances)
         .set("lightFromEye", render::between(inputs.view, seen.view))
@@ -106,8 +113,19 @@ void dispatchOverCells(const FrameInputs& inputs, gl::Command command, const Gri
         .set("lightIndex", light)
         .set("cellsHere", glm::ivec2(rows.grid.width, rows.rowsIn(band)))
         .set("firstRow", rows.firstIn(band))
-        .set("firstOfLight", firstOfLight + rows.firstIn(band) - rows.cells.firstRow);
+        .offer("firstOfLight", firstOfLight + rows.firstIn(band) - rows.cells.firstRow);
     inputs.gpuScene.bindTriangles(command, data.geometry);
+    if (samples.cells.valid()) {
+        const SquareRoom room = squareRoomOf(samples);
+        command.define("REFINED_SQUARES")
+            .storage("LightCells", samples.cells.cells)
+            .set("refinement", samples.refinement)
+            .set("squaresPerRow", room.perRow)
+            .set("squareRows", room.rows)
+            .offer("firstLightOfBatch", samples.firstLight);
+        dispatchOver(command, data.hits.incoming);
+        return;
+    }
     command.dispatchOver(rows.grid.width, 8, rows.rowsIn(band), 8);
 }
 
@@ -119,9 +137,16 @@ void emitFrom(const FrameInputs& inputs, gl::PassContext& context, const GridEmi
     drawSight(inputs, context, data, seen, rows, band);
     gl::Command emission = context.compute("emit/grid.comp");
     emission.set("ownRows", glm::ivec2(rows.cells.firstOwn, rows.cells.endOwn));
+    if (samples.refined.valid() && !samples.cells.valid()) {
+        emission.define("LEAVES_OUT_REFINED")
+            .storage("RefinedFlags", samples.refined)
+            .set("batchRows", glm::ivec2(rows.cells.firstRow, rows.cells.rows))
+            .set("lightOfBatch", light - samples.firstLight);
+    }
     if (photons.extents.valid())
         emission.define("CELL_EXTENTS").image("nextExtents", photons.extents);
-    dispatchOverCells(inputs, std::move(emission), data, seen, rows, band, light, firstOfLight);
+    dispatchOverCells(inputs, std::move(emission), data, seen, rows, samples, band, light,
+                      firstOfLight);
     if (!photons.hasBeams()) return;
     gl::Command beams = context.compute("emit/grid_beams.comp");
     beams.texture("photonPosition", photons.position)
@@ -129,16 +154,19 @@ void emitFrom(const FrameInputs& inputs, gl::PassContext& context, const GridEmi
         .texture("photonFlux", photons.flux)
         .texture("startSurface", data.hits.surface)
         .set("lightToEye", glm::mat3(render::between(seen.view, inputs.view)));
-    dispatchOverCells(inputs, std::move(beams), data, seen, rows, band, light, firstOfLight);
+    dispatchOverCells(inputs, std::move(beams), data, seen, rows, samples, band, light,
+                      firstOfLight);
 }
 
 Hits emitGrid(FrameBuilder& frame, const GridEmissionParams& params, Surfaces surfaces,
               Samples samples) {
-    const params::Extent grid = frame.photonsOfALight();
+    const bool isOfSquares = samples.cells.valid();
+    params::Extent grid = frame.photonsOfALight();
+    if (isOfSquares) grid = {samples.refinement * grid.width, samples.refinement * grid.height};
     // The same for every batch.
     const int subcells = subcellsOf(params, grid);
     const auto grids = frame.once<std::vector<LightSight>>("emit.grids", [&] {
-        if (subcells != params.subcells &&
+        if (subcells != params.subcells && !isOfSquares &&
             frame.inputs().params.isSetByUser("emit.grid.subcells")) {
             frame.warn(
                 fmt::format("emit.grid.subcells = {} is taken as {}: an odd number, and no "
@@ -147,9 +175,15 @@ Hits emitGrid(FrameBuilder& frame, const GridEmissionParams& params, Surfaces su
         }
         return std::make_shared<std::vector<LightSight>>(sightsOfSpecular(frame));
     });
-    const GridRows rows{grid, cellsOf(samples, grid), subcells};
+    GridRows rows{grid, cellsOf(samples, grid), subcells};
+    if (isOfSquares) {
+        rows.cells = {};
+        rows.cells.rows = grid.height;
+        rows.cells.endOwn = grid.height;
+    }
     const std::string reason =
         grids->empty() ? "keeps the transfer map empty: no light, or nothing specular"
+        : isOfSquares  ? "finer photons in the squares that are refined"
                        : fmt::format("{} photons a light, {} light{}", grid.width * grid.height,
                                      grids->size(), grids->size() == 1 ? "" : "s");
     return frame
@@ -158,13 +192,22 @@ Hits emitGrid(FrameBuilder& frame, const GridEmissionParams& params, Surfaces su
             [&](graph::PassSetup& setup, GridEmission& data) {
                 data.geometry = surfaces.geometry;
                 if (data.geometry.heightFields.valid()) setup.read(data.geometry.heightFields);
-                const int height = rows.cells.rows * samples.lights;
+                if (isOfSquares) {
+                    setup.read(samples.cells.cells);
+                    setup.read(samples.cells.list);
+                }
+                const int height =
+                    isOfSquares ? samples.cells.height : rows.cells.rows * samples.lights;
                 Photons photons =
-                    Photons::create(setup, grid.width, height, samples.suffix, {frame.usesBeams()});
-                photons.cells = rows.cells;
-                if (rows.subcells > 1) {
+                    Photons::create(setup, isOfSquares ? samples.cells.width : grid.width, height,
+                                    samples.suffix, {frame.usesBeams()}, samples.cells);
+                photons.cells =
+                    isOfSquares ? cellsOfSquares(squareRoomOf(samples), samples) : rows.cells;
+                if (samples.refined.valid()) setup.read(samples.refined);
+                if (rows.subcells > 1 || samples.refinement > 1) {
                     photons.extents = setup.create<CellExtentTexel>(
-                        "photons.extents" + samples.suffix, grid.width, height);
+                        "photons.extents" + samples.suffix, photons.cells.width,
+                        photons.cells.rows * samples.lights);
                 }
                 data.hits = storeEmitted(setup, photons, samples);
                 data.sight = setup.create<SightOfLight>("emit.sight" + samples.suffix,

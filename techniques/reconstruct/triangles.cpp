@@ -15,6 +15,7 @@
 
 #include "framework/core/error.h"
 #include "framework/pipeline/frame_builder.h"
+#include "techniques/reconstruct/triangles.h"
 #include "techniques/splats/clamped.h"
 #include "techniques/stores/stores.h"
 #include "techniques/thread_lists/thread_list.h"
@@ -22,69 +23,8 @@
 namespace kaustik {
 namespace {
 
-enum class TriangleShading : int { smooth, flat, vertices };
-enum class Unjoined : int { beams, discard };
-enum class LightSize : int { points, widened };
-
-// Photons that are stored by cell keep nothing of how their lights spread them.
-std::string whyNotWidened(const FrameFacts& facts) {
-    return facts.settings.choice(DriverStage::name) == "hierarchical"
-               ? facts.withChosen<DriverStage>()
-               : "";
-}
-
-struct TrianglesParams {
-    float tolerance = 0.5f;
-    int maximum = 512;
-    TriangleShading shading = TriangleShading::smooth;
-    Unjoined unjoined = Unjoined::beams;
-    float merge = 0.0f;
-    LightSize lightSize = LightSize::points;
-    template <class R>
-    void reflect(R& r) {
-        const auto whyNotJoined = [](const FrameFacts& facts) { return facts.whyNoNeighbours(); };
-        r.field(
-             tolerance, "tolerance",
-             "Neighbours are joined where they arrive no farther from where their beams say than "
-             "this share of their distance",
-             "", params::range(0.01f, 10.0f))
-            .when(whyNotJoined);
-        r.field(maximum, "maximum",
-                "Longest side on the screen; wider cells are not joined, and beams shrink to it",
-                "px", params::range(1, 1024));
-        r.choice(shading, "shading",
-                 "smooth: between the densities that the beams give at the corners; flat: the same "
-                 "all over a triangle; vertices: between what each corner's photon has for a third "
-                 "of all triangles there (U08)",
-                 {"smooth", "flat", "vertices"})
-            .when(whyNotJoined);
-        r.choice(
-            unjoined, "unjoined",
-            "What becomes of light between photons that are not joined. beams: each covers its "
-            "part by its own; discard: it is lost, and counted as discarded_triangle",
-            {"beams", "discard"});
-        r.field(
-             merge, "merge",
-             "Neighbouring cells, up to 16 along a side, that together span no more than this are "
-             "drawn as one, with their flux added; 0: none",
-             "px", params::range(0.0f, 64.0f))
-            .when(whyNotJoined);
-        r.choice(lightSize, "light_size",
-                 "What light from a lamp's part, for which a point stands, does. widened: it goes "
-                 "where all of the part would send it, to first order, so that fewer points do; "
-                 "points: where its point does",
-                 {"points", "widened"})
-            .when([](const FrameFacts& facts) -> std::string {
-                return facts.needs == nullptr || facts.needs->emitters > 0
-                           ? ""
-                           : "no light of the scene has a size";
-            })
-            .when(&whyNotWidened);
-    }
-};
-
 bool widensByLights(const FrameFacts& facts) {
-    return whyNotWidened(facts).empty() &&
+    return whyTrianglesAreNotWidened(facts).empty() &&
            facts.settings.get<TrianglesParams>("reconstruct.triangles").lightSize ==
                LightSize::widened;
 }
@@ -118,16 +58,9 @@ constexpr int kMaxMerges = 4;
 // rest.
 constexpr float kMaxWidthOnCube = 1.2f;
 
-TrianglesParams forViews(TrianglesParams params, const render::RasterViews& views) {
-    if (views.count() == 1) return params;
-    const float maximum = kMaxWidthOnCube * 0.5f * static_cast<float>(views.width());
-    params.maximum = std::clamp(static_cast<int>(maximum), 1, params.maximum);
-    return params;
-}
-
 Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Hits& hits,
                const Store& store, const FluxMap& before) {
-    const TrianglesParams params = forViews(wanted, *store.receivers.views);
+    const TrianglesParams params = trianglesForViews(wanted, *store.receivers.views);
     const FluxSets sets = setsIn(frame, store);
     const bool isGlossy = sets.hasIntensity();
     struct Data {
@@ -256,6 +189,13 @@ CausticMap coverTriangles(FrameBuilder& frame, const TrianglesParams& params, Hi
 }
 
 }  // namespace
+
+TrianglesParams trianglesForViews(TrianglesParams params, const render::RasterViews& views) {
+    if (views.count() == 1) return params;
+    const float maximum = kMaxWidthOnCube * 0.5f * static_cast<float>(views.width());
+    params.maximum = std::clamp(static_cast<int>(maximum), 1, params.maximum);
+    return params;
+}
 
 void registerReconstructTriangles(Registry& registry) {
     registry.node<ReconstructStage>(

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What a photon stands for where its light's grid is lit in part: of its own cell and of cells
 // next to it whose middles are dark, as far as the border of what the light sees is from the
-// photon's place, told by sub-cells. At the border of a mesh's grid of vertices: of nothing beyond.
+// photon's place, told by sub-cells. At the border of a mesh's grid of vertices, or of a square that
+// is refined: of nothing beyond.
 // Four quarters, each a quadrilateral from the photon's place.
 
 // Numbers in cells, away from the photon.
@@ -11,6 +12,7 @@ struct CellQuarter {
     vec2 across;  // the corner between
 };
 const CellQuarter kWholeQuarter = CellQuarter(0.5, 0.5, vec2(0.5));
+const CellQuarter kNoQuarter = CellQuarter(0.0, 0.0, vec2(0.0));
 
 // By the corner of the cell: right, up: bits.
 vec2 sideOfQuarter(uint quarter) {
@@ -24,7 +26,7 @@ float areaOf(CellQuarter quarter) {
 
 // An extent's twelve numbers, in 32nds of a cell: the reach along the axes, right, up, left, down,
 // and the corners between, a quarter after the other. 0: all of them are a half. A reach is 0 where
-// there is nothing to stand for, beyond the border of a mesh.
+// there is nothing to stand for, beyond such a border.
 uint inParts(float reach) {
     return reach > 0.0 ? uint(clamp(reach * 32.0 + 0.5, 1.0, 31.0)) : 0u;
 }
@@ -34,8 +36,11 @@ uvec2 packedExtent(CellQuarter quarters[4]) {
     uvec2 corners[4];
     for (int i = 0; i < 4; ++i)
         corners[i] = uvec2(inParts(quarters[i].across.x), inParts(quarters[i].across.y));
-    extent.x = inParts(quarters[3].along) | inParts(quarters[3].up) << 5u |
-               inParts(quarters[0].along) << 10u | inParts(quarters[0].up) << 15u |
+    // A quarter that is nothing has no part in the axes that it shares.
+    extent.x = inParts(max(quarters[3].along, quarters[1].along)) |
+               inParts(max(quarters[3].up, quarters[2].up)) << 5u |
+               inParts(max(quarters[0].along, quarters[2].along)) << 10u |
+               inParts(max(quarters[0].up, quarters[1].up)) << 15u |
                corners[0].x << 20u | corners[0].y << 25u;
     for (int i = 1; i < 4; ++i)
         extent.y |= (corners[i].x | corners[i].y << 5u) << (10u * uint(i - 1));

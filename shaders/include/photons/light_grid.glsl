@@ -16,6 +16,19 @@ uniform ivec2 cellsHere;   // columns and rows of this light in the list
 uniform int firstRow;      // of the grid, in the list
 uniform int firstOfLight;  // row of the list where this light's begin
 
+#ifdef REFINED_SQUARES
+#include "include/photons/refined_square.glsl"
+
+// The cell of this thread, and its texel in the list; false: there is none for it.
+bool cellOfThread(out ivec2 cell, out ivec2 texel) {
+    PlaceInSquare place = placeInSquare(threadOfSquares());
+    cell = cellInSquare(place);
+    texel = texelInList(place);
+    // What lies beyond the grid is of the first band or the last, which leave it empty.
+    int row = clamp(cell.y, 0, gridSize.y - 1) - firstRow;
+    return place.light == lightIndex && row >= 0 && row < cellsHere.y;
+}
+#else
 // The cell of this thread, and its texel in the list; false: there is none for it.
 bool cellOfThread(out ivec2 cell, out ivec2 texel) {
     ivec2 here = ivec2(gl_GlobalInvocationID.xy);
@@ -23,6 +36,7 @@ bool cellOfThread(out ivec2 cell, out ivec2 texel) {
     texel = here + ivec2(0, firstOfLight);
     return all(lessThan(here, cellsHere));
 }
+#endif
 
 // What the light sees through the middle of the sub-cell that lies so many next to the middle of the
 // cell. x: object's index + 1, 0 where nothing is or the grid has ended; y: the triangle.
