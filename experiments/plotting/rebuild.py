@@ -49,6 +49,7 @@ TABLE = {
     "soft_and_colored": "lamps/soft_and_colored.csv",
     "krueger2006_refracted_scene": "krueger2006/refracted_scene.csv",
     "normal_maps": "normal_maps/runs.csv",
+    "refined": "refined/runs.csv",
     "vertices_and_gather": "vertices_and_gather.csv",
     "wyman2008_interpolants": "wyman2008/interpolants.csv",
     "wyman2008_iterations": "wyman2008/iterations.csv",
