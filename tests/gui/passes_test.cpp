@@ -178,7 +178,14 @@ TEST_F(PassesPanel, TheTimeChartMarksWhereSettingsHaveChanged) {
     start();
     EXPECT_FALSE(bench->has("chart.mark.1"));
     EXPECT_TRUE(bench->value("chart.axis").ends_with("ms"));
-    EXPECT_GT(std::stod(bench->value("chart.legend.trace")), 0.0);
+    // It names the stages that take most, whichever those are on this device.
+    int named = 0;
+    for (const std::string stage : {"geometry", "eye", "layers", "emit", "trace", "view"}) {
+        if (!bench->has("chart.legend." + stage)) continue;
+        ++named;
+        EXPECT_GT(std::stod(bench->value("chart.legend." + stage)), 0.0) << stage;
+    }
+    EXPECT_GE(named, 3);
     const int before = std::stoi(bench->value("chart"));
     open("Parameters");
     bench->typeInto("parameter.layers.count", "2", Entry::controlClick);
