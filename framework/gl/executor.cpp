@@ -54,8 +54,9 @@ void requireBlock(const graph::Slot& slot, long long allowedBytes) {
     const std::size_t bytes = graph::bytesOf(slot.desc);
     if (bytes <= static_cast<std::size_t>(allowedBytes)) return;
     throw ConfigError(fmt::format(
-        "The buffer '{}' would be {} MiB in one storage block, and this device allows {} MiB.",
-        slot.firstName, bytes >> 20, allowedBytes >> 20));
+        "The buffer '{}' would be {:.1f} MiB in one storage block, and this device allows {:.1f}.",
+        slot.firstName, static_cast<double>(bytes) / 1048576.0,
+        static_cast<double>(allowedBytes) / 1048576.0));
 }
 
 }  // namespace

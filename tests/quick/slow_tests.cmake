@@ -94,7 +94,7 @@ set_tests_properties([=[DifferentialArea.KeepsEveryWattOfTheScenesOfWater]=] PRO
 set_tests_properties([=[DifferentialArea.SaysInOneSentenceWhyVerticesAreNotJoined]=] PROPERTIES LABELS "gpu;slow")
 set_tests_properties([=[DifferentialArea.TwoLightsAreTheSumOfEach]=] PROPERTIES LABELS "gpu;slow")
 set_tests_properties([=[Disable.OfTheShadowsLightsWhatTheyDarkened]=] PROPERTIES LABELS "cli;slow")
-set_tests_properties([=[Dispatch.OfWaterOf2048CellsASideFits]=] PROPERTIES LABELS "gpu;slow")
+set_tests_properties([=[Dispatch.OfWaterOf2047CellsASideFits]=] PROPERTIES LABELS "gpu;slow")
 set_tests_properties([=[Each/OnlyReceivers.ServeSheetsAndMirrorsAndWhatGoesThroughBodies/background]=] PROPERTIES LABELS "gpu;slow")
 set_tests_properties([=[Each/OnlyReceivers.ServeSheetsAndMirrorsAndWhatGoesThroughBodies/plane]=] PROPERTIES LABELS "gpu;slow")
 set_tests_properties([=[Each/OnlyReceivers.StopLightAtFurtherBodiesAsExactRaysDo/background]=] PROPERTIES LABELS "gpu;slow")

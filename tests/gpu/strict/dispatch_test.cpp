@@ -82,8 +82,8 @@ TEST(Dispatch, OfMoreWorkgroupsThanThereMayBeNamesPassAndShader) {
     EXPECT_NE(problem.find("65535"), std::string::npos) << problem;
 }
 
-// 2049² vertices are 65,601 workgroups.
-TEST(Dispatch, OfWaterOf2048CellsASideFits) {
+// 2048² vertices are 65,536 workgroups, and as many bytes as every device allows in a block.
+TEST(Dispatch, OfWaterOf2047CellsASideFits) {
     const scene::Scene scene = sceneFromText(R"(
 name = "sea"
 [camera]
@@ -112,7 +112,7 @@ name = "sea"
 shape = "water"
 material = "water"
 size = [2, 2]
-cells = [2048, 2048]
+cells = [2047, 2047]
 waves = [{amplitude = 0.01, wavelength = 0.9}]
 )");
     static_cast<void>(context());
