@@ -38,6 +38,7 @@ done
 command -v debootstrap > /dev/null || fail "debootstrap is missing; apt-get install debootstrap"
 
 if [[ ! -x $root/usr/bin/apt-get ]]; then
+    # shellcheck disable=SC2016
     mirror=$(apt-get indextargets --format '$(SITE)' | head -n 1)
     [[ -n $mirror ]] || fail "this machine does not say where its packages come from"
     debootstrap --variant=minbase trixie "$root" "$mirror"
