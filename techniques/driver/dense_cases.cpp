@@ -58,7 +58,8 @@ struct Light {
     std::size_t pixels = 0;
 };
 
-// A block on the floor: its outline parts the light, part of it on its top, the rest beside it.
+// A block on the floor: its outline parts the light, part of it on its top, the rest on the floor
+// around it.
 Light lightAround(const Frame& frame, const glm::dvec3& middle, double side, double margin) {
     const Texels irradiance = frame.causticIrradiance();
     const Texels receiver = frame.read("eye.receiver");
@@ -123,7 +124,7 @@ void behindABall(Lab& lab) {
         const Frame frame = lab.render(technique, scene, refined(parts, false));
         const EnergyLedger ledger = frame.renderer().ledger();
         const std::string subject = fmt::format("driver.dense, refine {}", parts);
-        lab.expect(subject, "flux beside the ball's shadow, W", lit, ledger.watts[kAccountEmitted],
+        lab.expect(subject, "flux around the ball's shadow, W", lit, ledger.watts[kAccountEmitted],
                    {0.02 * kIrradiance * kPi * kRadius * kRadius,
                     "the border is told by fifths of a cell"});
         // The shadow against what a disc covers of each pixel, by the distance of its middle.

@@ -110,7 +110,7 @@ TEST_F(PassesPanel, APassThatIsSwitchedOffChangesThePictureAndCostsNothing) {
 }
 
 // Thumbnails are made of the frame that is there, and so is the texture that one of them opens.
-TEST_F(PassesPanel, APassThatIsClickedShowsWhatItReadsAndWritesWithoutRendering) {
+TEST_F(PassesPanel, AClickOnAPassShowsItsInputsAndOutputsWithoutRendering) {
     start();
     const int frame = bench->status().at("frame");
     bench->click("passes.name.trace.hierarchical");
