@@ -6,7 +6,7 @@
 
 BEFORE and AFTER are folders of builds, each next to its own shaders and meshes (build/release of a checkout). Each pair gives a ratio of the two
 medians of a frame; the interval is that of the mean of the ratios' logarithms, at 95 of 100 (Student's t). A scene that either build refuses has a
-row with its message. Writes a row a scene: ms before and after (medians of the pairs), ratio, low, high. On an idle machine, or the figures are noise:
+row with its message. FILE's rows of other scenes are left as they are. Writes a row a scene: ms before and after (medians of the pairs), ratio, low, high. On an idle machine, or the figures are noise:
 what other processes took of it meanwhile is said in other_processors, the most of any run.
 """
 
@@ -25,7 +25,7 @@ SCENES = ["blocker", "concave-glass", "cornell-bunny", "flat-water", "glass-bunn
           "glossy-table", "god-rays", "pool", "pool-reflections", "ring", "tree", "water-from-below"]
 COLUMNS = ["scene", "pairs", "before, ms", "after, ms", "ratio", "low", "high", "message", "before", "device", "version", "date", "other_processors"]
 # Of Student's t, two-sided, 95 of 100, by degrees of freedom.
-T95 = {4: 2.776, 9: 2.262, 14: 2.145, 19: 2.093}
+T95 = {4: 2.776, 9: 2.262, 14: 2.145, 19: 2.093, 39: 2.023, 59: 2.001, 99: 1.984}
 
 
 class Refused(Exception):
@@ -83,6 +83,9 @@ def main() -> int:
     parser.add_argument("--scenes", nargs="+", default=SCENES)
     arguments, options = parser.parse_known_args([one for one in sys.argv[1:] if one != "--"])
     rows = []
+    if arguments.csv.exists():
+        with arguments.csv.open(newline="", encoding="utf-8") as stream:
+            rows = [row for row in csv.DictReader(stream) if row["scene"] not in arguments.scenes]
     for scene in arguments.scenes:
         rows.append(row_of(scene, arguments.before, arguments.after, arguments.pairs, options) | {"before": commit_of(arguments.before)})
         print(scene, rows[-1].get("ratio") or rows[-1].get("message"), flush=True)
@@ -90,7 +93,7 @@ def main() -> int:
     with arguments.csv.open("w", newline="", encoding="utf-8") as stream:
         writer = csv.DictWriter(stream, COLUMNS, lineterminator="\n")
         writer.writeheader()
-        writer.writerows(rows)
+        writer.writerows(sorted(rows, key=lambda row: row["scene"]))
     return 0
 
 
