@@ -13,6 +13,7 @@ void registerExactRays(Registry& registry) {
          {{"layers", "auto"},
           {"trace", "bvh"},
           {"reconstruct", "triangles"},
+          {"reconstruct.triangles.edges", "samples"},
           {"shadow", "bvh"},
           {"view", "bvh"}}});
 }

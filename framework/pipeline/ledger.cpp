@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "framework/render/raster_views.h"
+#include "framework/transport/primitives.h"
 #include "framework/transport/watts.h"
 
 namespace kaustik {
@@ -216,12 +217,16 @@ EnergyLedger readLedger(const gl::Buffer& buffer, float quantumWatts) {
     EnergyLedger ledger;
     const std::vector<LedgerEntry> entries = buffer.read<LedgerEntry>();
     ledger.traced = entries.front().traced;
+    const auto wattsOf = [&](std::size_t entry) {
+        const double units = std::ldexp(static_cast<double>(entries[entry].high), 32) +
+                             static_cast<double>(entries[entry].low);
+        return units * static_cast<double>(quantumWatts) / kChannels;
+    };
     for (std::size_t account = 0; account < kAccountCount; ++account) {
-        const double units = std::ldexp(static_cast<double>(entries[account].high), 32) +
-                             static_cast<double>(entries[account].low);
-        ledger.watts[account] = units * static_cast<double>(quantumWatts) / kChannels;
+        ledger.watts[account] = wattsOf(account);
         ledger.events[account] = entries[account].events;
     }
+    ledger.watts[kAccountDeposited] += wattsOf(kSumLessInMap) - wattsOf(kSumMoreInMap);
     return ledger;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// By what a reconstruction gives pixels light, where it has several ways: sums next to the accounts
-// in the ledger's buffer, and in its units. They are parts of what is deposited, and in no balance.
+// Sums next to the accounts in the ledger's buffer, and in its units; they are in no balance. By what
+// a reconstruction gives pixels light, where it has several ways: parts of what is deposited. And by
+// how much a map holds more, or less, than the flux that was deposited: a pixel that shows several
+// surfaces has the mean of their irradiances over its area, times the area of the one at its middle.
 // C++ and GLSL both read this file.
 #pragma once
 
@@ -12,7 +14,9 @@ namespace kaustik::transport {
 
 const uint kSumTriangles = kAccountCount;   // between photons that are joined
 const uint kSumBeams = kAccountCount + 1u;  // of photons that are not, by what they cover alone
-const uint kLedgerEntryCount = kAccountCount + 2u;
+const uint kSumMoreInMap = kAccountCount + 2u;
+const uint kSumLessInMap = kAccountCount + 3u;
+const uint kLedgerEntryCount = kAccountCount + 4u;
 
 #ifdef __cplusplus
 }  // namespace kaustik::transport

@@ -96,6 +96,7 @@ struct PatchOnScreen {
     bool isWhole;  // none of it is next to the view
     float tolerance;
     PatchSide side;
+    bool isJoined;
 };
 
 PatchOnScreen onScreen(Patch whole) {
@@ -119,6 +120,7 @@ PatchOnScreen onScreen(Patch whole) {
                                 vec3(q[0], q[2], q[3]), 1.0 - whole.first, base);
     made.tolerance = whole.tolerance;
     made.side = whole.side;
+    made.isJoined = whole.isJoined;
     return made;
 }
 
@@ -164,71 +166,170 @@ ivec2 pixelOnLine(PatchLines lines, int line, int place) {
     return lines.areColumns ? ivec2(line, place) : ivec2(place, line);
 }
 
-struct PatchPixel {
-    float share;
-    float inView;  // the same without how its surface is turned
-    int where;
+// What a pixel sees where a plane of a patch's surface would be, m² of the plane.
+struct PlanePixel {
+    float lit;       // through which the light comes that falls on what is seen
+    float occluded;  // before which something nearer is seen
+    float inView;    // that is before the pixel, seen or not
+    float stored;    // `lit` for the area of the receiver that the pixel stands for
 };
 
 // A beam that grazes a plane by less than this sine tells nothing of how light falls on what turns
 // away from it.
 const float kMinLitSlant = 0.05;
 
-// What the pixel sees where a plane of the patch's surface would be: kSeen…; `area`, m²: of the plane,
-// through which the light comes that falls on what is seen, or, where it is not seen, that is before
-// the pixel. `lit`: how much of the light through that area falls on what is seen: what turns away from
-// it has less by its cosine, unless that is known already, and what is turned off it none.
-int seenOnPlane(ivec2 pixel, vec3 plane, vec3 point, bool isShaded, PatchSide side, float tolerance,
-                out float area, out float lit) {
-    vec3 ray = viewRay(vec2(pixel) + 0.5);
-    float facing = boundedSlant(dot(plane, ray), 1e-4);
-    float depth = max(depthOnPlane(pixel, plane, point, facing), view.frustum.z);
-    // A surface that lies less slanted than the plane is another one, next to it or in front.
-    vec3 seenNormal = receiverSurfaceAt(pixel).xyz;
-    float margin = min(depthMargin(ray, depth, plane),
-                       depthMargin(ray, abs(receiverAt(pixel).x), seenNormal));
-    int seen = seenAt(pixel, depth, side.normal, tolerance + margin, area);
-    lit = 1.0;
-    if (seen != kSeenOn) {
-        area = pixelArea(ray, depth, plane);
-    } else {
-        float cosine = dot(seenNormal, side.direction) * (side.isFromBehind ? 1.0 : -1.0);
-        float slant = abs(dot(plane, side.direction));
-        float least = max(kMinLitSlant - slant, 0.0);
-        if (!isShaded) lit = (cosine + least) / (slant + least);
-        if (cosine <= 0.0) lit = 0.0;
-    }
-    return seen;
+// How much of the light through a plane falls on what is seen with this normal: what turns away from
+// the light has less by its cosine, unless that is known already, and what is turned off it none.
+float litShare(vec3 seenNormal, vec3 plane, bool isShaded, PatchSide side) {
+    float cosine = dot(seenNormal, side.direction) * (side.isFromBehind ? 1.0 : -1.0);
+    if (cosine <= 0.0) return 0.0;
+    float slant = abs(dot(plane, side.direction));
+    float least = max(kMinLitSlant - slant, 0.0);
+    return isShaded ? 1.0 : (cosine + least) / (slant + least);
 }
 
-float partOf(PatchTriangle triangle, vec2 corner) {
-    vec3 weights = triangle.weights * vec3(corner + 0.5, 1.0);
-    if (any(lessThanEqual(weights, -triangle.changes))) return 0.0;
+// By the receiver at a place in a pixel, `seen` and `seenNormal`, which stands for `share` of it.
+// `endsBefore`: the patch lies next to that place, so that where another surface is seen there and
+// nothing nearer, its own has ended in between, and all that lies in the pixel is seen. `storedArea`: of the receiver at its middle, m²; 0: the pixel stands for none, and what falls on this
+// one is not seen.
+void addSeen(inout PlanePixel pixel, vec2 place, vec2 seen, vec3 seenNormal, vec3 plane, vec3 point,
+             bool isShaded, PatchSide side, float tolerance, bool endsBefore, float share,
+             float storedArea) {
+    vec3 ray = viewRay(place);
+    float facing = boundedSlant(dot(plane, ray), 1e-4);
+    float depth = max(depthOnPlane(place, plane, point, facing), view.frustum.z);
+    // A surface that lies less slanted than the plane is another one, next to it or in front.
+    float margin =
+        min(depthMargin(ray, depth, plane), depthMargin(ray, abs(seen.x), seenNormal));
+    float area;
+    int where = seenOf(seen, seenNormal, depth, side.normal, tolerance + margin, area);
+    if (where != kSeenOn) area = pixelArea(ray, depth, plane);
+    bool facesEye = dot(side.normal, ray) < 0.0 == dot(side.normal, side.direction) < 0.0;
+    if (where == kSeenOutside && endsBefore && facesEye) {
+        where = kSeenOn;
+        seenNormal = side.normal;
+    }
+    pixel.inView += share * area;
+    if (where == kSeenOccluded) pixel.occluded += share * area;
+    if (where == kSeenOn) {
+        float lit = share * litShare(seenNormal, plane, isShaded, side);
+        if (storedArea > 0.0) {
+            pixel.lit += lit * area;
+        } else {
+            pixel.occluded += lit * area;
+        }
+        pixel.stored += lit * storedArea;
+    }
+}
+
+// The squares of a pixel that are looked at one by one, each by what is seen at one place in it: the
+// whole, or, where a surface ends in the pixel, its quarters.
+struct PixelParts {
+    int count;
+    float side;  // of each, px
+    uint number;  // of the pixel among those at an edge, + 1
+};
+
+#ifdef EDGE_SAMPLES
+#include "include/views/edge_places.glsl"
+#include "include/views/octahedral.glsl"
+uniform usampler2D edgeNumbers;
+uniform sampler2D edgeSamples;
+#endif
+
+PixelParts partsOf(ivec2 pixel) {
+#ifdef EDGE_SAMPLES
+    uint number = texelFetch(edgeNumbers, pixel, 0).x;
+    if (number > 0u) return PixelParts(kEdgeSamples, 0.5, number);
+#endif
+    return PixelParts(1, 1.0, 0u);
+}
+
+// From the pixel's corner, px.
+vec2 cornerOfPart(PixelParts parts, int i) {
+    return parts.side * vec2(i & 1, i >> 1);
+}
+
+// `place`: from the pixel's corner, px.
+vec2 receiverOfPart(ivec2 pixel, PixelParts parts, int i, out vec2 place, out vec3 normal) {
+    place = vec2(0.5);
+#ifdef EDGE_SAMPLES
+    if (parts.number > 0u) {
+        place = edgePlace(i);
+        vec4 seen = texelFetch(edgeSamples, edgeTexel(parts.number - 1u, i), 0);
+        normal = unpackUnitVector(seen.zw);
+        return seen.xy;
+    }
+#endif
+    normal = receiverSurfaceAt(pixel).xyz;
+    return receiverAt(pixel);
+}
+
+// Of a plane that covers all of the pixel.
+PlanePixel seenOnPlane(ivec2 pixel, vec3 plane, vec3 point, bool isShaded, PatchSide side,
+                       float tolerance) {
+    PlanePixel made = PlanePixel(0.0, 0.0, 0.0, 0.0);
+    float area = receiverAt(pixel).y;
+    PixelParts parts = partsOf(pixel);
+    for (int i = 0; i < parts.count; ++i) {
+        vec2 place;
+        vec3 normal;
+        vec2 seen = receiverOfPart(pixel, parts, i, place, normal);
+        addSeen(made, vec2(pixel) + place, seen, normal, plane, point,
+                 isShaded, side, tolerance, false, parts.side * parts.side, area);
+    }
+    return made;
+}
+
+bool holds(PatchTriangle triangle, vec2 place) {
+    return all(greaterThanEqual(triangle.weights * vec3(place, 1.0), vec3(0.0)));
+}
+
+// What a triangle has of a square in the view with this lower left corner, by the square's share that
+// it covers, 1/m². `side`: of the square, px.
+float partOf(PatchTriangle triangle, vec2 corner, float side) {
+    vec3 weights = triangle.weights * vec3(corner + 0.5 * side, 1.0);
+    vec3 changes = side * triangle.changes;
+    if (any(lessThanEqual(weights, -changes))) return 0.0;
     float covered = 1.0;
-    if (any(lessThan(weights, triangle.changes))) {
-        covered = coverageOf(triangle.onScreen, corner);
+    if (any(lessThan(weights, changes))) {
+        Triangle at = triangle.onScreen;
+        float scale = 1.0 / side;
+        covered = coverageOf(Triangle(scale * at.a, scale * at.b, scale * at.c, at.slopes, at.area),
+                             scale * corner);
         if (covered <= 0.0) return 0.0;
-        // The density where the triangle is nearest to the pixel's middle.
+        // The density where the triangle is nearest to the square's middle.
         weights = max(weights, 0.0);
         weights /= weights.x + weights.y + weights.z;
     }
     return covered * triangle.perArea * dot(weights, triangle.densities);
 }
 
-PatchPixel patchAt(PatchOnScreen onto, ivec2 pixel) {
-    vec2 corner = vec2(pixel - onto.base);
-    float first = partOf(onto.first, corner);
-    float second = partOf(onto.second, corner);
-    float covered = first + second;
-    if (covered <= 0.0) return PatchPixel(0.0, 0.0, kSeenOutside);
-    bool isFirst = first >= second;
-    float area;
-    float lit;
-    int where = seenOnPlane(pixel, isFirst ? onto.first.plane : onto.second.plane,
-                            isFirst ? onto.first.middle : onto.second.middle,
-                            isFirst ? onto.first.isShaded : onto.second.isShaded, onto.side,
-                            onto.tolerance, area, lit);
-    return PatchPixel(covered * area * lit, covered * area, where);
+bool endsBefore(PatchOnScreen onto, PixelParts parts, vec2 place) {
+    return parts.number > 0u && !holds(onto.first, place) && !holds(onto.second, place);
+}
+
+// The shares of a patch that a pixel has.
+PlanePixel patchAt(PatchOnScreen onto, ivec2 pixel) {
+    PlanePixel made = PlanePixel(0.0, 0.0, 0.0, 0.0);
+    float area = receiverAt(pixel).y;
+    PixelParts parts = partsOf(pixel);
+    for (int i = 0; i < parts.count; ++i) {
+        vec2 corner = cornerOfPart(parts, i);
+        float first = partOf(onto.first, vec2(pixel - onto.base) + corner, parts.side);
+        float second = partOf(onto.second, vec2(pixel - onto.base) + corner, parts.side);
+        if (first + second <= 0.0) continue;
+        bool isFirst = first >= second;
+        vec2 place;
+        vec3 normal;
+        vec2 seen = receiverOfPart(pixel, parts, i, place, normal);
+        addSeen(made, vec2(pixel) + place, seen, normal,
+                isFirst ? onto.first.plane : onto.second.plane,
+                isFirst ? onto.first.middle : onto.second.middle,
+                isFirst ? onto.first.isShaded : onto.second.isShaded, onto.side, onto.tolerance,
+                endsBefore(onto, parts, vec2(pixel - onto.base) + place), (first + second) * parts.side * parts.side, area);
+    }
+    return made;
 }
 
 struct PatchParts {
@@ -237,9 +338,9 @@ struct PatchParts {
     float inView;  // seen or not: all of it but for rounding where none is next to the view
 };
 
-void addPart(inout PatchParts parts, PatchPixel pixel) {
-    if (pixel.where == kSeenOn) parts.on += pixel.share;
-    if (pixel.where == kSeenOccluded) parts.occluded += pixel.share;
+void addPart(inout PatchParts parts, PlanePixel pixel) {
+    parts.on += pixel.lit;
+    parts.occluded += pixel.occluded;
     parts.inView += pixel.inView;
 }
 

@@ -9,6 +9,13 @@ void bookDeposit(Patch whole, vec3 flux) {
     ledgerAdd(whole.isJoined ? kSumTriangles : kSumBeams, flux);
 }
 
+// By which share of a patch's flux the map has more than what was deposited.
+void bookMore(Patch whole, float share) {
+#ifdef EDGE_SAMPLES
+    if (share != 0.0) ledgerAdd(share > 0.0 ? kSumMoreInMap : kSumLessInMap, whole.flux * abs(share));
+#endif
+}
+
 void deposit(Patch whole, ivec2 pixel, float share) {
     depositFlux(pixel, whole.flux * share, directionToEye(whole.side.direction));
 }
@@ -75,24 +82,29 @@ void depositNear(Patch whole) {
         return;
     }
     float nearness[9];
+    float stored[9];
     float sum = 0.0;
     for (int i = 0; i < 9; ++i) {
         ivec2 pixel = ivec2(floor(at)) + ivec2(i % 3, i / 3) - 1;
         nearness[i] = 0.0;
         if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, size))) continue;
-        float area;
-        float lit;
-        int where = seenOnPlane(pixel, whole.side.normal, middle, false, whole.side,
-                                whole.tolerance, area, lit);
-        if (where != kSeenOn || lit <= 0.0) continue;
+        PlanePixel seen = seenOnPlane(pixel, whole.side.normal, middle, false, whole.side,
+                                      whole.tolerance);
+        if (seen.lit <= 0.0) continue;
         nearness[i] = max(1.5 - length(vec2(pixel) + 0.5 - at), 1e-3);
+        stored[i] = seen.stored / seen.lit;
         sum += nearness[i];
     }
+    float more = 0.0;
     for (int i = 0; i < 9; ++i) {
         ivec2 pixel = ivec2(floor(at)) + ivec2(i % 3, i / 3) - 1;
-        if (nearness[i] > 0.0) deposit(whole, pixel, nearness[i] / sum);
+        if (!(nearness[i] > 0.0)) continue;
+        float share = nearness[i] / sum;
+        deposit(whole, pixel, stored[i] * share);
+        more += (stored[i] - 1.0) * share;
     }
     if (sum > 0.0) {
+        bookMore(whole, more);
         bookDeposit(whole, whole.flux);
         return;
     }
@@ -104,13 +116,15 @@ void depositNear(Patch whole) {
 // that add up to `total`.
 void depositParts(Patch whole, PatchOnScreen onto, int first, int step, float total) {
     PatchLines lines = linesOf(onto);
+    float more = 0.0;
     for (int line = lines.low.y + first; line <= lines.high.y; line += step) {
         ivec2 span = spanOf(lines, line);
         for (int place = span.x; place <= span.y; ++place) {
             ivec2 pixel = pixelOnLine(lines, line, place);
-            PatchPixel part = patchAt(onto, pixel);
-            if (part.where == kSeenOn && part.share > 0.0)
-                deposit(whole, pixel, part.share / total);
+            PlanePixel part = patchAt(onto, pixel);
+            if (part.stored > 0.0) deposit(whole, pixel, part.stored / total);
+            more += part.stored - part.lit;
         }
     }
+    bookMore(whole, more / total);
 }

@@ -72,7 +72,7 @@ SpritePixel spriteAt(Sprite sprite, ivec2 pixel) {
     vec3 ray = viewRay(vec2(pixel) + 0.5);
     float facing = dot(sprite.normal, ray);
     if (abs(facing) < 1e-5) return result;
-    float depth = depthOnPlane(pixel, sprite.normal, sprite.center, facing);
+    float depth = depthOnPlane(vec2(pixel) + 0.5, sprite.normal, sprite.center, facing);
     if (!(depth > view.frustum.z)) return result;
     // On a slanted surface a splat is thinner than a pixel and may fall between the middles of all:
     // it reaches a pixel's width far on the screen whatever it covers on the surface, so that some

@@ -94,7 +94,7 @@ WEIGHT weightAt(Splat splat, ivec2 texel) {
 int lookAt(Splat splat, ivec2 texel) {
     float facing = dot(splat.normal, viewRay(vec2(texel) + 0.5));
     if (abs(facing) < 1e-5) return kSeenOutside;
-    float depth = depthOnPlane(texel, splat.normal, splat.position, facing);
+    float depth = depthOnPlane(vec2(texel) + 0.5, splat.normal, splat.position, facing);
     if (!(depth > view.frustum.z)) return kSeenOutside;
     float tolerance = (0.5 * splat.radius + 1.0) * pixelFootprint(depth);
     float area;

@@ -15,6 +15,7 @@
 
 #include "framework/core/error.h"
 #include "framework/pipeline/frame_builder.h"
+#include "techniques/reconstruct/edge_samples.h"
 #include "techniques/reconstruct/triangles.h"
 #include "techniques/splats/clamped.h"
 #include "techniques/stores/stores.h"
@@ -58,11 +59,14 @@ constexpr int kMaxMerges = 4;
 // rest.
 constexpr float kMaxWidthOnCube = 1.2f;
 
-Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Hits& hits,
-               const Store& store, const FluxMap& before) {
+Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Geometry& geometry,
+               const Hits& hits, const Store& store, const FluxMap& before) {
     const TrianglesParams params = trianglesForViews(wanted, *store.receivers.views);
     const FluxSets sets = setsIn(frame, store);
     const bool isGlossy = sets.hasIntensity();
+    EdgeSamples edges;
+    if (params.edges == Edges::samples && store.isEyeView())
+        edges = edgeSamplesOf(frame, geometry, store.receivers);
     struct Data {
         Stored stored;
         graph::Buffer<std::uint32_t> photonOfCell;
@@ -87,6 +91,11 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Hits& h
             if (hits.incoming.extents.valid()) {
                 setup.sample("cellExtents", hits.incoming.extents);
                 setup.define("CELL_EXTENTS");
+            }
+            if (edges.valid()) {
+                setup.sample("edgeNumbers", edges.numbers);
+                setup.sample("edgeSamples", edges.samples);
+                setup.define("EDGE_SAMPLES");
             }
             const auto create = [&]<class T>(graph::Buffer<T>& buffer, const char* block,
                                              const char* name, std::size_t count) {
@@ -184,7 +193,7 @@ CausticMap coverTriangles(FrameBuilder& frame, const TrianglesParams& params, Hi
     needsBeams(frame, "reconstruct.triangles", hits.incoming);
     return storeEverywhere(frame, surfaces, hits, before,
                            [&](const Store& store, const Hits& own, const FluxMap& former) {
-                               return coverIn(frame, params, own, store, former);
+                               return coverIn(frame, params, surfaces.geometry, own, store, former);
                            });
 }
 

@@ -7,12 +7,20 @@
 #include <string>
 
 #include "framework/pipeline/frame_builder.h"
+#include "techniques/raster_views/map_params.h"
 
 namespace kaustik {
 
 enum class TriangleShading : int { smooth, flat, vertices };
 enum class Unjoined : int { beams, discard };
 enum class LightSize : int { points, widened };
+enum class Edges : int { middle, samples };
+
+inline std::string whyEdgesAreNotSampled(const FrameFacts& facts) {
+    return facts.settings.get<ReconstructParams>(ReconstructStage::name).space == StoreSpace::screen
+               ? ""
+               : "light is not stored on the screen";
+}
 
 // Photons that are stored by cell keep nothing of how their lights spread them.
 inline std::string whyTrianglesAreNotWidened(const FrameFacts& facts) {
@@ -28,6 +36,7 @@ struct TrianglesParams {
     Unjoined unjoined = Unjoined::beams;
     float merge = 0.0f;
     LightSize lightSize = LightSize::points;
+    Edges edges = Edges::middle;
     template <class R>
     void reflect(R& r) {
         const auto whyNotJoined = [](const FrameFacts& facts) { return facts.whyNoNeighbours(); };
@@ -68,6 +77,11 @@ struct TrianglesParams {
                            : "no light of the scene has a size";
             })
             .when(&whyTrianglesAreNotWidened);
+        r.choice(edges, "edges",
+                 "What tells which surfaces a pixel shows where one ends. middle: the one at its "
+                 "middle; samples: those at four places in it, by exact rays of the eye",
+                 {"middle", "samples"})
+            .when(&whyEdgesAreNotSampled);
     }
 };
 

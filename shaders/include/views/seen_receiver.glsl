@@ -42,10 +42,11 @@ const int kSeenOccluded = 1;   // something nearer is in front of it
 const int kSeenOutside = 2;     // the surface has ended before
 const int kSeenOffScreen = 3;
 
-// `depth`: where the surface would be at the pixel, m; `normal`: its own; `tolerance`: by which what
-// is seen may be off, m. `area` becomes what the pixel sees of the surface, m², where it sees it.
-int seenAt(ivec2 pixel, float depth, vec3 normal, float tolerance, inout float area) {
-    vec2 seen = receiverAt(pixel);
+// `seen`, `seenNormal`: a receiver, as a pixel has it. `depth`: where the surface would be there, m;
+// `normal`: its own; `tolerance`: by which what is seen may be off, m. `area` becomes what a pixel
+// sees of the surface, m², where it sees it.
+int seenOf(vec2 seen, vec3 seenNormal, float depth, vec3 normal, float tolerance,
+           inout float area) {
     bool isMirror = seen.x < 0.0;
     float seenDepth = abs(seen.x);
     if (seenDepth == 0.0) return kSeenOutside;
@@ -53,16 +54,21 @@ int seenAt(ivec2 pixel, float depth, vec3 normal, float tolerance, inout float a
     if (isMirror || seenDepth > depth + tolerance) return kSeenOutside;
     // A floor's light is not a wall's: of normals at right angles rounding would decide.
     const float kSameSide = 1e-4;
-    if (dot(receiverSurfaceAt(pixel).xyz, normal) <= kSameSide) return kSeenOutside;
+    if (dot(seenNormal, normal) <= kSameSide) return kSeenOutside;
     area = seen.y;
     return kSeenOn;
 }
 
-// Where the pixel's ray through its middle meets a plane with this unit normal through a point, m in
-// depth. `facing`: the normal by viewRay, not 0.
-float depthOnPlane(ivec2 pixel, vec3 normal, vec3 point, float facing) {
+// The same of what the pixel sees at its middle.
+int seenAt(ivec2 pixel, float depth, vec3 normal, float tolerance, inout float area) {
+    return seenOf(receiverAt(pixel), receiverSurfaceAt(pixel).xyz, depth, normal, tolerance, area);
+}
+
+// Where the ray through a place on the screen, px, meets a plane with this unit normal through a
+// point, m in depth. `facing`: the normal by viewRay, not 0.
+float depthOnPlane(vec2 place, vec3 normal, vec3 point, float facing) {
 #ifdef ORTHOGRAPHIC_VIEW
-    point -= viewPoint(vec2(pixel) + 0.5, 0.0);
+    point -= viewPoint(place, 0.0);
 #endif
     return dot(normal, point) / facing;
 }

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// reconstruct.edges: the receivers at four places of a pixel in which a surface ends, on the straight
+// rays of the eye, to which dielectrics are invisible. Where all of them go on from what is seen at its
+// middle the pixel is at no edge. One thread a pixel of the list.
+#include "include/surfaces/bvh.glsl"
+#include "include/surfaces/surface_data.glsl"
+#include "include/thread.glsl"
+#include "include/views/octahedral.glsl"
+#include "reconstruct/edges.glsl"
+#include "include/views/edge_places.glsl"
+
+uniform sampler2D receiver;
+uniform sampler2D receiverSurface;
+layout(r32ui) writeonly uniform uimage2D edgeNumbers;
+layout(rgba32f) writeonly uniform image2D edgeSamples;
+
+bool isSurfaceHit(BvhRay ray, uint triangle, vec3 normal, float height) {
+    uint kind = materialKind(bvhSources[triangle].material - 1u);
+    return isReceiver(kind) || kind == kMaterialMirror;
+}
+
+vec4 receiverSeenAt(vec2 place) {
+    vec3 ray = viewRay(place);
+    float perDepth = length(ray);
+    // What is nearer than the near plane hides nothing.
+    BvhRay local = bvhRay(ray * view.frustum.z, ray / perDepth);
+    BvhHit hit = traceBvh(local, 3.0e38);
+    if (hit.triangle == kBvhNone) return vec4(0.0);
+    PointOnTriangle point = pointOfHit(local, hit);
+    float depth = view.frustum.z + hit.distance / perDepth;
+    vec3 geometric = localToEye(point.geometric);
+    vec3 normal = localToEye(shadingNormal(point.normal, point.geometric));
+    bool isLit = isReceiver(materialKind(bvhSources[hit.triangle].material - 1u));
+    return vec4(isLit ? depth : -depth, isLit ? pixelArea(ray, depth, geometric) : 0.0,
+                packUnitVector(normal));
+}
+
+void main() {
+    uint number = threadNumber();
+    if (number >= min(edges.count, edgeCapacity)) return;
+    ivec2 pixel = ivec2(edgePixels[number] & 0xffffu, edgePixels[number] >> 16u);
+    float depth = texelFetch(receiver, pixel, 0).x;
+    vec3 normal = texelFetch(receiverSurface, pixel, 0).xyz;
+    vec2 middle = vec2(pixel) + 0.5;
+    vec3 point = viewPoint(middle, depth);
+    float margin = depthMargin(viewRay(middle), depth, normal);
+    bool isOne = true;
+    for (int i = 0; i < kEdgeSamples; ++i) {
+        vec2 place = vec2(pixel) + edgePlace(i);
+        vec4 seen = receiverSeenAt(place);
+        isOne = isOne &&
+                (depth > 0.0 ? goesOn(point, normal, margin, place, seen.x,
+                                      unpackUnitVector(seen.zw))
+                             : seen.x <= 0.0);
+        imageStore(edgeSamples, edgeTexel(number, i), seen);
+    }
+    if (isOne) imageStore(edgeNumbers, pixel, uvec4(0u));
+}

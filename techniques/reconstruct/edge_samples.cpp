@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// reconstruct.edges: the pixels in which a surface ends, and what is seen at four places of each.
+// In: eye buffer; out: a receiver by place, view space, m and m².
+#include "techniques/reconstruct/edge_samples.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "framework/gl/executor.h"
+#include "techniques/thread_lists/thread_list.h"
+#include "techniques/tracing/bvh_rays.h"
+
+namespace kaustik {
+namespace {
+
+// Pixels at an edge in a row of the samples' texture.
+constexpr int kPixelsOfRow = 256;
+// Of all pixels, at most.
+constexpr int kMaxShare = 4;
+
+struct EdgePass {
+    EdgeSamples edges;
+    ThreadList pixels;
+};
+
+EdgeSamples makeEdgeSamples(FrameBuilder& frame, const Geometry& geometry,
+                            const ReceiverView& eye) {
+    const FrameBuilder::PassScope shared(frame);
+    const BvhOfFrame bvh = bvhOfFrame(frame, geometry);
+    const int pixels = frame.width() * frame.height();
+    const int rows = std::max((pixels / kMaxShare + kPixelsOfRow - 1) / kPixelsOfRow, 1);
+    const int capacity = rows * kPixelsOfRow;
+    const EdgePass& made = frame.pass<EdgePass>(
+        "reconstruct.edges", "pixels see more than one surface where one ends",
+        [&](graph::PassSetup& setup, EdgePass& data) {
+            setup.sample("receiver", eye.receiver);
+            setup.sample("receiverSurface", eye.receiverSurface);
+            bvh.read(setup);
+            data.edges.numbers = setup.image(
+                "edgeNumbers",
+                setup.create<EdgeNumber>("edges.numbers", frame.width(), frame.height()));
+            data.edges.samples = setup.image(
+                "edgeSamples",
+                setup.create<EdgeSample>("edges.samples", kPixelsOfRow * kEdgeSamples, rows));
+            setup.bypass(data.edges.numbers, {0, 0, 0, 0});
+            setup.bypass(data.edges.samples, {0, 0, 0, 0});
+            data.pixels = ThreadList::create(setup, "EdgePixels", "edges.pixels",
+                                             static_cast<std::size_t>(pixels));
+        },
+        [&inputs = frame.inputs(), bvh, capacity](const EdgePass& pass, gl::PassContext& context) {
+            pass.pixels.clear(context);
+            context.compute("reconstruct/edges_list.comp")
+                .set("edgeCapacity", static_cast<unsigned>(capacity))
+                .dispatchOver(inputs.view.width, 8, inputs.view.height, 8);
+            gl::Command command = context.compute("reconstruct/edges.comp");
+            bvh.bindTo(command, inputs);
+            command.set("edgeCapacity", static_cast<unsigned>(capacity));
+            pass.pixels.dispatchOver(context, std::move(command));
+        });
+    return made.edges;
+}
+
+}  // namespace
+
+EdgeSamples edgeSamplesOf(FrameBuilder& frame, const Geometry& geometry, const ReceiverView& eye) {
+    return *frame.once<EdgeSamples>("reconstruct.edges", [&] {
+        return std::make_shared<EdgeSamples>(makeEdgeSamples(frame, geometry, eye));
+    });
+}
+
+}  // namespace kaustik

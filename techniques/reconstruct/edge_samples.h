@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// What pixels show of which more than one surface is seen: a receiver at each of four places of
+// theirs, by exact rays. The middle alone leaves a pixel's part of a thin thing, or of what lies
+// behind an edge, to its neighbours.
+#pragma once
+
+#include "framework/pipeline/frame_builder.h"
+
+namespace kaustik {
+
+struct EdgeNumber {  // x: the pixel's number among those at an edge + 1; 0: it is none
+    static constexpr graph::Format format = graph::Format::r32ui;
+};
+struct EdgeSample {  // x: view depth in m, negative of a mirror, 0 none; y: area that the pixel
+                     // would see of that surface, m²; zw: its outward shading normal, octahedral
+    static constexpr graph::Format format = graph::Format::rgba32f;
+};
+
+// Places a pixel: the middles of its quarters.
+inline constexpr int kEdgeSamples = 4;
+
+struct EdgeSamples {
+    graph::Texture<EdgeNumber> numbers;  // as large as the picture
+    // Four a pixel, in the order of their numbers, in rows.
+    graph::Texture<EdgeSample> samples;
+    [[nodiscard]] bool valid() const { return numbers.valid(); }
+};
+
+// Of the eye's receivers; made once a frame.
+[[nodiscard]] EdgeSamples edgeSamplesOf(FrameBuilder& frame, const Geometry& geometry,
+                                        const ReceiverView& eye);
+
+}  // namespace kaustik

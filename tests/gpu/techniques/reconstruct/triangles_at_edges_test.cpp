@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+// Triangles where a pixel shows more than one surface: through a sheet that bends nothing the sun
+// shines on a box over a floor. What a pixel has to show is the mean over its area of the sun's
+// irradiance by the cosine on each face and on the floor, and of none in the box's shadow: by rays
+// through many places of each pixel, against the box in closed form.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <optional>
+
+#include "tests/gpu/fixture.h"
+
+namespace kaustik::test {
+namespace {
+
+constexpr double kSun = 100.0;  // W/m²
+const glm::dvec3 kDirection = glm::normalize(glm::dvec3(-0.35, -0.9, -0.2));
+const glm::dvec3 kMiddle(0.0, 0.3, 0.0);  // of the box, m
+const glm::dvec3 kHalf(0.3, 0.25, 0.2);
+constexpr int kWidth = 64;
+constexpr int kHeight = 48;
+
+scene::Scene boxUnderAir() {
+    return sceneFromText(R"(
+name = "box under air"
+[camera]
+position = [0.9, 1.0, 1.4]
+target = [0, 0.2, 0]
+vertical_fov_degrees = 45
+[[light]]
+name = "sun"
+type = "directional"
+irradiance = 100
+direction = [-0.35, -0.9, -0.2]
+[[material]]
+name = "grey"
+type = "lambertian"
+albedo = 0.5
+[[material]]
+name = "air"
+type = "dielectric"
+ior = 1
+[[object]]
+name = "sheet"
+shape = "plane"
+material = "air"
+size = [8, 8]
+position = [0, 2, 0]
+[[object]]
+name = "floor"
+shape = "plane"
+material = "grey"
+size = [6, 6]
+[[object]]
+name = "box"
+shape = "box"
+material = "grey"
+size = [0.6, 0.5, 0.4]
+position = [0, 0.3, 0]
+)");
+}
+
+struct BoxHit {
+    double distance = std::numeric_limits<double>::infinity();
+    glm::dvec3 normal{0.0};
+};
+
+// Where a ray enters the box.
+std::optional<BoxHit> hitBox(const glm::dvec3& origin, const glm::dvec3& direction) {
+    BoxHit hit{-std::numeric_limits<double>::infinity(), glm::dvec3(0.0)};
+    double leaves = std::numeric_limits<double>::infinity();
+    for (int axis = 0; axis < 3; ++axis) {
+        if (direction[axis] == 0.0) {
+            if (std::abs(origin[axis] - kMiddle[axis]) > kHalf[axis]) return {};
+            continue;
+        }
+        const double sign = direction[axis] > 0.0 ? 1.0 : -1.0;
+        const double enters = (kMiddle[axis] - sign * kHalf[axis] - origin[axis]) / direction[axis];
+        leaves =
+            std::min(leaves, (kMiddle[axis] + sign * kHalf[axis] - origin[axis]) / direction[axis]);
+        if (enters > hit.distance) {
+            hit.distance = enters;
+            hit.normal = glm::dvec3(0.0);
+            hit.normal[axis] = -sign;
+        }
+    }
+    if (hit.distance > leaves || hit.distance < 1e-9) return {};
+    return hit;
+}
+
+struct Seen {
+    int surface = -1;  // 0: floor; 1 to 6: faces of the box
+    double irradiance = 0.0;
+};
+
+Seen seenAlong(const glm::dvec3& origin, const glm::dvec3& direction) {
+    const std::optional<BoxHit> box = hitBox(origin, direction);
+    const double toFloor =
+        direction.y < 0.0 ? -origin.y / direction.y : std::numeric_limits<double>::infinity();
+    if (box && box->distance < toFloor) {
+        const double cosine = -glm::dot(box->normal, kDirection);
+        const int face = box->normal.x != 0.0 ? 1 : box->normal.y != 0.0 ? 2 : 3;
+        return {face, kSun * std::max(cosine, 0.0)};
+    }
+    const glm::dvec3 there = origin + toFloor * direction;
+    if (!std::isfinite(toFloor) || std::max(std::abs(there.x), std::abs(there.z)) > 3.0) return {};
+    return {0, hitBox(there, -kDirection) ? 0.0 : -kSun * kDirection.y};
+}
+
+struct Errors {
+    double atEdges = 0.0;  // mean, W/m²
+    double elsewhere = 0.0;
+    double energy = 0.0;  // of the pixels at edges, over what it should be
+    int edges = 0;
+};
+
+Errors errorsWith(const std::string& edges) {
+    const Frame frame(boxUnderAir(), kWidth, kHeight,
+                      {{"emit.photons", std::getenv("PH") ? std::getenv("PH") : "512x512"}, {"reconstruct.triangles.edges", edges}}, {},
+                      false, "exact_rays");
+    const Texels irradiance = frame.causticIrradiance();
+    const Texels receiver = frame.read("eye.receiver");
+    const glm::dvec3 eye(0.9, 1.0, 1.4);
+    Errors errors;
+    double found = 0.0;
+    double wanted = 0.0;
+    int elsewhere = 0;
+    for (int y = 1; y + 1 < kHeight; ++y) {
+        for (int x = 1; x + 1 < kWidth; ++x) {
+            if (receiver.at(x, y, 0) <= 0.0f) continue;
+            // The picture's plane, by its pixels' middles at one depth.
+            const glm::dvec3 middle = frame.worldAt(x, y, 1.0);
+            const glm::dvec3 right =
+                0.5 * (frame.worldAt(x + 1, y, 1.0) - frame.worldAt(x - 1, y, 1.0));
+            const glm::dvec3 up =
+                0.5 * (frame.worldAt(x, y + 1, 1.0) - frame.worldAt(x, y - 1, 1.0));
+            constexpr int kSide = 16;
+            double mean = 0.0;
+            std::array<int, 5> counts{};
+            double lowest = kSun;
+            double highest = 0.0;
+            for (int i = 0; i < kSide * kSide; ++i) {
+                const double column = (i % kSide + 0.5) / kSide - 0.5;
+                const double row = (i / kSide + 0.5) / kSide - 0.5;
+                const Seen seen = seenAlong(eye, middle + column * right + row * up - eye);
+                mean += seen.irradiance / (kSide * kSide);
+                ++counts[static_cast<std::size_t>(seen.surface + 1)];
+                lowest = std::min(lowest, seen.irradiance);
+                highest = std::max(highest, seen.irradiance);
+            }
+            const bool isOne =
+                std::any_of(counts.begin(), counts.end(), [](int n) { return n == kSide * kSide; });
+            if (counts[0] > 0) continue;  // next to the floor's end
+            const double error = std::abs(static_cast<double>(irradiance.at(x, y, 0)) - mean);
+            if (std::getenv("PX") && error > 8.0) printf("PX %s %d %d found %.1f mean %.1f counts sky %d floor %d x %d y %d z %d\n", edges.c_str(), x, y, (double)irradiance.at(x, y, 0), mean, counts[0], counts[1], counts[2], counts[3], counts[4]);
+            if (!isOne) {
+                ++errors.edges;
+                errors.atEdges += error;
+                found += static_cast<double>(irradiance.at(x, y, 0));
+                wanted += mean;
+            } else if (highest - lowest < 1e-6) {
+                ++elsewhere;
+                errors.elsewhere += error;
+            }
+        }
+    }
+    errors.atEdges /= errors.edges;
+    errors.elsewhere /= elsewhere;
+    errors.energy = found / wanted;
+    return errors;
+}
+
+TEST(TrianglesAtEdges, ShowTheMeanOfWhatIsSeenThere) {
+    const Errors middle = errorsWith("middle");
+    const Errors samples = errorsWith("samples");
+    ASSERT_GT(samples.edges, 100);
+    EXPECT_LT(samples.atEdges, 0.5 * middle.atEdges);
+    EXPECT_NEAR(samples.energy, 1.0, 0.02);
+    EXPECT_LT(samples.elsewhere, 1.0);
+    printf("edges %d: middle %g %g %g, samples %g %g %g\n", samples.edges, middle.atEdges,
+           middle.energy, middle.elsewhere, samples.atEdges, samples.energy, samples.elsewhere);
+}
+
+}  // namespace
+}  // namespace kaustik::test
