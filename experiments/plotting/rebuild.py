@@ -44,6 +44,7 @@ TABLE = {
     "bias": "bias/runs.csv",
     "defaults": "defaults.csv",
     "dispersion": "dispersion/runs.csv",
+    "edges": "all_scenes/edges.csv",
     "lamps": "lamps/runs.csv",
     "lamps_widened": "lamps/widened.csv",
     "soft_and_colored": "lamps/soft_and_colored.csv",

@@ -19,8 +19,8 @@ namespace {
 
 // Pixels at an edge in a row of the samples' texture.
 constexpr int kPixelsOfRow = 256;
-// Of all pixels, at most.
-constexpr int kMaxShare = 4;
+// One of so many pixels may be at an edge.
+constexpr int kPixelsPerEdge = 4;
 
 struct EdgePass {
     EdgeSamples edges;
@@ -32,7 +32,7 @@ EdgeSamples makeEdgeSamples(FrameBuilder& frame, const Geometry& geometry,
     const FrameBuilder::PassScope shared(frame);
     const BvhOfFrame bvh = bvhOfFrame(frame, geometry);
     const int pixels = frame.width() * frame.height();
-    const int rows = std::max((pixels / kMaxShare + kPixelsOfRow - 1) / kPixelsOfRow, 1);
+    const int rows = std::max((pixels / kPixelsPerEdge + kPixelsOfRow - 1) / kPixelsOfRow, 1);
     const int capacity = rows * kPixelsOfRow;
     const EdgePass& made = frame.pass<EdgePass>(
         "reconstruct.edges", "pixels see more than one surface where one ends",
@@ -61,6 +61,19 @@ EdgeSamples makeEdgeSamples(FrameBuilder& frame, const Geometry& geometry,
             command.set("edgeCapacity", static_cast<unsigned>(capacity));
             pass.pixels.dispatchOver(context, std::move(command));
         });
+    frame.reportLimit(
+        {"reconstruct.edges",
+         {made.pixels.buffer()},
+         [list = made.pixels.buffer(),
+          capacity](const gl::Executor& executor) -> std::optional<ReachedLimit> {
+             const std::uint32_t found = executor.buffer(list).read<std::uint32_t>().front();
+             if (found <= static_cast<std::uint32_t>(capacity)) return {};
+             return ReachedLimit{.parameter = "reconstruct.triangles.edges",
+                                 .unit = "pixels",
+                                 .value = static_cast<double>(capacity),
+                                 .needed = static_cast<double>(found),
+                                 .sentence = "the others show what is at their middles"};
+         }});
     return made.edges;
 }
 

@@ -28,6 +28,9 @@ class ThreadList {
     // All is listed: `command` may be dispatched.
     void dispatchOver(gl::PassContext& context, gl::Command command) const;
 
+    // What holds it, to be read back: its header first.
+    [[nodiscard]] const graph::Buffer<std::uint32_t>& buffer() const { return list_; }
+
   private:
     void countGroups(gl::PassContext& context, int isListed) const;
     graph::Buffer<std::uint32_t> list_;
