@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: MIT
-// kaustik check: what this device offers, and which others there are.
+// kaustik check: what this device offers, what it lacks for which program, and which others there
+// are.
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "framework/app/commands.h"
+#include "framework/core/error.h"
 #include "framework/core/files.h"
 #include "framework/gl/device_needs.h"
 #include "framework/image/image.h"
+#include "framework/run/program_account.h"
+#include "framework/run/settings.h"
+#include "framework/scene/files/scene_file.h"
 
 namespace kaustik::app {
 namespace {
@@ -44,9 +51,47 @@ bool printNeeds() {
     return isEnough;
 }
 
+// The programs of every technique, by its defaults and as published, on the scene that 'run' takes
+// by default: pictures of few pixels and photons, of which none is rendered. False where one does
+// not fit.
+bool printPrograms(gl::Context& context, const Registry& registry) {
+    const std::string name = SceneOptions().scene;
+    const scene::Scene scene = scene::loadScene(name);
+    run::ProgramAccount account;
+    std::optional<Renderer> renderer;
+    const auto add = [&](const std::string& technique, bool isAsPublished) {
+        RenderSettings settings = run::makeSettings(
+            {.technique = technique,
+             .assignments = {{"emit.photons", "64x64", "check"}, {"refine.memory", "1", "check"}},
+             .isAsPublished = isAsPublished},
+            registry);
+        run::setSize(settings, {64, 48});
+        if (renderer) {
+            renderer->update(std::move(settings));
+        } else {
+            renderer.emplace(context, registry, scene, std::move(settings));
+        }
+        for (const Purpose purpose : {Purpose::picture, Purpose::measurement}) {
+            renderer->build(purpose);
+            account.add(*renderer);
+        }
+    };
+    for (const Technique& technique : registry.techniques()) {
+        for (const bool isAsPublished : {false, true}) {
+            if (isAsPublished && technique.asPublished.empty()) continue;
+            try {
+                add(technique.name, isAsPublished);
+            } catch (const ConfigError&) {  // of a technique that is not for this scene
+            }
+        }
+    }
+    fmt::print("{}", account.text(fmt::format("all techniques on '{}'", name)));
+    return account.problems().empty();
+}
+
 }  // namespace
 
-void checkCommand() {
+void checkCommand(const Registry& registry) {
     fmt::print("kaustik {}\n", versionString());
     fmt::print("project files     {}\n", projectRoot().string());
     fmt::print("images            {}\n", imageFormats());
@@ -67,8 +112,9 @@ void checkCommand() {
     fmt::print("robust context    {}\n",
                device.robust ? "yes" : "no: a lost device may go unnoticed");
     const bool isEnough = printNeeds();
+    const bool isFitting = printPrograms(*context, registry);
     printDevices(device);  // makes other contexts current
-    if (isEnough) {
+    if (isEnough && isFitting) {
         fmt::print("Everything that Kaustik needs is there.\n");
     } else {
         fmt::print(

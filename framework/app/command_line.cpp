@@ -118,7 +118,7 @@ int runCommandLine(int argc, const char* const* argv, const Registry& registry,
         addJudge(app),
         addExperiment(app, registry, parts.addHardCases),
         addGui(app, registry, parts.gui),
-        addCheck(app),
+        addCheck(app, registry),
         addSchema(app, registry),
     };
 

@@ -34,7 +34,7 @@ using AddHardCases = void (*)(numerics::Suite& suite);
 void experimentCommand(const ExperimentOptions& options, const Registry& registry,
                        AddHardCases addHardCases);
 
-void checkCommand();
+void checkCommand(const Registry& registry);
 void schemaCommand(const std::string& what, const Registry& registry);
 
 // `kaustik gui`, which sits on top of this; null in a program that was built without it.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// kaustik explain: what a scene needs, every pass with the reason that it runs or was skipped, and
-// every resource.
+// kaustik explain: what a scene needs, every pass with the reason that it runs or was skipped,
+// every resource, and what the device lacks for it.
 #include <fmt/format.h>
 
 #include "framework/app/commands.h"
@@ -24,10 +24,15 @@ void explainCommand(const ExplainOptions& options, const Registry& registry) {
     if (!options.dotFile.empty())
         writeFileWhole(options.dotFile, session.renderer().graph().toDot());
     fmt::print("{}", run::explain(session.renderer()));
+    const std::size_t bytes = session.renderer().compiled().allocatedBytes;
+    const long long available = context->info().availableBytes;
+    fmt::print("memory {} MiB for the frame's textures and buffers{}\n", bytes >> 20,
+               available > 0 ? fmt::format(", of {} MiB that are free", available >> 20) : "");
     if (model) {
         session.modelCost(*model);
         fmt::print("{}", report::costTable(*session.record().cost));
     }
+    fmt::print("{}", session.accountPrograms().text("a run"));
     if (!options.dotFile.empty()) fmt::print("wrote {}\n", options.dotFile);
 }
 

@@ -95,24 +95,30 @@ void runCommand(const RunOptions& options, const Registry& registry) {
     run::RunReference reference =
         session.referenceFor(series, isCertified ? "none" : options.reference,
                              static_cast<std::uint64_t>(options.referencePhotons));
-    {
-        run::Progress progress("frame", series.warmup + series.frames);
-        const auto onFrame = [&](int done) {
-            progress.update(done);
-            run::throwIfInterrupted();
-        };
-        // A capture and a model render the picture once more.
-        session.render(series, {{}, onFrame}, &reference,
-                       options.captures || model ? nullptr : &options.saved);
-    }
-
     std::vector<fs::path> captures;
     std::vector<std::string> warnings;
-    if (options.captures) {
-        captures.push_back(gl::captureFrame(folder, [&] { session.renderAgain(); }));
-        warnings.emplace_back("RenderDoc was there, which takes time in every frame.");
+    try {
+        {
+            run::Progress progress("frame", series.warmup + series.frames);
+            const auto onFrame = [&](int done) {
+                progress.update(done);
+                run::throwIfInterrupted();
+            };
+            // A capture and a model render the picture once more.
+            session.render(series, {{}, onFrame}, &reference,
+                           options.captures || model ? nullptr : &options.saved);
+        }
+        if (options.captures) {
+            captures.push_back(gl::captureFrame(folder, [&] { session.renderAgain(); }));
+            warnings.emplace_back("RenderDoc was there, which takes time in every frame.");
+        }
+        if (model) session.modelCost(*model);
+    } catch (const DeviceError& error) {
+        const bool lacksCost = model && !session.record().cost;
+        throw session.keepUnfinished(
+            error, folder, reference,
+            lacksCost ? std::vector<std::string>{"cost"} : std::vector<std::string>());
     }
-    if (model) session.modelCost(*model);
     const run::FinishedRun finished = session.finish(reference, folder, options.saved, warnings);
     const report::RunRecord& record = finished.record;
     const Renderer& renderer = session.renderer();

@@ -211,11 +211,13 @@ Subcommand addGui(CLI::App& app, const Registry& registry, GuiCommand gui) {
             }};
 }
 
-Subcommand addCheck(CLI::App& app) {
-    CLI::App& command =
-        *app.add_subcommand("check", "Prints what this device offers, and which others there are");
+Subcommand addCheck(CLI::App& app, const Registry& registry) {
+    CLI::App& command = *app.add_subcommand(
+        "check",
+        "Prints what this device offers, what it lacks for which program, and which others there "
+        "are");
     addDeviceOption(command);
-    return {&command, &checkCommand};
+    return {&command, [&registry] { checkCommand(registry); }};
 }
 
 Subcommand addSchema(CLI::App& app, const Registry& registry) {

@@ -27,7 +27,7 @@ struct Subcommand {
 [[nodiscard]] Subcommand addExperiment(CLI::App& app, const Registry& registry,
                                        AddHardCases addHardCases);
 [[nodiscard]] Subcommand addGui(CLI::App& app, const Registry& registry, GuiCommand gui);
-[[nodiscard]] Subcommand addCheck(CLI::App& app);
+[[nodiscard]] Subcommand addCheck(CLI::App& app, const Registry& registry);
 [[nodiscard]] Subcommand addSchema(CLI::App& app, const Registry& registry);
 
 // truth_subcommands.cpp

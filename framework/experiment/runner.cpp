@@ -145,6 +145,10 @@ class Runner {
             }
         }
         std::error_code ignored;
+        const fs::path kept =
+            failureFile(options_.out, *task.run, task.repeat).replace_extension(".unfinished");
+        fs::remove_all(kept, ignored);
+        if (!problem.empty()) keepUnfinished(fresh / "unfinished", kept, problem);
         fs::remove_all(fresh, ignored);
         if (outcome.interrupted) return false;
         if (problem.empty()) {
@@ -153,6 +157,20 @@ class Runner {
             recordFailure(task, outcome.exitCode, problem);
         }
         return true;
+    }
+
+    // What a run has left that the device has left, next to the file of its failure, whose message
+    // then names that place.
+    static void keepUnfinished(const fs::path& unfinished, const fs::path& kept,
+                               std::string& problem) {
+        std::error_code error;
+        if (!fs::exists(unfinished, error)) return;
+        fs::create_directories(kept.parent_path(), error);
+        fs::rename(unfinished, kept, error);
+        if (error) return;
+        const std::string from = unfinished.string();
+        if (const std::size_t at = problem.find(from); at != std::string::npos)
+            problem.replace(at, from.size(), kept.string());
     }
 
     void recordFailure(Task& task, int exitCode, const std::string& problem) {

@@ -191,6 +191,7 @@ void Command::draw() {
 }
 
 void Command::drawArrays(GLenum mode, int count, int instances) {
+    if (context_.list(key_)) return;
     bind();
     bindTargets();
     bindState();
@@ -201,6 +202,7 @@ void Command::drawArrays(GLenum mode, int count, int instances) {
 
 void Command::drawIndexedIndirect(GLuint vertexArray, const Buffer& commands, std::size_t first,
                                   std::size_t count) {
+    if (context_.list(key_)) return;
     bind();
     bindTargets();
     bindState();
@@ -225,6 +227,7 @@ void Command::dispatch(int groupsX, int groupsY, int groupsZ) {
                         context_.passName(), fmt::join(key_.files, " + "), groupsX, groupsY,
                         groupsZ, kMaxGroups));
     }
+    if (context_.list(key_)) return;
     bind();
     if (groupsX > 0 && groupsY > 0 && groupsZ > 0) {
         countCommand();
@@ -245,6 +248,7 @@ GLuint Command::indirect(const graph::ResourceRef& commands) {
 
 void Command::dispatchIndirect(const graph::ResourceRef& commands, std::size_t offset) {
     const GLuint buffer = indirect(commands);
+    if (context_.list(key_)) return;
     bind();
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, buffer);
     countCommand();
@@ -254,6 +258,7 @@ void Command::dispatchIndirect(const graph::ResourceRef& commands, std::size_t o
 
 void Command::drawIndirect(GLenum mode, const graph::ResourceRef& commands, std::size_t offset) {
     const GLuint buffer = indirect(commands);
+    if (context_.list(key_)) return;
     bind();
     bindTargets();
     bindState();
@@ -274,6 +279,7 @@ void Command::captureIndirect(GLenum mode, const graph::ResourceRef& commands, s
     }
     accesses_.push_back(context_.access(counts, Use::queryResult));
     const GLuint results = context_.bufferOf(accesses_.back()).id();
+    if (context_.list(key_)) return;
     bind();
     glBindFramebuffer(GL_FRAMEBUFFER, context_.framebuffer({}));
     glBindVertexArray(context_.emptyVertexArray());

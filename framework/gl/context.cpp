@@ -424,8 +424,8 @@ void Context::check() {
     const GLenum status = egl_->robust ? glGetGraphicsResetStatus() : GL_NO_ERROR;
     if (status != GL_NO_ERROR) {
         throw DeviceError(
-            fmt::format("The device was lost {}. Nothing of this run is kept; start it again, with "
-                        "less work a pass if it repeats.",
+            fmt::format("The device was lost {}; if it repeats, take less work a pass, such as a "
+                        "smaller emit.batch or picture.",
                         scope_));
     }
     for (GLenum error = glGetError(); error != GL_NO_ERROR; error = glGetError()) {

@@ -73,6 +73,19 @@ Command PassContext::shaders(std::vector<std::string> files) {
     return {*this, std::move(files)};
 }
 
+bool PassContext::isListing() const {
+    return executor_.listed_ != nullptr;
+}
+
+bool PassContext::list(const ProgramKey& key) {
+    if (!isListing()) return false;
+    std::vector<UsedProgram>& listed = *executor_.listed_;
+    const bool isKnown = std::any_of(listed.begin(), listed.end(),
+                                     [&](const UsedProgram& used) { return used.key == key; });
+    if (!isKnown) listed.push_back({key, step_.name});
+    return true;
+}
+
 bool PassContext::isKept(const graph::ResourceRef& handle) const {
     return executor_.compiled_.isKept(handle);
 }
@@ -249,20 +262,27 @@ bool Executor::isLoopRepeated(const graph::Loop& loop) {
     return word != 0;
 }
 
-// The last of as many runs as in the frame before is not taken on trust: so there is none in vain
-// where nothing changes, and where a loop has become shorter it is found a run a frame.
+// In a graph's first frame the last of as many runs as in the frame before is not taken on trust:
+// so there is none in vain where little changes, and where a loop has become shorter it is found a
+// run a frame. The frames that follow have the same input.
 const graph::Loop* Executor::repeatedLoop(std::size_t step, std::vector<LoopRuns>& runs) {
     for (std::size_t i = 0; i < compiled_.loops.size(); ++i) {
         const graph::Loop& loop = compiled_.loops[i];
         if (loop.last != step) continue;
         ++runs[i].current;
-        std::size_t trusted = 0;
+        std::size_t before = 0;  // how often it ran here in the last frame
         if (loop.mayRunIdle && loopRuns_.size() == runs.size()) {
-            const std::vector<std::size_t>& before = loopRuns_[i].finished;
-            if (runs[i].finished.size() < before.size())
-                trusted = before[runs[i].finished.size()] - 1;
+            const std::vector<std::size_t>& finished = loopRuns_[i].finished;
+            if (runs[i].finished.size() < finished.size())
+                before = finished[runs[i].finished.size()];
         }
-        if (runs[i].current < trusted || isLoopRepeated(loop)) return &loop;
+        if (trustsLoops_ && before > 0) {
+            if (runs[i].current < before) return &loop;
+            order({{loop.slot, Use::updateBuffer}});
+            loopWords_.copy(slots_[loop.slot].buffer, loop.word);
+        } else if (runs[i].current + 1 < before || isLoopRepeated(loop)) {
+            return &loop;
+        }
         runs[i].finished.push_back(runs[i].current);
         runs[i].current = 0;
     }
@@ -274,6 +294,8 @@ bool Executor::runFrame(PassTimer& timer, const std::function<bool(std::size_t)>
     const std::size_t count = compiled_.steps.size();
     timer.beginFrame(count);
     context_.setScope("in a frame");
+    noteCutShort(false);
+    trustsLoops_ = !isFresh_ && !std::exchange(waitsNext_, false);
     std::vector<bool> hasRun(count, false);
     std::vector<bool> isDone(count, false);  // since a loop has come round that it depends on
     std::size_t rounds = 0;
@@ -314,11 +336,54 @@ bool Executor::runFrame(PassTimer& timer, const std::function<bool(std::size_t)>
         }
         i = next;
     }
+    loopWords_.endFrame();
     timer.endFrame();
     isFresh_ = false;
     loopRuns_ = std::move(loopRuns);
     context_.check();
     return true;
+}
+
+void Executor::noteCutShort(bool waits) {
+    const std::size_t cutShort = loopWords_.takeCutShort(waits);
+    cutShort_ += cutShort;
+    waitsNext_ = waitsNext_ || cutShort > 0;
+}
+
+std::size_t Executor::takeCutShort(bool waits) {
+    noteCutShort(waits);
+    return std::exchange(cutShort_, 0);
+}
+
+std::vector<UsedProgram> Executor::listPrograms() {
+    std::vector<UsedProgram> listed;
+    const struct Listing {
+        Executor& executor;
+        ~Listing() { executor.listed_ = nullptr; }
+    } listing{*this};
+    listed_ = &listed;
+    // Whatever a pass throws, a frame of it says in its own words.
+    const auto list = [&](const graph::Step& step, bool isRepeated) {
+        try {
+            if (context_.info().debugs) context_.setScope("in pass '" + step.name + "'");
+            PassContext context(*this, step, isRepeated);
+            if (step.execute) step.execute(context);
+        } catch (const Error&) {
+        }
+    };
+    for (std::size_t i = 0; i < compiled_.steps.size(); ++i) {
+        list(compiled_.steps[i], false);
+        const bool isInLoop =
+            std::any_of(compiled_.loops.begin(), compiled_.loops.end(),
+                        [&](const graph::Loop& loop) { return loop.first <= i && i <= loop.last; });
+        if (isInLoop) list(compiled_.steps[i], true);
+    }
+    // As for OpenGL's errors, where they do not come by a pass' name. A lost device has no end of
+    // them.
+    constexpr int kMaxErrors = 64;
+    for (int i = 0; i < kMaxErrors && glGetError() != GL_NO_ERROR;)
+        ++i;
+    return listed;
 }
 
 GLuint Executor::framebuffer(const std::vector<Attachment>& attachments) {

@@ -12,6 +12,7 @@
 #include "framework/gl/barriers.h"
 #include "framework/gl/command.h"
 #include "framework/gl/context.h"
+#include "framework/gl/loop_words.h"
 #include "framework/gl/objects.h"
 #include "framework/gl/program.h"
 #include "framework/gl/timers.h"
@@ -42,6 +43,10 @@ class PassContext : public graph::ExecuteContext {
     [[nodiscard]] Command compute(const std::string& computeShader);
     [[nodiscard]] Command shaders(std::vector<std::string> files);
 
+    // Whether only the programs of the pass are asked for (Executor::listPrograms): commands do
+    // nothing then, and what is read or copied without one is not what it will be.
+    [[nodiscard]] bool isListing() const;
+
     // Whether what the pass makes is read after the frame: saved, shown, scanned or audited.
     [[nodiscard]] bool isKept(const graph::ResourceRef& handle) const;
 
@@ -67,11 +72,19 @@ class PassContext : public graph::ExecuteContext {
     [[nodiscard]] GLuint emptyVertexArray() const;
     // Null unless accesses are counted.
     [[nodiscard]] AccessCounter* counter() const;
+    // Notes a command's program where that is all that is asked for; false: it is to be issued.
+    [[nodiscard]] bool list(const ProgramKey& key);
 
   private:
     Executor& executor_;
     const graph::Step& step_;
     bool isRepeated_;
+};
+
+// A program, and the pass that asks for it first.
+struct UsedProgram {
+    ProgramKey key;
+    std::string pass;
 };
 
 class Executor {
@@ -93,11 +106,22 @@ class Executor {
     // From now on every pass is counted, or none where null; it must outlive the frames.
     void countAccesses(AccessCounter* counter) { counter_ = counter; }
 
-    // Runs all passes once. Throws what a pass throws, and DeviceError for OpenGL errors: after the
-    // pass that made one where the context debugs, else at the frame's end. `shouldContinue`
-    // is asked before each pass, by its number; where it says no, the frame ends there and has no
-    // time, and the result is false.
+    // The programs that a frame may ask for, in the order of their passes: nothing is drawn or
+    // dispatched for that, and nothing compiled. Clears happen, so what textures and buffers held
+    // is gone but for what the next frame is to find.
+    [[nodiscard]] std::vector<UsedProgram> listPrograms();
+
+    // Runs all passes once. In the first frame of a graph the processor waits for a word that says
+    // whether a loop comes round; in those that follow, loops that may run idle run as often as in
+    // the one before, which is the same frame, and nothing waits (takeCutShort). Throws what a pass
+    // throws, and DeviceError for OpenGL errors: after the pass that made one where the context
+    // debugs, else at the frame's end. `shouldContinue` is asked before each pass, by its number;
+    // where it says no, the frame ends there and has no time, and the result is false.
     bool runFrame(PassTimer& timer, const std::function<bool(std::size_t)>& shouldContinue = {});
+
+    // Frames of this graph, since the last call, in which a loop was left before its end, as far as
+    // is known by now; with `waits`, all. The next frame waits for its loops again.
+    [[nodiscard]] std::size_t takeCutShort(bool waits = false);
 
     // What was asked for, as the last frame has left it; GraphError for the rest.
     [[nodiscard]] const Texture& texture(const graph::ResourceRef& handle) const;
@@ -120,6 +144,7 @@ class Executor {
         std::vector<std::size_t> finished;  // how often it has run, each time that it was begun
         std::size_t current = 0;
     };
+    void noteCutShort(bool waits);
     const graph::Loop* repeatedLoop(std::size_t step, std::vector<LoopRuns>& runs);
     GLuint framebuffer(const std::vector<Attachment>& attachments);
 
@@ -133,8 +158,13 @@ class Executor {
     VertexArrayObject emptyVertexArray_;
     AccessCounter* counter_ = nullptr;
     bool poison_ = false;
-    bool isFresh_ = true;             // no frame has been run since prepare()
-    std::vector<LoopRuns> loopRuns_;  // of the last frame
+    std::vector<UsedProgram>* listed_ = nullptr;  // while programs are listed
+    bool isFresh_ = true;                         // no frame has been run since prepare()
+    std::vector<LoopRuns> loopRuns_;              // of the last frame
+    LoopWords loopWords_;
+    std::size_t cutShort_ = 0;  // frames, until they are taken
+    bool waitsNext_ = false;    // for its loops, since one was cut short
+    bool trustsLoops_ = false;  // in this frame
 };
 
 }  // namespace kaustik::gl

@@ -121,8 +121,7 @@ std::string infoLog(GLuint id, GLint length, Get get) {
     return log;
 }
 
-// How that went is asked only once all stages are under way, so that a driver may compile them side
-// by side.
+// How that went is asked later, so that a driver may compile several side by side.
 ShaderObject startCompiling(const std::string& file, const ShaderText& source) {
     ShaderObject shader(glCreateShader(stageOf(file)));
     const char* text = source.text.c_str();
@@ -143,27 +142,20 @@ void requireCompiled(const ShaderObject& shader, const std::string& file,
         readableShaderLog(infoLog(shader.id(), length, glGetShaderInfoLog), source.lines)));
 }
 
-void link(GLuint program, const std::string& name, const std::vector<std::string>& files,
-          const std::vector<ShaderText>& sources) {
-    std::vector<ShaderObject> shaders;
-    for (std::size_t i = 0; i < files.size(); ++i) {
-        shaders.push_back(startCompiling(files[i], sources[i]));
-        glAttachShader(program, shaders.back().id());
+// What OpenGL leaves to a driver's discretion: as many threads as it likes.
+void allowCompilerThreads() {
+    constexpr GLuint kAsManyAsTheDriverLikes = ~0U;
+    if (epoxy_has_gl_extension("GL_KHR_parallel_shader_compile")) {
+        glMaxShaderCompilerThreadsKHR(kAsManyAsTheDriverLikes);
+    } else if (epoxy_has_gl_extension("GL_ARB_parallel_shader_compile")) {
+        glMaxShaderCompilerThreadsARB(kAsManyAsTheDriverLikes);
     }
-    glProgramParameteri(program, GL_PROGRAM_BINARY_RETRIEVABLE_HINT, GL_TRUE);
-    for (std::size_t i = 0; i < files.size(); ++i)
-        requireCompiled(shaders[i], files[i], sources[i]);
-    glLinkProgram(program);
-    for (const ShaderObject& shader : shaders)
-        glDetachShader(program, shader.id());
-    GLint linked = GL_FALSE;
-    glGetProgramiv(program, GL_LINK_STATUS, &linked);
-    if (linked != GL_TRUE) {
-        GLint length = 0;
-        glGetProgramiv(program, GL_INFO_LOG_LENGTH, &length);
-        throw ShaderError(fmt::format("{} does not link:\n  {}", name,
-                                      infoLog(program, length, glGetProgramInfoLog)));
-    }
+}
+
+using Clock = std::chrono::steady_clock;
+
+double millisecondsSince(Clock::time_point begin) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
 }
 
 // Every identifier of `text`, to tell a misspelt uniform from one that was optimised away.
@@ -208,30 +200,82 @@ std::string readableShaderLog(const std::string& log, const std::vector<SourceLi
     return readable;
 }
 
+struct Program::Unfinished {
+    std::vector<std::string> files;
+    std::vector<ShaderText> sources;
+    std::vector<ShaderObject> shaders;
+    std::string stored;  // its key in the store
+    double milliseconds = 0.0;
+};
+
+Program::Program() : object_(glCreateProgram()) {}
+Program::Program(Program&&) noexcept = default;
+Program& Program::operator=(Program&&) noexcept = default;
+Program::~Program() = default;
+
 Program::Program(const ProgramKey& key, const ShaderFolders& moreFolders,
                  const SourceChange& change)
-    : object_(glCreateProgram()) {
-    const auto begin = std::chrono::steady_clock::now();
-    std::vector<ShaderText> sources;
+    : Program(started(key, moreFolders, change)) {
+    finish();
+}
+
+Program Program::started(const ProgramKey& key, const ShaderFolders& moreFolders,
+                         const SourceChange& change) {
+    const Clock::time_point begin = Clock::now();
+    Program program;
+    auto unfinished = std::make_unique<Unfinished>();
+    unfinished->files = key.files;
     std::string texts;
     for (const std::string& file : key.files) {
-        name_ += (name_.empty() ? "" : " + ") + file;
+        program.name_ += (program.name_.empty() ? "" : " + ") + file;
         ShaderText& source =
-            sources.emplace_back(loadShaderText(file, key.declarations, moreFolders));
+            unfinished->sources.emplace_back(loadShaderText(file, key.declarations, moreFolders));
         if (change) source.text = change(file, source.text);
-        insertWords(source.text, words_);
+        insertWords(source.text, program.words_);
         texts += file + '\n' + source.text;
     }
-    const ProgramStore store(ProgramStore::usersFolder());
-    const std::string stored = ProgramStore::keyOf(texts);
-    const bool isLoaded = store.load(id(), stored);
+    unfinished->stored = ProgramStore::keyOf(texts);
+    const bool isLoaded =
+        ProgramStore(ProgramStore::usersFolder()).load(program.id(), unfinished->stored);
     if (!isLoaded) {
-        link(id(), name_, key.files, sources);
-        store.save(id(), stored);
+        for (std::size_t i = 0; i < key.files.size(); ++i) {
+            unfinished->shaders.push_back(startCompiling(key.files[i], unfinished->sources[i]));
+            glAttachShader(program.id(), unfinished->shaders.back().id());
+        }
+        glProgramParameteri(program.id(), GL_PROGRAM_BINARY_RETRIEVABLE_HINT, GL_TRUE);
+        glLinkProgram(program.id());
     }
-    glObjectLabel(GL_PROGRAM, id(), static_cast<GLsizei>(name_.size()), name_.c_str());
-    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
-    notePrograms(isLoaded ? 0 : 1, isLoaded ? 1 : 0, took.count());
+    const std::string& name = program.name_;
+    glObjectLabel(GL_PROGRAM, program.id(), static_cast<GLsizei>(name.size()), name.c_str());
+    unfinished->milliseconds = millisecondsSince(begin);
+    if (isLoaded) {
+        notePrograms({.loaded = 1, .milliseconds = unfinished->milliseconds});
+    } else {
+        program.unfinished_ = std::move(unfinished);
+    }
+    return program;
+}
+
+void Program::finish() {
+    if (isFinished()) return;
+    const Clock::time_point begin = Clock::now();
+    const Unfinished& made = *unfinished_;
+    GLint linked = GL_FALSE;
+    glGetProgramiv(id(), GL_LINK_STATUS, &linked);
+    if (linked != GL_TRUE) {
+        // One that does not compile says more.
+        for (std::size_t i = 0; i < made.files.size(); ++i)
+            requireCompiled(made.shaders[i], made.files[i], made.sources[i]);
+        GLint length = 0;
+        glGetProgramiv(id(), GL_INFO_LOG_LENGTH, &length);
+        throw ShaderError(fmt::format("{} does not link:\n  {}", name_,
+                                      infoLog(id(), length, glGetProgramInfoLog)));
+    }
+    for (const ShaderObject& shader : made.shaders)
+        glDetachShader(id(), shader.id());
+    ProgramStore(ProgramStore::usersFolder()).save(id(), made.stored);
+    notePrograms({.compiled = 1, .milliseconds = made.milliseconds + millisecondsSince(begin)});
+    unfinished_.reset();
 }
 
 bool Program::declares(const std::string& name) const {
@@ -268,8 +312,30 @@ GLuint Program::uniformBlock(const std::string& name) {
 
 Program& ProgramCache::get(const ProgramKey& key) {
     const auto known = programs_.find(key);
-    if (known != programs_.end()) return known->second;
-    return programs_.emplace(key, Program(key, moreFolders_)).first->second;
+    if (known == programs_.end())
+        return programs_.emplace(key, Program(key, moreFolders_)).first->second;
+    try {
+        known->second.finish();
+    } catch (const ShaderError&) {
+        programs_.erase(known);  // it is compiled anew for whoever asks again
+        throw;
+    }
+    return known->second;
+}
+
+void ProgramCache::start(const std::vector<ProgramKey>& keys) {
+    allowCompilerThreads();
+    int unfinished = 0;
+    for (const ProgramKey& key : keys) {
+        if (programs_.contains(key)) continue;
+        try {
+            const Program& program =
+                programs_.emplace(key, Program::started(key, moreFolders_)).first->second;
+            unfinished += program.isFinished() ? 0 : 1;
+        } catch (const ShaderError&) {  // of a file; get() meets it again
+        }
+    }
+    notePrograms({.together = unfinished});
 }
 
 std::vector<std::string> ProgramCache::reload() {

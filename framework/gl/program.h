@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <utility>
@@ -53,7 +54,20 @@ class Program {
   public:
     explicit Program(const ProgramKey& key, const ShaderFolders& moreFolders = {},
                      const SourceChange& change = {});
+    // Hands the driver the sources and asks for nothing, so that it may compile several programs
+    // side by side. finish() must follow before anything else.
+    [[nodiscard]] static Program started(const ProgramKey& key,
+                                         const ShaderFolders& moreFolders = {},
+                                         const SourceChange& change = {});
+    // Waits for the driver where that has not been done. Throws ShaderError.
+    void finish();
+    [[nodiscard]] bool isFinished() const { return unfinished_ == nullptr; }
+    Program(Program&&) noexcept;
+    Program& operator=(Program&&) noexcept;
+    ~Program();
+
     [[nodiscard]] GLuint id() const { return object_.id(); }
+    [[nodiscard]] const std::string& name() const { return name_; }  // "a.vert + a.frag"
     // The location of a uniform, -1 where the compiler has removed it. A name that the source does
     // not declare throws ShaderError: it is a mistake.
     [[nodiscard]] GLint uniform(const std::string& name);
@@ -64,9 +78,12 @@ class Program {
     [[nodiscard]] GLuint uniformBlock(const std::string& name);
 
   private:
+    struct Unfinished;
+    Program();
     void requireDeclared(const std::string& name, const char* kind) const;
 
     ProgramObject object_;
+    std::unique_ptr<Unfinished> unfinished_;  // until its status was asked for
     std::string name_;
     std::set<std::string> words_;  // every identifier of the sources
     std::map<std::string, GLint> uniforms_;
@@ -81,6 +98,10 @@ class ProgramCache {
 
     // Compiles at first use. Throws ShaderError.
     [[nodiscard]] Program& get(const ProgramKey& key);
+
+    // Hands the driver those that are not there yet, all of them before get() asks how any went.
+    // What is wrong with one, get() says.
+    void start(const std::vector<ProgramKey>& keys);
 
     [[nodiscard]] const ShaderFolders& folders() const { return moreFolders_; }
 

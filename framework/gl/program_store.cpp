@@ -189,12 +189,13 @@ ProgramStatistics programStatistics() {
     return statistics();
 }
 
-void notePrograms(int compiled, int loaded, double milliseconds) {
+void notePrograms(const ProgramStatistics& made) {
     const std::lock_guard lock(statisticsMutex());
     ProgramStatistics& all = statistics();
-    all.compiled += compiled;
-    all.loaded += loaded;
-    all.milliseconds += milliseconds;
+    all.compiled += made.compiled;
+    all.loaded += made.loaded;
+    all.together = std::max(all.together, made.together);
+    all.milliseconds += made.milliseconds;
 }
 
 }  // namespace kaustik::gl

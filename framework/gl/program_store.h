@@ -47,9 +47,12 @@ class ProgramStore {
 struct ProgramStatistics {
     int compiled = 0;
     int loaded = 0;  // from the store
+    // Most that the driver was handed before the status of any of them was asked for.
+    int together = 0;
     double milliseconds = 0.0;
 };
 [[nodiscard]] ProgramStatistics programStatistics();
-void notePrograms(int compiled, int loaded, double milliseconds);
+// Adds to them.
+void notePrograms(const ProgramStatistics& made);
 
 }  // namespace kaustik::gl

@@ -104,6 +104,12 @@ std::vector<FrameTime> PassTimer::takeFinished(bool wait) {
     return std::exchange(finished_, {});
 }
 
+std::vector<FrameTime> PassTimer::takeBeforeNext() {
+    Slot& oldest = ring_[frame_ % kFramesInFlight];
+    if (oldest.pending) static_cast<void>(collect(oldest, true));
+    return takeFinished();
+}
+
 double measuringMilliseconds(TimerMode mode) {
     constexpr std::size_t kPasses = 32;
     // In the first ones of the ring the queries are made.

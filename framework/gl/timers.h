@@ -43,6 +43,9 @@ class PassTimer {
 
     // Frames whose times are known by now, in order; each is given once. `wait` waits for all.
     [[nodiscard]] std::vector<FrameTime> takeFinished(bool wait = false);
+    // The same, and waits for the one frame whose place in the ring the next one takes: so that no
+    // frame's time is lost, and as many as the ring has places for are under way.
+    [[nodiscard]] std::vector<FrameTime> takeBeforeNext();
     // Frames whose ring slot was needed before the device had finished them: their times are lost.
     [[nodiscard]] std::size_t droppedFrames() const { return dropped_; }
 

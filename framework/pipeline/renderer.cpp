@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <nlohmann/json.hpp>
 
 #include "framework/core/error.h"
 #include "framework/core/names.h"
@@ -164,6 +165,12 @@ void Renderer::bindToAll() {
 }
 
 void Renderer::update(RenderSettings settings) {
+    const bool asksForOthers =
+        settings.technique.name != settings_.technique.name ||
+        settings.technique.isAsPublished != settings_.technique.isAsPublished ||
+        settings.disabledPasses != settings_.disabledPasses ||
+        settings.params.json() != settings_.params.json();
+    if (asksForOthers) startedFor_.clear();
     settings_ = std::move(settings);
     view_ = eyeView(scene_, settings_);
     inputs_.samplesPerSide = samplesPerSideOf(settings_);
@@ -363,6 +370,11 @@ void Renderer::requestExits() {
 
 void Renderer::build(Purpose purpose, const std::vector<std::string>& resources) {
     executor_.prepare(compile(purpose, resources));
+    if (!startedFor_.insert(purpose).second) return;
+    std::vector<gl::ProgramKey> keys;
+    for (gl::UsedProgram& used : executor_.listPrograms())
+        keys.push_back(std::move(used.key));
+    programs_.start(keys);
 }
 
 bool Renderer::renderFrame(gl::PassTimer& timer,

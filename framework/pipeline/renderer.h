@@ -57,8 +57,11 @@ class Renderer {
 
     // Builds and compiles the graph, and allocates its memory. `resources` are kept until the
     // frame's end so that they can be saved: those that nothing asks for are asked for; an unknown
-    // name is a ConfigError with the nearest one. Throws GraphError, ConfigError and DeviceError.
+    // name is a ConfigError with the nearest one. The driver is handed all programs that settings
+    // and purpose ask for, when these are new. Throws GraphError, ConfigError and DeviceError.
     void build(Purpose purpose, const std::vector<std::string>& resources = {});
+    // The programs of what was built; what textures held is gone (Executor::listPrograms).
+    [[nodiscard]] std::vector<gl::UsedProgram> listPrograms() { return executor_.listPrograms(); }
     // Only declares and compiles: what a frame would take is known before any memory is taken.
     [[nodiscard]] graph::Compiled compile(Purpose purpose,
                                           const std::vector<std::string>& resources = {});
@@ -158,6 +161,7 @@ class Renderer {
     bool isRandom_ = false;
     bool hasLayerStatistics_ = false;
     bool hasEyeRays_ = false;
+    std::set<Purpose> startedFor_;  // since the settings have changed
     std::vector<Hits> tileHits_;
     int maxRounds_ = 0;
     std::vector<NodeWarning> nodeWarnings_;

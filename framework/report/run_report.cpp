@@ -214,6 +214,8 @@ template <class F>
 void reflect(F& f, const ProgramsTable& table) {
     f.field("compiled", table.all.compiled, "By the driver");
     f.field("loaded", table.all.loaded, "From the store of programs that were compiled before");
+    f.field("together", table.all.together,
+            "Most that the driver was handed before it was asked how one of them went");
     f.field("ms", table.all.milliseconds, "That making them took, by this process in all");
 }
 
@@ -245,7 +247,19 @@ struct ReportTable {
     std::vector<LimitTable> limits;
     std::vector<std::string> warnings;
     std::vector<std::string> violations;
+    std::optional<EndedEarly> endedEarly;
+
+    // What is known only once a frame was measured.
+    template <class T>
+    [[nodiscard]] std::optional<T> ifMeasured(T part) const {
+        return endedEarly && !endedEarly->hasLedger ? std::nullopt : std::optional(std::move(part));
+    }
 };
+template <class F>
+void reflect(F& f, const EndedEarly& table) {
+    f.field("why", table.why, "The error that ended it");
+    f.field("missing", table.missing, "Of what it was to leave behind");
+}
 template <class F>
 void reflect(F& f, const Timing& timing) {
     f.field("date", timing.date, "When the timed frames began, UTC");
@@ -253,6 +267,8 @@ void reflect(F& f, const Timing& timing) {
             "That other work kept busy meanwhile, on average; on an idle machine about 0");
     f.field("dropped_frames", timing.droppedFrames,
             "Rendered, but their times were lost before they could be read");
+    f.field("cut_short_frames", timing.cutShortFrames,
+            "That were left before a loop had come to its end: their pictures lack light");
     f.field("measuring_ms", timing.measuringMilliseconds,
             "That timing its passes adds to a frame, at least");
     f.field("of_measured_frame", timing.isOfMeasuredFrame,
@@ -285,14 +301,18 @@ void reflect(F& f, const ReportTable& report) {
     f.field("startup_ms", report.startupMilliseconds, "Until the first frame");
     f.field("programs", ProgramsTable{gl::programStatistics()}, "Of shaders");
     f.field("passes", report.passes, "Every pass, in order");
-    f.field("photons", PhotonsTable{report.ledger}, "What became of them");
+    f.field("photons", report.ifMeasured(PhotonsTable{report.ledger}), "What became of them");
     f.field("eye_rays", report.eyeRays, "What became of those that meet a specular surface first");
-    f.field("layers", report.layers, "The layered depth of what the eye sees");
-    f.field("energy", EnergyTable{report.ledger, report.primitives}, "The ledger, W");
+    f.field("layers", report.ifMeasured(report.layers), "The layered depth of what the eye sees");
+    f.field("energy", report.ifMeasured(EnergyTable{report.ledger, report.primitives}),
+            "The ledger, W");
     f.field("memory", report.memory, "On the device");
-    f.field("limits", report.limits, "That were reached");
+    f.field("limits", report.ifMeasured(report.limits), "That were reached");
     f.field("warnings", report.warnings, "What else to know");
-    f.field("violations", report.violations, "What no light can do: the run is worth nothing");
+    f.field("violations", report.ifMeasured(report.violations),
+            "What no light can do: the run is worth nothing");
+    f.field("ended_early", report.endedEarly,
+            "Only of a run that an error has ended: what is not here it has not come to");
 }
 
 namespace {
@@ -354,8 +374,11 @@ json makeReport(const RunRecord& record, const Renderer& renderer, const gl::Dev
     table.layers = {record.layers, record.layersAllowed};
     table.memory = {record.textureBytes, record.bufferBytes, renderer.gpuScene().bytes(),
                     record.peakBytes};
-    for (const ReachedLimit& limit : reachedLimits(record, renderer))
-        table.limits.push_back({limit});
+    table.endedEarly = record.endedEarly;
+    if (table.ifMeasured(true)) {
+        for (const ReachedLimit& limit : reachedLimits(record, renderer))
+            table.limits.push_back({limit});
+    }
     table.warnings = record.warnings;
     table.violations = record.violations;
     json report = jsonOf(table);

@@ -24,7 +24,16 @@ struct Timing {
     // That were rendered but whose times the device did not give in time: not among the samples.
     std::size_t droppedFrames = 0;
     double measuringMilliseconds = 0.0;  // of a frame: its passes by gl::measuringMilliseconds
-    bool isOfMeasuredFrame = false;      // with all that only a measurement asks for
+    // That were left before a loop's end (gl::Executor::takeCutShort): among the samples.
+    std::size_t cutShortFrames = 0;
+    bool isOfMeasuredFrame = false;  // with all that only a measurement asks for
+};
+
+// Of a run that an error has ended before it was judged.
+struct EndedEarly {
+    std::string why;
+    std::vector<std::string> missing;  // of what it was to leave behind
+    bool hasLedger = false;            // and what else a frame for Purpose::measurement tells
 };
 
 // Everything but the times and the ledger is read from the renderer.
@@ -57,7 +66,8 @@ struct RunRecord {
     nlohmann::json error;           //
     nlohmann::json unformed;        // null where no census of the scene's paths is at hand
     std::vector<std::string> warnings;
-    std::vector<std::string> violations;  // report/violations.h
+    std::vector<std::string> violations;   // report/violations.h
+    std::optional<EndedEarly> endedEarly;  // none where it came to its end
 };
 
 // The times of one pass, its repeats in a frame added up.

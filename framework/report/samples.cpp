@@ -106,7 +106,9 @@ json makeChromeTrace(const RunRecord& record) {
         frameTimes.set(frameBegin,
                        {{"device_ms", frame.frameMs}, {"bookkeeping_ms", frame.bookkeepingMs}});
         // They are counted in a frame of their own, which repeats the last one.
-        if (&frame == &record.frames.back()) photons.set(frameBegin, photonsJson(record.ledger));
+        const bool hasLedger = !record.endedEarly || record.endedEarly->hasLedger;
+        if (hasLedger && &frame == &record.frames.back())
+            photons.set(frameBegin, photonsJson(record.ledger));
         for (std::size_t step = 0; step < frame.passes.size(); ++step) {
             const double begin = frameBegin + frame.passes[step].startMs;
             add(record.stepNames[step], begin, frame.passes[step].gpuMs, 1);

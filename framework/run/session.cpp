@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <iterator>
 #include <utility>
 
 #include "framework/core/error.h"
@@ -234,58 +235,72 @@ bool Session::renderUntimed(const ShouldContinue& shouldContinue) {
 RenderedSeries Session::render(const FrameSeries& series, const SeriesWatch& watch,
                                RunReference* reference, const std::vector<std::string>* saved) {
     RenderedSeries rendered;
-    const auto collect = [&](bool waits) {
-        for (gl::FrameTime& time : timer_.takeFinished(waits))
-            rendered.times.push_back(std::move(time));
+    const auto add = [&](std::vector<gl::FrameTime> times) {
+        if (times.empty()) return;
+        // Of a device that was lost meanwhile they say nothing.
+        context_.setScope("after a frame");
+        context_.check();
+        std::move(times.begin(), times.end(), std::back_inserter(rendered.times));
     };
     const double begin = scene_.timeSeconds;
     const int total = series.warmup + series.frames;
     record_.timeStepSeconds = series.timeStepSeconds;
     static_cast<void>(timer_.takeFinished(true));  // of a series that an error has ended
+    static_cast<void>(renderer_.executor().takeCutShort(true));
     const std::size_t droppedBefore = timer_.droppedFrames();
     std::optional<ProcessorTimes> processors;
     std::string date;
-    for (int frame = 0; frame < total; ++frame) {
-        const double seconds = series.secondsOf(std::max(frame - series.warmup, 0), begin);
-        if (seconds != scene_.timeSeconds) collect(true);
-        setTime(seconds);
-        std::optional<MeasuredFrame> measured;
-        if (total == 1 && reference != nullptr && saved != nullptr)
-            measured = MeasuredFrame{reference->purpose(), *saved};
-        if (measured) {
-            prepareMeasured(*measured);
-        } else {
-            prepare();
+    const auto note = [&] {
+        const auto warm = std::min(rendered.times.size(), static_cast<std::size_t>(series.warmup));
+        rendered.times.erase(rendered.times.begin(),
+                             rendered.times.begin() + static_cast<std::ptrdiff_t>(warm));
+        record_.warmup += static_cast<int>(warm);
+        std::vector<gl::FrameTime>& all = record_.frames;
+        all.insert(all.end(), rendered.times.begin(), rendered.times.end());
+        if (all.size() > options_.framesKept)
+            all.erase(all.begin(), all.end() - static_cast<std::ptrdiff_t>(options_.framesKept));
+        if (date.empty()) return;
+        record_.timing = {.date = date,
+                          .otherProcessors = otherProcessors(processors, processorTimes()),
+                          .droppedFrames = timer_.droppedFrames() - droppedBefore,
+                          .isOfMeasuredFrame = measuredFrame_.has_value()};
+    };
+    try {
+        for (int frame = 0; frame < total; ++frame) {
+            const double seconds = series.secondsOf(std::max(frame - series.warmup, 0), begin);
+            if (seconds != scene_.timeSeconds) add(timer_.takeFinished(true));
+            setTime(seconds);
+            std::optional<MeasuredFrame> measured;
+            if (total == 1 && reference != nullptr && saved != nullptr)
+                measured = MeasuredFrame{reference->purpose(), *saved};
+            if (measured) {
+                prepareMeasured(*measured);
+            } else {
+                prepare();
+            }
+            if (frame == series.warmup) {
+                processors = processorTimes();
+                date = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+            }
+            rendered.isWhole = renderBuilt(timer_, watch.shouldContinue);
+            if (!rendered.isWhole) break;
+            measuredFrame_ = std::move(measured);
+            add(options_.isPrecise ? timer_.takeFinished(true) : timer_.takeBeforeNext());
+            // The picture's own frame repeats the last time, which a filter over time would count
+            // twice.
+            const bool isOfLastTwo = frame >= series.warmup && frame >= total - 2;
+            if (reference != nullptr && isOfLastTwo) reference->recordMoment(renderer_);
+            if (watch.onFrame) watch.onFrame(frame + 1);
         }
-        if (frame == series.warmup) {
-            processors = processorTimes();
-            date = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
-        }
-        rendered.isWhole = renderBuilt(timer_, watch.shouldContinue);
-        if (!rendered.isWhole) break;
-        measuredFrame_ = std::move(measured);
-        // A ring slot is read when its frame is done; no frame may be lost, so that the ring is
-        // emptied before it is full.
-        collect(options_.isPrecise || frame % 2 == 1);
-        // The picture's own frame repeats the last time, which a filter over time would count
-        // twice.
-        const bool isOfLastTwo = frame >= series.warmup && frame >= total - 2;
-        if (reference != nullptr && isOfLastTwo) reference->recordMoment(renderer_);
-        if (watch.onFrame) watch.onFrame(frame + 1);
+        add(timer_.takeFinished(true));
+    } catch (const DeviceError&) {
+        note();
+        throw;
     }
-    collect(true);
-    const std::optional<double> otherWork = otherProcessors(processors, processorTimes());
-    const auto warm = std::min(rendered.times.size(), static_cast<std::size_t>(series.warmup));
-    rendered.times.erase(rendered.times.begin(),
-                         rendered.times.begin() + static_cast<std::ptrdiff_t>(warm));
-    record_.warmup += static_cast<int>(warm);
-    std::vector<gl::FrameTime>& all = record_.frames;
-    all.insert(all.end(), rendered.times.begin(), rendered.times.end());
-    if (all.size() > options_.framesKept)
-        all.erase(all.begin(), all.end() - static_cast<std::ptrdiff_t>(options_.framesKept));
+    note();
     if (!date.empty()) {
-        record_.timing = {date, otherWork, timer_.droppedFrames() - droppedBefore,
-                          measuringMilliseconds(), measuredFrame_.has_value()};
+        record_.timing.cutShortFrames = renderer_.executor().takeCutShort(true);
+        record_.timing.measuringMilliseconds = measuringMilliseconds();
     }
     return rendered;
 }
@@ -303,6 +318,18 @@ double Session::measuringMilliseconds() {
 bool Session::renderAgain(const ShouldContinue& shouldContinue) {
     prepare();
     return renderUntimed(shouldContinue);
+}
+
+ProgramAccount Session::accountPrograms() {
+    ProgramAccount account;
+    bringUpToDate();
+    for (const Purpose purpose : {Purpose::picture, Purpose::measurement}) {
+        forgetBuild();
+        renderer_.build(purpose);
+        account.add(renderer_);
+    }
+    forgetBuild();
+    return account;
 }
 
 void Session::modelCost(const report::DeviceModel& model) {

@@ -12,8 +12,10 @@
 #include <string>
 #include <vector>
 
+#include "framework/core/error.h"
 #include "framework/pipeline/renderer.h"
 #include "framework/report/run_report.h"
+#include "framework/run/program_account.h"
 #include "framework/run/run_reference.h"
 
 namespace kaustik::run {
@@ -135,11 +137,23 @@ class Session {
         const RunReference& reference, const std::vector<std::string>& saved,
         const ShouldContinue& shouldContinue = {});
     // Measures and judges as measure() does, and writes everything into `folder`: all of it or
-    // nothing.
+    // nothing. Where the device is lost it throws what keepUnfinished() gives.
     [[nodiscard]] FinishedRun finish(const RunReference& reference,
                                      const std::filesystem::path& folder,
                                      const std::vector<std::string>& saved,
                                      const std::vector<std::string>& warnings = {});
+
+    // Of a run that the device has left, lost or out of memory, what is known by now, as a run of
+    // its own in the folder `unfinished` of `folder`: the report of the frames that were timed.
+    // Gives the error with where that is and what it lacks: `alsoMissing` besides what finish()
+    // adds. Other errors, and those before a frame was timed, keep nothing.
+    [[nodiscard]] DeviceError keepUnfinished(
+        const DeviceError& error, const std::filesystem::path& folder,
+        const RunReference& reference, const std::vector<std::string>& alsoMissing = {}) const;
+
+    // The programs of frames for pictures and for measurement, and which of them this device cannot
+    // run. Renders nothing.
+    [[nodiscard]] ProgramAccount accountPrograms();
 
     // Renders the frame once more with what each pass does to memory counted (gl::AccessCounter),
     // which the record then has. Not timed.
@@ -164,6 +178,15 @@ class Session {
     };
     void prepareMeasured(const MeasuredFrame& wanted);
     void restartRecord();
+    // What finish() has by the time that the device is lost.
+    struct Done {
+        report::RunRecord record;
+        bool hasLedger = false;
+        std::vector<std::filesystem::path> pictures;  // whole files, to be moved
+    };
+    [[nodiscard]] DeviceError keep(Done done, const DeviceError& error,
+                                   const std::filesystem::path& folder,
+                                   std::vector<std::string> missing) const;
     bool renderBuilt(gl::PassTimer& timer, const ShouldContinue& shouldContinue);
     bool renderUntimed(const ShouldContinue& shouldContinue);
     [[nodiscard]] double measuringMilliseconds();

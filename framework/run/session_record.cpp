@@ -10,6 +10,7 @@
 #include "framework/core/error.h"
 #include "framework/core/files.h"
 #include "framework/core/json_text.h"
+#include "framework/core/names.h"
 #include "framework/report/loss_advice.h"
 #include "framework/report/map_account.h"
 #include "framework/report/violations.h"
@@ -23,6 +24,15 @@
 namespace kaustik::run {
 namespace fs = std::filesystem;
 namespace {
+
+// In the folder of a run.
+constexpr const char* kUnfinishedFolder = "unfinished";
+
+// What the report of a run that was to be judged lacks where it was not.
+std::vector<std::string> judgement(const RunReference& reference) {
+    if (reference.purpose() != Purpose::audit) return {};
+    return {"judgement by the reference"};
+}
 
 // Total reflection that no light meets in truth: lost by a paper's approximation, or by a node that
 // looks bodies up in a view.
@@ -104,6 +114,8 @@ std::optional<report::RunRecord> Session::measure(const RunReference& reference,
     // What judges the frame may render another one, and what is kept may not be in this one.
     hasFrame_ = reference.purpose() == Purpose::measurement && saved == keptTextures();
     report::RunRecord record = measured();
+    context_.setScope("while the ledger was read");
+    context_.check();
     record.cells = report::cellAccount(renderer_);
     record.photonsEnd = renderer_.outputs().hits.incoming.paths.end;
     const std::uint64_t stopped = record.ledger.events[transport::kAccountBounceLimit];
@@ -145,20 +157,31 @@ std::optional<report::RunRecord> Session::measure(const RunReference& reference,
 FinishedRun Session::finish(const RunReference& reference, const fs::path& folder,
                             const std::vector<std::string>& saved,
                             const std::vector<std::string>& warnings) {
-    FinishedRun finished{measure(reference, saved).value(), {}};
-    report::RunRecord& record = finished.record;
-    record.warnings.insert(record.warnings.begin(), warnings.begin(), warnings.end());
-    throwIfInterrupted();
-    // A report next to the pictures of another run would be worse than none.
-    FilesTogether together(folder);
+    Done done{record_, false, {}};
+    std::optional<FilesTogether> together;
+    const auto requireDevice = [&](const char* scope) {
+        context_.setScope(scope);
+        context_.check();
+    };
     try {
-        const fs::path& work = together.workFolder();
+        FinishedRun finished{measure(reference, saved).value(), {}};
+        report::RunRecord& record = finished.record;
+        record.warnings.insert(record.warnings.begin(), warnings.begin(), warnings.end());
+        done.record = record;
+        done.hasLedger = true;
+        throwIfInterrupted();
+        // A report next to the pictures of another run would be worse than none.
+        together.emplace(folder);
+        const fs::path& work = together->workFolder();
         std::vector<fs::path>& files = finished.files;
         files = writePictures(work, renderer_, saved);
+        requireDevice("while the pictures were read");
+        done.pictures = files;
         const std::vector<fs::path> judged = reference.judge(renderer_, work, record);
         files.insert(files.end(), judged.begin(), judged.end());
         const std::vector<fs::path> seen = reference.judgeView(renderer_, work, record);
         files.insert(files.end(), seen.begin(), seen.end());
+        if (reference.purpose() == Purpose::audit) requireDevice("while the run was judged");
         const auto write = [&](const char* name, const std::string& text) {
             files.push_back(work / name);
             writeFileWhole(files.back(), text);
@@ -167,13 +190,67 @@ FinishedRun Session::finish(const RunReference& reference, const fs::path& folde
         write("samples.json", jsonText(report::makeSamples(record)));
         write("report.json",
               jsonText(report::makeReport(record, renderer_, context_.info()), 2) + "\n");
-        together.publish("report.json");
+        together->publish("report.json");
         for (fs::path& file : files)
-            file = together.placeOf(file);
+            file = together->placeOf(file);
+        std::error_code ignored;
+        fs::remove_all(folder / kUnfinishedFolder, ignored);
         return finished;
     } catch (const IoError& error) {
-        throw IoError(together.withPlaces(error.what()));
+        throw IoError(together ? together->withPlaces(error.what()) : error.what());
+    } catch (const DeviceError& error) {
+        throw keep(std::move(done), error, folder, judgement(reference));
+    } catch (const std::exception&) {
+        // What is read from a lost device may be anything, and bring anything about.
+        try {
+            requireDevice("while what it had rendered was read");
+        } catch (const DeviceError& error) {
+            throw keep(std::move(done), error, folder, judgement(reference));
+        }
+        throw;
     }
+}
+
+DeviceError Session::keepUnfinished(const DeviceError& error, const fs::path& folder,
+                                    const RunReference& reference,
+                                    const std::vector<std::string>& alsoMissing) const {
+    std::vector<std::string> missing = judgement(reference);
+    missing.insert(missing.end(), alsoMissing.begin(), alsoMissing.end());
+    return keep({record_, false, {}}, error, folder, std::move(missing));
+}
+
+DeviceError Session::keep(Done done, const DeviceError& error, const fs::path& folder,
+                          std::vector<std::string> missing) const {
+    if (error.exitCode() != kExitDeviceLost) return error;
+    std::string why = error.what();
+    const auto andThen = [&](const std::string& next) {
+        if (why.ends_with('.')) why.pop_back();
+        return DeviceError(fmt::format("{}; {}.", why, next));
+    };
+    report::RunRecord& record = done.record;
+    if (record.frames.empty()) return andThen("no frame was done by then, and nothing is kept");
+    if (done.pictures.empty()) missing.insert(missing.begin(), "pictures");
+    if (!done.hasLedger) missing.insert(missing.begin(), "ledger");
+    record.endedEarly = report::EndedEarly{why, missing, done.hasLedger};
+    const fs::path place = folder / kUnfinishedFolder;
+    try {
+        std::error_code ignored;
+        fs::remove_all(place, ignored);  // of a run before
+        FilesTogether together(place);
+        const fs::path& work = together.workFolder();
+        for (const fs::path& picture : done.pictures)
+            fs::rename(picture, work / picture.filename());
+        writeFileWhole(work / "trace.json", jsonText(report::makeChromeTrace(record)));
+        writeFileWhole(work / "samples.json", jsonText(report::makeSamples(record)));
+        writeFileWhole(work / "report.json",
+                       jsonText(report::makeReport(record, renderer_, context_.info()), 2) + "\n");
+        together.publish("report.json");
+    } catch (const std::exception& problem) {
+        return andThen(fmt::format("what was done could not be kept: {}", problem.what()));
+    }
+    return andThen(fmt::format("what was done, {} timed frame{} without {}, is in {}",
+                               record.frames.size(), record.frames.size() == 1 ? "" : "s",
+                               joinNames(missing), place.string()));
 }
 
 }  // namespace kaustik::run

@@ -96,7 +96,7 @@ Hits traceRaytraced(FrameBuilder& frame, const params::NoParams&, Photons photon
                                                       photons.width, 3 * photons.height);
             },
             [&inputs = frame.inputs(), scene](const Found& data, gl::PassContext& context) {
-                findHits(inputs, *scene, data, context);
+                if (!context.isListing()) findHits(inputs, *scene, data, context);
                 gl::Command command = context.compute("trace/raytraced.comp");
                 command.texture("foundShading", data.shading)
                     .texture("foundGeometric", data.geometric);

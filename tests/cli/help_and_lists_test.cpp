@@ -200,6 +200,22 @@ TEST_F(Check, PrintsWhatTheDeviceOffers) {
     EXPECT_EQ(outcome.err, "");
     expectAllIn(outcome.out, {"OpenGL ", "4.", "EGL platform", "largest texture",
                               "Everything that Kaustik needs is there."});
+    std::smatch programs;
+    ASSERT_TRUE(std::regex_search(
+        outcome.out, programs,
+        std::regex(R"(all (\d+) programs of all techniques on 'pool' fit this device)")))
+        << outcome.out;
+    EXPECT_GT(std::stoi(programs[1].str()), 100);
+}
+
+TEST_F(Explain, SaysWhetherTheDeviceHasWhatTheProgramsTake) {
+    const Outcome outcome = run({"explain", "flat-water", "--size", "64x48"});
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_TRUE(std::regex_search(outcome.out,
+                                  std::regex(R"(\nall \d+ programs of a run fit this device\n)")))
+        << outcome.out;
+    EXPECT_TRUE(std::regex_search(outcome.out, std::regex(R"(\nmemory \d+ MiB for the frame's)")))
+        << outcome.out;
 }
 
 }  // namespace

@@ -239,8 +239,10 @@ TEST_F(CountedAccesses, AReadBackIsOfThePassThatEndedLast) {
     EXPECT_EQ(passNamed(passes, "stage.outer").readBacks, 2u);
 }
 
-// A loop that runs as often as a word of a buffer that the processor fills says, and then idly; the
-// processor asks twice: once after the last run but one, which another one follows, and then.
+// A loop that runs as often as a word of a buffer that the processor fills says, and then idly. In
+// a graph's first frame the processor asks twice: once after the last run but one, which another
+// one follows, and then. In those that follow it asks for nothing, and what was wrong with that is
+// found.
 TEST_F(CountedAccesses, ALoopThatMayRunIdleIsAskedForItsEndAlone) {
     const std::string shader = write("steps.comp",
                                      "layout(local_size_x = 1) in;\n"
@@ -296,12 +298,30 @@ TEST_F(CountedAccesses, ALoopThatMayRunIdleIsAskedForItsEndAlone) {
                                                           {1, 4, 1}}) {
         SCOPED_TRACE(testing::Message() << expected.wanted << ", " << expected.runs);
         wanted.upload(0, sizeof(unsigned), &expected.wanted);
+        executor.prepare(graph.compile());
         executor.runFrame(timer);
         const std::vector<Number> numbers = executor.buffer(stepped.numbers).read<Number>();
         EXPECT_EQ(numbers[0].value, expected.wanted);
         EXPECT_EQ(numbers[2].value, expected.runs);
         EXPECT_EQ(passNamed(counter.take(), "stage.step").readBacks, expected.readBacks);
     }
+    const auto renderFrame = [&](unsigned times, const Expected& expected) {
+        SCOPED_TRACE(testing::Message() << times << ", " << expected.runs);
+        wanted.upload(0, sizeof(unsigned), &times);
+        executor.runFrame(timer);
+        const std::vector<Number> numbers = executor.buffer(stepped.numbers).read<Number>();
+        EXPECT_EQ(numbers[0].value, expected.wanted);
+        EXPECT_EQ(numbers[2].value, expected.runs);
+        EXPECT_EQ(passNamed(counter.take(), "stage.step").readBacks, expected.readBacks);
+    };
+    renderFrame(1, {1, 4, 0});
+    renderFrame(4, {4, 4, 0});
+    EXPECT_EQ(executor.takeCutShort(true), 0u);
+    renderFrame(6, {4, 4, 0});
+    EXPECT_EQ(executor.takeCutShort(true), 1u);
+    renderFrame(6, {6, 6, 4});
+    renderFrame(6, {6, 6, 0});
+    EXPECT_EQ(executor.takeCutShort(true), 0u);
 }
 
 // Of a list that lives to the frame's end the pass writes 64 numbers; zeros are written before.

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "framework/gl/program.h"
 
+#include <epoxy/egl.h>
 #include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
+#include <type_traits>
 
 #include "framework/core/error.h"
 #include "framework/gl/executor.h"
@@ -95,6 +97,89 @@ TEST_F(Shaders, ReloadTakesWhatCompilesAndKeepsTheRest) {
     EXPECT_NE(kept, 0u);
     EXPECT_GE(programs.get({{good}, ""}).uniform("b"), 0);
     EXPECT_THROW(static_cast<void>(programs.get({{good}, ""}).uniform("a")), ShaderError);
+}
+
+// What the driver is told and asked, in order; libepoxy calls it by pointers.
+std::string calls;
+
+class Calls {
+  public:
+    Calls() {
+        const auto lookUp = [](const char* name, auto& function) {
+            function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(
+                eglGetProcAddress(name));
+        };
+        lookUp("glCompileShader", compile_);
+        lookUp("glLinkProgram", link_);
+        lookUp("glGetShaderiv", ofShader_);
+        lookUp("glGetProgramiv", ofProgram_);
+        calls.clear();
+        current_ = this;
+        glCompileShader = [](GLuint shader) {
+            calls += 'c';
+            current_->compile_(shader);
+        };
+        glLinkProgram = [](GLuint program) {
+            calls += 'l';
+            current_->link_(program);
+        };
+        glGetShaderiv = [](GLuint shader, GLenum name, GLint* value) {
+            calls += '?';
+            current_->ofShader_(shader, name, value);
+        };
+        glGetProgramiv = [](GLuint program, GLenum name, GLint* value) {
+            if (name == GL_LINK_STATUS) calls += '?';
+            current_->ofProgram_(program, name, value);
+        };
+    }
+    ~Calls() {
+        glCompileShader = compile_;
+        glLinkProgram = link_;
+        glGetShaderiv = ofShader_;
+        glGetProgramiv = ofProgram_;
+    }
+    Calls(const Calls&) = delete;
+    Calls& operator=(const Calls&) = delete;
+
+  private:
+    static inline Calls* current_ = nullptr;
+    PFNGLCOMPILESHADERPROC compile_;
+    PFNGLLINKPROGRAMPROC link_;
+    PFNGLGETSHADERIVPROC ofShader_;
+    PFNGLGETPROGRAMIVPROC ofProgram_;
+};
+
+// The tests run without a store, from which programs would be loaded.
+TEST_F(Shaders, OfSeveralProgramsAreAllWithTheDriverBeforeItIsAskedAboutOne) {
+    static_cast<void>(context());
+    const std::string plain = write("plain.comp", "layout(local_size_x = 1) in;\nvoid main() {}\n");
+    const std::string wrong =
+        write("wrong.comp", "layout(local_size_x = 1) in;\nvoid main() { mistake; }\n");
+    const std::vector<gl::ProgramKey> keys = {{{plain}, ""},
+                                              {{plain}, "#define OTHER\n"},
+                                              {{wrong}, ""},
+                                              {{(folder_ / "none.comp").string()}, ""}};
+    gl::ProgramCache programs;
+    const Calls watched;
+    programs.start(keys);
+    EXPECT_EQ(calls, "clclcl");
+    programs.start(keys);
+    EXPECT_EQ(calls, "clclcl") << "what is there is not handed over again";
+    EXPECT_TRUE(programs.get(keys[0]).isFinished());
+    EXPECT_TRUE(programs.get(keys[1]).isFinished());
+    EXPECT_EQ(calls, "clclcl??");
+    static_cast<void>(programs.get(keys[0]));
+    EXPECT_EQ(calls, "clclcl??") << "it is asked once";
+    for (const auto& [key, part] : {std::pair(keys[2], "wrong.comp:2"), {keys[3], "none.comp"}}) {
+        for (int i = 0; i < 2; ++i) {
+            try {
+                static_cast<void>(programs.get(key));
+                ADD_FAILURE() << part;
+            } catch (const ShaderError& error) {
+                EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+            }
+        }
+    }
 }
 
 TEST(ShaderLog, IsReadInTheFormatsOfTheDriversThatThereAre) {
