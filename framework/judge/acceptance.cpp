@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -13,13 +14,46 @@
 namespace kaustik::judge {
 namespace {
 
-// All of these are set by hand on the scenes of results/judge.md.
-constexpr double kMaxUndershoot = 0.05;    // of the mean, below 0
-constexpr double kMinVisibleShare = 0.02;  // of the caustics' light, in pixels that count
-constexpr double kMinClassShare = 5e-4;    // of the caustic, for a class of its own
+// Filters with negative lobes undershoot next to edges by up to a tenth of the step.
+constexpr double kMaxUndershoot = 0.05;  // of the mean, below 0
+// Of the caustics' light, in pixels that count: of less the rest cannot be inferred.
+constexpr double kMinVisibleShare = 0.02;
+// Of the caustic, for a class of its own: fainter ones are below the floor of noise in each pixel.
+constexpr double kMinClassShare = 5e-4;
+constexpr double kMaxOffLevel = 0.1;  // of 8 bits: what rounding to half floats does
+constexpr std::ptrdiff_t kMinLevels = 16;
 constexpr std::size_t kMinCutOffPixels = 12;
 // The reference's brightest tenth where theirs is cut off, over its darkest.
 constexpr float kMinCutOffRange = 1.3f;
+
+// By the sRGB curve, 0 to 1.
+double encoded(double value) {
+    return value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1.0 / 2.4) - 0.055;
+}
+
+// Whether all values are those of 8 bits, as they are or with the sRGB curve taken off. A picture
+// of a few levels may be one by chance.
+bool isOfEightBits(const Image& theirs) {
+    std::array<bool, 256> isLinear{};
+    std::array<bool, 256> isCurved{};
+    bool mayBeLinear = true;
+    bool mayBeCurved = true;
+    for (const float value : theirs.values) {
+        const auto of = static_cast<double>(value);
+        if (of < 0.0 || of > 1.0) return false;
+        const auto note = [](double level, std::array<bool, 256>& levels, bool& mayBe) {
+            const double nearest = std::round(level);
+            // Half floats are good to 0.06 of a level.
+            mayBe = mayBe && std::abs(level - nearest) < kMaxOffLevel;
+            levels[static_cast<std::size_t>(std::clamp(nearest, 0.0, 255.0))] = true;
+        };
+        note(255.0 * of, isLinear, mayBeLinear);
+        note(255.0 * encoded(of), isCurved, mayBeCurved);
+        if (!mayBeLinear && !mayBeCurved) return false;
+    }
+    const std::array<bool, 256>& levels = mayBeLinear ? isLinear : isCurved;
+    return std::count(levels.begin(), levels.end(), true) >= kMinLevels;
+}
 
 }  // namespace
 
@@ -33,6 +67,12 @@ void requireNumbers(const Image& theirs, const std::string& name) {
         }
         greatest = std::max(greatest, static_cast<double>(value));
         mean += static_cast<double>(value) / static_cast<double>(theirs.values.size());
+    }
+    if (isOfEightBits(theirs)) {
+        throw ConfigError(
+            fmt::format("{} has no more than 256 levels, as pictures for a display do; save linear "
+                        "light as floating point.",
+                        name));
     }
     // Filters with negative lobes and noise go a little below 0.
     const auto negative = static_cast<std::size_t>(

@@ -9,16 +9,20 @@
 #include "framework/judge/pictures.h"
 #include "framework/judge/placement.h"
 #include "framework/judge/sentences.h"
+#include "framework/judge/significance.h"
 
 namespace kaustik::judge {
 namespace {
 
-// All of these are set by hand on the scenes of results/judge.md.
+// A picture with more mistakes than this is another one.
 constexpr int kMaxCauses = 6;
-// A cause must explain this share of what is unexplained, to be believed, and lower chi squared by
-// this many times what no mixture of causes explains of one value.
+// Of nested models the larger one is believed where chi squared falls by more than chance would
+// have it, in units of what no mixture explains of one value: the likelihood ratio's test, with
+// Šidák's correction for the number of candidates. The chance that any is taken by chance:
+constexpr double kFalseAlarmRate = 0.01;
+// That takes what is left for noise. What is left of a picture with a mistake that nobody has
+// thought of is none, and any column explains a percent of it: so much more must be explained.
 constexpr double kMinGain = 0.03;
-constexpr double kMinChiSquared = 30.0;
 // One that explains this share of what the best one does explains it as well.
 constexpr double kEqualGain = 0.9;
 // An even light on receivers is spoken of from this share of all light.
@@ -164,7 +168,10 @@ std::vector<Choice> selectCauses(Comparison& comparison) {
         }
         if (chosen == open.size()) break;
         const double gain = trials[chosen].gain;
-        if (gain < kMinGain * now || gain < kMinChiSquared * unit) break;
+        const double critical =
+            criticalChiSquared(chanceOfEach(kFalseAlarmRate, static_cast<double>(open.size())),
+                               open[chosen].columns.size());
+        if (gain < kMinGain * now || gain < critical * unit) break;
         Choice choice{open[chosen], {}};
         for (std::size_t i = 0; i < open.size(); ++i) {
             if (i != chosen && trials[i].isNotable && trials[i].gain >= kEqualGain * gain)

@@ -6,13 +6,15 @@
 
 #include "framework/judge/findings.h"
 #include "framework/judge/sentences.h"
+#include "framework/judge/significance.h"
 
 namespace kaustik::judge {
 namespace {
 
-// All classes have one factor where each is within this of the mean: standard errors, and a share
-// of it. Set by hand on the scenes of results/judge.md.
-constexpr double kCommonErrors = 3.0;
+// All classes have one factor where chi squared of their distances from the mean is no rarer than
+// this. Besides its standard error each may be off by a share of the mean, as renderers' own meshes
+// and kernels make it.
+constexpr double kFalseAlarmRate = 0.01;
 constexpr double kCommonTolerance = 0.02;
 
 std::vector<std::string> alsoOf(const Evidence& evidence, Role role, std::size_t index) {
@@ -34,17 +36,20 @@ bool addCommonFactor(const Comparison& comparison, const Evidence& evidence,
         if (of.verdict == "cannot be told" || !(of.error > 0.0)) continue;
         ++told;
         off += of.verdict != "there" ? 1u : 0u;
-        const double weight = 1.0 / (of.error * of.error + 1e-4);
+        const double weight =
+            1.0 / (of.error * of.error + std::pow(kCommonTolerance * of.coefficient, 2.0) + 1e-6);
         weights += weight;
         mean += weight * of.coefficient;
     }
     if (told < 2 || off == 0) return false;
     mean /= weights;
+    double chiSquared = 0.0;
     for (const ClassVerdict& of : evidence.classes) {
         if (of.verdict == "cannot be told" || !(of.error > 0.0)) continue;
-        if (std::abs(of.coefficient - mean) > kCommonErrors * of.error + kCommonTolerance * mean)
-            return false;
+        chiSquared += std::pow(of.coefficient - mean, 2.0) /
+                      (of.error * of.error + std::pow(kCommonTolerance * mean, 2.0));
     }
+    if (chiSquaredTail(chiSquared, told - 1) < kFalseAlarmRate) return false;
     if (std::abs(mean - 1.0) < kCoefficientTolerance) return false;
     const double error = 1.0 / std::sqrt(weights);
     findings.push_back(

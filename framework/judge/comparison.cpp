@@ -66,21 +66,24 @@ Comparison comparisonOf(Subject subject, const JudgeOptions& options) {
 
 void makeColumns(Comparison& comparison, bool withCauses) {
     comparison.columns.clear();
+    comparison.hasCauseColumns = withCauses;
+    const glm::dvec2 by = comparison.columnShift;
     std::vector<Image> classes;
     for (const Light& light : comparison.subject.classes)
-        classes.push_back(blurredLight(comparison, light.radiance));
+        classes.push_back(movedBy(blurredLight(comparison, light.radiance), by));
     std::vector<const Image*> parts;
     for (const Image& image : classes)
         parts.push_back(&image);
     Image all = sum(parts);
     Image allError = quadraticSum(comparison.subject.classes);
-    Image model = comparison.hasDirect ? sum({&comparison.subject.direct, &all}) : all;
+    Image direct = comparison.hasDirect ? movedBy(comparison.subject.direct, by) : Image();
+    Image model = comparison.hasDirect ? sum({&direct, &all}) : all;
     Image dx = derivativeX(model);
     Image dy = derivativeY(model);
     Image scale = derivativeScale(model);
     comparison.columns.push_back({Role::total, 0, std::move(model), allError});
     if (comparison.hasDirect) {
-        comparison.columns.push_back({Role::direct, 0, comparison.subject.direct, {}});
+        comparison.columns.push_back({Role::direct, 0, std::move(direct), {}});
         comparison.columns.push_back({Role::allClasses, 0, std::move(all), std::move(allError)});
     }
     for (std::size_t k = 0; k < classes.size(); ++k) {
@@ -90,10 +93,11 @@ void makeColumns(Comparison& comparison, bool withCauses) {
     comparison.columns.push_back({Role::shiftX, 0, std::move(dx), {}});
     comparison.columns.push_back({Role::shiftY, 0, std::move(dy), {}});
     comparison.columns.push_back({Role::scale, 0, std::move(scale), {}});
-    comparison.columns.push_back({Role::fill, 0, comparison.subject.fill, {}});
+    comparison.columns.push_back({Role::fill, 0, movedBy(comparison.subject.fill, by), {}});
     for (std::size_t k = 0; withCauses && k < comparison.subject.causes.size(); ++k) {
         comparison.columns.push_back(
-            {Role::cause, k, blurredLight(comparison, comparison.subject.causes[k].radiance),
+            {Role::cause, k,
+             movedBy(blurredLight(comparison, comparison.subject.causes[k].radiance), by),
              comparison.subject.causes[k].error});
     }
 }

@@ -12,12 +12,13 @@
 
 namespace kaustik::judge {
 
-// What a column of the fit is. Of `shiftX`, `shiftY` and `scale`: the whole's derivatives.
-enum class Role { total, direct, lightClass, allClasses, cause, shiftX, shiftY, scale, fill };
+// What a column of the fit is. Of `shiftX`, `shiftY` and `scale`: the whole's derivatives; of
+// `warp`, what another camera would change (view.h).
+enum class Role { total, direct, lightClass, allClasses, cause, shiftX, shiftY, scale, fill, warp };
 
 struct Column {
     Role role = Role::total;
-    std::size_t index = 0;  // of a class or a cause
+    std::size_t index = 0;  // of a class, a cause or a warp
     Image image;
     Image error;  // empty: none
 };
@@ -34,6 +35,10 @@ struct Comparison {
     Registration registration;
     Encoding encoding = Encoding::linear;
     double blurPixels = 0.0;  // standard deviation, of the reference's caustics
+    // What the columns are moved by, pixels: half of the part of a pixel that the registration has,
+    // and `picture` by the other half, so that interpolation blurs both alike.
+    glm::dvec2 columnShift{0.0};
+    bool hasCauseColumns = false;
 
     Image picture;  // theirs in the reference's pixels, linear, over the first exposure
     Image theirsError;

@@ -8,7 +8,8 @@ namespace kaustik::judge {
 namespace {
 
 // Blocks along the picture's width, and their smallest side: as wide as noise that neighbours
-// share, and still hundreds of them. Set by hand on the scenes of results/judge.md.
+// share (a photon map's kernel has some pixels), and still hundreds of them, so that their sum of
+// squares is known to a tenth.
 constexpr int kBlocksAcross = 24;
 constexpr int kMinBlockPixels = 4;
 

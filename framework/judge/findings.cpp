@@ -12,8 +12,8 @@
 namespace kaustik::judge {
 namespace {
 
-// A spread of the channels' exposures below this is not spoken of; this and the next are set by
-// hand on the scenes of results/judge.md.
+// A spread of the channels' exposures below this is not spoken of, nor one that chance makes: a
+// colour matrix of four digits, or a spectrum as channels, makes as much.
 constexpr double kMinChannelSpread = 0.02;  // of their mean
 // The two encodings fit alike where what they leave differs by less than this factor.
 constexpr double kEqualEncoding = 1.15;
@@ -143,11 +143,13 @@ void addChannels(const Comparison& comparison, const Evidence& evidence,
     const double mean = (factors.r + factors.g + factors.b) / 3.0;
     const double spread =
         std::max({factors.r, factors.g, factors.b}) - std::min({factors.r, factors.g, factors.b});
-    if (!(spread > kMinChannelSpread * mean)) return;
+    const double error =
+        1.0 / std::sqrt(std::max(std::min({squares.r, squares.g, squares.b}), 1e-300));
+    if (!(spread > std::max(kMinChannelSpread * mean, kSignificantErrors * error))) return;
     findings.push_back(
         {"channels",
          spread / mean,
-         0.0,
+         error / mean,
          fmt::format("its channels have other exposures, red {:.3f}, green {:.3f} and blue "
                      "{:.3f} of the mean: a white balance, a light's colour or other primaries",
                      factors.r / mean, factors.g / mean, factors.b / mean),

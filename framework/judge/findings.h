@@ -2,6 +2,7 @@
 // What there is to say of their picture, a finding each.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "framework/judge/causes.h"
@@ -14,6 +15,7 @@ namespace kaustik::judge {
 struct Evidence {
     std::vector<double> encodingScores;  // as of decideEncoding()
     PlacementError placementError;
+    std::optional<double> explainedShare;  // as of requireSameView()
     std::vector<Choice> choices;
     Solution solution;
     Exposure exposure;

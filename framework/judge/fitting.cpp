@@ -43,6 +43,16 @@ void removeNoise(const Symmetric& noise, Symmetric& matrix) {
     }
 }
 
+// Light and causes are not below 0.
+std::vector<bool> positiveColumns(const Comparison& comparison) {
+    std::vector<bool> isPositive;
+    for (const Column& column : comparison.columns) {
+        isPositive.push_back(column.role == Role::direct || column.role == Role::lightClass ||
+                             column.role == Role::total || column.role == Role::cause);
+    }
+    return isPositive;
+}
+
 }  // namespace
 
 void makeEquations(Comparison& comparison) {
@@ -68,12 +78,24 @@ void makeEquations(Comparison& comparison) {
 }
 
 LinearFit fit(const Comparison& comparison, const std::vector<std::size_t>& columns) {
-    std::vector<bool> isPositive;
-    for (const Column& column : comparison.columns) {
-        isPositive.push_back(column.role == Role::direct || column.role == Role::lightClass ||
-                             column.role == Role::total || column.role == Role::cause);
-    }
-    return fitColumns(comparison.equations, columns, isPositive);
+    return fitColumns(comparison.equations, columns, positiveColumns(comparison));
+}
+
+LinearFit fitBeside(const Comparison& comparison, const std::vector<std::size_t>& columns,
+                    std::size_t known, double coefficient) {
+    // Of the picture without it.
+    NormalEquations equations = comparison.equations;
+    const double right = equations.right[known];
+    for (std::size_t j = 0; j < equations.right.size(); ++j)
+        equations.right[j] -= coefficient * equations.matrix.at(j, known);
+    equations.squares -=
+        coefficient * (2.0 * right - coefficient * equations.matrix.at(known, known));
+    LinearFit fitted = fitColumns(equations, columns, positiveColumns(comparison));
+    fitted.columns.push_back(known);
+    fitted.values.push_back(coefficient);
+    fitted.isHeld.push_back(true);
+    fitted.isDropped.push_back(false);
+    return fitted;
 }
 
 std::size_t placeOf(const LinearFit& fitted, std::size_t column) {

@@ -17,6 +17,11 @@ void makeEquations(Comparison& comparison);
 // Of some columns, by the equations; light and causes are not below 0.
 [[nodiscard]] LinearFit fit(const Comparison& comparison, const std::vector<std::size_t>& columns);
 
+// The same with one more column whose coefficient is known.
+[[nodiscard]] LinearFit fitBeside(const Comparison& comparison,
+                                  const std::vector<std::size_t>& columns, std::size_t known,
+                                  double coefficient);
+
 // Where a column is among those that were fitted.
 [[nodiscard]] std::size_t placeOf(const LinearFit& fitted, std::size_t column);
 // 0 for a column that was not fitted.

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "framework/judge/judge.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "framework/judge/acceptance.h"
 #include "framework/judge/alignment.h"
 #include "framework/judge/causes.h"
@@ -10,6 +13,7 @@
 #include "framework/judge/fitting.h"
 #include "framework/judge/placement.h"
 #include "framework/judge/residual.h"
+#include "framework/judge/view.h"
 #include "framework/judge/weights.h"
 
 namespace kaustik::judge {
@@ -27,6 +31,24 @@ Solution solve(const Comparison& comparison, const std::vector<Choice>& choices)
     Solution solution;
     solution.fitted = fit(comparison, columns);
     solution.covariance = covarianceOf(comparison, solution.fitted);
+    for (const Choice& choice : choices) {
+        const Candidate& candidate = choice.candidate;
+        if (candidate.role != Role::cause ||
+            comparison.subject.causes[candidate.index].kind != CauseKind::whole)
+            continue;
+        const std::size_t column = candidate.columns.front();
+        const std::size_t place = placeOf(solution.fitted, column);
+        const double error = std::sqrt(std::max(solution.covariance.at(place, place), 0.0));
+        if (!solution.fitted.isDropped[place] && error < kMaxError) continue;
+        // Classes of free strength can make up for it; by itself it was found to be made, which a
+        // mistake is as a whole.
+        std::vector<std::size_t> others = columns;
+        std::erase(others, column);
+        solution.fitted =
+            fitBeside(comparison, others, column, coefficientOf(fit(comparison, {0, column}), 0));
+        solution.covariance = covarianceOf(comparison, solution.fitted);
+        break;
+    }
     return solution;
 }
 
@@ -43,6 +65,7 @@ Verdict verdictOf(const Comparison& comparison, const Evidence& evidence) {
     verdict.exposureBy = evidence.exposure.source;
     verdict.blurPixels = comparison.blurPixels;
     verdict.classes = evidence.classes;
+    verdict.explainedShare = evidence.explainedShare;
     verdict.findings = findingsOf(comparison, evidence);
     setResidual(comparison, evidence.solution.fitted, evidence.exposure, verdict);
     return verdict;
@@ -62,6 +85,8 @@ Verdict judge(const Subject& subject, const JudgeOptions& options) {
     evidence.placementError = refinePlacement(comparison);
     weighByNoise(comparison);
     decideBlur(comparison);
+    weighByNoise(comparison);
+    evidence.explainedShare = requireSameView(comparison);
     weighByNoise(comparison);
     evidence.choices = selectCauses(comparison);
     evidence.solution = solve(comparison, evidence.choices);

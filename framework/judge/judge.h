@@ -105,6 +105,13 @@ struct Finding {
     std::vector<std::string> also;  // sentences of causes that explain the same nearly as well
 };
 
+// Shares of the picture's pixels that are not counted.
+struct LeftOut {
+    double notDiffuse = 0.0;  // a mirror, something glossy, a lamp, an edge, or nothing is there
+    double glass = 0.0;       // their eye sees a dielectric there
+    double outside = 0.0;     // their picture does not reach
+};
+
 struct Verdict {
     std::string scene;
     std::string theirs;
@@ -118,9 +125,12 @@ struct Verdict {
     double blurPixels = 0.0;  // standard deviation of the Gaussian that the reference needed
     std::vector<ClassVerdict> classes;
     std::vector<Finding> findings;
-    std::size_t pixels = 0;         // counted
+    std::size_t pixels = 0;  // counted
+    LeftOut leftOut;
     double unexplainedShare = 0.0;  // mean of |residual| over that of the light
-    double criticalZ = 0.0;         // of one pixel, so that all of them exceed it by chance in 1 %
+    // Of what varies in the picture beyond an even light and noise; nothing where nothing does.
+    std::optional<double> explainedShare;
+    double criticalZ = 0.0;  // of one pixel, so that all of them exceed it by chance in 1 %
     double largestZ = 0.0;
     std::size_t significantPixels = 0;
     Image residual;  // theirs / exposure less the fit, W/m²/sr; 0 where it is not counted

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <optional>
 
 #include "framework/judge/alignment.h"
@@ -12,34 +13,43 @@
 namespace kaustik::judge {
 namespace {
 
-// All of these are set by hand on the scenes of results/judge.md. The rounds usually end earlier,
-// by steps below the last two.
+// The rounds usually end earlier, by steps below the last two, a fifth and a fifteenth of what is
+// spoken of.
 constexpr int kMaxRounds = 8;
+// A derivative by differences of neighbours reaches no farther, and at the edge of a picture of 100
+// pixels a scale moves as much.
 constexpr double kMaxShiftStep = 1.5;  // pixels
 constexpr double kMaxScaleStep = 0.03;
 constexpr double kMinShiftStep = 0.01;
 constexpr double kMinScaleStep = 1e-4;
 // Coefficients of the light that are smaller say that other columns have taken its place.
 constexpr double kMinLight = 0.2;
-// A shift that is nearer to halves of a pixel is one.
+// A shift that is nearer to halves of a pixel is one, or within two standard errors: what the
+// interpolation between pixels biases a shift by.
 constexpr double kMaxFromHalf = 0.06;  // pixels
-// A place is another one where less than this share of the loss is left there.
+// Halves of a pixel without any mistake are believed where they explain this share of what the best
+// place does with all of them.
+constexpr double kEqualGain = 0.9;
+// A place is another one where less than this share of the loss is left there: four parameters
+// lower it by less than that even where all that is left is a mistake in the light.
 constexpr double kMaxLossOfMove = 0.85;
 
-// How little their picture is like any mixture of what is known, as it is registered.
-double lossOfPlacement(Comparison& comparison) {
+// How little their picture is like any mixture of some columns, as it is registered.
+double lossOfPlacement(Comparison& comparison, std::initializer_list<Role> roles) {
     align(comparison);
     weighByLight(comparison);
     comparison.plainWeight = comparison.weight;
     double loss = 0.0;
     for (int round = 0; round < 3; ++round) {
         makeEquations(comparison);
-        loss = reweighFarOff(comparison,
-                             fit(comparison, columnsOf(comparison, {Role::direct, Role::lightClass,
-                                                                    Role::cause, Role::fill})));
+        loss = reweighFarOff(comparison, fit(comparison, columnsOf(comparison, roles)));
     }
     return loss;
 }
+
+constexpr std::initializer_list<Role> kLight = {Role::direct, Role::lightClass, Role::fill};
+constexpr std::initializer_list<Role> kEverything = {Role::direct, Role::lightClass, Role::cause,
+                                                     Role::fill};
 
 // A step of Gauss and Newton: the fitted derivatives of the light, in units of the light.
 struct Step {
@@ -119,10 +129,27 @@ void preferPlain(Comparison& comparison, const Registration& before, bool isPlai
     if (isPlain && before.scale == usual &&
         (registration.shift != glm::dvec2(0.0) || registration.scale != usual)) {
         const Registration refined = registration;
-        const double loss = lossOfPlacement(comparison);
+        const double loss = lossOfPlacement(comparison, kEverything);
         registration = plain;
-        if (loss < kMaxLossOfMove * lossOfPlacement(comparison)) registration = refined;
+        if (loss < kMaxLossOfMove * lossOfPlacement(comparison, kEverything))
+            registration = refined;
     }
+}
+
+// A shift and many mistakes together can do what a shift by half a pixel does alone, where the
+// picture is small or its light even: the simpler one is taken.
+void preferHalves(Comparison& comparison, bool isPlain) {
+    Registration& registration = comparison.registration;
+    if (!isPlain || registration.scale != usualScale(comparison)) return;
+    const Registration refined = registration;
+    const glm::dvec2 halves = 0.5 * glm::round(2.0 * refined.shift);
+    if (halves == refined.shift || halves == glm::dvec2(0.0)) return;
+    const double best = lossOfPlacement(comparison, kEverything);
+    registration.shift = glm::dvec2(0.0);
+    const double plain = lossOfPlacement(comparison, kLight);
+    registration.shift = halves;
+    const double moved = lossOfPlacement(comparison, kLight);
+    if (plain - moved < kEqualGain * (plain - best)) registration = refined;
 }
 
 }  // namespace
@@ -144,6 +171,7 @@ PlacementError refinePlacement(Comparison& comparison) {
             break;
     }
     roundRegistration(comparison, isPlain, error);
+    preferHalves(comparison, isPlain);
     preferPlain(comparison, before, isPlain);
     align(comparison);
     return error;

@@ -131,8 +131,9 @@ double cubic(double distance) {
 }
 
 float cubicAt(const Image& image, const glm::dvec2& place, int channel) {
-    const double x = place.x - 0.5;
-    const double y = place.y - 0.5;
+    // Beyond its edges the picture is as it is there.
+    const double x = std::clamp(place.x, -2.0, image.width + 2.0) - 0.5;
+    const double y = std::clamp(place.y, -2.0, image.height + 2.0) - 0.5;
     const int column = static_cast<int>(std::floor(x));
     const int row = static_cast<int>(std::floor(y));
     double sum = 0.0;
@@ -148,12 +149,47 @@ float cubicAt(const Image& image, const glm::dvec2& place, int channel) {
     return static_cast<float>(sum);
 }
 
+// The picture at places before its own, along one axis.
+Image movedAlong(const Image& image, double by, bool isAlongX) {
+    if (by == 0.0) return image;
+    const int whole = static_cast<int>(std::floor(-by));
+    const double rest = -by - whole;
+    Image result(image.width, image.height, image.channels);
+    for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < image.width; ++x) {
+            for (int c = 0; c < image.channels; ++c) {
+                double sum = 0.0;
+                for (int i = -1; i <= 2; ++i) {
+                    const int column = isAlongX ? x + whole + i : x;
+                    const int row = isAlongX ? y : y + whole + i;
+                    sum += cubic(rest - i) *
+                           static_cast<double>(image.at(std::clamp(column, 0, image.width - 1),
+                                                        std::clamp(row, 0, image.height - 1), c));
+                }
+                result.at(x, y, c) = static_cast<float>(sum);
+            }
+        }
+    }
+    return result;
+}
+
 }  // namespace
+
+Image movedBy(const Image& image, const glm::dvec2& by) {
+    return movedAlong(movedAlong(image, by.x, true), by.y, false);
+}
 
 glm::dvec2 Registration::placeOf(const glm::dvec2& pixel, const Image& reference,
                                  const Image& theirs) const {
-    return 0.5 * glm::dvec2(theirs.width, theirs.height) +
-           scale * (pixel - 0.5 * glm::dvec2(reference.width, reference.height)) + shift;
+    glm::dvec2 fromMiddle = pixel - 0.5 * glm::dvec2(reference.width, reference.height);
+    if (warp != glm::dmat3(1.0)) {
+        const double unit = 0.5 * reference.height;
+        const glm::dvec3 warped = warp * glm::dvec3(fromMiddle / unit, 1.0);
+        // Behind the other camera there is no picture.
+        if (!(warped.z > 0.0)) return glm::dvec2(-HUGE_VAL);
+        fromMiddle = unit * glm::dvec2(warped) / warped.z;
+    }
+    return 0.5 * glm::dvec2(theirs.width, theirs.height) + scale * fromMiddle + shift;
 }
 
 Image flipped(const Image& image, bool isFlippedX, bool isFlippedY) {

@@ -10,14 +10,17 @@
 namespace kaustik::judge {
 
 // A pixel p of the reference (continuous, from the top left corner) is seen in their picture,
-// mirrored back first, at `theirMiddle + scale (p - middle) + shift`, the middles being those of
-// the pictures.
+// mirrored back first, at `theirMiddle + scale warped(p - middle) + shift`, the middles being those
+// of the pictures.
 struct Registration {
     bool isFlippedX = false;
     bool isFlippedY = false;
     double scale = 1.0;
     glm::dvec2 shift{0.0};     // of their pixels
     double correlation = 0.0;  // of the two at their best, of the square roots of light
+    // A homography of places from the middle in halves of the reference's height: that of another
+    // camera, for who looks for one (view.h).
+    glm::dmat3 warp{1.0};
 
     [[nodiscard]] glm::dvec2 placeOf(const glm::dvec2& pixel, const Image& reference,
                                      const Image& theirs) const;
@@ -28,6 +31,9 @@ struct Registration {
 // picture that lies as it should is not taken: symmetric scenes fit both ways.
 [[nodiscard]] Registration findRegistration(const Image& theirs, const Image& model,
                                             const Image& mask);
+
+// The picture at places that lie `by` pixels before its own, by the interpolation of resampled().
+[[nodiscard]] Image movedBy(const Image& image, const glm::dvec2& by);
 
 [[nodiscard]] Image flipped(const Image& image, bool isFlippedX, bool isFlippedY);
 

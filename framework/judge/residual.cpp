@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "framework/judge/fitting.h"
+#include "framework/judge/significance.h"
 
 namespace kaustik::judge {
 namespace {
@@ -12,28 +13,30 @@ namespace {
 // The chance that any pixel of a right picture is significant: the usual 1 %.
 constexpr double kFalseAlarmRate = 0.01;
 
-// The z that a normal variate exceeds on either side with this chance (Beasley, Springer and
-// Moro's approximation would do; bisection of erfc is exact).
-double criticalZ(double chance) {
-    double low = 0.0;
-    double high = 40.0;
-    for (int i = 0; i < 200; ++i) {
-        const double middle = 0.5 * (low + high);
-        (std::erfc(middle / std::sqrt(2.0)) > chance ? low : high) = middle;
-    }
-    return high;
-}
-
 // Counts the pixels whose z is significant.
 void setSignificance(Verdict& verdict) {
     const auto pixels = static_cast<double>(std::max<std::size_t>(verdict.pixels, 1));
-    // Šidák's correction.
-    verdict.criticalZ = criticalZ(-std::expm1(std::log1p(-kFalseAlarmRate) / pixels));
+    verdict.criticalZ = criticalZ(chanceOfEach(kFalseAlarmRate, pixels));
     for (const float z : verdict.z.values) {
         const double size = std::abs(static_cast<double>(z));
         verdict.largestZ = std::max(verdict.largestZ, size);
         verdict.significantPixels += size > verdict.criticalZ ? 1u : 0u;
     }
+}
+
+// Why pixels are not counted, each for one reason.
+void setLeftOut(const Comparison& comparison, Verdict& verdict) {
+    const auto pixels = static_cast<double>(comparison.subject.mask.values.size());
+    double notDiffuse = 0.0;
+    double glass = 0.0;
+    double outside = 0.0;
+    for (std::size_t i = 0; i < comparison.subject.mask.values.size(); ++i) {
+        if (comparison.counted.values[i] > 0.5f) continue;
+        const bool isPlain = comparison.subject.mask.values[i] > 0.5f;
+        const bool isGlass = isPlain && comparison.clear.values[i] < 0.5f;
+        (!isPlain ? notDiffuse : isGlass && !comparison.glassIsHidden ? glass : outside) += 1.0;
+    }
+    verdict.leftOut = {notDiffuse / pixels, glass / pixels, outside / pixels};
 }
 
 }  // namespace
@@ -64,6 +67,7 @@ void setResidual(const Comparison& comparison, const LinearFit& fitted, const Ex
             verdict.z.at(x, y, 0) = variance > 0.0 ? static_cast<float>(residual / variance) : 0.0f;
         }
     }
+    setLeftOut(comparison, verdict);
     verdict.unexplainedShare = light > 0.0 ? difference / light : 0.0;
     setSignificance(verdict);
 }

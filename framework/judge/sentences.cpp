@@ -11,8 +11,9 @@ namespace kaustik::judge {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-// How far a factor may be from a known one, relative, or in standard errors; and how far an angle's
-// tangents may be from the picture's aspect. Set by hand on the scenes of results/judge.md.
+// How far a factor may be from a known one, relative (what meshes and kernels make of one), or in
+// standard errors; and how far an angle's tangents may be from the picture's aspect. These choose
+// words alone.
 constexpr double kFactorTolerance = 0.015;
 constexpr double kFactorErrors = 2.0;
 constexpr double kAspectTolerance = 0.02;

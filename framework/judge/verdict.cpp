@@ -86,11 +86,17 @@ json toJson(const Verdict& verdict) {
             {"exposure_stderr", verdict.exposureError},
             {"exposure_by", verdict.exposureBy},
             {"blur_px", verdict.blurPixels},
+            {"left_out",
+             {{"not_diffuse", verdict.leftOut.notDiffuse},
+              {"glass", verdict.leftOut.glass},
+              {"outside", verdict.leftOut.outside}}},
             {"classes", classes},
             {"findings", findings},
             {"residual",
              {{"pixels", verdict.pixels},
               {"unexplained_share", verdict.unexplainedShare},
+              {"explained_share",
+               verdict.explainedShare ? json(*verdict.explainedShare) : json(nullptr)},
               {"critical_z", verdict.criticalZ},
               {"largest_z", verdict.largestZ},
               {"significant_pixels", verdict.significantPixels}}}};
@@ -101,6 +107,14 @@ std::string toText(const Verdict& verdict) {
         "{} against {}: {} pixels counted, {}, {}\n", verdict.theirs, verdict.scene, verdict.pixels,
         verdict.hasDirect ? "with direct light" : "caustics alone",
         verdict.glassIsHidden ? "straight through glass" : "without those that see glass");
+    const LeftOut& out = verdict.leftOut;
+    const double share = out.notDiffuse + out.glass + out.outside;
+    if (share > 0.0) {
+        text += fmt::format(
+            "not judged: {:.1f} % of the pixels (on {:.1f} % there is a mirror, gloss, a lamp, an "
+            "edge or nothing, on {:.1f} % the eye sees glass, {:.1f} % are outside the picture)\n",
+            100.0 * share, 100.0 * out.notDiffuse, 100.0 * out.glass, 100.0 * out.outside);
+    }
     text += fmt::format("exposure {:.5g} ± {:.2g}, by {}; values are {}\n\n", verdict.exposure,
                         verdict.exposureError, verdict.exposureBy, nameOf(verdict.encoding));
     text += fmt::format("{:<14} {:>9}  {:>8} {:>8}  {}\n", "class", "of light", "c", "±", "");

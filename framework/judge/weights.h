@@ -6,6 +6,9 @@
 
 namespace kaustik::judge {
 
+// In standard deviations, what is far off; near Huber's own 1.345.
+constexpr double kFarOff = 1.5;
+
 // Sets `weight` as if pixels were wrong by a share of their light.
 void weighByLight(Comparison& comparison);
 // Huber's weights, from `plainWeight`: what is far off counts by its size and not by its square,

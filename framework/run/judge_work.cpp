@@ -5,19 +5,14 @@
 
 #include "framework/core/error.h"
 #include "framework/image/image.h"
+#include "framework/judge/acceptance.h"
+#include "framework/judge/pictures.h"
 #include "framework/measure/image_file.h"
-
-#include <cmath>
 
 namespace kaustik::run {
 
 void requireNumbers(const Image& image, const std::string& name) {
-    for (const float value : image.values) {
-        if (!std::isfinite(value)) {
-            throw ConfigError(
-                fmt::format("{} holds values that are no numbers; it cannot be judged.", name));
-        }
-    }
+    judge::requireNumbers(judge::threeChannels(image), name);
 }
 
 }  // namespace kaustik::run
@@ -25,6 +20,7 @@ void requireNumbers(const Image& image, const std::string& name) {
 #ifdef KAUSTIK_HAS_EMBREE
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <set>
@@ -33,6 +29,7 @@ void requireNumbers(const Image& image, const std::string& name) {
 #include "framework/reference/direct_view.h"
 #include "framework/reference/embree_scene.h"
 #include "framework/reference/path_census.h"
+#include "framework/reference/wrong_fresnel.h"
 #include "framework/run/reference_work.h"
 #include "framework/scene/emitters.h"
 #include "framework/scene/texture.h"
@@ -49,7 +46,8 @@ constexpr int kLightPoints = 64;
 constexpr double kIndexStep = 0.01;
 constexpr double kTurnDegrees = 0.25;
 constexpr double kMoveShare = 0.005;  // of the distance to what is specular
-// Each picture takes a reference of its own; set by hand, to bound the time of a subject.
+// Each picture takes a reference of its own, of a quarter of the photons: six times that of the
+// scene's own are as much as someone waits for.
 constexpr std::size_t kMaxPictures = 24;
 
 // The light of a scene as radiance.
@@ -130,6 +128,24 @@ class Lighting {
         return lit;
     }
 
+    // Of the irradiance, as changesByWrongFresnel() has them.
+    [[nodiscard]] std::array<Image, reference::kWrongFresnels.size()> changesByFresnel(
+        const scene::Scene& scene, long long photons) const {
+        const reference::EmbreeScene embree(scene);
+        reference::WrongFresnelRequest request;
+        request.width = request_.width;
+        request.height = request_.height;
+        request.photons = static_cast<std::uint64_t>(photons);
+        request.seed = static_cast<std::uint64_t>(request_.seed);
+        request.shouldContinue = [this] {
+            return watch_ != nullptr ? watch_->shouldContinue() : !isInterrupted();
+        };
+        std::array<Image, reference::kWrongFresnels.size()> changes =
+            reference::changesByWrongFresnel(embree, request);
+        if (!request.shouldContinue()) throw Error("The judge was interrupted.", kExitFailed);
+        return changes;
+    }
+
   private:
     const JudgedScene& request_;
     const Watch* watch_;
@@ -146,6 +162,7 @@ class Causes {
     [[nodiscard]] std::vector<Cause> all() {
         for (std::size_t i = 0; i < scene_.materials.size(); ++i)
             addIndex(i);
+        addFresnel();
         for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
             if (scene_.lights[i].emitter < 0 && scene_.lights[i].band == 0) addLight(i);
         }
@@ -206,6 +223,28 @@ class Causes {
                    [index](scene::Scene& scene, double step) {
                        scene.materials[index].ior += static_cast<float>(step);
                    });
+    }
+
+    // How light is divided where it meets a dielectric; all of them alike, as a program does it.
+    void addFresnel() {
+        const bool hasDielectric = std::any_of(
+            scene_.objects.begin(), scene_.objects.end(), [&](const scene::Object& object) {
+                return scene_.materials[object.material].kind == scene::MaterialKind::dielectric;
+            });
+        if (!hasDielectric) return;
+        const std::array<Image, reference::kWrongFresnels.size()> changes =
+            lighting_.changesByFresnel(scene_, photons_);
+        constexpr std::array<std::pair<const char*, const char*>, 3> kNames = {
+            {{"fresnel:lossless",
+              "refracted light has not Fresnel's factor: what is reflected is not taken from it"},
+             {"fresnel:schlick",
+              "light is divided by Schlick's approximation and not by Fresnel's equations"},
+             {"fresnel:swapped", "Fresnel's equations have the two indices exchanged"}}};
+        static_assert(kNames.size() == reference::kWrongFresnels.size());
+        for (std::size_t i = 0; i < changes.size(); ++i) {
+            add(CauseKind::whole, kNames[i].first, kNames[i].second, "", 0.0, 0.0,
+                timesFill(changes[i], usual_.view.fill));
+        }
     }
 
     [[nodiscard]] glm::dvec3 middleOfSpecular() const {

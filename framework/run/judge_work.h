@@ -23,7 +23,8 @@ struct JudgedScene {
 [[nodiscard]] judge::Subject subjectOf(const scene::Scene& scene, const JudgedScene& request,
                                        const Watch* watch = nullptr);
 
-// Throws ConfigError for values that are no numbers.
+// Throws ConfigError for a picture of which no light can be told, before references are made:
+// values that are no numbers or negative, black, of 8 bits.
 void requireNumbers(const Image& image, const std::string& name);
 
 // The same for a picture of theirs, which says the size unless one is given. Throws ConfigError

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // kaustik census, what run and explain say by it, and the classes of kaustik reference.
+#include <signal.h>
+
 #include <cmath>
 #include <filesystem>
 
@@ -117,6 +119,19 @@ TEST_F(Census, IsWhatRunAndExplainSayByLater) {
     for (const auto& [name, one] : part.at("classes").items())
         sum += one.at("watts").get<double>();
     EXPECT_NEAR(sum, part.at("watts"), 1e-9 + 1e-6 * part.at("watts").get<double>());
+}
+
+// The paths of a census are traced in seconds, so that many photons are asked for.
+TEST_F(Census, EndsAtASignalAndWritesNothing) {
+    Conditions conditions;
+    conditions.folder = folder / ".";
+    conditions.environment = {{"KAUSTIK_CACHE", (folder / "cache").string()}};
+    Program program({"census", "wavy.toml", "--photons", "100000000000", "--out", "out"},
+                    conditions);
+    program.waitUntilItHandles(SIGINT);
+    program.send(SIGINT);
+    expectFailure(program.wait(), 1, {"Interrupted"});
+    EXPECT_FALSE(std::filesystem::exists(folder / "out/census.json"));
 }
 
 TEST_F(Census, RefusesWhatMakesNoSenseInASentence) {

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: MIT
 // kaustik export and judge as their users meet them, with POV-Ray's photons where it is installed.
+#include <signal.h>
+
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 #include "framework/image/image.h"
@@ -105,6 +109,49 @@ TEST_F(Judge, RefusesWhatItCannotJudgeInOneSentence) {
     expectFailure(judge({"holes.exr", "--glass", "maybe"}), 2, {"--glass", "maybe", "hidden"});
     expectFailure(judge({"holes.exr", "--encoding", "log"}), 2, {"--encoding", "log", "srgb"});
     expectFailure(judge({"holes.exr", "--exposure", "0"}), 2, {"--exposure"});
+}
+
+// Each is one sentence, and nothing is written.
+TEST_F(Judge, RefusesThePictureOfAnotherSceneAndAViewWithoutACaustic) {
+    const std::vector<std::string> few = {"--photons", "600000", "--no-causes"};
+    const auto judgeFew = [&](const std::string& file) {
+        std::vector<std::string> arguments = {file, "--out", "judged"};
+        arguments.insert(arguments.end(), few.begin(), few.end());
+        return judge(arguments);
+    };
+    Image waves(64, 48, 3);
+    Image levels(64, 48, 3);
+    for (int y = 0; y < 48; ++y) {
+        for (int x = 0; x < 64; ++x) {
+            const double wave = 1.0 + std::sin(0.5 * x) * std::cos(0.7 * y);
+            for (int c = 0; c < 3; ++c) {
+                waves.at(x, y, c) = static_cast<float>(wave);
+                levels.at(x, y, c) = static_cast<float>(std::floor(100.0 * wave) / 255.0);
+            }
+        }
+    }
+    writeImage(folder / "waves.exr", waves);
+    expectFailure(judgeFew("waves.exr"), 2, {"waves.exr", "does not show cup"});
+    writeImage(folder / "levels.exr", levels);
+    expectFailure(judgeFew("levels.exr"), 2, {"levels.exr", "256 levels", "display"});
+    EXPECT_FALSE(files().contains("judged/judge.json"));
+    std::string away = kRing;
+    away.replace(away.find("[0.05, 0, 0.03]"), 15, "[-2.0, 0, 2.9]");
+    static_cast<void>(folder.file("cup.toml", away));
+    expectFailure(judgeFew("waves.exr"), 2, {"no caustic to judge by"});
+}
+
+TEST_F(Judge, EndsAtASignalAndGoesOnFromItsReferences) {
+    Image even(64, 48, 3);
+    std::fill(even.values.begin(), even.values.end(), 1.0f);
+    writeImage(folder / "even.exr", even);
+    Conditions conditions;
+    conditions.folder = folder / ".";
+    conditions.environment = {{"KAUSTIK_CACHE", (folder / "cache").string()}};
+    Program program({"judge", "cup.toml", "even.exr", "--photons", "100000000000"}, conditions);
+    program.waitUntilItHandles(SIGINT);
+    program.send(SIGINT);
+    expectFailure(program.wait(), 1, {"Interrupted after ", "goes on"});
 }
 
 TEST_F(Judge, HasExportRefuseWhatThereIsNot) {

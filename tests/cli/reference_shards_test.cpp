@@ -86,6 +86,23 @@ TEST_F(ReferenceShards, MergeIntoTheUndividedReferenceInAnyOrderAndHoweverOften)
     EXPECT_EQ(judged.exitCode, 0) << judged.err;
 }
 
+TEST_F(ReferenceShards, KeepTheirClasses) {
+    const std::vector<std::string> classes = {"--classes", "1", "--class", "up=R"};
+    const auto with = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.end(), classes.begin(), classes.end());
+        return arguments;
+    };
+    ASSERT_EQ(reference(with({"--out", "whole.exr"})).exitCode, 0);
+    compute("1/2", "a.shard", classes);
+    compute("2/2", "b.shard", classes);
+    ASSERT_EQ(merge({"b.shard", "a.shard"}).exitCode, 0);
+    expectSameReference("whole", "merged");
+    EXPECT_EQ(contents("merged.classes.exr"), contents("whole.classes.exr"));
+    // A shard without them is of another reference.
+    compute("2/2", "plain.shard");
+    EXPECT_NE(merge({"a.shard", "plain.shard"}).exitCode, 0);
+}
+
 TEST_F(ReferenceShards, HaveNamesOfTheirOwnByDefault) {
     const Outcome outcome = reference({"--shard", "2/4"});
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;

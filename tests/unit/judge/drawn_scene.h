@@ -21,6 +21,10 @@ struct Drawing {
     double fill = 0.0;
     glm::dvec2 shift{0.0};  // pixels, of what is seen
     double zoom = 1.0;      // of what is seen, about the middle
+    double roll = 0.0;      // degrees, of the camera about its line of sight
+    // Of a camera that looks from aslant: places are divided by 1 + keystone · place from the
+    // middle in halves of the height.
+    glm::dvec2 keystone{0.0};
     bool isFlippedX = false;
     bool isFlippedY = false;
     int width = 96;
@@ -76,6 +80,11 @@ inline Image drawn(const Drawing& drawing,
                 if (drawing.isFlippedY) p.y = drawing.height - p.y;
                 p = drawing.corner + p * drawing.pixelsPerPixel - drawing.shift;
                 p = middle + (p - middle) / drawing.zoom;
+                const double roll = drawing.roll * std::acos(-1.0) / 180.0;
+                const glm::dvec2 q = p - middle;
+                p = middle + glm::dvec2(std::cos(roll) * q.x - std::sin(roll) * q.y,
+                                        std::sin(roll) * q.x + std::cos(roll) * q.y) /
+                                 (1.0 + glm::dot(drawing.keystone, q) / middle.y);
                 sum += quantity(drawnAt(p, drawing.index));
             }
             const double value = sum / (kSide * kSide);

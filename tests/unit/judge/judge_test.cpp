@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 
 #include "framework/core/error.h"
 #include "tests/unit/judge/drawn_scene.h"
@@ -285,6 +287,20 @@ TEST(Judge, RefusesWhatCannotBeJudgedInOneSentence) {
         value = std::min(value, 1.0f);
     EXPECT_NE(refusal(display).find("cut off at 1"), std::string::npos) << refusal(display);
 
+    for (const bool isCurved : {false, true}) {
+        Image levels = theirPicture({}, 0.004);
+        for (float& value : levels.values) {
+            const double level =
+                std::round(255.0 * std::clamp(static_cast<double>(value), 0.0, 1.0));
+            const double stored = level / 255.0;
+            value =
+                static_cast<float>(!isCurved           ? stored
+                                   : stored <= 0.04045 ? stored / 12.92
+                                                       : std::pow((stored + 0.055) / 1.055, 2.4));
+        }
+        EXPECT_NE(refusal(levels).find("256 levels"), std::string::npos) << refusal(levels);
+    }
+
     Image other(96, 72, 3);
     for (int y = 0; y < 72; ++y) {
         for (int x = 0; x < 96; ++x) {
@@ -300,6 +316,65 @@ TEST(Judge, RefusesWhatCannotBeJudgedInOneSentence) {
     for (Light& light : dark.classes)
         std::fill(light.radiance.values.begin(), light.radiance.values.end(), 0.0f);
     EXPECT_THROW(static_cast<void>(judge(dark, {})), ConfigError);
+}
+
+TEST(Judge, RefusesThePictureOfAnotherCamera) {
+    // Near ones are found, far ones explain too little.
+    Drawing drawing;
+    for (const double degrees : {2.0, -6.0, 25.0}) {
+        drawing.roll = degrees;
+        const std::string said = refusal(theirPicture(drawing, 2.0));
+        EXPECT_NE(said.find("does not show drawn by its camera"), std::string::npos)
+            << degrees << ": " << said;
+        if (std::abs(degrees) > 10.0) continue;
+        EXPECT_NE(said.find("about the line of sight"), std::string::npos) << said;
+        char words[40];
+        std::snprintf(words, sizeof words, "about %.1f degrees", std::abs(degrees));
+        EXPECT_NE(said.find(words), std::string::npos) << said;
+    }
+    drawing.roll = 0.0;
+    for (const glm::dvec2& keystone : {glm::dvec2(0.06, 0.0), {0.0, -0.08}, {0.3, 0.3}}) {
+        drawing.keystone = keystone;
+        EXPECT_NE(refusal(theirPicture(drawing, 2.0)).find("does not show drawn by its camera"),
+                  std::string::npos)
+            << keystone.x << " " << keystone.y;
+    }
+}
+
+TEST(Judge, TakesNoMistakeInTheLightForAnotherCamera) {
+    Drawing drawing;
+    drawing.index += 0.025;
+    drawing.spot = 0.0;
+    drawing.fill = 5.0;
+    drawing.shift = {3.0, -2.0};
+    const Verdict verdict = judged(drawing);
+    ASSERT_TRUE(verdict.explainedShare);
+    EXPECT_GT(*verdict.explainedShare, 0.97) << allOf(verdict);
+    EXPECT_NE(find(verdict, "missing:TRT"), nullptr) << allOf(verdict);
+}
+
+// A mistake that is little but another strength of a class: the class alone could make up for it.
+TEST(Judge, NamesAWholeMistakeThatClassesCouldMakeUpFor) {
+    Subject subject = drawnSubject(Image());
+    const auto lossless = [](const DrawnLight& light) {
+        return light.ring * (0.15 + 0.002 * light.albedo * light.ring);
+    };
+    Cause fresnel;
+    fresnel.kind = CauseKind::whole;
+    fresnel.name = "fresnel:lossless";
+    fresnel.sentence = "refracted light has not Fresnel's factor";
+    const double pi = std::acos(-1.0);
+    fresnel.radiance =
+        drawn({}, [&](const DrawnLight& light) { return light.albedo / pi * lossless(light); });
+    Image change = fresnel.radiance;
+    subject.causes.push_back(std::move(fresnel));
+    subject.theirs = theirPicture({}, 1.0);
+    for (std::size_t i = 0; i < change.values.size(); ++i)
+        subject.theirs.values[i] += change.values[i];
+    const Verdict verdict = judge(subject, {});
+    ASSERT_NE(find(verdict, "fresnel:lossless"), nullptr) << allOf(verdict);
+    for (const ClassVerdict& of : verdict.classes)
+        EXPECT_EQ(of.verdict, "there") << allOf(verdict);
 }
 
 TEST(Judge, TellsPathsInWords) {
