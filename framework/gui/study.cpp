@@ -5,12 +5,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "framework/core/error.h"
 #include "framework/core/names.h"
 
 namespace kaustik::gui {
 namespace {
+
+// Of a value, for who says what is wrong with it.
+constexpr std::string_view kPlace = "the study";
 
 std::vector<std::string> wordsOf(const std::string& text) {
     std::vector<std::string> words;
@@ -35,7 +39,7 @@ std::vector<std::string> wordsOf(const std::string& text) {
 // The value as the parameter writes it.
 std::string parameterText(const std::string& key, const std::string& word,
                           params::ParamSet& params) {
-    params.set(key, word, "the study");
+    params.set(key, word, kPlace);
     return params.find(key).text();
 }
 
@@ -62,7 +66,9 @@ TypedAxis typedAxis(const std::string& key, const std::string& text, const Varia
         }
         if (typed.axis.values.empty()) typed.problem = fmt::format("{} has no value yet.", key);
     } catch (const Error& error) {
+        // Without the place, which is above the sentence.
         typed.problem = error.what();
+        if (typed.problem.starts_with(kPlace)) typed.problem.erase(0, kPlace.size() + 2);
     }
     return typed;
 }

@@ -150,7 +150,7 @@ void drawMore(Bench& bench, const std::vector<Variable>& variables) {
     ImGui::TextUnformatted(bench.panels.studyAxes.empty() ? "Vary" : "and");
     ImGui::SameLine();
     ImGui::SetNextItemWidth(-FLT_MIN);
-    if (choose(bench, "##vary", names, index, "study.vary", "a parameter, a node, the technique")) {
+    if (choose(bench, "##vary", names, index, "study.vary", "a setting")) {
         const Variable& chosen = *free[static_cast<std::size_t>(index)];
         bench.panels.studyAxes.push_back({chosen.key, chosen.now});
     }
@@ -174,7 +174,8 @@ Intended intended(const Bench& bench, const std::vector<TypedAxis>& typed) {
     all.study.document.other.reset();
     for (const TypedAxis& axis : typed) {
         all.study.axes.push_back(axis.axis);
-        if (!axis.problem.empty() && all.obstacle.empty()) all.obstacle = axis.problem;
+        if (!axis.problem.empty() && all.obstacle.empty())
+            all.obstacle = fmt::format("The values of {} are not right yet.", axis.axis.key);
     }
     all.runs = typed.empty() ? 0 : runCount(all.study.axes);
     if (typed.empty()) all.obstacle = "Choose what is to be varied.";

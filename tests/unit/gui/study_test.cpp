@@ -43,6 +43,7 @@ TEST_F(StudyTest, TakesValuesThatWereTypedWhateverIsBetweenThem) {
 
 TEST_F(StudyTest, SaysWhatIsNoValue) {
     EXPECT_NE(typed("layers.count", "4 many").problem.find("many"), std::string::npos);
+    EXPECT_TRUE(typed("layers.count", "4 many").problem.starts_with("layers.count"));
     EXPECT_NE(typed("layers.count", "4 1000000").problem.find("1000000"), std::string::npos);
     // A decimal comma is neither two values nor one.
     EXPECT_NE(typed("trace.epsilon", "0,05").problem.find("0,05"), std::string::npos);
