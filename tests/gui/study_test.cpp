@@ -89,7 +89,7 @@ TEST_F(StudyPanel, RunsWhatIsVariedAndAClickOpensARun) {
                  "--reference-photons", "1000000", "--out", "expected"});
     EXPECT_EQ(report.at("error"), readJson("expected/report.json").at("error"));
 
-    bench->click("study.point.2");
+    bench->click("study.row.2");
     untilSettled();
     EXPECT_EQ(document().at("variant").at("set").at("layers.count"), "1");
     EXPECT_EQ(document().at("variant").at("set").at("trace"), "march");
@@ -130,20 +130,18 @@ TEST_F(StudyPanel, IsCancelledAndSaysHowItGoesOn) {
     untilSettled();
 }
 
-// A run that fails says why, and the others go on.
-TEST_F(StudyPanel, ARunThatFailsIsARowOfItsOwn) {
-    json small = smallDocument();
-    small["variant"]["disable"] = {"shadow.map"};
-    json kept = savedStateWith(small);
-    kept["panels"]["study"] = json::array({json::array({"shadow", "map bvh"})});
-    kept["panels"]["study_frames"] = 1;
+TEST_F(StudyPanel, AFolderThatCannotBeWrittenIsSaidSo) {
+    static_cast<void>(folder.file("occupied", "a file"));
+    json kept = savedStateWith(smallDocument());
+    kept["panels"]["record_folder"] = "occupied/below";
+    kept["panels"]["study"] = json::array({json::array({"layers.count", "1 2"})});
     kept["panels"]["judged_studies"] = false;
     start(kept);
     open("Study");
     bench->click("study.run");
-    untilStudy("idle: ");
-    // Which is found before the first: with other shadows there is no such pass.
-    EXPECT_TRUE(says("study.remark", "shadow.map")) << bench->value("study.remark");
+    untilStudy("idle: 0 of 2 runs");
+    EXPECT_TRUE(says("study.remark", "occupied")) << bench->value("study.remark");
+    EXPECT_FALSE(bench->has("study.cancel"));
     bench->keepScreenshot("study-refused");
 }
 
