@@ -50,7 +50,7 @@ std::string readAll(int file) {
 
 ProcessOutcome runProcess(const std::filesystem::path& program,
                           const std::vector<std::string>& words, StandardOutput output,
-                          const std::function<bool()>& isInterrupted) {
+                          const std::function<bool()>& isInterrupted, int endingSignal) {
     const Descriptor messages(::memfd_create("messages", MFD_CLOEXEC));
     const ProcessPlan plan{
         .program = program,
@@ -70,7 +70,7 @@ ProcessOutcome runProcess(const std::filesystem::path& program,
     while (!process.endWithin(kTimeBetweenLooks)) {
         if (!isInterrupted()) continue;
         outcome.interrupted = true;
-        process.send(SIGKILL);
+        process.send(endingSignal);
         break;
     }
     const ProcessEnd end = process.wait();

@@ -2,6 +2,7 @@
 // Another program, started and waited for.
 #pragma once
 
+#include <csignal>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -22,11 +23,14 @@ struct ProcessOutcome {
 enum class StandardOutput { dropped, shared };
 
 // Runs `program words[1] …` to its end; words[0] is what the program sees as its name. It ends when
-// this program does, however that ends. A key pressed at the terminal reaches only this program,
-// which then decides. Throws IoError when it cannot be started.
+// the thread that calls does, however that ends. A key pressed at the terminal reaches only this
+// program, which then decides. `endingSignal` is what it gets once `isInterrupted` says so: one
+// that it may answer, such as SIGINT, gives it time to end in order, which is waited for. Throws
+// IoError when it cannot be started.
 [[nodiscard]] ProcessOutcome runProcess(const std::filesystem::path& program,
                                         const std::vector<std::string>& words,
                                         StandardOutput output,
-                                        const std::function<bool()>& isInterrupted);
+                                        const std::function<bool()>& isInterrupted,
+                                        int endingSignal = SIGKILL);
 
 }  // namespace kaustik::experiment

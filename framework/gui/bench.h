@@ -21,6 +21,8 @@
 #include "framework/gui/settled_points.h"
 #include "framework/gui/shown.h"
 #include "framework/gui/state.h"
+#include "framework/gui/study_worker.h"
+#include "framework/gui/thumbnails.h"
 #include "framework/gui/time_history.h"
 #include "framework/scene/files/scene_file.h"
 
@@ -61,8 +63,18 @@ struct Bench {
     // RMSE and FLIP of all pairs of caustic irradiances, once they are asked for.
     std::shared_ptr<const Table> pairs{};
     bool wantsPairs = false;
+    // From the start of the renderer to its first whole picture; 0 before.
+    double startSeconds = 0.0;
+    // The newest study, never null once the workbench runs, and who does it.
+    StudyWorker* studies = nullptr;
+    std::shared_ptr<const StudyState> study{};
+    // Who makes small pictures, and those that are looked at in this frame.
+    ThumbnailWorker* thumbnails = nullptr;
+    std::vector<ThumbnailSubject> wantedThumbnails{};
     bool wantsShownSaved = false;
 
+    // Of the picture as it is drawn in this frame; "" where the mouse is on none of its pixels.
+    std::string valueUnderMouse{};
     // One line for the status bar, until what it speaks of is gone.
     std::string message{};
     bool isMessageBad = false;

@@ -39,10 +39,13 @@ class Canvas {
     [[nodiscard]] void* texture(std::size_t slot) const;
     // The same read back: RGB, display-encoded; waits for the device.
     [[nodiscard]] Image read(std::size_t slot) const;
-    // The first slots are the two sides of the split, the others small pictures.
+    // The first slots are the two sides of the split, then small pictures of a pass's textures,
+    // then those to choose by.
     static constexpr std::size_t kSides = 2;
     static constexpr std::size_t kThumbnails = 24;
-    static constexpr std::size_t kSlots = kSides + kThumbnails;
+    static constexpr std::size_t kFirstChoice = kSides + kThumbnails;
+    static constexpr std::size_t kChoices = 64;
+    static constexpr std::size_t kSlots = kFirstChoice + kChoices;
 
   private:
     struct Slot {

@@ -20,6 +20,13 @@ std::string number(double value) {
     return fmt::format("{:.3g}", value);
 }
 
+std::string tickText(double value) {
+    // 50000 and not 5e+04, as long as it has room.
+    const double size = std::abs(value);
+    const bool isPlain = size >= 1e3 && size < 1e6 && std::round(value) == value;
+    return isPlain ? fmt::format("{:.0f}", value) : fmt::format("{:.4g}", value);
+}
+
 }  // namespace
 
 std::vector<ColorBar::Tick> ticksOn(Scale scale, double lowest, double high) {
@@ -27,7 +34,7 @@ std::vector<ColorBar::Tick> ticksOn(Scale scale, double lowest, double high) {
     const auto add = [&](double value) {
         const double place = placeOn(scale, lowest, high, value);
         if (place > -1e-6 && place < 1.0 + 1e-6)
-            ticks.push_back({std::clamp(place, 0.0, 1.0), fmt::format("{:.4g}", value)});
+            ticks.push_back({std::clamp(place, 0.0, 1.0), tickText(value)});
     };
     const double low = scale == Scale::symmetric ? -high : lowest;
     if (scale == Scale::logarithmic) {
@@ -128,7 +135,11 @@ std::string ShownImage::caption() const {
     } else {
         text += name();
         if (!layerName.empty()) text += " · " + layerName;
-        if (!mapping.isEncoded) text += " · " + channelLabel(content, look.channel);
+        if (!mapping.isEncoded) {
+            text += " · " + channelLabel(content, look.channel);
+        } else if (const std::optional<ColorBar> bar = colorBar()) {
+            text += " · " + bar->label;
+        }
     }
     text += " · " + place;
     if (!note.empty()) text += " · " + note;

@@ -7,7 +7,9 @@
 #include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <system_error>
+#include <utility>
 
 namespace kaustik::gui {
 namespace {
@@ -70,6 +72,24 @@ class Part {
 // Kept variants are in memory, and gone with it.
 bool isKept(ComparedImage image) {
     return image == ComparedImage::kept || image == ComparedImage::difference;
+}
+
+json toJson(const std::vector<PanelState::VariedSetting>& axes) {
+    json all = json::array();
+    for (const PanelState::VariedSetting& axis : axes)
+        all.push_back({axis.key, axis.text});
+    return all;
+}
+
+// Each key once; the panel says itself what is wrong with one.
+std::vector<PanelState::VariedSetting> axesFrom(
+    const std::vector<std::pair<std::string, std::string>>& all) {
+    std::vector<PanelState::VariedSetting> axes;
+    std::set<std::string> known;
+    for (const auto& pair : all) {
+        if (known.insert(pair.first).second) axes.push_back({pair.first, pair.second});
+    }
+    return axes;
 }
 
 json toJson(const std::map<std::string, Look>& looks) {
@@ -135,6 +155,9 @@ json toJson(const SavedState& kept) {
               {"changed_parameters", panels.showsChangedParameters},
               {"graph", panels.showsGraph},
               {"trade_off_measure", panels.tradeOffMeasure},
+              {"study", toJson(panels.studyAxes)},
+              {"study_frames", panels.studyFrames},
+              {"judged_studies", panels.judgesStudies},
               {"precise", panels.isPrecise},
               {"endless", panels.isEndless},
               {"judged_reports", panels.judgesReports},
@@ -179,6 +202,11 @@ SavedState savedStateFromJson(const json& j, std::vector<std::string>& problems)
     panels.take("changed_parameters", kept.panels.showsChangedParameters);
     panels.take("graph", kept.panels.showsGraph);
     kept.panels.tradeOffMeasure = panels.between("trade_off_measure", 0, 0, 5);
+    std::vector<std::pair<std::string, std::string>> axes;
+    panels.take("study", axes);
+    kept.panels.studyAxes = axesFrom(axes);
+    kept.panels.studyFrames = panels.between("study_frames", 8, 1, 10000);
+    panels.take("judged_studies", kept.panels.judgesStudies);
     panels.take("precise", kept.panels.isPrecise);
     panels.take("endless", kept.panels.isEndless);
     panels.take("judged_reports", kept.panels.judgesReports);

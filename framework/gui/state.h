@@ -47,7 +47,7 @@ struct ViewState {
 
 struct PanelState {
     float leftWidth = 440.0f;  // at scale 1
-    float rightWidth = 300.0f;
+    float rightWidth = 272.0f;
     float chartHeight = 120.0f;
     // Which of the areas around the picture are there: it has all the room that they leave.
     bool isLeftOpen = false;
@@ -69,7 +69,15 @@ struct PanelState {
     bool showsAllParameters = false;
     bool showsChangedParameters = false;  // just what differs from the technique's default
     int tradeOffMeasure = 0;              // of the panel Trade-off, relMSE first
-    int edited = 0;                       // variant: 0 A, 1 B
+    // Of the panel Study: what is varied, with its values as they were typed.
+    struct VariedSetting {
+        std::string key;
+        std::string text;
+    };
+    std::vector<VariedSetting> studyAxes;
+    int studyFrames = 8;
+    bool judgesStudies = true;  // against the reference
+    int edited = 0;             // variant: 0 A, 1 B
     bool isPrecise = false;
     bool isEndless = false;     // frames go on although nothing changes
     bool judgesReports = true;  // against the reference

@@ -226,6 +226,28 @@ void tooltip(const std::string& text) {
     ImGui::EndTooltip();
 }
 
+void cutLine(const std::string& text, ImVec2 at, ImU32 color, float room) {
+    const float height = ImGui::GetTextLineHeight();
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    draw.PushClipRect(at, {at.x + room, at.y + height}, true);
+    draw.AddText(at, color, text.c_str());
+    draw.PopClipRect();
+    if (ImGui::CalcTextSize(text.c_str()).x > room &&
+        ImGui::IsMouseHoveringRect(at, {at.x + room, at.y + height}) && ImGui::IsWindowHovered()) {
+        ImGui::BeginTooltip();
+        ImGui::PushTextWrapPos(ImGui::GetFontSize() * 40.0f);
+        ImGui::TextUnformatted(text.c_str());
+        ImGui::PopTextWrapPos();
+        ImGui::EndTooltip();
+    }
+}
+
+void sameLineWithRoom(float width) {
+    const float end = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+    if (ImGui::GetItemRectMax().x + ImGui::GetStyle().ItemSpacing.x + width <= end)
+        ImGui::SameLine();
+}
+
 bool button(Bench& bench, const char* label, const std::string& name) {
     const bool isPressed = ImGui::Button(label);
     bench.map.control(name);
@@ -245,9 +267,9 @@ void inputText(Bench& bench, const char* label, const char* hint, std::string& t
 }
 
 bool choose(Bench& bench, const char* label, const std::vector<std::string>& options, int& index,
-            const std::string& name) {
+            const std::string& name, const char* hint) {
     const auto current = static_cast<std::size_t>(index);
-    const char* shown = current < options.size() ? options[current].c_str() : "";
+    const char* shown = current < options.size() ? options[current].c_str() : hint;
     bool isChanged = false;
     const bool isOpen = ImGui::BeginCombo(label, shown, ImGuiComboFlags_HeightLargest);
     bench.map.control(name, shown);

@@ -46,14 +46,20 @@ void drawTableButtons(Bench& bench, const std::string& name, const Table& table)
 // Text that explains the item before it.
 void tooltip(const std::string& text);
 
+// Text with an end that is cut where there is no room, and the whole of it under the mouse.
+void cutLine(const std::string& text, ImVec2 at, ImU32 color, float room);
+
+// What comes next, so wide, stands in the line of the item before it where there is room.
+void sameLineWithRoom(float width);
+
 // A button, checkbox or choice with its name in the screen map.
 [[nodiscard]] bool button(Bench& bench, const char* label, const std::string& name);
 [[nodiscard]] bool checkbox(Bench& bench, const char* label, bool& value, const std::string& name);
 void inputText(Bench& bench, const char* label, const char* hint, std::string& text,
                const std::string& name);
-// One of several; true when another was chosen.
+// One of several; true when another was chosen. `hint` is seen where there is none yet.
 [[nodiscard]] bool choose(Bench& bench, const char* label, const std::vector<std::string>& options,
-                          int& index, const std::string& name);
+                          int& index, const std::string& name, const char* hint = "");
 // A small mark of a value that is not the default, which takes it back; true when used.
 [[nodiscard]] bool resetMark(Bench& bench, const std::string& name, const std::string& before);
 

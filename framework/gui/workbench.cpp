@@ -39,6 +39,8 @@ Workbench::Workbench(const Registry& registry, const WorkbenchOptions& options)
       map_(options.describe),
       renderer_(std::make_unique<RenderWorker>(registry, &Window::wake)),
       referenceWorker_(&Window::wake),
+      studyWorker_(&Window::wake),
+      thumbnailWorker_(&Window::wake),
       bench_{registry_,
              renderer_.get(),
              referenceWorker_,
@@ -62,7 +64,11 @@ Workbench::Workbench(const Registry& registry, const WorkbenchOptions& options)
     }
     if (bench_.view.comparedWith == ComparedImage::other && !bench_.document.other)
         bench_.view.comparedWith = ComparedImage::none;
+    bench_.studies = &studyWorker_;
+    bench_.study = studyWorker_.state();
+    bench_.thumbnails = &thumbnailWorker_;
     history_ = {bench_.document};
+    rendererBegin_ = Clock::now();
 }
 
 Workbench::~Workbench() {
@@ -113,7 +119,9 @@ void Workbench::run() {
         bench_.isDragging = false;
         bench_.isTurning = false;
         map_.beginFrame();
+        bench_.wantedThumbnails.clear();
         draw();
+        thumbnailWorker_.want(bench_.wantedThumbnails);
         pushUndo();
         submitChanges();
         saveExperimentOnceRendered();
@@ -198,6 +206,12 @@ void Workbench::pollWorkers() {
         framesToDraw_ = std::max(framesToDraw_, 2);
     }
     if (hasNews) notePoints();
+    if (bench_.startSeconds == 0.0 && bench_.result->variants[0].frame > 0)
+        bench_.startSeconds = std::chrono::duration<double>(Clock::now() - rendererBegin_).count();
+    if (auto study = studyWorker_.state(); study != bench_.study) {
+        bench_.study = std::move(study);
+        framesToDraw_ = std::max(framesToDraw_, 2);
+    }
     // The next step of an animation, once this one is seen.
     const VariantResult& first = bench_.result->variants[0];
     const std::uint64_t frame = first.frame + first.previews;
@@ -400,6 +414,7 @@ void Workbench::describe() {
     map_.status("device", result.device.renderer);
     map_.status("window_device", window_.renderer());
     map_.status("interface_ms", interfaceMs_);
+    map_.status("frame_ms", first.frameMs);
     map_.status("document", toJson(bench_.document));
 }
 

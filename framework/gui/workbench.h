@@ -72,6 +72,8 @@ class Workbench {
     ScreenMap map_;
     std::unique_ptr<RenderWorker> renderer_;
     ReferenceWorker referenceWorker_;
+    StudyWorker studyWorker_;
+    ThumbnailWorker thumbnailWorker_;
     Bench bench_;
 
     FrameOrder submitted_;
@@ -91,6 +93,7 @@ class Workbench {
     std::future<std::shared_ptr<const Table>> pairs_;
     std::future<std::string> screenshot_;  // being written; why it failed, or nothing
     std::string written_;                  // the file of that
+    Clock::time_point rendererBegin_;      // was started
     Clock::time_point frameBegin_;
     Clock::time_point turnedAt_;
     std::deque<double> interfaceMs_;  // what the newest frames of the interface took

@@ -15,6 +15,11 @@
 namespace kaustik::gui {
 namespace {
 
+// Whether a list or a window of pictures is open, whose keys these are then.
+bool isChoosing() {
+    return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
+}
+
 // All of them, or, where none is there, the one to the right.
 void hidePanels(PanelState& panels) {
     const bool isAny = panels.isLeftOpen || panels.isRightOpen || panels.isChartOpen;
@@ -34,7 +39,7 @@ void Workbench::useKeys() {
     for (const Window::KeyPress& press : window_.keyPresses())
         useKey(press);
     // Alt is a part of AltGr on some systems, with which characters are typed.
-    if (io.WantTextInput || io.KeyAlt || io.KeySuper || io.KeyCtrl) return;
+    if (io.WantTextInput || isChoosing() || io.KeyAlt || io.KeySuper || io.KeyCtrl) return;
     // Signs and digits are on a key's upper half here and on its lower half there.
     for (const ImWchar character : io.InputQueueCharacters)
         useSign(character);
@@ -56,11 +61,20 @@ void Workbench::useKey(const Window::KeyPress& press) {
     if (press.key == GLFW_KEY_F5) ++bench_.sceneReloads;
     if (press.key == GLFW_KEY_F12) bench_.wantsScreenshot = true;
     PanelState& panels = bench_.panels;
-    if (press.key == GLFW_KEY_F2) panels.isLeftOpen = !panels.isLeftOpen;
+    if (press.key == GLFW_KEY_F2) {
+        panels.isLeftOpen = !panels.isLeftOpen;
+        if (panels.leftTabs.empty()) {
+            bench_.notify(
+                "There is no panel to the left; the arrow beside their names moves one there.",
+                false, [](const Bench& bench) { return !bench.panels.leftTabs.empty(); });
+        }
+    }
     if (press.key == GLFW_KEY_F3) panels.isRightOpen = !panels.isRightOpen;
     if (press.key == GLFW_KEY_F4) panels.isChartOpen = !panels.isChartOpen;
-    if (ImGui::GetIO().WantTextInput || (press.modifiers & (GLFW_MOD_ALT | GLFW_MOD_SUPER)) != 0)
+    if (ImGui::GetIO().WantTextInput || isChoosing() ||
+        (press.modifiers & (GLFW_MOD_ALT | GLFW_MOD_SUPER)) != 0) {
         return;
+    }
     if ((press.modifiers & GLFW_MOD_CONTROL) != 0) {
         if (press.key == GLFW_KEY_S) bench_.wantsExperiment = true;
         if (press.key == GLFW_KEY_Q) window_.close();

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "framework/gui/panels/panels.h"
+#include "framework/gui/shown.h"
 #include "framework/gui/widgets.h"
 #include "framework/gui/workbench.h"
 
@@ -21,15 +22,16 @@ struct Tab {
     void (*draw)(Bench&);
 };
 
-constexpr std::array<Tab, 9> kTabs = {{{"Passes", drawPasses},
-                                       {"Technique", drawTechnique},
-                                       {"Scene", drawScene},
-                                       {"Parameters", drawParameters},
-                                       {"Image", drawImage},
-                                       {"Error", drawError},
-                                       {"Trade-off", drawTradeOff},
-                                       {"Compare", drawCompare},
-                                       {"Record", drawRecord}}};
+constexpr std::array<Tab, 10> kTabs = {{{"Passes", drawPasses},
+                                        {"Technique", drawTechnique},
+                                        {"Scene", drawScene},
+                                        {"Parameters", drawParameters},
+                                        {"Image", drawImage},
+                                        {"Error", drawError},
+                                        {"Trade-off", drawTradeOff},
+                                        {"Study", drawStudy},
+                                        {"Compare", drawCompare},
+                                        {"Record", drawRecord}}};
 
 // Names of panels in as many lines as they need, so that none is cut.
 void drawTabs(Bench& bench, const std::vector<const Tab*>& tabs, std::string& open) {
@@ -66,7 +68,9 @@ void drawSide(Bench& bench, bool isLeft, ImVec2 size) {
     if (shown != nullptr) open = shown->name;
     drawTabs(bench, tabs, open);
     if (shown != nullptr) {
-        if (tabs.size() > 0) ImGui::SameLine();
+        if (!tabs.empty()) {
+            sameLineWithRoom(ImGui::CalcTextSize("←").x + 2.0f * ImGui::GetStyle().FramePadding.x);
+        }
         const bool isMoved = ImGui::SmallButton(isLeft ? "→##move" : "←##move");
         bench.map.control(isLeft ? "panel.to_right" : "panel.to_left");
         tooltip(fmt::format("Moves {} to the other side of the picture.", shown->name));
@@ -133,17 +137,61 @@ void Workbench::drawToolbar() {
     ImGui::SameLine();
 }
 
+// One line below the picture: values under the mouse, and what there is to say, the newest message
+// first, then what the technique says of its picture.
 void Workbench::drawStatusBar() {
-    const bool isEmpty = bench_.message.empty();
-    if (isEmpty) {
-        ImGui::TextDisabled("%s", bench_.result->device.renderer.c_str());
-    } else if (bench_.isMessageBad) {
-        ImGui::TextColored({1.0f, 0.45f, 0.4f, 1.0f}, "%s", bench_.message.c_str());
-    } else {
-        ImGui::TextUnformatted(bench_.message.c_str());
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const float width = ImGui::GetContentRegionAvail().x;
+    const float line = ImGui::GetTextLineHeight();
+    const auto gap = static_cast<float>(bench_.px(16.0));
+    std::string words = bench_.message;
+    ImU32 color =
+        bench_.isMessageBad ? ImGui::GetColorU32(kProblemColor) : ImGui::GetColorU32(ImGuiCol_Text);
+    if (words.empty()) {
+        const std::vector<std::string> all =
+            shownOf(bench_.requested(), *bench_.result, *bench_.reference, bench_.whole)
+                .reservations;
+        if (!all.empty()) {
+            words =
+                all.size() == 1 ? all.front() : fmt::format("1 of {}: {}", all.size(), all.front());
+            std::replace(words.begin(), words.end(), '\n', ' ');
+            color = IM_COL32(255, 205, 90, 255);
+            bench_.map.area("picture.reservations", corner.x, corner.y, width, line, words);
+        } else {
+            words = bench_.result->device.renderer;
+            color = ImGui::GetColorU32(ImGuiCol_TextDisabled);
+        }
     }
-    bench_.map.control("status.message", bench_.message);
-    if (!isEmpty) tooltip(bench_.message);
+    float x = corner.x + static_cast<float>(bench_.px(4.0));
+    const float end = corner.x + width;
+    const std::string& value = bench_.valueUnderMouse;
+    // Of what the picture is, for who has only that, where nothing newer needs the room.
+    const Document& shown = bench_.result->document;
+    std::string identity;
+    if (bench_.message.empty() && bench_.result->scene) {
+        identity = fmt::format("{}, {}{}, {}×{} px", bench_.result->scene->name,
+                               settingsText(shown.variant),
+                               shown.other ? " and " + settingsText(*shown.other) : "",
+                               shown.size.width, shown.size.height);
+    }
+    if (!value.empty()) {
+        const float needed = ImGui::CalcTextSize(value.c_str()).x;
+        // Both have a part of the line, the values the larger one.
+        const float rest = ImGui::CalcTextSize(words.c_str()).x + gap;
+        const float room = std::min(needed, std::max(end - x - rest, 0.65f * (end - x)));
+        bench_.map.area("picture.value", x, corner.y, room, line, value);
+        cutLine(value, {x, corner.y}, IM_COL32(255, 255, 255, 255), room);
+        x += room + gap;
+    }
+    if (!identity.empty()) {
+        const float needed = ImGui::CalcTextSize(identity.c_str()).x;
+        const float room = std::min(needed, 0.6f * (end - x));
+        bench_.map.area("status.identity", x, corner.y, room, line, identity);
+        cutLine(identity, {x, corner.y}, ImGui::GetColorU32(ImGuiCol_TextDisabled), room);
+        x += room + gap;
+    }
+    bench_.map.area("status.message", x, corner.y, end - x, line, bench_.message);
+    cutLine(words, {x, corner.y}, color, end - x);
 }
 
 void Workbench::draw() {
@@ -153,7 +201,8 @@ void Workbench::draw() {
     ImGui::SetNextWindowSize(viewport->WorkSize);
     constexpr ImGuiWindowFlags kWhole =
         ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-        ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoScrollWithMouse;
+        ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoScrollWithMouse |
+        ImGuiWindowFlags_NoBackground;  // what the window is cleared with, once less
     const float edge = 4.0f * bench_.scale;
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {edge, edge});
     ImGui::Begin("workbench", nullptr, kWhole);
@@ -188,6 +237,7 @@ void Workbench::draw() {
     const float chart = panels.isChartOpen
                             ? std::min(panels.chartHeight * bench_.scale, 0.6f * height) + bar
                             : 0.0f;
+    bench_.valueUnderMouse.clear();
     ImGui::BeginChild("middle", {middle, std::max(height - chart - status, 30.0f)});
     if (panels.showsGraph) {
         drawGraph(bench_);
@@ -195,15 +245,15 @@ void Workbench::draw() {
         drawPicture(bench_);
     }
     ImGui::EndChild();
+    ImGui::BeginChild("status", {middle, status});
+    drawStatusBar();
+    ImGui::EndChild();
     if (panels.isChartOpen) {
         splitter("##chart_edge", false, middle, panels.chartHeight, -1.0f, bench_);
         ImGui::BeginChild("chart", {middle, chart - bar});
         drawTimeChart(bench_);
         ImGui::EndChild();
     }
-    ImGui::BeginChild("status", {middle, status});
-    drawStatusBar();
-    ImGui::EndChild();
     ImGui::EndGroup();
     if (hasRight) {
         ImGui::SameLine();

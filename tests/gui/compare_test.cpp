@@ -73,9 +73,15 @@ TEST_F(ComparePanel, WhatIsKeptIsFlippedToAndTakenOffWithoutRenderingAgain) {
 
 class ThePicture : public WorkbenchTest {
   protected:
+    ThePicture() : WorkbenchTest(1600, 1000) {}
     [[nodiscard]] double share() {
         const Rectangle pane = bench->control("picture.pane");
         return pane.w * pane.h / (windowWidth * windowHeight);
+    }
+    // Without its caption and the colour bar.
+    [[nodiscard]] double shareOfPixels() {
+        const Rectangle pixels = bench->control("picture");
+        return pixels.w * pixels.h / (windowWidth * windowHeight);
     }
     void startAt(int w, int h, const json& panels = json::object()) {
         json kept = savedStateWith(smallDocument());
@@ -107,9 +113,23 @@ TEST_F(ComparePanel, AMessageGoesWithWhatItSpeaksOf) {
     EXPECT_EQ(bench->status().at("message"), "");
 }
 
+// As the workbench first starts, and with a colour bar at the smaller size.
+TEST_F(ThePicture, HasThreeQuartersOfAWindowAndSixTenthsOfASmallOne) {
+    startAt(1024, 768);
+    bench->hover("picture");
+    bench->key("f");
+    bench->waitFor("a colour bar", [](const json& screen) {
+        return screen.at("controls").contains("picture.bar");
+    });
+    EXPECT_GE(shareOfPixels(), 0.6);
+    startAt(1600, 1000);
+    EXPECT_GE(shareOfPixels(), 0.75);
+}
+
 TEST_F(ThePicture, HasTheRoomThatPanelsLeaveAndPanelsAreRemembered) {
     startAt(1024, 768);
-    EXPECT_GE(share(), 0.6);
+    EXPECT_GE(share(), 0.65);
+    EXPECT_GE(shareOfPixels(), 0.6);
     ASSERT_TRUE(bench->has("tab.Passes"));
     bench->hover("picture");
     bench->key("h");

@@ -215,6 +215,28 @@ TEST_F(RecordPanel, ASavedExperimentGivesTheSameImagesToTheBit) {
     expectSameImages(runs[0], reportFolder());
 }
 
+// So that its errors are those that were seen.
+TEST_F(RecordPanel, ASavedExperimentTakesTheReferenceAlong) {
+    json kept = savedStateWith(smallDocument());
+    kept["panels"]["judged_reports"] = true;
+    start(kept);
+    open("Error");
+    bench->click("error.compute");
+    bench->waitFor("a reference", [](const json& screen) {
+        return screen.at("status").at("truth_photons").get<double>() >= 1e6 &&
+               screen.at("status").at("judged_order") != 0;
+    });
+    open("Record");
+    bench->click("record.experiment");
+    EXPECT_TRUE(says("status.message", "errors by its reference"));
+    saveReport();
+    const json expected = json::parse(readFile(reportFolder() / "report.json")).at("error");
+    ASSERT_TRUE(expected.at("caustic_irradiance").at("rel_mse").is_number());
+    const std::vector<fs::path> runs = runExperiment();
+    ASSERT_EQ(runs.size(), 1u);
+    EXPECT_EQ(json::parse(readFile(runs[0] / "report.json")).at("error"), expected);
+}
+
 TEST_F(RecordPanel, TwoVariantsAreTwoRunsOfAnExperiment) {
     json small = smallDocument();
     small["other"] = small["variant"];

@@ -12,7 +12,8 @@ namespace kaustik::test {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-WorkbenchTest::WorkbenchTest() {
+WorkbenchTest::WorkbenchTest(int desktopWidth, int desktopHeight)
+    : desktop(desktopWidth, desktopHeight) {
     static_cast<void>(folder.file("wavy.toml", kWavyWater));
 }
 

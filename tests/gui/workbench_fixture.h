@@ -23,7 +23,8 @@ class WorkbenchTest : public testing::Test {
   protected:
     using Json = nlohmann::json;
 
-    WorkbenchTest();
+    // On a desktop of that size, pixels.
+    explicit WorkbenchTest(int desktopWidth = 1440, int desktopHeight = 900);
 
     // 64x48 pixels of that scene, by default the wavy water, with 32x32 photons.
     [[nodiscard]] static Json smallDocument(const std::string& scene = "wavy.toml");

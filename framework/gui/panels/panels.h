@@ -19,6 +19,7 @@ void drawTextureList(Bench& bench);  // of the graph, to choose one of
 void drawPicture(Bench& bench);      // the picture itself, with what the hand does on it
 void drawError(Bench& bench);        // how wrong the frame is, and where the reference comes from
 void drawTradeOff(Bench& bench);     // error against time of the session's settings
+void drawStudy(Bench& bench);        // settings to vary, and what their runs have found
 void drawCompare(Bench& bench);      // variants that were kept, and how they differ
 void keepVariant(Bench& bench);      // what is shown, with its settings, pictures, times and errors
 void drawScene(Bench& bench);        // scene, camera, lights, water, time

@@ -119,8 +119,10 @@ void drawSwitchedOff(Bench& bench, const VariantResult& result) {
 void drawSummary(Bench& bench, const VariantResult& result) {
     const double median = settledMedianOf(result.frameMs);
     if (!result.frameMs.empty()) {
-        ImGui::TextWrapped("Frame %.1f ms  (median of %zu: %.1f ms)", result.frameMs.back(),
-                           std::max<std::size_t>(result.frameMs.size() - 1, 1), median);
+        const std::string text =
+            fmt::format("Frame {:.4g} ms, median of {}: {:.4g} ms", result.frameMs.back(),
+                        std::max<std::size_t>(result.frameMs.size() - 1, 1), median);
+        ImGui::TextWrapped("%s", text.c_str());
     } else {
         ImGui::TextUnformatted("No frame yet.");
     }
@@ -131,7 +133,8 @@ void drawSummary(Bench& bench, const VariantResult& result) {
     tooltip(
         "Renders on although nothing changes, to watch the times. Otherwise a few frames are "
         "rendered after each change.");
-    ImGui::SameLine();
+    sameLineWithRoom(ImGui::CalcTextSize("Finish each pass").x + ImGui::GetFrameHeight() +
+                     ImGui::GetStyle().ItemInnerSpacing.x);
     static_cast<void>(
         checkbox(bench, "Finish each pass", bench.panels.isPrecise, "passes.precise"));
     tooltip(

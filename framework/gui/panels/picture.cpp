@@ -50,29 +50,12 @@ const Part* partAt(const std::vector<Part>& parts, ImVec2 mouse) {
     return nullptr;
 }
 
-// Text with an end that is cut where there is no room, and the whole of it under the mouse.
-void drawLine(const std::string& text, ImVec2 at, ImU32 color, float room) {
-    const float height = ImGui::GetTextLineHeight();
-    ImDrawList& draw = *ImGui::GetWindowDrawList();
-    draw.PushClipRect(at, {at.x + room, at.y + height}, true);
-    draw.AddText(at, color, text.c_str());
-    draw.PopClipRect();
-    if (ImGui::CalcTextSize(text.c_str()).x > room &&
-        ImGui::IsMouseHoveringRect(at, {at.x + room, at.y + height}) && ImGui::IsWindowHovered()) {
-        ImGui::BeginTooltip();
-        ImGui::PushTextWrapPos(ImGui::GetFontSize() * 40.0f);
-        ImGui::TextUnformatted(text.c_str());
-        ImGui::PopTextWrapPos();
-        ImGui::EndTooltip();
-    }
-}
-
-// What there is of the area for pixels alone, and for words next to them, which cover none.
+// What there is of the area for pixels alone, and for words next to them, which cover none; values
+// under the mouse are in the line below it.
 struct Areas {
     ImVec2 corner;  // of the pixels
     ImVec2 size;
-    float top = 0.0f;     // of the caption
-    float bottom = 0.0f;  // of the values under the mouse
+    float top = 0.0f;  // of the caption
 };
 
 // Room for a bar, as wide as its numbers.
@@ -87,11 +70,9 @@ float barWidth(const Bench& bench, const ShownImage& image) {
 
 Areas areasIn(const Bench& bench, ImVec2 corner, ImVec2 size, float left, float right) {
     const float line = ImGui::GetTextLineHeight() + static_cast<float>(bench.px(3.0));
-    Areas areas{{corner.x + left, corner.y + 2.0f * line},
-                {std::max(size.x - left - right, 1.0f), std::max(size.y - 3.0f * line, 1.0f)},
-                corner.y,
-                corner.y + size.y - line};
-    return areas;
+    return {{corner.x + left, corner.y + line},
+            {std::max(size.x - left - right, 1.0f), std::max(size.y - line, 1.0f)},
+            corner.y};
 }
 
 void drawNumbers(const Bench& bench, const Part& part) {
@@ -286,14 +267,6 @@ void applyDrag(Bench& bench, const PictureFrame& frame, DragState& hand) {
     }
 }
 
-void drawCursorValue(Bench& bench, const Part& part, const Areas& areas, float left, float room) {
-    const glm::ivec2 pixel = glm::floor(part.frame.pixelAt(ImGui::GetIO().MousePos));
-    const std::string text = part.image->valuesAt(pixel);
-    if (text.empty()) return;
-    bench.map.area("picture.value", left, areas.bottom, room, ImGui::GetTextLineHeight(), text);
-    drawLine(text, {left, areas.bottom}, IM_COL32(255, 255, 255, 255), room);
-}
-
 // What an image is of.
 void drawCaption(const Bench& bench, const Part& part, const Areas& areas, float left,
                  float right) {
@@ -301,22 +274,9 @@ void drawCaption(const Bench& bench, const Part& part, const Areas& areas, float
     const std::string name = part.slot == 0 ? "picture.caption" : "picture.caption.compared";
     const float room = right - left - static_cast<float>(bench.px(8.0));
     bench.map.area(name, left, areas.top, room, ImGui::GetTextLineHeight(), text);
-    drawLine(text, {left, areas.top},
-             part.image->age.empty() ? IM_COL32(255, 255, 255, 255) : IM_COL32(255, 205, 90, 255),
-             room);
-}
-
-// What the technique says of the picture, next to it.
-void drawReservations(const Bench& bench, const Areas& areas, float left, float room) {
-    const std::vector<std::string> all =
-        shownOf(bench.requested(), *bench.result, *bench.reference, bench.whole).reservations;
-    if (all.empty()) return;
-    std::string text =
-        all.size() == 1 ? all.front() : fmt::format("1 of {}: {}", all.size(), all.front());
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    const float y = areas.top + ImGui::GetTextLineHeight() + static_cast<float>(bench.px(3.0));
-    bench.map.area("picture.reservations", left, y, room, ImGui::GetTextLineHeight(), text);
-    drawLine(text, {left, y}, IM_COL32(255, 205, 90, 255), room);
+    cutLine(text, {left, areas.top},
+            part.image->age.empty() ? IM_COL32(255, 255, 255, 255) : IM_COL32(255, 205, 90, 255),
+            room);
 }
 
 void drawPart(Bench& bench, const Part& part) {
@@ -443,7 +403,6 @@ void drawPicture(Bench& bench) {
         drawCaption(bench, part, areas, isFirst ? whole.x + 4.0f : part.left,
                     isLast ? paneEnd : part.right);
     }
-    drawReservations(bench, areas, whole.x + 4.0f, wholeSize.x - 8.0f);
     drawColorBar(bench, right, areas, corner.x + size.x,
                  hasTwoBars ? "picture.bar.compared" : "picture.bar");
     if (hasTwoBars) drawColorBar(bench, main, areas, whole.x, "picture.bar");
@@ -453,7 +412,7 @@ void drawPicture(Bench& bench) {
                    frame.high.y - frame.low.y);
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     if (const Part* part = partAt(parts, mouse); isHovered && part != nullptr)
-        drawCursorValue(bench, *part, areas, whole.x + 4.0f, wholeSize.x - 8.0f);
+        bench.valueUnderMouse = part->image->valuesAt(glm::floor(part->frame.pixelAt(mouse)));
 
     if (isActivated) {
         const bool isNearSplit =

@@ -14,11 +14,17 @@ namespace kaustik::gui {
 
 void saveExperiment(Bench& bench) {
     try {
+        ExperimentTerms terms;
+        terms.isPrecise = bench.panels.isPrecise;
+        if (hasSameView(*bench.reference, bench.document))
+            terms.referencePhotons = bench.reference->photons;
         const std::vector<std::filesystem::path> files =
             writeExperiment(bench.document, bench.registry, bench.panels.recordFolder,
-                            recordingName(bench.document.scene), bench.panels.isPrecise);
-        bench.notify(fmt::format("Wrote {}; 'kaustik experiment run {}' does it again.",
-                                 files.front().string(), files.front().string()));
+                            recordingName(bench.document.scene), terms);
+        bench.notify(
+            fmt::format("Wrote {}; 'kaustik experiment run {}' does it again{}.",
+                        files.front().string(), files.front().string(),
+                        terms.referencePhotons > 0 ? ", errors by its reference too" : ""));
     } catch (const std::exception& error) {
         bench.notify(error.what(), true);
     }
@@ -78,7 +84,9 @@ void drawRecord(Bench& bench) {
         bench.wantsExperiment = true;
     explain(
         "A .toml that 'kaustik experiment run' reproduces bit for bit on this device, with the "
-        "camera, lights and waves as they are now.");
+        "camera, lights and waves as they are now. Where there is a reference of this view its "
+        "runs "
+        "are judged by it, so that their errors come back too.");
     ImGui::BeginDisabled(recording.isActive);
     drawReport(bench, folder, explain);
     ImGui::Spacing();

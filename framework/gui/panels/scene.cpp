@@ -6,6 +6,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "framework/gui/panels/panels.h"
+#include "framework/gui/panels/picture_choice.h"
 #include "framework/gui/widgets.h"
 
 namespace kaustik::gui {
@@ -17,6 +18,24 @@ bool dragVector(Bench& bench, const char* label, glm::dvec3& value, float speed,
                                               speed, nullptr, nullptr, "%.4g");
     bench.map.control(name, fmt::format("{} {} {}", value.x, value.y, value.z));
     return isChanged;
+}
+
+void openScene(Bench& bench, const std::string& scene) {
+    if (scene == bench.document.scene) return;
+    bench.document.scene = scene;
+    bench.document.edits = {};
+    bench.view.probePixel = glm::ivec2(-1);
+}
+
+// Scenes by name, each by the technique that a new document has.
+void drawScenePictures(Bench& bench) {
+    std::vector<PictureOption> options;
+    for (const scene::SceneListing& listing : bench.scenes) {
+        options.push_back({listing.name, listing.description, {listing.name, kDefaultTechnique}});
+    }
+    if (const auto chosen = chooseByPicture(bench, "scene.pictures", "A scene by its picture",
+                                            options, bench.document.scene))
+        openScene(bench, options[*chosen].name);
 }
 
 void drawChoiceOfScene(Bench& bench) {
@@ -31,12 +50,12 @@ void drawChoiceOfScene(Bench& bench) {
         names.push_back(bench.document.scene);
     }
     ImGui::SetNextItemWidth(-FLT_MIN);
-    if (choose(bench, "##scene", names, index, "scene.choice")) {
-        bench.document.scene = names[static_cast<std::size_t>(index)];
-        bench.document.edits = {};
-        bench.view.probePixel = glm::ivec2(-1);
-    }
-    tooltip("Or drop a .toml, .gltf or .glb file on the window.");
+    if (choose(bench, "##scene", names, index, "scene.choice"))
+        openScene(bench, names[static_cast<std::size_t>(index)]);
+    tooltip(
+        "Or drop a scene (.toml, .gltf, .glb) or a mesh (.obj, .ply, .stl, .3ds) on the window.");
+    drawScenePictures(bench);
+    ImGui::SameLine();
     if (button(bench, "Read its file again (F5)", "scene.reload")) ++bench.sceneReloads;
     if (bench.document.edits != scene::SceneEdits()) {
         ImGui::SameLine();

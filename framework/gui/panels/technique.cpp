@@ -6,6 +6,7 @@
 
 #include "framework/core/error.h"
 #include "framework/gui/panels/panels.h"
+#include "framework/gui/panels/picture_choice.h"
 #include "framework/gui/widgets.h"
 
 namespace kaustik::gui {
@@ -15,6 +16,21 @@ std::string explain(const NodeDescription& description) {
     return description.source.empty()
                ? description.sentence
                : fmt::format("{}\n{}", description.sentence, description.source);
+}
+
+// Each with the scene at hand, as its file has it.
+void drawTechniquePictures(Bench& bench) {
+    std::vector<PictureOption> options;
+    for (const Technique& technique : bench.registry.techniques()) {
+        options.push_back(
+            {technique.name, technique.sentence, {bench.document.scene, technique.name}});
+    }
+    const std::string title =
+        fmt::format("A technique by its picture of {}, as its file has it",
+                    std::filesystem::path(bench.document.scene).filename().string());
+    if (const auto chosen =
+            chooseByPicture(bench, "technique.pictures", title, options, bench.edited().technique))
+        bench.edited().technique = options[*chosen].name;
 }
 
 void drawTechniqueChoice(Bench& bench) {
@@ -35,6 +51,8 @@ void drawTechniqueChoice(Bench& bench) {
     ImGui::PopTextWrapPos();
     const bool hasPaper = !technique.asPublished.empty();
     if (!hasPaper) bench.edited().isAsPublished = false;
+    drawTechniquePictures(bench);
+    ImGui::SameLine();
     ImGui::BeginDisabled(!hasPaper);
     bool isAsPublished = bench.edited().isAsPublished;
     if (checkbox(bench, "As published", isAsPublished, "technique.as_published"))

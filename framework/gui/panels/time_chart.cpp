@@ -150,7 +150,7 @@ void drawTimeChart(Bench& bench) {
     const float line = ImGui::GetTextLineHeight();
     const float axis = ImGui::CalcTextSize("00000").x + 8.0f;
     // Where there is no room for both, bars have it.
-    const auto wanted = static_cast<float>(bench.px(130.0));
+    const auto wanted = ImGui::CalcTextSize("reconstruct 00000.0").x + line + 12.0f;
     const float legend = size.x > 3.0f * wanted ? wanted : 0.0f;
     const ImVec2 low(corner.x + axis, corner.y + line + 2.0f);
     const ImVec2 high(corner.x + size.x - legend - 4.0f, corner.y + size.y - 3.0f);
