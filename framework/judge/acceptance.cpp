@@ -102,7 +102,7 @@ void requireCaustic(const Subject& subject, const Image& mask) {
     if (inMask < kMinVisibleShare * whole) {
         throw ConfigError(fmt::format(
             "The eye sees the caustics of {} through glass or water, which {} seems to show; "
-            "render them without (--glass hidden says that it was).",
+            "render them without (--glass hidden says that it was), unless it is of another scene.",
             subject.scene, subject.theirsName));
     }
 }

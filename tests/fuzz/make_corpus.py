@@ -323,7 +323,7 @@ def exr_pngs():
 
 
 SEEDS = {
-    "scene": scenes, "exr_png": exr_pngs, "import": imports, "experiment": experiments, "gltf": gltfs, "obj": objs, "ply": plys, "stl": stls,
+    "scene": scenes, "exr_png": exr_pngs, "layers": lambda: (exr(),), "import": imports, "experiment": experiments, "gltf": gltfs, "obj": objs, "ply": plys, "stl": stls,
     "3ds": threes, "gzip": lambda: (gzip.compress(seed, mtime=0) for seed in plys()),
     "pfm": lambda: (b"Pf\n1 1\n1.0\n\0\0\0\0", b"P6 1 1 65535\n\0\0\0\0\0\0"),
     "image": lambda: (struct.pack("<2sIIIIiiHHIIiiII", b"BM", 70, 0, 54, 40, 2, 2, 1, 24, 0, 16, 0,
@@ -331,7 +331,7 @@ SEEDS = {
                       b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\0\0\0\0"),
     "settings": lambda: ('{"view": {"a": ' + "[" * 70 + "]" * 70 + "}}",),
     "reference": lambda: ('{"images": ' + "[" * 70 + "]" * 70 + "}",),
-    "cache": lambda: (), "part": lambda: (), "tile": lambda: (), "study": studies,
+    "cache": lambda: (), "classes": lambda: (exr(),), "part": lambda: (), "tile": lambda: (), "study": studies,
 }
 
 # Whose texts a target's reader compares with.
@@ -340,6 +340,7 @@ SOURCES = {
     "gltf": ["importers/gltf_*.cpp"],
     "import": ["importers/mitsuba_*.cpp", "importers/tungsten_*.cpp", "importers/foreign_*.cpp"], "obj": ["importers/obj.cpp"],
     "ply": ["importers/ply.cpp"], "stl": ["importers/stl.cpp"], "3ds": [], "gzip": [], "pfm": [], "image": [], "exr_png": [],
+    "layers": ["reference/class_file.cpp"], "classes": ["reference/class_file.cpp", "image/layered_image.cpp"],
     "settings": ["gui/document.cpp", "gui/state.cpp"], "reference": ["reference/*_file.cpp"],
     "cache": [], "part": ["reference/part_file.cpp", "reference/request_json.cpp"],
     "tile": ["run/tile_file.cpp"],

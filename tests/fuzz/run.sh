@@ -12,7 +12,7 @@
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-all=(scene gltf import obj ply stl 3ds gzip pfm image exr_png experiment study reference part cache settings tile)
+all=(scene gltf import obj ply stl 3ds gzip pfm image exr_png layers experiment study reference classes part cache settings tile)
 jobs=${KAUSTIK_FUZZ_JOBS:-2}
 
 if [[ ! ${1:-} =~ ^[1-9][0-9]*$ ]]; then

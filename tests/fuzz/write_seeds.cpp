@@ -7,6 +7,7 @@
 #include "framework/gui/document.h"
 #include "framework/gui/state.h"
 #include "framework/image/image.h"
+#include "framework/reference/class_file.h"
 #include "framework/reference/part_file.h"
 #include "framework/run/tile_file.h"
 #include "tests/fuzz/seeds.h"
@@ -17,6 +18,12 @@ int main(int argc, char** argv) {
     const std::filesystem::path folder = argv[1];
 
     reference::writeReference(folder / "reference/seed.pfm", fuzz::smallReference());
+    reference::Reference inClasses = fuzz::smallReference();
+    for (const char* const name : {"TT", "other"})
+        inClasses.classes.push_back({name, "", inClasses.irradiance, inClasses.irradianceError});
+    inClasses.classes.front().pattern = "TT";
+    for (const char* const target : {"layers", "classes"})
+        reference::writeClasses(folder / target / "seed.exr", inClasses);
     for (const char* image :
          {"seed.pfm", "seed.stderr.pfm", "seed.caustic_view.pfm", "seed.caustic_view.stderr.pfm"}) {
         std::filesystem::remove(folder / "reference" / image);

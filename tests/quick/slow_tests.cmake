@@ -206,6 +206,7 @@ set_tests_properties([=[ImagePanel.ATextureThatIsNoLongerThereIsSaidToBeGone]=] 
 set_tests_properties([=[ImagePanel.AnyTextureIsShownWithItsLayersAndValues]=] PROPERTIES LABELS "gui;slow")
 set_tests_properties([=[ImagePanel.ChannelsExposureAndFalseColoursChangeHowItIsSeen]=] PROPERTIES LABELS "gui;slow")
 set_tests_properties([=[ImagePanel.TheWheelZoomsToThePixelUnderTheMouseUntilItsValuesAreWritten]=] PROPERTIES LABELS "gui;slow")
+set_tests_properties([=[Judge.FindsTheClassesOfFiveScenesRightInThePhotonsOfPovray]=] PROPERTIES LABELS "cli;slow")
 set_tests_properties([=[Judge.FindsThePhotonsOfPovrayRight]=] PROPERTIES LABELS "cli;slow")
 set_tests_properties([=[LayersInTheSunsView.GiveTheHitsOfExactRays]=] PROPERTIES LABELS "gpu;slow")
 set_tests_properties([=[Lens.EllipsoidOfEccentricityOneOverNFocusesExactly]=] PROPERTIES LABELS "accuracy;slow")
