@@ -29,7 +29,7 @@ SIZE = "200x150"
 CASES = {
     "flat-water": ("flat-water", 1, 0.002),
     "smooth-wave": ("experiments/certified/smooth_wave.toml", 1, 0.01),
-    "ring": ("ring", 1, 0.002),
+    "ring": ("ring", 1, 0.005),
     "ring, two": ("ring", 2, 0.01),
     "pool-reflections": ("pool-reflections", 1, 0.02),
     "glass-sphere": ("glass-sphere", 2, 0.02),

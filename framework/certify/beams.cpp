@@ -7,6 +7,27 @@
 #include "framework/certify/cell_tracer.h"
 
 namespace kaustik::certify {
+namespace {
+
+// What a triangle has of a light at most, m² or sr: half of |closing|, which is N·d, or N·(a - p)
+// over the cube of the least distance; of all directions no more than half.
+double shareAbove(const Source& source, const Facet& facet, const Interval& closing) {
+    const double half = rounding::up(0.5 * closing.magnitude());
+    if (source.isDistant) return half;
+    Box box;
+    for (std::size_t i = 0; i < facet.corners; ++i)
+        box.include(facet.position[i]);
+    const glm::dvec3& p = source.position;
+    const Interval distance2 = square(Interval(box.low.x, box.high.x) - Interval(p.x)) +
+                               square(Interval(box.low.y, box.high.y) - Interval(p.y)) +
+                               square(Interval(box.low.z, box.high.z) - Interval(p.z));
+    constexpr double kHalfSphere = 6.2831853071795872;
+    if (!staysAwayFromZero(distance2)) return kHalfSphere;
+    const Interval share = Interval(half) * inverse(distance2 * sqrt(distance2));
+    return std::min(share.hi, kHalfSphere);
+}
+
+}  // namespace
 
 BeamTracer::BeamTracer(const Geometry& geometry, const EyeView& eye, const BeamSettings& settings,
                        const PlantedError& planted)
@@ -77,13 +98,10 @@ void BeamTracer::trace(std::uint64_t piece, BoundSums& sums) const {
         power[c] = Interval(static_cast<double>(source.power[static_cast<int>(c)]));
     if (!(closing.lo > 0.0 || closing.hi < 0.0)) {
         // Edge on, within rounding.
-        const Vec away = a - exact(source.position);
-        const Interval near =
-            source.isDistant ? Interval(1.0)
-                             : Interval(1.0) / (square(away.x) + square(away.y) + square(away.z));
+        const double sent = shareAbove(source, facet, closing);
         std::array<double, 3> watts;
         for (std::size_t c = 0; c < 3; ++c)
-            watts[c] = rounding::up(closing.magnitude() * power[c].hi * (near.hi + 1.0) * 10.0);
+            watts[c] = rounding::up(sent * power[c].hi);
         sums.addEmitted({0.0, meanAbove(watts)});
         sums.addDeposited({0.0, meanAbove(watts)});
         sums.addUndecided(facets, watts);

@@ -30,7 +30,8 @@ struct BeamSettings {
 
 // What a test puts in the place of the truth, to see that it is found out.
 struct PlantedError {
-    double fresnelFactor = 1.0;  // of what dielectrics let through
+    double fresnelFactor = 1.0;      // of what dielectrics let through
+    bool withoutReflection = false;  // what dielectrics reflect, but not all of it, ends there
     std::uint32_t droppedFacet = 0xffffffffu;
 };
 

@@ -6,193 +6,244 @@
 
 #include "framework/certify/cell_tracer.h"
 #include "framework/certify/integration.h"
+#include "framework/certify/reach.h"
+#include "framework/certify/screen.h"
 
 namespace kaustik::certify {
 namespace {
 
-// Irradiance in a pixel, of the scene's, for whose sake no cell is split.
+// Irradiance in all pixels of a cell, of the scene's, for whose sake it is not split.
 constexpr double kSmallIrradiance = 1e-5;
+// Between the bounds of all pixels of a cell that grazes its receiver, of the scene's irradiance.
+constexpr double kSmallWidth = 1e-6;
 // A cell that may reach more pixels than that is split.
 constexpr long kManyPixels = 20000;
+// From so many pixels on it is worth to look twice at which they are.
+constexpr long kSomePixels = 16;
+// Of a cell's light, between its bounds; after two interactions, when the edges of triangles that
+// bend it the second time are known only up to a band.
+constexpr double kSmallWatts = 2e-4;
+constexpr double kSmallWattsBentTwice = 4e-3;
 
-// Where the cell's light is seen: pixels from the left and from the top, and depth, m.
-struct Screen {
-    Both column;
-    Both row;
-    Both depth;
-};
-
-// Column and row are left 0 where the depth may be 0.
+// The flux over the depth cubed: what of the light lies in a pixel but for a factor.
 template <bool s>
-void project(const EyeView& eye, const Beam<s>& beam, const Jet<s>& distance, Jet<s>& column,
-             Jet<s>& row, Jet<s>& depth) {
+Jet<s> fluxPerDepth(const EyeView& eye, const Beam<s>& beam, const Jet<s>& distance,
+                    const Jet<s>& flux) {
     const glm::dvec3 eyeAt = eye.position();
     const Vector<Jet<s>> hit = beam.at + scaled(distance, beam.along);
     const Vector<Jet<s>> offset{hit.x - Interval(eyeAt.x), hit.y - Interval(eyeAt.y),
                                 hit.z - Interval(eyeAt.z)};
-    depth = -dot(offset, constant<s>(exact(eye.backward())));
-    if (!staysAwayFromZero(depth.value)) return;
+    const Jet<s> depth = -dot(offset, exact(eye.backward()));
+    // Of what has no bounds nothing is left (modelOf).
+    if (!staysAwayFromZero(depth.value)) return Jet<s>(inverse(Interval(-1.0, 1.0)));
     const Jet<s> perDepth = inverse(depth);
-    const Interval ppt(eye.pixelsPerTangent());
-    column = ppt *
-             (dot(offset, constant<s>(exact(eye.right()))) * perDepth + Interval(eye.tangents().x));
-    row = ppt * (Interval(eye.tangents().y) - dot(offset, constant<s>(exact(eye.up()))) * perDepth);
+    return flux * (perDepth * square(perDepth));
 }
 
-// The irradiance that a pixel has of the cell's light, per unit of the cell's area: flux times the
-// share of a pixel that a square metre covers, |N̂·(p - eye)| / depth³ times pixels.
-template <bool s>
-Jet<s> densityOf(const Interval& fixed, const Jet<s>& flux, const Jet<s>& depth) {
-    const Jet<s> perDepth = inverse(depth);
-    return fixed * (flux * (perDepth * square(perDepth)));
-}
-
-// The densities of channels, with their largest value, and how wide they are to it.
+// What is to be integrated over the cell: the irradiance that a pixel has of the cell's light per
+// unit of the cell's area, or, where that has no good bounds, the flux. The share of a pixel that a
+// square metre covers is then enclosed pixel by pixel.
 struct Density {
     std::array<TaylorModel, 3> channels;
+    bool isFlux = false;
     double largest = 0.0;
     double relativeWidth = 0.0;
 };
 
-// Nothing where there are no bounds. `eyeHeight`: N·(eye - p), where N is the facet's area.
-std::optional<Density> densityOn(const EyeView& eye, const Facet& goal, const Interval& eyeHeight,
-                                 const Ray& arriving, const Both& depth, int channels) {
-    const Interval areaLength =
-        sqrt(square(goal.area.x) + square(goal.area.y) + square(goal.area.z));
-    Interval height = eyeHeight / areaLength;
-    if (height.hi <= 0.0) height = -height;
-    height = intersection(height, Interval(0.0, 1e30));
-    const Interval fixed = height * square(Interval(eye.pixelsPerTangent()));
-    Density density;
+void judge(const Ray& arriving, int channels, Density& density) {
     for (std::size_t k = 0; k < static_cast<std::size_t>(channels); ++k) {
-        density.channels[k] = modelOf(densityOf(fixed, arriving.middle.flux[k], depth.middle),
-                                      densityOf(fixed, arriving.wide.flux[k], depth.wide));
-        if (!density.channels[k].isFinite()) return std::nullopt;
         const double largest = std::max(density.channels[k].range().hi, 0.0);
         density.largest = std::max(density.largest, largest * arriving.weight[k].hi);
         density.relativeWidth = std::max(
             density.relativeWidth, density.channels[k].rest.width() / std::max(largest, 1e-300));
     }
+}
+
+// N̂·(eye - p), m, on the side that is seen.
+Interval heightOfEye(const Facet& goal, const Interval& eyeHeight) {
+    Interval height = eyeHeight / sqrt(dot(goal.area, goal.area));
+    if (height.hi <= 0.0) height = -height;
+    return intersection(height, Interval(0.0, 1e30));
+}
+
+// By |N̂·(p - eye)| / depth³ times pixels; nothing where there are no bounds.
+std::optional<Density> densityOn(const EyeView& eye, const Interval& height, const Ray& arriving,
+                                 const Both& distance, int channels) {
+    const Interval fixed = height * square(Interval(eye.pixelsPerTangent()));
+    Density density;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(channels); ++k) {
+        density.channels[k] = modelOf(
+            fixed * fluxPerDepth(eye, arriving.middle, distance.middle, arriving.middle.flux[k]),
+            fixed * fluxPerDepth(eye, arriving.wide, distance.wide, arriving.wide.flux[k]));
+        if (!density.channels[k].isFinite()) return std::nullopt;
+    }
+    judge(arriving, channels, density);
     return density;
 }
 
-// Lines on the screen as lines in the cell.
-class ScreenLines {
-  public:
-    ScreenLines(const TaylorModel& x, const TaylorModel& y) : x_(x), y_(y) {}
+// Nothing where the flux has no bounds.
+std::optional<Density> fluxOf(const Ray& arriving, int channels) {
+    Density density;
+    density.isFlux = true;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(channels); ++k) {
+        density.channels[k] = modelOf(arriving.middle.flux[k], arriving.wide.flux[k]);
+        if (!density.channels[k].isFinite()) return std::nullopt;
+    }
+    judge(arriving, channels, density);
+    return density;
+}
 
-    // What of the cell is seen in that part of the pixel at column u and row v.
-    void find(const SeenPart& part, int u, int v, std::vector<HalfPlane>& lines) const {
-        lines.clear();
-        if (part.isWhole) {
-            lines.push_back(lineFor(1.0, 0.0, -u, 0.0, 0.0));
-            lines.push_back(lineFor(-1.0, 0.0, u + 1.0, 0.0, 0.0));
-            lines.push_back(lineFor(0.0, 1.0, -v, 0.0, 0.0));
-            lines.push_back(lineFor(0.0, -1.0, v + 1.0, 0.0, 0.0));
-            return;
+// The light of a beam on a facet, on its way into pixels.
+class Depositor {
+  public:
+    Depositor(const EyeView& eye, std::uint32_t facet, const Facet& goal, const Interval& height,
+              const Screen& screen, const Density& density, const Ray& arriving, int channels)
+        : eye_(eye),
+          facet_(facet),
+          goal_(goal),
+          height_(height),
+          screen_(screen),
+          density_(density),
+          arriving_(arriving),
+          channels_(static_cast<std::size_t>(channels)) {}
+
+    // Adds to the deposits; returns the sum of pixels' widths, W/m².
+    double depositIn(const EyeView::Extent& pixels, const Visible& visible,
+                     std::vector<CellResult::Deposit>& deposits) {
+        double width = 0.0;
+        for (int v = pixels.top; v <= pixels.bottom; ++v) {
+            // First the row.
+            const std::array<HalfPlane, 2> sides{screen_.edge(0.0, 1.0, -v, 0.0, 0.0),
+                                                 screen_.edge(0.0, -1.0, v + 1.0, 0.0, 0.0)};
+            const Polygons may = cutBy(visible.may, sides, Side::outer);
+            if (may.empty()) continue;
+            const Polygons sure = cutBy(visible.sure, sides, Side::inner);
+            const EyeView::Extent inRow = screen_.pixelsIn(may, {pixels.left, pixels.right, v, v});
+            for (int u = inRow.left; u <= inRow.right; ++u) {
+                const std::array<HalfPlane, 2> ends{screen_.edge(1.0, 0.0, -u, 0.0, 0.0),
+                                                    screen_.edge(-1.0, 0.0, u + 1.0, 0.0, 0.0)};
+                width += depositAt(u, v, cutBy(sure, ends, Side::inner),
+                                   cutBy(may, ends, Side::outer), deposits);
+            }
         }
-        for (const HalfPlane& edge : part.edges)
-            lines.push_back(lineFor(edge.slopeX, edge.slopeY, edge.value, edge.low, edge.high));
+        return width;
     }
 
   private:
-    [[nodiscard]] HalfPlane lineFor(double slopeX, double slopeY, double value, double low,
-                                    double high) const {
-        const Interval rest =
-            Interval(slopeX) * x_.rest + Interval(slopeY) * y_.rest + Interval(low, high);
-        const double rounded =
-            1e-14 * (std::fabs(value) + std::fabs(x_.value) + std::fabs(y_.value));
-        return HalfPlane{value + slopeX * x_.value + slopeY * y_.value,
-                         slopeX * x_.slope[0] + slopeY * y_.slope[0],
-                         slopeX * x_.slope[1] + slopeY * y_.slope[1], rest.lo - rounded,
-                         rest.hi + rounded};
+    template <class Lines>
+    static Polygons cutBy(const Polygons& polygons, const Lines& lines, Side side) {
+        Polygons result;
+        for (Polygon polygon : polygons) {
+            for (const HalfPlane& line : lines)
+                polygon.cut(line, side);
+            if (!polygon.isEmpty()) result.push_back(polygon);
+        }
+        return result;
     }
 
-    const TaylorModel& x_;
-    const TaylorModel& y_;
+    // `sure` and `may`: what of the light is within the pixel.
+    double depositAt(int u, int v, const Polygons& sure, const Polygons& may,
+                     std::vector<CellResult::Deposit>& deposits) {
+        if (may.empty()) return 0.0;
+        const std::size_t pixel =
+            static_cast<std::size_t>(v) * static_cast<std::size_t>(eye_.width()) +
+            static_cast<std::size_t>(u);
+        std::array<Interval, 3> sum;
+        bool any = false;
+        for (const SeenPart& part : eye_.parts(pixel)) {
+            if (part.facet != facet_) continue;
+            const Polygons& all = part.isSure ? sure : may;
+            if (part.isWhole) {
+                if (addIntegral(all, part.isSure, sum)) any = true;
+                continue;
+            }
+            lines_.clear();
+            for (const HalfPlane& edge : part.edges)
+                lines_.push_back(
+                    screen_.edge(edge.slopeX, edge.slopeY, edge.value, edge.low, edge.high));
+            const Polygons seen = cutBy(all, lines_, part.isSure ? Side::inner : Side::outer);
+            if (addIntegral(seen, part.isSure, sum)) any = true;
+        }
+        if (!any) return 0.0;
+        Interval factor(1.0);
+        if (density_.isFlux) factor = coverageIn(eye_, goal_, height_, u, v);
+        const Colors irradiance = weighted(sum, factor);
+        deposits.push_back({pixel, irradiance});
+        double width = 0.0;
+        for (const Interval& channel : irradiance)
+            width = std::max(width, channel.width());
+        return width;
+    }
+
+    // Adds the integral of the density over the polygons; whether there are any.
+    bool addIntegral(const Polygons& polygons, bool isSure, std::array<Interval, 3>& sum) const {
+        for (const Polygon& polygon : polygons) {
+            for (std::size_t k = 0; k < channels_; ++k) {
+                const double value =
+                    std::max(integralBound(density_.channels[k], polygon, !isSure), 0.0);
+                double& bound = isSure ? sum[k].lo : sum[k].hi;
+                bound = isSure ? rounding::down(bound + value) : rounding::up(bound + value);
+            }
+        }
+        return !polygons.empty();
+    }
+
+    [[nodiscard]] Colors weighted(const std::array<Interval, 3>& sum,
+                                  const Interval& factor) const {
+        Colors irradiance;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Interval& value = sum[channels_ == 1 ? 0 : k];
+            const Interval all =
+                factor *
+                (Interval(std::max(value.lo, 0.0), std::max(value.hi, 0.0)) * arriving_.weight[k]);
+            irradiance[k] = {std::max(all.lo, 0.0), std::max(all.hi, 0.0)};
+        }
+        return irradiance;
+    }
+
+    const EyeView& eye_;
+    std::uint32_t facet_;
+    const Facet& goal_;
+    Interval height_;
+    const Screen& screen_;
+    const Density& density_;
+    const Ray& arriving_;
+    std::size_t channels_;
+    std::vector<HalfPlane> lines_;
 };
 
-// Adds the integral of the density over what of the polygons the lines keep; whether anything is.
-bool addIntegral(const Polygons& polygons, const std::vector<HalfPlane>& lines,
-                 const Density& density, int channels, bool isSure, std::array<Interval, 3>& sum) {
-    bool any = false;
-    for (Polygon polygon : polygons) {
-        for (const HalfPlane& line : lines)
-            polygon.cut(line, isSure ? Side::inner : Side::outer);
-        if (polygon.isEmpty()) continue;
-        any = true;
-        for (std::size_t k = 0; k < static_cast<std::size_t>(channels); ++k) {
-            const double value =
-                std::max(integralBound(density.channels[k], polygon, !isSure), 0.0);
-            double& bound = isSure ? sum[k].lo : sum[k].hi;
-            bound = isSure ? rounding::down(bound + value) : rounding::up(bound + value);
-        }
-    }
-    return any;
+long countOf(const EyeView::Extent& pixels) {
+    if (pixels.right < pixels.left || pixels.bottom < pixels.top) return 0;
+    return (pixels.right - pixels.left + 1L) * (pixels.bottom - pixels.top + 1L);
 }
 
-Colors weighted(const std::array<Interval, 3>& sum, const std::array<Interval, 3>& weight,
-                int channels) {
-    Colors irradiance;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const Interval& value = sum[channels == 1 ? 0 : k];
-        irradiance[k] = {std::max(rounding::down(std::max(value.lo, 0.0) * weight[k].lo), 0.0),
-                         rounding::up(std::max(value.hi, 0.0) * weight[k].hi)};
-    }
-    return irradiance;
-}
-
-// The pixels of the extent in which the ranges may lie; empty where none.
-EyeView::Extent pixelsIn(const EyeView::Extent& extent, const Interval& x, const Interval& y) {
-    if (x.hi < extent.left || x.lo > extent.right + 1 || y.hi < extent.top ||
-        y.lo > extent.bottom + 1)
-        return {};
-    return {static_cast<int>(std::max<double>(std::floor(x.lo), extent.left)),
-            static_cast<int>(std::min<double>(std::floor(x.hi), extent.right)),
-            static_cast<int>(std::max<double>(std::floor(y.lo), extent.top)),
-            static_cast<int>(std::min<double>(std::floor(y.hi), extent.bottom))};
-}
-
-// Adds the irradiance of the pixels that see the facet.
-void depositIn(const EyeView& eye, const EyeView::Extent& pixels, std::uint32_t facet,
-               const ScreenLines& screen, const Density& density, const Ray& arriving,
-               const Visible& visible, int channels, std::vector<CellResult::Deposit>& deposits) {
-    std::vector<HalfPlane> lines;
-    for (int v = pixels.top; v <= pixels.bottom; ++v) {
-        for (int u = pixels.left; u <= pixels.right; ++u) {
-            const std::size_t pixel =
-                static_cast<std::size_t>(v) * static_cast<std::size_t>(eye.width()) +
-                static_cast<std::size_t>(u);
-            std::array<Interval, 3> sum;
-            bool any = false;
-            for (const SeenPart& part : eye.parts(pixel)) {
-                if (part.facet != facet) continue;
-                screen.find(part, u, v, lines);
-                const Polygons& polygons = part.isSure ? visible.sure : visible.may;
-                if (addIntegral(polygons, lines, density, channels, part.isSure, sum)) any = true;
-            }
-            if (any) deposits.push_back({pixel, weighted(sum, arriving.weight, channels)});
-        }
-    }
+EyeView::Extent common(const EyeView::Extent& a, const EyeView::Extent& b) {
+    return {std::max(a.left, b.left), std::min(a.right, b.right), std::max(a.top, b.top),
+            std::min(a.bottom, b.bottom)};
 }
 
 }  // namespace
 
 bool CellTracer::deposit(const Ray& ray, const Candidate& target, const Visible& visible) {
     const Facet& goal = facet(target.facet);
-    const Polygons& may = visible.may;
-    const auto giveUpHere = [&] { return giveUp(ray, may, {alongOf(ray, may)}); };
-    if (!crossesPlane(ray, goal, target.along)) return giveUpHere();
-    const Both distance{distanceToPlane(ray.wide, goal), distanceToPlane(ray.middle, goal)};
-    if (!distance.model().isFinite() || !(distance.wide.value.magnitude() < kHuge))
-        return giveUpHere();
-    if (ray.medium != 0 && geometry_.absorbs() && !(distance.wide.value.lo > -1.0))
-        return giveUpHere();
+    const auto giveUpHere = [&] { return giveUp(ray, visible.may, {alongOf(ray, visible.may)}); };
     Ray arriving = ray;
-    absorb(geometry_, distance, channels_, arriving);
-    const Interval watts = wattsOf(arriving, visible.sure, may, channels_);
+    std::optional<Both> distance;
+    if (crossesPlane(ray, goal, target.along)) {
+        distance = Both{distanceToPlane(ray.wide, goal), distanceToPlane(ray.middle, goal)};
+        if (!distance->model().isFinite() || !(distance->wide.value.magnitude() < kHuge))
+            distance.reset();
+    }
+    if (ray.medium != 0 && geometry_.absorbs()) {
+        if (!distance || !(distance->wide.value.lo > -1.0)) return giveUpHere();
+        absorb(geometry_, *distance, channels_, arriving);
+    }
+    const Interval watts = wattsOf(arriving, visible.sure, visible.may, channels_);
     if (!watts.isFinite()) return giveUpHere();
-    if (!isFinal_ && watts.width() > 1e-6 * tracer_.wattScale()) return false;
+    const double share = ray.interactions > 1 ? kSmallWattsBentTwice : kSmallWatts;
+    if (!isFinal_ &&
+        watts.width() > std::max(share * found_.emitted.hi, 1e-10 * tracer_.wattScale()))
+        return false;
     const auto leaveUnseen = [&] {
         found_.deposited = found_.deposited + watts;
         return true;
@@ -201,35 +252,50 @@ bool CellTracer::deposit(const Ray& ray, const Candidate& target, const Visible&
     // The eye sees the side that the light arrives on.
     const Interval eyeHeight = dot(exact(eye_.position()) - exact(goal.position[0]), goal.area);
     const bool isSeen = target.along < 0.0 ? eyeHeight.hi > 0.0 : eyeHeight.lo < 0.0;
-    if (extent.right < extent.left || extent.bottom < extent.top || !isSeen) return leaveUnseen();
+    if (countOf(extent) == 0 || !isSeen) return leaveUnseen();
 
-    Screen screen;
-    project(eye_, ray.wide, distance.wide, screen.column.wide, screen.row.wide, screen.depth.wide);
-    project(eye_, ray.middle, distance.middle, screen.column.middle, screen.row.middle,
-            screen.depth.middle);
-    const TaylorModel depth = screen.depth.model();
-    if (depth.isFinite() && rangeOver(depth, may).hi < eye_.nearMeters()) return leaveUnseen();
-    if (!(screen.depth.wide.value.lo > 0.5 * eye_.nearMeters())) return giveUpHere();
-    const TaylorModel x = screen.column.model();
-    const TaylorModel y = screen.row.model();
-    if (!x.isFinite() || !y.isFinite()) return giveUpHere();
-    const EyeView::Extent pixels = pixelsIn(extent, rangeOver(x, may), rangeOver(y, may));
-    if (pixels.right < pixels.left || pixels.bottom < pixels.top) return leaveUnseen();
-    const long count = (pixels.right - pixels.left + 1L) * (pixels.bottom - pixels.top + 1L);
-    if (!isFinal_ && count > kManyPixels) return false;
+    const Screen screen(eye_, ray, goal, target.along, visible.may);
+    if (!screen.isFinite()) return giveUpHere();
+    Visible shown = visible;
+    if (screen.mayBeBehind()) {
+        const auto cut = [&](Polygons& polygons, Side side) {
+            for (Polygon& polygon : polygons)
+                polygon.cut(screen.beforeEye(), side);
+            std::erase_if(polygons, [](const Polygon& polygon) { return polygon.isEmpty(); });
+        };
+        cut(shown.sure, Side::inner);
+        cut(shown.may, Side::outer);
+    }
+    EyeView::Extent pixels = screen.pixelsIn(shown.may, extent);
+    if (shown.may.empty() || countOf(pixels) == 0) return leaveUnseen();
+    if (countOf(pixels) > kSomePixels) {
+        pixels = common(pixels, pixelsReached(geometry_, eye_, startOf(ray, shown.may),
+                                              alongOf(ray, shown.may), target.facet));
+        if (countOf(pixels) == 0) return leaveUnseen();
+    }
+    if (!isFinal_ && countOf(pixels) > kManyPixels) return false;
 
-    const std::optional<Density> density =
-        densityOn(eye_, goal, eyeHeight, arriving, screen.depth, channels_);
-    if (!density) return giveUpHere();
+    const Interval height = heightOfEye(goal, eyeHeight);
     const double bandPixels = tracer_.settings().bandPixels;
-    const bool isBright =
-        density->largest * areaOf(may) > kSmallIrradiance * tracer_.irradianceScale();
-    const bool isVague = std::max(x.rest.width(), y.rest.width()) > bandPixels ||
-                         density->relativeWidth > 4.0 * bandPixels;
-    if (!isFinal_ && isBright && isVague) return false;
+    std::optional<Density> density;
+    if (distance) density = densityOn(eye_, height, arriving, *distance, channels_);
+    const bool isSlanted = screen.isSlanted() || !density || density->relativeWidth > 0.1;
+    if (isSlanted) density = fluxOf(arriving, channels_);
+    if (!density) return giveUpHere();
+    if (!isFinal_ && !isSlanted &&
+        density->largest * areaOf(shown.may) * static_cast<double>(countOf(pixels)) >
+            kSmallIrradiance * tracer_.irradianceScale() &&
+        (screen.band(pixels) > bandPixels || density->relativeWidth > 4.0 * bandPixels))
+        return false;
+    const std::size_t before = found_.deposits.size();
+    const double width =
+        Depositor(eye_, target.facet, goal, height, screen, *density, arriving, channels_)
+            .depositIn(pixels, shown, found_.deposits);
+    if (!isFinal_ && isSlanted && width > kSmallWidth * tracer_.irradianceScale()) {
+        found_.deposits.resize(before);
+        return false;
+    }
     found_.deposited = found_.deposited + watts;
-    depositIn(eye_, pixels, target.facet, ScreenLines(x, y), *density, arriving, visible, channels_,
-              found_.deposits);
     return true;
 }
 

@@ -23,6 +23,17 @@ double signedArea(const std::vector<Point>& corners) {
     return 0.5 * area;
 }
 
+// Whether the eye is exactly in the plane of a facet along the axes.
+bool isOnEdge(const Facet& facet, const glm::dvec3& eye) {
+    for (int axis = 0; axis < 3; ++axis) {
+        bool isFlat = true;
+        for (std::size_t i = 0; i < facet.corners; ++i)
+            isFlat = isFlat && facet.position[i][axis] == eye[axis];
+        if (isFlat) return true;
+    }
+    return false;
+}
+
 double hairOf(const std::vector<Point>& corners) {
     double size = 0.0;
     for (const Point& p : corners)
@@ -128,6 +139,31 @@ EyeView::EyeView(const Geometry& geometry, int width, int height) : width_(width
         seePixel(geometry, pixel, seen[pixel], outlines);
 }
 
+// A pixel's corner is the ray r of depth 1. Where it meets the plane, depth |N·r| is the height,
+// and a square metre covers pixels² height / depth³, of no depth before the near plane.
+Interval coverageIn(const EyeView& eye, const Facet& facet, const Interval& height, int u, int v) {
+    const Interval perLength = inverse(sqrt(dot(facet.area, facet.area)));
+    const Vec unit = scaled(perLength, facet.area);
+    const Interval perPixel = inverse(Interval(eye.pixelsPerTangent()));
+    Interval slopes;
+    for (int corner = 0; corner < 4; ++corner) {
+        const Interval x = Interval(u + corner % 2) * perPixel - Interval(eye.tangents().x);
+        const Interval y = Interval(eye.tangents().y) - Interval(v + corner / 2) * perPixel;
+        const Vec ray =
+            scaled(x, exact(eye.right())) + scaled(y, exact(eye.up())) - exact(eye.backward());
+        const Interval slope = dot(unit, ray);
+        slopes = corner == 0 ? slope : hull(slopes, slope);
+    }
+    if (slopes.hi <= 0.0) slopes = -slopes;
+    const Interval slope(std::max(slopes.lo, 0.0), slopes.magnitude());
+    const Interval perTangent2 = square(Interval(eye.pixelsPerTangent()));
+    const Interval near(eye.nearMeters());
+    const double nearest = (perTangent2 * height / (near * square(near))).hi;
+    if (!staysAwayFromZero(square(height))) return {0.0, nearest};
+    const Interval found = perTangent2 * (slope * square(slope)) / square(height);
+    return {found.lo, std::min(found.hi, nearest)};
+}
+
 std::vector<Point> EyeView::project(const std::vector<glm::dvec3>& corners) const {
     // What is nearer than the near plane neither hides anything nor is seen.
     std::vector<glm::dvec3> before;
@@ -165,9 +201,15 @@ void EyeView::seePixel(const Geometry& geometry, std::size_t pixel,
         const Facet& facet = all[f];
         if (!facet.isReceiver()) continue;
         const double eyeHeight = std::fabs(glm::dot(facet.unit, position_ - facet.position[0]));
-        // On edge there is nothing to see of it.
-        if (eyeHeight < 1e-9 * geometry.size()) continue;
-        for (std::size_t corner = 0; corner < 4; ++corner) {
+        // On edge there is nothing to see of it, and where that is not sure little.
+        if (isOnEdge(facet, position_)) continue;
+        const bool isNearlyOnEdge = eyeHeight < 1e-9 * geometry.size();
+        if (isNearlyOnEdge) {
+            const double nearMeters3 = nearMeters_ * nearMeters_ * nearMeters_;
+            coverage = std::max(coverage, 1.000001 * (eyeHeight + 1e-9 * geometry.size()) /
+                                              nearMeters3 * pixelsPerTangent_ * pixelsPerTangent_);
+        }
+        for (std::size_t corner = 0; corner < 4 && !isNearlyOnEdge; ++corner) {
             const glm::dvec3 ray = (square[corner].x / pixelsPerTangent_ - tangents_.x) * right_ +
                                    (tangents_.y - square[corner].y / pixelsPerTangent_) * up_ -
                                    backward_;
@@ -178,6 +220,7 @@ void EyeView::seePixel(const Geometry& geometry, std::size_t pixel,
         }
         const Region own = regionOf(outlines[f], hairOf(outlines[f]));
         for (const Side side : {Side::inner, Side::outer}) {
+            if (isNearlyOnEdge && side == Side::inner) continue;
             Polygon start = square;
             bool isWhole = true;
             for (const HalfPlane& line : own) {
@@ -196,11 +239,9 @@ void EyeView::seePixel(const Geometry& geometry, std::size_t pixel,
                         project(partBefore(all[g], facet, position_, geometry.size(),
                                            side == Side::inner ? Side::outer : Side::inner));
                     if (hides.size() < 3) continue;
-                    const std::size_t before = left.size();
-                    const double area = areaOf(left);
-                    subtract(left, regionOf(hides, hairOf(hides)),
-                             side == Side::inner ? Side::outer : Side::inner);
-                    if (left.size() != before || areaOf(left) != area) isWhole = false;
+                    if (subtract(left, regionOf(hides, hairOf(hides)),
+                                 side == Side::inner ? Side::outer : Side::inner))
+                        isWhole = false;
                 }
             } else if (side == Side::inner) {
                 continue;

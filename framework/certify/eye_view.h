@@ -75,6 +75,11 @@ class EyeView {
     std::vector<double> coverage_;
 };
 
+// The share of the pixel at column u and row v that a square metre of the facet's plane covers,
+// 1/m², from its least to its largest value there. `height`: of the eye above the plane, m.
+[[nodiscard]] Interval coverageIn(const EyeView& eye, const Facet& facet, const Interval& height,
+                                  int u, int v);
+
 // The half-planes that hold a convex polygon, known up to the rounding of its corners: outer ones
 // hold all of it, and inner ones nothing else, within `reach` of it.
 [[nodiscard]] Region regionOf(const std::vector<Point>& corners, double hair);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "framework/certify/cell_tracer.h"
+#include "framework/certify/reach.h"
 
 namespace kaustik::certify {
 namespace {
@@ -81,16 +82,17 @@ class Interaction {
         const Interval perLength = inverse(sqrt(squaredLength(wideNormal).value));
         shadingBox_ = {perLength * wideNormal.x.value, perLength * wideNormal.y.value,
                        perLength * wideNormal.z.value};
-        const Interval geometricLength =
-            sqrt(square(geometric_.x) + square(geometric_.y) + square(geometric_.z));
-        geometricUnit_ = scaled(inverse(geometricLength), geometric_);
+        geometricUnit_ = scaled(inverse(sqrt(dot(geometric_, geometric_))), geometric_);
+        // Bodies within bodies are given up.
+        const std::uint32_t body = own_.material + 1;
+        if (!isMirror_ && (enters_ ? ray_.medium != 0 : ray_.medium != body))
+            return tracer_.giveUp(ray_, ray_.may, {});
         // Which normal bends the light: the interpolated one, unless it would send it to the wrong
         // side.
         const Normals shading{normalized(wideNormal), normalized(interpolated(b.middle, c.middle))};
-        if (const std::optional<bool> done = followBy(shading, true)) return *done;
-        const Normals flat{constant<true>(geometricUnit_), constant<false>(geometricUnit_)};
-        if (const std::optional<bool> done = followBy(flat, false)) return *done;
-        return giveUpHere();
+        if (!followBy(shading, true)) return false;
+        if (ray_.may.empty()) return true;
+        return followBy({constant<true>(geometricUnit_), constant<false>(geometricUnit_)}, false);
     }
 
   private:
@@ -106,56 +108,70 @@ class Interaction {
 
     // Where light may go that is given up here: by either normal.
     bool giveUpHere() {
-        const Vec along = alongOf(ray_, ray_.may);
+        const Vec along = alongOf(ray_, next_.may);
         std::vector<Vec> directions;
-        for (const Vec& normal : {shadingBox_, geometricUnit_}) {
-            Interval cosine = -dot(along, normal);
-            if (cosine.hi < 0.0) continue;
-            cosine.lo = std::max(cosine.lo, 0.0);
-            directions.push_back(along + scaled(Interval(2.0) * cosine, normal));
-            if (isMirror_) continue;
-            Interval root = Interval(1.0) - square(eta_) * (Interval(1.0) - square(cosine));
-            if (root.hi < 0.0) continue;
-            root.lo = std::max(root.lo, 0.0);
-            directions.push_back(scaled(eta_, along) + scaled(eta_ * cosine - sqrt(root), normal));
-        }
-        return tracer_.giveUp(next_, ray_.may, directions);
+        for (const Vec& normal : {shadingBox_, geometricUnit_})
+            addDirections(along, normal, eta_, isMirror_, directions);
+        return tracer_.giveUp(next_, next_.may, directions);
     }
 
-    // By one normal; nothing where it is surely not the one. `isShading`: the interpolated one,
-    // after which the other is tried.
-    std::optional<bool> followBy(const Normals& normal, bool isShading) {
+    // Moves what of the light is in the region from `ray_` to `next_`; whether there is any.
+    bool take(const Region& region) {
+        next_.sure = ray_.sure;
+        next_.may = ray_.may;
+        if (region.empty()) {
+            ray_.sure.clear();
+            ray_.may.clear();
+            return !next_.may.empty();
+        }
+        const auto keep = [&](Polygons& polygons, Side side) {
+            for (Polygon& polygon : polygons) {
+                for (const HalfPlane& line : region)
+                    polygon.cut(line, side);
+            }
+            std::erase_if(polygons, [](const Polygon& polygon) { return polygon.isEmpty(); });
+        };
+        keep(next_.sure, Side::inner);
+        keep(next_.may, Side::outer);
+        subtract(ray_.sure, region, Side::outer);
+        subtract(ray_.may, region, Side::inner);
+        return !next_.may.empty();
+    }
+
+    // Adds to the region where this is positive; false where it is nowhere.
+    static bool require(const Jet<true>& wide, const Jet<false>& middle, double sign,
+                        Region& region) {
+        const Interval value = sign > 0.0 ? wide.value : -wide.value;
+        if (value.hi <= 0.0) return false;
+        if (!(value.lo > 0.0)) region.push_back(lineOf(modelOf(middle, wide), sign));
+        return true;
+    }
+
+    // Follows what of the light this normal bends, and leaves the rest in `ray_`. `isShading`: the
+    // interpolated one, which bends only what it sends to the right side.
+    bool followBy(const Normals& normal, bool isShading) {
         const Jet<true> incidence = -dot(ray_.wide.along, normal.wide);
-        if (isShading && incidence.value.hi <= 0.0) return std::nullopt;
-        if (!(incidence.value.lo > 0.0)) return giveUpHere();
         const Jet<false> middleIncidence = -dot(ray_.middle.along, normal.middle);
+        next_.wide.flux = ray_.wide.flux;
+        next_.middle.flux = ray_.middle.flux;
+        Region region;
+        if (isShading && !require(incidence, middleIncidence, 1.0, region)) return true;
         next_.wide.along = reflect(ray_.wide.along, normal.wide, incidence);
         next_.middle.along = reflect(ray_.middle.along, normal.middle, middleIncidence);
-        const Interval outwards = dot(next_.wide.along, geometric_).value;
-        const bool isReflectedWrong = isShading && outwards.hi <= 0.0;
-        const bool isReflectedOpen = isShading && !(outwards.lo > 0.0);
-        if (isMirror_) {
-            if (isReflectedWrong) return std::nullopt;
-            if (isReflectedOpen) return giveUpHere();
-            return followMirrored();
-        }
-        // Bodies within bodies are given up.
-        const std::uint32_t body = own_.material + 1;
-        if (enters_ ? ray_.medium != 0 : ray_.medium != body)
-            return tracer_.giveUp(ray_, ray_.may, {});
+        if (isShading && !require(dot(next_.wide.along, geometric_),
+                                  dot(next_.middle.along, geometric_), 1.0, region))
+            return true;
+        if (isMirror_) return !take(region) || followMirrored();
         const Jet<true> root = refractedRoot(incidence, eta_);
-        if (root.value.hi <= 0.0) {
-            if (isReflectedWrong) return std::nullopt;
-            if (isReflectedOpen) return giveUpHere();
-            return tracer_.advance(next_);
-        }
-        if (!(root.value.lo > 1e-9)) return giveUpHere();
+        if (root.value.hi <= 0.0) return !take(region) || tracer_.advance(next_);
+        if (!(root.value.lo > 1e-9)) return !take(region) || giveUpHere();
         const Branch<true> wide = refract(ray_.wide.along, normal.wide, incidence, root, eta_);
-        const Interval inwards = dot(wide.refracted, geometric_).value;
-        if (isReflectedWrong || (isShading && inwards.lo >= 0.0)) return std::nullopt;
-        if (isReflectedOpen || (isShading && !(inwards.hi < 0.0))) return giveUpHere();
-        return followBoth(wide, refract(ray_.middle.along, normal.middle, middleIncidence,
-                                        refractedRoot(middleIncidence, eta_), eta_));
+        const Branch<false> middle = refract(ray_.middle.along, normal.middle, middleIncidence,
+                                             refractedRoot(middleIncidence, eta_), eta_);
+        if (isShading && !require(dot(wide.refracted, geometric_),
+                                  dot(middle.refracted, geometric_), -1.0, region))
+            return true;
+        return !take(region) || followBoth(wide, middle);
     }
 
     bool followMirrored() {
@@ -168,21 +184,22 @@ class Interaction {
 
     bool followBoth(const Branch<true>& wide, const Branch<false>& middle) {
         const std::size_t used = static_cast<std::size_t>(tracer_.channels());
+        const PlantedError& planted = tracer_.tracer().planted();
         Ray through = next_;
         through.medium = enters_ ? own_.material + 1 : 0;
         through.wide.along = wide.refracted;
         through.middle.along = middle.refracted;
-        const Interval planted(tracer_.tracer().planted().fresnelFactor);
+        const Interval factor(planted.fresnelFactor);
         for (std::size_t k = 0; k < used; ++k) {
             through.wide.flux[k] =
-                planted * (ray_.wide.flux[k] * (Interval(1.0) - wide.reflectance));
+                factor * (ray_.wide.flux[k] * (Interval(1.0) - wide.reflectance));
             through.middle.flux[k] =
-                planted * (ray_.middle.flux[k] * (Interval(1.0) - middle.reflectance));
+                factor * (ray_.middle.flux[k] * (Interval(1.0) - middle.reflectance));
             // A share of what has arrived, whatever the enclosure of the share is.
             through.wide.flux[k].value.lo = std::max(through.wide.flux[k].value.lo, 0.0);
         }
         if (!tracer_.advance(through)) return false;
-        if (tracer_.tracer().settings().transmissionOnly) return true;
+        if (tracer_.tracer().settings().transmissionOnly || planted.withoutReflection) return true;
         for (std::size_t k = 0; k < used; ++k) {
             next_.wide.flux[k] = ray_.wide.flux[k] * wide.reflectance;
             next_.middle.flux[k] = ray_.middle.flux[k] * middle.reflectance;
@@ -192,7 +209,7 @@ class Interaction {
     }
 
     CellTracer& tracer_;
-    const Ray& ray_;
+    Ray ray_;  // what of the light is still to be followed
     const Facet& own_;
     const scene::Material& material_;
     bool isMirror_;

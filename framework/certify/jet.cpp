@@ -24,8 +24,8 @@ TaylorModel modelOf(const Jet<false>& middle, const Jet<true>& square) {
     // Along each axis the square has the smaller factor of both ends with 0.
     model.rest = xx * squares + xy * products + yy * squares;
     const Interval eighteenth = Interval(1.0) / Interval(18.0);
-    const double half = 0.5 * rounding::up(xy.hi - xy.lo);
-    const double spread = rounding::up(half * 0.0555555555555557);
+    const Interval around = xy - Interval(xy.middle());
+    const double spread = rounding::up(around.magnitude() * 0.0555555555555557);
     const Interval crossMean =
         Interval(xy.middle()) * (-0.5 * eighteenth) + Interval(-spread, spread);
     model.restMean = (xx + yy) * eighteenth + crossMean;
@@ -44,6 +44,8 @@ TaylorModel modelOf(const Jet<false>& middle, const Jet<true>& square) {
     const double rounded =
         0x1p-49 * (std::fabs(model.value) + std::fabs(model.slope[0]) + std::fabs(model.slope[1]));
     slack = slack + Interval(-rounded, rounded);
+    // Whoever has no value over the cell has no derivatives either, whatever they say.
+    slack = slack + Interval((square.value.lo + square.value.hi) * 0.0);
     model.rest = model.rest + slack;
     model.restMean = model.restMean + slack;
     return model;

@@ -73,8 +73,9 @@ Polygon::Moments Polygon::moments() const {
     return sum;
 }
 
-void subtract(Polygons& from, const Region& region, Side side) {
-    if (region.empty()) return;
+bool subtract(Polygons& from, const Region& region, Side side) {
+    if (region.empty()) return false;
+    bool isTaken = false;
     Polygons kept;
     for (const Polygon& polygon : from) {
         Polygons pieces;
@@ -91,10 +92,12 @@ void subtract(Polygons& from, const Region& region, Side side) {
         if (within.isEmpty()) {
             kept.push_back(polygon);
         } else {
+            isTaken = true;
             kept.insert(kept.end(), pieces.begin(), pieces.end());
         }
     }
     from = std::move(kept);
+    return isTaken;
 }
 
 double areaOf(const Polygons& polygons) {

@@ -69,8 +69,8 @@ using Region = std::vector<HalfPlane>;
 using Polygons = std::vector<Polygon>;
 
 // All of `from` that is not in the region. Side::outer: takes away all that may be in it;
-// Side::inner: only what is for sure.
-void subtract(Polygons& from, const Region& region, Side side);
+// Side::inner: only what is for sure. Whether anything is taken away.
+bool subtract(Polygons& from, const Region& region, Side side);
 
 [[nodiscard]] double areaOf(const Polygons& polygons);
 

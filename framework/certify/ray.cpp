@@ -9,7 +9,10 @@ namespace kaustik::certify {
 
 HalfPlane lineOf(const TaylorModel& model, double sign) {
     const Interval rest = sign > 0.0 ? model.rest : -model.rest;
-    return {sign * model.value, sign * model.slope[0], sign * model.slope[1], rest.lo, rest.hi};
+    // What the sum with the rest is rounded by; all else is in the rest (jet.cpp).
+    const double rounded = 0x1p-50 * rest.magnitude();
+    return {sign * model.value, sign * model.slope[0], sign * model.slope[1], rest.lo - rounded,
+            rest.hi + rounded};
 }
 
 Interval rangeOver(const TaylorModel& model, const Polygons& polygons) {

@@ -1,86 +1,93 @@
 // SPDX-License-Identifier: MIT
-// Straight lines in the triangle's own coordinates: the outline of each facet that the light's way
-// to the triangle may meet, projected from the light onto the triangle's plane.
+// Straight lines in the triangle's own coordinates, which are exact but for intervals' rounding: of
+// a place p of the triangle, with e the way to the light, (A - p) x (B - p) . e tells on which side
+// of the edge AB of a facet it passes, and N . (A - p) on which side of the facet p is. Both are
+// linear in p, as p x p is 0; for a light at a point, too, whose e is its place less p.
 #include "framework/certify/shadows.h"
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
-#include "framework/certify/eye_view.h"
 #include "framework/certify/ray.h"
 
 namespace kaustik::certify {
 namespace {
 
-class ShadowProjection {
+// Of the barycentrics of a triangle's second and third corner.
+struct Linear {
+    Interval value;
+    Interval slopeX;
+    Interval slopeY;
+};
+
+// Where it is positive, times `sign`; also after it has been put in a cell's coordinates (shade()).
+HalfPlane lineOf(const Linear& f, double sign) {
+    const double value = f.value.middle();
+    const double slopeX = f.slopeX.middle();
+    const double slopeY = f.slopeY.middle();
+    const Interval unit(0.0, 1.0);
+    const double rounded =
+        0x1p-47 * (f.value.magnitude() + f.slopeX.magnitude() + f.slopeY.magnitude());
+    const Interval rest = (f.value - Interval(value)) + (f.slopeX - Interval(slopeX)) * unit +
+                          (f.slopeY - Interval(slopeY)) * unit + Interval(-rounded, rounded);
+    const Interval signedRest = sign > 0.0 ? rest : -rest;
+    return {sign * value, sign * slopeX, sign * slopeY, signedRest.lo, signedRest.hi};
+}
+
+class ShadowCaster {
   public:
-    ShadowProjection(const Geometry& geometry, const Source& source, const Facet& triangle)
-        : geometry_(geometry), source_(source), triangle_(triangle) {
-        a_ = triangle.position[0];
-        ab_ = triangle.position[1] - a_;
-        ac_ = triangle.position[2] - a_;
-        area_ = glm::cross(ab_, ac_);
-        area2_ = glm::dot(area_, area_);
-        if (source.isDistant) {
-            const Vec back = negated(source.direction);
-            from_ = a_ + glm::dvec3(back.x.middle(), back.y.middle(), back.z.middle()) *
-                             (2.0 * geometry.size());
-        } else {
-            from_ = source.position;
-        }
+    ShadowCaster(const Source& source, const Facet& triangle) : source_(source) {
+        a_ = exact(triangle.position[0]);
+        ab_ = exact(triangle.position[1]) - a_;
+        ac_ = exact(triangle.position[2]) - a_;
+        if (source.isDistant) toLight_ = negated(source.direction);
     }
 
-    // Of what of the facet is before the triangle, all that may be or what is for sure. Empty:
-    // nothing.
-    [[nodiscard]] Region regionBehind(const Facet& other, Side side) const {
-        const std::vector<glm::dvec3> corners =
-            partBefore(other, triangle_, from_, geometry_.size(), side);
-        if (corners.empty()) return {};
-        std::vector<Point> outline;
-        double reach = 1.0;
-        bool isBehindLight = false;
-        for (const glm::dvec3& p : corners) {
-            const glm::dvec3 step = onPlane(p, isBehindLight) - a_;
-            outline.push_back({glm::dot(glm::cross(step, ac_), area_) / area2_,
-                               glm::dot(glm::cross(ab_, step), area_) / area2_});
-            reach = std::max({reach, std::fabs(outline.back().x), std::fabs(outline.back().y)});
+    // Adds what the facet may shade, and what for sure.
+    void add(const Facet& other, std::vector<Shadow>& shadows) const {
+        const Interval closing =
+            source_.isDistant ? dot(toLight_, other.area)
+                              : dot(exact(source_.position) - exact(other.position[0]), other.area);
+        for (const double along : {1.0, -1.0}) {
+            if (along > 0.0 ? closing.hi < 0.0 : closing.lo > 0.0) continue;
+            Shadow shadow;
+            for (std::size_t i = 0; i < other.corners; ++i) {
+                shadow.outer.push_back(lineOf(
+                    edge(other.position[i], other.position[(i + 1) % other.corners]), along));
+            }
+            shadow.outer.push_back(lineOf(ahead(other), along));
+            Polygon all = Polygon::cell();
+            for (const HalfPlane& line : shadow.outer)
+                all.cut(line, Side::outer);
+            if (all.isEmpty()) continue;
+            // On which side of the facet the light is must be sure.
+            if (along > 0.0 ? closing.lo > 0.0 : closing.hi < 0.0) shadow.inner = shadow.outer;
+            shadows.push_back(std::move(shadow));
         }
-        if (isBehindLight) {
-            // All may be in shadow, and nothing is for sure.
-            if (side == Side::outer) return {{1.0, 0.0, 0.0, 0.0, 0.0}};
-            return {};
-        }
-        const double sideLength = std::sqrt(std::sqrt(area2_));
-        const double hair = (kNear * geometry_.size() / sideLength + 1e-12) * reach;
-        return regionOf(outline, hair);
     }
 
   private:
-    // Where light by the point meets the triangle's plane.
-    [[nodiscard]] glm::dvec3 onPlane(const glm::dvec3& p, bool& isBehindLight) const {
+    [[nodiscard]] Linear edge(const glm::dvec3& from, const glm::dvec3& to) const {
         if (source_.isDistant) {
-            const glm::dvec3 along(source_.direction.x.middle(), source_.direction.y.middle(),
-                                   source_.direction.z.middle());
-            return p + glm::dot(a_ - p, area_) / glm::dot(along, area_) * along;
+            const Vec one = exact(from) - a_;
+            const Vec two = exact(to) - a_;
+            const Vec back = exact(from) - exact(to);
+            return {dot(toLight_, cross(one, two)), dot(toLight_, cross(ab_, back)),
+                    dot(toLight_, cross(ac_, back))};
         }
-        const glm::dvec3 along = p - source_.position;
-        const double closing = glm::dot(along, area_);
-        const double height = glm::dot(a_ - source_.position, area_);
-        // Beyond the light it throws no shadow; near its height all of the plane.
-        if (closing * height <= 1e-6 * height * height) isBehindLight = true;
-        return source_.position + height / closing * along;
+        const Vec light = exact(source_.position);
+        const Vec normal = cross(exact(to) - light, exact(from) - light);
+        return {dot(a_ - light, normal), dot(ab_, normal), dot(ac_, normal)};
+    }
+    [[nodiscard]] Linear ahead(const Facet& other) const {
+        return {dot(exact(other.position[0]) - a_, other.area), -dot(ab_, other.area),
+                -dot(ac_, other.area)};
     }
 
-    const Geometry& geometry_;
     const Source& source_;
-    const Facet& triangle_;
-    glm::dvec3 from_{0.0};
-    glm::dvec3 a_{0.0};
-    glm::dvec3 ab_{0.0};
-    glm::dvec3 ac_{0.0};
-    glm::dvec3 area_{0.0};
-    double area2_ = 0.0;
+    Vec a_;
+    Vec ab_;
+    Vec ac_;
+    Vec toLight_;
 };
 
 }  // namespace
@@ -96,19 +103,10 @@ std::vector<Shadow> findShadows(const Geometry& geometry, const Source& source,
     const Vec velocity =
         source.isDistant ? negated(source.direction) : exact(source.position) - start;
     const double end = source.isDistant ? 1e30 : 1.0;
-    const ShadowProjection projection(geometry, source, own);
+    const ShadowCaster caster(source, own);
     std::vector<Shadow> shadows;
-    // What is in front by a hair and no more is not looked at twice.
     geometry.sweep(start, velocity, end, [&](std::uint32_t g) {
-        if (g == triangle || g == dropped) return;
-        const Facet& other = geometry.facets()[g];
-        Shadow shadow{projection.regionBehind(other, Side::outer),
-                      projection.regionBehind(other, Side::inner)};
-        if (shadow.outer.empty()) return;
-        Polygon all = Polygon::cell();
-        for (const HalfPlane& line : shadow.outer)
-            all.cut(line, Side::outer);
-        if (!all.isEmpty()) shadows.push_back(std::move(shadow));
+        if (g != triangle && g != dropped) caster.add(geometry.facets()[g], shadows);
     });
     return shadows;
 }

@@ -12,6 +12,7 @@ void bindSession(pybind11::module_& module);
 void bindLists(pybind11::module_& module);
 void bindReference(pybind11::module_& module);
 void bindCompare(pybind11::module_& module);
+void bindCertify(pybind11::module_& module);
 void bindJudge(pybind11::module_& module);
 
 }  // namespace kaustik::python

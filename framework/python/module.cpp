@@ -34,5 +34,6 @@ PYBIND11_MODULE(_kaustik, module) {
     bindSession(module);
     bindReference(module);
     bindCompare(module);
+    bindCertify(module);
     bindJudge(module);
 }

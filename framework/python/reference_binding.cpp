@@ -18,6 +18,7 @@
 #include "framework/measure/image_file.h"
 #include "framework/params/field.h"
 #include "framework/python/array.h"
+#include "framework/python/progress.h"
 #include "framework/python/scene_source.h"
 #include "framework/python/values.h"
 #include "framework/python/waiting.h"
@@ -42,32 +43,6 @@ std::string asArgument(std::string name) {
     std::replace(name.begin(), name.end(), '-', '_');
     return name;
 }
-
-// Tells a Python function, which may raise and by that end the work.
-class Progress {
-  public:
-    explicit Progress(py::object function) : function_(std::move(function)) {}
-
-    void tell(double share, const std::string& reached) {
-        if (function_.is_none() || hasFailed_) return;
-        const py::gil_scoped_acquire gil;
-        try {
-            function_(share, reached);
-        } catch (py::error_already_set& error) {
-            raised_.emplace(error);
-            hasFailed_ = true;
-        }
-    }
-    [[nodiscard]] bool hasFailed() const { return hasFailed_; }
-    void throwIfFailed() {
-        if (raised_) throw py::error_already_set(*raised_);
-    }
-
-  private:
-    py::object function_;
-    std::optional<py::error_already_set> raised_;
-    std::atomic<bool> hasFailed_{false};
-};
 
 std::shared_ptr<Reference> compute(const py::object& scene, const std::string& base,
                                    const py::object& size, std::optional<double> time,

@@ -150,6 +150,19 @@ def judge(
     classes: int,
     causes: bool,
 ) -> Tuple[Dict[str, Any], str, Array, Array]: ...
+def certify(
+    scene: Any,
+    base: str,
+    size: Any,
+    time: Optional[float],
+    interactions: int,
+    transmission_only: bool,
+    band: float,
+    depth: int,
+    threads: int,
+    image: Any,
+    progress: Optional[Callable[[float, str], Any]],
+) -> Dict[str, Any]: ...
 def export(
     scene: Any, base: str, to: str, out: Union[str, "os.PathLike[str]"], size: Any, photons: int
 ) -> Dict[str, Any]: ...

@@ -166,6 +166,47 @@ def judge(
     return {**found, "text": text, "residual": residual, "where": where}
 
 
+def certify(
+    scene: Scene = "pool",
+    *,
+    size: Size = (800, 600),
+    interactions: int = 1,
+    transmission_only: bool = False,
+    band: float = 0.01,
+    depth: int = 12,
+    time: Optional[float] = None,
+    threads: int = 0,
+    image: Optional[ImageLike] = None,
+    progress: Optional[Callable[[float, str], Any]] = None,
+    base: Union[str, "os.PathLike[str]"] = "",
+) -> Dict[str, Any]:
+    """An interval for the caustic irradiance of every pixel, with a proof, as `kaustik certify` has
+    it: lower, upper and undecided (what of upper may lie in any of many pixels), H x W x 3, W/m2,
+    and its .json's entries, with energy and pixels.
+
+    It is of paths of 1 to so many interactions. Cells are split until their places are sure within
+    band pixels, at most depth times. With an image of the same size, W/m2, there are also verdict
+    (how many pixels are proved wrong) and where (H x W x 3 for a display: blue proved too dark, red
+    too bright, orange too bright for these paths, green undecided). ConfigError for what cannot be
+    certified. progress(share, text) is told now and then; what it raises ends the work.
+    """
+    if isinstance(image, Reference):
+        image = image.irradiance
+    return _kaustik.certify(
+        scene,
+        os.fspath(base),
+        size,
+        time,
+        interactions,
+        transmission_only,
+        band,
+        depth,
+        threads,
+        image,
+        progress,
+    )
+
+
 def export(
     scene: Scene,
     out: Union[str, "os.PathLike[str]"],

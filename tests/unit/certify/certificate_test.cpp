@@ -5,8 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 
+#include "framework/certify/verdict.h"
 #include "framework/core/error.h"
 #include "framework/scene/files/scene_file.h"
 #include "tests/unit/temporary_folder.h"
@@ -108,6 +110,83 @@ TEST(Certificate, FindsATriangleThatIsDropped) {
     const Certificate wrong = certify(stillWater(), smallRequest(), {.droppedFacet = water});
     EXPECT_LT(wrong.totals.deposited.hi, truth.totals.deposited.lo);
     EXPECT_LT(wrong.totals.emitted.hi, truth.totals.emitted.lo);
+}
+
+// The sun from the side: the still water sends light up to the basin's wall, and what it lets
+// through is on the floor and on the same wall.
+const scene::Scene& stillWaterUnderALowSun() {
+    static const scene::Scene scene = [] {
+        scene::Scene loaded = stillWater();
+        loaded.lights[0].direction = glm::normalize(glm::dvec3(0.8, -0.6, 0.0));
+        return loaded;
+    }();
+    return scene;
+}
+
+// A path that is left out: what water reflects, 6 % of the light that meets it here.
+TEST(Certificate, FindsAPathThatIsLeftOut) {
+    const scene::Scene& scene = stillWaterUnderALowSun();
+    const Certificate truth = certify(scene, smallRequest());
+    const Certificate wrong = certify(scene, smallRequest(), {.withoutReflection = true});
+    EXPECT_GT(truth.totals.deposited.lo, wrong.totals.deposited.hi);
+    EXPECT_EQ(truth.totals.emitted.lo, wrong.totals.emitted.lo);
+    // A picture of what is left is proved too dark where the wall is above the water, and nowhere
+    // too bright.
+    Image picture = wrong.lower;
+    for (std::size_t i = 0; i < picture.values.size(); ++i)
+        picture.values[i] = 0.5f * (wrong.lower.values[i] + wrong.upper.values[i]);
+    const Verdict verdict = judge(picture, truth);
+    EXPECT_GT(verdict.below, 10u);
+    EXPECT_LT(verdict.below, verdict.pixels / 4);
+    EXPECT_EQ(verdict.above, 0u);
+}
+
+// Whether all of the pixel is of the wall at x = 2 m, below the water at y = 0.
+bool seesTheWallUnderWater(const scene::Scene& scene, const CertificateRequest& request,
+                           std::size_t pixel) {
+    const Geometry geometry(scene);
+    const EyeView eye(geometry, 1, 1);
+    const glm::dvec3 from = eye.position() + geometry.center();
+    const double perPixel = 2.0 * eye.tangents().y / request.height;
+    for (const std::size_t corner : {0u, 1u, 2u, 3u}) {
+        const auto u = static_cast<double>(pixel % 32 + corner % 2);
+        const auto v = static_cast<double>(pixel / 32 + corner / 2);
+        const glm::dvec3 ray = (u - 0.5 * request.width) * perPixel * eye.right() +
+                               (0.5 * request.height - v) * perPixel * eye.up() - eye.backward();
+        const glm::dvec3 hit = from + (2.0 - from.x) / ray.x * ray;
+        if (!(ray.x > 0.0) || hit.y > -0.01 || hit.y < -1.19 || std::abs(hit.z) > 1.45)
+            return false;
+    }
+    return true;
+}
+
+// Light of one direction brings to a wall its irradiance on the water times the tangent of the
+// refracted angle: light that grazes the wall, too.
+TEST(Certificate, HoldsTheIrradianceOfAWallThatLightGrazes) {
+    for (const double sine : {0.8, 0.01}) {
+        scene::Scene scene = stillWater();
+        const double cosine = std::sqrt(1.0 - sine * sine);
+        scene.lights[0].direction = glm::dvec3(sine, -cosine, 0.0);
+        CertificateRequest request = smallRequest();
+        request.beams.transmissionOnly = true;
+        const Certificate found = certify(scene, request);
+        const double inside = sine / kIndex;
+        const double exit = std::sqrt(1.0 - inside * inside);
+        const double s = (cosine - kIndex * exit) / (cosine + kIndex * exit);
+        const double p = (kIndex * cosine - exit) / (kIndex * cosine + exit);
+        const double wall = 1000.0 * cosine * (1.0 - 0.5 * (s * s + p * p)) * inside / exit;
+        std::size_t ofWall = 0;
+        for (std::size_t i = 0; 3 * i < found.lower.values.size(); ++i) {
+            if (!seesTheWallUnderWater(scene, request, i)) continue;
+            ++ofWall;
+            const auto low = static_cast<double>(found.lower.values[3 * i]);
+            const auto high = static_cast<double>(found.upper.values[3 * i]);
+            EXPECT_LE(low, wall);
+            EXPECT_GE(high, wall);
+            EXPECT_LT(high - low, 0.15 * wall);
+        }
+        EXPECT_GT(ofWall, 8u) << sine;
+    }
 }
 
 TEST(Certificate, OfShardsIsTheWholeBitByBit) {

@@ -7,6 +7,8 @@
 
 #include <random>
 
+#include "tests/unit/certify/double_double.h"
+
 namespace kaustik::certify {
 namespace {
 
@@ -60,6 +62,54 @@ TEST(TaylorModel, HoldsTheFunctionAllOverTheCell) {
             ASSERT_GE(off, model.rest.lo - 1e-14);
             ASSERT_LE(off, model.rest.hi + 1e-14);
             ASSERT_TRUE(model.range().holds(truth));
+        }
+    }
+}
+
+// Without a tolerance: against 106 bits, in cells so small that the rest is what is rounded.
+TEST(TaylorModel, HoldsTheFunctionWhateverIsRounded) {
+    const auto rational = [](const auto& x, const auto& y) {
+        using T = std::decay_t<decltype(x)>;
+        using std::sqrt;
+        const T root = sqrt(x * x + y * y * y + T(2.0));
+        return root * (x - y) + x / (root + y);
+    };
+    std::mt19937_64 generator(9);
+    std::uniform_real_distribution<double> share(0.0, 1.0);
+    for (int i = 0; i < 20000; ++i) {
+        const double size = std::exp2(-60.0 * share(generator));
+        const double cornerX = 3.0 * share(generator) - 1.5;
+        const double cornerY = share(generator);
+        const auto seed = [&](auto& x, auto& y, const Interval& at) {
+            x.value = Interval(cornerX) + Interval(size) * at;
+            y.value = Interval(cornerY) + Interval(size) * at;
+            x.gradient = {Interval(size), Interval(0.0)};
+            y.gradient = {Interval(0.0), Interval(size)};
+        };
+        Jet<false> x;
+        Jet<false> y;
+        seed(x, y, Interval(1.0) / Interval(3.0));
+        Jet<true> wideX;
+        Jet<true> wideY;
+        seed(wideX, wideY, Interval(0.0, 1.0));
+        const TaylorModel model = modelOf(rational(x, y), rational(wideX, wideY));
+        double u = share(generator);
+        double v = share(generator);
+        if (u + v > 1.0) {
+            u = 1.0 - u;
+            v = 1.0 - v;
+        }
+        const DoubleDouble truth =
+            rational(DoubleDouble(cornerX) + DoubleDouble(size) * DoubleDouble(u),
+                     DoubleDouble(cornerY) + DoubleDouble(size) * DoubleDouble(v));
+        // As its users evaluate it, in doubles.
+        const DoubleDouble off = truth - DoubleDouble(model.at(u, v));
+        ASSERT_TRUE(DoubleDouble(model.rest.lo) <= off) << size;
+        ASSERT_TRUE(off <= DoubleDouble(model.rest.hi)) << size;
+        ASSERT_TRUE(DoubleDouble(model.range().lo) <= truth &&
+                    truth <= DoubleDouble(model.range().hi));
+        if (size < 1e-9) {
+            ASSERT_LT(model.rest.width(), 1e-13);
         }
     }
 }
