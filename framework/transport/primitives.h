@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Sums next to the accounts in the ledger's buffer, and in its units; they are in no balance. By what
-// a reconstruction gives pixels light, where it has several ways: parts of what is deposited. And by
-// how much a map holds more, or less, than the flux that was deposited: a pixel that shows several
-// surfaces has the mean of their irradiances over its area, times the area of the one at its middle.
-// C++ and GLSL both read this file.
+// Sums next to the accounts in the ledger's buffer, and in its units; they are in no balance. By
+// what a reconstruction gives pixels light, where it has several ways: parts of what is deposited.
+// And by how much a map holds more, or less, than the flux that was deposited: a pixel that shows
+// several surfaces has the mean of their irradiances over its area, times the area of the one at
+// its middle. C++ and GLSL both read this file.
 #pragma once
 
 #include "framework/transport/types.h"
