@@ -86,14 +86,14 @@ def main() -> int:
     if arguments.csv.exists():
         with arguments.csv.open(newline="", encoding="utf-8") as stream:
             rows = [row for row in csv.DictReader(stream) if row["scene"] not in arguments.scenes]
+    arguments.csv.parent.mkdir(parents=True, exist_ok=True)
     for scene in arguments.scenes:
         rows.append(row_of(scene, arguments.before, arguments.after, arguments.pairs, options) | {"before": commit_of(arguments.before)})
         print(scene, rows[-1].get("ratio") or rows[-1].get("message"), flush=True)
-    arguments.csv.parent.mkdir(parents=True, exist_ok=True)
-    with arguments.csv.open("w", newline="", encoding="utf-8") as stream:
-        writer = csv.DictWriter(stream, COLUMNS, lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(sorted(rows, key=lambda row: row["scene"]))
+        with arguments.csv.open("w", newline="", encoding="utf-8") as stream:
+            writer = csv.DictWriter(stream, COLUMNS, lineterminator="\n")
+            writer.writeheader()
+            writer.writerows(sorted(rows, key=lambda row: row["scene"]))
     return 0
 
 

@@ -5,17 +5,17 @@
 namespace kaustik {
 
 void registerExactRays(Registry& registry) {
-    registry.technique(
-        {"exact_rays",
-         "Photons, the eye's rays and shadows are traced exactly on the device; else "
-         "as screen_space_photons.",
-         "",
-         {{"layers", "auto"},
-          {"trace", "bvh"},
-          {"reconstruct", "triangles"},
-          {"reconstruct.triangles.edges", "samples"},
-          {"shadow", "bvh"},
-          {"view", "bvh"}}});
+    registry.technique({"exact_rays",
+                        "Photons, the eye's rays, shadows and what pixels show where surfaces end "
+                        "are traced exactly "
+                        "on the device; else as screen_space_photons.",
+                        "",
+                        {{"layers", "auto"},
+                         {"trace", "bvh"},
+                         {"reconstruct", "triangles"},
+                         {"reconstruct.triangles.coverage", "samples"},
+                         {"shadow", "bvh"},
+                         {"view", "bvh"}}});
 }
 
 }  // namespace kaustik

@@ -83,6 +83,10 @@ const std::vector<ChannelContent> kDepthAndGrowth = {
     {"depth", "m"}, {"growth along u", "share"}, {"growth along v", "share"}, {"unused", ""}};
 const std::vector<ChannelContent> kDepthAndExtent = {{"depth", "m"}, {"half of its extent", "m"}};
 const std::vector<ChannelContent> kDepthAndArea = {{"depth", "m"}, {"area seen", "m²"}};
+const std::vector<ChannelContent> kDepthAreaAndEdge = {
+    {"depth", "m"}, {"area seen", "m²"}, {"number + 1", ""}, {"unused", ""}};
+const std::vector<ChannelContent> kEdgeSample = {
+    {"depth", "m"}, {"area seen", "m²"}, {"octahedral normal x", ""}, {"octahedral normal y", ""}};
 const std::vector<ChannelContent> kDepthBuffer = {{"depth", ""}};
 const std::vector<ChannelContent> kFlux = {{"flux", "W"}};
 const std::vector<ChannelContent> kNormalChange = {
@@ -165,6 +169,9 @@ const std::vector<Row>& rows() {
         {"", "counts_quarter", "surfaces along the rays of sixteen pixels", single, kSurfaceCounts},
         {"", "heads", "first fragment of a pixel + 1", single, {{"fragment + 1", ""}}},
         {"", "receiver", "first diffuse or glossy surface", single, kDepthAndArea},
+        {"edges", "receiver", "first diffuse or glossy surface, and pixels at edges", single,
+         kDepthAreaAndEdge},
+        {"edges", "samples", "what is seen at four places of pixels at edges", single, kEdgeSample},
         {"view", "map_receiver", "first diffuse or glossy surface", single, kDepthAndArea},
         {"", "receiver_surface", "normals of receivers", vector, xyz("", "material + 1")},
         {"", "receiver_albedo", "reflectance of receivers", color, rgb("", "alpha")},

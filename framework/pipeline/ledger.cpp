@@ -226,7 +226,7 @@ EnergyLedger readLedger(const gl::Buffer& buffer, float quantumWatts) {
         ledger.watts[account] = wattsOf(account);
         ledger.events[account] = entries[account].events;
     }
-    ledger.watts[kAccountDeposited] += wattsOf(kSumLessInMap) - wattsOf(kSumMoreInMap);
+    ledger.watts[kAccountDeposited] += wattsOf(kSumMapDeficit) - wattsOf(kSumMapExcess);
     return ledger;
 }
 

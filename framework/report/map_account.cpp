@@ -42,6 +42,7 @@ struct MapTable {
     std::vector<StoredMap> maps;
     double depositedWatts = 0.0;
     double arrivedWatts = 0.0;
+    double storedWatts = 0.0;             // in the maps
     std::optional<double> filteredWatts;  // none without a filter
     double seenWatts = 0.0;
 };
@@ -55,10 +56,10 @@ void reflect(F& f, const MapTable& table) {
                       part ? "no light was stored" : "no filter has changed the map", sentence);
     };
     ratio("flux_ratio", table.depositedWatts, table.arrivedWatts, "Deposited over arrived flux");
-    ratio("blend_energy_ratio", table.filteredWatts, table.depositedWatts,
-          "What a filter left, over the deposited flux");
-    ratio("seen_ratio", table.seenWatts, table.depositedWatts,
-          "What the picture shows, over the deposited flux");
+    ratio("blend_energy_ratio", table.filteredWatts, table.storedWatts,
+          "What a filter left, over the stored flux");
+    ratio("seen_ratio", table.seenWatts, table.storedWatts,
+          "What the picture shows, over the stored flux");
 }
 
 struct CellTable {
@@ -121,6 +122,15 @@ double seenWatts(const Renderer& renderer) {
     return sum / static_cast<double>(transport::kChannels);
 }
 
+// Of a sum next to the ledger's accounts (framework/transport/primitives.h).
+double wattsOfSum(const Renderer& renderer, unsigned entry) {
+    const auto entries = renderer.buffer(renderer.outputs().ledger).read<transport::LedgerEntry>();
+    if (entry >= entries.size()) return 0.0;
+    const double units = std::ldexp(static_cast<double>(entries[entry].high), 32) +
+                         static_cast<double>(entries[entry].low);
+    return units * static_cast<double>(ledgerQuantum(renderer.scene())) / transport::kChannels;
+}
+
 }  // namespace
 
 json mapAccount(const Renderer& renderer) {
@@ -131,6 +141,8 @@ json mapAccount(const Renderer& renderer) {
     const EnergyLedger ledger = renderer.ledger();
     MapTable table;
     table.depositedWatts = ledger.watts[transport::kAccountDeposited];
+    table.storedWatts = table.depositedWatts + wattsOfSum(renderer, transport::kSumMapExcess) -
+                        wattsOfSum(renderer, transport::kSumMapDeficit);
     table.arrivedWatts = ledger.watts[transport::kAccountArrived];
     const bool isOfGenerators = maps.front().generator >= 0;
     table.space = isOnScreen ? "screen" : isOfGenerators ? "cube" : "light";
@@ -186,15 +198,8 @@ json cellSchema() {
 }
 
 PrimitiveFlux primitiveFlux(const Renderer& renderer) {
-    const auto entries = renderer.buffer(renderer.outputs().ledger).read<transport::LedgerEntry>();
-    const double quantum = static_cast<double>(ledgerQuantum(renderer.scene()));
-    const auto watts = [&](unsigned entry) {
-        if (entry >= entries.size()) return 0.0;
-        const double units = std::ldexp(static_cast<double>(entries[entry].high), 32) +
-                             static_cast<double>(entries[entry].low);
-        return units * quantum / transport::kChannels;
-    };
-    return {watts(transport::kSumTriangles), watts(transport::kSumBeams)};
+    return {wattsOfSum(renderer, transport::kSumTriangles),
+            wattsOfSum(renderer, transport::kSumBeams)};
 }
 
 }  // namespace kaustik::report

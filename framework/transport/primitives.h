@@ -14,8 +14,8 @@ namespace kaustik::transport {
 
 const uint kSumTriangles = kAccountCount;   // between photons that are joined
 const uint kSumBeams = kAccountCount + 1u;  // of photons that are not, by what they cover alone
-const uint kSumMoreInMap = kAccountCount + 2u;
-const uint kSumLessInMap = kAccountCount + 3u;
+const uint kSumMapExcess = kAccountCount + 2u;
+const uint kSumMapDeficit = kAccountCount + 3u;
 const uint kLedgerEntryCount = kAccountCount + 4u;
 
 #ifdef __cplusplus

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // reconstruct.edges: the receivers at four places of a pixel in which a surface ends, on the straight
-// rays of the eye, to which dielectrics are invisible. Where all of them go on from what is seen at its
-// middle the pixel is at no edge. One thread a pixel of the list.
+// rays of the eye, to which dielectrics are invisible. Where all of them are on the surface that is seen
+// at its middle the pixel is at no edge, and where there are more pixels than the list holds none is: which
+// ones it holds is not the same in each frame. One thread a pixel of the list.
 #include "include/surfaces/bvh.glsl"
 #include "include/surfaces/surface_data.glsl"
 #include "include/thread.glsl"
@@ -11,7 +12,7 @@
 
 uniform sampler2D receiver;
 uniform sampler2D receiverSurface;
-layout(r32ui) writeonly uniform uimage2D edgeNumbers;
+layout(rgba32f) writeonly uniform image2D edgeReceiver;
 layout(rgba32f) writeonly uniform image2D edgeSamples;
 
 bool isSurfaceHit(BvhRay ray, uint triangle, vec3 normal, float height) {
@@ -39,20 +40,25 @@ void main() {
     uint number = threadNumber();
     if (number >= min(edges.count, edgeCapacity)) return;
     ivec2 pixel = ivec2(edgePixels[number] & 0xffffu, edgePixels[number] >> 16u);
-    float depth = texelFetch(receiver, pixel, 0).x;
+    vec2 here = texelFetch(receiver, pixel, 0).xy;
+    float depth = here.x;
     vec3 normal = texelFetch(receiverSurface, pixel, 0).xyz;
     vec2 middle = vec2(pixel) + 0.5;
     vec3 point = viewPoint(middle, depth);
     float margin = depthMargin(viewRay(middle), depth, normal);
+    if (edges.count > edgeCapacity) {
+        imageStore(edgeReceiver, pixel, vec4(here, 0.0, 0.0));
+        return;
+    }
     bool isOne = true;
     for (int i = 0; i < kEdgeSamples; ++i) {
         vec2 place = vec2(pixel) + edgePlace(i);
         vec4 seen = receiverSeenAt(place);
         isOne = isOne &&
-                (depth > 0.0 ? goesOn(point, normal, margin, place, seen.x,
+                (depth > 0.0 ? continuesPlane(point, normal, margin, place, seen.x,
                                       unpackUnitVector(seen.zw))
                              : seen.x <= 0.0);
         imageStore(edgeSamples, edgeTexel(number, i), seen);
     }
-    if (isOne) imageStore(edgeNumbers, pixel, uvec4(0u));
+    if (isOne) imageStore(edgeReceiver, pixel, vec4(here, 0.0, 0.0));
 }

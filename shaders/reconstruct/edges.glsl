@@ -14,11 +14,14 @@ uniform uint edgeCapacity;
 const float kMinSameCosine = 0.9;
 
 // Whether a receiver that is seen at a place in the view, px, at this depth, m, not of a mirror, and
-// with this unit normal goes on from a plane through a point, as far as pixels tell. `margin`: of what
-// the plane was seen by, m.
-bool goesOn(vec3 point, vec3 normal, float margin, vec2 place, float depth, vec3 seenNormal) {
+// with this unit normal lies on a plane through a point, as far as pixels tell. `margin`: of what the
+// plane was seen by, m.
+bool continuesPlane(vec3 point, vec3 normal, float margin, vec2 place, float depth,
+                    vec3 seenNormal) {
     if (depth <= 0.0 || dot(seenNormal, normal) < kMinSameCosine) return false;
     vec3 ray = viewRay(place);
-    float onPlane = abs(dot(normal, point)) / max(abs(dot(normal, ray)), 1e-4);
+    float facing = dot(normal, ray);
+    if (abs(facing) < 1e-4) facing = facing < 0.0 ? -1e-4 : 1e-4;
+    float onPlane = dot(normal, point) / facing;
     return abs(depth - onPlane) <= margin + depthMargin(ray, depth, seenNormal);
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // reconstruct.edges: which pixels of the eye's view have to be looked at more closely: those one of
-// whose eight neighbours sees a receiver that does not go on from what they see, or the other way
-// round. A thing so thin that it lies between the middles of all of them is not found. One thread a
+// whose eight neighbours sees another surface than they do, or a receiver where they see none. A thing so thin that it lies between the middles of all of them is not found. One thread a
 // pixel.
 #include "reconstruct/edges.glsl"
 
@@ -9,7 +8,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 uniform sampler2D receiver;
 uniform sampler2D receiverSurface;
-layout(r32ui) writeonly uniform uimage2D edgeNumbers;
+layout(rgba32f) writeonly uniform image2D edgeReceiver;
 
 bool isAtEdge(ivec2 pixel) {
     float depth = texelFetch(receiver, pixel, 0).x;
@@ -25,7 +24,7 @@ bool isAtEdge(ivec2 pixel) {
         float seen = texelFetch(receiver, neighbour, 0).x;
         if (depth <= 0.0) {
             if (seen > 0.0) return true;
-        } else if (!goesOn(point, normal, margin, vec2(neighbour) + 0.5, seen,
+        } else if (!continuesPlane(point, normal, margin, vec2(neighbour) + 0.5, seen,
                            texelFetch(receiverSurface, neighbour, 0).xyz)) {
             return true;
         }
@@ -39,8 +38,10 @@ void main() {
     uint number = 0u;
     if (isAtEdge(pixel)) {
         uint place = atomicAdd(edges.count, 1u);
-        edgePixels[place] = uint(pixel.x) | uint(pixel.y) << 16u;
-        if (place < edgeCapacity) number = place + 1u;
+        if (place < edgeCapacity) {
+            edgePixels[place] = uint(pixel.x) | uint(pixel.y) << 16u;
+            number = place + 1u;
+        }
     }
-    imageStore(edgeNumbers, pixel, uvec4(number));
+    imageStore(edgeReceiver, pixel, vec4(texelFetch(receiver, pixel, 0).xy, float(number), 0.0));
 }

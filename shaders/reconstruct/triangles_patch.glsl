@@ -6,6 +6,8 @@
 #include "include/maps/coverage.glsl"
 #include "include/photons/beam.glsl"
 #include "include/photons/ledger.glsl"
+#include "include/views/edge_places.glsl"
+#include "include/views/octahedral.glsl"
 #include "include/views/seen_receiver.glsl"
 
 // How the surface lies, and from where light comes to it.
@@ -96,7 +98,6 @@ struct PatchOnScreen {
     bool isWhole;  // none of it is next to the view
     float tolerance;
     PatchSide side;
-    bool isJoined;
 };
 
 PatchOnScreen onScreen(Patch whole) {
@@ -120,7 +121,6 @@ PatchOnScreen onScreen(Patch whole) {
                                 vec3(q[0], q[2], q[3]), 1.0 - whole.first, base);
     made.tolerance = whole.tolerance;
     made.side = whole.side;
-    made.isJoined = whole.isJoined;
     return made;
 }
 
@@ -188,12 +188,16 @@ float litShare(vec3 seenNormal, vec3 plane, bool isShaded, PatchSide side) {
     return isShaded ? 1.0 : (cosine + least) / (slant + least);
 }
 
+// What the area of the middle's receiver may be of another's in its pixel: a surface that is seen
+// edge-on has no end of it.
+const float kMaxStored = 100.0;
+
 // By the receiver at a place in a pixel, `seen` and `seenNormal`, which stands for `share` of it.
-// `endsBefore`: the patch lies next to that place, so that where another surface is seen there and
+// `isAway`: the patch lies next to that place, so that where another surface is seen there and
 // nothing nearer, its own has ended in between, and all that lies in the pixel is seen. `storedArea`: of the receiver at its middle, m²; 0: the pixel stands for none, and what falls on this
 // one is not seen.
 void addSeen(inout PlanePixel pixel, vec2 place, vec2 seen, vec3 seenNormal, vec3 plane, vec3 point,
-             bool isShaded, PatchSide side, float tolerance, bool endsBefore, float share,
+             bool isShaded, PatchSide side, float tolerance, bool isAway, float share,
              float storedArea) {
     vec3 ray = viewRay(place);
     float facing = boundedSlant(dot(plane, ray), 1e-4);
@@ -204,8 +208,7 @@ void addSeen(inout PlanePixel pixel, vec2 place, vec2 seen, vec3 seenNormal, vec
     float area;
     int where = seenOf(seen, seenNormal, depth, side.normal, tolerance + margin, area);
     if (where != kSeenOn) area = pixelArea(ray, depth, plane);
-    bool facesEye = dot(side.normal, ray) < 0.0 == dot(side.normal, side.direction) < 0.0;
-    if (where == kSeenOutside && endsBefore && facesEye) {
+    if (where == kSeenOutside && isAway && seesLitSide(ray, side.normal, side.direction)) {
         where = kSeenOn;
         seenNormal = side.normal;
     }
@@ -218,7 +221,7 @@ void addSeen(inout PlanePixel pixel, vec2 place, vec2 seen, vec3 seenNormal, vec
         } else {
             pixel.occluded += lit * area;
         }
-        pixel.stored += lit * storedArea;
+        pixel.stored += lit * min(storedArea, kMaxStored * area);
     }
 }
 
@@ -231,15 +234,12 @@ struct PixelParts {
 };
 
 #ifdef EDGE_SAMPLES
-#include "include/views/edge_places.glsl"
-#include "include/views/octahedral.glsl"
-uniform usampler2D edgeNumbers;
 uniform sampler2D edgeSamples;
 #endif
 
 PixelParts partsOf(ivec2 pixel) {
 #ifdef EDGE_SAMPLES
-    uint number = texelFetch(edgeNumbers, pixel, 0).x;
+    uint number = uint(texelFetch(edgeReceiver, pixel, 0).z);
     if (number > 0u) return PixelParts(kEdgeSamples, 0.5, number);
 #endif
     return PixelParts(1, 1.0, 0u);
@@ -281,7 +281,7 @@ PlanePixel seenOnPlane(ivec2 pixel, vec3 plane, vec3 point, bool isShaded, Patch
     return made;
 }
 
-bool holds(PatchTriangle triangle, vec2 place) {
+bool contains(PatchTriangle triangle, vec2 place) {
     return all(greaterThanEqual(triangle.weights * vec3(place, 1.0), vec3(0.0)));
 }
 
@@ -305,8 +305,8 @@ float partOf(PatchTriangle triangle, vec2 corner, float side) {
     return covered * triangle.perArea * dot(weights, triangle.densities);
 }
 
-bool endsBefore(PatchOnScreen onto, PixelParts parts, vec2 place) {
-    return parts.number > 0u && !holds(onto.first, place) && !holds(onto.second, place);
+bool isAwayFrom(PatchOnScreen onto, PixelParts parts, vec2 place) {
+    return parts.number > 0u && !contains(onto.first, place) && !contains(onto.second, place);
 }
 
 // The shares of a patch that a pixel has.
@@ -327,7 +327,7 @@ PlanePixel patchAt(PatchOnScreen onto, ivec2 pixel) {
                 isFirst ? onto.first.plane : onto.second.plane,
                 isFirst ? onto.first.middle : onto.second.middle,
                 isFirst ? onto.first.isShaded : onto.second.isShaded, onto.side, onto.tolerance,
-                endsBefore(onto, parts, vec2(pixel - onto.base) + place), (first + second) * parts.side * parts.side, area);
+                isAwayFrom(onto, parts, vec2(pixel - onto.base) + place), (first + second) * parts.side * parts.side, area);
     }
     return made;
 }

@@ -10,9 +10,10 @@ void bookDeposit(Patch whole, vec3 flux) {
 }
 
 // By which share of a patch's flux the map has more than what was deposited.
-void bookMore(Patch whole, float share) {
+void bookMapExcess(Patch whole, float share) {
 #ifdef EDGE_SAMPLES
-    if (share != 0.0) ledgerAdd(share > 0.0 ? kSumMoreInMap : kSumLessInMap, whole.flux * abs(share));
+    uint sum = share > 0.0 ? kSumMapExcess : kSumMapDeficit;
+    if (share != 0.0) ledgerAdd(sum, whole.flux * abs(share));
 #endif
 }
 
@@ -95,16 +96,16 @@ void depositNear(Patch whole) {
         stored[i] = seen.stored / seen.lit;
         sum += nearness[i];
     }
-    float more = 0.0;
+    float excess = 0.0;
     for (int i = 0; i < 9; ++i) {
         ivec2 pixel = ivec2(floor(at)) + ivec2(i % 3, i / 3) - 1;
         if (!(nearness[i] > 0.0)) continue;
         float share = nearness[i] / sum;
         deposit(whole, pixel, stored[i] * share);
-        more += (stored[i] - 1.0) * share;
+        excess += (stored[i] - 1.0) * share;
     }
     if (sum > 0.0) {
-        bookMore(whole, more);
+        bookMapExcess(whole, excess);
         bookDeposit(whole, whole.flux);
         return;
     }
@@ -116,15 +117,15 @@ void depositNear(Patch whole) {
 // that add up to `total`.
 void depositParts(Patch whole, PatchOnScreen onto, int first, int step, float total) {
     PatchLines lines = linesOf(onto);
-    float more = 0.0;
+    float excess = 0.0;
     for (int line = lines.low.y + first; line <= lines.high.y; line += step) {
         ivec2 span = spanOf(lines, line);
         for (int place = span.x; place <= span.y; ++place) {
             ivec2 pixel = pixelOnLine(lines, line, place);
             PlanePixel part = patchAt(onto, pixel);
             if (part.stored > 0.0) deposit(whole, pixel, part.stored / total);
-            more += part.stored - part.lit;
+            excess += part.stored - part.lit;
         }
     }
-    bookMore(whole, more / total);
+    bookMapExcess(whole, excess / total);
 }

@@ -11,14 +11,13 @@
 #include <optional>
 
 #include "framework/gl/executor.h"
+#include "framework/transport/edges.h"
 #include "techniques/thread_lists/thread_list.h"
 #include "techniques/tracing/bvh_rays.h"
 
 namespace kaustik {
 namespace {
 
-// Pixels at an edge in a row of the samples' texture.
-constexpr int kPixelsOfRow = 256;
 // One of so many pixels may be at an edge.
 constexpr int kPixelsPerEdge = 4;
 
@@ -32,6 +31,7 @@ EdgeSamples makeEdgeSamples(FrameBuilder& frame, const Geometry& geometry,
     const FrameBuilder::PassScope shared(frame);
     const BvhOfFrame bvh = bvhOfFrame(frame, geometry);
     const int pixels = frame.width() * frame.height();
+    constexpr int kPixelsOfRow = transport::kEdgePixelsOfRow;
     const int rows = std::max((pixels / kPixelsPerEdge + kPixelsOfRow - 1) / kPixelsOfRow, 1);
     const int capacity = rows * kPixelsOfRow;
     const EdgePass& made = frame.pass<EdgePass>(
@@ -40,18 +40,19 @@ EdgeSamples makeEdgeSamples(FrameBuilder& frame, const Geometry& geometry,
             setup.sample("receiver", eye.receiver);
             setup.sample("receiverSurface", eye.receiverSurface);
             bvh.read(setup);
-            data.edges.numbers = setup.image(
-                "edgeNumbers",
-                setup.create<EdgeNumber>("edges.numbers", frame.width(), frame.height()));
+            data.edges.receiver = setup.image(
+                "edgeReceiver",
+                setup.create<EdgeReceiver>("edges.receiver", frame.width(), frame.height()));
             data.edges.samples = setup.image(
-                "edgeSamples",
-                setup.create<EdgeSample>("edges.samples", kPixelsOfRow * kEdgeSamples, rows));
-            setup.bypass(data.edges.numbers, {0, 0, 0, 0});
+                "edgeSamples", setup.create<EdgeSample>(
+                                   "edges.samples", kPixelsOfRow * transport::kEdgeSamples, rows));
+            setup.bypass(data.edges.receiver, {0, 0, 0, 0});
             setup.bypass(data.edges.samples, {0, 0, 0, 0});
             data.pixels = ThreadList::create(setup, "EdgePixels", "edges.pixels",
-                                             static_cast<std::size_t>(pixels));
+                                             static_cast<std::size_t>(capacity));
         },
         [&inputs = frame.inputs(), bvh, capacity](const EdgePass& pass, gl::PassContext& context) {
+            context.texture(pass.edges.samples).clear({0, 0, 0, 0});
             pass.pixels.clear(context);
             context.compute("reconstruct/edges_list.comp")
                 .set("edgeCapacity", static_cast<unsigned>(capacity))
@@ -68,11 +69,13 @@ EdgeSamples makeEdgeSamples(FrameBuilder& frame, const Geometry& geometry,
           capacity](const gl::Executor& executor) -> std::optional<ReachedLimit> {
              const std::uint32_t found = executor.buffer(list).read<std::uint32_t>().front();
              if (found <= static_cast<std::uint32_t>(capacity)) return {};
-             return ReachedLimit{.parameter = "reconstruct.triangles.edges",
+             return ReachedLimit{.parameter = "reconstruct.triangles.coverage",
                                  .unit = "pixels",
                                  .value = static_cast<double>(capacity),
                                  .needed = static_cast<double>(found),
-                                 .sentence = "the others show what is at their middles"};
+                                 .sentence = "all show what is at their middles",
+                                 .counted = "pixels see a surface end, too many to be kept",
+                                 .count = found};
          }});
     return made.edges;
 }

@@ -8,22 +8,21 @@
 
 namespace kaustik {
 
-struct EdgeNumber {  // x: the pixel's number among those at an edge + 1; 0: it is none
-    static constexpr graph::Format format = graph::Format::r32ui;
+struct EdgeReceiver {  // xy: as ReceiverTexel; z: the pixel's number among those at an edge + 1; 0:
+                       // it is at none
+    static constexpr graph::Format format = graph::Format::rgba32f;
 };
 struct EdgeSample {  // x: view depth in m, negative of a mirror, 0 none; y: area that the pixel
                      // would see of that surface, m²; zw: its outward shading normal, octahedral
     static constexpr graph::Format format = graph::Format::rgba32f;
 };
 
-// Places a pixel: the middles of its quarters.
-inline constexpr int kEdgeSamples = 4;
-
 struct EdgeSamples {
-    graph::Texture<EdgeNumber> numbers;  // as large as the picture
-    // Four a pixel, in the order of their numbers, in rows.
+    graph::Texture<EdgeReceiver> receiver;  // as large as the picture
+    // kEdgeSamples a pixel, in the order of their numbers, in rows
+    // (include/views/edge_places.glsl).
     graph::Texture<EdgeSample> samples;
-    [[nodiscard]] bool valid() const { return numbers.valid(); }
+    [[nodiscard]] bool valid() const { return receiver.valid(); }
 };
 
 // Of the eye's receivers; made once a frame.

@@ -65,8 +65,18 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Geometr
     const FluxSets sets = setsIn(frame, store);
     const bool isGlossy = sets.hasIntensity();
     EdgeSamples edges;
-    if (params.edges == Edges::samples && store.isEyeView())
-        edges = edgeSamplesOf(frame, geometry, store.receivers);
+    if (params.coverage == Coverage::samples && store.isEyeView()) {
+        // OpenGL grants a shader no more than sixteen textures.
+        const bool hasRoom =
+            !hits.incoming.hasLightSpread() || !(isGlossy || hits.incoming.extents.valid());
+        if (hasRoom) {
+            edges = edgeSamplesOf(frame, geometry, store.receivers);
+        } else {
+            frame.warn(
+                "reconstruct.triangles.coverage: where light of a lamp's size falls on glossy "
+                "receivers, or photons are refined, pixels show what is at their middles.");
+        }
+    }
     struct Data {
         Stored stored;
         graph::Buffer<std::uint32_t> photonOfCell;
@@ -93,7 +103,7 @@ Stored coverIn(FrameBuilder& frame, const TrianglesParams& wanted, const Geometr
                 setup.define("CELL_EXTENTS");
             }
             if (edges.valid()) {
-                setup.sample("edgeNumbers", edges.numbers);
+                setup.sample("edgeReceiver", edges.receiver);
                 setup.sample("edgeSamples", edges.samples);
                 setup.define("EDGE_SAMPLES");
             }
@@ -216,7 +226,8 @@ void registerReconstructTriangles(Registry& registry) {
          "It joins photons of neighbouring cells: an emitter without neighbours leaves each photon "
          "its own beam. Cells wider than reconstruct.triangles.maximum are not joined, and what "
          "lies between four photons is taken to change evenly. What a light's size spreads over "
-         "a crease is brought to the surface beyond it on the screen alone, not in maps."},
+         "a crease is brought to the surface beyond it on the screen alone, not in maps. Where a "
+         "pixel shows several surfaces all of them reflect as the one at its middle."},
         {.beams = true, .widensByLights = &widensByLights, .joinsCells = true}, &coverTriangles);
 }
 

@@ -14,9 +14,9 @@ namespace kaustik {
 enum class TriangleShading : int { smooth, flat, vertices };
 enum class Unjoined : int { beams, discard };
 enum class LightSize : int { points, widened };
-enum class Edges : int { middle, samples };
+enum class Coverage : int { middle, samples };
 
-inline std::string whyEdgesAreNotSampled(const FrameFacts& facts) {
+inline std::string whyCoverageIsNotSampled(const FrameFacts& facts) {
     return facts.settings.get<ReconstructParams>(ReconstructStage::name).space == StoreSpace::screen
                ? ""
                : "light is not stored on the screen";
@@ -36,7 +36,7 @@ struct TrianglesParams {
     Unjoined unjoined = Unjoined::beams;
     float merge = 0.0f;
     LightSize lightSize = LightSize::points;
-    Edges edges = Edges::middle;
+    Coverage coverage = Coverage::middle;
     template <class R>
     void reflect(R& r) {
         const auto whyNotJoined = [](const FrameFacts& facts) { return facts.whyNoNeighbours(); };
@@ -77,11 +77,11 @@ struct TrianglesParams {
                            : "no light of the scene has a size";
             })
             .when(&whyTrianglesAreNotWidened);
-        r.choice(edges, "edges",
+        r.choice(coverage, "coverage",
                  "What tells which surfaces a pixel shows where one ends. middle: the one at its "
                  "middle; samples: those at four places in it, by exact rays of the eye",
                  {"middle", "samples"})
-            .when(&whyEdgesAreNotSampled);
+            .when(&whyCoverageIsNotSampled);
     }
 };
 

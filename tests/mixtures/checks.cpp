@@ -70,6 +70,10 @@ Verdict stored(const Rendered& rendered) {
     const double deposited = shot.ledger.watts[transport::kAccountDeposited];
     if (deposited <= 0.0) return {false};
     const params::ParamSet params = paramsOf(rendered.mixture);
+    // A pixel that shows several surfaces has their mean irradiance, and not all of their flux.
+    if (params.choice(ReconstructStage::name) == "triangles" &&
+        params.choice("reconstruct.triangles.coverage") == "samples")
+        return {false};
     const std::string filter = params.choice(FilterStage::name);
     if (shot.filteredWatts) {
         const double ratio = *shot.filteredWatts / deposited;

@@ -204,7 +204,8 @@ class Lifetime(TestCase):
             "explain", "ring", "--size", "64x48", "--set", "emit.photons=32x32",
             "--technique", "screen_space_photons",
             "--set", "shadow.map.size=64")  # fmt: skip
-        self.assertEqual(r.explain(), said.stdout)
+        # The command goes on with what the device lacks.
+        self.assertTrue(said.stdout.startswith(r.explain()))
         self.assertEqual(r.needs()["depth_complexity"], 5)
         states = {entry["name"]: entry["state"] for entry in r.passes()}
         self.assertEqual(states["trace.hierarchical"], "runs")

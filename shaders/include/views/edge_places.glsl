@@ -2,8 +2,7 @@
 // Where in a pixel at an edge the receivers are known that it shows
 // (techniques/reconstruct/edge_samples.h), and where that is kept.
 
-const int kEdgeSamples = 4;
-const uint kEdgePixelsOfRow = 256u;
+#include "framework/transport/edges.h"
 
 // One in each of the pixel's quarters, from its corner: so that no two lie in one of four rows or
 // columns, since an edge along these would show in all places of a side at once.
@@ -14,6 +13,6 @@ vec2 edgePlace(int sampled) {
 
 // `number`: of the pixel, from 0 on.
 ivec2 edgeTexel(uint number, int sampled) {
-    return ivec2(int(number % kEdgePixelsOfRow) * kEdgeSamples + sampled,
-                 int(number / kEdgePixelsOfRow));
+    return ivec2(int(number) % kEdgePixelsOfRow * kEdgeSamples + sampled,
+                 int(number) / kEdgePixelsOfRow);
 }

@@ -11,10 +11,15 @@ uniform sampler2DArray receiverSurface;
 uniform sampler2D receiver;
 uniform sampler2D receiverSurface;
 #endif
+#ifdef EDGE_SAMPLES
+uniform sampler2D edgeReceiver;  // xy: the same; z: the pixel's number among those at an edge + 1
+#endif
 
 vec2 receiverAt(ivec2 pixel) {
 #ifdef MANY_VIEWS
     return texelFetch(receiver, ivec3(pixel, viewIndex), 0).xy;
+#elif defined(EDGE_SAMPLES)
+    return texelFetch(edgeReceiver, pixel, 0).xy;
 #else
     return texelFetch(receiver, pixel, 0).xy;
 #endif

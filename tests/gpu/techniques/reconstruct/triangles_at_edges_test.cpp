@@ -90,7 +90,7 @@ std::optional<BoxHit> hitBox(const glm::dvec3& origin, const glm::dvec3& directi
 }
 
 struct Seen {
-    int surface = -1;  // 0: floor; 1 to 6: faces of the box
+    int surface = -1;  // 0: floor; 1 to 3: a face of the box, by axis
     double irradiance = 0.0;
 };
 
@@ -117,7 +117,7 @@ struct Errors {
 
 Errors errorsWith(const std::string& edges) {
     const Frame frame(boxUnderAir(), kWidth, kHeight,
-                      {{"emit.photons", "512x512"}, {"reconstruct.triangles.edges", edges}}, {},
+                      {{"emit.photons", "512x512"}, {"reconstruct.triangles.coverage", edges}}, {},
                       false, "exact_rays");
     const Texels irradiance = frame.causticIrradiance();
     const Texels receiver = frame.read("eye.receiver");
