@@ -168,10 +168,10 @@ const std::vector<Row>& rows() {
         {"", "counts_half", "surfaces along the rays of four pixels", single, kSurfaceCounts},
         {"", "counts_quarter", "surfaces along the rays of sixteen pixels", single, kSurfaceCounts},
         {"", "heads", "first fragment of a pixel + 1", single, {{"fragment + 1", ""}}},
-        {"", "receiver", "first diffuse or glossy surface", single, kDepthAndArea},
         {"edges", "receiver", "first diffuse or glossy surface, and pixels at edges", single,
          kDepthAreaAndEdge},
         {"edges", "samples", "what is seen at four places of pixels at edges", single, kEdgeSample},
+        {"", "receiver", "first diffuse or glossy surface", single, kDepthAndArea},
         {"view", "map_receiver", "first diffuse or glossy surface", single, kDepthAndArea},
         {"", "receiver_surface", "normals of receivers", vector, xyz("", "material + 1")},
         {"", "receiver_albedo", "reflectance of receivers", color, rgb("", "alpha")},
@@ -235,6 +235,7 @@ TextureSpace spaceOf(const PlainName& name) {
     if (isOf({"photons", "hits"})) return list;
     if (isOf({"around", "generator"}) || name.leaf.starts_with("map_")) return cube;
     if (isOf({"light", "deferred", "emit", "ledger"})) return light;
+    if (name.room == "edges") return name.leaf == "receiver" ? eye : other;
     if (name.room == "shadow") return name.leaf == "visibility" ? eye : light;
     if (name.room == "trace") return name.leaf.starts_with("rows") ? other : light;
     if (isOf({"eye", "layers", "direct", "compose", "view", "display", "temporal", "media",
