@@ -111,7 +111,7 @@ const ErrorMeasure& chooseMeasure(Bench& bench, const std::string& panel) {
     for (const ErrorMeasure& measure : kErrorMeasures)
         names.emplace_back(measure.label);
     int& chosen = bench.panels.tradeOffMeasure;
-    ImGui::SetNextItemWidth(static_cast<float>(bench.px(100.0)));
+    ImGui::SetNextItemWidth(static_cast<float>(bench.px(140.0)));
     static_cast<void>(choose(bench, "of caustic irradiance", names, chosen, panel + ".measure"));
     return kErrorMeasures[static_cast<std::size_t>(chosen)];
 }
