@@ -180,7 +180,7 @@ template <class F>
 void reflect(F& f, const EnergyTable& table) {
     const auto& watts = table.ledger.watts;
     f.field("emitted_w", watts[kAccountEmitted], "Flux at the first specular surface");
-    f.field("deposited_w", watts[kAccountDeposited], "Sum over the map of flux");
+    f.field("deposited_w", watts[kAccountDeposited], "Flux that was stored in the map");
     f.field("absorbed_w", watts[kAccountAbsorbed], "In bodies, in the medium and at mirrors");
     f.field("left_scene_w", watts[kAccountLeftScene], "That hits nothing");
     f.field("lost_w", LossTable{table.ledger}, "By cause");
