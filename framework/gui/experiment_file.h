@@ -13,7 +13,7 @@
 
 namespace kaustik::gui {
 
-// What an experiment has besides the document.
+// What an experiment has next to the document.
 struct ExperimentTerms {
     int frames = 8;  // timed, after one that is not
     bool isPrecise = false;

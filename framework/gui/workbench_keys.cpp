@@ -65,7 +65,7 @@ void Workbench::useKey(const Window::KeyPress& press) {
         panels.isLeftOpen = !panels.isLeftOpen;
         if (panels.leftTabs.empty()) {
             bench_.notify(
-                "There is no panel to the left; the arrow beside their names moves one there.",
+                "There is no panel to the left; the arrow next to their names moves one there.",
                 false, [](const Bench& bench) { return !bench.panels.leftTabs.empty(); });
         }
     }

@@ -145,7 +145,7 @@ class Session {
 
     // Of a run that the device has left, lost or out of memory, what is known by now, as a run of
     // its own in the folder `unfinished` of `folder`: the report of the frames that were timed.
-    // Gives the error with where that is and what it lacks: `alsoMissing` besides what finish()
+    // Gives the error with where that is and what it lacks: `alsoMissing` next to what finish()
     // adds. Other errors, and those before a frame was timed, keep nothing.
     [[nodiscard]] DeviceError keepUnfinished(
         const DeviceError& error, const std::filesystem::path& folder,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // reconstruct.edges: which pixels of the eye's view have to be looked at more closely: those one of
-// whose eight neighbours sees another surface than they do, or a receiver where they see none. A thing so thin that it lies between the middles of all of them is not found. One thread a
-// pixel.
+// whose eight neighbours sees another surface than they do, or a receiver where they see none. A
+// thing so thin that it lies between the middles of all of them is not found. One thread a pixel.
 #include "reconstruct/edges.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;

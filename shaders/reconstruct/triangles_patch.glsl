@@ -194,8 +194,9 @@ const float kMaxStored = 100.0;
 
 // By the receiver at a place in a pixel, `seen` and `seenNormal`, which stands for `share` of it.
 // `isAway`: the patch lies next to that place, so that where another surface is seen there and
-// nothing nearer, its own has ended in between, and all that lies in the pixel is seen. `storedArea`: of the receiver at its middle, m²; 0: the pixel stands for none, and what falls on this
-// one is not seen.
+// nothing nearer, its own has ended in between, and all that lies in the pixel is seen.
+// `storedArea`: of the receiver at its middle, m²; 0: the pixel stands for none, and what falls on
+// this one is not seen.
 void addSeen(inout PlanePixel pixel, vec2 place, vec2 seen, vec3 seenNormal, vec3 plane, vec3 point,
              bool isShaded, PatchSide side, float tolerance, bool isAway, float share,
              float storedArea) {
@@ -275,8 +276,8 @@ PlanePixel seenOnPlane(ivec2 pixel, vec3 plane, vec3 point, bool isShaded, Patch
         vec2 place;
         vec3 normal;
         vec2 seen = receiverOfPart(pixel, parts, i, place, normal);
-        addSeen(made, vec2(pixel) + place, seen, normal, plane, point,
-                 isShaded, side, tolerance, false, parts.side * parts.side, area);
+        addSeen(made, vec2(pixel) + place, seen, normal, plane, point, isShaded, side, tolerance,
+                false, parts.side * parts.side, area);
     }
     return made;
 }
@@ -327,7 +328,8 @@ PlanePixel patchAt(PatchOnScreen onto, ivec2 pixel) {
                 isFirst ? onto.first.plane : onto.second.plane,
                 isFirst ? onto.first.middle : onto.second.middle,
                 isFirst ? onto.first.isShaded : onto.second.isShaded, onto.side, onto.tolerance,
-                isAwayFrom(onto, parts, vec2(pixel - onto.base) + place), (first + second) * parts.side * parts.side, area);
+                isAwayFrom(onto, parts, vec2(pixel - onto.base) + place),
+                (first + second) * parts.side * parts.side, area);
     }
     return made;
 }

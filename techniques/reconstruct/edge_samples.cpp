@@ -3,8 +3,6 @@
 // In: eye buffer; out: a receiver by place, view space, m and m².
 #include "techniques/reconstruct/edge_samples.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <memory>
@@ -46,8 +44,7 @@ EdgeSamples makeEdgeSamples(FrameBuilder& frame, const Geometry& geometry,
             data.edges.samples = setup.image(
                 "edgeSamples", setup.create<EdgeSample>(
                                    "edges.samples", kPixelsOfRow * transport::kEdgeSamples, rows));
-            setup.bypass(data.edges.receiver, {0, 0, 0, 0});
-            setup.bypass(data.edges.samples, {0, 0, 0, 0});
+            // Nothing stands in for these: reconstruct.triangles.coverage=middle goes without.
             data.pixels = ThreadList::create(setup, "EdgePixels", "edges.pixels",
                                              static_cast<std::size_t>(capacity));
         },

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Where in a pixel at an edge the receivers are known that it shows
 // (techniques/reconstruct/edge_samples.h), and where that is kept.
-
 #include "framework/transport/edges.h"
 
 // One in each of the pixel's quarters, from its corner: so that no two lie in one of four rows or

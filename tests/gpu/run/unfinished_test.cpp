@@ -174,7 +174,7 @@ TEST_F(Unfinished, AtEveryMomentOfARun) {
               (std::set<std::string>{"without ledger and pictures", "without pictures"}));
 }
 
-TEST_F(Unfinished, AtEveryMomentOfARunThatIsJudged) {
+TEST_F(Unfinished, AtEveryCheckOfARunWithAReference) {
     if (!context().info().robust) GTEST_SKIP() << "this driver does not tell";
     if (lacksExactTracer()) GTEST_SKIP() << "this build has no reference";
     EXPECT_EQ(loseEverywhere("auto"),

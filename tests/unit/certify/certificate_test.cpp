@@ -124,7 +124,7 @@ const scene::Scene& stillWaterUnderALowSun() {
 }
 
 // A path that is left out: what water reflects, 6 % of the light that meets it here.
-TEST(Certificate, FindsAPathThatIsLeftOut) {
+TEST(Certificate, FindsAMissingReflection) {
     const scene::Scene& scene = stillWaterUnderALowSun();
     const Certificate truth = certify(scene, smallRequest());
     const Certificate wrong = certify(scene, smallRequest(), {.withoutReflection = true});

@@ -3,12 +3,17 @@
 // shines on a box over a floor. What a pixel has to show is the mean over its area of the sun's
 // irradiance by the cosine on each face and on the floor, and of none in the box's shadow: by rays
 // through many places of each pixel, against the box in closed form.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string>
+#include <vector>
 
+#include "framework/transport/types.h"
 #include "tests/gpu/fixture.h"
 
 namespace kaustik::test {
@@ -179,6 +184,68 @@ TEST(TrianglesAtEdges, ShowTheMeanOfWhatIsSeenThere) {
     EXPECT_NEAR(samples.energy, 1.0, 0.02);
     // The flux of what the edge's pixels did not show was on the pixels next to them.
     EXPECT_LT(samples.elsewhere, 0.5 * middle.elsewhere);
+}
+
+TEST(TrianglesAtEdges, KeepTheLedgerClosed) {
+    const Frame frame(boxUnderAir(), kWidth, kHeight, {{"emit.photons", "256x256"}}, {}, false,
+                      "exact_rays");
+    const EnergyLedger ledger = frame.renderer().ledger();
+    EXPECT_GT(ledger.watts[transport::kAccountDeposited], 0.0);
+    EXPECT_LT(std::abs(ledger.balance()), 1e-6);
+}
+
+// So many small boxes that nearly every pixel sees two of their faces: more than there is room for.
+TEST(TrianglesAtEdges, ShowTheirMiddlesWhereTheyAreTooMany) {
+    std::string text = R"(
+name = "many boxes"
+[camera]
+position = [0.0, 2.0, 1.2]
+target = [0, 0, 0]
+vertical_fov_degrees = 40
+[[light]]
+name = "sun"
+type = "directional"
+irradiance = 100
+direction = [-0.35, -0.9, -0.2]
+[[material]]
+name = "grey"
+type = "lambertian"
+albedo = 0.5
+[[material]]
+name = "air"
+type = "dielectric"
+ior = 1
+[[object]]
+name = "sheet"
+shape = "plane"
+material = "air"
+size = [4, 4]
+position = [0, 1, 0]
+)";
+    for (int i = 0; i < 28 * 21; ++i) {
+        text += fmt::format(
+            "[[object]]\nname = \"box {}\"\nshape = \"box\"\nmaterial = \"grey\"\n"
+            "size = [0.05, 0.05, 0.05]\nposition = [{}, 0, {}]\n",
+            i, 0.08 * (i % 28 - 13.5), 0.08 * (i / 28 - 10));
+    }
+    const scene::Scene scene = sceneFromText(text);
+    const auto irradianceWith = [&](const std::string& coverage) {
+        std::vector<std::string> saved;
+        if (coverage == "samples") saved.emplace_back("edges.receiver");
+        const Frame frame(
+            scene, kWidth, kHeight,
+            {{"emit.photons", "128x128"}, {"reconstruct.triangles.coverage", coverage}}, saved,
+            false, "exact_rays");
+        if (!saved.empty()) {
+            const Texels receiver = frame.read("edges.receiver");
+            for (std::size_t i = 2; i < receiver.values.size(); i += 4)
+                EXPECT_EQ(receiver.values[i], 0.0f);
+        }
+        return frame.causticIrradiance().values;
+    };
+    const std::vector<float> samples = irradianceWith("samples");
+    EXPECT_GT(*std::max_element(samples.begin(), samples.end()), 50.0f);
+    EXPECT_EQ(samples, irradianceWith("middle"));
 }
 
 }  // namespace
