@@ -8,7 +8,8 @@
 # the program crashes, throws what is not the project's, takes more than 60 s or 2 GiB, or breaks a rule
 # of the language. Where a reader process reads (gzip, gltf, scene, image, experiment), what it does to
 # that process is none: it ends, or is stopped at 4 s or 1 GiB, and the program says so in an error.
-# Inputs that reach something new stay in build/fuzz/corpus/TARGET, for the next time.
+# Inputs that reach something new stay in build/fuzz/corpus/TARGET, for the next time. With
+# KAUSTIK_FUZZ_SEED a target's inputs come in the same order each time that it starts without them.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
@@ -61,7 +62,8 @@ fuzz() {
     mkdir -p "$corpus" "$findings"
     local code=0
     local options=(-artifact_prefix="$findings/" -max_total_time="$seconds" -print_final_stats=1
-        -max_len=131072 -timeout=60 -rss_limit_mb=2048)
+        -max_len=131072 -timeout=60 -rss_limit_mb=2048
+        -seed="${KAUSTIK_FUZZ_SEED:-0}")
     [[ ! -s $build/corpus/$target.dict ]] || options+=(-dict="$build/corpus/$target.dict")
     "$build/bin/fuzz_$target" "$corpus" "$build/corpus/seeds/$target" "${options[@]}" \
         > "$log" 2>&1 || code=$?

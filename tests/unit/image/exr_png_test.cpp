@@ -24,6 +24,7 @@ namespace {
 
 using test::TemporaryFolder;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 std::string fromHex(std::string_view digits) {
     std::string bytes;
@@ -183,6 +184,29 @@ TEST_F(ExrPng, ReadsAFileAndSaysThatOneIsNotThere) {
         } else {
             EXPECT_THAT(received.problem, HasSubstr("cannot be opened"));
         }
+    }
+}
+
+// OpenEXR makes room for it before it reads.
+TEST_F(ExrPng, AnAttributeThatHasNotTheSizeThatItSaysIsAnErrorBeforeRoomIsMade) {
+    const std::string sane = exrOf(someImage(3));
+    const auto problemWith = [&](const std::string& attribute) {
+        return decode(sane.substr(0, 8) + attribute + sane.substr(8)).problem;
+    };
+    using namespace std::string_literals;
+    const std::string head = "a\0string\0"s;
+    EXPECT_THAT(problemWith(head + "\2\0\0\0ab"s), Not(HasSubstr("header ends early")));
+    for (const std::string& attribute :
+         {head + "\xff\xff\xff\x7f"s, "a\0stringvector\0\6\0\0\0\xff\xff\xff\x7f"s + "ab"}) {
+        EXPECT_THAT(problemWith(attribute), HasSubstr("header ends early")) << attribute;
+    }
+    for (const std::string& attribute : {
+             "a\0preview\0\14\0\0\0\xff\xff\0\0\xff\xff\0\0"s + "abcd",
+             "a\0preview\0\14\0\0\0\xff\xff\xff\xff\xff\xff\xff\xff"s + "abcd",
+             "a\0box2i\0\4\0\0\0"s + "abcd",
+             "a\0floatvector\0\5\0\0\0"s + "abcde",
+         }) {
+        EXPECT_THAT(problemWith(attribute), HasSubstr("attribute 'a' of type")) << attribute;
     }
 }
 
