@@ -20,11 +20,27 @@ double photonsOf(int side) {
     return static_cast<double>(side) * static_cast<double>(side);
 }
 
+// Sixteen photons are what some devices take at once, and fewer steps are not felt.
+constexpr int kSideStep = 16;
+
 int sideOf(double photons) {
     const double side = std::sqrt(std::clamp(photons, 1.0, 1e12));
-    // Sixteen photons are what some devices take at once, and fewer steps are not felt.
-    const int rounded = 16 * static_cast<int>(std::lround(side / 16.0));
+    const int rounded = kSideStep * static_cast<int>(std::lround(side / kSideStep));
     return std::clamp(rounded, kMinSide, kMaxSide);
+}
+
+// The nearest side from this one on, towards the goal, that is not measured yet or meets it: what
+// has missed an error by a part in a thousand is one step from it.
+int sideTowards(const std::vector<TunePoint>& of, const TuneGoal& goal, int side) {
+    const auto hasMissedIt = [&] {
+        return std::any_of(of.begin(), of.end(), [&](const TunePoint& point) {
+            return point.side == side && !isMet(point, goal);
+        });
+    };
+    const int step = goal.error ? kSideStep : -kSideStep;
+    while (hasMissedIt() && side + step >= kMinSide && side + step <= kMaxSide)
+        side += step;
+    return side;
 }
 
 // The error of so many photons: error(at) (photons / at)^slope.
@@ -88,7 +104,8 @@ TuneGuess guess(const std::vector<TunePoint>& of, const TuneGoal& goal) {
     }
     // Farther than this a line and a power say nothing.
     const double measured = photonsOf(near.side);
-    const int side = sideOf(std::clamp(photons, measured / kFarthest, measured * kFarthest));
+    const int side = sideTowards(
+        of, goal, sideOf(std::clamp(photons, measured / kFarthest, measured * kFarthest)));
     return {near.mixture, side, time.of(photonsOf(side)), error.of(photonsOf(side))};
 }
 

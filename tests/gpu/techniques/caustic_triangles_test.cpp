@@ -2,11 +2,17 @@
 // Caustic triangles (U08): which generators there are, light stored on the faces around them and
 // looked up from there, and what the eye sees of it in mirrors and through glass. Closed forms.
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "framework/core/error.h"
 #include "framework/numerics/cases/scene_text.h"
+#include "framework/scene/files/scene_file.h"
 #include "framework/transport/brdf.h"
 #include "tests/gpu/fixture.h"
 
@@ -49,6 +55,56 @@ const std::string kSpot =
     "inner_cone_degrees = 8\nouter_cone_degrees = 10\nintensity = 100\n";
 
 const CameraText kCamera{{0.0, 6.0, 6.0}, {0.0, 0.0, 0.0}};
+
+// The slots of layers around a generator: kinds have theirs one after the other, each the first
+// that none has that it is seen with (shaders/around/cubes_order_slots.comp, where threads share
+// the work).
+std::vector<std::uint32_t> slotsInTurn(const std::vector<std::uint32_t>& conflicts, int layers) {
+    constexpr std::size_t kKinds = 256;
+    constexpr std::uint32_t kNoSlot = 15;
+    std::vector<std::uint32_t> slots(kKinds, 0);
+    for (std::size_t kind = 0; kind < kKinds; ++kind) {
+        std::uint32_t taken = 0;
+        for (std::size_t other = 0; other < kind; ++other) {
+            const std::uint32_t word = conflicts.at(kind * kKinds / 32 + other / 32);
+            if ((word >> (other % 32) & 1u) != 0) taken |= 1u << slots[other];
+        }
+        const auto slot = static_cast<std::uint32_t>(std::countr_one(taken));
+        slots[kind] = slot < static_cast<std::uint32_t>(layers) ? slot : kNoSlot;
+    }
+    return slots;
+}
+
+TEST(LayersAroundGenerators, HaveTheSlotsThatKindsTakeInTurn) {
+    const scene::Scene scene = scene::loadScene("cornell-bunny");
+    // Fewer slots than kinds that are seen with each other, too.
+    for (const int layers : {2, 8}) {
+        const Settings settings = {{"emit.photons", "8x8"},
+                                   {"reconstruct.map_size", "64"},
+                                   {"around.cubes.size", "64"},
+                                   {"around.cubes.layers", std::to_string(layers)}};
+        std::vector<std::string> saved;
+        for (const std::string& name : render(scene, settings).renderer().graph().resourceNames()) {
+            if (name.starts_with("around.conflicts") || name.starts_with("around.slots"))
+                saved.push_back(name);
+        }
+        ASSERT_FALSE(saved.empty());
+        const numerics::Frame frame = render(scene, settings, saved);
+        const auto read = [&](const std::string& name) {
+            const Renderer& renderer = frame.renderer();
+            return renderer.buffer(renderer.graph().find(name)).read<std::uint32_t>();
+        };
+        std::set<std::uint32_t> taken;
+        for (const std::string& name : saved) {
+            if (!name.starts_with("around.conflicts")) continue;
+            const std::string suffix = name.substr(std::string("around.conflicts").size());
+            const std::vector<std::uint32_t> slots = read("around.slots" + suffix);
+            EXPECT_EQ(slots, slotsInTurn(read(name), layers)) << suffix << " of " << layers;
+            taken.insert(slots.begin(), slots.end());
+        }
+        EXPECT_GE(taken.size(), 2u);  // or there was nothing to choose
+    }
+}
 
 TEST(CausticGenerators, AreOneAnObject) {
     EXPECT_EQ(

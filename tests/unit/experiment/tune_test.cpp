@@ -51,6 +51,17 @@ TEST(TuneGuesses, KeepToATime) {
     EXPECT_GT(found.back().milliseconds, 20.0);
 }
 
+// Rounded to the steps that are tried, the guess is what has just missed the goal.
+TEST(TuneGuesses, GoOnFromWhatHasJustMissedTheGoal) {
+    const TunePoint missed = kCheap.at(0, 176);
+    EXPECT_EQ(guesses({kCheap.at(0, 128), missed}, {.error = 0.999 * missed.error}).front().side,
+              192);
+    EXPECT_EQ(guesses({kCheap.at(0, 128), missed}, {.milliseconds = 0.999 * missed.milliseconds})
+                  .front()
+                  .side,
+              160);
+}
+
 TEST(TuneGuesses, AreSidesThatThereAre) {
     for (const double error : {1e-12, 1e6}) {
         for (const int side : {kMinSide, 128, kMaxSide}) {
