@@ -5,6 +5,7 @@
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 
 namespace kaustik::gui {
 namespace {
@@ -50,6 +51,16 @@ void sendKey(GLFWwindow* window, int key, int scancode, int action, int modifier
     }
 #endif
     ImGui_ImplGlfw_KeyCallback(window, key, scancode, action, modifiers);
+}
+
+void typePointForComma() {
+    const ImGuiContext& context = *ImGui::GetCurrentContext();
+    // Of sliders and dragged numbers, which turn into a field; text and whole numbers are no such.
+    const bool isFraction = context.ActiveId != 0 && context.TempInputId == context.ActiveId;
+    if (!isFraction) return;
+    for (ImWchar& character : ImGui::GetIO().InputQueueCharacters) {
+        if (character == ',') character = '.';
+    }
 }
 
 }  // namespace kaustik::gui

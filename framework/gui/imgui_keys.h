@@ -10,4 +10,8 @@ namespace kaustik::gui {
 // Tells Dear ImGui what a GLFW key callback was told, of a key by what is printed on it (keys.h).
 void sendKey(GLFWwindow* window, int key, int scancode, int action, int modifiers);
 
+// While a slider's or a dragged number is typed, a comma of this frame becomes a point: Dear ImGui
+// would leave it out, and 0,05 would be 5. After ImGui::NewFrame().
+void typePointForComma();
+
 }  // namespace kaustik::gui

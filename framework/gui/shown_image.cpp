@@ -20,21 +20,57 @@ std::string number(double value) {
     return fmt::format("{:.3g}", value);
 }
 
-std::string tickText(double value) {
+std::string tickText(double value, Scale scale) {
+    if (scale == Scale::logarithmic) {
+        // 10⁻⁴ and not 0.0001.
+        const double power = std::round(std::log10(value));
+        const bool isPower = std::abs(value / std::pow(10.0, power) - 1.0) < 1e-9;
+        if (isPower && std::abs(power) > 3.5) return powerText(static_cast<int>(power));
+    }
     // 50000 and not 5e+04, as long as it has room.
     const double size = std::abs(value);
     const bool isPlain = size >= 1e3 && size < 1e6 && std::round(value) == value;
     return isPlain ? fmt::format("{:.0f}", value) : fmt::format("{:.4g}", value);
 }
 
+// Of the longest label, without its sign.
+std::size_t longest(const std::vector<ColorBar::Tick>& ticks) {
+    std::size_t length = 0;
+    for (const ColorBar::Tick& tick : ticks)
+        length = std::max(length, tick.label.size() - (tick.label.starts_with('-') ? 1 : 0));
+    return length;
+}
+
+// Gives the labels a power of ten in common where that makes them shorter, "5" and not "0.0005".
+void shorten(ColorBar& bar) {
+    constexpr std::size_t kShort = 3;
+    const double size = std::max(std::abs(bar.low), std::abs(bar.high));
+    if (longest(bar.ticks) <= kShort || !(size > 0.0) || !std::isfinite(size)) return;
+    const double power = std::floor(std::log10(size) + 1e-9);
+    const double unit = std::pow(10.0, power);
+    std::vector<ColorBar::Tick> ticks = ticksOn(bar.scale, bar.low / unit, bar.high / unit);
+    if (longest(ticks) >= longest(bar.ticks)) return;
+    bar.ticks = std::move(ticks);
+    bar.power = static_cast<int>(power);
+}
+
 }  // namespace
+
+std::string powerText(int exponent) {
+    static constexpr std::array<const char*, 10> kDigits = {"⁰", "¹", "²", "³", "⁴",
+                                                            "⁵", "⁶", "⁷", "⁸", "⁹"};
+    std::string text = exponent < 0 ? "10⁻" : "10";
+    for (const char digit : fmt::format("{}", std::abs(exponent)))
+        text += kDigits[static_cast<std::size_t>(digit - '0')];
+    return text;
+}
 
 std::vector<ColorBar::Tick> ticksOn(Scale scale, double lowest, double high) {
     std::vector<ColorBar::Tick> ticks;
     const auto add = [&](double value) {
         const double place = placeOn(scale, lowest, high, value);
         if (place > -1e-6 && place < 1.0 + 1e-6)
-            ticks.push_back({std::clamp(place, 0.0, 1.0), tickText(value)});
+            ticks.push_back({std::clamp(place, 0.0, 1.0), tickText(value, scale)});
     };
     const double low = scale == Scale::symmetric ? -high : lowest;
     if (scale == Scale::logarithmic) {
@@ -214,6 +250,7 @@ std::optional<ColorBar> ShownImage::colorBar() const {
     bar.clipsLow = double(histogram.low) < bar.low * (bar.low > 0.0 ? 1.0 - 1e-6 : 1.0 + 1e-6);
     bar.clipsHigh = double(histogram.high) > bar.high * (1.0 + 1e-6);
     bar.ticks = ticksOn(bar.scale, bar.low, bar.high);
+    if (bar.scale != Scale::logarithmic) shorten(bar);
     return bar;
 }
 

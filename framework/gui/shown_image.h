@@ -37,6 +37,8 @@ struct ColorBar {
         std::string label;
     };
     std::vector<Tick> ticks;
+    // Their labels are of this power of ten, so that very small and very large ones are short.
+    int power = 0;
     // Display-encoded, at a place from 0 to 1.
     [[nodiscard]] std::array<float, 3> colorAt(double place) const;
 };
@@ -76,6 +78,8 @@ struct ShownImage {
     [[nodiscard]] bool contains(glm::ivec2 pixel) const;
 };
 
+// "10⁻⁴".
+[[nodiscard]] std::string powerText(int exponent);
 // Round numbers on a scale from `low` to `high`, at their places.
 [[nodiscard]] std::vector<ColorBar::Tick> ticksOn(Scale scale, double low, double high);
 

@@ -47,7 +47,7 @@ struct ViewState {
 
 struct PanelState {
     float leftWidth = 440.0f;  // at scale 1
-    float rightWidth = 272.0f;
+    float rightWidth = 266.0f;
     float chartHeight = 120.0f;
     // Which of the areas around the picture are there: it has all the room that they leave.
     bool isLeftOpen = false;

@@ -266,6 +266,21 @@ void inputText(Bench& bench, const char* label, const char* hint, std::string& t
     bench.map.control(name, text);
 }
 
+float widthBeside(const char* label) {
+    const float row = ImGui::GetContentRegionAvail().x;
+    return std::max(
+        row - ImGui::CalcTextSize(label).x - ImGui::GetStyle().ItemInnerSpacing.x - 1.0f,
+        0.35f * row);
+}
+
+void searchField(Bench& bench, std::string& filter, const std::string& name) {
+    inputText(bench, "##filter", "search", filter, name);
+    // Dear ImGui takes Escape for the field alone, and would ask for another one to close the list.
+    if (ImGui::IsItemDeactivated() &&
+        ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false))
+        ImGui::CloseCurrentPopup();
+}
+
 bool choose(Bench& bench, const char* label, const std::vector<std::string>& options, int& index,
             const std::string& name, const char* hint) {
     const auto current = static_cast<std::size_t>(index);
@@ -282,7 +297,7 @@ bool choose(Bench& bench, const char* label, const std::vector<std::string>& opt
     }
     if (options.size() > kOptionsToSearch) {
         ImGui::SetNextItemWidth(-FLT_MIN);
-        inputText(bench, "##filter", "search", filter, name + ".search");
+        searchField(bench, filter, name + ".search");
     }
     for (std::size_t i = 0; i < options.size(); ++i) {
         if (options[i].find(filter) == std::string::npos) continue;

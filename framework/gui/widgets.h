@@ -57,6 +57,11 @@ void sameLineWithRoom(float width);
 [[nodiscard]] bool checkbox(Bench& bench, const char* label, bool& value, const std::string& name);
 void inputText(Bench& bench, const char* label, const char* hint, std::string& text,
                const std::string& name);
+// The width that leaves room for a label to a control's right, but for at least a part of the row.
+[[nodiscard]] float widthBeside(const char* label);
+
+// What the options of an open list are searched by. Escape in it closes the list.
+void searchField(Bench& bench, std::string& filter, const std::string& name);
 // One of several; true when another was chosen. `hint` is seen where there is none yet.
 [[nodiscard]] bool choose(Bench& bench, const char* label, const std::vector<std::string>& options,
                           int& index, const std::string& name, const char* hint = "");

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 
+#include "framework/gui/imgui_keys.h"
 #include "framework/gui/panels/panels.h"
 #include "framework/gui/showing.h"
 #include "framework/gui/workbench.h"
@@ -31,6 +32,7 @@ void hidePanels(PanelState& panels) {
 }  // namespace
 
 void Workbench::useKeys() {
+    typePointForComma();
     const ImGuiIO& io = ImGui::GetIO();
     const auto held = [&](int place) { return window_.heldSeconds(place); };
     // Flying goes by place: the four keys lie together, whatever is printed on them.
@@ -63,10 +65,12 @@ void Workbench::useKey(const Window::KeyPress& press) {
     PanelState& panels = bench_.panels;
     if (press.key == GLFW_KEY_F2) {
         panels.isLeftOpen = !panels.isLeftOpen;
-        if (panels.leftTabs.empty()) {
+        if (panels.isLeftOpen && panels.leftTabs.empty()) {
             bench_.notify(
                 "There is no panel to the left; the arrow next to their names moves one there.",
-                false, [](const Bench& bench) { return !bench.panels.leftTabs.empty(); });
+                false, [](const Bench& bench) {
+                    return !bench.panels.isLeftOpen || !bench.panels.leftTabs.empty();
+                });
         }
     }
     if (press.key == GLFW_KEY_F3) panels.isRightOpen = !panels.isRightOpen;

@@ -59,7 +59,10 @@ void drawSide(Bench& bench, bool isLeft, ImVec2 size) {
     for (const Tab& tab : kTabs) {
         if (panels.leftTabs.contains(tab.name) == isLeft) tabs.push_back(&tab);
     }
+    const float padding = 5.0f * bench.scale;
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {padding, padding});
     ImGui::BeginChild(isLeft ? "left" : "right", size, true);
+    ImGui::PopStyleVar();
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(6.0f * bench.scale, 4.0f * bench.scale));
     std::string& open = isLeft ? panels.leftTab : panels.rightTab;
     const auto found =

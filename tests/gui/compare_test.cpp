@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <tuple>
 
 #include "framework/image/image.h"
 #include "tests/gui/workbench_fixture.h"
@@ -113,17 +114,31 @@ TEST_F(ComparePanel, AMessageGoesWithWhatItSpeaksOf) {
     EXPECT_EQ(bench->status().at("message"), "");
 }
 
-// As the workbench first starts, and with a colour bar at the smaller size.
-TEST_F(ThePicture, HasThreeQuartersOfAWindowAndSixTenthsOfASmallOne) {
-    startAt(1024, 768);
-    bench->hover("picture");
-    bench->key("f");
-    bench->waitFor("a colour bar", [](const json& screen) {
-        return screen.at("controls").contains("picture.bar");
-    });
-    EXPECT_GE(shareOfPixels(), 0.6);
-    startAt(1600, 1000);
-    EXPECT_GE(shareOfPixels(), 0.75);
+// As the workbench first starts, and with a colour bar next to it, of a unit or of none.
+TEST_F(ThePicture, HasThreeQuartersOfAWindowAndSixTenthsOfASmallOneWithItsBarToo) {
+    for (const auto& [w, h, part] : {std::tuple{1024, 768, 0.6}, std::tuple{1600, 1000, 0.75}}) {
+        startAt(w, h);
+        EXPECT_GE(shareOfPixels(), part);
+        for (const char* texture : {"picture", "caustic.irradiance"}) {
+            open("Image");
+            choose("image.texture", texture);
+            untilSettled();
+            bench->hover("picture");
+            if (!bench->has("picture.bar")) bench->key("f");
+            bench->waitFor("a colour bar", [](const json& screen) {
+                return screen.at("controls").contains("picture.bar");
+            });
+            EXPECT_GE(shareOfPixels(), part)
+                << texture << ' ' << bench->value("picture.bar.numbers");
+            // The bar stands next to the pixels and within the pane.
+            const Rectangle bar = bench->control("picture.bar");
+            const Rectangle pixels = bench->control("picture");
+            const Rectangle pane = bench->control("picture.pane");
+            EXPECT_GE(bar.x, pixels.x + pixels.w);
+            EXPECT_LE(bar.x + bar.w, pane.x + pane.w);
+            bench->keepScreenshot(fmt::format("bar-{}-{}", w, texture));
+        }
+    }
 }
 
 TEST_F(ThePicture, HasTheRoomThatPanelsLeaveAndPanelsAreRemembered) {

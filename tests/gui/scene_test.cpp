@@ -34,6 +34,25 @@ class ScenePanel : public WorkbenchTest {
 const glm::dvec3 kPosition(0.0, 2.0, 1.0);
 const glm::dvec3 kTarget(0.0);
 
+// A keyboard may print a comma where a number's point is meant; what is left out would make another
+// number of it.
+TEST_F(ScenePanel, ACommaIsANumbersPointAndWhatIsTypedIsNeverInfinite) {
+    start();
+    open("Scene");
+    bench->typeInto("scene.camera", "0,05", Entry::controlClick, "Return", {0.05, 0.5});
+    EXPECT_NEAR(position().x, 0.05, 1e-6);
+    for (const char* text : {"1e400", "-1e400", "99999999999999999999"}) {
+        bench->typeInto("scene.camera", text, Entry::controlClick, "Return", {0.05, 0.5});
+        EXPECT_LE(std::abs(position().x), 1e6) << text;
+        EXPECT_TRUE(std::isfinite(position().x)) << text;
+    }
+    bench->typeInto("scene.time", "2,5", Entry::controlClick, "Return", {0.3, 0.5});
+    EXPECT_NEAR(edits().at("time").get<double>(), 2.5, 1e-6);
+    // In a text it stays what it is.
+    bench->typeInto("parameters.search", "0,05");
+    EXPECT_EQ(bench->value("parameters.search"), "0,05");
+}
+
 TEST_F(ScenePanel, ADragOrbitsAboutTheTargetAndRComesBack) {
     start();
     const Image before = seenPicture();

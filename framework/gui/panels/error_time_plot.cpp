@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
+#include <optional>
 
 #include "framework/gui/shown_image.h"
 #include "framework/gui/widgets.h"
@@ -96,12 +97,56 @@ void drawFront(const Bench& bench, const std::vector<PlottedSetting>& points,
                                             0, 1.5f * bench.scale);
 }
 
+std::string valuesOf(const PlottedSetting& point, const ErrorMeasure& measure) {
+    return fmt::format("{:.4g} ms, {} {:.4g}{}{}", point.at.milliseconds, measure.label,
+                       point.at.error, *measure.unit != '\0' ? " " : "", measure.unit);
+}
+
 std::string wordsOf(const PlottedSetting& point, const ErrorMeasure& measure) {
-    return fmt::format("{}\n{:.4g} ms, {} {:.4g}{}{}\n{}{}\nA click brings it back.",
-                       point.settings, point.at.milliseconds, measure.label, point.at.error,
-                       *measure.unit != '\0' ? " " : "", measure.unit,
-                       point.isOnFront ? "No other one is both faster and better.\n" : "",
-                       point.remark);
+    return fmt::format(
+        "{}\n{}\n{}{}\nA click brings it back.", point.settings, valuesOf(point, measure),
+        point.isOnFront ? "No other one is both faster and better.\n" : "", point.remark);
+}
+
+// Points that lie under the mouse together, in their order, and the one that a click takes.
+struct Heap {
+    std::vector<std::size_t> points;
+    std::size_t next = 0;  // in `points`
+};
+
+// The nearest one first; from one that is at hand already to the one after it.
+Heap heapAt(const std::vector<PlottedSetting>& points, const PlotArea& area, ImVec2 mouse,
+            float radius) {
+    Heap heap;
+    std::optional<std::size_t> now;
+    float nearest = FLT_MAX;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const ImVec2 place = area.place(points[i].at);
+        const float distance = std::hypot(place.x - mouse.x, place.y - mouse.y);
+        if (distance > radius) continue;
+        if (points[i].isNow) now = heap.points.size();
+        if (distance < nearest) {
+            nearest = distance;
+            heap.next = heap.points.size();
+        }
+        heap.points.push_back(i);
+    }
+    if (now) heap.next = (*now + 1) % heap.points.size();
+    return heap;
+}
+
+std::string wordsOf(const Heap& heap, const std::vector<PlottedSetting>& points,
+                    const ErrorMeasure& measure) {
+    const PlottedSetting& next = points[heap.points[heap.next]];
+    if (heap.points.size() == 1) return wordsOf(next, measure);
+    std::string text = fmt::format("{} lie here; each click brings the next one back, now {}.",
+                                   heap.points.size(), next.label);
+    for (const std::size_t index : heap.points) {
+        const PlottedSetting& point = points[index];
+        text += fmt::format("\n\n{}{}: {}\n{}", &point == &next ? "→ " : "", point.label,
+                            valuesOf(point, measure), point.settings);
+    }
+    return text;
 }
 
 }  // namespace
@@ -111,8 +156,9 @@ const ErrorMeasure& chooseMeasure(Bench& bench, const std::string& panel) {
     for (const ErrorMeasure& measure : kErrorMeasures)
         names.emplace_back(measure.label);
     int& chosen = bench.panels.tradeOffMeasure;
-    ImGui::SetNextItemWidth(static_cast<float>(bench.px(140.0)));
-    static_cast<void>(choose(bench, "of caustic irradiance", names, chosen, panel + ".measure"));
+    constexpr const char* kLabel = "of caustic irradiance";
+    ImGui::SetNextItemWidth(std::min(widthBeside(kLabel), static_cast<float>(bench.px(140.0))));
+    static_cast<void>(choose(bench, kLabel, names, chosen, panel + ".measure"));
     return kErrorMeasures[static_cast<std::size_t>(chosen)];
 }
 
@@ -148,14 +194,23 @@ std::optional<std::size_t> drawErrorTimePlot(Bench& bench, const std::string& pa
                    area.high.y - area.low.y, fmt::format("{} points", points.size()));
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const auto radius = static_cast<float>(bench.px(4.0));
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        const PlottedSetting& point = points[i];
+    ImGui::SetCursorScreenPos({area.low.x - radius, area.low.y - radius});
+    const bool isClicked = ImGui::InvisibleButton(
+        (panel + ".plot").c_str(),
+        {area.high.x - area.low.x + 2.0f * radius, area.high.y - area.low.y + 2.0f * radius});
+    Heap heap;
+    if (ImGui::IsItemHovered()) heap = heapAt(points, area, ImGui::GetIO().MousePos, 2.0f * radius);
+    if (!heap.points.empty()) {
+        const std::string words = wordsOf(heap, points, measure);
+        tooltip(words);
+        bench.map.area(panel + ".heap", area.low.x, area.low.y, 1.0f, 1.0f, words);
+        if (isClicked) clicked = heap.points[heap.next];
+    }
+    for (const PlottedSetting& point : points) {
         const ImVec2 place = area.place(point.at);
-        ImGui::SetCursorScreenPos({place.x - 2.0f * radius, place.y - 2.0f * radius});
-        const std::string name = fmt::format("{}.point.{}", panel, point.label);
-        if (ImGui::InvisibleButton(name.c_str(), {4.0f * radius, 4.0f * radius})) clicked = i;
-        bench.map.control(name, point.isOnFront ? "front" : "behind");
-        tooltip(wordsOf(point, measure));
+        bench.map.area(fmt::format("{}.point.{}", panel, point.label), place.x - radius,
+                       place.y - radius, 2.0f * radius, 2.0f * radius,
+                       point.isOnFront ? "front" : "behind");
         const ImU32 color = point.isOnFront ? kFrontColor : kOtherColor;
         draw.AddCircleFilled(place, radius, color);
         if (point.isNow) {

@@ -107,7 +107,7 @@ void drawRange(Bench& bench, const ShownImage& image, Look& look) {
     }
     const float span = std::max(std::abs(look.high - look.low), 1e-30f);
     ImGui::DragFloatRange2("range", &look.low, &look.high, span * 0.005f, -1e30f, 1e30f, "%.4g",
-                           "%.4g");
+                           "%.4g", ImGuiSliderFlags_AlwaysClamp);
     bench.map.control("image.range");
 }
 
@@ -128,7 +128,8 @@ void drawLook(Bench& bench, const ShownImage& image) {
         drawRange(bench, image, look);
     } else if (!image.mapping.isEncoded) {
         float stops = image.mapping.exposureStops;
-        if (ImGui::SliderFloat("exposure (+ -)", &stops, -kMaxStops, kMaxStops, "%.1f stops")) {
+        if (ImGui::SliderFloat("exposure (+ -)", &stops, -kMaxStops, kMaxStops, "%.1f stops",
+                               ImGuiSliderFlags_AlwaysClamp)) {
             look.exposureStops = stops;
             look.isExposureAutomatic = false;
         }
@@ -139,7 +140,9 @@ void drawLook(Bench& bench, const ShownImage& image) {
         tooltip("So that 99 % of what is not 0 is told apart.");
         if (!look.isExposureAutomatic && image.look.isExposureAutomatic) look.exposureStops = stops;
     } else {
+        ImGui::PushTextWrapPos(0.0f);
         ImGui::TextDisabled("The picture is as it is written to beauty.png.");
+        ImGui::PopTextWrapPos();
     }
     if (!(look == image.look)) bench.view.looks[image.resource] = look;
 }
@@ -184,7 +187,7 @@ void drawProbe(Bench& bench) {
     if (bench.document.other) ImGui::TextDisabled("Photons are those of variant A.");
     if (!view.probes) return;
     ImGui::SliderFloat("radius", &view.probeRadius, 0.5f, 32.0f, "%.1f px",
-                       ImGuiSliderFlags_Logarithmic);
+                       ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
     bench.map.control("image.probe_radius");
     const auto& probe = bench.result->probe;
     if (view.probePixel.x < 0) {
@@ -229,6 +232,7 @@ void drawImage(Bench& bench) {
     const VariantResult& result = bench.editedResult();
     const ViewedTexture* viewed = result.viewed ? &*result.viewed : nullptr;
     chooseVariant(bench, "image");
+    ImGui::PushItemWidth(widthBeside("compared with"));
     drawChoiceOfTexture(bench);
     const Showing showing = showingOf(bench.requested(), *bench.result, *bench.reference);
     if (showing.main) drawLook(bench, *showing.main);
@@ -237,6 +241,7 @@ void drawImage(Bench& bench) {
     if (viewed != nullptr && viewed->missing != ViewedTexture::Missing::layer)
         drawValues(bench, *viewed);
     drawProbe(bench);
+    ImGui::PopItemWidth();
 }
 
 }  // namespace kaustik::gui

@@ -27,8 +27,8 @@ std::string whyNoEffectNow(const Bench& bench, const params::ParamSet& params,
 
 bool beginParameterTable(const std::string& name) {
     if (!ImGui::BeginTable(name.c_str(), 2, ImGuiTableFlags_Resizable)) return false;
-    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 0.45f);
-    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 0.55f);
+    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 0.53f);
+    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 0.47f);
     return true;
 }
 
@@ -54,11 +54,13 @@ void drawParameterRow(Bench& bench, const params::ParamSet& params, const params
         named.field.unit.empty()
             ? 0.0f
             : ImGui::CalcTextSize(named.field.unit.c_str()).x + 8.0f * bench.scale;
+    // A long one has a line of its own, below the control.
+    const float room = ImGui::GetContentRegionAvail().x;
+    const bool isUnitBeside = unitWidth < 0.4f * room;
     // There is room for the mark before there is one: a slider that becomes shorter under the hand
     // would jump.
     const float markWidth = ImGui::GetFontSize() * 1.6f;
-    ImGui::SetNextItemWidth(
-        std::max(40.0f, ImGui::GetContentRegionAvail().x - unitWidth - markWidth));
+    ImGui::SetNextItemWidth(std::max(40.0f, room - (isUnitBeside ? unitWidth : 0.0f) - markWidth));
     if (!noEffect.empty()) ImGui::PushStyleVar(ImGuiStyleVar_Alpha, kNoEffectAlpha);
     const ParameterChange change = drawParameter(bench, named, "##value", noEffect);
     if (!noEffect.empty()) ImGui::PopStyleVar();
@@ -70,7 +72,7 @@ void drawParameterRow(Bench& bench, const params::ParamSet& params, const params
     auto& problems = bench.panels.parameterProblems;
     if (change.problem)
         problems[named.fullName] = {*change.problem, bench.editedIndex(), assigned()};
-    if (!named.field.unit.empty()) {
+    if (!named.field.unit.empty() && isUnitBeside) {
         ImGui::SameLine();
         ImGui::TextDisabled("%s", named.field.unit.c_str());
     }
@@ -81,6 +83,8 @@ void drawParameterRow(Bench& bench, const params::ParamSet& params, const params
             problems.erase(named.fullName);
         }
     }
+    if (!named.field.unit.empty() && !isUnitBeside)
+        ImGui::TextDisabled("%s", named.field.unit.c_str());
     const auto problem = problems.find(named.fullName);
     if (problem == problems.end()) return;
     const PanelState::TypedProblem& typed = problem->second;

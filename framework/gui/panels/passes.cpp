@@ -119,16 +119,19 @@ void drawSwitchedOff(Bench& bench, const VariantResult& result) {
 void drawSummary(Bench& bench, const VariantResult& result) {
     const double median = settledMedianOf(result.frameMs);
     if (!result.frameMs.empty()) {
-        const std::string text =
-            fmt::format("Frame {:.4g} ms, median of {}: {:.4g} ms", result.frameMs.back(),
-                        std::max<std::size_t>(result.frameMs.size() - 1, 1), median);
-        ImGui::TextWrapped("%s", text.c_str());
+        // As many decimals each time: a line that wraps now and then moves what is under the mouse.
+        ImGui::TextWrapped(
+            "%s", fmt::format("Frame {:.1f} ms, median {:.1f} ms", result.frameMs.back(), median)
+                      .c_str());
     } else {
         ImGui::TextUnformatted("No frame yet.");
     }
     bench.map.control("passes.frame", fmt::format("{:.4f}", median));
-    tooltip(fmt::format("Peak memory of textures and buffers: {:.1f} MiB.",
-                        static_cast<double>(result.peakBytes) / (1 << 20)));
+    tooltip(
+        fmt::format("The newest frame, and the median of {}. Peak memory of textures and buffers: "
+                    "{:.1f} MiB.",
+                    std::max<std::size_t>(result.frameMs.size(), 2) - 1,
+                    static_cast<double>(result.peakBytes) / (1 << 20)));
     static_cast<void>(checkbox(bench, "Keep rendering", bench.panels.isEndless, "passes.endless"));
     tooltip(
         "Renders on although nothing changes, to watch the times. Otherwise a few frames are "

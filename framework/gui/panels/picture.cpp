@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The picture, the split, values of single pixels; and the hand on it.
+// The picture, the split, values of single pixels, and captions.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "framework/gui/camera_control.h"
+#include "framework/gui/panels/color_bar.h"
 #include "framework/gui/panels/panels.h"
+#include "framework/gui/panels/picture_mouse.h"
 #include "framework/gui/panels/picture_overlay.h"
 #include "framework/gui/showing.h"
 #include "framework/gui/widgets.h"
@@ -58,16 +59,6 @@ struct Areas {
     float top = 0.0f;  // of the caption
 };
 
-// Room for a bar, as wide as its numbers.
-float barWidth(const Bench& bench, const ShownImage& image) {
-    const std::optional<ColorBar> bar = image.colorBar();
-    if (!bar) return 0.0f;
-    float ticks = ImGui::CalcTextSize(image.content.unit().c_str()).x;
-    for (const ColorBar::Tick& tick : bar->ticks)
-        ticks = std::max(ticks, ImGui::CalcTextSize(tick.label.c_str()).x);
-    return ticks + static_cast<float>(bench.px(32.0));
-}
-
 Areas areasIn(const Bench& bench, ImVec2 corner, ImVec2 size, float left, float right) {
     const float line = ImGui::GetTextLineHeight() + static_cast<float>(bench.px(3.0));
     return {{corner.x + left, corner.y + line},
@@ -109,61 +100,6 @@ void drawRegions(const Part& part) {
     }
 }
 
-void drawColorBar(const Bench& bench, const ShownImage& image, const Areas& areas, float left,
-                  const std::string& name) {
-    const std::optional<ColorBar> bar = image.colorBar();
-    if (!bar) return;
-    const float line = ImGui::GetTextLineHeight();
-    const auto width = static_cast<float>(bench.px(12.0));
-    const float height = std::min(areas.size.y - 3.0f * line, static_cast<float>(bench.px(320.0)));
-    if (height < 3.0f * line) return;
-    const float x = left + static_cast<float>(bench.px(8.0));
-    const float top = areas.corner.y + areas.size.y - height - line;
-    ImDrawList& draw = *ImGui::GetWindowDrawList();
-    constexpr int kSteps = 64;
-    for (int i = 0; i < kSteps; ++i) {
-        const std::array<float, 3> color = bar->colorAt((i + 0.5) / kSteps);
-        const float y1 = top + height * (1.0f - static_cast<float>(i + 1) / kSteps);
-        const float y2 = top + height * (1.0f - static_cast<float>(i) / kSteps);
-        draw.AddRectFilled({x, y1}, {x + width, y2},
-                           ImGui::GetColorU32({color[0], color[1], color[2], 1.0f}));
-    }
-    draw.AddRect({x, top}, {x + width, top + height}, IM_COL32(255, 255, 255, 160));
-    // Ends beyond which there are values: they have the colours of these.
-    const ImU32 mark = IM_COL32(255, 120, 100, 255);
-    const float middle = x + 0.5f * width;
-    if (bar->clipsHigh)
-        draw.AddTriangleFilled({x, top - 2.0f}, {x + width, top - 2.0f}, {middle, top - 9.0f},
-                               mark);
-    if (bar->clipsLow) {
-        const float end = top + height + 2.0f;
-        draw.AddTriangleFilled({x, end}, {x + width, end}, {middle, end + 7.0f}, mark);
-    }
-    for (const ColorBar::Tick& tick : bar->ticks) {
-        const float y = top + height * (1.0f - static_cast<float>(tick.place));
-        draw.AddLine({x + width, y}, {x + width + 4.0f, y}, IM_COL32(255, 255, 255, 200));
-        draw.AddText({x + width + 7.0f, y - 0.5f * line}, IM_COL32(255, 255, 255, 255),
-                     tick.label.c_str());
-    }
-    const std::string& unit = image.content.unit();
-    draw.AddText({x, top - 1.4f * line - 8.0f}, IM_COL32(255, 255, 255, 255),
-                 unit.empty() ? "1" : unit.c_str());
-    bench.map.area(
-        name, x, top, width, height,
-        fmt::format("{:.6g} {:.6g} {}{}{}", bar->low, bar->high, bar->label,
-                    bar->clipsLow ? " clips low" : "", bar->clipsHigh ? " clips high" : ""));
-}
-
-void zoomAt(ViewState& view, const PictureFrame& frame, ImVec2 mouse, float factor) {
-    const glm::vec2 pixel = frame.pixelAt(mouse);
-    view.zoom = std::clamp(frame.zoom / frame.reduction * factor, 0.05f, 256.0f);
-    // The pixel under the mouse stays there, also of a quick picture, which has fewer.
-    const float zoom = view.zoom * frame.reduction;
-    const glm::vec2 fromMiddle((mouse.x - frame.corner.x - 0.5f * frame.size.x) / zoom,
-                               (mouse.y - frame.corner.y - 0.5f * frame.size.y) / zoom);
-    view.middle = (pixel - fromMiddle) / glm::vec2(frame.width, frame.height);
-}
-
 // Goes to the part of the texture that was chosen from the list.
 void goToSoughtRegion(ViewState& view, const ShownImage& image, ImVec2 size) {
     if (view.soughtRegion.empty() || image.resource != view.resource) return;
@@ -177,102 +113,12 @@ void goToSoughtRegion(ViewState& view, const ShownImage& image, ImVec2 size) {
     view.soughtRegion.clear();
 }
 
-void fly(Bench& bench) {
-    const ImGuiIO& io = ImGui::GetIO();
-    if (io.WantTextInput || io.KeyCtrl || !bench.isSceneCurrent()) return;
-    const glm::dvec3 way = bench.flight;
-    if (way == glm::dvec3(0.0)) return;
-    const scene::Bounds& bounds = bench.result->scene->bounds;
-    const double speed =
-        0.25 * glm::length(bounds.maximum - bounds.minimum) * (io.KeyShift ? 4.0 : 1.0);
-    bench.document.edits.camera = gui::fly(bench.camera(), speed * glm::clamp(way, -0.1, 0.1));
-    bench.isTurning = true;
-}
-
-// What the mouse holds while a button is down.
-enum class DragTarget { none, camera, look, middle, split, light };
-
-// A press that moves less is a click: no hand holds quite still. Pixels at scale 1.
-constexpr double kClickPixels = 4.0;
-
-struct DragState {
-    DragTarget hold = DragTarget::none;
-    int light = -1;
-    ImVec2 pressed;  // where
-    bool hasMoved = false;
-    // Whether it changes what is worked on, and not only how it is seen.
-    [[nodiscard]] bool changesDocument() const {
-        return hold == DragTarget::camera || hold == DragTarget::look || hold == DragTarget::light;
-    }
-};
-
-// The way of the mouse that counts in this frame; 0 before a press is more than a click.
-glm::dvec2 dragPath(const Bench& bench, const DragState& hand) {
-    const ImGuiIO& io = ImGui::GetIO();
-    if (hand.hasMoved || !hand.changesDocument()) return {io.MouseDelta.x, io.MouseDelta.y};
-    const glm::dvec2 whole(io.MousePos.x - hand.pressed.x, io.MousePos.y - hand.pressed.y);
-    return glm::length(whole) < bench.px(kClickPixels) ? glm::dvec2(0.0) : whole;
-}
-
-void dragHeldLight(Bench& bench, const PictureFrame& frame, int index, glm::dvec2 pixels) {
-    if (!bench.isSceneCurrent() ||
-        static_cast<std::size_t>(index) >= bench.result->scene->lights.size()) {
-        return;  // another scene came under the hand
-    }
-    const SceneFacts& facts = *bench.result->scene;
-    const scene::Light light =
-        withEdits(facts.lights[static_cast<std::size_t>(index)], bench.document.edits);
-    const scene::Light moved = dragLight(light, facts.bounds, eyeViewOf(bench, frame), pixels);
-    scene::LightEdit& edit = bench.document.edits.lights[light.name];
-    if (light.kind == scene::LightKind::directional) {
-        edit.direction = moved.direction;
-    } else {
-        edit.position = moved.position;
-    }
-}
-
-void applyDrag(Bench& bench, const PictureFrame& frame, DragState& hand) {
-    const ImGuiIO& io = ImGui::GetIO();
-    const glm::dvec2 way = dragPath(bench, hand);
-    if (way == glm::dvec2(0.0) || hand.hold == DragTarget::none) return;
-    hand.hasMoved = true;
-    ViewState& view = bench.view;
-    const double height = double(frame.high.y) - double(frame.low.y);
-    switch (hand.hold) {
-        case DragTarget::camera:
-            if (!bench.isSceneCurrent()) return;
-            bench.document.edits.camera = orbit(bench.camera(), way, height);
-            bench.isTurning = true;
-            break;
-        case DragTarget::look:
-            if (!bench.isSceneCurrent()) return;
-            bench.document.edits.camera = look(bench.camera(), way, height);
-            bench.isTurning = true;
-            break;
-        case DragTarget::middle:
-            if (view.zoom <= 0.0f) zoomAt(view, frame, io.MousePos, 1.0f);
-            view.middle -= glm::vec2(way) / (frame.zoom * glm::vec2(frame.width, frame.height));
-            break;
-        case DragTarget::split:
-            view.split = std::clamp(
-                (io.MousePos.x - frame.low.x) / std::max(frame.high.x - frame.low.x, 1.0f), 0.0f,
-                1.0f);
-            break;
-        case DragTarget::light:
-            dragHeldLight(bench, frame, hand.light, way / double(frame.zoom));
-            bench.isTurning = true;
-            break;
-        case DragTarget::none:
-            break;
-    }
-}
-
 // What an image is of.
 void drawCaption(const Bench& bench, const Part& part, const Areas& areas, float left,
                  float right) {
     const std::string text = part.image->caption();
     const std::string name = part.slot == 0 ? "picture.caption" : "picture.caption.compared";
-    const float room = right - left - static_cast<float>(bench.px(8.0));
+    const float room = std::max(right - left - static_cast<float>(bench.px(8.0)), 0.0f);
     bench.map.area(name, left, areas.top, room, ImGui::GetTextLineHeight(), text);
     cutLine(text, {left, areas.top},
             part.image->age.empty() ? IM_COL32(255, 255, 255, 255) : IM_COL32(255, 205, 90, 255),
@@ -289,36 +135,6 @@ void drawPart(Bench& bench, const Part& part) {
     drawRegions(part);
     drawNumbers(bench, part);
     draw.PopClipRect();
-}
-
-// What a press takes hold of. What is not seen by the eye is moved itself, and not the eye.
-DragState beginDrag(bool isNearSplit, int pointedLight, bool isEyes) {
-    DragState hand;
-    hand.pressed = ImGui::GetIO().MousePos;
-    if (ImGui::IsMouseDown(ImGuiMouseButton_Right)) {
-        hand.hold = isEyes ? DragTarget::look : DragTarget::middle;
-    } else if (ImGui::IsMouseDown(ImGuiMouseButton_Middle)) {
-        hand.hold = DragTarget::middle;
-    } else if (pointedLight >= 0) {
-        hand.hold = DragTarget::light;
-        hand.light = pointedLight;
-    } else {
-        hand.hold = isNearSplit ? DragTarget::split
-                    : isEyes    ? DragTarget::camera
-                                : DragTarget::middle;
-    }
-    return hand;
-}
-
-void useWheel(Bench& bench, const PictureFrame& frame, bool isEyes) {
-    const ImGuiIO& io = ImGui::GetIO();
-    if (io.MouseWheel == 0.0f) return;
-    if (io.KeyCtrl && isEyes && bench.isSceneCurrent()) {
-        bench.document.edits.camera = dolly(bench.camera(), double(io.MouseWheel));
-        bench.isTurning = true;
-    } else {
-        zoomAt(bench.view, frame, io.MousePos, std::pow(1.25f, io.MouseWheel));
-    }
 }
 
 void drawSplit(Bench& bench, const PictureFrame& frame, float splitX) {
@@ -395,17 +211,30 @@ void drawPicture(Bench& bench) {
     }
     if (showing.compared) drawSplit(bench, frame, splitX);
     draw.PopClipRect();
-    const float paneEnd = whole.x + wholeSize.x;
+    // Units of the bars are in the captions' line, above them.
+    float captionBegin = whole.x + 4.0f;
+    float captionEnd = whole.x + wholeSize.x;
+    const ImU32 ink = IM_COL32(255, 255, 255, 255);
+    if (const std::string unit = barUnit(right); !unit.empty()) {
+        captionEnd -= ImGui::CalcTextSize(unit.c_str()).x + 2.0f;
+        draw.AddText({captionEnd, areas.top}, ink, unit.c_str());
+        captionEnd -= static_cast<float>(bench.px(8.0));
+    }
+    if (hasTwoBars) {
+        const std::string unit = barUnit(main);
+        draw.AddText({captionBegin, areas.top}, ink, unit.c_str());
+        captionBegin += ImGui::CalcTextSize(unit.c_str()).x + static_cast<float>(bench.px(12.0));
+    }
     for (const Part& part : parts) {
         if (!part.isSeen()) continue;
         const bool isFirst = &part == &parts.front() || !parts.front().isSeen();
         const bool isLast = &part == &parts.back() || !parts.back().isSeen();
-        drawCaption(bench, part, areas, isFirst ? whole.x + 4.0f : part.left,
-                    isLast ? paneEnd : part.right);
+        drawCaption(bench, part, areas, isFirst ? captionBegin : std::max(part.left, captionBegin),
+                    isLast ? captionEnd : std::min(part.right, captionEnd));
     }
-    drawColorBar(bench, right, areas, corner.x + size.x,
+    drawColorBar(bench, right, {corner.x + size.x, corner.y}, size.y,
                  hasTwoBars ? "picture.bar.compared" : "picture.bar");
-    if (hasTwoBars) drawColorBar(bench, main, areas, whole.x, "picture.bar");
+    if (hasTwoBars) drawColorBar(bench, main, {whole.x, corner.y}, size.y, "picture.bar");
     bench.map.area("picture", corner.x, corner.y, size.x, size.y,
                    frame.reduction > 1.0f ? "preview" : "whole");
     bench.map.area("picture.image", frame.low.x, frame.low.y, frame.high.x - frame.low.x,

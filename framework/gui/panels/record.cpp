@@ -90,10 +90,14 @@ void drawRecord(Bench& bench) {
     ImGui::BeginDisabled(recording.isActive);
     drawReport(bench, folder, explain);
     ImGui::Spacing();
+    ImGui::SetNextItemWidth(widthBeside("seconds between"));
     ImGui::InputInt("pictures", &bench.panels.sequenceFrames);
     bench.map.control("record.frames", fmt::format("{}", bench.panels.sequenceFrames));
-    bench.panels.sequenceFrames = std::max(bench.panels.sequenceFrames, 1);
-    ImGui::InputFloat("seconds between", &bench.panels.sequenceStep, 0.0f, 0.0f, "%.4f");
+    bench.panels.sequenceFrames = std::clamp(bench.panels.sequenceFrames, 1, 1000000);
+    ImGui::SetNextItemWidth(widthBeside("seconds between"));
+    ImGui::DragFloat("seconds between", &bench.panels.sequenceStep, 0.001f, 0.0001f, 10.0f, "%.4f",
+                     ImGuiSliderFlags_AlwaysClamp);
+    bench.map.control("record.step", fmt::format("{}", bench.panels.sequenceStep));
     if (button(bench, "Image sequence", "record.sequence")) {
         RecordRequest request;
         request.what = RecordRequest::RecordingKind::sequence;

@@ -12,10 +12,15 @@
 namespace kaustik::gui {
 namespace {
 
+// Of places, and of times in seconds: what is typed may be anything.
+constexpr double kMinTyped = -1e6;
+constexpr double kMaxTyped = 1e6;
+
 bool dragVector(Bench& bench, const char* label, glm::dvec3& value, float speed,
-                const std::string& name) {
-    const bool isChanged = ImGui::DragScalarN(label, ImGuiDataType_Double, glm::value_ptr(value), 3,
-                                              speed, nullptr, nullptr, "%.4g");
+                const std::string& name, const char* format = "%.4g") {
+    const bool isChanged =
+        ImGui::DragScalarN(label, ImGuiDataType_Double, glm::value_ptr(value), 3, speed, &kMinTyped,
+                           &kMaxTyped, format, ImGuiSliderFlags_AlwaysClamp);
     bench.map.control(name, fmt::format("{} {} {}", value.x, value.y, value.z));
     return isChanged;
 }
@@ -64,9 +69,12 @@ void drawChoiceOfScene(Bench& bench) {
     if (bench.result->scene) {
         const SceneFacts& facts = *bench.result->scene;
         if (!facts.description.empty()) ImGui::TextWrapped("%s", facts.description.c_str());
+        ImGui::PushTextWrapPos(0.0f);
         ImGui::TextDisabled("%zu triangles; specular interfaces on the longest chain: %d",
                             facts.triangles, facts.needs.specularInterfaces);
+        ImGui::PopTextWrapPos();
     }
+    ImGui::SetNextItemWidth(widthBeside("picture size, px"));
     static_cast<void>(inputExtent("picture size, px", bench.document.size, 1, 16384));
     bench.map.control("scene.size",
                       fmt::format("{}x{}", bench.document.size.width, bench.document.size.height));
@@ -86,10 +94,12 @@ void drawTime(Bench& bench, const SceneFacts& facts) {
     }
     ImGui::SameLine();
     ImGui::SetNextItemWidth(-ImGui::CalcTextSize(" time, s").x);
-    if (ImGui::DragScalar("time, s", ImGuiDataType_Double, &time, 0.01f, nullptr, nullptr, "%.4f"))
+    if (ImGui::DragScalar("time, s", ImGuiDataType_Double, &time, 0.01f, &kMinTyped, &kMaxTyped,
+                          "%.4f", ImGuiSliderFlags_AlwaysClamp))
         edits.timeSeconds = time;
     bench.map.control("scene.time", fmt::format("{}", time));
-    ImGui::DragFloat("step, s", &bench.panels.sequenceStep, 0.001f, 0.0001f, 10.0f, "%.4f");
+    ImGui::DragFloat("step, s", &bench.panels.sequenceStep, 0.001f, 0.0001f, 10.0f, "%.4f",
+                     ImGuiSliderFlags_AlwaysClamp);
     if (!facts.needs.animated) ImGui::TextDisabled("Nothing moves in this scene.");
 }
 
@@ -116,9 +126,11 @@ void drawCamera(Bench& bench, const SceneFacts& facts) {
         button(bench, "Back to the scene's camera (R)", "scene.camera_reset")) {
         bench.document.edits.camera.reset();
     }
+    ImGui::PushTextWrapPos(0.0f);
     ImGui::TextDisabled(
-        "On the picture: drag to orbit, right drag to look,\n"
-        "Ctrl and wheel to come nearer, W A S D Q E to fly.");
+        "On the picture: drag to orbit, right drag to look, Ctrl and wheel to come nearer, W A S D "
+        "Q E to fly.");
+    ImGui::PopTextWrapPos();
 }
 
 void drawLight(Bench& bench, const scene::Light& light, float speed) {
@@ -138,7 +150,8 @@ void drawLight(Bench& bench, const scene::Light& light, float speed) {
     }
     if (light.kind != scene::LightKind::point) {
         glm::dvec3 direction = edit.direction.value_or(light.direction);
-        if (dragVector(bench, "direction", direction, 0.005f, "scene.light." + light.name) &&
+        if (dragVector(bench, "direction", direction, 0.005f, "scene.light." + light.name,
+                       "%.3g") &&
             glm::length(direction) > 1e-6) {
             edit.direction = direction;
             isChanged = true;
@@ -198,8 +211,8 @@ void drawWater(Bench& bench, const SceneFacts::Water& water) {
                           fmt::format("{}", wave.amplitudeMeters));
         isChanged |= ImGui::DragFloat("length, m", &wave.wavelengthMeters, 0.005f, 0.01f, 1e4f,
                                       "%.3f", ImGuiSliderFlags_AlwaysClamp);
-        isChanged |=
-            ImGui::DragFloat("direction", &wave.directionDegrees, 0.5f, -360.0f, 360.0f, "%.1f°");
+        isChanged |= ImGui::DragFloat("direction", &wave.directionDegrees, 0.5f, -360.0f, 360.0f,
+                                      "%.1f°", ImGuiSliderFlags_AlwaysClamp);
         if (ImGui::SmallButton("remove")) {
             waves.erase(waves.begin() + static_cast<std::ptrdiff_t>(i));
             isChanged = true;
@@ -234,7 +247,7 @@ void drawScene(Bench& bench) {
     drawChoiceOfScene(bench);
     if (!bench.isSceneCurrent()) return;
     const SceneFacts& facts = *bench.result->scene;
-    ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x * 0.6f);
+    ImGui::PushItemWidth(widthBeside("its disc, degrees"));
     drawTime(bench, facts);
     drawCamera(bench, facts);
     if (!facts.lights.empty() &&

@@ -85,7 +85,7 @@ void drawTextureList(Bench& bench) {
         ImGui::SetKeyboardFocusHere();
     }
     ImGui::SetNextItemWidth(static_cast<float>(bench.px(240.0)));
-    inputText(bench, "##filter", "search", filter, "image.texture.search");
+    searchField(bench, filter, "image.texture.search");
     drawRows(bench, rowsOf(bench.editedResult()), filter);
     ImGui::EndCombo();
 }

@@ -164,6 +164,33 @@ TEST_F(ShownImageTest, BarsSayWhatIsBeyondTheirEnds) {
     EXPECT_TRUE(bar.clipsHigh);
 }
 
+// The column next to the picture is as wide as they are.
+TEST_F(ShownImageTest, NumbersOfABarAreShortWhateverItsRange) {
+    Look& look = view.looks["caustic.irradiance"];
+    look.isFalseColor = true;
+    look.isRangeAutomatic = false;
+    look.low = 0.0f;
+    for (int exponent = -7; exponent <= 7; ++exponent) {
+        look.high = static_cast<float>(5.0 * std::pow(10.0, exponent));
+        const ColorBar bar = *showing().main->colorBar();
+        ASSERT_GE(bar.ticks.size(), 3u);
+        const ColorBar::Tick& last = bar.ticks.back();
+        for (const ColorBar::Tick& tick : bar.ticks)
+            EXPECT_LE(tick.label.size(), 3u) << tick.label;
+        // What the label says is what the place has.
+        EXPECT_NEAR(
+            std::stod(last.label) * std::pow(10.0, bar.power) / static_cast<double>(look.high),
+            last.place, 1e-3);
+    }
+    look.scale = Scale::logarithmic;
+    look.low = 1e-6f;
+    look.high = 1e6f;
+    const ColorBar bar = *showing().main->colorBar();
+    EXPECT_EQ(bar.power, 0) << "each number has its own";
+    EXPECT_EQ(bar.ticks.front().label, "10⁻⁶");
+    EXPECT_EQ(bar.ticks.back().label, "10⁶");
+}
+
 TEST(Look, PlacesAndValuesOnAScaleAreInverse) {
     for (const Scale scale : {Scale::linear, Scale::logarithmic, Scale::symmetric}) {
         for (const double place : {0.0, 0.3, 1.0})
