@@ -59,8 +59,8 @@ void drawSide(Bench& bench, bool isLeft, ImVec2 size) {
     for (const Tab& tab : kTabs) {
         if (panels.leftTabs.contains(tab.name) == isLeft) tabs.push_back(&tab);
     }
-    const float padding = 5.0f * bench.scale;
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {padding, padding});
+    const ImVec2 padding(5.0f * bench.scale, 8.0f * bench.scale);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, padding);
     ImGui::BeginChild(isLeft ? "left" : "right", size, true);
     ImGui::PopStyleVar();
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(6.0f * bench.scale, 4.0f * bench.scale));
