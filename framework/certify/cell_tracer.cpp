@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "framework/certify/cell_tracer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <type_traits>
 
@@ -12,6 +13,8 @@ namespace {
 
 // A cell of so much of the light, of all of it, is not split for what it leaves open.
 constexpr double kSmallShare = 1e-9;
+// The same with more than one interaction, where more is left open.
+constexpr double kSmallShareBentTwice = 1e-11;
 
 // A coordinate of the cell's places in the triangle.
 Both barycentric(const Cell& cell, std::size_t axis) {
@@ -71,6 +74,19 @@ void CellResult::clearWays() {
     deposited = limited = Interval(0.0);
 }
 
+CellResult::Mark CellResult::mark() const {
+    return {deposits.size(), undecided.size(), open.size(), lost, deposited, limited};
+}
+
+void CellResult::goBack(const Mark& mark) {
+    deposits.resize(mark.deposits);
+    undecided.resize(mark.undecided);
+    open.resize(mark.open);
+    lost = mark.lost;
+    deposited = mark.deposited;
+    limited = mark.limited;
+}
+
 void CellResult::clear() {
     clearWays();
     emitted = Interval(0.0);
@@ -89,7 +105,7 @@ CellTracer::CellTracer(const BeamTracer& tracer, const Source& source, std::uint
       shadows_(findShadows(geometry_, source, first, tracer.planted().droppedFacet)) {}
 
 void CellTracer::trace() {
-    split({{0.0, 0.0}, {std::array<double, 2>{1.0, 0.0}, std::array<double, 2>{0.0, 1.0}}, 0});
+    split({{0.0, 0.0}, {std::array<double, 2>{1.0, 0.0}, std::array<double, 2>{0.0, 1.0}}, 0, 0});
 }
 
 void CellTracer::split(const Cell& cell) {
@@ -97,6 +113,11 @@ void CellTracer::split(const Cell& cell) {
         send();
         return;
     }
+    // What has been found by now is of the branches that are done; that there is a cell, and its
+    // light, its parts will tell.
+    found_.emitted = Interval(0.0);
+    sendFound();
+    const unsigned followed = followed_;
     if (cell.depth > tracer_.settings().maxDepth + 8)
         throw Error("certify: a cell has no bounds at all; this is an error of the program.",
                     kExitFailed);
@@ -109,13 +130,14 @@ void CellTracer::split(const Cell& cell) {
     const std::array<double, 2> halfX{0.5 * x[0], 0.5 * x[1]};
     const std::array<double, 2> halfY{0.5 * y[0], 0.5 * y[1]};
     const int depth = cell.depth + 1;
-    split({at(0.0, 0.0), {halfX, halfY}, depth});
-    split({at(0.5, 0.0), {halfX, halfY}, depth});
-    split({at(0.0, 0.5), {halfX, halfY}, depth});
+    split({at(0.0, 0.0), {halfX, halfY}, depth, followed});
+    split({at(0.5, 0.0), {halfX, halfY}, depth, followed});
+    split({at(0.0, 0.5), {halfX, halfY}, depth, followed});
     split(
         {at(0.5, 0.5),
          {std::array<double, 2>{-halfX[0], -halfX[1]}, std::array<double, 2>{-halfY[0], -halfY[1]}},
-         depth});
+         depth,
+         followed});
 }
 
 void CellTracer::shade(const Cell& cell, Ray& ray) const {
@@ -138,6 +160,8 @@ void CellTracer::shade(const Cell& cell, Ray& ray) const {
 
 bool CellTracer::traceCell(const Cell& cell) {
     found_.clear();
+    followed_ = cell.followed;
+    isLeftToParts_ = false;
     const Facet& own = facet(first_);
     Ray ray;
     ray.start = first_;
@@ -155,8 +179,10 @@ bool CellTracer::traceCell(const Cell& cell) {
     const Interval& density = ray.wide.flux[0].value;
     if (!density.isFinite() || !(density.hi < kHuge * tracer_.wattScale())) return false;
     found_.emitted = wattsOf(ray, ray.sure, ray.may, channels_);
+    const double smallShare =
+        tracer_.settings().interactions > 1 ? kSmallShareBentTwice : kSmallShare;
     isFinal_ = cell.depth >= tracer_.settings().maxDepth ||
-               found_.emitted.hi <= kSmallShare * tracer_.wattScale();
+               found_.emitted.hi <= smallShare * tracer_.wattScale();
     // On the border of a shadow.
     if (!isFinal_ && found_.emitted.width() > 1e-7 * tracer_.wattScale()) return false;
     // Light whose first surface is a dielectric's back comes from within it.
@@ -165,15 +191,44 @@ bool CellTracer::traceCell(const Cell& cell) {
     const bool isDimmed = isWithin && !source_.isDistant && geometry_.absorbs();
     const bool done =
         isDimmed ? giveUp(ray, ray.may, {}) : interact(*this, ray, first_, enters, b, c);
-    if (done || !isFinal_) return done;
+    // No light gains watts.
+    found_.deposited.hi = std::min(found_.deposited.hi, found_.emitted.hi);
+    found_.limited.hi = std::min(found_.limited.hi, found_.emitted.hi);
+    if ((done && !isLeftToParts_) || !isFinal_) return done && !isLeftToParts_;
     // Not even bounds of what goes which way: it is all given up.
     found_.clearWays();
     return giveUp(ray, ray.may, {});
 }
 
+bool CellTracer::advanceBranch(const Ray& ray, Branch branch) {
+    if (ray.interactions > 1) return advance(ray);
+    if ((followed_ & branch) != 0) return true;
+    const CellResult::Mark mark = found_.mark();
+    if (advance(ray)) {
+        followed_ |= branch;
+    } else {
+        found_.goBack(mark);
+        isLeftToParts_ = true;
+    }
+    return true;
+}
+
+bool CellTracer::giveUpBranches(const Ray& ray, const Polygons& may,
+                                const std::vector<Vec>& directions, unsigned branches) {
+    if (ray.interactions > 1) return giveUp(ray, may, directions);
+    if ((followed_ & branches) == branches) return true;
+    if (!giveUp(ray, may, directions)) return false;
+    followed_ |= branches;
+    return true;
+}
+
 void CellTracer::send() const {
     sums_.countCells(1);
     sums_.addEmitted(found_.emitted);
+    sendFound();
+}
+
+void CellTracer::sendFound() const {
     sums_.addDeposited(found_.deposited);
     sums_.addLimited(found_.limited);
     for (const CellResult::Deposit& add : found_.deposits)

@@ -29,6 +29,15 @@ struct Cell {
     std::array<double, 2> corner{};
     std::array<std::array<double, 2>, 2> sides{};
     int depth = 0;
+    unsigned followed = 0;  // bits of the branches that are done for a cell that this is a part of
+};
+
+// Ways on from the first surface. They are followed apart, each in cells as small as it needs.
+enum Branch : unsigned {
+    kReflected = 1u,
+    kRefracted = 2u,
+    kReflectedByTriangle = 4u,  // by the triangle's own normal, where its interpolated one fails
+    kRefractedByTriangle = 8u,
 };
 
 // What a cell brings: sent to the sums when all of it is done, forgotten when it is split.
@@ -54,6 +63,17 @@ struct CellResult {
     Interval emitted;    // W
     Interval deposited;  // W
     Interval limited;    // W, of paths with more interactions than are certified
+    // What was there by then.
+    struct Mark {
+        std::size_t deposits = 0;
+        std::size_t undecided = 0;
+        std::size_t open = 0;
+        double lost = 0.0;
+        Interval deposited;
+        Interval limited;
+    };
+    [[nodiscard]] Mark mark() const;
+    void goBack(const Mark& mark);
     // Forgets where the light went, but not how much there is.
     void clearWays();
     void clear();
@@ -70,9 +90,20 @@ class CellTracer {
 
     // Follows the light on from a surface.
     bool advance(const Ray& ray);
+    // The same, of a branch of the first interaction: true also where it is left to the cell's
+    // parts.
+    bool advanceBranch(const Ray& ray, Branch branch);
     // What is given up: light from the range of the ray's places, in any direction of the boxes;
     // none of these: nobody knows where. True: wherever it may go, it is in the upper bounds.
     bool giveUp(const Ray& ray, const Polygons& may, const std::vector<Vec>& directions);
+
+    // The same, of branches of the first interaction.
+    bool giveUpBranches(const Ray& ray, const Polygons& may, const std::vector<Vec>& directions,
+                        unsigned branches);
+
+    // Whether light ends at the surface of the closed body that it is in, in any direction of the
+    // boxes: it is then counted.
+    bool endsInBody(const Ray& ray, const std::vector<Vec>& directions);
 
     [[nodiscard]] const BeamTracer& tracer() const { return tracer_; }
     [[nodiscard]] const Geometry& geometry() const { return geometry_; }
@@ -84,9 +115,13 @@ class CellTracer {
     bool traceCell(const Cell& cell);
     // Takes away what is in shadow.
     void shade(const Cell& cell, Ray& ray) const;
+    // Whether the ray is in a closed body, out of which it does not get without one interaction too
+    // many: wherever it meets the body's surface, it ends there.
+    [[nodiscard]] bool isLimited(const Ray& ray, const Vec& start, const Vec& velocity) const;
     bool advanceTo(const Ray& ray, const Candidate& target, const Visible& visible);
     bool deposit(const Ray& ray, const Candidate& target, const Visible& visible);
     void send() const;
+    void sendFound() const;
     void sendOpen(const CellResult::Open& open) const;
     [[nodiscard]] const Facet& facet(std::uint32_t i) const { return geometry_.facets()[i]; }
 
@@ -99,7 +134,9 @@ class CellTracer {
     int channels_;
     std::array<Interval, 3> power_;
     std::vector<Shadow> shadows_;
-    bool isFinal_ = false;  // what cannot be decided is not split but given up
+    bool isFinal_ = false;        // what cannot be decided is not split but given up
+    unsigned followed_ = 0;       // of the cell: before, and now
+    bool isLeftToParts_ = false;  // a branch is
     CellResult found_;
 };
 

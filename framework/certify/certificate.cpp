@@ -96,7 +96,7 @@ Tightness tightnessOf(const Certificate& certificate) {
 
 // To be raised whenever an interval may come out otherwise: what is kept of older ones is made
 // again.
-constexpr int kCertifierVersion = 4;
+constexpr int kCertifierVersion = 5;
 
 std::string certificateKey(const scene::Scene& scene, const CertificateRequest& request) {
     ContentHash hash;

@@ -24,6 +24,8 @@ constexpr long kSomePixels = 16;
 // bend it the second time are known only up to a band.
 constexpr double kSmallWatts = 2e-4;
 constexpr double kSmallWattsBentTwice = 4e-3;
+// Of a cell's light, what is deposited of it at most; above it bounds are far from what they bound.
+constexpr double kMaxGain = 1.5;
 
 // The flux over the depth cubed: what of the light lies in a pixel but for a factor.
 template <bool s>
@@ -244,6 +246,8 @@ bool CellTracer::deposit(const Ray& ray, const Candidate& target, const Visible&
     if (!isFinal_ &&
         watts.width() > std::max(share * found_.emitted.hi, 1e-10 * tracer_.wattScale()))
         return false;
+    // An enclosure by which light gains watts is none to go on with.
+    if (watts.hi > kMaxGain * found_.emitted.hi) return giveUpHere();
     const auto leaveUnseen = [&] {
         found_.deposited = found_.deposited + watts;
         return true;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The way from a surface to the next facets: to receivers, to another interaction, or out.
+#include <algorithm>
 #include <array>
 
 #include "framework/certify/cell_tracer.h"
@@ -7,6 +8,9 @@
 
 namespace kaustik::certify {
 namespace {
+
+// From so many on light that ends at a surface is bounded for all of them together.
+constexpr std::ptrdiff_t kManySurfaces = 4;
 
 // Where on a triangle the ray arrives: the barycentrics of its second and third corner.
 template <bool s>
@@ -42,12 +46,49 @@ bool CellTracer::advance(const Ray& ray) {
     }
     const Vec start{ranges[0], ranges[1], ranges[2]};
     const Vec velocity{ranges[3], ranges[4], ranges[5]};
+    if (isLimited(ray, start, velocity)) {
+        found_.limited = found_.limited + wattsOf(ray, ray.sure, ray.may, channels_);
+        return true;
+    }
     const std::vector<Candidate> candidates =
         findCandidates(geometry_, ray, start, velocity, tracer_.planted().droppedFacet);
+    if (candidates.size() > kManyCandidates) return giveUp(ray, ray.may, {velocity});
+    // Which of many surfaces light meets that ends there is not worth to be known.
+    const bool isLast = ray.interactions >= tracer_.settings().interactions;
+    const auto endsAt = [&](const Candidate& target) {
+        return isLast && !facet(target.facet).isReceiver();
+    };
+    const bool endsAtMany =
+        std::count_if(candidates.begin(), candidates.end(), endsAt) > kManySurfaces;
+    if (endsAtMany) {
+        found_.limited =
+            found_.limited + Interval(0.0, wattsOf(ray, ray.sure, ray.may, channels_).hi);
+    }
     for (const Candidate& target : candidates) {
+        if (endsAtMany && endsAt(target)) continue;
         const Visible visible = visiblePart(geometry_, ray, candidates, target);
         if (!visible.may.empty() && !advanceTo(ray, target, visible)) return false;
     }
+    return true;
+}
+
+bool CellTracer::isLimited(const Ray& ray, const Vec& start, const Vec& velocity) const {
+    if (ray.interactions < tracer_.settings().interactions || ray.medium == 0 ||
+        !facet(ray.start).isClosed)
+        return false;
+    bool mayMeetReceiver = false;
+    geometry_.sweep(start, velocity, 1e30, [&](std::uint32_t g) {
+        mayMeetReceiver = mayMeetReceiver || facet(g).isReceiver();
+    });
+    return !mayMeetReceiver;
+}
+
+bool CellTracer::endsInBody(const Ray& ray, const std::vector<Vec>& directions) {
+    const Vec start = startOf(ray, ray.may);
+    for (const Vec& along : directions) {
+        if (!isLimited(ray, start, along)) return false;
+    }
+    found_.limited = found_.limited + wattsOf(ray, ray.sure, ray.may, channels_);
     return true;
 }
 
@@ -64,11 +105,15 @@ bool CellTracer::advanceTo(const Ray& ray, const Candidate& target, const Visibl
     Ray next = ray;
     next.sure = visible.sure;
     next.may = visible.may;
-    const Both distance{distanceToPlane(ray.wide, goal), distanceToPlane(ray.middle, goal)};
+    Both distance{distanceToPlane(ray.wide, goal), distanceToPlane(ray.middle, goal)};
+    narrow(distance.middle, distance.wide);
     Both b;
     Both c;
     arriveAt(goal, distance.wide, ray.wide, next.wide, b.wide, c.wide);
     arriveAt(goal, distance.middle, ray.middle, next.middle, b.middle, c.middle);
+    narrow(next.middle.at, next.wide.at);
+    narrow(b.middle, b.wide);
+    narrow(c.middle, c.wide);
     absorb(geometry_, distance, channels_, next);
     return interact(*this, next, target.facet, target.along < 0.0, b, c);
 }

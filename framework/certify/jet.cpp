@@ -51,4 +51,15 @@ TaylorModel modelOf(const Jet<false>& middle, const Jet<true>& square) {
     return model;
 }
 
+// No number on either side leaves the other as it is (intersection).
+void narrow(const Jet<false>& middle, Jet<true>& cell) {
+    const Interval step(-0.33333333333333337, 0.66666666666666674);
+    for (std::size_t i = 0; i < 2; ++i) {
+        cell.gradient[i] =
+            intersection(cell.gradient[i],
+                         middle.gradient[i] + step * cell.hessian[i] + step * cell.hessian[i + 1]);
+    }
+    cell.value = intersection(cell.value, modelOf(middle, cell).range());
+}
+
 }  // namespace kaustik::certify

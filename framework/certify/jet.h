@@ -194,4 +194,13 @@ struct TaylorModel {
 // From the jet at the middle of the cell, (1/3, 1/3), and that over the cell's square.
 [[nodiscard]] TaylorModel modelOf(const Jet<false>& middle, const Jet<true>& square);
 
+// Narrows value and gradient over the cell to what the next derivatives leave of them on the way
+// from the middle. What is computed of it is then known better, too.
+void narrow(const Jet<false>& middle, Jet<true>& cell);
+inline void narrow(const Vector<Jet<false>>& middle, Vector<Jet<true>>& cell) {
+    narrow(middle.x, cell.x);
+    narrow(middle.y, cell.y);
+    narrow(middle.z, cell.z);
+}
+
 }  // namespace kaustik::certify

@@ -9,8 +9,10 @@
 namespace kaustik::certify {
 namespace {
 
-// Irradiance in a pixel, of the scene's, for whose sake no cell is split.
+// Irradiance in a pixel, of the scene's, for whose sake no cell is split; with more than one
+// interaction, where many cells are near the critical angle and reach the same pixels.
 constexpr double kSmallOpen = 1e-5;
+constexpr double kSmallOpenBentTwice = 1e-8;
 
 std::size_t pixelAt(const EyeView& eye, int x, int y) {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(eye.width()) +
@@ -48,7 +50,9 @@ bool CellTracer::giveUp(const Ray& ray, const Polygons& may, const std::vector<V
     }
     if (!isFinal_) {
         // Light that is too little to see wherever it goes is not worth more cells.
-        const double limit = kSmallOpen * tracer_.irradianceScale();
+        const double limit =
+            (tracer_.settings().interactions > 1 ? kSmallOpenBentTwice : kSmallOpen) *
+            tracer_.irradianceScale();
         if (reached.isAnywhere) return false;
         for (const Reached::Part& part : reached.parts) {
             if (largest * coverageOf(eye_, part.extent) > limit) return false;

@@ -8,6 +8,9 @@
 namespace kaustik::certify {
 namespace {
 
+// Polygons of a cell that are cut further.
+constexpr std::size_t kManyPieces = 256;
+
 CellExtent extentOf(const Polygons& polygons) {
     constexpr double kHair = 1e-9;
     CellExtent extent;
@@ -73,6 +76,34 @@ bool isMetFrom(const Facet& facet, double along, std::uint32_t medium) {
     return !(facet.kind == scene::MaterialKind::mirror && facet.isClosed && leaves);
 }
 
+// Whether both have an edge that they go along in opposite directions. What decides on which side
+// of it a ray passes is then one function with two signs, so that no ray meets both but for the
+// edge itself: neither hides the other, and nothing at the edge is lost twice.
+bool shareEdge(const Facet& a, const Facet& b) {
+    for (std::size_t i = 0; i < a.corners; ++i) {
+        const glm::dvec3& p = a.position[i];
+        const glm::dvec3& q = a.position[(i + 1) % a.corners];
+        for (std::size_t j = 0; j < b.corners; ++j) {
+            if (b.position[j] == q && b.position[(j + 1) % b.corners] == p) return true;
+        }
+    }
+    return false;
+}
+
+// Whether no ray that starts on the facet meets the other from that side, as all of the facet is on
+// the other side of its plane or in it: the neighbours of a convex surface's triangle, from
+// outside.
+bool isBeyond(const Facet& from, const Facet& other, double along) {
+    for (std::size_t i = 0; i < from.corners; ++i) {
+        const glm::dvec3& p = from.position[i];
+        const auto end = other.position.begin() + static_cast<long>(other.corners);
+        if (std::find(other.position.begin(), end, p) != end) continue;
+        const Interval ahead = dot(exact(other.position[0]) - exact(p), other.area);
+        if (along > 0.0 ? ahead.hi > 0.0 : ahead.lo < 0.0) return false;
+    }
+    return true;
+}
+
 // Whether rays from the box in directions of the box all pass outside of one edge, or lie on the
 // other side of the plane.
 bool surelyMisses(const Facet& facet, const std::vector<glm::dvec3>& corners, double along,
@@ -96,11 +127,12 @@ std::vector<Candidate> findCandidates(const Geometry& geometry, const Ray& ray, 
                                       const Vec& velocity, std::uint32_t dropped) {
     std::vector<Candidate> candidates;
     geometry.sweep(start, velocity, 1e30, [&](std::uint32_t g) {
-        if (g == ray.start || g == dropped) return;
+        if (g == ray.start || g == dropped || candidates.size() > kManyCandidates) return;
         const Facet& other = geometry.facets()[g];
         const std::vector<glm::dvec3> corners = cornersOf(other);
         for (const double along : {1.0, -1.0}) {
             if (!isMetFrom(other, along, ray.medium) ||
+                isBeyond(geometry.facets()[ray.start], other, along) ||
                 surelyMisses(other, corners, along, start, velocity))
                 continue;
             Candidate candidate;
@@ -133,9 +165,15 @@ Visible visiblePart(const Geometry& geometry, const Ray& ray,
     for (const Candidate& other : candidates) {
         if (other.facet == target.facet || !overlap(other.extent, target.extent)) continue;
         const Facet& blocker = geometry.facets()[other.facet];
+        if (other.along == target.along && shareEdge(goal, blocker)) continue;
         for (const Side side : {Side::outer, Side::inner}) {
             Polygons& left = side == Side::outer ? visible.sure : visible.may;
             if (left.empty()) continue;
+            // Of so many pieces nothing is sure any more, and nothing is taken away.
+            if (left.size() > kManyPieces) {
+                if (side == Side::outer) left.clear();
+                continue;
+            }
             const std::vector<glm::dvec3> corners =
                 partBefore(blocker, goal, from, geometry.size(), side);
             if (corners.empty()) continue;

@@ -25,8 +25,11 @@ struct Candidate {
     CellExtent extent;   // of `may`
 };
 
-// All that rays from the box in directions of the box may hit, whatever stands before it. The facet
-// `dropped` is none (PlantedError).
+// Light that may meet more facets than that is not worth to be followed to each.
+inline constexpr std::size_t kManyCandidates = 128;
+
+// All that rays from the box in directions of the box may hit, whatever stands before it; of more
+// than kManyCandidates one more. The facet `dropped` is none (PlantedError).
 [[nodiscard]] std::vector<Candidate> findCandidates(const Geometry& geometry, const Ray& ray,
                                                     const Vec& start, const Vec& velocity,
                                                     std::uint32_t dropped);

@@ -114,6 +114,62 @@ TEST(TaylorModel, HoldsTheFunctionWhateverIsRounded) {
     }
 }
 
+// What is narrowed holds value and slopes all over the cell, and is narrower; and so is what is
+// computed of it. Slopes: of the function itself, by differences that are far finer than the cell.
+TEST(TaylorModel, HoldsTheFunctionWhenItIsNarrowed) {
+    std::mt19937_64 generator(5);
+    std::uniform_real_distribution<double> share(0.0, 1.0);
+    for (const double size : {0.1, 0.05}) {
+        const auto seed = [&](auto& x, auto& y, const Interval& at) {
+            x.value = Interval(0.3) + Interval(size) * at;
+            y.value = Interval(0.5) + Interval(size) * at;
+            x.gradient = {Interval(size), Interval(0.0)};
+            y.gradient = {Interval(0.0), Interval(size)};
+        };
+        Jet<false> x;
+        Jet<false> y;
+        seed(x, y, Interval(1.0) / Interval(3.0));
+        Jet<true> wideX;
+        Jet<true> wideY;
+        seed(wideX, wideY, Interval(0.0, 1.0));
+        const Jet<false> middle = function(x, y);
+        const Jet<true> before = function(wideX, wideY);
+        Jet<true> after = before;
+        narrow(middle, after);
+        EXPECT_LT(after.value.width(), 0.8 * before.value.width());
+        const Jet<false> middleSquare = square(middle) * inverse(middle + Interval(9.0));
+        const TaylorModel onward =
+            modelOf(middleSquare, square(after) * inverse(after + Interval(9.0)));
+        const TaylorModel onwardBefore =
+            modelOf(middleSquare, square(before) * inverse(before + Interval(9.0)));
+        EXPECT_LT(onward.rest.width(), onwardBefore.rest.width());
+        for (int i = 0; i < 20000; ++i) {
+            double u = share(generator);
+            double v = share(generator);
+            if (u + v > 1.0) {
+                u = 1.0 - u;
+                v = 1.0 - v;
+            }
+            const auto at = [&](double a, double b) {
+                return function(0.3 + size * a, 0.5 + size * b);
+            };
+            const double truth = at(u, v);
+            ASSERT_TRUE(after.value.holds(truth));
+            const double next = truth * truth / (truth + 9.0);
+            ASSERT_GE(next - onward.at(u, v), onward.rest.lo - 1e-14);
+            ASSERT_LE(next - onward.at(u, v), onward.rest.hi + 1e-14);
+            // Central differences are off by some 1e-9 here.
+            constexpr double kStep = 1e-5;
+            const double alongU = (at(u + kStep, v) - at(u - kStep, v)) / (2.0 * kStep);
+            const double alongV = (at(u, v + kStep) - at(u, v - kStep)) / (2.0 * kStep);
+            ASSERT_GE(alongU, after.gradient[0].lo - 1e-8);
+            ASSERT_LE(alongU, after.gradient[0].hi + 1e-8);
+            ASSERT_GE(alongV, after.gradient[1].lo - 1e-8);
+            ASSERT_LE(alongV, after.gradient[1].hi + 1e-8);
+        }
+    }
+}
+
 TEST(TaylorModel, HasTheMeanOfTheCell) {
     const TaylorModel model = modelAt(0.2);
     double sum = 0.0;
