@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The panel Trade-off: settings of the session as points of time and error, and the way back to
 // one.
-#include <set>
-
 #include "tests/gui/workbench_fixture.h"
 
 namespace kaustik::test {
@@ -56,18 +54,20 @@ TEST_F(TradeOffPanel, EachSettledSettingIsAPointAndAClickBringsItBack) {
 
 // Two settings that differ in the picture's brightness alone, and one that takes so much longer
 // that the noise of these two's times is no distance.
-TEST_F(TradeOffPanel, OfPointsThatLieOnEachOtherClicksChooseOneAfterTheOther) {
-    start();
+TEST_F(TradeOffPanel, PointsThatLieOnEachOtherAreListedTogether) {
+    json slower = smallDocument();
+    slower["variant"]["set"]["emit.photons"] = "256x256";
+    start(savedStateWith(slower));
     open("Error");
     bench->click("error.compute");
     open("Trade-off");
     untilPoints(1);
     open("Parameters");
-    bench->typeInto("parameter.emit.photons", "768", Entry::click, "Return", {0.2, 0.5});
+    bench->typeInto("parameter.emit.photons", "1024", Entry::click, "Return", {0.2, 0.5});
     open("Trade-off");
     untilPoints(2);
     open("Parameters");
-    bench->typeInto("parameter.emit.photons", "768", Entry::click, "Return", {0.7, 0.5});
+    bench->typeInto("parameter.emit.photons", "1024", Entry::click, "Return", {0.7, 0.5});
     open("Trade-off");
     untilPoints(3);
     bench->click("trade_off.row.1");
@@ -82,13 +82,6 @@ TEST_F(TradeOffPanel, OfPointsThatLieOnEachOtherClicksChooseOneAfterTheOther) {
     bench->hover("trade_off.point.1");
     ASSERT_TRUE(says("trade_off.heap", "2 lie here")) << bench->screen().at("controls");
     bench->keepScreenshot("trade-off-heap");
-    std::set<json> chosen;
-    for (int i = 0; i < 4; ++i) {
-        bench->click("trade_off.point.1");
-        untilSettled();
-        chosen.insert(document().at("variant").at("set"));
-        EXPECT_EQ(chosen.size(), i == 0 ? 1u : 2u) << "one, the other, and back";
-    }
 }
 
 }  // namespace
