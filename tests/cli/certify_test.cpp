@@ -58,53 +58,6 @@ TEST_F(Certify, WritesBoundsThatHoldAReference) {
     EXPECT_NEAR(certified.at(0).get<double>(), deposited, 2e-3 * deposited);
 }
 
-// Into the ball and out of it: its back has edges within most cells of its front, and light near
-// its rim leaves it near the critical angle.
-TEST_F(Certify, HoldsAReferenceThroughABallOfGlass) {
-    static_cast<void>(folder.file("ball.toml", R"(
-name = "ball"
-[camera]
-position = [1.9, 1.7, 2.9]
-target = [0.25, 0.3, -0.05]
-vertical_fov_degrees = 38
-[[light]]
-name = "lamp"
-type = "point"
-position = [-1.8, 3.0, 0.7]
-power_watts = 8000
-[[material]]
-name = "chalk"
-type = "lambertian"
-albedo = 0.5
-[[material]]
-name = "glass"
-type = "dielectric"
-ior = 1.5
-[[object]]
-name = "table"
-shape = "plane"
-material = "chalk"
-size = [12, 12]
-[[object]]
-name = "ball"
-shape = "sphere"
-material = "glass"
-radius = 0.5
-position = [0, 0.7, 0]
-segments = 96
-)"));
-    const Outcome outcome = run({"certify", "ball.toml", "--size", "24x18", "--band", "0.05",
-                                 "--interactions", "2", "--out", "bounds.exr"});
-    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-    const nlohmann::json pixels = nlohmann::json::parse(contents("bounds.json")).at("pixels");
-    EXPECT_LE(pixels.at("undecided").get<double>(), 0.15 * pixels.at("lit").get<double>());
-    ASSERT_EQ(run({"reference", "ball.toml", "--size", "24x18", "--interactions", "2", "--photons",
-                   "2000000", "--out", "truth.exr"})
-                  .exitCode,
-              0);
-    EXPECT_GT(litWithin(), 150u);
-}
-
 TEST_F(Certify, MergesShardsToTheSameBounds) {
     for (const char* shard : {"1/2", "2/2"}) {
         const std::string out = std::string(1, shard[0]) + ".shard";
