@@ -9,6 +9,7 @@
 #include <cmath>
 #include <optional>
 
+#include "framework/gui/point_heap.h"
 #include "framework/gui/shown_image.h"
 #include "framework/gui/widgets.h"
 
@@ -108,34 +109,19 @@ std::string wordsOf(const PlottedSetting& point, const ErrorMeasure& measure) {
         point.isOnFront ? "No other one is both faster and better.\n" : "", point.remark);
 }
 
-// Points that lie under the mouse together, in their order, and the one that a click takes.
-struct Heap {
-    std::vector<std::size_t> points;
-    std::size_t next = 0;  // in `points`
-};
-
-// The nearest one first; from one that is at hand already to the one after it.
-Heap heapAt(const std::vector<PlottedSetting>& points, const PlotArea& area, ImVec2 mouse,
-            float radius) {
-    Heap heap;
-    std::optional<std::size_t> now;
-    float nearest = FLT_MAX;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        const ImVec2 place = area.place(points[i].at);
-        const float distance = std::hypot(place.x - mouse.x, place.y - mouse.y);
-        if (distance > radius) continue;
-        if (points[i].isNow) now = heap.points.size();
-        if (distance < nearest) {
-            nearest = distance;
-            heap.next = heap.points.size();
-        }
-        heap.points.push_back(i);
+// `radius`, px.
+PointHeap heapUnderMouse(const std::vector<PlottedSetting>& points, const PlotArea& area,
+                         float radius) {
+    std::vector<PointOnChart> onChart;
+    for (const PlottedSetting& point : points) {
+        const ImVec2 place = area.place(point.at);
+        onChart.push_back({place.x, place.y, point.isNow});
     }
-    if (now) heap.next = (*now + 1) % heap.points.size();
-    return heap;
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    return heapAt(onChart, mouse.x, mouse.y, radius);
 }
 
-std::string wordsOf(const Heap& heap, const std::vector<PlottedSetting>& points,
+std::string wordsOf(const PointHeap& heap, const std::vector<PlottedSetting>& points,
                     const ErrorMeasure& measure) {
     const PlottedSetting& next = points[heap.points[heap.next]];
     if (heap.points.size() == 1) return wordsOf(next, measure);
@@ -198,8 +184,8 @@ std::optional<std::size_t> drawErrorTimePlot(Bench& bench, const std::string& pa
     const bool isClicked = ImGui::InvisibleButton(
         (panel + ".plot").c_str(),
         {area.high.x - area.low.x + 2.0f * radius, area.high.y - area.low.y + 2.0f * radius});
-    Heap heap;
-    if (ImGui::IsItemHovered()) heap = heapAt(points, area, ImGui::GetIO().MousePos, 2.0f * radius);
+    PointHeap heap;
+    if (ImGui::IsItemHovered()) heap = heapUnderMouse(points, area, 2.0f * radius);
     if (!heap.points.empty()) {
         const std::string words = wordsOf(heap, points, measure);
         tooltip(words);
