@@ -164,7 +164,7 @@ def forget_stale(results: pathlib.Path, tree: Tree) -> None:
 
 
 def write_slim(runs: pathlib.Path, target: pathlib.Path, keep: bool = False) -> None:
-    """As it is, but for the constants of the errors' formulas, with six digits a number: what is committed has to be small. `keep`: with the rows that the
+    """As it is, but for the constants of the errors' formulas, with five digits a number: what is committed has to be small. `keep`: with the rows that the
     file has of other runs."""
     csv.field_size_limit(sys.maxsize)
     with runs.open(newline="") as stream:

@@ -5,7 +5,7 @@
     table.py RESULTS [--csv FILE [--keep]]
 
 RESULTS is a folder of `kaustik experiment run`, or one of its runs.csv. Prints Markdown; --csv writes the
-same columns, with six digits; with --keep what FILE has of runs that RESULTS lacks stays as it is. Errors of the caustic are against all light, but those named "modelled", which are
+same columns, with five digits; with --keep what FILE has of runs that RESULTS lacks stays as it is. Errors of the caustic are against all light, but those named "modelled", which are
 against the paths that the run's photons can take; "not formed" is the light of all others; "too bright" and "too dark" are the shares of
 pixels that are so, against those paths, by more than the reference's noise. "reference's own" is what its noise alone
 would give. ms: of all passes of the caustic, from emission to gather; media ms: of these, of light that a medium
@@ -118,12 +118,12 @@ MEASURED = [
 
 
 def rounded(text: str) -> str:
-    """A fraction with six digits; all else as it is."""
+    """A fraction with five digits; all else as it is."""
     try:
         value = float(text)
     except ValueError:
         return text
-    return f"{value:.6g}" if "." in text and not value.is_integer() else text
+    return f"{value:.5g}" if "." in text and not value.is_integer() else text
 
 
 def settings_of(rows: list[dict]) -> list[str]:
